@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Many chains of one design at once, tick by tick: the laws of the twin in loops over lanes that
-// the compiler turns into vector instructions. Every lane has its own counts and parameter words;
-// arming, scene and mode are common. Documentation: docs/engines.md
+// Runs many chains of one design at once, tick by tick. The laws of the twin run in loops over
+// lanes, which the compiler vectorises. Each lane has its own counts and parameter words; arming,
+// scene and mode are common. Documentation: docs/engines.md
 #pragma once
 
 #include <array>

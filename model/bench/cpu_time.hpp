@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// CPU time of this process: another program on the machine does not count. Documentation:
+// Measures CPU time of this process, so other programs on the machine do not count. Documentation:
 // docs/bench.md
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace feltgate::bench {
 
-/// Seconds that the action takes.
+/// CPU time of the action, seconds.
 template <class Do>
 double cpu_seconds(Do&& action) {
   const auto now = [] {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a run of a shipped law costs: compiled C++ in fixed point and in double, and the interpreter
-// of its words. Documentation: docs/bench.md
+// Measures the time of a run of each shipped law: compiled C++ in fixed point and in double, and
+// the interpreter of its words. Documentation: docs/bench.md
 #pragma once
 
 #include <memory>
@@ -11,20 +11,20 @@
 
 namespace feltgate::bench {
 
-/// A law; times are ns of a run, one per repetition.
+/// Samples of one law: times of a run in ns, one per repetition.
 struct LawSamples {
   std::string name;
   int instructions = 0;
   std::vector<double> compiled, real, interpreted;
 };
 
-/// All shipped laws, on random inputs over their ranges.
+/// Runs all shipped laws on random inputs over their ranges.
 class LawBench {
  public:
-  /// `folder`: the law files. Errors: law::LawError.
+  /// `folder`: folder of the law files. Throws law::LawError.
   explicit LawBench(const std::string& folder);
   ~LawBench();
-  /// One more sample of each.
+  /// Takes one more sample of each law.
   void repeat();
   const std::vector<LawSamples>& samples() const { return samples_; }
 

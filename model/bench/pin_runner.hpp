@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Engines with pins and a clock, on recorded inputs. Documentation: docs/bench.md
+// Runs engines with pins and a clock on recorded inputs. Documentation: docs/bench.md
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace feltgate::bench {
 
-/// Runs all of `inputs` on an engine that was just reset; `each` sees every snapshot.
+/// Runs all `inputs` on an engine that was just reset; calls `each` with every snapshot.
 template <class Each>
 void play(Engine& engine, const RunInputs& inputs, Each&& each) {
   constexpr Clock stretch = 50'000;
@@ -34,7 +34,7 @@ void play(Engine& engine, const RunInputs& inputs, Each&& each) {
   }
 }
 
-/// An engine of the program, by its kind.
+/// Runs an engine of the program, chosen by its kind.
 class PinRunner : public Runner {
  public:
   PinRunner(const char* name, std::unique_ptr<Engine> engine)
@@ -51,7 +51,7 @@ class PinRunner : public Runner {
   std::unique_ptr<Engine> engine_;
 };
 
-/// "rtl", "twin_clock" or "twin_event" of the design `lever`.
+/// Makes the runner "rtl", "twin_clock" or "twin_event" of the design `lever`.
 std::unique_ptr<Runner> make_pin_runner(const std::string& name);
 
 }  // namespace feltgate::bench

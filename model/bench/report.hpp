@@ -11,11 +11,11 @@
 
 namespace feltgate::bench {
 
-/// Where and when the figures were taken.
+/// Where and when the figures were measured.
 struct Circumstances {
   std::string version, machine, compiler, date;
 };
-/// Of this program, now.
+/// The circumstances of this program, now.
 Circumstances circumstances();
 
 std::string json(const Result& result, const std::vector<Work>& works, const Circumstances& c);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// An engine as the benchmark sees it: it runs a work as fast as it can, or shows every tick of it.
+// The benchmark's interface to an engine: it runs a work as fast as possible, or shows every tick.
 // Documentation: docs/bench.md
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace feltgate::bench {
 
-/// What a tick of an integer engine shows, in the order of `raw_names`.
+/// Number of raw results of a tick of an integer engine, in the order of `raw_names`.
 constexpr std::size_t raw_signals = 7;
 using RawTick = std::array<std::int64_t, raw_signals>;
 constexpr std::array<const char*, raw_signals> raw_names = {
@@ -39,16 +39,16 @@ class Runner {
   virtual ~Runner() = default;
   const std::string& name() const { return name_; }
   bool integer() const { return arithmetic_ == Arithmetic::integer; }
-  /// Whether it works clock by clock, so that clocks per second mean something.
+  /// Whether the engine simulates single clocks, so that clocks per second are defined.
   virtual bool has_clocks() const { return false; }
-  /// Runs the work so often in one go: a batch has several lanes.
+  /// Number of simultaneous runs of the work: a batch has several lanes.
   virtual int lanes() const { return 1; }
 
-  /// Reset; not timed.
+  /// Resets the engine; not timed.
   virtual void prepare(const Work& work) = 0;
-  /// All of the work after prepare(); timed.
+  /// Runs the whole work after prepare(); timed.
   virtual void run(const Work& work) = 0;
-  /// All of the work once more, slowly, every tick shown.
+  /// Runs the whole work again, slowly, and calls `each` with every tick.
   virtual void inspect(const Work& work, const Inspector& each) = 0;
 
  private:
@@ -58,7 +58,7 @@ class Runner {
 
 /// Every engine of the benchmark, in the order of its table.
 std::vector<std::string> runner_names();
-/// Throws std::invalid_argument naming what there is.
+/// Makes a runner by name. Throws std::invalid_argument with the known names for an unknown one.
 std::unique_ptr<Runner> make_runner(const std::string& name);
 
 }  // namespace feltgate::bench

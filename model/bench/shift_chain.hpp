@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One tick of the design `lever` as one would write it by hand: 64-bit integers, shifts, masks, the
-// binary points of the signals in the numbers. The yardstick for the speed of `fixed`, and by its
-// equal bits a check of the laws that shares no code with them. Documentation: docs/bench.md
+// One tick of the design `lever`, written by hand: 64-bit integers, shifts and masks, with the
+// binary points of the signals as literals. It is the reference for the speed of `fixed`. Its bits
+// must be equal, so it also checks the laws without sharing code with them. Documentation:
+// docs/bench.md
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ class ShiftChain {
     }
   }
 
-  /// A word as the host writes it, decoded here once.
+  /// Takes a word as the host writes it, and decodes it once.
   void set_word(int address, std::uint32_t word);
 
   void tick(const ChainIn& in) {
@@ -80,17 +81,17 @@ class ShiftChain {
     return coefficient.fraction + signal - to;
   }
   static Word half_up(Word x, int k) { return (x + (Word{1} << (k - 1))) >> k; }
-  /// x in [-2^bits, 2^bits).
+  /// x, saturated to [-2^bits, 2^bits).
   static Word saturated(Word x, int bits) {
     const Word end = Word{1} << bits;
     return x < -end ? -end : (x > end - 1 ? end - 1 : x);
   }
-  /// The low bits of x, the highest of them its sign.
+  /// The low `bits` bits of x as a signed number.
   static Word wrapped(Word x, int bits) {
     const Word sign = Word{1} << (bits - 1);
     return ((x & (2 * sign - 1)) ^ sign) - sign;
   }
-  /// A negative limit counts as 0, and one of more than `bits`.
+  /// Limits x to +-limit. A negative limit counts as 0, and so does one of more than `bits` bits.
   static Word limited(Word x, Word limit, bool* hit, int bits = 22) {
     const bool misfit = limit >= Word{1} << (bits - 1);
     *hit = misfit || x > limit || x < -limit;

@@ -13,7 +13,7 @@
 
 #include "feltgate/numbers.hpp"
 
-// The library refers to it; programs bring their own main() and never call it.
+// The library refers to sc_main; programs have their own main() and never call it.
 extern "C" [[gnu::used]] inline int sc_main(int /*argc*/, char** /*argv*/) { return 0; }
 
 namespace feltgate {
@@ -36,7 +36,7 @@ constexpr sc_dt::sc_o_mode systemc_mode(Overflow overflow) {
   return overflow == Overflow::saturate ? sc_dt::SC_SAT : sc_dt::SC_WRAP;
 }
 
-/// An exact intermediate result, as wide as it must be.
+/// An exact intermediate result, as wide as necessary.
 struct SystemCValue {
   sc_dt::sc_fxval value;
 };
@@ -119,7 +119,7 @@ systemc::Operator<A, B, bool> operator==(const A& a, const B& b) {
   return systemc::exact(a) == systemc::exact(b);
 }
 
-/// The policy. Every rounding and every limit is SystemC's own.
+/// The number policy. SystemC itself performs every rounding and limiting.
 struct SystemC {
   static constexpr bool is_fixed = true;
   template <int Key>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Chains without pins, tick by tick on sampled counts. All run in the same loop, so that what
-// differs is the arithmetic. Documentation: docs/bench.md
+// Runs chains without pins, tick by tick on sampled counts. All chains run in the same loop, so
+// that only the arithmetic differs. Documentation: docs/bench.md
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace feltgate::bench {
 
-/// Access is how a chain takes a write and shows a tick: write(chain, TickWrite), show(chain).
+/// `Access` adapts a chain: write(chain, TickWrite) writes to it, show(chain) returns a tick.
 template <class Chain, class Access>
 class TickRunner : public Runner {
  public:
@@ -21,7 +21,7 @@ class TickRunner : public Runner {
   void prepare(const Work&) override { chain_->reset(); }
   void run(const Work& work) override {
     each_tick(work, [](Chain& chain) {
-      // The results are in memory after each tick, whoever may read them.
+      // Forces the results into memory after each tick, as if somebody read them.
       asm volatile("" : : "r"(&chain) : "memory");
     });
   }

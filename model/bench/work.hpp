@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What every engine of the benchmark is given: pins and register writes on a clock for those that
-// have pins, sampled counts tick by tick for those that have none. Documentation: docs/bench.md
+// The input of every engine in the benchmark: pins and register writes on a clock for engines with
+// pins, sampled counts per tick for engines without. Documentation: docs/bench.md
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ struct Work {
   double simulated_s = 0;
   RunInputs inputs;
   std::vector<ChainIn> ticks;
-  std::vector<TickWrite> writes;  ///< of parameters; control words are in `ticks`
+  std::vector<TickWrite> writes;  ///< writes of parameters; control words are in `ticks`
 };
 
 struct Scene {
@@ -37,15 +37,15 @@ struct Scene {
   plant::Parameters plant;
 };
 
-/// A shipped scene of the repository `root`, by name, with the plant that it names. Throws
-/// std::invalid_argument when it is not there.
+/// Reads a shipped scene of the repository `root`, by name, with the plant that it names. Throws
+/// std::invalid_argument when the scene does not exist.
 Scene read_scene(const std::string& root, const std::string& name);
 
-/// The scene run once in closed loop on the twin of `design`; what reached the core is kept.
+/// Runs the scene once in closed loop on the twin of `design`, and records the inputs of the core.
 Work record_scene(const Scene& scene, const std::string& design);
 
-/// Motion of single counts, back and forth and far apart, under torques of a few steps:
-/// quantisation shows here and in no noise. `seconds` of it.
+/// Motion of single counts, back and forth and far apart, under torques of a few LSB, for
+/// `seconds`: quantisation is visible in it because no noise covers it.
 Work slow_small_signals(const std::string& design, double seconds);
 
 }  // namespace feltgate::bench

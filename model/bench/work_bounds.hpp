@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The proven bounds for the motion of a work. Documentation: docs/error-bounds.md
+// Computes the proven error bounds for the motion of a work. Documentation: docs/error-bounds.md
 #pragma once
 
 #include "bench/work.hpp"
@@ -9,7 +9,7 @@
 
 namespace feltgate::bench {
 
-/// Of the scenes, modes and parameters that the work goes through, up to its largest velocity.
+/// Bounds for all scenes, modes and parameters of the work, up to its largest velocity.
 bounds::ErrorBounds work_bounds(const design::Elaborated& e, const Work& work);
 
 }  // namespace feltgate::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design as an error bound sees it. Documentation: docs/error-bounds.md
+// Extracts the numbers of a design for an error bound. Documentation: docs/error-bounds.md
 #include "bounds/chain_numbers.hpp"
 
 #include <algorithm>

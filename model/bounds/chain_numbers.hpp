@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What an error bound needs to know of a design: formats, rounding, and each coefficient twice, as
-// the core has it and as the design means it. Documentation: docs/error-bounds.md
+// The properties of a design that an error bound needs: formats, rounding, and each coefficient
+// both as the core's integer and as the design's value. Documentation: docs/error-bounds.md
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace feltgate::bounds {
 
-/// A parameter as it is in the core and as the design states it.
+/// A parameter: the core's integer and the design's value.
 struct Number {
   std::string name;
   Format format{};
@@ -36,10 +36,10 @@ struct ChainNumbers {
   std::vector<Number> numbers;
   std::vector<std::string> scenes;  ///< those built in
 
-  /// Throws std::out_of_range where there is none.
+  /// The parameter of this name. Throws std::out_of_range when there is none.
   const Number& at(const std::string& name) const;
   bool built(const std::string& scene) const;
-  /// Another value, rounded to the parameter's word. Throws std::out_of_range as above.
+  /// Sets a value, rounded to the parameter's word. Throws std::out_of_range as above.
   void set(const std::string& name, double value);
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// In which ticks of a run the error bounds hold: nothing saturates, no ramp parts core and
-// reference, and what did so before is forgotten. Documentation: docs/error-bounds.md
+// Determines the ticks of a run in which the error bounds hold: nothing saturates, no ramp
+// separates core and reference, and the effect of earlier such events has decayed. Documentation:
+// docs/error-bounds.md
 #pragma once
 
 #include <algorithm>
@@ -13,11 +14,11 @@
 
 namespace feltgate::bounds {
 
-/// What a tick says about the theorem's assumptions.
+/// The state of a tick with respect to the theorem's assumptions.
 struct TickState {
   bool velocity_saturated = false, tau_hat_saturated = false;
   bool ramping = false;         ///< in core or reference
-  double tau_ref_error_nm = 0;  ///< core less reference
+  double tau_ref_error_nm = 0;  ///< core minus reference
 };
 
 /// Follows a run tick by tick.
@@ -34,7 +35,7 @@ class Coverage {
   void tick(const TickState& t) {
     ++ticks_;
     const bool apart = std::abs(t.tau_ref_error_nm) > tau_ref_bound_nm_;
-    // A jump of the scene while only one of them still ramps.
+    // The scene jumped while only one of core and reference still ramps.
     parted_ = apart && (t.ramping || parted_);
     if (velocity_left_ > 0) --velocity_left_;
     if (torque_left_ > 0) --torque_left_;
@@ -46,14 +47,14 @@ class Coverage {
     outside_ += torque_left_ > 0 ? 1 : 0;
   }
 
-  /// Whether the velocity's bound holds in this tick, and those of the torques and the current.
+  /// Whether the velocity's bound holds in this tick; then whether those of torques and current do.
   bool velocity() const { return velocity_left_ == 0; }
   bool torque() const { return torque_left_ == 0; }
   std::int64_t ticks() const { return ticks_; }
   std::int64_t outside() const { return outside_; }  ///< ticks without the torques' bounds
 
  private:
-  /// Ticks in which a one-pole state forgets all but 2^-40 of an error.
+  /// Number of ticks in which an error of a one-pole state decays to 2^-40.
   static std::int64_t memory(double rate) {
     constexpr double never = 1e15;
     const double ticks = rate > 0 ? std::ceil(40.0 * std::log(2.0) / rate) : never;

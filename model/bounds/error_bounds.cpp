@@ -42,7 +42,7 @@ using detail::Rounding;
 
 Interval from_above(double x) { return Interval(x); }
 
-/// High-pass gains that were summed before; each takes some milliseconds.
+/// Cache of high-pass gains; computing one takes some milliseconds.
 class Gains {
  public:
   Interval operator()(const Interval& p, const Interval& q) {
@@ -109,19 +109,19 @@ class Chain {
   Pair of(const char* name) const { return detail::pair_of(c_.at(name), level_); }
   int fraction_of(const char* name) const { return c_.at(name).format.fraction; }
 
-  /// What rounding or truncation adds, in a block that rounds.
+  /// The error of rounding or truncation if the block rounds, otherwise 0.
   static Interval only(bool rounds, const Interval& error) {
     return rounds ? error : Interval(0.0);
   }
 
-  /// The counts times the gain, truncated, against the reference's.
+  /// Error of the raw velocity (counts times gain, truncated) against the reference's.
   Interval raw_error() const {
     const Interval dropped = c_.quantised_gain
                                  ? detail::truncation_error(c_.gain_fraction, c_.formats.velocity)
                                  : Interval(0.0);
     return dropped + within(abs(used_gain_ - real_gain_) * counts_);
   }
-  /// What one tick of a low-pass adds to its state: rounding, and the operand's dropped bits.
+  /// Error that one tick of a low-pass adds to its state: rounding, and the operand's dropped bits.
   Interval filter_error(bool rounds, const Interval& a, Format state, Format operand) const {
     return only(rounds, detail::rounding_error(c_, state) +
                             a * detail::truncation_error(state.fraction, operand));
@@ -143,7 +143,7 @@ class Chain {
     return sum;
   }
 
-  /// What the error of the inertia torque leaves of itself in tau_hat, for the observer's pole rho.
+  /// Part of the inertia torque's error that remains in tau_hat, for the observer's pole rho.
   Interval inertia_error(const Interval& rho) {
     const Interval one(1.0);
     const Interval rest = one - alpha_.used;
@@ -161,7 +161,7 @@ class Chain {
         g_.change() * rest * a_.real * gains_(one - a_.real, rho) * real_velocity_;
     return by_velocity + rest * from_above(boost::numeric::width(dropped)) + by_gain;
   }
-  /// What the observer's own filter adds per tick.
+  /// Error that the observer's filter adds per tick.
   Interval observer_filter() const {
     return filter_error(rounds_.dob, alpha_.used, c_.formats.observer,
                         c_.formats.observer_difference);
@@ -170,7 +170,7 @@ class Chain {
     return detail::truncation_error(c_.formats.current.fraction + fraction_of("torque_constant"),
                                     c_.formats.drive_torque);
   }
-  /// The inertia torque's part of observer input less state, per unit of velocity.
+  /// The inertia torque's part of (observer input - state), per unit of velocity.
   Interval inertia_step() {
     const Interval one(1.0);
     return g_.real * a_.real * gains_(one - a_.real, one - alpha_.real);
@@ -213,7 +213,7 @@ class Chain {
     return sum + from_above(magnitude(only(rounds_.torque_control, dropped)));
   }
 
-  /// Through the limit, which changes no difference for the worse: a loop of gain K*Og < 1.
+  /// Bounds with the current limit, which never increases a difference: a loop of gain K*Og < 1.
   void through_limit(Parts& p) {
     const Interval one(1.0);
     Interval back;
@@ -239,7 +239,7 @@ class Chain {
     p.current = std::max((sources + back * observed).upper(), limits.upper());
   }
 
-  /// The closed section while the limit does not act: one pole, 1 - alpha*(1 - K*Og).
+  /// Bounds of the closed loop while the limit does not act: one pole, 1 - alpha*(1 - K*Og).
   void unlimited(Parts& p) {
     const Interval one(1.0);
     Interval back;
@@ -305,10 +305,10 @@ void fill_torques(const ChainNumbers& c, const InputRegion& region, const Parts&
   }
 }
 
-/// Outward rounding makes a little of nothing; a source that is absent contributes nothing.
+/// Replaces a tiny bound by 0: outward rounding makes the 0 of an absent source slightly positive.
 double shown(double bound) { return bound < 1e-200 ? 0.0 : bound; }
 
-/// The region with its velocity: at most what the format holds.
+/// The region with its velocity filled in, at most the largest one that the format holds.
 InputRegion filled(InputRegion region, const SaturationFree& free) {
   if (region.velocity_rad_s <= 0 || region.velocity_rad_s > free.velocity_rad_s) {
     region.velocity_rad_s = free.velocity_rad_s;

@@ -15,17 +15,17 @@
 
 namespace feltgate::bounds {
 
-/// The inputs for which a bound is asked.
+/// The region of inputs for which a bound is computed.
 struct InputRegion {
   /// Largest |N-method velocity| before the low-pass, rad/s; 0: all that the format holds.
   double velocity_rad_s = 0;
-  std::string scene;  ///< what is rendered; empty: the worst of all scenes that are built in
+  std::string scene;  ///< the scene; empty: the worst of all built-in scenes
   int mode = 0;       ///< of the control word: 0 closed loop, 1 open loop, 2 voltage
   /// Scene law: largest error of the program's torque for the reference's velocity, Nm.
   double law_nm = std::numeric_limits<double>::infinity();
 };
 
-/// Bounds of one signal against three references. Infinity where nothing can be promised.
+/// Bounds of one signal against three references; infinity where no bound is proven.
 struct ErrorBound {
   double against_quantised = 0;  ///< real arithmetic with the core's own, quantised coefficients
   double against_reference =
@@ -33,12 +33,12 @@ struct ErrorBound {
   double against_exact = 0;  ///< also the factor of the N-method exact, 2*pi/(Er*Tp*m1)
 };
 
-/// Where nothing saturates. Each is a condition for all of the motion.
+/// Conditions under which nothing saturates; each must hold during the whole motion.
 struct SaturationFree {
   int counts_per_window = 0;   ///< |counts in m1 ticks| at most: raw velocity and travel hold it
   double velocity_rad_s = 0;   ///< the same as a velocity
-  double tau_hat_rad_s = 0;    ///< up to this |velocity| tau_hat cannot reach its format's end
-  double current_rad_s = 0;    ///< up to this one the current limit cannot act; 0: it may always
+  double tau_hat_rad_s = 0;    ///< |velocity| up to which tau_hat cannot saturate
+  double current_rad_s = 0;    ///< |velocity| up to which the current limit cannot act; 0: none
   double position_counts = 0;  ///< |position| at most, for the scenes
 };
 
@@ -46,7 +46,8 @@ struct ErrorBounds {
   InputRegion region;  ///< with the velocity filled in
   SaturationFree free;
   ErrorBound velocity_rad_s, tau_hat_nm, tau_ref_nm, current_a, torque_nm;
-  /// Sharper where the feedback of tau_hat acts, but only while the current limit does not.
+  /// Smaller bounds for a loop with the feedback of tau_hat; valid only while the current limit
+  /// does not act.
   ErrorBound unlimited_tau_hat_nm, unlimited_current_a;
 };
 
@@ -56,14 +57,15 @@ struct ErrorBounds {
 ErrorBounds error_bounds(const ChainNumbers& numbers, const InputRegion& region = {});
 ErrorBounds error_bounds(const design::Elaborated& e, const InputRegion& region = {});
 
-/// What one source of error alone can do, the others being exact; the sources add up.
+/// The bound of one source of error while the others are exact; the sources add up.
 struct SourceBound {
   std::string name;  ///< velocity_n, dob, scenes, torque_control, coefficients, or gain
   double velocity_rad_s = 0, tau_hat_nm = 0, tau_ref_nm = 0, current_a = 0;
 };
 
-/// Rounding of each block against real arithmetic with the core's coefficients; then their
-/// quantisation; then 2^n against the exact factor, which no other figure contains.
+/// The sources: rounding of each block, against real arithmetic with the core's coefficients; then
+/// the quantisation of the coefficients; then 2^n against the exact factor, which no other figure
+/// contains.
 std::vector<SourceBound> source_bounds(const ChainNumbers& numbers, const InputRegion& region = {});
 
 /// The bounds against the reference chain by the names of the tables: bound_velocity_rad_s,
@@ -75,8 +77,8 @@ std::string bound_table(const ErrorBounds& b);
 
 namespace detail {
 
-/// What the reference is: the level of the three columns; `gain` differs from the reference chain
-/// in the N-method's factor alone.
+/// The reference of a bound: one of the three columns; `gain` differs from the reference chain only
+/// in the factor of the N-method.
 enum class Level { quantised, reference, exact, gain };
 
 /// Blocks that round; the others are exact.
@@ -91,12 +93,12 @@ struct Pair {
 };
 Pair pair_of(const Number& n, Level level);
 
-/// What rounding to `f` by the design's mode adds.
+/// The error of rounding to `f` by the design's mode.
 Interval rounding_error(const ChainNumbers& c, Format f);
-/// What dropping bits below `f` of a number with `fraction` bits adds; 0 when there are none.
+/// The error of dropping the bits below `f` of a number with `fraction` bits; 0 if there are none.
 Interval truncation_error(int fraction, Format f);
 
-/// Bound of |tau_ref - tau_ref of the reference| [Nm] off the ramp, given one of the velocity.
+/// Bound of |tau_ref - tau_ref of the reference| [Nm] outside the ramp, from the velocity's bound.
 double scene_error(const ChainNumbers& c, const InputRegion& region, Level level, bool rounds,
                    double velocity_error_rad_s, double velocity_rad_s);
 

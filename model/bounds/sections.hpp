@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Worst-case peak gains of the chain's filters: what an input of at most 1 can make of the output.
-// Documentation: docs/error-bounds.md
+// Worst-case peak gains of the chain's filters: the largest output for inputs of magnitude at
+// most 1. Documentation: docs/error-bounds.md
 #pragma once
 
 #include "bounds/interval.hpp"
@@ -13,13 +13,13 @@ namespace feltgate::bounds {
 /// Endless (infinity) when |pole| >= 1.
 Interval one_pole_gain(const Interval& pole);
 
-/// Sum over k of |p*(1-p)^k - q*(1-q)^k| from above: what exchanging the coefficient of a unit-gain
-/// low-pass can do. Both in (0, 1].
+/// Upper bound of the sum over k of |p*(1-p)^k - q*(1-q)^k|: the effect of exchanging the
+/// coefficient of a unit-gain low-pass. Both in (0, 1].
 double lowpass_change_gain(const Interval& p, const Interval& q);
 
-/// Peak gain of (1 - z^-1)/((1 - p z^-1)(1 - q z^-1)) from above: how strongly an error that enters
-/// the low-pass of pole p appears behind a high-pass of pole q. Interval summation of the impulse
-/// response with a closed bound of its tail. p >= 0; infinity where p or |q| reaches 1.
+/// Upper bound of the peak gain of (1 - z^-1)/((1 - p z^-1)(1 - q z^-1)): the gain from an error
+/// that enters the low-pass of pole p to the output of a high-pass of pole q. Interval summation of
+/// the impulse response with a closed bound of its tail. p >= 0; infinity if p or |q| reaches 1.
 double high_passed_gain(const Interval& p, const Interval& q);
 
 }  // namespace feltgate::bounds

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Error budget of a run: the error that each block's quantisation makes alone, that of the
-// coefficients, and the whole. Documentation: docs/error-bounds.md
+// Error budget of a run: the error of each block's quantisation alone, the error of the
+// coefficients, and the total error. Documentation: docs/error-bounds.md
 #pragma once
 
 #include <memory>
@@ -21,23 +21,24 @@ struct BudgetRow {
   ErrorFigure velocity_rad_s, tau_hat_nm, tau_ref_nm, current_a;
 };
 
-/// Several chains that see the same samples. Rows compare blocks in fixed point, one at a time,
-/// with real arithmetic and the same coefficients; `coefficients` that with the reference; `gain`
-/// the reference with the exact factor; `whole` the fixed-point chain with the reference.
+/// Several chains with the same samples. A row of a block compares the chain with only this block
+/// in fixed point to real arithmetic with the same coefficients. `coefficients` compares the latter
+/// to the reference, `gain` the reference to the exact factor, `whole` the fixed-point chain to the
+/// reference.
 class Budget : public RealChain {
  public:
-  /// Ticks that the coverage rules out count in no row, from the next tick on.
+  /// Excludes, from the next tick on, the ticks that `coverage` rules out from all rows.
   virtual void cover(const Coverage& coverage) = 0;
   virtual const Coverage& coverage() const = 0;
   virtual const std::vector<BudgetRow>& rows() const = 0;
-  /// Largest |N-method velocity| before its low-pass so far, rad/s.
+  /// Largest |N-method velocity| so far, before its low-pass, rad/s.
   virtual double largest_velocity_rad_s() const = 0;
 };
 
-/// Throws std::invalid_argument for a design that is not built in.
+/// Makes the budget of a design. Throws std::invalid_argument if the design is not built in.
 std::unique_ptr<Budget> make_budget(const std::string& design);
 
-/// A design that is not among those: make_budget() knows it from now on.
+/// Registers a further design for make_budget().
 using BudgetMaker = std::unique_ptr<Budget> (*)();
 void add_budget(const std::string& design, BudgetMaker make);
 

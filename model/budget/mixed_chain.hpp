@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The chain with some blocks in fixed point and the others in 113 bits: what one block's
-// quantisation does alone. Documentation: docs/error-bounds.md
+// A chain with some blocks in fixed point and the others in 113 bits. It shows the effect of one
+// block's quantisation alone. Documentation: docs/error-bounds.md
 #pragma once
 
 #include "reference/chain.hpp"
 
 namespace feltgate::bounds {
 
-/// More fraction bits than a port has: what a block in fixed point takes from one in real numbers
-/// is rounded 24 bits finer than in the core, so that the port's own rounding counts where it is
-/// made.
+/// Additional fraction bits of a port from a block in real numbers to one in fixed point. The value
+/// is rounded 24 bits finer than in the core, so that the port's rounding counts only in the block
+/// that makes it.
 constexpr int finer_bits = 24;
 
 constexpr Format finer(Format f) { return {f.sign, f.integer, f.fraction + finer_bits}; }
 
-/// Design D whose scenes see a finer velocity.
+/// Design D with a finer velocity for the scenes.
 template <class D>
 struct FineVelocity : D {
   static constexpr Formats formats() {
@@ -57,14 +57,14 @@ fixed_of<Key> to_fixed(X x) {
   }
 }
 
-/// What the coefficients of the blocks in real arithmetic are.
+/// Source of the coefficients of the blocks in real arithmetic.
 enum class Coefficients {
   quantised,  ///< the core's integers
-  exact,      ///< the design's values; 2^n as it says
-  exact_gain  ///< and 2*pi/(Er*Tp*m1) instead of 2^n
+  exact,      ///< the design's values, with its 2^n
+  exact_gain  ///< the design's values, with 2*pi/(Er*Tp*m1) instead of 2^n
 };
 
-/// One tick after the other of design D; the flags say which blocks are in fixed point.
+/// Runs design D tick by tick; the flags select the blocks in fixed point.
 template <class D, bool VelocityN, bool DobBlock, bool ScenesBlock, bool ControlBlock>
 class MixedChain {
  public:
@@ -124,7 +124,7 @@ class MixedChain {
       return to_quad(x);
     }
   }
-  /// Beyond 18 bits there is no bound; both kinds of scenes see the same.
+  /// The scenes' position. Beyond 18 bits no bound holds; both kinds of scenes get the same value.
   static std::int32_t scene_position(std::int32_t position) {
     constexpr std::int32_t end = (1 << (D::f.scene_position.width() - 1)) - 1;
     return std::clamp(position, -end - 1, end);

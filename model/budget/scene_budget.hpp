@@ -14,7 +14,7 @@
 
 namespace feltgate::bounds {
 
-/// One row of the table: largest and rms error, and what it can be at most (infinity: no bound).
+/// One row of the table: largest error, rms error, and proven bound (infinity: none).
 struct BudgetLine {
   SourceBound max, rms, bound;
   bool holds() const;
@@ -33,8 +33,8 @@ struct SceneBudget {
   bool holds() const;
 };
 
-/// Throws std::invalid_argument for a scene or parameter that the design has not. `progress` is
-/// called now and then with 0..1; it may be empty.
+/// Computes the budget. Throws std::invalid_argument for a scene or parameter that the design does
+/// not have. `progress` is called occasionally with 0..1; it may be empty.
 SceneBudget scene_budget(const design::Elaborated& e, const Scenario& scenario,
                          const plant::Parameters& plant, std::uint64_t seed,
                          const std::function<void(double)>& progress);

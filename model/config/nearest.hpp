@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a misspelt name was meant to be; the twin's facade asks the same. Documentation:
+// Suggests the nearest known name for a misspelt one; shared with the twin's facade. Documentation:
 // docs/designs.md
 #pragma once
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Strict reading of a TOML table: every key is asked for by name with its range, what nobody asked
-// for is an error, and every error says file, line, what and mend. Documentation: docs/designs.md
+// Reads a TOML table strictly: the caller requests every key by name with its range, a key that was
+// not requested is an error, and every error gives file, line, what is wrong and the mend.
+// Documentation: docs/designs.md
 #pragma once
 
 #include <toml++/toml.h>
@@ -34,13 +35,13 @@ inline constexpr Range kNotNegative{0.0, 1e300};
 
 /// Parses a whole file. Errors: ConfigError when it cannot be opened or is not TOML.
 toml::table parse_toml_file(const std::string& path);
-/// The same of a text; errors call it `path`.
+/// The same for a text; errors name it `path`.
 toml::table parse_toml_text(const std::string& text, const std::string& path);
 
 /// One table of a file. It keeps a reference: the parsed file must outlive it.
 class TomlReader {
  public:
-  /// `name` is how errors call the table, e.g. "[motor]".
+  /// `name` is the table's name in errors, e.g. "[motor]".
   TomlReader(const toml::table& table, std::string file, std::string name);
 
   /// Whether the table holds `key`; asking makes it a known key.
@@ -57,7 +58,7 @@ class TomlReader {
   std::string text(const std::string& key);
   /// A text of several lines.
   std::string paragraph(const std::string& key);
-  /// A text that may stand in generated code: a to z, 0 to 9 and _, a letter first.
+  /// A text that is an identifier in generated code: a to z, 0 to 9 and _, a letter first.
   std::string identifier(const std::string& key);
   std::vector<std::string> texts(const std::string& key);
   /// Index of the text under `key` in `choices`; the error lists them.
@@ -66,7 +67,7 @@ class TomlReader {
   /// An array of tables ([[a.b]] or inline); empty when the key is missing.
   std::vector<TomlReader> sections(const std::string& key);
 
-  /// Every key must have been asked for by now. Errors: ConfigError for the first that was not.
+  /// Checks that every key was requested. Throws ConfigError for the first one that was not.
   void finish() const;
   /// Throws ConfigError at the line of `key`, or of the table when the key is missing.
   [[noreturn]] void fail(const std::string& key, const std::string& what,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design point in SI units, as read from rtl/designs/NAME.toml, and what follows from it:
-// quantised parameters and formats. Documentation: docs/designs.md
+// A design point in SI units, as read from rtl/designs/NAME.toml, and the quantised parameters and
+// formats derived from it. Documentation: docs/designs.md
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct Design {
   int lines = 0, filter_samples = 0, encoder_polarity = 0;
   bool has_index = false;
   int m1 = 0, n = 0;
-  bool exact_gain = false;  ///< the exact factor, quantised, stands for 2^n
+  bool exact_gain = false;  ///< the quantised exact factor replaces 2^n
   double velocity_cutoff_rad_s = 0;
   double observer_cutoff_rad_s = 0, torque_constant_nm_a = 0, inertia_kg_m2 = 0;
   double kp_1_kg_m2 = 0, torque_limit_nm = 0, current_limit_a = 0, ramp_nm_s = 0;
@@ -44,7 +44,7 @@ struct Design {
   double polarity_speed_rad_s = 0, polarity_current_a = 0, polarity_time_s = 0, watchdog_s = 0;
   double hold_torque_nm = 0, hold_s = 0, hold_limit_nm = 0;
   bool require_watchdog = false;  ///< arming waits for the first kick
-  // [self_test], optional: without it no test, and words that make none.
+  // [self_test], optional: without it there is no test, and the words disable it.
   bool self_test = false, arm_when_held = true, arm_when_moving = true;
   double self_test_nm = 0, self_test_pulse_s = 0, self_test_quiet_s = 0;
   std::vector<std::string> scenes;
@@ -55,24 +55,24 @@ struct Design {
   double wall_contact_rad = 0, wall_nm_rad = 0, wall_nm_s_rad = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   int observer_fraction = 0;
-  int coefficient_bits = fabric::multiplier_b_bits - 1;  ///< of a mantissa, without its sign
+  int coefficient_bits = fabric::multiplier_b_bits - 1;  ///< bits of a mantissa without sign
   Round rounding = Round::half_up;                       ///< where the chain rounds
-  bool parallel_multipliers = false;  ///< each block its own instead of one for all
-  int axes = 1;                       ///< motors with an encoder each, one tick, one port
-  bool engine = false;                ///< programs give the torque of the scene law
-  double engine_max_age_s = 0;        ///< without a fresh torque for longer: the fault engine
-  bool allow_coarse = false;  ///< not of the file: a resolution coarser than promised is let pass
-  std::map<std::string, int> lines_of;  ///< where a "section.key" of the file stands, for errors
+  bool parallel_multipliers = false;  ///< one multiplier per block instead of a shared one
+  int axes = 1;                       ///< motors, each with an encoder; they share tick and port
+  bool engine = false;                ///< programs compute the torque of the scene law
+  double engine_max_age_s = 0;        ///< largest age of a torque; beyond: fault `engine`
+  bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
+  std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 
   int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
   int pwm_period_clocks() const { return static_cast<int>(clock_hz / pwm_hz); }
-  /// The voltage law gives back the back-EMF.
+  /// Whether the voltage law compensates the back-EMF.
   bool emf_in_law() const { return voltage_law == "motor_model"; }
-  /// A time in the units of the self-test, SELF_TEST_UNIT_BITS of ticks.
+  /// A time in the units of the self-test: 2^SELF_TEST_UNIT_BITS ticks.
   double self_test_units(double seconds) const;
   int dead_clocks() const;
-  int shortest_clocks() const;  ///< of a pulse at a gate
-  /// Of engine_max_age_s, at least one; 0 without an engine.
+  int shortest_clocks() const;  ///< shortest pulse at a gate
+  /// engine_max_age_s in ticks, at least one; 0 without an engine.
   int engine_max_age_ticks() const;
   double tick_s() const { return 1.0 / static_cast<double>(tick_hz); }
   /// One count in radians.
@@ -84,7 +84,7 @@ struct Design {
                          const std::string& mend) const;
 };
 
-/// A parameter with its value in the design: SI, quantised, and the format between them.
+/// A parameter with its value in the design: in SI, quantised, and the format that relates them.
 struct Word {
   Parameter parameter;
   std::string key;  ///< "section.key" of the design file that decides the value
@@ -92,38 +92,38 @@ struct Word {
   double si = 0;         ///< exact value, in the parameter's unit
   std::int64_t raw = 0;  ///< the integer in the parameter RAM
   double quantised() const;
-  double relative_error() const;  ///< (quantised-si)/si, 0 where si is 0
+  double relative_error() const;  ///< (quantised-si)/si; 0 if si is 0
 };
 
-/// A design with everything that follows from it.
+/// A design with all values derived from it.
 struct Elaborated {
   Design design;
   RegisterMap registers;
   std::vector<Word> words;
-  std::int64_t velocity_gain = 0;  ///< mantissa of the quantised gain, 0 where 2^n serves
+  std::int64_t velocity_gain = 0;  ///< mantissa of the quantised gain; 0 if 2^n is used
   BaseFormats base{};
   Formats formats{};
 
   const Word& word(const std::string& name) const;
-  /// What the core multiplies a count of m1 ticks with, rad/s.
+  /// The core's factor for one count in m1 ticks, rad/s.
   double rad_s_per_count() const;
 };
 
 /// Reads a design file. Throws config::ConfigError: unknown or missing key, wrong type, value out
 /// of range.
 Design read_design(const std::string& path);
-/// The same of the text of a file that is not written yet; errors call it `path`.
+/// The same for the text of a file that is not written yet; errors name it `path`.
 Design design_from_text(const std::string& text, const std::string& path);
 
-/// Quantises the design against a register map and checks it; design.allow_coarse lets a resolution
-/// pass that is coarser than promised, for exploration. Throws config::ConfigError where a
+/// Quantises the design against a register map and checks it. Throws config::ConfigError when a
 /// coefficient quantises to 0, a width exceeds the fabric, a parameter does not fit its word, the
-/// latency exceeds the tick, or a resolution is coarser than promised.
+/// latency exceeds the tick, or a resolution is coarser than promised; design.allow_coarse permits
+/// the last one, for exploration.
 Elaborated elaborate(const Design& design, const RegisterMap& registers);
 
-/// The format of an unsigned (or signed) mantissa of `bits` bits for `value`: the binary point lies
-/// so that the value uses the top bit, so a register can raise it to just under the next power of
-/// two. Below 2^(bits-49) the point stays and the mantissa loses bits; 0 gets [S,0,bits].
+/// The format of an unsigned (or signed) mantissa of `bits` bits for `value`. The value uses the
+/// top bit, so a register can raise it to just below the next power of two. Below 2^(bits-49) the
+/// binary point stays and the mantissa loses bits; 0 gets [S,0,bits].
 Format coefficient_format(double value, bool is_signed, int bits = fabric::multiplier_b_bits - 1);
 
 /// The most fraction bits that a coefficient may have.

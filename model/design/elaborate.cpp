@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// From SI values to integers: the value of every parameter, its format, and the checks that refuse
-// a design which cannot work. Documentation: docs/designs.md
+// Converts SI values to integers: computes value and format of every parameter, and refuses a
+// design that cannot work. Documentation: docs/designs.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void check_fits(const Design& d, const char* key, const char* what, int width, i
          "use fewer integer or fraction bits");
 }
 
-/// Before anything is computed in these formats: the arithmetic itself holds no more.
+/// Checks the widths of the signals first, because the arithmetic holds no wider ones.
 void check_signal_widths(const Design& d) {
   check_fits(d, "formats.velocity", "the velocity", d.velocity.width(), fabric::word_bits);
   check_fits(d, "formats.torque", "the torque", d.torque.width(), fabric::word_bits);
@@ -71,8 +71,8 @@ void check_resolution(const Elaborated& e) {
   };
   coarse("formats.velocity", d.velocity, 10, "rad/s");
   coarse("formats.torque", d.torque, 16, "Nm");
-  // A rounding filter stands still within half an LSB over a1: that must stay below half an LSB of
-  // what the filter promises.
+  // A rounding filter stops within half an LSB divided by a1 of its final value. That must be less
+  // than half an LSB of the promised resolution.
   const auto guard = [&](const char* key, const Word& pole, int fraction, int wanted) {
     const int need = wanted + static_cast<int>(std::ceil(-std::log2(pole.si)));
     if (fraction >= need) return;
@@ -114,7 +114,7 @@ void check_widths(const Elaborated& e) {
        fabric::multiplier_b_bits);
   fits("motor.resistance_ohm", "the square of the current estimate's integer part",
        2 * f.current_estimate.integer, f.current_squared.integer);
-  // One limiter, as wide as the current, limits torque, voltage and duty too.
+  // One limiter of the current's width also limits torque, voltage and duty.
   for (const auto& [what, format] :
        {std::pair{"torque", d.torque}, {"voltage", d.voltage}, {"duty", f.duty}}) {
     if (format.width() <= d.current.width()) continue;
@@ -125,7 +125,7 @@ void check_widths(const Elaborated& e) {
   }
 }
 
-/// Narrowing drops bits, it never invents them.
+/// Checks that every narrowing drops bits and never has to add any.
 void check_drops(const Elaborated& e) {
   const Design& d = e.design;
   const Formats& f = e.formats;
@@ -149,7 +149,7 @@ void check_drops(const Elaborated& e) {
         f.current_estimate_part.fraction);
   drops("formats.velocity", d.velocity, e.word("emf_over_resistance"),
         f.current_estimate_part.fraction);
-  // Where it rounds, there is a bit to round off.
+  // A rounding step needs at least one bit to round off.
   drops("formats.observer_fraction", f.observer_difference, e.word("observer_a1"),
         d.observer_fraction + 1);
   drops("formats.velocity", f.velocity_difference, e.word("velocity_a1"), d.velocity.fraction + 1);
@@ -177,7 +177,7 @@ void check_drops(const Elaborated& e) {
          fmt::format("choose a value that makes it {}", w.si < 0 ? "larger" : "smaller"));
 }
 
-/// The integer of a word: far inside 64 bits, or the value is refused.
+/// The integer of a word; a value that does not lie far inside 64 bits is refused.
 std::int64_t quantised_word(const Design& d, const Word& w) {
   const double scaled = std::ldexp(w.si, w.format.fraction);
   if (!(std::abs(scaled) < 0x1p62)) refuse(d, w);
@@ -220,7 +220,7 @@ Format coefficient_format(double value, bool is_signed, int bits) {
   const double magnitude = std::abs(value);
   if (magnitude == 0) return {is_signed ? 1 : 0, 0, mantissa};
   int integer = std::max(least_integer, std::ilogb(magnitude) + 1);
-  // A value that would round up to the next power of two needs that power's place.
+  // A value that rounds up to the next power of two needs one more integer bit.
   if (std::llround(std::ldexp(magnitude, mantissa - integer)) >> mantissa != 0) ++integer;
   return {is_signed ? 1 : 0, integer, mantissa - integer};
 }
@@ -267,7 +267,7 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
     const Value value = value_of(p, p.name);
     Word w{p, value.key, {}, value.si, 0};
     if (p.kind == "coefficient" || p.kind == "signed") {
-      // Parameters that share a format share the larger one's.
+      // Parameters that share a format use the format of the largest value.
       double largest = w.si;
       if (!p.same_format_as.empty()) {
         largest = std::max(largest, value_of(p, p.same_format_as).si);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine's numbers, instructions and memories as read from rtl/engine/engine.toml, and what is
-// generated from them. Documentation: docs/engine-isa.md (generated)
+// The engine's numbers, instructions and memories as read from rtl/engine/engine.toml, and the
+// texts generated from them. Documentation: docs/engine-isa.md (generated)
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace feltgate::design {
 
-/// A stretch of words of a memory or of the host's addresses.
+/// A range of words of a memory or of the host's addresses.
 struct EngineWords {
   std::string name;
   int first = 0;
   int words = 1;
-  std::string access = "read";  ///< or write: reads and writes; or write_only
+  std::string access = "read";  ///< "read", "write" (reads and writes) or "write_only"
   std::string doc;
   std::vector<Field> fields;
 };
 
-/// What a word of the engine holds after a reset.
+/// The value of an engine word's field after a reset.
 struct EngineResetField {
   Field field;
   std::int64_t value = 0;
@@ -31,16 +31,16 @@ struct EngineResetField {
 
 struct EngineDescription {
   std::vector<Cause> constants;
-  std::array<int, 4> shifts{};  ///< of a product, by the field mode
-  std::vector<Field> fields;    ///< of a program word, which they fill
+  std::array<int, 4> shifts{};  ///< shifts of a product, by the field mode
+  std::vector<Field> fields;    ///< fields of a program word; they fill it
   std::vector<Cause> ops;       ///< by number
   std::vector<EngineWords> regions;
   std::vector<EngineWords> host;
   std::vector<EngineResetField> reset;  ///< fields from bit 0 on, without a gap
 };
 
-/// Reads the description. Throws config::ConfigError with file and line on a malformed entry,
-/// fields that overlap or leave a bit out, or words that share an address.
+/// Reads the description. Throws config::ConfigError with file and line for a malformed entry, for
+/// fields that overlap or leave a bit unused, and for words that share an address.
 EngineDescription read_engine(const std::string& path);
 
 /// Texts of rtl/generated/feltgate_engine_pkg.sv, model/include/feltgate/generated/engine.hpp and

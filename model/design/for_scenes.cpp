@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design that builds only what some scenes need. Documentation: docs/designs.md
+// Reduces a design to the blocks that some scenes need. Documentation: docs/designs.md
 #include "design/for_scenes.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* always = "free";
 
-/// scene_spring serves both springs, scene_charge both charges; free has no block.
+/// The RTL block of a law: both springs use scene_spring, both charges scene_charge; free has none.
 std::string block_of(const std::string& law) {
   if (law == always) return {};
   const std::string kind = law.substr(0, law.find('_'));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design that builds only what some scenes need. Documentation: docs/designs.md
+// Reduces a design to the blocks that some scenes need. Documentation: docs/designs.md
 #pragma once
 
 #include <set>
@@ -12,9 +12,9 @@
 
 namespace feltgate::design {
 
-/// Text of the design file `path` with [scenes] include cut down to `laws` (names of scenes in the
-/// register map) and "free", in the file's order; `comment` goes first, each line behind a #.
-/// Throws config::ConfigError when the design does not build one of them.
+/// Text of the design file `path` with [scenes] include reduced to `laws` (names of scenes in the
+/// register map) and "free", in the file's order. `comment` comes first, with # before each line.
+/// Throws config::ConfigError when the design does not build one of the laws.
 std::string text_for_scenes(const std::string& path, const std::set<std::string>& laws,
                             const std::string& comment);
 

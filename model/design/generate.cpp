@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The generated SystemVerilog package and C++ header. Documentation: docs/designs.md
+// Generates the SystemVerilog package and the C++ header of a design. Documentation:
+// docs/designs.md
 #include "design/generate.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ unsigned scene_mask(const Elaborated& e) {
   return mask;
 }
 
-/// How RTL and twin call a rounding mode.
+/// The names of a rounding mode in RTL and twin.
 struct RoundingName {
   int number;
   const char* name;
@@ -131,7 +132,8 @@ std::vector<std::pair<std::string, Format>> named_formats(const Formats& f) {
 
 namespace {
 
-/// What most designs have not. They keep their constants, and so their CRC.
+/// Constants of options that most designs lack. Without the option they are left out, so the CRC of
+/// those designs stays the same.
 std::vector<Constant> further(const Design& d) {
   return {
       {"axes", d.axes, "motors with an encoder each"},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Writes what follows from a design: the SystemVerilog package, the C++ header, and the pages that
+// Generates the files of a design: the SystemVerilog package, the C++ header, and the pages that
 // list registers and the wave. Documentation: docs/designs.md
 #pragma once
 
@@ -21,11 +21,11 @@ std::string cpp_header(const Elaborated& e);
 /// Text of model/include/feltgate/generated/reader.hpp.
 std::string reader_header(const RegisterMap& map);
 
-/// Text of rtl/generated/NAME/parameters.mem, which $readmemh takes: the 512 words, each behind its
-/// check, in hexadecimal.
+/// Text of rtl/generated/NAME/parameters.mem for $readmemh: the 512 words in hexadecimal, each
+/// after its check bits.
 std::string memory_text(const Elaborated& e);
 
-/// A line per parameter: name, address, integer, exact value in its unit.
+/// One line per parameter: name, address, integer, exact value in its unit.
 std::string values_text(const Elaborated& e);
 
 /// Text of docs/registers.md; the formats shown are those of `e`.
@@ -37,10 +37,10 @@ std::string link_header(const RegisterMap& map);
 /// The link's part of the register page.
 std::string link_tables(const RegisterMap& map);
 
-/// "5", or "7:4" of a wider field.
+/// The bits of a field: "5", or "7:4" for several.
 std::string bits_text(const Field& f);
 
-/// CRC-32 of all that a host must know of a design to understand its words: docs/link.md.
+/// CRC-32 of everything that a host must know of a design to interpret its words: docs/link.md.
 std::uint32_t design_crc(const Elaborated& e);
 
 /// The table that `feltgate design NAME` prints.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is generated from rtl/engine/engine.toml: package, header, page. Documentation:
-// docs/engine-isa.md
+// Generates package, header and page from rtl/engine/engine.toml. Documentation: docs/engine-isa.md
 #include <fmt/format.h>
 
 #include <sstream>

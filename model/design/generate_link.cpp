@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Addresses, bits and numbers of the host's link: package, header and its part of the register
-// page. Documentation: docs/link.md
+// Generates the addresses, bits and numbers of the host's link: package, header, and its part of
+// the register page. Documentation: docs/link.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace feltgate::design {
 
 namespace {
 
-/// The words of the snapshot in the order in which they come.
+/// The words of the snapshot in the order of their slots.
 std::vector<Snapshot> by_slot(const RegisterMap& map) {
   std::vector<Snapshot> words = map.snapshots;
   std::sort(words.begin(), words.end(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What all designs share: the package and the header of slots, clocks, addresses, bits and numbers.
-// Documentation: docs/designs.md
+// Generates the package and the header that all designs share: slots, clocks, addresses, bits and
+// numbers. Documentation: docs/designs.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* sources = "rtl/registers.toml and rtl/schedule.toml";
 
-/// A clock of the wave by its name without S_, M_, ...
+/// A named clock of the wave; the name has no prefix S_, M_, ...
 struct Clock {
   std::string name;
   int clock;
@@ -25,7 +25,7 @@ struct Clock {
 
 bool is_factor(const Parameter& p) { return p.kind == "coefficient" || p.kind == "signed"; }
 
-/// On the parameter bus: words, and the squares' slots on the operand bus.
+/// The slots of the words on the parameter bus, and of the squares on the operand bus.
 std::vector<Clock> slots(const RegisterMap& map, const Schedule& s) {
   std::vector<Clock> all;
   for (const Parameter& p : map.parameters) all.push_back({p.name, p.slot});
@@ -60,7 +60,7 @@ std::vector<Clock> words(const RegisterMap& map) {
   return all;
 }
 
-/// Bit n: what a write of the common word n does while the motor is armed.
+/// Mask of the common words whose write has `effect` while the motor is armed: bit n is word n.
 std::uint64_t words_that(const RegisterMap& map, const std::string& effect) {
   std::uint64_t mask = 0;
   for (const Parameter& p : map.parameters) {
@@ -68,7 +68,7 @@ std::uint64_t words_that(const RegisterMap& map, const std::string& effect) {
   }
   return mask;
 }
-/// Bit n: the words of scene n act at once.
+/// Mask of the scenes whose words act at once: bit n is scene n.
 unsigned input_scenes(const RegisterMap& map) {
   unsigned mask = 0;
   for (const Parameter& p : map.parameters) {
@@ -77,8 +77,8 @@ unsigned input_scenes(const RegisterMap& map) {
   return mask;
 }
 
-/// What happens in a tick, in the order of its clocks. What is taken from a bus in a clock comes
-/// before what is new after it.
+/// The events of a tick in the order of their clocks. Values taken from a bus in a clock come
+/// before values that are new after this clock.
 std::vector<Clock> in_order(const RegisterMap& map, const Schedule& s) {
   std::vector<Clock> all;
   for (const Clock& c : words(map)) all.push_back({"read_" + c.name, c.clock});
@@ -122,7 +122,7 @@ void fields_sv(std::ostringstream& s, const std::string& word, const std::vector
   }
 }
 
-/// Bits up to the highest that a field has.
+/// Number of bits up to the highest bit of any field.
 int used_bits(const std::vector<Field>& fields) {
   int bits = 0;
   for (const Field& f : fields) bits = std::max(bits, f.bit + f.width);

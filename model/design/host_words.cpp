@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The words that a host sees, and their CSV. Documentation: docs/register-files.md
+// Lists the words that a host can access, and writes them as CSV. Documentation:
+// docs/register-files.md
 #include "design/host_words.hpp"
 
 #include <fmt/format.h>

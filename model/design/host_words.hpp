@@ -19,19 +19,19 @@ struct HostWord {
   std::string kind;  ///< parameter, control, snapshot or link
   int address = 0;   ///< in words
   bool reads = false, writes = false;
-  bool number = false;      ///< it has a format and a unit; else plain bits
-  Format format{0, 32, 0};  ///< whose bits the word has
+  bool number = false;      ///< true: a number with format and unit; false: plain bits
+  Format format{0, 32, 0};  ///< format of the word
   std::string unit, doc;
   std::vector<Field> fields;
-  std::int64_t reset = 0;  ///< after configuration
-  double si = 0;           ///< of a parameter, in its unit
+  std::int64_t reset = 0;  ///< value after configuration
+  double si = 0;           ///< value of a parameter, in its unit
 };
 
-/// All words of the core's port, in the order of their addresses. Throws config::ConfigError where
-/// two have one name or a snapshot word names no signal.
+/// All words of the core's port, in the order of their addresses. Throws config::ConfigError when
+/// two words have the same name or a snapshot word names an unknown signal.
 std::vector<HostWord> host_words(const Elaborated& e);
 
-/// Those that only the link has, named link_..., in the order of their addresses.
+/// The words that only the link has, named link_..., in the order of their addresses.
 std::vector<HostWord> link_host_words(const RegisterMap& map);
 
 /// Text of rtl/generated/NAME/feltgate.h.

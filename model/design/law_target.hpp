@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a law is compiled for: rates and formats of a design. Documentation: docs/law-compiler.md
+// Converts a design to a target of the law compiler: its rates and formats. Documentation:
+// docs/law-compiler.md
 #pragma once
 
 #include "design/design.hpp"
@@ -9,7 +10,7 @@
 
 namespace feltgate::design {
 
-/// What a law's compiler must know of a design.
+/// The properties of design `e` that the law compiler needs.
 inline law::Target law_target(const Elaborated& e) {
   law::Target t;
   t.design = e.design.name;

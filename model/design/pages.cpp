@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The register page and the table of a design. Documentation: docs/designs.md
+// Generates the register page and the table of a design. Documentation: docs/designs.md
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a design makes of every parameter. Documentation: docs/designs.md
+// Computes the value of every parameter from a design. Documentation: docs/designs.md
 #include "design/parameter_values.hpp"
 
 #include <algorithm>
@@ -15,8 +15,9 @@ double low_pass_a1(double cutoff_rad_s, double tick_s) {
   return -std::expm1(-cutoff_rad_s * tick_s);
 }
 
-// A bootstrap driver lives on the pulses of the low gate: the low gate of each leg that switches
-// gets its shortest one in every period. Half a period where the period is too short for that.
+// Largest duty. A bootstrap driver is charged by the pulses of the low gate: the low gate of each
+// switching leg gets its shortest pulse in every period. If the period is too short, the limit is
+// half a period.
 double duty_limit(const Design& d) {
   const int period = d.pwm_period_clocks(), legs = d.pwm_mode == 1 ? 2 : 1;
   return std::max(period / 2, period - legs * (d.dead_clocks() + d.shortest_clocks()));
@@ -31,8 +32,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
   const double one_ohm = 1.0;
   const double tick_hz = static_cast<double>(d.tick_hz);
   const double observer_part = 1.0 - jk;
-  // Each leg that switches turns on late by the dead time, and meanwhile the current flows through
-  // diodes; the lost voltage opposes the current like a brush drop: the same law gives it back.
+  // Each switching leg turns on late by the dead time; until then the current flows through diodes.
+  // The lost voltage opposes the current like a brush drop, so the same law compensates it.
   const double legs = d.pwm_mode == 1 ? 2.0 : 1.0;
   const double lost_v =
       legs * (d.supply_v + 2 * d.diode_drop_v) * d.dead_clocks() / d.pwm_period_clocks();
@@ -40,14 +41,14 @@ std::map<std::string, Value> parameter_values(const Design& d) {
   const double core_slope =
       d.charge_core_rad > 0 ? d.charge_nm_rad2 / std::pow(d.charge_core_rad, 3) * q : 0.0;
   const double charge = d.charge_nm_rad2 / (q * q);
-  // |x| < core on whole counts is |x| <= ceil(core) - 1.
+  // For whole counts, |x| < core means |x| <= ceil(core) - 1.
   const double core = std::max(0.0, std::ceil(d.charge_core_rad / q) - 1);
-  // Without a limit of the motor's own: what the law asks for at stall.
+  // Without a current limit of the motor: the current that the law demands at stall.
   const double law_a =
       model ? d.current_limit_a
             : std::max(d.kv_low, d.kv_high) * one_ohm * d.current_limit_a / d.resistance_ohm;
   const double current_a = d.motor_current_limit_a > 0 ? d.motor_current_limit_a : law_a;
-  // Whole bits, at least one: exact in every engine.
+  // A whole number of LSB, at least one, is exact in every engine.
   const double step_v = std::ldexp(
       std::max(1.0, std::round(std::ldexp(d.voltage_ramp_v_s / tick_hz, d.voltage.fraction))),
       -d.voltage.fraction);

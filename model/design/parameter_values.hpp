@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a design makes of every parameter. Documentation: docs/designs.md
+// Computes the value of every parameter from a design. Documentation: docs/designs.md
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ struct Value {
   const char* key;
 };
 
-/// By the names of the register map.
+/// The values by the parameters' names in the register map.
 std::map<std::string, Value> parameter_values(const Design& d);
 
 }  // namespace feltgate::design

@@ -22,7 +22,7 @@ constexpr config::Range kCutoff{1e-12, 1e6};
 
 Design design_of(const toml::table& root, const std::string& path);
 
-/// The name becomes part of C++ types and file names.
+/// The design's name from its path; it must fit C++ types and file names.
 std::string name_of(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
   const auto bad = [](char c) {
@@ -63,7 +63,7 @@ Format read_format(config::TomlReader& r, const std::string& key) {
 }
 
 void read_control(config::TomlReader& r, Design& d) {
-  // Kp = 1/Jn is a choice of law, not a number to be typed: it makes the observer's gain zero.
+  // Kp = 1/Jn is a choice of the law and not a number: it makes the observer's gain zero.
   if (r.has("kp")) {
     (void)r.choice("kp", {"1/inertia"});
     if (r.has("kp_1_kg_m2")) {
@@ -119,7 +119,7 @@ void read_supervisor(config::TomlReader& r, Design& d) {
   d.polarity_current_a = r.number("polarity_current_a", {0.0, 30.0});
   d.polarity_time_s = r.number("polarity_time_s", {1e-6, 0.06});
   d.watchdog_s = r.number("watchdog_s", {1e-4, 10.0});
-  // Half and a quarter of the torque limit unless the file says otherwise.
+  // The defaults are half and a quarter of the torque limit.
   const auto or_else = [&r](const char* key, config::Range range, double without) {
     return r.has(key) ? r.number(key, range) : without;
   };
@@ -129,7 +129,8 @@ void read_supervisor(config::TomlReader& r, Design& d) {
   d.require_watchdog = r.flag_or("require_watchdog", false);
 }
 
-/// The pulse must move the lever's own inertia by as many counts as its answer takes.
+/// Reads [self_test]. The pulse must move the lever's own inertia by the counts of the expected
+/// answer.
 void read_self_test(config::TomlReader& r, Design& d) {
   d.self_test = r.choice("mode", {"off", "on"}) == 1;
   d.self_test_nm = r.number("torque_nm", {1e-4, 15.0});
@@ -140,7 +141,7 @@ void read_self_test(config::TomlReader& r, Design& d) {
   const auto fits = [&r, &d](const char* key, double seconds) {
     constexpr double most = (1 << Map::self_test_count_bits) - 1;
     const double units = d.self_test_units(seconds);
-    // A time that nobody asks for may be too short for the ticks of the design.
+    // Without a test, a time may be too short for the ticks of the design.
     if (units <= most && (units >= 0.5 || !d.self_test)) return;
     r.fail(key,
            fmt::format("\"{}\" is {:.3g} units of {} ticks", key, units,
@@ -169,7 +170,7 @@ void read_self_test(config::TomlReader& r, Design& d) {
   }
 }
 
-/// Programs, whose torque the scene law takes.
+/// Reads [engine]: programs that compute the torque of the scene law.
 void read_engine(config::TomlReader& r, Design& d) {
   d.engine = true;
   d.engine_max_age_s = 1e-3 * (r.has("max_age_ms") ? r.number("max_age_ms", {1e-3, 1e5}) : 1.0);
@@ -202,7 +203,7 @@ int Design::dead_clocks() const {
 }
 
 int Design::shortest_clocks() const {
-  // Rounded up, but for what the product of the two loses.
+  // Rounds up, with a tolerance for the rounding of the product.
   const double clocks = std::ceil(shortest_pulse_s * static_cast<double>(clock_hz) - 1e-6);
   return std::max(1, static_cast<int>(clocks));
 }
@@ -261,7 +262,7 @@ Design design_of(const toml::table& root, const std::string& path) {
   });
   section("velocity", [&](config::TomlReader& r) {
     d.m1 = static_cast<int>(r.integer("m1", 1, 1534));
-    // Where the tick is not near 1 MHz no power of two is near the exact factor.
+    // If the tick rate is not near 1 MHz, no power of two is near the exact factor.
     d.exact_gain = r.has("gain");
     if (d.exact_gain) {
       if (r.has("n")) r.fail("n", "velocity.n and velocity.gain exclude each other", "keep one");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The generated header that names a design's parameters for those who read them.
+// Generates the header with one reader function per parameter of a design.
 // Documentation: docs/designs.md
 #include <fmt/format.h>
 

@@ -98,7 +98,7 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   return p;
 }
 
-/// A scene whose words act at once is an input: all of them do.
+/// Checks the input scenes: if one word of a scene acts at once, all its words must.
 void check_inputs(const RegisterMap& map) {
   for (const Parameter& p : map.parameters) {
     for (const Parameter& other : map.parameters) {
@@ -180,7 +180,7 @@ LinkWord read_link_word(config::TomlReader r, std::set<int>& used) {
   return w;
 }
 
-/// Entries that count up from `first` under `key`.
+/// Reads the entries under `key`; their numbers count up from `first`.
 std::vector<Cause> read_causes(config::TomlReader& top, const std::string& section,
                                const std::string& key, int first) {
   std::vector<Cause> causes;

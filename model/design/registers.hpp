@@ -13,20 +13,20 @@ class TomlReader;
 
 namespace feltgate::design {
 
-/// A text that may stand in generated code between quotation marks.
+/// Reads a text that is safe between quotation marks in generated code.
 std::string plain_text(config::TomlReader& r, const std::string& key);
 
 /// One word of the parameter RAM.
 struct Parameter {
   std::string name;
   std::string label;           ///< in the timing diagram
-  std::string scene;           ///< empty for a word that every scene shares
+  std::string scene;           ///< scene of the word; empty: shared by all scenes
   int slot = 0;                ///< wave clock in which the word is on the parameter bus
   std::string kind;            ///< coefficient, signed, signal, counts or integer
   std::string signal;          ///< format of a word of kind signal
-  std::string same_format_as;  ///< takes the format of another coefficient
+  std::string same_format_as;  ///< coefficient whose format the word shares, or empty
   int headroom_bits = 0;       ///< doublings above the design's value that a coefficient can take
-  std::string while_armed;  ///< what a write does while the motor is armed: refused, ramps or acts
+  std::string while_armed;  ///< effect of a write while the motor is armed: refused, ramps or acts
   std::string unit;
   std::string doc;
   int address = 0;    ///< slot, or slot within the scene's bank of 32
@@ -56,21 +56,21 @@ struct Snapshot {
   std::string name;
   int slot = 0;              ///< wave clock in which the word is on the operand bus
   std::string label;         ///< in the timing diagram
-  std::string with;          ///< the coefficient that it is multiplied by then, or empty
-  std::string signal, unit;  ///< whose format the word has; empty: plain bits
+  std::string with;          ///< the coefficient that multiplies it in that clock, or empty
+  std::string signal, unit;  ///< signal that gives the format; empty: plain bits
   std::string doc;
   std::vector<Field> fields;
   std::string place;  ///< "file:line" of the entry, for errors
 };
 
-/// A bit of the limits, or a cause of fault by its number.
+/// A bit of the limits, or a numbered cause of a fault.
 struct Cause {
   std::string name;
   int number = 0;
   std::string doc;
 };
 
-/// A word of the host's link, beside the core's port.
+/// A word of the host's link, in addition to the core's port.
 struct LinkWord {
   std::string name;
   int address = 0;
@@ -91,7 +91,7 @@ struct RegisterMap {
   std::vector<LinkWord> link_words;
   std::vector<Cause> link_constants;  ///< numbers of the link's format, by value
 
-  /// Bit of a control word's field. Throws config::ConfigError where there is none.
+  /// Lowest bit of a control word's field. Throws config::ConfigError when there is no such field.
   int control_bit(const std::string& control, const std::string& field) const;
   const Parameter* find(const std::string& parameter) const;  ///< nullptr: no such parameter
   int scene_number(const std::string& name) const;            ///< -1 when there is no such scene
@@ -101,8 +101,8 @@ struct RegisterMap {
 /// First address of the snapshot words in the register port's address space.
 constexpr int snapshot_base = 0x300;
 
-/// Reads the map. Throws config::ConfigError with file and line on a malformed entry, a slot used
-/// twice or an unknown scene.
+/// Reads the map. Throws config::ConfigError with file and line for a malformed entry, a slot that
+/// is used twice, or an unknown scene.
 RegisterMap read_registers(const std::string& path);
 
 }  // namespace feltgate::design

@@ -95,7 +95,7 @@ Product read_product(config::TomlReader r, const RegisterMap& map) {
   return p;
 }
 
-/// The clock that S_..., M_..., R_... or T_... means.
+/// The clock of a name S_..., M_..., R_... or T_...
 int clock_of(config::TomlReader& r, const std::string& name, const RegisterMap& map,
              const Schedule& s) {
   std::string rest = name.size() > 2 ? name.substr(2) : "";
@@ -144,7 +144,7 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   return step;
 }
 
-/// Every name once: it becomes a constant.
+/// Refuses a name that occurs twice: names become constants.
 void once(config::TomlReader& r, std::set<std::string>& names) {
   if (!names.insert(r.identifier("name")).second) {
     r.fail("name", fmt::format("\"{}\" is listed twice", r.identifier("name")), "rename one");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The schedule of a tick as read from rtl/schedule.toml, checked against the register map, and what
-// is written from both: equal in all designs. Documentation: docs/schedule.md (generated)
+// The schedule of a tick as read from rtl/schedule.toml and checked against the register map, and
+// the texts generated from both, which are equal in all designs. Documentation: docs/schedule.md
+// (generated)
 #pragma once
 
 #include <cstdint>
@@ -14,34 +15,35 @@
 
 namespace feltgate::design {
 
-/// A result that something needs: this tick's, or that of the tick before.
+/// A result that is needed: that of this tick, or of the previous one.
 struct Need {
   std::string result;
   bool previous = false;
 };
 
-/// A product: its operand is on the operand bus in clock `slot`, with its factor on the other one.
+/// A product: in clock `slot` its operand is on the operand bus and its factor on the parameter
+/// bus.
 struct Product {
   std::string name;
   Need operand;
-  std::vector<std::string> factors;  ///< words, of which one comes by; none: a square
-  std::vector<std::string> scenes;   ///< in which it is formed; none: in all
+  std::vector<std::string> factors;  ///< possible factor words; none: a square
+  std::vector<std::string> scenes;   ///< scenes in which it is formed; none: all
   int slot = 0;
   std::string operand_label, label;  ///< in the timing diagram
   std::string by, doc, place;
 };
 
-/// Something that is done in a fixed clock of the wave; what it gives is there a clock later.
+/// An action in a fixed clock of the wave; its result is valid one clock later.
 struct Step {
   std::string name;
   int clock = 0;
   std::vector<Need> needs;
-  std::vector<std::string> takes;  ///< words of the parameter bus
-  std::vector<std::string> reads;  ///< words of the snapshot
-  int lasts = 0;                   ///< clocks for which the result is there; 0: held
-  bool on_operand_bus = false;     ///< and nothing else may be there as long as it lasts
-  std::string shows_in;            ///< the result whose register it writes ahead of that result
-  std::string output;              ///< what the timing diagram calls the result; none: not shown
+  std::vector<std::string> takes;  ///< words that it takes from the parameter bus
+  std::vector<std::string> reads;  ///< words of the snapshot that it reads
+  int lasts = 0;                   ///< clocks for which the result is valid; 0: held
+  bool on_operand_bus = false;     ///< the result occupies the operand bus while it lasts
+  std::string shows_in;            ///< a later result whose register this step writes first
+  std::string output;              ///< label of the result in the timing diagram; none: not shown
   std::string by, doc, place;
 };
 
@@ -58,14 +60,14 @@ struct Schedule {
 /// Clocks from the sampled position to the duty register.
 int latency(const Schedule& s);
 
-/// Slots that are read from the bank of the scene: bit n is slot n.
+/// Mask of the slots that are read from the bank of the scene: bit n is slot n.
 std::uint64_t scene_slots(const RegisterMap& map);
 
-/// Reads the schedule and refuses one that cannot work. Throws config::ConfigError with file, line
-/// and reason.
+/// Reads and checks the schedule. Throws config::ConfigError with file, line and reason when it
+/// cannot work.
 Schedule read_schedule(const std::string& path, const RegisterMap& map);
 
-/// Throws config::ConfigError where the design's tick is shorter than the wave.
+/// Throws config::ConfigError when the design's tick is shorter than the wave.
 void check_tick(const Design& design, const Schedule& s);
 
 /// Text of rtl/generated/feltgate_map_pkg.sv.

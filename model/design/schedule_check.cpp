@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a schedule is refused for: a result that comes late, one that is overwritten too early,
-// words that meet on a bus, words in the wrong bank, clocks outside. Documentation:
+// Checks a schedule. It is refused for a late result, a result that is overwritten too early, words
+// that collide on a bus, words in the wrong bank, and clocks outside the tick. Documentation:
 // docs/schedule.md
 #include "design/schedule_check.hpp"
 
@@ -21,7 +21,7 @@ namespace {
   throw config::ConfigError(fmt::format("{}: {}; {}", place, what, mend));
 }
 
-/// Something that wants a result in a clock.
+/// A use of a result in a clock.
 struct Use {
   std::string what, place;
   int clock;
@@ -66,7 +66,7 @@ void check_need(const Schedule& s, const Need& need, const Use& use) {
                     need.result, ready, ready + step->lasts - 1, step->place, use.what, use.clock),
         "let both move together");
   }
-  // What is written into the same register takes it away.
+  // The next value of the same register overwrites the result.
   const Step* after = step->shows_in.empty() ? nullptr : s.step(step->shows_in);
   if (after != nullptr && use.clock > after->clock) {
     refuse(use.place,
@@ -105,7 +105,7 @@ void check_uses(const RegisterMap& map, const Schedule& s) {
   }
 }
 
-/// Words of the snapshot that a step puts on the operand bus.
+/// Checks the words of the snapshot that a step puts on the operand bus.
 void check_reads(const RegisterMap& map, const Schedule& s) {
   std::vector<std::string> pinned;
   for (const Step& step : s.steps) {
@@ -121,7 +121,7 @@ void check_reads(const RegisterMap& map, const Schedule& s) {
       }
     }
   }
-  // What goes to the operand bus is selected a clock ahead.
+  // A word for the operand bus is selected one clock ahead.
   for (const Snapshot& n : map.snapshots) {
     if (n.slot > 0 || std::find(pinned.begin(), pinned.end(), n.name) != pinned.end()) continue;
     refuse(n.place,
@@ -143,7 +143,7 @@ bool share_a_scene(const Product& a, const Product& b) {
   });
 }
 
-/// Whether the word or operand in a clock is the result that is on the operand bus.
+/// Whether the word or operand of a clock is the very result that is on the operand bus.
 bool reads_result(const Schedule& s, const Step& on_bus, const Snapshot& n) {
   const Product* product = s.product(n.with);
   if (product != nullptr && product->operand.result == on_bus.name) return true;
@@ -154,7 +154,7 @@ bool reads_result(const Schedule& s, const Step& on_bus, const Snapshot& n) {
   });
 }
 
-/// Results that are on the operand bus as long as they last.
+/// Checks the results that occupy the operand bus while they last.
 void check_results_on_bus(const RegisterMap& map, const Schedule& s) {
   for (const Step& step : s.steps) {
     if (!step.on_operand_bus) continue;
@@ -180,7 +180,7 @@ void check_results_on_bus(const RegisterMap& map, const Schedule& s) {
   }
 }
 
-/// One operand bus, one multiplier.
+/// Checks that users of the one operand bus and the one multiplier do not collide.
 void check_buses(const RegisterMap& map, const Schedule& s) {
   for (const Product& p : s.products) {
     for (const Product& q : s.products) {
@@ -217,7 +217,7 @@ void check_buses(const RegisterMap& map, const Schedule& s) {
   }
 }
 
-/// A slot is read from the scene's bank or from the common one.
+/// Checks that each slot is read from only one bank: the scene's or the common one.
 void check_banks(const RegisterMap& map, const Schedule& s) {
   for (const Parameter& p : map.parameters) {
     const bool of_scene = !p.scene.empty();
@@ -239,8 +239,8 @@ void check_banks(const RegisterMap& map, const Schedule& s) {
   }
 }
 
-/// The wave ends before the next one: its last two clocks are those that fetch the next one's
-/// words.
+/// Checks that the wave ends before the next one; its last two clocks already fetch words of the
+/// next wave.
 void check_ends(const RegisterMap& map, const Schedule& s) {
   const int last = s.wave_length - s.first_wave_clock - 1;
   const auto inside = [&](const std::string& place, const std::string& what, int clock) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The page and the timing diagram of the schedule. Documentation: docs/schedule.md (generated)
+// Generates the page and the timing diagram of the schedule. Documentation: docs/schedule.md
+// (generated)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ char colour(const std::string& by) {
   return by == "supervisor" ? '9' : '5';
 }
 
-/// One lane, a character a period: the first is that many clocks ahead of wave clock 0.
+/// One lane of the timing diagram, one character per clock; it begins before wave clock 0.
 class Lane {
  public:
   Lane(std::string name, const Schedule& s, char idle)
@@ -77,7 +78,7 @@ class Lane {
     wave_[static_cast<std::size_t>(clock + ahead_)] = level;
     if (!label.empty()) labels_.push_back({clock, label});
   }
-  /// As put(), and idle again in the next clock unless something stands there.
+  /// As put(), and idle again in the next clock unless that is already set.
   void pulse(int clock, char level, char idle, const std::string& label = "") {
     put(clock, level, label);
     const auto next = static_cast<std::size_t>(clock + ahead_ + 1);
@@ -104,7 +105,7 @@ class Lane {
   std::vector<Label> labels_;
 };
 
-/// Who takes a word that all scenes share, by the step or product that uses it.
+/// Colour of a word: of the scenes for a scene's word, otherwise of the block that uses it.
 char colour_of_word(const Parameter& p, const Schedule& s) {
   if (!p.scene.empty()) return '4';
   if (const Product* product = s.product(p.name)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The register map of a design in SystemRDL 2.0. Documentation: docs/register-files.md
+// Writes the register map of a design in SystemRDL 2.0. Documentation: docs/register-files.md
 #include <fmt/format.h>
 
 #include <sstream>
@@ -37,7 +37,7 @@ void field(std::ostringstream& s, const HostWord& w, const Field& f, bool number
     s << fmt::format("      feltgate_format = \"[{},{},{}]\"; feltgate_unit = {};\n", w.format.sign,
                      w.format.integer, w.format.fraction, quoted(w.unit));
   }
-  // An identifier of ours may be a word of the language.
+  // The name is escaped because it may be a keyword of SystemRDL.
   s << fmt::format("    }} \\{} [{}:{}]", f.name, f.bit + f.width - 1, f.bit);
   if (w.writes && w.kind != "link") {
     s << fmt::format(" = {}'h{:x}", f.width, bits_of(w.reset >> f.bit, f.width));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Names and heads of the generated files. Documentation: docs/designs.md
+// Makes names and heads of the generated files. Documentation: docs/designs.md
 #include "design/text_case.hpp"
 
 #include <fmt/format.h>

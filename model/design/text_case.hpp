@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Names as the generated files write them. Documentation: docs/designs.md
+// Converts names and numbers to the forms used in generated files. Documentation: docs/designs.md
 #pragma once
 
 #include <string>
 
 namespace feltgate::design {
 
-/// a_name as A_NAME.
+/// Converts a_name to A_NAME.
 std::string upper(std::string name);
-/// a_name or a-name as AName.
+/// Converts a_name or a-name to AName.
 std::string camel(const std::string& name);
-/// A double as a literal of C, every bit kept.
+/// A double as a C literal that keeps every bit.
 std::string real_literal(double v);
 /// The licence and "Generated from SOURCES by `feltgate generate`: do not edit. WHAT".
 std::string generated_banner(const std::string& sources, const std::string& what);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Changes of values in a design file. Documentation: docs/designs.md
+// Changes values in the text of a design file. Documentation: docs/designs.md
 #include "design/text_edit.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace feltgate::design {
 
 namespace {
 
-/// Whether two values as written are the same number or the same text.
+/// Whether two written values are the same number or the same text.
 bool same_value(const std::string& a, const std::string& b) {
   if (a == b) return true;
   std::string digits;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Changes of values in the text of a design file, its layout kept. Documentation: docs/designs.md
+// Changes values in the text of a design file and keeps its layout. Documentation: docs/designs.md
 #pragma once
 
 #include <toml++/toml.h>
@@ -13,20 +13,20 @@ namespace feltgate::design {
 
 class TextEdit {
  public:
-  /// Reads the file; `reason` becomes the comment of each value that changes. Throws
-  /// config::ConfigError where it is no TOML.
+  /// Reads the file; `reason` becomes the comment of each changed value. Throws config::ConfigError
+  /// when the file is not TOML.
   TextEdit(const std::string& path, std::string reason);
 
-  /// Comment of the changes from here on.
+  /// Sets the comment of the following changes.
   void because(const std::string& reason) { reason_ = reason; }
-  /// Writes `value` (as TOML) in place of the one there; its comment goes with it. Nothing happens
-  /// where it is that already. Throws config::ConfigError where the file has no such key.
+  /// Replaces a value and its comment by `value` (as TOML). An equal value is left unchanged.
+  /// Throws config::ConfigError when the file has no such key.
   void set(const std::string& section, const std::string& key, const std::string& value);
-  /// The same, the key renamed.
+  /// The same, and renames the key.
   void replace(const std::string& section, const std::string& key, const std::string& new_key,
                const std::string& value);
   void set_description(const std::string& text);
-  /// What stands under a key, as it is written, or nothing.
+  /// The value of a key as written, or nothing.
   std::optional<std::string> text_of(const std::string& section, const std::string& key) const;
 
   /// The file without the comments before its first key.
@@ -40,10 +40,10 @@ class TextEdit {
   toml::table root_;
 };
 
-/// Where a position of the parser lies in the text.
+/// Offset in the text of a position of the parser.
 std::size_t offset_of(const std::string& text, const toml::source_position& at);
 
-/// The text of a file. Throws config::ConfigError where it cannot be read.
+/// The text of a file. Throws config::ConfigError when the file cannot be read.
 std::string text_of_file(const std::string& path);
 
 }  // namespace feltgate::design

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The error of a design's chain against the same chain in 113 bits with the exact values: its
-// coefficients, its gain and its rounding all count. Documentation: docs/explore.md
+// Measures the error of a design's chain against the same chain in 113 bits with the exact values.
+// The error includes coefficients, gain and rounding. Documentation: docs/explore.md
 #pragma once
 
 #include <algorithm>
@@ -27,13 +27,13 @@ struct ExactGain : D {
       D::count_rad * static_cast<double>(D::tick_hz) / D::m1;
 };
 
-/// Both chains of one design on the same counts.
+/// Runs both chains of one design on the same counts.
 template <class D>
 class ErrorRun {
  public:
   explicit ErrorRun(const std::vector<Value>& values) : values_(values) {}
 
-  /// Every motion of the stimulus whose scene is built.
+  /// Runs every motion of the stimulus whose scene is built in.
   void run(Measurement* m) {
     for (const Motion& motion : motions()) {
       const int scene = D::scene_number(motion.scene);
@@ -61,7 +61,7 @@ class ErrorRun {
       for (std::size_t bit = 0; bit < m->limited.size(); ++bit) {
         m->limited[bit] += (limits >> bit) & 1u;
       }
-      // What left its format is no rounding; the filters carry it on.
+      // A saturation is not a rounding error, and the filters keep its effect.
       if ((limits & (limit::velocity | limit::tau_hat)) != 0) {
         m->ticks_left_out += ticks - k;
         return;

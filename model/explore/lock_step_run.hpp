@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// RTL and twin of a design point in lock-step, every output on every clock, and the chain of a
-// tick beside them. Documentation: docs/explore.md
+// Runs RTL and twin of a design point in lock-step and compares every output on every clock, and
+// the chain once per tick. Documentation: docs/explore.md
 #pragma once
 
 #include <fmt/format.h>
@@ -29,15 +29,15 @@ class LockStepRun {
  public:
   LockStepRun(const std::vector<Value>& values, Measurement* m) : values_(values), m_(m) {}
 
-  /// Loads the point's values through the register port, then plays a window of every motion,
-  /// tau_hat fed back, the modes, disarming and a fault. The lever slews from one window to the
-  /// next as fast as the encoder may, so velocity and torque see their ends too.
+  /// Loads the point's values through the register port, then plays a window of every motion, the
+  /// feedback of tau_hat, the modes, disarming and a fault. Between windows the lever moves at the
+  /// encoder's maximum speed, so velocity and torque also reach their limits.
   void run() {
     core_.power_up(1, {});
     chain_.reset();
     for (const Value& v : values_) write(v.address, v.raw);
     write(D::A::ramp_step, fixed_of<D::f.ramp.key()>::max_raw() / 2);
-    // The slews are no motion of a lever: they must not trip the supervisor before its turn.
+    // The moves between windows are not realistic and must not trip the supervisor too early.
     write(D::A::overspeed, fixed_of<D::f.velocity.key()>::max_raw());
     write(D::A::polarity_speed, fixed_of<D::f.velocity.key()>::max_raw());
     write(D::A::i2t_budget, 0xffffffff);
@@ -50,7 +50,7 @@ class LockStepRun {
       control(scene, Mode::closed_loop, true);
       play(motion, window);
     }
-    // Where the design does not feed tau_hat back its path would go unseen.
+    // A design without feedback of tau_hat would not exercise that path.
     const Motion& last = motions().back();
     control(0, Mode::closed_loop, false);  // what follows is not let through while armed
     write(D::A::observer_gain, fixed_of<D::P::observer_gain.key()>::max_raw() / 3);
@@ -75,7 +75,7 @@ class LockStepRun {
   }
 
  private:
-  /// One write, early in a tick, and the rest of that tick.
+  /// Performs one write early in a tick, and runs the rest of that tick.
   void write(int address, std::int64_t raw) {
     while (core_.twin().clock_of_tick() != 5) clock();
     in_.reg_addr = static_cast<std::uint16_t>(address);
@@ -87,7 +87,7 @@ class LockStepRun {
     while (core_.twin().clock_of_tick() != 0) clock();
     carry_out();
   }
-  /// The write that the core has carried out, for the chain.
+  /// Repeats the write that the core has carried out in the chain.
   void carry_out() {
     if (host_.write(pending_.address, pending_.word, core_.twin().out().armed)) {
       chain_.words().set_raw(pending_.address, pending_.word);
@@ -101,7 +101,7 @@ class LockStepRun {
                              static_cast<std::int64_t>(mode) << D::C::control_mode);
   }
 
-  /// The motor cold, and then too hot with the first current that is squared.
+  /// Tests the heat sum: first the motor is cold, then too hot at the first squared current.
   void overheat(const Motion& motion, std::int64_t clocks) {
     write(D::A::nominal_current_squared, 0x7fffffff);
     write(D::A::nominal_current_squared, 0x7fffffff);
@@ -125,7 +125,7 @@ class LockStepRun {
       if (k > 0 || count_ == target(motion, 0)) ++k;  // the window begins where its motion is
     }
   }
-  /// Reads every word in turn, so that read-back is compared too.
+  /// Reads every word in turn, so that the read-back is compared too.
   void read_on() {
     if (m_->clocks_compared % 8 == 0)
       in_.reg_addr = static_cast<std::uint16_t>((in_.reg_addr + 1) % 0x340);
@@ -134,8 +134,8 @@ class LockStepRun {
     const double t_s = motion.window_s + static_cast<double>(clock) / D::clock_hz;
     return static_cast<std::int64_t>(std::floor(motion.angle_rad(t_s) / D::count_rad));
   }
-  /// As fast as the encoder may, but where both channels would then have changed at every tick's
-  /// end: encoder_monitor takes them for shorted.
+  /// Clocks per count of the fastest move. One more clock is used if otherwise both channels had
+  /// changed at the end of every tick: encoder_monitor treats them as shorted then.
   static constexpr int slew_clocks = D::clocks_per_tick / 2 % 4 == 2 ? 3 : 2;
   void step_towards(std::int64_t target) {
     if (++since_step_ < slew_clocks || count_ == target) return;

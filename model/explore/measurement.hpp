@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is measured at a design point, as plain numbers. Documentation: docs/explore.md
+// The measured figures of a design point, as plain numbers. Documentation: docs/explore.md
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@ struct Value {
   double si = 0;
 };
 
-/// Throws std::runtime_error naming file and line.
+/// Reads the values. Throws std::runtime_error with file and line.
 std::vector<Value> read_values(const std::string& path);
-/// Throws std::runtime_error where it is missing.
+/// The value of this name. Throws std::runtime_error when it is missing.
 const Value& value(const std::vector<Value>& values, const std::string& name);
 
 /// Deviation of one signal from the exact one.
@@ -49,7 +49,7 @@ struct Error {
 struct Measurement {
   std::int64_t clocks_compared = 0, clocks_armed = 0, mismatches = 0;
   std::string first_mismatch;
-  std::int64_t ticks = 0;                 ///< with an error noted
+  std::int64_t ticks = 0;                 ///< ticks with a measured error
   std::int64_t ticks_left_out = 0;        ///< of a motion after velocity or tau_hat left its format
   std::array<std::int64_t, 7> limited{};  ///< ticks with each bit of the limits word
   Error torque, tau_ref, tau_hat, velocity, voltage;
@@ -60,7 +60,7 @@ struct Measurement {
   double clock_hz = 0;
 };
 
-/// The JSON object of a point; without the errors where RTL and twin differed.
+/// The JSON object of a point; without the errors if RTL and twin differed.
 std::string measurement_json(const Measurement& m);
 
 }  // namespace feltgate::explore

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Settling of the motor's torque: a step of the torque reference, the shaft locked, the winding
-// linear, the bridge averaged over its period. Documentation: docs/explore.md
+// Computes the settling time of the motor's torque after a step of the reference, with locked
+// shaft, linear winding, and the bridge averaged over its period. Documentation: docs/explore.md
 #pragma once
 
 #include <cmath>
@@ -19,9 +19,9 @@ namespace feltgate::explore {
 
 constexpr double settling_step_nm = 0.2;
 
-/// Seconds from a register write, at worst a whole tick before it is carried out, until the torque
-/// stays within 2 % of its step around its end;
-/// -1 where the design has no scene "setpoint". The chain is the fixed-point one.
+/// Seconds from a register write (at worst a whole tick before it takes effect) until the torque
+/// stays within 2 % of the step around its final value; -1 if the design has no scene "setpoint".
+/// Uses the fixed-point chain.
 template <class D>
 double torque_settling_s(const std::vector<Value>& values, const plant::MotorParameters& motor) {
   const int scene = D::scene_number("setpoint");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The stimulus of a design point: what the lever does, the same motions in the same seconds for
-// every point. Documentation: docs/explore.md
+// The stimulus of a design point: the motions of the lever, with equal times for every point.
+// Documentation: docs/explore.md
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@ namespace feltgate::explore {
 /// One motion in one scene, from rest after a reset.
 struct Motion {
   const char* name;
-  const char* scene;  ///< where a design has not built it, the motion is left out
+  const char* scene;  ///< a design without this scene skips the motion
   double duration_s;
   double (*angle_rad)(double t_s);
   double setpoint_nm = 0;  ///< of the scene "setpoint"
-  double window_s = 0;     ///< from here on a share of it runs in lock-step
+  double window_s = 0;     ///< begin of the part that runs in lock-step
 };
 
-/// Scenes across their borders, slow and small signals, a chirp, and speeds at which torque and
-/// voltage are at their limits. In the order in which they are run.
+/// All motions in the order of the run: scenes across their borders, slow and small signals, a
+/// chirp, and speeds at which torque and voltage reach their limits.
 const std::vector<Motion>& motions();
 
-/// What the lock-step runs of each motion.
+/// Length of the lock-step part of each motion, seconds.
 constexpr double lock_step_s = 8e-3;
 
 }  // namespace feltgate::explore

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Following a name to where it leads. Documentation: docs/json.md
+// Resolves the name of an output to its destination. Documentation: docs/json.md
 #include "files/destination.hpp"
 
 #include <fcntl.h>

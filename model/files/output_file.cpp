@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Files that appear whole. Documentation: docs/json.md
+// Writes files that appear either complete or not at all. Documentation: docs/json.md
 #include "files/output_file.hpp"
 
 #include <fcntl.h>
@@ -97,7 +97,7 @@ void OutputFile::commit() {
   if (beside_ && destination_.now) chmod(part_.c_str(), destination_.now->st_mode & 07777);
   if (std::rename(part_.c_str(), destination_.target.c_str()) != 0) {
     const std::string kept = part_;
-    part_.clear();  // what was computed stays
+    part_.clear();  // the computed file stays
     throw std::runtime_error(fmt::format("{}: could not be given its name: {}; it is whole in {}",
                                          label(), std::strerror(errno), kept));
   }

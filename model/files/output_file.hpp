@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A file that appears whole or not at all, and the outputs of a command together. Documentation:
-// docs/json.md
+// An output file that appears either complete or not at all, and the set of outputs of a command.
+// Documentation: docs/json.md
 #pragma once
 
 #include <cstdio>
@@ -15,34 +15,35 @@
 
 namespace feltgate::files {
 
-/// What is written under a name that a user gave. A file, or one that is not there yet, is written
-/// beside its name and renamed by commit(), with the mode that it had; without commit(), or when a
-/// signal ends the program, nothing has happened. A symbolic link stays, its target is replaced.
-/// Devices, pipes and stdout ("-") are written in place.
+/// An output under a name that a user gave. A file is written under a temporary name; commit()
+/// renames it and keeps the old file's mode. Without commit(), or when a signal ends the program,
+/// nothing changes. A symbolic link stays and its target is replaced. Devices, pipes and stdout
+/// ("-") are written in place.
 class OutputFile {
  public:
-  /// `option` is how messages call it, e.g. "--json". Throws std::invalid_argument with what and
-  /// mend where nothing can be written.
+  /// `option` names the output in messages, e.g. "--json". Throws std::invalid_argument with what
+  /// and mend when the output cannot be written.
   OutputFile(const std::string& option, const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   std::FILE* handle() { return file_; }
-  /// What goes wrong is told by commit().
+  /// Writes `text`; commit() reports errors.
   void write(const std::string& text);
-  /// For a library that wants a name: it writes the file `named()`. Nothing else may be written.
-  /// Throws std::invalid_argument for what is written in place: such a library goes back and forth.
+  /// The name of the temporary file, for a library that writes to a named file; do not call write()
+  /// then. Throws std::invalid_argument for an output that is written in place, because such a
+  /// library seeks.
   const std::string& named();
   bool in_place() const { return destination_.in_place >= 0; }
   const Destination& destination() const { return destination_; }
   const std::string& path() const { return path_; }
-  /// As the user gave it, with the option.
+  /// The option and the path as the user gave it.
   std::string label() const { return option_ + " " + path_; }
 
   /// Throws std::runtime_error when not everything could be written.
   void commit();
-  /// As if it had never been asked for.
+  /// Drops the output as if it had never been requested.
   void discard();
 
  private:
@@ -55,36 +56,38 @@ class OutputFile {
   std::unique_ptr<Unfinished> unfinished_, beside_;
 };
 
-/// A folder that is made where it is not there; while it is empty, it goes again with this. One for
-/// a single run has a file `last` that ends it, and is locked for this program.
+/// A folder for outputs, created if missing; the destructor removes a created folder that is still
+/// empty. A folder for a single run has a final file `last`, and is locked for this program.
 class OutputFolder {
  public:
-  /// Throws std::invalid_argument where it cannot be made or written, or `last` is not empty and
-  /// another program has the folder or a run before has ended in it.
+  /// Throws std::invalid_argument when the folder cannot be created or written; and, if `last` is
+  /// not empty, when another program uses the folder or an earlier run has ended in it.
   OutputFolder(const std::string& option, const std::string& path, const std::string& last);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
  private:
-  std::vector<std::string> made_;  ///< by this, the outermost first
+  std::vector<std::string> made_;  ///< folders created by this object, the outermost first
   int lock_ = -1;
   std::vector<std::unique_ptr<Unfinished>> unfinished_;
 };
 
-/// All outputs of a command, opened before it works: what cannot be written must not cost a run.
+/// All outputs of a command. They are opened before the work, so that an output that cannot be
+/// written does not waste a run.
 class Outputs {
  public:
-  /// The output of an option, nullptr where no path is given. Throws std::invalid_argument where it
-  /// cannot be written, or would overwrite another output or what reads() named.
+  /// The output of an option; nullptr without a path. Throws std::invalid_argument when it cannot
+  /// be written, or would overwrite another output or a file named by reads().
   OutputFile* open(const std::string& option, const std::string& path);
-  /// A folder for outputs; of a single run with `last`. Nothing where no path is given.
+  /// Adds a folder for outputs; with `last`, a folder for a single run. Does nothing without a
+  /// path.
   void folder(const std::string& option, const std::string& path, const std::string& last = "");
-  /// A file that the command reads: no output may replace it. Before open().
+  /// Names a file that the command reads; no output may replace it. Call it before open().
   void reads(const std::string& path);
-  /// Where text for people goes: stdout, or stderr when an output goes to stdout.
+  /// The stream for text to people: stdout, or stderr when an output goes to stdout.
   std::FILE* text() const;
-  /// Writes it there; whether stdout took everything is looked at when the program ends.
+  /// Writes `text` to that stream; the program's end checks that stdout accepted everything.
   void say(const std::string& text) const { std::fputs(text.c_str(), this->text()); }
   /// Commits every output; throws std::runtime_error that names those that failed.
   void commit();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Programs without a shell. Documentation: docs/json.md
+// Starts programs without a shell. Documentation: docs/json.md
 #include "files/program.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What must not stay behind when a signal ends the program: files under construction, folders that
-// are still empty, a program that was started. Documentation: docs/json.md
+// Cleans up when a signal ends the program: unfinished files, folders that are still empty, a
+// started program. Documentation: docs/json.md
 #pragma once
 
 #include <sys/types.h>
@@ -11,11 +11,12 @@
 
 namespace feltgate::files {
 
-/// From now on SIGINT, SIGTERM, SIGHUP and SIGPIPE remove what is unfinished and end the program
-/// with 128 + their number (130 for Ctrl-C). One that is ignored, as under nohup, stays ignored.
+/// Installs handlers: SIGINT, SIGTERM, SIGHUP and SIGPIPE remove unfinished paths and end the
+/// program with 128 + their number (130 for Ctrl-C). A signal that is ignored, as under nohup,
+/// stays ignored.
 void end_on_signals();
 
-/// A path that a signal removes as long as this lives: a file, or a folder if it is empty.
+/// A path that a signal removes during this object's lifetime: a file, or a folder if it is empty.
 class Unfinished {
  public:
   enum class Kind { file, folder };
@@ -29,7 +30,8 @@ class Unfinished {
   int slot_;
 };
 
-/// A program that a signal to this one reaches too, and which then is waited for; 0: none.
+/// Names a started program: a signal to this program is passed to it and its end is awaited; 0:
+/// none.
 void note_child(pid_t child);
 
 }  // namespace feltgate::files

@@ -41,7 +41,7 @@ class Assembly {
 
  private:
   void place_tables() {
-    // A sine of all words goes first; the others as they come.
+    // A sine table that uses all words is placed first; the other tables follow in order.
     int next = 0, lines = EngineMap::table_words;
     for (TableUse& t : program_.tables) {
       const auto size = static_cast<int>(t.words.size());
@@ -63,7 +63,7 @@ class Assembly {
     return s.x == o || s.y == o;
   }
 
-  /// Where each result is needed last, and which go into a state at once.
+  /// Finds the last use of each result, and the results that are written directly to a state.
   void lives() {
     last_use_.assign(steps_.size(), -1);
     home_.assign(steps_.size(), -1);
@@ -86,7 +86,7 @@ class Assembly {
       bool late = false;
       for (int i = next.index + 1; i < end; ++i) late = late || reads_state(steps_[at(i)], state);
       const Step& s = steps_[at(next.index)];
-      // A step behind a branch that may pass over it would leave the state as it was.
+      // A step that a branch may skip would leave the old value in the state.
       if (!late && s.output < 0 && s.event < 0 && home_[at(next.index)] < 0) {
         home_[at(next.index)] = state;
         direct_[k] = 1;
@@ -136,8 +136,8 @@ class Assembly {
     out_.step_of.push_back(step);
   }
 
-  /// The first comparison and selection also give a state its first value where that is the one
-  /// that the selection has: `flag or c` with the flag of a first run.
+  /// Whether the first comparison and selection also initialise the state: the initial value is the
+  /// one that the selection takes. It uses `flag or c` with the first-run flag.
   bool starts_itself(int state) {
     const StateUse& use = program_.states[at(state)];
     int compare = -1, select = -1;

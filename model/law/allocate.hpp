@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Steps become program words: registers, addresses, the last instruction. Documentation:
-// docs/law-compiler.md
+// Turns the steps of a program into engine instructions: assigns registers and memory addresses and
+// adds the last instruction. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <string>
@@ -16,13 +16,14 @@ namespace feltgate::law {
 
 struct Assembled {
   std::vector<EngineInstruction> instructions;
-  std::vector<int> step_of;  ///< the step that an instruction is; -1: of a state's start or copy
+  std::vector<int> step_of;        ///< per instruction, its step; -1: starts or copies a state
   std::vector<int> state_address;  ///< private word of each of Program::states
-  int private_words = 0;           ///< used
+  int private_words = 0;           ///< number of private words used
   int line_base = 512;             ///< first table word of delay lines
 };
 
-/// Throws Refused where words or registers do not suffice. Tables get their places.
+/// Assembles the program and places its tables in table memory. Throws Refused when words or
+/// registers do not suffice.
 Assembled assemble(const Law& law, const Target& target, Program& program);
 
 }  // namespace feltgate::law

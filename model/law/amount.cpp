@@ -15,9 +15,9 @@ namespace {
 
 constexpr const char* kBoardWords[][2] = {{"count", "rad"}, {"ticks", "s"}, {"tick", "s"}};
 
-/// The words of a board in SI words: "Nm/count" is Nm/rad.
+/// Replaces the board's units by SI units: "Nm/count" becomes Nm/rad.
 std::string si_text(std::string unit) {
-  unit.erase(0, unit.find_first_not_of("0123456789 "));  // of "128 ticks"
+  unit.erase(0, unit.find_first_not_of("0123456789 "));  // the number in "128 ticks"
   for (const auto& [own, si] : kBoardWords) {
     const std::size_t at = unit.find(own);
     if (at != std::string::npos) unit.replace(at, std::string(own).size(), si);
@@ -25,10 +25,10 @@ std::string si_text(std::string unit) {
   return unit;
 }
 
-/// What scan_unit() does not tell of a unit's text.
+/// Properties of a unit's text that scan_unit() does not return.
 struct Rest {
-  double factor = 1;    ///< of its words of the board
-  double of_angle = 0;  ///< power: 1 in rad, -1 in Nm/deg. A law takes angles as numbers
+  double factor = 1;    ///< of the board's units in the text
+  double of_angle = 0;  ///< power of angle: 1 in rad, -1 in Nm/deg; laws treat angles as numbers
 };
 
 Rest rest_of(const std::string& unit, const BoardUnits& board) {
@@ -56,7 +56,7 @@ struct Meaning {
   double of_angle = 0;
 };
 
-/// Nothing where a part of the text is no unit.
+/// The meaning of a unit's text; nothing if a part of the text is not a unit.
 std::optional<Meaning> unit_of(const std::string& text, const BoardUnits& board) {
   std::string si = si_text(text.rfind("1/", 0) == 0 ? text.substr(1) : text);
   UnitValue value;

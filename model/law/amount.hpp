@@ -11,22 +11,24 @@
 
 namespace feltgate::law {
 
-/// What a board's own units are; 0 where there is no board.
+/// The board's own units (one encoder count in rad, one tick in s); 0 when there is no board.
 struct BoardUnits {
   double count_rad = 0, tick_s = 0;
 };
 
-/// A number and the text of the unit behind it.
+/// A number and the text of the unit that follows it.
 struct Amount {
   double number = 0;
   std::string unit;
 };
 
-/// Throws std::invalid_argument for what begins with no finite number, with `example` as mend.
+/// Splits `text` into number and unit. Throws std::invalid_argument when `text` does not begin with
+/// a finite number; the message offers `example` as the mend.
 Amount read_amount(const std::string& text, const std::string& example);
 
-/// The text in `unit`, which is such as Nm, Nm/count, 128 ticks, rad/s; empty and 1: it takes none.
-/// Throws std::invalid_argument "what; mend": no number, no unit, a unit of something else.
+/// The amount in `text`, converted to `unit` (for example Nm, Nm/count, 128 ticks, rad/s). An empty
+/// `unit` or "1" means that the amount has no unit. Throws std::invalid_argument "what; mend" when
+/// the text has no number, an unknown unit, or a unit of another quantity.
 double amount_in(const std::string& text, const std::string& unit, const BoardUnits& board = {});
 
 }  // namespace feltgate::law

@@ -13,7 +13,7 @@
 namespace feltgate::law {
 
 std::string beyond_text(double value, double lower, double upper) {
-  // As many digits as tell it from the end that it is beyond.
+  // Uses as many digits as distinguish the value from the end that it exceeds.
   for (int digits = 6; digits < 17; ++digits) {
     const std::string text = fmt::format("{:.{}g}", value, digits);
     const double shown = std::strtod(text.c_str(), nullptr);
@@ -32,7 +32,7 @@ CellFacts Analysis::run() {
   facts_.output_error.assign(law_.outputs.size(), 0);
   facts_.output_apart.assign(law_.outputs.size(), 0);
   for (std::size_t p = 0; p < law_.parameters.size(); ++p) {
-    // Halves of a parameter and of what is derived from it that do not meet.
+    // The cell is empty if its ranges of a derived parameter and of the formula do not overlap.
     const NodeId from = law_.parameters[p].derived;
     if (from < 0 || spans_[at(from)].empty()) continue;
     if (both_of(cell_.parameters[p], spans_[at(from)]).empty()) facts_.reachable = false;
@@ -42,7 +42,7 @@ CellFacts Analysis::run() {
     step_ = static_cast<int>(i);
     why_ = {};
     Fact f = result(program_.steps[i]);
-    // Two whole numbers are apart by a whole number.
+    // The difference of two whole numbers is a whole number.
     if (program_.steps[i].whole) f.error = std::floor(f.error);
     narrow_by_law(program_.steps[i], &f);
     if (explain_) facts_.reasons[i] = why_;
@@ -53,7 +53,8 @@ CellFacts Analysis::run() {
     for (std::size_t o = 0; s.output >= 0 && o < law_.outputs.size(); ++o) {
       if (law_.outputs[o].axis != s.output) continue;
       const Span law = spans_[at(law_.outputs[o].value)];
-      // What goes out counts in the torque's LSB, though the step may be of a part of it.
+      // The output counts in the torque's LSB, even if the step's node is only a part of the
+      // output.
       const double lsb = std::ldexp(1.0, -target_.torque.fraction);
       facts_.output_error[o] = f.error * lsb;
       facts_.output_apart[o] =
@@ -107,7 +108,7 @@ Fact Analysis::operand(const Operand& o, double extra) {
       for (const NodeId n : word.nodes) s = s * spans_[at(n)];
       const double a = s.lo / word.scale, b = s.hi / word.scale;
       if (word.exact != 0) {
-        // The primary's words within the range, times the multiple.
+        // The words of the primary within the range, times the multiple.
         const double r = std::fabs(word.exact);
         const double lo = r * std::ceil(std::min(a, b) / r - 1e-6),
                      hi = r * std::floor(std::max(a, b) / r + 1e-6);
@@ -143,7 +144,7 @@ Fact Analysis::multiplied(const Step& s, const Fact& x, const Fact& y, bool roun
   f.words = {std::floor(product.lo / p + half), std::floor(product.hi / p + half)};
   const double own = y.words.size() * x.error;
   f.error = (x.words.size() * y.error + own + x.error * y.error) / p;
-  // A power of two that the shift takes back drops nothing.
+  // A factor that is a multiple of the shift's power of two drops no bits.
   const bool exact = s.mode == 0 || (y.words.lo == y.words.hi && std::fmod(y.words.lo, p) == 0);
   if (!exact) f.error += rounds ? 0.5 : 1;
   const bool scaled = y.error == 0 && std::fma(y.words.size(), x.error, -own) == 0;
@@ -183,7 +184,7 @@ Fact Analysis::result(const Step& s) {
     case EngineOp::mlw: {
       Fact f = wrapped(multiplied(s, x, y, false));
       if (s.floors < 0) return f;
-      // Beside a whole number both may round down to another one; else to the same.
+      // Law and words may round down to different numbers only near a whole number.
       f.error = 0;
       if (x.error > 0) margin(x.error);
       if (wrong(step_)) f.error = std::ceil(x.error / power(s.mode)) + 1;

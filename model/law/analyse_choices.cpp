@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Tables, low-passes, and what is chosen. Documentation: docs/law-compiler.md
+// Analysis of table reads, low-pass filters, comparisons and selections. Documentation:
+// docs/law-compiler.md
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +19,7 @@ bool Analysis::blend(const Step& s, Fact* f) {
   if (m.op != EngineOp::mul || m.x.from != From::step) return false;
   const Step& d = program_.steps[at(m.x.index)];
   if (d.op != EngineOp::sub || std::fabs(d.scale / s.scale - 1) > 1e-12) return false;
-  // x - y of two words, or of the result before and a word.
+  // x - y of two words, or of the previous result and a word.
   const bool chained = d.mode == 2 && d.x == s.x;
   if (!chained && !(d.mode == 0 && d.y == s.x)) return false;
   const Fact a = operand(m.y, m.y_error), y = operand(s.x, s.x_error),
@@ -56,7 +57,7 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
   }
   if (s.op == EngineOp::lrp) {
     const bool near = x.error < 4096, part = !t.wraps && end - first < last / 2;
-    // The segments that words reach, and one more each way for the law beside them.
+    // The segments that words reach, plus one on each side for the law's argument.
     const double from = part ? std::max(0.0, first - 1) : 0;
     const double to = part ? std::min(last, end + 1) : last;
     if (!t.wraps) f.words = {infinity, -infinity};
@@ -72,7 +73,7 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
       if (i >= first && i <= end) f.words = hull(f.words, hull(line(x.words.lo), line(x.words.hi)));
     }
     if (!near || t.wraps) f.error += t.slope * x.error;
-    // A seam between segments, or several.
+    // Law and words may be separated by one or more seams between segments.
     if (x.error > 0) f.error += t.jump * (1 + (near ? 0 : x.error / 4096));
     f.error = raised(f.error + 0.5);
   } else if (x.error > 0) {
@@ -118,7 +119,7 @@ Fact Analysis::selected(const Step& s, const Fact& x, const Fact& y) {
     if (c.mode == 0) f.words = hull(given(s.x, c, true), given(s.y, c, false));
     if (c.mode == 3) f.words = hull(given(s.x, c, false), given(s.y, c, true));
   }
-  // The law may have gone the other way even where the words are sure.
+  // The law may have decided differently even where the decision of the words is certain.
   if (std::any_of(sources_.begin(), sources_.end(), [this](int c) { return wrong(c); })) {
     f.error = larger(x.error, y.error) +
               std::max(std::fabs(x.words.hi - y.words.lo), std::fabs(y.words.hi - x.words.lo));
@@ -160,14 +161,14 @@ Fact Analysis::compared(const Step& s, const Fact& x, const Fact& y) {
   }
   if (s.mode == 0 || s.mode == 3) sources_.clear();
   sources_.push_back(step_);
-  // Truth values of comparisons that were kept bring their own.
+  // A stored truth value also depends on the sources of its comparison.
   if (s.y.from == From::step && program_.steps[at(s.y.index)].op == EngineOp::cmp) {
     const std::vector<int>& more = kept_[s.y.index];
     sources_.insert(sources_.end(), more.begin(), more.end());
   }
   kept_[step_] = sources_;
   const double apart = std::max(y.words.lo - x.words.hi, x.words.lo - y.words.hi);
-  // The law compares with the number itself, which is beside its word.
+  // The law compares with the exact number, which differs from its word.
   double beside = 0;
   for (const Operand& o : {s.x, s.y}) {
     if (o.from == From::constant) beside += std::fabs(program_.constants[at(o.index)] - o.exact);

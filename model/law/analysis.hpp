@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ranges and errors of a program's steps over a cell, one step after the other. Documentation:
-// docs/law-compiler.md
+// Computes the range and the error of each step of a program over a cell, in program order.
+// Documentation: docs/law-compiler.md
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace feltgate::law::analysis {
 
 constexpr double word_low = -2147483648.0, word_high = 2147483647.0;
 
-/// A little more, where a sum of products was rounded: errors are upper bounds.
+/// Raises `e` slightly to cover the rounding of a sum of products: errors are upper bounds.
 inline double raised(double e) { return e * (1 + 0x1p-50); }
 
 inline double raised_sum(double a, double b) {
@@ -45,22 +45,24 @@ class Analysis {
  private:
   void fail(const std::string& reason) { facts_.unproven.push_back({step_, -1, reason}); }
 
-  /// Of the step at hand, words within which law and words may go different ways.
+  /// Notes the margin of the current step, in words: within it, law and words may decide
+  /// differently.
   void margin(double words);
-  /// Whether they go different ways there, in what is looked at.
+  /// Whether this analysis assumes that law and words decide differently at `step`.
   bool wrong(int step) const { return swap_ >= 0 && wrong_[at(step)] != 0; }
   Fact operand(const Operand& o, double extra);
   Fact checked(const Fact& f);
   Fact multiplied(const Step& s, const Fact& x, const Fact& y, bool rounds);
-  /// y + a * (x - y) with a in 0 .. 1: between x and y, and their errors do not add.
+  /// Handles y + a * (x - y) with a in 0 .. 1: the result lies between x and y, and the errors of x
+  /// and y do not add.
   bool blend(const Step& s, Fact* f);
   Fact table_result(const Step& s, const Fact& x);
-  /// What an operand can be where a comparison came out this way.
+  /// The values that an operand can have when comparison `c` has the result `truth`.
   Span given(const Operand& o, const Step& c, bool truth);
-  /// Of two, this one is surely taken.
+  /// The fact of a selection that surely takes operand number `which`.
   Fact only(const Fact& f, int which);
   Fact selected(const Step& s, const Fact& x, const Fact& y);
-  /// y with the sign turned where x is below 0.
+  /// y, negated where x is below 0.
   Fact flipped(const Fact& x, const Fact& y);
   Fact compared(const Step& s, const Fact& x, const Fact& y);
   Fact result(const Step& s);
@@ -76,14 +78,14 @@ class Analysis {
   int swap_;
   bool explain_;
   const std::vector<double>* margins_;
-  Reason why_;  ///< of the step at hand
+  Reason why_;  ///< of the current step
   std::vector<Span> spans_;
   CellFacts facts_;
   int step_ = 0;
   Span flag_{0, 1};
   std::vector<char> wrong_;
-  std::vector<int> sources_;              ///< comparisons that the flag is made of
-  std::map<int, std::vector<int>> kept_;  ///< the same of every comparison's result
+  std::vector<int> sources_;              ///< comparisons that the flag depends on
+  std::map<int, std::vector<int>> kept_;  ///< sources of each comparison's result, by step
 };
 
 }  // namespace feltgate::law::analysis

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// From a law's graph to steps: formats are chosen or taken as given, operations become
+// Lowers a law's graph to steps: formats are chosen or taken as given, and operations become
 // instructions. Documentation: docs/law-compiler.md
 #pragma once
 
@@ -18,46 +18,46 @@
 
 namespace feltgate::law {
 
-/// What a search may change; lower() notes what it chose where nothing was given.
+/// The decisions that a search may change. lower() notes its own choice where none is given.
 struct Choice {
-  std::map<NodeId, int> fraction;  ///< of nodes with a format of their own: scale = unit / 2^it
-  int uniform = 0;                 ///< > 0: fraction bits to begin with of what is selected or kept
+  std::map<NodeId, int> fraction;  ///< fraction bits of nodes with an own format: scale = unit/2^f
+  int uniform = 0;                 ///< > 0: first fraction bits of selected and of kept values
   bool states_first = false;       ///< order of the roots
-  int sine_bits = 0;      ///< segments a turn; 9: all of the table memory; 0: as many as fit
+  int sine_bits = 0;      ///< log2 of segments per turn; 9: all table memory; 0: as many as fit
   int line_fraction = 0;  ///< > 0: fraction bits of all delay lines
-  int table_bits = 0;     ///< segments of every other table; 0: as many as fit
-  std::map<std::string, TableUse> made;  ///< tables by what they are of: each is proven once
+  int table_bits = 0;     ///< log2 of segments of every other table; 0: as many as fit
+  std::map<std::string, TableUse> made;  ///< tables by a key of their content: each proven once
 };
 
-/// This choice of formats has no instructions; another may.
+/// Thrown when no instructions exist for this choice of formats; another choice may have some.
 class Unfit : public std::runtime_error {
  public:
-  /// `node` does not fit; `scale` > 0: where a word counts in that.
+  /// `node` does not fit; `scale` > 0: the scale of the word that cannot hold it.
   explicit Unfit(const std::string& what, NodeId node = -1, double scale = 0)
       : std::runtime_error(what), node(node), scale(scale) {}
   NodeId node;
   double scale;
 };
 
-/// Steps of the law; `spans` are its nodes' ranges. Throws Unfit, or Refused for what no choice
-/// mends.
+/// Lowers the law to steps; `spans` are the ranges of its nodes. Throws Unfit when another choice
+/// may help, Refused when no choice helps.
 Program lower(const Law& law, const Target& target, const std::vector<Span>& spans, Choice& choice);
 
-/// What a step of a lowering stands for.
+/// An operand and the SI value that it stands for.
 struct Value {
   Operand operand;
-  double scale = 1;  ///< SI value of 1
+  double scale = 1;  ///< SI value of one word LSB
   double size = 0;   ///< largest magnitude, SI
 };
 
-/// A product of a number, parameters (fixed during a run) and other nodes.
+/// A product of a number, of parameters (fixed during a run) and of other nodes.
 struct Term {
   double number = 1;
   std::vector<NodeId> fixed;
   std::vector<NodeId> factors;
 };
 
-/// a/b is a power of two, within the rounding of doubles.
+/// Whether a/b is a power of two, within the rounding of doubles.
 bool same_unit(double a, double b);
 bool same_scale(double a, double b);
 
@@ -146,7 +146,7 @@ class BackEnd {
   void outputs();
   void events();
   void states();
-  /// What is a whole number, in words of 1; what is rounded down to one.
+  /// The node as a whole number, in words of scale 1; other values are rounded down.
   Operand whole_word(NodeId id);
   Operand rounded_down(NodeId id);
   Value next_state(const State& s, double scale);
@@ -175,7 +175,7 @@ class BackEnd {
   std::map<Operand, Value> negated_;
   std::map<std::pair<Operand, Operand>, Value> products_;
   std::map<std::string, int> table_keys_;
-  std::map<std::string, double> memory_scales_;  ///< of arrays and tables through points
+  std::map<std::string, double> memory_scales_;  ///< scales of arrays and of tables through points
   NodeId flag_ = -1;
   int sine_tables_ = 0, other_tables_ = 0, table_words_left_ = 512;
   bool cosines_ = false, sines_ = false;

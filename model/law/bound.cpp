@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bounds over cells. Documentation: docs/law-compiler.md
+// Computes the bounds: splits cells, bounds the errors of states, finds the strips. Documentation:
+// docs/law-compiler.md
 #include "law/bound.hpp"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ struct Leaf {
   CellFacts facts;
 };
 
-/// The spans of a cell one after the other.
+/// All spans of a cell in one list.
 std::vector<Span*> sides(Cell& c) {
   std::vector<Span*> all;
   for (auto* part : {&c.inputs, &c.states, &c.parameters}) {
@@ -45,7 +46,7 @@ class Bounds {
         cell_(cell),
         whole_(spans != nullptr ? *spans : ranges(law, cell)) {}
 
-  /// `one_run`: from the states as they stand.
+  /// Computes the bound. `one_run`: for one run from the current states.
   Bound run(int splits, bool one_run, bool with_strips) {
     Cell whole = cell_;
     limits_ = splits > 0;
@@ -85,7 +86,7 @@ class Bounds {
       }
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
-    // Formats that hold no value at all prove nothing.
+    // If the formats hold no value at all, nothing is proven.
     if (!whole_reachable) b.unproven.push_back({0, -1, "its formats hold no value"});
     if (!bounded_) drifting(&b);
     if (with_strips) strips(whole, &b);
@@ -101,7 +102,8 @@ class Bounds {
     return limited(analyse(law_, target_, program_, c, errors_, -1, &whole_));
   }
 
-  /// A search of formats goes by the errors themselves, as they do not end at a range.
+  /// Limits the output errors by the ranges of law and words. The search for formats does not use
+  /// this limit, because a limited error does not show improvements.
   CellFacts limited(CellFacts f) const {
     for (std::size_t o = 0; limits_ && f.reachable && o < f.output_error.size(); ++o) {
       f.output_error[o] = std::min(f.output_error[o], f.output_apart[o]);
@@ -109,7 +111,7 @@ class Bounds {
     return f;
   }
 
-  /// Errors of states that a run does not make larger; none where they grow without end.
+  /// Finds state errors that a run does not increase; clears them if they grow without limit.
   void settle(const Cell& whole) {
     if (errors_.empty()) return;
     std::vector<double> start = errors_;
@@ -130,7 +132,7 @@ class Bounds {
         if (to <= errors_[k]) continue;
         more = true;
         next[k] = to;
-        // Where errors shrink by a factor from run to run, the sum of all is known.
+        // If the increments shrink by a constant factor, the geometric series gives their sum.
         const double step = to - errors_[k], last_step = errors_[k] - before[k];
         if (i >= 2 && last_step > 0 && step < last_step) {
           next[k] = errors_[k] + step / (1 - step / last_step) * 1.001;
@@ -147,7 +149,7 @@ class Bounds {
     std::fill(errors_.begin(), errors_.end(), 0.0);
   }
 
-  /// Halves the worst cell along the side where that helps most; false where nothing helps.
+  /// Halves the worst cell along the side that reduces the bound most; false if no side does.
   bool split(Cell& whole) {
     std::size_t pick = 0;
     for (std::size_t i = 1; i < leaves_.size(); ++i) {
@@ -172,7 +174,7 @@ class Bounds {
       const double share = (middle - first->lo) / sides(whole)[s]->width();
       const double score = std::max(worst(a.facts), worst(b.facts)) +
                            1e-3 * std::min(worst(a.facts), worst(b.facts)) - 1e-9 * share;
-      // Where nothing is better yet, the widest in relation to what it was is halved.
+      // While no side reduces the bound, the side with the largest relative width is halved.
       if (!found || score < best) {
         best = score;
         low = std::move(a);
@@ -187,8 +189,8 @@ class Bounds {
     return true;
   }
 
-  /// Words that stay in a state's range say nothing of the law where the two drift apart: there the
-  /// law itself must stay.
+  /// For states whose error is not bounded, words in range do not imply a law in range: the law's
+  /// own state must be proven to stay in its range.
   void drifting(Bound* b) const {
     for (std::size_t k = 0; k < law_.states.size(); ++k) {
       const State& s = law_.states[k];
@@ -207,7 +209,7 @@ class Bounds {
     }
   }
 
-  /// Words and law change sides together, and can.
+  /// Whether the comparison can have both results, and law and words always decide alike.
   bool sharp(const Step& s, const Reason& why) const {
     if (s.condition < 0) return false;
     if (s.op == EngineOp::cmp) return why.decided.lo != why.decided.hi;
@@ -239,13 +241,12 @@ class Bounds {
       }
       double any = 0;
       for (std::size_t o = 0; o < base.output_error.size(); ++o) {
-        // Whether it matters at all is asked before outputs are limited; the jump is beyond the
-        // bound.
+        // The significance test uses the unlimited outputs; the jump is the excess over the bound.
         const double more = swapped.output_error[o] - base.output_error[o];
         any = larger(any, more);
         s.jump.push_back(more > 0 ? larger(0.0, most.output_error[o] - b->output[o]) : 0.0);
       }
-      // What states keep and events tell is off as well.
+      // The values of states and events are wrong as well.
       const bool kept = !law_.states.empty() || !law_.events.empty();
       if (!(any <= 0) || kept) b->strips.push_back(s);
     }

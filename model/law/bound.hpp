@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is proven of a program: no instruction saturates, no factor or index leaves its range,
-// states stay in theirs, and how far every result is from the law in real numbers. Documentation:
+// Proves the error bound of a program: no instruction saturates, no factor, index or state leaves
+// its range, and each result has a largest distance from the law in real numbers. Documentation:
 // docs/law-compiler.md
 #pragma once
 
@@ -16,87 +16,89 @@
 
 namespace feltgate::law {
 
-/// Of a step's result, in words.
+/// Range and error of a step's result, in words.
 struct Fact {
   Span words;
   double error = 0;  ///< largest distance from the law's value
 };
 
-/// What an instruction may do that it must not.
+/// A forbidden effect of an instruction that the proof cannot exclude.
 struct Unproven {
-  int step = -1;  ///< -1: of a state
+  int step = -1;  ///< -1: the entry is about a state
   int state = -1;
   std::string reason;
 };
 
-/// How the facts of a step came about; what a second proof starts from.
+/// How the analysis derived the facts of a step; a second proof starts from it.
 struct Reason {
-  Fact x, y, acc;        ///< what it was given
+  Fact x, y, acc;        ///< facts of the operands
   bool between = false;  ///< ADD: taken as y + a (x - y)
-  int taken = 0;         ///< MIN, MAX, SEL: surely x (1), surely y (2)
-  int source = -1;       ///< SEL: the only comparison that decides
-  Span decided{0, 1};    ///< CMP: its own result, before it joins the flag
-  Span law{1, 0};        ///< words of the law's range, where that narrowed the step's
+  int taken = 0;         ///< MIN, MAX, SEL: 1: surely x; 2: surely y; 0: either
+  int source = -1;       ///< SEL: the comparison that alone decides; -1: none
+  Span decided{0, 1};    ///< CMP: its own result, before it is joined with the flag
+  Span law{1, 0};        ///< the law's range in words, where it narrowed the step's; else empty
 };
 
-/// A program over one cell.
+/// The facts of a program over one cell.
 struct CellFacts {
   bool reachable = true;
   std::vector<Fact> steps;
-  std::vector<Reason> reasons;  ///< of each step, where asked for
+  std::vector<Reason> reasons;  ///< of each step; only when asked for
   std::vector<Unproven> unproven;
-  std::vector<double> output_error;  ///< Nm, as Law::outputs
-  std::vector<double> output_apart;  ///< Nm: words and law are no further apart by their ranges
+  std::vector<double> output_error;  ///< Nm, in the order of Law::outputs
+  std::vector<double> output_apart;  ///< Nm: largest distance of words and law by their ranges
   std::vector<double> state_error;   ///< SI, after the run
-  std::vector<double> margin;        ///< of comparisons: words within which both ways are possible
+  std::vector<double> margin;        ///< words: within it, a comparison may have either result
 };
 
-/// `value`, which is beyond one end of a range, with the digits that show it.
+/// `value`, which lies outside lower .. upper, printed with enough digits to show that.
 std::string beyond_text(double value, double lower, double upper);
 
-/// `state_error`: how far the states may be from the law's before the run, SI. `swap`: that
-/// comparison may go wrong, so what it selects may be off by all that it chooses from, and with it
-/// every comparison whose margin is then wider than in `margins`, which are those without; -1:
-/// none. `spans`: the ranges of the law over the cell where they are known already. `explain`: with
-/// CellFacts::reasons.
+/// Analyses the program over `cell`. `state_error`: largest distance of the states from the law's
+/// before the run, SI. `swap`: step of a comparison that is assumed to go wrong (-1: none); its
+/// selections may then take either value, and every comparison whose margin becomes wider than in
+/// `margins` (the margins without a swap) may go wrong too. `spans`: the law's ranges over the
+/// cell, when already known. `explain`: also fill CellFacts::reasons.
 CellFacts analyse(const Law& law, const Target& target, const Program& program, const Cell& cell,
                   const std::vector<double>& state_error, int swap = -1,
                   const std::vector<Span>* spans = nullptr, bool explain = false,
                   const std::vector<double>* margins = nullptr);
 
-/// A comparison beside which outputs may differ by more than the bound.
+/// A band around a comparison's switching point in which outputs may exceed the bound.
 struct Strip {
   NodeId condition = -1;
-  int step = -1;  ///< Program::steps
-  NodeId floors = -1;  ///< >= 0: where this node's value is beside a whole number
+  int step = -1;       ///< Program::steps
+  NodeId floors = -1;  ///< >= 0: the band lies around the whole numbers of this node's value
   Place place;
-  double width = 0;  ///< either side, in `unit`
+  double width = 0;  ///< on each side, in `unit`
   Unit unit;
   std::vector<double> jump;  ///< of each output, Nm
 };
 
 struct Bound {
   std::vector<double> output;  ///< Nm
-  std::vector<double> as_set;  ///< Nm, with the parameters as the file sets them
+  std::vector<double> as_set;  ///< Nm, with the parameter values of the file
   std::vector<double> state;   ///< SI
-  bool states_bounded = true;  ///< false: some state has no finite error; bounds are then of one
-                               ///< run from the states as they stand
-  std::vector<double> drift;   ///< SI: what a run adds to each state's error, where not bounded
+  bool states_bounded = true;  ///< false: some state error has no finite bound; all bounds then
+                               ///< hold for one run from the current states
+  std::vector<double> drift;   ///< SI: error that a run adds to each state, where not bounded
   std::vector<Unproven> unproven;
   std::vector<Strip> strips;
-  std::vector<Place> sharp;    ///< comparisons without a strip: words and law change sides together
-  std::vector<Span> words;     ///< of each step, over all cells
-  std::vector<double> errors;  ///< of each step, words
+  std::vector<Place> sharp;     ///< comparisons without a strip: words and law switch together
+  std::vector<Span> words;      ///< of each step, over all cells
+  std::vector<double> errors;   ///< of each step, words
   std::vector<double> margins;  ///< of each comparison, words
   int cells = 1;
   std::vector<Cell> parts;  ///< the cells, the one with the largest error first
 };
 
-/// Splits the cell at most `splits` times, where it helps.
+/// Bounds the program over the whole cell; splits the cell at most `splits` times, where a split
+/// reduces the bound.
 Bound bound(const Law& law, const Target& target, const Program& program, int splits,
             const std::vector<Span>* whole = nullptr);
 
-/// Bound::as_set, over `cell`, in which the parameters stand; of one run where `all` is.
+/// Bound::as_set over `cell`, in which each parameter has one value. It holds for one run if `all`
+/// does.
 std::vector<double> bound_as_set(const Law& law, const Target& target, const Program& program,
                                  const Cell& cell, const Bound& all, int splits);
 

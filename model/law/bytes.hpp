@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bytes of a law file that are no ASCII. Documentation: docs/laws.md
+// Decodes the non-ASCII bytes (UTF-8) of a law file. Documentation: docs/laws.md
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@ inline unsigned char byte_at(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);
 }
 
-/// Bytes of the UTF-8 letter at `at`, which has the number `code`; 0 where there is none.
+/// Length in bytes of the UTF-8 character at `at`, and its code point in `code`; 0 when the bytes
+/// are no valid character.
 inline std::size_t utf8_letter(std::string_view text, std::size_t at, std::uint32_t* code) {
   const unsigned char first = byte_at(text, at);
   const std::size_t length = first < 0x80   ? 1
@@ -30,7 +31,7 @@ inline std::size_t utf8_letter(std::string_view text, std::size_t at, std::uint3
     if ((next & 0xc0U) != 0x80) return 0;
     *code = *code << 6 | (next & 0x3fU);
   }
-  // Longer than it need be, a half of a pair, beyond the last: none of them is a letter.
+  // Overlong forms, surrogates and code points beyond the last one are not valid.
   const bool good = *code >= (length == 3   ? 0x800U
                               : length == 4 ? 0x10000U
                                             : 0U) &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of functions: those of the language, and tables.
+// Lowers calls: the functions of the language, and tables. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <string>
@@ -12,7 +12,7 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr double kFastest = 1.8;  ///< of a lowpass's frequency beside the rate: exp(-2 pi 1.8)
+constexpr double kFastest = 1.8;  ///< largest ratio of lowpass frequency to rate: exp(-2 pi 1.8)
 
 }  // namespace
 
@@ -153,7 +153,7 @@ NodeId Lowering::lowpass(const Expression& e) {
       frequency.op == Op::parameter
           ? law_.parameters[static_cast<std::size_t>(frequency.index)].range.upper
           : frequency.value;
-  // Then the next value is the input's by all bits that a factor has.
+  // Above, the next value equals the input to all bits of a factor.
   if (highest > kFastest * law_.rate_hz) {
     report(e.offset,
            fmt::format("a lowpass of {:.6g} Hz in a law that runs at {:.6g} Hz, which passes all",

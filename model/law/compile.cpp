@@ -17,7 +17,7 @@ namespace feltgate::law {
 
 namespace {
 
-/// Filters have the range of what they follow, and that of their start, 0.
+/// Gives filters the range of the node that they follow, extended to include their start value 0.
 void complete_states(Law& law, const Target& target) {
   for (State& s : law.states) {
     if (s.follows >= 0) s.range = {0, 0};
@@ -56,7 +56,7 @@ void require_proofs(const Law& law, const Program& program, const Bound& b) {
                 "limit it with clamp, or narrow the ranges of what it is made of");
 }
 
-/// Parameters stand as their words do; a mailbox goes over its range.
+/// The cell in which each parameter has the value of its word; a mailbox has its whole range.
 Cell cell_as_set(const Law& law, const Target& target, const Image& image) {
   Cell cell = whole_cell(law, target);
   for (const ImageWord& w : image.words) {
@@ -97,7 +97,7 @@ int divider_for(const Law& law, const Target& target, int instructions) {
   return divider;
 }
 
-/// Formats, their proof, and what is assembled of them.
+/// Chooses the formats, proves them, and assembles the program.
 void form(Compiled& c) {
   const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
   int tried = 0;
@@ -115,7 +115,7 @@ bool has_functions(const Program& program) {
   });
 }
 
-/// Functions over wide ranges get more tables, as long as the bound is large without and the law
+/// Splits functions of wide ranges into more tables, as long as the bound is large and the law
 /// still fits.
 void into_pieces(Compiled& c) {
   const Law whole = c.law;
@@ -164,10 +164,11 @@ Compiled settled(const Read& read, const Target& target) {
     const Law law = read(0.0);
     if (law.rate_hz > 0) return compile(law, target);
   } catch (const LawError&) {
-    // What needs a rate, and nothing else, is well with one; a rate of its own stands.
+    // Reading succeeds now if only the rate was missing. If the file has an own rate, the first
+    // error stands.
     if (read(rate).own_rate) throw;
   }
-  // The file has no rate of its own: it is only read as if, for dt and filters.
+  // The file has no own rate: the assumed rate only serves dt and filters.
   const auto at_rate = [&] {
     Law free = read(rate);
     free.rate_hz = 0;
@@ -181,7 +182,7 @@ Compiled settled(const Read& read, const Target& target) {
   return c;
 }
 
-/// What the compiler refuses is told as the reader tells it.
+/// Reports a refusal of the compiler in the form of the reader's errors.
 template <class Read>
 Compiled settle(const Read& read, const std::string& path, const Target& target) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law becomes an image that an engine runs, with the proof of its error. Documentation:
+// Compiles a law to an image that an engine runs, and proves the image's error. Documentation:
 // docs/law-compiler.md
 #pragma once
 
@@ -27,27 +27,28 @@ struct Compiled {
   int tried = 0;  ///< choices of formats that were looked at
 };
 
-/// Throws Refused, with line, reason and mend, for what cannot be proven, fitted or scheduled.
+/// Compiles the law. Throws Refused, with line, reason and mend, when the law cannot be proven,
+/// does not fit or cannot be scheduled.
 Compiled compile(const Law& law, const Target& target);
 
-/// Reads and compiles; a file without a rate is read again at the rate that it reaches, until that
-/// does not change. Throws LawError or Refused.
+/// Reads and compiles a law file. A file without a rate is read again at the rate that it reaches,
+/// until the rate does not change. Throws LawError or Refused.
 Compiled compile_file(const std::string& path, const Target& target);
 Compiled compile_text(const std::string& text, const std::string& name, const Target& target);
 
-/// What lower() and bound() cost: the search makes it small. A bit of error is worth an
-/// instruction.
+/// The cost of a program and its bound, which the search minimises. One bit of error costs as much
+/// as one instruction.
 double cost(const Law& law, const Target& target, const Program& program, const Bound& bound,
             const std::vector<Span>& spans);
 
-/// Chooses formats: the program with the least cost that was found, its words' primaries marked.
+/// Searches the formats; returns the program with the least cost found, its primary words marked.
 Program choose_formats(const Law& law, const Target& target, const std::vector<Span>& spans,
                        int* tried);
 
-/// Of every parameter, the word with the most bits is the one that says its value.
+/// Marks, for every parameter, the word with the most bits as primary: it carries the value.
 void mark_primary(const Law& law, Program& program);
 
-/// The memories and names.
+/// Makes the image: the contents of the memories, and the names.
 Image make_image(const Law& law, const Target& target, const Program& program,
                  const Assembled& assembled, int divider);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Truth values: comparisons that set the flag. Documentation: docs/law-compiler.md
+// Lowers truth values to comparisons that set the flag. Documentation: docs/law-compiler.md
 #include <cmath>
 
 #include "law/back_end.hpp"
 
 namespace feltgate::law {
 
-/// Computes what a condition compares, so that nothing comes between its comparisons.
+/// Computes the operands of a condition first, so that its comparisons are consecutive.
 void BackEnd::lower_leaves(NodeId condition) {
   const Node& n = node(condition);
   if (n.op == Op::less) {
@@ -28,8 +28,8 @@ void BackEnd::lower_leaves(NodeId condition) {
   for (const NodeId a : n.arguments) lower_leaves(a);
 }
 
-/// A word is below a number where it is below the next whole one, and above a number where it is
-/// above the whole one before.
+/// The whole number to compare with: a word is below `exact` if it is below the next larger whole
+/// number, and above `exact` if it is above the next smaller one.
 Operand BackEnd::threshold(double exact, bool above) {
   const double near = std::nearbyint(exact);
   const bool whole = std::fabs(exact - near) <= 1e-12 * std::fabs(exact);
@@ -38,7 +38,7 @@ Operand BackEnd::threshold(double exact, bool above) {
   return o;
 }
 
-/// A side of a comparison, as a word or constant of this scale.
+/// One side of a comparison, as a word or constant of this scale.
 Value BackEnd::compared(NodeId leaf, int side, double scale, double* error) {
   const NodeId id = node(leaf).arguments[static_cast<std::size_t>(side)];
   Term term;
@@ -60,14 +60,14 @@ void BackEnd::compare(NodeId leaf, int mode) {
   s.scale = scale;
 }
 
-/// A comparison that can be joined to the flag by `or`, `and`.
+/// Whether the condition is one comparison, which can be joined to the flag by `or` or `and`.
 bool BackEnd::simple(NodeId condition, bool opposite) const {
   const Node& n = node(condition);
   if (n.op == Op::opposite) return simple(n.arguments[0], !opposite);
   return n.op == Op::less && !opposite;
 }
 
-/// Sets the flag to the condition, or to its opposite; returns the step that did last.
+/// Sets the flag to the condition, or to its opposite; returns the last step that set it.
 int BackEnd::raise(NodeId condition, bool opposite) {
   const Node& n = node(condition);
   if (n.op == Op::opposite) return raise(n.arguments[0], !opposite);
@@ -77,7 +77,7 @@ int BackEnd::raise(NodeId condition, bool opposite) {
   }
   const bool all = (n.op == Op::both) != opposite;
   NodeId first = n.arguments[0], second = n.arguments[1];
-  // What the flag is already need not be compared again.
+  // The condition that the flag already holds need not be compared again.
   if (!opposite && flag_ == second) std::swap(first, second);
   if (!simple(second, opposite) && (opposite || flag_ != first)) std::swap(first, second);
   if (simple(second, opposite)) {
@@ -95,7 +95,7 @@ int BackEnd::raise(NodeId condition, bool opposite) {
   return last().index;
 }
 
-/// The flag is the condition; its leaves have been computed.
+/// Sets the flag to the condition, whose leaves have been computed.
 void BackEnd::flag(NodeId condition) {
   if (flag_ == condition) return;
   raise(condition, false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Files of an image for the RTL. Documentation: docs/blocks/engine.md
+// Writes the files of an image for the RTL. Documentation: docs/blocks/engine.md
 #include "law/content.hpp"
 
 #include <fmt/format.h>

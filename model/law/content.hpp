@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// An image as what the RTL's engine holds after configuration, for a board without a host: files
-// for $readmemh, and the parameters that name them. Documentation: docs/blocks/engine.md
+// Writes an image as the initial memory contents of the RTL engine, for a board without a host:
+// files for $readmemh, and the parameters that name them. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <string>
@@ -17,7 +17,8 @@ struct Content {
   std::string parameters;            ///< law.svh: parameters of feltgate_axes or feltgate_linked
 };
 
-/// `folder` stands before the names in law.svh, as the simulator or synthesis will look for them.
+/// The content of `image`. law.svh puts `folder` before the file names: the path at which the
+/// simulator or synthesis finds them.
 Content content(const Image& image, const std::string& folder);
 
 }  // namespace feltgate::law

@@ -15,7 +15,7 @@ namespace feltgate::law {
 
 namespace {
 
-/// As it stands between quotes: a file's name may hold anything.
+/// Escapes a text for a string literal: a file's name may contain any byte.
 std::string escaped(const std::string& text) {
   std::string s;
   for (const char c : text) {
@@ -27,13 +27,13 @@ std::string escaped(const std::string& text) {
   return s;
 }
 
-/// As it stands in a comment of one line.
+/// Makes a text safe for a comment of one line.
 std::string in_comment(std::string text) {
   for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7f) c = '?';
   }
-  // A last backslash would take the next line into the comment.
+  // A trailing backslash would continue the comment on the next line.
   if (!text.empty() && text.back() == '\\') text.back() = '/';
   return text;
 }
@@ -58,7 +58,7 @@ class Header {
   }
 
  private:
-  // What is said of the law.
+  // The comment that describes the law.
 
   std::string about() const {
     const auto count = static_cast<int>(c_.assembled.instructions.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A run of a law as C++, an instruction a line. Documentation: docs/law-compiler.md
+// Writes a run of a law as C++, one instruction per line. Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,14 +57,14 @@ class Body {
       kept_.insert(static_cast<int>(k));
       uses_flag_ = true;
     }
-    // States that a selection of the run's own gives their first value need none at its start.
+    // States that a selection of the run initialises need no initialisation at its start.
     for (std::size_t n = 0; n < c_.assembled.step_of.size(); ++n) {
       const EngineInstruction& i = c_.assembled.instructions[n];
       if (c_.assembled.step_of[n] < 0 && i.op == EngineOp::sel) begun_.insert(i.d);
     }
   }
 
-  /// What the run reads, by the law's names.
+  /// Declares the values that the run reads, with the law's names.
   std::string names() const {
     std::string s;
     for (const int i : inputs_) {
@@ -120,7 +120,7 @@ class Body {
     return "Word{}";
   }
 
-  /// What a line is of: the law's formula, its range, step and error.
+  /// The comment above a line: the law's formula, its range, step and error.
   std::string note(int step) const {
     const Step& s = steps_[at(step)];
     if (s.op == EngineOp::brf || s.op == EngineOp::tst) return {};
@@ -141,7 +141,7 @@ class Body {
   std::string line(int step) {
     const Step& s = steps_[at(step)];
     std::string text = note(step);
-    if (s.op == EngineOp::brf) return {};  // the event behind it asks for the flag
+    if (s.op == EngineOp::brf) return {};  // the event after it tests the flag
     if (s.op == EngineOp::tst) {
       return text +
              fmt::format("    lines_.write({}, {}, t{});\n", operand(s.x), base(step), step - 1);
@@ -208,7 +208,7 @@ class Body {
     }
   }
 
-  /// Where the table begins, as the instruction says it.
+  /// The begin of the table, as the instruction encodes it.
   int base(int step) const {
     for (std::size_t n = 0; n < c_.assembled.step_of.size(); ++n) {
       if (c_.assembled.step_of[n] == step) return c_.assembled.instructions[n].b;
@@ -216,7 +216,7 @@ class Body {
     return 0;
   }
 
-  /// What a table stands for, in real numbers.
+  /// The function in real numbers that a table approximates.
   std::string exact(const Step& s) const {
     const Node& n = law_.nodes[at(s.node)];
     const std::string begin = "[](auto x) {\n      using T = decltype(x);\n      return ";
@@ -242,7 +242,7 @@ class Body {
       case Op::element:
         return begin + cpp_array_name(law_, n.index) + "<T>(static_cast<int>(x))" + end;
       default:
-        return "[](auto x) { return 0 * x; }";  // of a line, which real numbers read as they are
+        return "[](auto x) { return 0 * x; }";  // unused: real numbers read a delay line directly
     }
   }
 
@@ -250,7 +250,7 @@ class Body {
     std::string s;
     for (const int k : kept_) {
       const Operand& next = c_.program.states[at(k)].next;
-      // The first value of one that keeps its own is kept too.
+      // A state that keeps its value must also keep its first value.
       s += fmt::format("    {}_ = {};\n", cpp_state(law_, k), operand(next));
     }
     return s;

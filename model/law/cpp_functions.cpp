@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Formulas, tables and arrays of a law as C++ in real numbers. Documentation: docs/law-compiler.md
+// Writes formulas, tables and arrays of a law as C++ in real numbers. Documentation:
+// docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <cctype>
@@ -14,7 +15,7 @@ namespace feltgate::law {
 
 namespace {
 
-/// Nodes of a table's body, arguments first.
+/// Collects the nodes of a table's body, arguments first.
 void body(const Law& law, NodeId id, std::set<NodeId>& nodes) {
   for (const NodeId a : law.nodes[at(id)].arguments) body(law, a, nodes);
   nodes.insert(id);
@@ -82,7 +83,7 @@ std::string values(const std::vector<double>& list) {
   return s + "\n    };\n";
 }
 
-/// The rest of a table's function where it goes through points.
+/// The end of the C++ function of a table through points.
 std::string points(const Table& t) {
   return values(t.points) +
          fmt::format(
@@ -170,7 +171,7 @@ std::string cpp_name(const std::string& name) {
       "run",     "enter",     "words",   "inputs",    "outputs",  "events",   "name",     "design"};
   std::string s;
   for (const char c : name) s += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  // t0, t1, ... are results; a low line at the end marks members.
+  // t0, t1, ... are names of results; a trailing underscore marks members.
   const bool result =
       s.size() > 1 && s[0] == 't' && s.find_first_not_of("0123456789", 1) == std::string::npos;
   return taken.count(s) != 0 || result || s.back() == '_' ? s + "_v" : s;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of what lies in the engine's table: tables, arrays, lines.
+// Lowers the definitions that occupy the engine's table memory: tables, arrays, delay lines.
+// Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr int kMostLine = 512;
 constexpr std::size_t kMostElements = 512;
-constexpr int kMostSegments = 511;  // and a word more
+constexpr int kMostSegments = 511;  // they take one word more
 
 std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 
@@ -45,7 +46,7 @@ void Lowering::refuse_changing(NodeId body, const Statement& s) {
   }
 }
 
-/// A periodic table that would jump from its end to its begin.
+/// Reports a periodic table whose value would jump from its end to its begin.
 void Lowering::refuse_open(const Table& t, const Statement& s) {
   if (!diagnostics_.empty()) return;
   double first = 0, last = 0, size = 0;
@@ -132,7 +133,7 @@ void Lowering::table(const Statement& s) {
   define(s, symbol);
 }
 
-/// The numbers of an array or of a table through points, in SI; false where one is reported.
+/// The numbers of an array or of a table through points, in SI; false if an error is reported.
 bool Lowering::numbers(const Statement& s, Unit& own, std::vector<double>& values) {
   own = s.unit.unit;
   bool good = s.elements.size() <= kMostElements;
@@ -182,7 +183,7 @@ void Lowering::line(const Statement& s) {
   l.place = at(s.name_offset);
   const std::size_t before = diagnostics_.size();
   l.length = whole_of(s.index, "the length of a line", 1, kMostLine);
-  Statement as_state = s;  // a line begins with zeros
+  Statement as_state = s;  // a delay line starts with zeros
   Expression zero;
   zero.offset = s.lower->offset;
   as_state.value = std::make_shared<const Expression>(zero);

@@ -11,7 +11,7 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr std::size_t kMost = 20;  ///< more do not help who mends the first
+constexpr std::size_t kMost = 20;  ///< further errors do not help a user who fixes the first
 
 bool before(const Diagnostic& a, const Diagnostic& b) {
   return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is wrong in a law file, and where. Documentation: docs/laws.md
+// Collects the errors of a law file with their places. Documentation: docs/laws.md
 #pragma once
 
 #include <stdexcept>
@@ -30,11 +30,11 @@ class LawError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// "file:line:column: what; mend", with '?' for what cannot be printed. Line 0: of the file as a
-/// whole, "file: what; mend".
+/// "file:line:column: what; mend"; '?' replaces unprintable characters. Line 0 means the file as a
+/// whole: "file: what; mend".
 std::string message(const std::string& file, const Diagnostic& diagnostic);
 
-/// Collects what is wrong: each place once, the first twenty.
+/// Collects the first twenty errors, one per place.
 class Diagnostics {
  public:
   void add(Place place, std::string what, std::string mend);
@@ -47,7 +47,7 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
 };
 
-/// Offsets in a text as lines and columns.
+/// Converts offsets in a text to lines and columns.
 class Places {
  public:
   explicit Places(std::string_view text);

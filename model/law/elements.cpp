@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Elements of arrays by a number that a run computes. Documentation: docs/law-compiler.md
+// Lowers reads of array elements whose index is computed in the run. Documentation:
+// docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <cmath>

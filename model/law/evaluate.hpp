@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Runs a law in real numbers: double, long double or Quad. Nothing is rounded but by the number
-// type, nothing is limited. Documentation: docs/laws.md
+// Runs a law in real numbers: double, long double or Quad. Only the number type rounds; no value is
+// limited. Documentation: docs/laws.md
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@
 
 namespace feltgate::law {
 
-/// How a table answers: by its formula (an argument outside of its domain is taken to its end, of a
-/// periodic one by whole periods into it), or
-/// as the engine does, linear between samples. A table without a number of segments is exact.
+/// How a table is evaluated. exact: by its formula; an argument outside the domain is clamped to
+/// its end, or shifted by whole periods for a periodic table. sampled: as the engine does, linear
+/// between samples. A table without a number of segments is always exact.
 enum class Tables { exact, sampled };
 
 template <class N>
@@ -24,47 +24,47 @@ class Evaluation {
   /// Parameters and states have their initial values. The law must outlive this.
   explicit Evaluation(const Law& law, Tables tables = Tables::exact);
 
-  /// What a run begins with after load, arming and entry: states, lines, and no event's condition
-  /// has held before.
+  /// Restores the conditions after load, arming and entry: initial states, lines, and no event's
+  /// condition has held before.
   void reset();
-  /// In SI; out of its range is well. Words derived from it follow.
+  /// Sets a parameter in SI; a value outside its range is allowed. Derived words follow.
   void set_parameter(std::size_t index, N si);
   N parameter(std::size_t index) const { return parameters_[index]; }
 
-  /// One run. `inputs` in SI, as Law::inputs lists them.
+  /// Executes one run. `inputs` in SI, in the order of Law::inputs.
   void run(const std::vector<N>& inputs);
 
-  /// Of the last run; as Law::outputs lists them, in Nm.
+  /// Outputs of the last run in Nm, in the order of Law::outputs.
   const std::vector<N>& outputs() const { return outputs_; }
   /// Whether Law::events[index] happened in the last run: its condition has become true.
   bool happened(std::size_t index) const { return happened_[index]; }
   N event_value(std::size_t index) const { return event_values_[index]; }
-  /// As the next run will find it.
+  /// A state as the next run will find it, SI.
   N state(std::size_t index) const { return states_[index]; }
   void set_state(std::size_t index, N si) { states_[index] = si; }
-  /// What a line's next run reads with this index, 1 to its length.
+  /// Sets the value that the next run reads from the line at index `runs_ago`, 1 to its length.
   void set_line(std::size_t line, std::size_t runs_ago, N si) {
     std::vector<N>& ring = lines_[line];
     ring[(line_at_[line] + ring.size() - runs_ago) % ring.size()] = si;
   }
-  /// Any node of the last run, but those of a table's body. Truth values are 0 and 1.
+  /// Value of any node in the last run, except nodes of a table's body. Truth values are 0 and 1.
   N value(NodeId id) const { return values_[at(id)]; }
-  /// A table at x, as runs see it.
+  /// Value of a table at x, as runs see it.
   N table(std::size_t index, N x) const;
-  /// A node from the values of its arguments.
+  /// Computes a node from the values of its arguments.
   N compute(const Node& n, const std::vector<N>& values) const;
 
  private:
   N number(double x) const { return static_cast<N>(x); }
   N exact(std::size_t table, N x) const;
-  /// The line through samples at equal distances, at a place within the domain.
+  /// Interpolates linearly between equidistant samples, at a place within the domain.
   template <class Sample>
   N through(const std::vector<Sample>& samples, const Range& domain, N inside) const;
   N read_line(std::size_t line, N runs_ago) const;
   void find_bodies();
   void derive();
   void sample();
-  /// Nodes of a state's, output's ... own, in the order of computing.
+  /// Nodes that `roots` need, in the order of computation.
   std::vector<NodeId> needed_by(const std::vector<NodeId>& roots) const;
 
   const Law& law_;

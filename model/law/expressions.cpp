@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of expressions: values, operators, conditions.
+// Lowers expressions: values, operators, conditions.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -108,7 +108,7 @@ bool Lowering::fit(NodeId& a, NodeId& b, const Expression& ea, const Expression&
   return true;
 }
 
-/// How two units become the same; `unit` is of the side that is no number, where one is.
+/// The mend for two unequal units; `unit` is the unit of the side that has one.
 std::string Lowering::unit_mend(NodeId a, NodeId b, std::string unit) {
   if (unit == "1/s") unit = "rad/s";
   for (const NodeId id : {a, b}) {
@@ -155,7 +155,7 @@ NodeId Lowering::unknown(const Expression& e, const char* what, bool functions) 
 
 NodeId Lowering::step_time(Place place) {
   law_.timed = true;
-  // A rate of the file holds from its statement on, whoever gives another in its place.
+  // The file's rate holds from its statement on, even if the caller replaces the rate.
   const bool below = law_.own_rate && !rate_read_;
   if (law_.rate_hz > 0 && !below) return graph_.constant(1 / law_.rate_hz, kSecond, place);
   diagnostics_.add(place, "dt and filters need a rate", "write above: rate = 40 kHz");
@@ -283,7 +283,7 @@ NodeId Lowering::compare(const Expression& e) {
   }
   const bool swapped = e.name[0] == '>';
   const bool or_equal = e.name.size() == 2;
-  // a <= b is not b < a.
+  // a <= b is the opposite of b < a.
   NodeId c = swapped != or_equal ? graph_.less(b, a, place) : graph_.less(a, b, place);
   if (or_equal) c = graph_.opposite(c, place);
   return chained ? graph_.both(before, c, place) : c;
@@ -309,7 +309,7 @@ NodeId Lowering::power(const Expression& e) {
            "write products of smaller powers");
     return kNone;
   }
-  // By squares, so that x^4 takes two products.
+  // Uses repeated squares, so that x^4 takes two products.
   NodeId result = kNone, square = base;
   for (int rest = std::abs(exponent); rest > 0; rest /= 2) {
     if (rest % 2 != 0) {

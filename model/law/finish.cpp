@@ -18,7 +18,7 @@ namespace {
 
 using Ids = std::vector<NodeId>;
 
-/// Copies the nodes that are needed: by a run (device), or by the host for a derived word.
+/// Copies the nodes that a run (device) needs, or that the host needs for a derived word.
 class Finish {
  public:
   Finish(Law& law, const Graph& graph, Diagnostics& diagnostics)
@@ -63,8 +63,8 @@ class Finish {
  private:
   static std::size_t index(NodeId id) { return static_cast<std::size_t>(id); }
 
-  /// Ranges of parameters end where no set beyond keeps what is required of two of them, or of one.
-  /// The file's own value stays inside: one that breaks a requirement is told with it.
+  /// Narrows the ranges of parameters to values for which the requirements can hold. The file's own
+  /// value stays inside; if it violates a requirement, the error names both.
   void narrow_parameters() {
     const auto limit = [&](NodeId id) {
       const Node& n = law_.nodes[index(id)];
@@ -89,7 +89,7 @@ class Finish {
     }
   }
 
-  /// After their formulas; long ones may look alike.
+  /// Names derived words by their formulas; shortened long formulas may be equal.
   void name_derived() {
     std::map<std::string, int> seen;
     for (Parameter& p : law_.parameters) {
@@ -100,7 +100,7 @@ class Finish {
     }
   }
 
-  /// Whether a run reads it as a word that the host computes.
+  /// Whether a run reads node `i` as a word that the host computes.
   bool is_derived(std::size_t i) const {
     const Node& n = law_.nodes[i];
     return fixed_[i] && !n.truth && n.op != Op::constant && n.op != Op::parameter;
@@ -176,7 +176,7 @@ class Finish {
 
 std::string text(const Law& law, NodeId id, int depth);
 
-/// An argument, in brackets where it is a sum or the like.
+/// An argument as text, in parentheses if it is a sum or similar.
 std::string part(const Law& law, NodeId id, int depth) {
   const Op op = law.nodes[static_cast<std::size_t>(id)].op;
   const std::string inside = text(law, id, depth);

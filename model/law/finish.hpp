@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The last step of reading a law: formulas of parameters become words of their own, and nodes that
-// nothing needs go. Documentation: docs/laws.md
+// The last step of reading a law: formulas of parameters become derived words, and unused nodes are
+// removed. Documentation: docs/laws.md
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace feltgate::law {
 
-/// Calls `use` with every place from which a run's nodes are reached; kNone among them.
+/// Calls `use` with every root of the law's graph (kNone included).
 template <class Use>
 void each_root(Law& law, Use use) {
   for (State& s : law.states) {
@@ -30,10 +30,10 @@ void each_root(Law& law, Use use) {
   }
 }
 
-/// `graph` made the nodes of `law`, and is of no use afterwards.
+/// Finishes `law`, whose nodes `graph` made; `graph` must not be used afterwards.
 void finish(Law& law, const Graph& graph, Diagnostics& diagnostics);
 
-/// A node as a formula: "2*k/(a + b)"; "..." inside where it would get longer than 60 letters.
+/// A node as a formula: "2*k/(a + b)"; "..." replaces inner parts beyond 60 characters.
 std::string formula(const Law& law, NodeId id);
 
 }  // namespace feltgate::law

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The search for formats: one value's fraction bits at a time, as long as that helps.
-// Documentation: docs/law-compiler.md
+// Searches the formats: changes the fraction bits of one value at a time, as long as the cost
+// falls. Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,7 +107,7 @@ class Search {
     }
   }
 
-  /// Values that go into each other as they are: they change together.
+  /// Values that are copied into each other without alignment: their formats change together.
   std::vector<NodeId> group(NodeId of, const Choice& choice) const {
     std::vector<NodeId> members{of};
     const auto add = [&](NodeId id) {
@@ -151,7 +151,7 @@ double cost(const Law& law, const Target& target, const Program& program, const 
   const double lsb = std::ldexp(1.0, -target.torque.fraction);
   double error = 0;
   for (const double e : b.output) error = std::max(error, e / lsb);
-  // A comparison's strip counts as an error of what it compares, half as much.
+  // The strip of a comparison counts half as much as an error of the compared value.
   double strips = 0;
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
     const Step& s = program.steps[i];
@@ -162,8 +162,8 @@ double cost(const Law& law, const Target& target, const Program& program, const 
         size = std::max(size, b.words[static_cast<std::size_t>(o.index)].size());
     }
     strips += 0.5 * std::max(0.0, std::log2(b.margins[i] / size * 65536));
-    // One as wide as all that is compared, or as a whole number that is rounded down, decides
-    // nothing.
+    // A strip as wide as the compared range, or as one step of a rounded-down whole number, leaves
+    // nothing decided.
     if (s.condition < 0) continue;
     const Node& condition = law.nodes[static_cast<std::size_t>(s.condition)];
     double compared = condition.op == Op::less ? 0 : 1;
@@ -175,7 +175,7 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     if (4 * width > compared) strips += 20;
   }
   double drifts = 0;
-  // A state whose error the outputs do not show counts in its own range.
+  // A state whose error does not reach the outputs counts relative to its own range.
   for (std::size_t i = 0; i < law.states.size(); ++i) {
     const Range& r = law.states[i].range;
     const double size = std::max(r.upper - r.lower, 1e-12);
@@ -183,14 +183,15 @@ double cost(const Law& law, const Target& target, const Program& program, const 
     error = std::max(error, e / size * 65536);
     if (b.states_bounded || law.states[i].phase) continue;
     if (law.rate_hz > 0) {
-      // Where it has no end, what a tenth of a second adds.
+      // An unbounded error counts with its growth in a tenth of a second.
       drifts += std::max(0.0, std::log2(b.drift[i] * 0.1 * law.rate_hz / size * 65536));
     } else if (!law.states[i].whole) {
-      // The bound, of one run, says nothing of what is rounded away in it: its bits count alone.
+      // The bound of one run does not show the rounding loss of this state: its bits count instead.
       drifts += std::max(0.0, std::log2(program.states[i].scale / size * 262144));
     }
   }
-  // Instructions, and more so a tick of time; bits of the error; bits that a host cannot set.
+  // Sums the instructions, with a larger weight for a tick of time, the bits of the error, and the
+  // bits that a host cannot set.
   const auto steps = static_cast<double>(program.steps.size());
   const int clocks = engine_period(static_cast<int>(program.steps.size()), target.axes);
   const double ticks = std::ceil(1.0 * clocks / target.clocks_per_tick);
@@ -224,7 +225,7 @@ void mark_primary(const Law& law, Program& program) {
     if (n.op != Op::parameter || law.parameters[static_cast<std::size_t>(n.index)].derived >= 0) {
       continue;
     }
-    // A whole number is one in the word that says it.
+    // The primary word of a whole parameter must hold the value as a whole number.
     const bool whole = law.parameters[static_cast<std::size_t>(n.index)].whole;
     if (whole && !divides_one(w.scale)) continue;
     bool finest = true;
@@ -256,7 +257,7 @@ std::string range_text(const Span& s, const Unit& unit) {
   return fmt::format("{:.6g} .. {:.6g}", s.lo, s.hi) + unit_text(unit);
 }
 
-/// What goes into a line or a state and is beyond what that holds by far.
+/// Refuses a value that far exceeds the range of the line or state that it goes to.
 void refuse_kept(const Law& law, const Span& can, NodeId node) {
   const auto refuse = [&](const Place& place, const std::string& what, const Range& range) {
     if (can.within({range.lower, range.upper})) return;
@@ -286,7 +287,7 @@ void refuse_kept(const Law& law, const Span& can, NodeId node) {
   refuse_kept(law, can, why.node);
   const double end = 2147483648.0 * why.scale;
   std::string reason = why.what();
-  // A value between, of another size than the node's, may be what does not fit.
+  // The value that does not fit may be an intermediate one, of another size than the node's.
   if (why.scale > 0 && can.size() > end * (1 - 1.0 / 256)) {
     reason = fmt::format("a word with the step {:.3g} holds {}", why.scale,
                          range_text({-end, end}, n.unit));
@@ -296,7 +297,7 @@ void refuse_kept(const Law& law, const Span& can, NodeId node) {
                   fmt::format("{:.6g}{} does not fit: {}", n.value, unit_text(n.unit), reason),
                   "write a smaller number");
   }
-  // A long formula is told by its place alone.
+  // A long formula is named only by its place.
   const std::string own = formula(law, why.node);
   throw Refused(n.place,
                 fmt::format("{} goes over {} and does not fit: {}",

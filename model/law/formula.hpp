@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Postfix formulas of words that follow from parameters. Documentation: docs/law-compiler.md
+// Evaluates the postfix formulas of words that the host derives from parameters. Documentation:
+// docs/law-compiler.md
 #pragma once
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Functions from tables. Documentation: docs/law-compiler.md
+// Lowers functions to table reads. Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ void BackEnd::count_tables() {
                               most_table_words - table_words_left_, most_table_words),
                   "make them shorter");
   }
-  // Tables that ask for segments get them and a word; the rest is shared.
+  // Tables with a number of segments get that many words plus one; the others share the rest.
   for (const auto& [key, one] : others) {
     if (key.first < 1000) continue;
     const int segments = law_.tables[at(key.first - 1000)].segments;
@@ -75,7 +75,7 @@ void BackEnd::count_tables() {
   }
   if (!sines_ && !cosines_) return;
   if (choice_.sine_bits == 0) {
-    // All of the memory, or a share that leaves as much for every other table.
+    // The table gets all the memory, or a share that leaves as much for every other table.
     const int share = table_words_left_ / (other_tables_ + 1);
     choice_.sine_bits = 8;
     while (choice_.sine_bits > 5 && (1 << choice_.sine_bits) * (cosines_ ? 5 : 4) / 4 > share + 8) {
@@ -94,19 +94,20 @@ int BackEnd::place_table(const std::string& key, const TableUse& table) {
   return table_keys_[key] = static_cast<int>(program_.tables.size()) - 1;
 }
 
-/// In the table's scale where it fits before it is limited: an end is finer there.
+/// Aligns the value to the table's scale before it is limited, if it fits: the limit is finer
+/// there.
 Value BackEnd::align_for_table(const Value& v, double scale, NodeId argument) {
   const bool fits = v.size / scale < 2e9 && scale < v.scale;
   return fits ? align(v, scale, argument) : v;
 }
 
-/// Within the domain of the law's own table.
+/// Limits the value to the domain of the law's own table.
 Value BackEnd::limited(Value v, const Node& n, NodeId id) {
   if (n.op != Op::lookup) return v;
   const Table& table = law_.tables[at(n.index)];
   const Span range = span(n.arguments[0]);
   const Span domain = {table.domain.lower, table.domain.upper};
-  // Beyond the ends by no more than doubles' rounding is no matter.
+  // An excess of only the rounding of doubles is ignored.
   const double slack = 1e-9 * domain.width();
   if (range.lo < domain.lo - slack) {
     const double end = domain.lo / v.scale;
@@ -126,7 +127,7 @@ Value BackEnd::limited(Value v, const Node& n, NodeId id) {
   return v;
 }
 
-/// Bits behind the point that a table's values can have: a value has 20 bits and a slope 16.
+/// Fraction bits that a table's values can have: a value has 20 bits and a slope has 16.
 int BackEnd::value_fraction(const TableRequest& r) {
   const auto value = extended(r);
   double step = 0, largest = 0, before = 0;
@@ -195,7 +196,7 @@ Value BackEnd::function(NodeId id) {
                     fmt::format("let the table {} begin at 0", table->name));
     }
   } else if (user && table->segments > 0) {
-    // As many as the law asks for, where its first sample lies on one.
+    // The segments of the law, if its first sample lies on a sample of the table.
     const double own = (table->domain.upper - table->domain.lower) / table->segments / 4096;
     const double start = table->domain.lower / own / 4096;
     const double ratio = v.scale / own;
@@ -215,7 +216,7 @@ Value BackEnd::function(NodeId id) {
   r.count = count(scale);
   r.limit = 524287;
   const int fraction = value_fraction(r);
-  // A table through points, as an array, is there once: its first reader chooses for all.
+  // A table through points is stored once, like an array: its first reader chooses the scale.
   const std::string memory = fmt::format("points {}", n.index);
   const auto same = memory_scales_.find(memory);
   r.value_scale = points && same != memory_scales_.end()
@@ -248,8 +249,8 @@ Value BackEnd::function(NodeId id) {
   return {last(), r.value_scale, 0};
 }
 
-/// The argument in turns of 1/`turn` words, modulo 2^32 words; a turn is `period`. Every factor
-/// wraps, however many turns it has been: a word times a whole number, by MLW.
+/// The argument in turns, `turn` turns per word, modulo 2^32 words; one turn is `period`. Every
+/// product wraps, for any number of turns: MLW multiplies a word by a whole number.
 Operand BackEnd::phase(NodeId id, double turn, double period) {
   std::vector<Term> terms;
   collect(id, 1, true, terms);
@@ -263,7 +264,7 @@ Operand BackEnd::phase(NodeId id, double turn, double period) {
         if (std::fabs(words) > 2147483647.0) throw Unfit("a phase does not fit", id);
         addends.push_back({constant(words), 1, std::fabs(words - std::nearbyint(words))});
       } else {
-        // One of many turns has fewer bits, and MLW drops its whole ones.
+        // A factor of many turns has fewer bits, and MLW drops its whole turns.
         double by = 1;
         while (fixed_size(t.fixed) * std::fabs(number) / by > 2147483000.0) by *= 2;
         if (by > 65536) throw Unfit("a phase parameter does not fit in 32 bits", id);
@@ -291,8 +292,8 @@ Operand BackEnd::phase(NodeId id, double turn, double period) {
       const double left =
           ratio - std::ldexp(program_.constants[at(m.y.index)], -EngineMap::shifts[m.mode]);
       if (std::fabs(left) * v.size / v.scale > 0.5 && m.y_error > 0) {
-        // What the first factor left over, with bits of its own; it is no whole number of what has
-        // wrapped.
+        // The remainder of the first factor gets bits of its own; it is not a whole multiple of a
+        // wrapped value.
         products.back().y_error = 0;
         products.back().y.exact = program_.constants[at(m.y.index)];
         products.push_back(by_number(before, left * before.scale / v.scale, id));
@@ -350,7 +351,7 @@ Value BackEnd::sine(NodeId id) {
   } else {
     x = phase(n.arguments[0], turn, 2 * pi);
     if (bits < 9) {
-      // The upper bits of the turn, an index and 12 bits.
+      // Takes the upper bits of the turn: an index and 12 bits.
       const int drop = 20 - bits;
       const int mode = drop == 12 ? 1 : 2;
       Step& s = emit(EngineOp::mlw, mode, x, constant(std::exp2(EngineMap::shifts[mode] - drop)),
@@ -363,7 +364,8 @@ Value BackEnd::sine(NodeId id) {
   const double scale = chosen_scale(id, 1, 18, 1);
   const int fraction = static_cast<int>(std::lround(-std::log2(scale)));
   if (fraction > 18) throw Unfit("a table's value has 20 bits", id);
-  // Up to 17 bits it can be a factor, which 1 itself is not.
+  // With up to 17 bits the value fits a factor; 1 itself does not fit, so the largest word is
+  // below.
   const std::int32_t one = fraction <= 17 ? 131071 : 524287;
   const std::string table = fmt::format("sine {} {}", bits, fraction);
   const auto found = table_keys_.find(table);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Segments. Documentation: docs/law-compiler.md
+// Cuts a program into segments and writes a Gappa lemma for each; proves the lemmas of a law again.
+// Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ std::string number(double x) {
 std::string within(const Span& s) { return fmt::format("in [{},{}]", number(s.lo), number(s.hi)); }
 std::string within(double e) { return within(Span{-e, e}); }
 
-/// The largest cone of one problem, in steps.
+/// Largest number of steps in the expression of one problem.
 constexpr int most_steps = 8;
 
 std::vector<GappaLemma> Cutter::run() {
@@ -70,7 +71,7 @@ void Cutter::cut() {
 
 bool Cutter::plain_user(int user, int i) const {
   const Step& s = steps_[at(user)];
-  // A result with an error of its own constant stands for something else.
+  // A step with a rounded constant stands for another value than its words give.
   const bool itself = (s.x_error == 0 && s.y_error == 0) || takes_acc(s);
   return (plain(user) || (!why(user).law.empty() && !why(user).between &&
                           (s.op == EngineOp::mul || s.op == EngineOp::mac ||
@@ -102,7 +103,7 @@ void Cutter::finish(const std::string& branch) {
   for (const auto& [step, term] : defined_) l.steps.push_back(step);
   if (defined_.count(n_) == 0 && n_ >= 0) l.steps.push_back(n_);
   if (given_.empty()) give("0 in [0,0]");
-  // By itself Gappa takes no range that is less than 1 % narrower than the one it has.
+  // By default Gappa ignores a new range that is less than 1 % narrower than the old one.
   l.text = fmt::format(
       "#@ -Echange-threshold=1e-6\n"
       "# Law {}: words of 32 bits in lower case, what they stand for in upper case.\n"
@@ -219,7 +220,8 @@ void Cutter::require(const std::string& word, const std::string& law) {
     wanted_.insert(steps_[at(n_)].node);
   }
   if (!wraps(fact(n_))) want(fmt::format("{} {}", word, within(fact(n_).words)));
-  // Of whole numbers, less than the next one; what is rounded down is alike beyond its margin.
+  // The error of whole numbers only needs to be below the next whole number; values that are
+  // rounded down are equal beyond the margin, so they need no error goal.
   const Step& s = steps_[at(n_)];
   const double e = s.whole ? down(fact(n_).error + 1) : fact(n_).error;
   if (word != law && s.floors < 0) want(fmt::format("{} - {} {}", word, law, within(e)));
@@ -265,7 +267,7 @@ Gappa::Gappa(const Compiled& compiled) : compiled_(compiled) {
   tables_.resize(steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].op != EngineOp::lrp) continue;
-    // A turn's table is the same for all who use it.
+    // All users of a turn's table share one proof.
     std::size_t same = 0;
     while (steps[same].table != steps[i].table) ++same;
     const bool whole = compiled.program.tables[at(steps[i].table)].wraps;
@@ -300,7 +302,7 @@ GappaCount prove_again(const Compiled& compiled, int cells,
   }
   count.lemmas = static_cast<int>(known.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    // A branch around an event makes no word.
+    // A branch around an event produces no word.
     if (compiled.program.steps[i].op == EngineOp::brf) continue;
     if (seen[i] == 0 || open[i] != 0) count.uncovered.push_back(static_cast<int>(i));
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where words or law go one way of two. Documentation: docs/law-compiler.md
+// Writes the Gappa lemmas of steps with two cases: MIN and MAX, selections, comparisons, |x| and
+// signs. Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace feltgate::law {
 namespace gappa {
 
 void Cutter::extreme(bool least) {
-  // What is taken is called a; the other one b.
+  // The operand that is taken is called a, the other one b.
   for (int side = 0; side < 2; ++side) {
     const int taken = why(n_).taken;
     if (taken != 0 && taken != side + 1) continue;
@@ -99,7 +100,7 @@ void Cutter::compare() {
       want(fmt::format("{} - {} >= {}", high.word, low.word, 1 - side));
       finish(side == 0 ? ".surely" : ".surelynot");
     }
-    // Further apart than both errors, law and words compare alike.
+    // If the operands differ by more than both errors, law and words compare alike.
     const auto [high, low] = sides();
     const std::string gap = high.word + " - " + low.word, real = high.law + " - " + low.law;
     give(gap + " >= " + number(up(e)));
@@ -150,7 +151,7 @@ void Cutter::sign() {
     } else {
       require(y);
     }
-    // Beyond the margin both have the same sign.
+    // Beyond the margin law and word have the same sign.
     const double e = why(n_).x.error;
     if (e > 0 && x.word != x.law) {
       give(fmt::format("{} {} {}", x.word, minus == 1 ? "<=" : ">=", number(minus == 1 ? -e : e)));

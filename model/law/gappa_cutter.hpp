@@ -17,7 +17,7 @@ std::string number(double x);  ///< as Gappa reads it, exactly
 std::string within(const Span& s);
 std::string within(double e);
 
-/// A word and what it stands for, as expressions.
+/// A word and the law's value that it stands for, as Gappa expressions.
 struct Term {
   std::string word, law;
 };
@@ -38,9 +38,10 @@ class Cutter {
   const Reason& why(int i) const { return facts_.reasons[at(i)]; }
   static bool wraps(const Fact& f) { return f.words.width() >= 4294967295.0; }
 
-  /// Gappa follows it by itself.
+  /// Whether Gappa can follow step `i` without hints.
   bool plain(int i) const;
-  /// Where segments end: at what is used twice, or by what is a segment of its own.
+  /// Finds the ends of segments: steps with two or more uses, and steps whose user is a segment of
+  /// its own.
   void cut();
   bool plain_user(int user, int i) const;
   std::vector<int> arguments(int i) const;
@@ -51,38 +52,41 @@ class Cutter {
   void want(const std::string& g) { goals_ += (goals_.empty() ? "" : "\n  /\\ ") + g; }
 
   void finish(const std::string& branch);
-  /// A word with its range, and how far it is from the law's; upper case only where it differs.
+  /// A word with its range and its distance from the law's value; the law's value gets its own
+  /// (upper-case) name only where it differs.
   Term leaf(const std::string& low, const std::string& high, const Fact& f);
   Term result_of(int i);
   Term operand(int i, bool second);
-  /// A constant's distance to what it stands for.
+  /// Adds the distance of a constant operand from the exact value.
   Term apart(Term t, int i, bool second, double extra);
   Term product(int i, const char* rounding);
   Term expression(int i);
   Term define(int i);
-  /// left = right, which Gappa is to try.
+  /// Adds the rewriting left -> right as a hint for Gappa.
   void hint(const std::string& left, const std::string& right);
   void require(const Term& t) { require(t.word, t.law); }
 
-  /// That `word` may stand for the step's result where `law` is the law's.
+  /// Demands that `word`, with the law's value `law`, satisfies the facts of the step's result.
   void require(const std::string& word, const std::string& law);
   void step();
   void extreme(bool least);
   void select();
-  /// What a comparison that came out so says of its operands, and of a sum of them.
+  /// Adds the consequences of comparison `c` having the result `truth`: for its operands and for a
+  /// sum of them.
   void known_branch(int c, bool truth, bool second);
   void compare();
   void amount();
   void sign();
-  /// The index lies in the table, or line.
+  /// Proves that the index lies in the table or the delay line.
   bool index();
-  /// `m` is the line at the word of the argument, between segments as the table says.
+  /// Proves a table read; `m` names the segment's line at the argument's word.
   void table();
-  /// y + a (x - y) with a in 0 .. 1 is (1 - a) y + a x; k is a in the law's unit.
+  /// Proves y + a (x - y) with a in 0 .. 1 as (1 - a) y + a x; k is a in the law's unit.
   void between();
   void states();
-  /// The ranges of the law itself that narrowed words: every node from those of its arguments.
-  /// Inputs, parameters and states have theirs declared, functions by what they are.
+  /// Proves the law's ranges that narrowed words: each node's range from those of its arguments.
+  /// Ranges of inputs, parameters and states are declared; a function's range follows from the
+  /// function.
   void law_ranges();
   bool law_between(NodeId id);
   const Compiled& c_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is not a segment of words alone: tables, low-passes, states, the law's own ranges.
-// Documentation: docs/law-compiler.md
+// Writes the Gappa lemmas that need more than arithmetic on words: tables, low-passes, states, the
+// law's own ranges. Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ void Cutter::table() {
   const TableUse& t = c_.program.tables[at(s.table)];
   (void)index();
   if (s.op == EngineOp::tab) {
-    // A word of it, which is within the line's range and error, or is the array's, rounded.
+    // The result is a word of the memory: one of a delay line, within its range and error, or a
+    // rounded one of an array.
     if (goals_.empty()) want("0 in [0,0]");
     return finish("");
   }
@@ -55,8 +56,8 @@ void Cutter::table() {
   double apart = 0;
   Span values{infinity, -infinity};
   for (double i = first; i <= to; ++i) {
-    // |line(x) - f(X)| <= |line(x) - f(x)| + |f'| |x - X|, x a word in i, f' also of what is
-    // beside.
+    // |line(x) - f(X)| <= |line(x) - f(x)| + |f'| |x - X|, with x a word in segment i; f' also
+    // covers the neighbouring segments.
     const double moved = e > 0 ? up(beside(proof.gradient, i) * e) : 0;
     apart = larger(apart, up(proof.error[static_cast<std::size_t>(i)] + moved));
     const std::uint64_t line = t.words[static_cast<std::size_t>(i)];
@@ -69,8 +70,8 @@ void Cutter::table() {
     }
   }
   if (e > 0) {
-    // Or <= |line(x) - line(X)| + |line(X) - f(X)|, X in i: a line may rise less than its function.
-    // Lines may jump at seams.
+    // Also <= |line(x) - line(X)| + |line(X) - f(X)|, with X in segment i: a line may rise less
+    // than its function. Lines may jump at seams.
     double too = 0;
     for (double i = std::max(0.0, first - reach); i <= std::min(last, to + reach); ++i) {
       too = larger(too,
@@ -119,7 +120,7 @@ void Cutter::states() {
     if (next.word.empty()) continue;
     want(fmt::format("{} in [{},{}]", next.word, use.lower, use.upper));
     if (next.word != next.law) {
-      // Of one that drifts, what this run adds.
+      // For a state with unbounded error, the bound is the error that this run adds.
       const auto& errors = c_.bound.states_bounded ? c_.bound.state : c_.bound.drift;
       const double e = i < c_.law.states.size() ? errors[i] / std::fabs(use.scale) : 0;
       want(fmt::format("{} - {} {}", next.word, next.law, within(up(e))));
@@ -128,7 +129,8 @@ void Cutter::states() {
   }
 }
 
-/// y + a (x - y), if the node is that, with a in 0 .. 1: x above y, and below.
+/// Proves the range of a node y + a (x - y) with a in 0 .. 1, in the cases x above y and x below y;
+/// false if the node has another form.
 bool Cutter::law_between(NodeId id) {
   const auto node = [this](NodeId i) -> const Node& { return c_.law.nodes[at(i)]; };
   const auto span = [this](NodeId i) { return spans_[at(i)]; };
@@ -205,7 +207,7 @@ void Cutter::law_ranges() {
       begin();
       given_ = facts;
       if (two && value.empty()) {
-        // The one that is taken is not above, or below, the other.
+        // The operand that min (max) takes is not above (below) the other one.
         const std::string a = argument(i), b = argument(1 - i);
         const bool least = n.op == Op::minimum;
         give(branches[least ? 1 - i : i] + " >= 0");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What tables say, word by word. Documentation: docs/law-compiler.md
+// Evaluates tables against their functions, word by word. Documentation: docs/law-compiler.md
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace feltgate::law {
 
 namespace {
 
-/// SI, or turns, of one word of what the step looks up.
+/// SI value, or turns, of one LSB of the step's argument.
 double argument_scale(const Compiled& c, const Step& s) {
   switch (s.x.from) {
     case From::step:
@@ -62,7 +62,7 @@ TableProof table_proof(const Compiled& c, int step) {
         return table_jet(c.law, *own, x);
     }
   };
-  // What the argument can be, in words of the table's own index.
+  // The range of the argument, in words of the table's own index.
   const double begin = 4096.0 * (t.low - s.offset),
                size = 4096.0 * static_cast<double>(t.words.size());
   const Span reach =
@@ -86,9 +86,9 @@ TableProof table_proof(const Compiled& c, int step) {
     const Span part = both_of({first * word, (first + 4096) * word}, domain);
     const double gradient = part.empty() ? 0 : function(part).d1.size() * word / s.scale;
     proof.gradient.push_back(up(up(gradient)));
-    // At all words of the segment's part of the domain, its end too: what the law reads need be
-    // none of the argument's words. Between two of them a curve leaves its chord by |f''| h^2 / 8
-    // at most.
+    // Evaluates all words of the segment's part of the domain, including its end. The law's
+    // argument need not be a word: between two words a curve leaves its chord by at most |f''| h^2
+    // / 8.
     double everywhere = error;
     const double from = std::max(0.0, std::floor(domain.lo / word) - first);
     const double to = std::min(4096.0, std::ceil(domain.hi / word) - first);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The grammar, in Boost.Spirit X3. Line ends mean nothing: every statement begins with its word.
+// The grammar, in Boost.Spirit X3. Line ends have no meaning: each statement begins with a keyword.
 #include <boost/fusion/include/at_c.hpp>
 #include <cerrno>
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 
 using Kind = Expression::Kind;
 
-/// Carries the begin of the text to the actions.
+/// Passes the begin of the text to the actions.
 struct BeginTag;
 
 template <class Context>
@@ -40,7 +40,7 @@ const auto no_keyword = [](auto& context) {
 const auto name = x3::rule<struct NameId, Text>{"a name"} =
     raw(x3::lexeme[letter >> *inside])[no_keyword];
 
-/// A word of the language, or an operator, with the name that messages call it.
+/// A keyword or an operator, with the name that messages use for it.
 template <class Id, class Subject>
 auto called(const char* as, const Subject& subject) {
   return x3::rule<Id>{as} = x3::omit[subject];
@@ -75,7 +75,7 @@ const auto close_body = called<struct CloseBodyId>("\"}\" or a statement", x3::l
 
 // -- numbers -------------------------------------------------------------------------------------
 
-/// A unit on the same line; none is well, a word that is no unit is not.
+/// An optional unit on the same line; a word that is not a unit is an error.
 struct UnitParser : x3::parser<UnitParser> {
   using attribute_type = Text;
   static constexpr bool has_attribute = true;
@@ -128,7 +128,7 @@ const auto decimal = raw(
                !(x3::char_("0-9") | (x3::lit('.') >> x3::char_("0-9")))]);
 
 double number_in(std::string_view text) {
-  // Not by from_chars, which the library of the page's compiler has for integers only.
+  // from_chars cannot be used: the library of the page's compiler has it for integers only.
   errno = 0;
   const double value = std::strtod(std::string(text).c_str(), nullptr);
   if (errno == ERANGE) {
@@ -161,7 +161,7 @@ const auto make_binary = [](auto& context) {
   x3::_val(context) = std::make_shared<const Expression>(std::move(e));
 };
 
-/// Signs or nots, then what they stand before.
+/// Signs or `not`s, then their operand.
 const auto make_unary = [](auto& context) {
   ExpressionPtr value = boost::fusion::at_c<1>(x3::_attr(context));
   const auto& signs = boost::fusion::at_c<0>(x3::_attr(context));
@@ -191,7 +191,7 @@ const auto make_name = [](auto& context) {
   x3::_val(context) = std::make_shared<const Expression>(std::move(e));
 };
 
-/// What stands in brackets behind a name.
+/// The part in brackets after a name.
 template <Kind kind>
 struct MakeBracket {
   template <class Context>
@@ -274,7 +274,7 @@ BOOST_SPIRIT_DEFINE(number, named, reduce, choice, primary, power, unary, produc
 
 // -- statements ----------------------------------------------------------------------------------
 
-/// Begins a statement: its word.
+/// Begins a statement: its keyword.
 template <Statement::Kind kind>
 struct Begin {
   template <class Context>

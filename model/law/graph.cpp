@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostNodes = 20'000;
 
-/// Whether a node is surely a whole number.
+/// Whether a node is certainly a whole number.
 bool is_whole(const Law& law, const Node& n) {
   const auto index = static_cast<std::size_t>(n.index);
   const auto argument = [&](std::size_t i) {
@@ -149,7 +149,7 @@ NodeId Graph::multiply(NodeId a, NodeId b, Place place) {
   if (node(a).unit == kNumber && is_value(a, 1)) return b;
   if (node(a).unit == kNumber && is_value(a, -1)) return negate(b, place);
   if (is_fixed(b)) return fixed_product(a, b, place);
-  // Here b changes during a run.
+  // From here on, b changes during a run.
   if (is_fixed(a)) return scale(a, b, place);
   if (node(a).op == Op::negate) return negate(multiply(argument(a, 0), b, place), place);
   if (node(b).op == Op::negate) return negate(multiply(a, argument(b, 0), place), place);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Makes a law's nodes: equal ones once, constants folded, factors that do not change during a run
-// brought together. Documentation: docs/laws.md
+// Builds a law's nodes: merges equal nodes, folds constants, and collects the factors that are
+// fixed during a run. Documentation: docs/laws.md
 #pragma once
 
 #include <map>
@@ -14,8 +14,7 @@
 
 namespace feltgate::law {
 
-/// No node: something about it was wrong and is reported already. Every function takes it and
-/// gives it back.
+/// No node: its error is already reported. Every function accepts it and returns it.
 inline constexpr NodeId kNone = -1;
 
 class Graph {
@@ -24,7 +23,8 @@ class Graph {
   Graph(Law& law, Diagnostics& diagnostics) : law_(law), diagnostics_(diagnostics) {}
 
   const Node& node(NodeId id) const { return law_.nodes[static_cast<std::size_t>(id)]; }
-  /// Whether the host knows its value: of constants and parameters that are no mailbox.
+  /// Whether the host knows the node's value: it depends only on constants and on parameters that
+  /// are not mailboxes.
   bool is_fixed(NodeId id) const { return fixed_[static_cast<std::size_t>(id)]; }
   bool is_constant(NodeId id) const { return node(id).op == Op::constant; }
 
@@ -32,10 +32,11 @@ class Graph {
   NodeId truth(bool value, Place place);
   /// A parameter, input or state.
   NodeId leaf(Op op, int index, const Unit& unit, Place place);
-  /// What a table's body calls its variable.
+  /// The node of the variable in a table's body.
   NodeId table_argument(int table, const Unit& unit, Place place);
 
-  /// Units and truth must fit; of min, max and select's values they must be the same.
+  /// Operand kinds (number or truth value) and units must fit; min, max and the values of select
+  /// need equal units.
   NodeId add(NodeId a, NodeId b, Place place);
   NodeId subtract(NodeId a, NodeId b, Place place);
   NodeId multiply(NodeId a, NodeId b, Place place);
@@ -60,9 +61,10 @@ class Graph {
 
   NodeId make(Op op, std::vector<NodeId> arguments, const Unit& unit, Place place, int index = -1,
               double value = 0, bool truth = false);
-  /// A product of what the host knows: at most one number, in front, and no sign inside.
+  /// A product of fixed nodes: at most one number, in front, and no sign inside.
   NodeId fixed_product(NodeId a, NodeId b, Place place);
-  /// `a`, which changes during a run, times a fixed factor, which joins a factor of `a` if it can.
+  /// `factor` (fixed) times `a` (changes during a run); `factor` merges with a fixed factor of `a`
+  /// where possible.
   NodeId scale(NodeId factor, NodeId a, Place place);
   NodeId extreme(Op op, NodeId a, NodeId b, Place place);
   /// Whether `id` is a product with a fixed first factor.

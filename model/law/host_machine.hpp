@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a host's writes of parameters do to the interpreter. Documentation: docs/law-compiler.md
+// Applies a host's parameter writes to the interpreter. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace feltgate::law {
 
-/// Writes of LoadedParameters::set(): words of parameter memory, and their commit.
+/// Applies the writes of LoadedParameters::set(): words of parameter memory, and their commit.
 inline void write(Machine& machine, const std::vector<HostWord>& words) {
   constexpr int first = EngineMap::H::data + Image::parameter_base;
   for (const HostWord& w : words) {

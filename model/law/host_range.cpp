@@ -17,7 +17,7 @@ Range wider(double lower, double upper) {
     throw NoRange{"a formula of parameters that gets too large",
                   "make the parameters' ranges smaller"};
   }
-  // An end that is 0 comes from a factor 0 or from a difference without rounding.
+  // An end of 0 comes from a factor 0 or from an exact difference: it needs no rounding.
   return {lower == 0 ? 0 : std::nextafter(lower, -kInfinity),
           upper == 0 ? 0 : std::nextafter(upper, kInfinity)};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The range of a formula over parameters, by intervals. Documentation: docs/laws.md
+// Computes the range of a formula of parameters by interval arithmetic. Documentation: docs/laws.md
 #pragma once
 
 #include <string>
@@ -11,14 +11,15 @@
 
 namespace feltgate::law {
 
-/// A formula that has no value somewhere in its parameters' ranges.
+/// Thrown when a formula has no value somewhere in the ranges of its parameters.
 struct NoRange {
   std::string what, mend;
 };
 
-/// The range of `node`, which may only hold constants and parameters; `ranges` holds those of its
-/// arguments, by node. Each end is moved one double outward; constants and parameters are exact.
-/// Errors: NoRange where a divisor can be 0, a root's argument below 0, or a value beyond 1e300.
+/// The range of `node`, which may depend only on constants and parameters; `ranges` holds the
+/// ranges of its arguments, by node. Each end is rounded outward by one double; constants and
+/// parameters are exact. Throws NoRange when a divisor can be 0, a root's argument can be below 0,
+/// or a value can exceed 1e300.
 Range host_range(const Law& law, const Node& node, const std::vector<Range>& ranges);
 
 }  // namespace feltgate::law

@@ -24,7 +24,7 @@ bool same(const ImageWord& a, const ImageWord& b) {
 std::string blank(const std::string& s) { return s.empty() ? "-" : s; }
 std::string unblank(const std::string& s) { return s == "-" ? "" : s; }
 
-/// Fields of a line, or what is wrong with it.
+/// Reads the fields of a line; throws for a malformed one.
 class Fields {
  public:
   Fields(const std::string& text, int number) : in_(text), number_(number) {}

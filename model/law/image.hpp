@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the compiler of laws makes and an engine runs: the contents of the engine's memories, and
-// the names by which a host knows them. Documentation: docs/law-compiler.md
+// The image: the output of the law compiler, which an engine runs. It holds the contents of the
+// engine's memories, and the names by which a host knows them. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <array>
@@ -17,33 +17,34 @@ struct ImageWord {
   std::string name;  ///< of the parameter in the file
   std::string unit;  ///< as written in the file
   int word = 0;      ///< 0 to 31, counted from the first parameter word
-  double scale = 1;  ///< SI value of 1; negative where the program wants the negated value
+  double scale = 1;  ///< SI value of one LSB; negative where the program needs the negated value
   double to_si = 1;  ///< SI value of 1 in `unit`
   std::int32_t lower = 0, upper = 0, initial = 0;  ///< words; lower <= upper
   bool whole = false;
   bool mailbox = false;
   double max_age_s = 0;  ///< of a mailbox; 0: any
-  /// Empty: the word is the parameter `name` itself, and what the word says is its value.
-  /// Otherwise what the host computes from the values of other words, then rounds: postfix, SI,
-  /// words apart by spaces: numbers, names of parameters, + - * / neg abs min max sqrt exp sin cos.
+  /// Empty: the word is the parameter `name` itself and carries its value. Otherwise the formula by
+  /// which the host computes the word from the values of other words, before it rounds: postfix, in
+  /// SI, tokens separated by spaces: numbers, names of parameters,
+  /// + - * / neg abs min max sqrt exp log sin cos < not and or ?
   std::string formula;
 };
 
-/// An output: number 0 to 2 is the axis.
+/// An output; its number, 0 to 2, is the axis.
 struct ImageOutput {
   std::string name;
   int axis = 0;
 };
 
-/// An event: its value is `scale` times the word that the program gives.
+/// An event; its value is `scale` times the word that the program outputs.
 struct ImageEvent {
   std::string name;
   int number = 0;
   double scale = 1;
 };
 
-/// What a host holds of the parameters: smaller <= larger, or smaller < larger. Formulas as
-/// ImageWord::formula; names for messages, without blanks.
+/// A condition on the parameters that a host must keep: smaller <= larger, or smaller < larger.
+/// The formulas have the form of ImageWord::formula; the names are for messages, without blanks.
 struct ImageRequirement {
   std::string smaller_name, larger_name;
   std::string smaller, larger;
@@ -56,7 +57,7 @@ struct ImageThread {
   int length = 0;   ///< instructions of the longest run
 };
 
-/// Memories as the hardware has them (docs/engine-isa.md), and names.
+/// The memories with the layout of the hardware (docs/engine-isa.md), and the names.
 struct Image {
   std::string name, design;
   std::array<std::uint64_t, 512> program{};  ///< 36 bits each
@@ -65,8 +66,8 @@ struct Image {
   std::array<ImageThread, 4> threads{};
   int line_base = 512;         ///< first table word of delay lines; 512: none
   int max_age_ticks = 0xffff;  ///< a result older than this is late
-  int mailbox_first = 32;      ///< first parameter word that is a mailbox's; 32: there is none
-  int mailbox_age = 0;         ///< steps of 64 ticks that the last commit may be old: its register
+  int mailbox_first = 32;      ///< first parameter word that belongs to a mailbox; 32: none
+  int mailbox_age = 0;         ///< register value: largest age of the last commit, in 64 ticks
   std::vector<ImageWord> words;
   std::vector<ImageOutput> outputs;
   std::vector<ImageEvent> events;
@@ -81,10 +82,11 @@ struct Image {
 /// delay lines: program and table words as 5 bytes, data as 4, low byte first.
 std::uint32_t crc(const Image& image);
 
-/// Text: one line per fact, written and read back equal.
+/// The image as text, one line per fact; read_image() restores an equal image.
 std::string text(const Image& image);
 
-/// Throws std::invalid_argument with line, reason and mend: a wrong word, a CRC that does not hold.
+/// Reads the text of an image. Throws std::invalid_argument with line, reason and mend when a word
+/// is wrong or the CRC does not match.
 Image read_image(const std::string& text);
 
 /// Value of a formula of ImageWord; `value_of` gives the SI value of a parameter by name. Throws
@@ -92,14 +94,14 @@ Image read_image(const std::string& text);
 template <class ValueOf>
 double evaluate_formula(const std::string& formula, const ValueOf& value_of);
 
-/// What the image requires and these values break, as "dynamic <= static, which are 0.5 and 0.4";
-/// empty: nothing. `value_of` gives the SI value of a parameter by name.
+/// The first requirement that the values violate, as "dynamic <= static, which are 0.5 and 0.4";
+/// empty when none is violated. `value_of` gives the SI value of a parameter by name.
 template <class ValueOf>
 std::string broken_requirement(const Image& image, const ValueOf& value_of);
 
-/// Words of all parameters for values in SI: `values` in the order of the words that are parameters
-/// themselves; formulas are computed from what these words stand for. Clamped into each word's
-/// range.
+/// Words of all parameters for values in SI; `values` are in the order of the words that are
+/// parameters themselves. Formulas are computed from the rounded values of these words. Every word
+/// is clamped to its range.
 std::vector<std::int32_t> parameter_words(const Image& image, const std::vector<double>& values);
 
 }  // namespace feltgate::law

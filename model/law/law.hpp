@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A force law as a graph: what the reader of a law file makes, and what evaluation, proofs and the
-// compiler work on. Values are real numbers in SI units; angles are in rad. Documentation:
-// docs/laws.md
+// A force law as a graph. The reader of a law file makes it; evaluation, proofs and the compiler
+// work on it. Values are real numbers in SI units; angles are in rad. Documentation: docs/laws.md
 #pragma once
 
 #include <array>
@@ -26,7 +25,7 @@ struct Unit {
   bool operator==(const Unit& other) const { return exponents == other.exponents; }
 };
 
-/// Closed; lower <= upper.
+/// A closed interval; lower <= upper.
 struct Range {
   double lower = 0;
   double upper = 0;
@@ -46,7 +45,7 @@ enum class Op : std::uint8_t {
   constant,     ///< Node::value
   parameter,    ///< Law::parameters[index]: a parameter or a mailbox word, fixed during a run
   input,        ///< Law::inputs[index]
-  state,        ///< Law::states[index], as the run before left it
+  state,        ///< Law::states[index], its value after the previous run
   add,          ///< a + b
   subtract,     ///< a - b
   multiply,     ///< a * b
@@ -76,7 +75,7 @@ struct Node {
   int index = -1;    ///< where `op` says so
   double value = 0;  ///< of a constant
   bool truth = false;
-  bool whole = false;  ///< surely a whole number
+  bool whole = false;  ///< certainly a whole number
   Unit unit;
   Place place;
 };
@@ -90,8 +89,8 @@ struct Parameter {
   double initial = 0;  ///< in SI, as all numbers that follow
   Range range;
   bool whole = false;    ///< an integer
-  bool mailbox = false;  ///< fed all the time by the host
-  double max_age_s = 0;  ///< of a mailbox: older, and the outputs go to 0
+  bool mailbox = false;  ///< written continuously by the host
+  double max_age_s = 0;  ///< of a mailbox: the outputs go to 0 when its value is older
   NodeId derived = -1;   ///< >= 0: computed by the host from other parameters by this node
   std::string comment;
   Place place;
@@ -110,11 +109,11 @@ struct State {
   std::string unit_text;
   Unit unit;
   double initial = 0;
-  Range range;          ///< declared; shown inductive by the compiler
+  Range range;          ///< declared; the compiler proves that it is inductive
   bool phase = false;   ///< wraps at the ends of its range
   bool whole = false;   ///< next is rounded down to a whole number
-  NodeId follows = -1;  ///< >= 0: a filter of this node, with no range of its own: it never leaves
-                        ///< that node's range, with 0 added to it
+  NodeId follows = -1;  ///< >= 0: the state filters this node and has no own range; it stays in
+                        ///< the hull of 0 and the node's range
   NodeId next = -1;
   Place place;
 };
@@ -128,11 +127,11 @@ struct Table {
   NodeId body = -1;            ///< of points: a constant of their unit
   std::vector<double> points;  ///< at equal distances over the domain; empty: a formula
   int segments = 0;            ///< 0: the compiler chooses; of points one less than there are
-  bool periodic = false;       ///< goes on beyond its ends as it began; they are the same
+  bool periodic = false;       ///< repeats beyond its ends, whose values are equal
   Place place;
 };
 
-/// Numbers in table memory.
+/// An array of constants in table memory.
 struct Array {
   std::string name;
   Unit unit;
@@ -166,9 +165,9 @@ struct Event {
   Place place;
 };
 
-/// What must hold of parameters, whenever the host sets some: smaller <= larger.
+/// A condition on parameters that must hold after every write of the host: smaller <= larger.
 struct Requirement {
-  NodeId smaller = -1, larger = -1;  ///< constants and parameters only; mailboxes are none
+  NodeId smaller = -1, larger = -1;  ///< made of constants and parameters only, without mailboxes
   bool strict = false;               ///< smaller < larger
   Place place;
 };
@@ -179,12 +178,12 @@ struct Unused {
   Place place;
 };
 
-/// Parsed, its units checked, its loops unrolled, equal nodes merged, constants folded.
+/// A law after parsing: units are checked, loops unrolled, equal nodes merged, constants folded.
 struct Law {
   std::string name;
   std::string summary;    ///< the first comment of the file
-  double rate_hz = 0;     ///< 0: as fast as it gets
-  bool own_rate = false;  ///< the file says a rate
+  double rate_hz = 0;     ///< 0: as fast as possible
+  bool own_rate = false;  ///< the file declares a rate
   bool timed = false;     ///< dt or a filter is used
   std::vector<Parameter> parameters;
   std::vector<Input> inputs;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Delay lines: rings at the end of the table memory, each with a word that says where it is
-// written next. Documentation: docs/law-compiler.md
+// Lowers delay lines: rings at the end of the table memory, each with a state word that holds its
+// next write index. Documentation: docs/law-compiler.md
 #include <cmath>
 
 #include "law/back_end.hpp"
@@ -10,7 +10,7 @@
 namespace feltgate::law {
 
 namespace {
-constexpr double place = 4096;  // of an index in the word that TAB and TST take
+constexpr double place = 4096;  // weight of the index in the operand word of TAB and TST
 }  // namespace
 
 void BackEnd::begin_lines() {

@@ -53,7 +53,7 @@ std::string tables(const Compiled& c) {
              : s + fmt::format("table memory: {} of {} words\n", words, EngineMap::table_words);
 }
 
-/// Where the law can jump, and the strip around it in which words may be on the other side.
+/// Lists where the law can jump, and the strips in which the words may be on the other side.
 std::string strips(const Compiled& c) {
   std::string s;
   for (const Place& place : c.bound.sharp) {

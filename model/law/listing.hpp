@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a compiled law is, as a page of text. Documentation: docs/law-compiler.md
+// Describes a compiled law as a page of text. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@
 
 namespace feltgate::law {
 
-/// Parameters with their words, rate, bound, measured error, strips, tables.
+/// The report: parameters with their words, rate, bound, measured error, strips, tables.
 std::string report(const Compiled& compiled, const Measured& measured);
 
-/// Every instruction with what it reads, its format, its range and its error.
+/// The listing: every instruction with its operands, format, range and error.
 std::string listing(const Compiled& compiled);
 
 /// An operand as the listing names it: "position", "contact", "#12", "t3".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Register writes that load a law. Documentation: docs/law-compiler.md
+// Makes the register writes that load a law. Documentation: docs/law-compiler.md
 #include "law/load.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 using H = EngineMap::H;
 
-/// Words of a memory with more bits than a register: the upper ones first, where they change.
+/// Writes words that are longer than a register: the upper bits first, only when they change.
 template <class Words>
 void add_long_words(const Words& words, int base, bool zeros, std::vector<HostWord>* writes) {
   std::uint32_t high = 0;
@@ -38,7 +38,7 @@ void add_long_words(const Words& words, int base, bool zeros, std::vector<HostWo
 std::vector<HostWord> load(const Image& image, bool zeros) {
   std::vector<HostWord> writes{{H::run, 0}};
   add_long_words(image.program, H::program, zeros, &writes);
-  // The register of the upper bits holds the program's last.
+  // The register of the upper bits still holds those of the last program word.
   writes.push_back({H::high, 0});
   add_long_words(image.table, H::table, zeros, &writes);
   const auto data = [&](int word) {
@@ -151,7 +151,7 @@ void LoadedParameters::check(const std::string& name, double value) const {
   (void)rounded_si(name, value);
 }
 
-/// All values in SI with these among them.
+/// All values in SI, after `values` replaced some of them.
 std::map<std::string, double> LoadedParameters::with(
     const std::map<std::string, double>& values) const {
   std::map<std::string, double> all = si_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How a host brings an image into an engine, and a parameter into a running law: register writes.
-// Documentation: docs/law-compiler.md
+// The register writes by which a host loads an image into an engine and sets a parameter of a
+// running law. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <cstdint>
@@ -23,44 +23,44 @@ struct HostWord {
   bool operator==(const HostWord& o) const { return address == o.address && data == o.data; }
 };
 
-/// Everything, whatever the memories hold; the engine stands until the last word. Only a disarmed
-/// core takes it.
+/// Writes that load the complete image, whatever the memories hold. The engine is stopped until the
+/// last word. Only a disarmed core accepts them.
 std::vector<HostWord> load(const Image& image);
 
-/// The same into an engine whose memories are 0, as after configuration: what is 0 is left out.
+/// The same for an engine whose memories are 0, as after configuration: words that are 0 are left
+/// out.
 std::vector<HostWord> load_into_zeros(const Image& image);
 
 /// The engine's memories with the image in them.
 EngineMemory memory(const Image& image);
-/// What its words hold then, for an engine that no host loads.
+/// The reset values of the engine's registers for this image, for an engine that no host loads.
 EngineReset reset_words(const Image& image);
 
-/// The values of an image's parameters as a host keeps them: what was set last, as rounded to
-/// words.
+/// The host's copy of an image's parameter values: the values set last, rounded to words.
 class LoadedParameters {
  public:
-  /// The values of the image. It must outlive this.
+  /// Starts with the initial values of `image`, which must outlive this object.
   explicit LoadedParameters(const Image& image);
 
-  /// The values that an engine's 32 parameter words stand for, in place of the image's.
+  /// Takes the values from an engine's 32 parameter words, in place of the image's values.
   void take(const std::vector<std::uint32_t>& words);
 
   /// The word that is parameter `name`, or nullptr.
   const ImageWord* find(const std::string& name) const;
-  /// Value in the unit of the law's file; the writes that bring it and all that follows from it
-  /// into force together. Errors: std::invalid_argument, for an unknown name with what there is,
-  /// for a value out of its range with the range, for a requirement that would not hold; nothing
-  /// is set then.
+  /// Sets a value, in the unit of the law's file. Returns the writes that make it and all derived
+  /// words take effect together. Throws std::invalid_argument, and sets nothing, for an unknown
+  /// name (the message lists the names), for a value out of range (the message shows the range),
+  /// and for a requirement that would not hold.
   std::vector<HostWord> set(const std::string& name, double value);
-  /// The same of several, by one commit; of none: the words that stand.
+  /// The same for several values with one commit; an empty map writes the current words.
   std::vector<HostWord> set(const std::map<std::string, double>& values);
-  /// The nearest value that the parameter takes; of an unknown name the value itself.
+  /// `value` clamped to what the parameter accepts; for an unknown name, `value` itself.
   double within(const std::string& name, double value) const;
-  /// Only the errors of set(), without those of what the law requires.
+  /// Only throws the errors of set(), except those of the law's requirements.
   void check(const std::string& name, double value) const;
-  /// Only the errors of set().
+  /// Only throws the errors of set().
   void check(const std::map<std::string, double>& values) const;
-  /// As rounded to its word, in the unit of the file.
+  /// The value after rounding to its word, in the unit of the file.
   double value(const std::string& name) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Values, alignment, selections. Documentation: docs/law-compiler.md
+// Lowers values and selections, and aligns their formats. Documentation: docs/law-compiler.md
 #include <cmath>
 
 #include "law/back_end.hpp"
@@ -89,8 +89,7 @@ int BackEnd::largest_fraction(NodeId id, double unit, double size) const {
   return static_cast<int>(std::floor(std::log2(limit * unit / size)));
 }
 
-/// Scale of a node that has a format of its own: as chosen, or `preferred` fraction bits where they
-/// fit.
+/// Scale of a node with a format of its own: the chosen one, or at most `preferred` fraction bits.
 double BackEnd::chosen_scale(NodeId id, double unit, int preferred, double size) {
   const auto found = choice_.fraction.find(id);
   const int most = largest_fraction(id, unit, size);
@@ -159,7 +158,7 @@ Value BackEnd::compute(NodeId id, double hint) {
   }
 }
 
-/// Whether a word of this scale cannot hold what it must: a whole parameter's value, as it is.
+/// Whether a word of this scale cannot hold a whole parameter's value exactly, as it must.
 bool BackEnd::breaks(const std::vector<NodeId>& fixed, double word_scale) const {
   if (fixed.size() != 1) return false;
   const Node& n = node(fixed[0]);
@@ -168,12 +167,12 @@ bool BackEnd::breaks(const std::vector<NodeId>& fixed, double word_scale) const 
          std::fabs(ones - std::nearbyint(ones)) > 1e-12 * std::fabs(ones);
 }
 
-/// A whole parameter's word.
+/// The word of a whole parameter, with scale 1.
 Value BackEnd::in_ones(const std::vector<NodeId>& fixed) {
   return {{From::word, word(fixed, 1)}, 1, fixed_size(fixed)};
 }
 
-/// A fixed node as a word or constant of this scale; another node's value, aligned.
+/// A fixed node as a word or constant of this scale; for another node, its value aligned to it.
 Value BackEnd::at_scale(NodeId id, double scale, double* error) {
   *error = 0;
   if (!is_fixed(id)) return align(value(id, scale), scale, id);
@@ -217,7 +216,8 @@ Value BackEnd::align(const Value& v, double scale, NodeId id) {
   return to;
 }
 
-/// Scale in which nodes meet: the unit of the first that is not fixed; its bits, or as chosen.
+/// Common scale of several nodes: the unit of the first node that is not fixed, with its fraction
+/// bits or the chosen ones.
 double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, double hint,
                              bool chosen) {
   double scale = 0, size = 0;
@@ -228,7 +228,7 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
     if (scale == 0) {
       scale = v.scale;
     } else if (chosen ? v.scale > scale : v.scale < scale) {
-      // A selection takes the fewer bits, a comparison the more where all fit.
+      // A selection uses the smaller number of bits, a comparison the larger one if all fit.
       if (same_unit(v.scale, scale)) scale = v.scale;
     }
   }
@@ -295,7 +295,7 @@ Value BackEnd::state(NodeId id) {
 
 Value BackEnd::mailbox(NodeId id) {
   const double size = span(id).size();
-  // As a factor it must fit in 18 bits; more are of no use to most.
+  // A factor must fit in 18 bits, and few values need more.
   const int factor = static_cast<int>(std::floor(std::log2(131071.0 / std::max(size, 1e-9))));
   const double scale = chosen_scale(id, 1, factor, size);
   return {{From::word, word({id}, scale)}, scale, size};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// From statements to nodes: names get meaning, units are checked, loops are unrolled.
+// Lowers statements to nodes: resolves names, checks units, unrolls loops.
 // Documentation: docs/laws.md
 #pragma once
 
@@ -17,12 +17,12 @@
 
 namespace feltgate::law {
 
-/// Thrown where going on would take too long; it is reported already.
+/// Thrown, after the error is reported, when the remaining work would take too long.
 struct TooLong {};
 
 class Lowering {
  public:
-  /// `rate_hz` > 0 overrides what the file says. All must outlive this.
+  /// `rate_hz` > 0 overrides the rate in the file. All arguments must outlive this object.
   Lowering(std::string_view text, double rate_hz, Law& law, Diagnostics& diagnostics);
 
   void run(const std::vector<Statement>& statements);
@@ -65,15 +65,15 @@ class Lowering {
   };
   Quantity quantity(const Statement& s);
   bool constant_of(const ExpressionPtr& e, const char* what, double& value, Unit& unit);
-  /// A whole constant from `least` to `most`; `least` where it is none, which is reported.
+  /// A whole constant from `least` to `most`. Anything else is reported and gives `least`.
   int whole_of(const ExpressionPtr& e, const char* what, int least, int most);
   std::pair<int, int> loop_range(const ExpressionPtr& from, const ExpressionPtr& to);
 
   // expressions.cpp
   NodeId value_of(const ExpressionPtr& e);   ///< number or truth value
-  NodeId number_of(const ExpressionPtr& e);  ///< a number, or reported
+  NodeId number_of(const ExpressionPtr& e);  ///< a number; anything else is reported
   NodeId truth_of(const ExpressionPtr& e);
-  /// A number with `unit`, or reported: `what` is in that unit.
+  /// A number with `unit`; anything else is reported as a wrong unit of `what`.
   NodeId number_in(const ExpressionPtr& e, const Unit& unit, const std::string& what);
   NodeId named(const Expression& e);
   NodeId given_value(const Expression& e, const std::string& name, int axis);
@@ -86,7 +86,8 @@ class Lowering {
   NodeId choice(const Expression& e);
   NodeId reduce(const Expression& e);
   NodeId unknown(const Expression& e, const char* what, bool functions);
-  /// Makes 0 fit any unit; reports two that do not fit. `joint`: how the text joins them.
+  /// Gives a 0 the unit of the other side; reports two units that differ. `joint`: the operator
+  /// between them in the text.
   bool fit(NodeId& a, NodeId& b, const Expression& ea, const Expression& eb, std::size_t offset,
            const std::string& joint);
   std::string unit_words(const Expression& e, NodeId node);
@@ -127,7 +128,7 @@ class Lowering {
   std::string defining_;                  ///< the name whose definition is being read
   std::map<std::string, Place> defined_;  ///< every name of the file, for "before its definition"
   std::map<std::pair<NodeId, NodeId>, NodeId> filters_;
-  std::map<int, NodeId> noises_;  ///< by their seed
+  std::map<int, NodeId> noises_;  ///< by seed
   int floor_array_ = -1;
   int ranged_ = 0;
   std::set<std::string> has_next_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of functions that are made of others: nothing behind the reader knows them.
+// Lowers functions that are composed of others: the passes after the reader do not know them.
+// Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,12 +13,12 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr int kMostWhole = 64;    ///< whole numbers that floor tells apart
-constexpr int kMostRanged = 128;  ///< calls that look at their argument's range
+constexpr int kMostWhole = 64;    ///< largest number of values of floor
+constexpr int kMostRanged = 128;  ///< largest number of calls that use their argument's range
 
 }  // namespace
 
-/// What a node can be by what the file declares; an input can be anything.
+/// The range of a node by the file's declarations; an input has no limits.
 Span Lowering::range_of(NodeId id, const Expression& e) {
   if (++ranged_ > kMostRanged) {
     report(e.offset, fmt::format("more than {} calls of floor and mod", kMostRanged),
@@ -39,7 +40,7 @@ Span Lowering::range_of(NodeId id, const Expression& e) {
   return ranges(part, cell)[static_cast<std::size_t>(id)];
 }
 
-/// An element of the whole numbers, by the number itself.
+/// floor(x), as an element of an array of whole numbers with index x.
 NodeId Lowering::floored(NodeId x, const Expression& e) {
   const Place place = at(e.offset);
   if (x == kNone || graph_.node(x).whole) return x;
@@ -91,7 +92,7 @@ NodeId Lowering::mod(const Expression& e) {
   }
   NodeId inside = x;
   if (graph_.node(x).whole && period.whole) {
-    // Between the whole numbers, where nothing is rounded to the other side.
+    // Moves x midway between whole numbers, where rounding cannot reach another one.
     inside = graph_.add(x, graph_.constant(0.5, kNumber, place), place);
   }
   const NodeId periods = floored(graph_.divide(inside, m, place), e);
@@ -100,15 +101,15 @@ NodeId Lowering::mod(const Expression& e) {
   return graph_.smaller(graph_.larger(rest, zero, place), m, place);
 }
 
-/// A name for a table or array of the language's own, which the file has not.
+/// A name for an internal table or array that does not occur in the file.
 std::string Lowering::own_name(std::string name, Place place) {
   while (defined_.count(name) != 0) name += "_";
   defined_.emplace(name, place);
   return name;
 }
 
-/// A phase that steps by another, which steps by a constant: it takes all values equally often, and
-/// over many runs has nothing to do with itself some runs before.
+/// Noise: a phase whose increment is a second phase with a constant increment. It takes all values
+/// equally often, and over many runs it is uncorrelated with its earlier values.
 NodeId Lowering::noise(const Expression& e) {
   if (!takes(e, 1, "noise(1)")) return kNone;
   const Place place = at(e.offset);
@@ -116,7 +117,7 @@ NodeId Lowering::noise(const Expression& e) {
   const auto known = noises_.find(seed);
   if (known != noises_.end()) return known->second;
   const auto number = [&](double value) { return graph_.constant(value, kNumber, place); };
-  // Parts of a turn in 2^-20: each seed has its own.
+  // Fractions of a turn in units of 2^-20: each seed has its own.
   const auto part = [](double x) { return std::floor((x - std::floor(x)) * 0x1p20) * 0x1p-20; };
   const double irrational = part(0.6180339887498949 + seed * 0.0137719);
   const double step = std::floor(irrational * 0x1p19) * 0x1p-19 + 0x1p-20;  // odd

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Memories and names of a compiled law. Documentation: docs/law-compiler.md
+// Makes the memories and names of a compiled law. Documentation: docs/law-compiler.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::string number(double value) {
   return value < 0 ? fmt::format("{:.17g} neg", -value) : fmt::format("{:.17g}", value);
 }
 
-/// The element that an index names, of those from `first` to `last`: halves are told apart.
+/// Formula of the element that `index` selects from `first` to `last`, by halving.
 std::string one_of(const std::vector<double>& values, std::size_t first, std::size_t last,
                    const std::string& index) {
   if (first == last) return number(values[first]);
@@ -122,7 +122,7 @@ class ImageMaker {
       }
       image_.events.push_back({e.name, e.number, scale});
     }
-    // Two starts may be missed.
+    // Two missed starts are allowed.
     const ImageThread& thread = image_.threads[at(target_.thread)];
     image_.max_age_ticks = std::min(0xffff, 4 * thread.divider);
     return image_;
@@ -167,7 +167,7 @@ class ImageMaker {
       }
       image_.words.push_back(word);
     }
-    // A parameter that only others are computed from is a word that no instruction reads.
+    // A parameter that serves only to compute others is a word that no instruction reads.
     for (std::size_t p = 0; p < law_.parameters.size(); ++p) {
       const Parameter& parameter = law_.parameters[p];
       if (parameter.derived >= 0) continue;
@@ -221,8 +221,8 @@ class ImageMaker {
     }
   }
 
-  /// What the engine counts for the shortest max_age: late after more steps than this, and at
-  /// most one more.
+  /// The engine's count for the shortest max_age: data are late after more than this number of
+  /// steps, detected at most one step later.
   int mailbox_age() const {
     const double step = EngineMap::mailbox_step / static_cast<double>(target_.tick_hz);
     int least = 0xffff;

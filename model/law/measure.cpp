@@ -32,7 +32,8 @@ class Meter {
     set([](const ImageWord& w) { return static_cast<double>(w.initial); });
   }
 
-  /// Word of each parameter by `choose`, in both; as they were, where the law requires others.
+  /// Sets each parameter in both to the word from `choose`; keeps the old words if the law's
+  /// requirements exclude the new ones.
   template <class Choose>
   void set(const Choose& choose) {
     std::vector<double> values;
@@ -67,7 +68,7 @@ class Meter {
     started_ = false;
   }
 
-  /// One run of both; `word` gives an input's word.
+  /// Executes one run of both; `word` gives an input's word.
   template <class Word>
   void run(const Word& word, bool free_running) {
     MachineInputs inputs{};
@@ -109,7 +110,7 @@ class Meter {
     const int first = c_.target.thread * EngineMap::private_words;
     return machine_.memory().data_at(first + c_.assembled.state_address[k]);
   }
-  /// A line is what the words of its ring say, from that which is written next on.
+  /// Sets the law's line to the words of its ring, starting at the word that is written next.
   void take_line(std::size_t i) {
     const LineUse& use = c_.program.lines[i];
     const int length = c_.law.lines[i].length, base = c_.program.tables[at(use.table)].base,
@@ -126,11 +127,13 @@ class Meter {
                                               : std::ldexp(1.0, -c_.target.torque.fraction);
   }
 
-  /// What only the next run shows is no matter where that begins as the words say.
+  /// Whether the strip affects an output of this run. An effect that shows only in the next run
+  /// does not matter if that run starts from the states of the words.
   static bool shows(const Strip& s) {
     return std::any_of(s.jump.begin(), s.jump.end(), [](double j) { return j > 0; });
   }
-  /// The law, within the strip, goes the other way than an instruction with these operands.
+  /// Whether the law, within the strip, decides differently from an instruction with these
+  /// operands.
   bool crossed(const Strip& s, std::int32_t x, std::int32_t y) const {
     const Node& n = c_.law.nodes[at(s.condition)];
     const double width = s.width * (1 + 1e-9);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The image run by the interpreter beside the law in double: how far apart they are. Documentation:
-// docs/law-compiler.md
+// Measures the error of an image: the interpreter runs the image beside the law in double.
+// Documentation: docs/law-compiler.md
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace feltgate::law {
 struct Measured {
   std::vector<double> output;  ///< largest difference, Nm, as Law::outputs
   std::int64_t runs = 0;
-  std::int64_t in_strips = 0;  ///< runs that are in none of `output`: a comparison was too close
-  bool all_inputs = false;     ///< every value of the only input, with the parameters' defaults
+  std::int64_t in_strips = 0;  ///< runs excluded from `output`: a comparison was in its strip
+  bool all_inputs = false;     ///< ran every value of the only input, with default parameters
 };
 
-/// Random inputs and parameters, corners among them. States and lines of the law are set to what
-/// the words say before each run, unless `free`: then both run on by themselves for 1000 runs at a
-/// time.
+/// Measures with random inputs and parameters, corners included. Before each run the law's states
+/// and lines are set to the values of the words. With `free_running`, law and words instead run
+/// independently for 1000 runs at a time.
 Measured measure(const Compiled& compiled, std::uint64_t seed, std::int64_t runs,
                  bool free_running = false);
 
-/// All positions, where the law has no state and no other input; else nothing.
+/// Measures all positions, if the law has no state and no other input; otherwise measures nothing.
 Measured measure_all(const Compiled& compiled);
 
 }  // namespace feltgate::law

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Numbers of an array or a table as text of a law. Documentation: docs/laws.md
+// Formats the numbers of an array or a table as the text of a law. Documentation: docs/laws.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Tables that go on beyond their ends: read in turns, as the sine is. Documentation:
+// Lowers periodic tables: their argument is in turns, as that of the sine. Documentation:
 // docs/law-compiler.md
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace feltgate::law {
 
 namespace {
 
-/// The first segment follows on the last one: what is known of neighbours holds there too.
+/// Treats the first and the last segment as neighbours.
 void join_ends(TableUse& t, bool whole_segments) {
   const std::size_t last = t.words.size() - 1;
   t.steep.front() = t.steep.back() = t.slope;
@@ -45,7 +45,7 @@ Value BackEnd::periodic(NodeId id) {
                   fmt::format("let the table {} begin at 0", table.name));
   }
   const Operand turns = phase(n.arguments[0], std::ldexp(1.0, -32), period);
-  // The upper bits of the turn, an index and 12 bits.
+  // Takes the upper bits of the turn: an index and 12 bits.
   constexpr int drop = 27;  // of mode 3
   Step& index = emit(EngineOp::mlw, 3, turns, constant(std::ldexp(segments, drop - 20)),
                      1 / (4096.0 * segments), id);
@@ -59,7 +59,7 @@ Value BackEnd::periodic(NodeId id) {
   r.domain = Span{1.0 * r.low, 1.0 * r.low + r.count} * (period / segments);
   r.limit = 524287;
   const int fraction = value_fraction(r);
-  // It is there once: its first reader chooses for all.
+  // The table is stored once: its first reader chooses the scale for all.
   const std::string memory = fmt::format("periodic {}", n.index);
   const auto same = memory_scales_.find(memory);
   r.value_scale =

@@ -22,12 +22,12 @@ double value(Op op, double x) {
                                 : std::exp(x);
 }
 
-/// How far the function is from a line over a segment, looked at in a few places.
+/// Distance of the function from its chord over a segment, sampled at a few places.
 double bend(Op op, double from, double to) {
   const double a = value(op, from), b = value(op, to);
   double most = 0;
   for (int k = 1; k < 16; ++k) {
-    const double share = k * k / 256.0;  // sqrt bends most near its end
+    const double share = k * k / 256.0;  // denser near both ends: sqrt curves most near one
     for (const double s : {share, 1 - share}) {
       most = std::max(most, std::fabs(value(op, from + (to - from) * s) - (a + (b - a) * s)));
     }
@@ -35,14 +35,14 @@ double bend(Op op, double from, double to) {
   return most;
 }
 
-/// Of segments: that of the table of the whole, and the least that the argument's error leaves a
-/// use for.
+/// Widths of segments: that of the unsplit table, and the smallest one that is useful with the
+/// argument's error.
 struct Widths {
   double whole = 0, least = 0;
 };
 
-/// Where pieces of `segments` segments each end, which are a power of two of `width.whole` wide and
-/// bend by `error` at most; empty where there would be more than `pieces`.
+/// Ends of pieces of `segments` segments each. A segment is `width.whole` times a power of two
+/// wide, and its error is at most `error`. Empty if more than `pieces` pieces would be needed.
 std::vector<double> cuts_for(Op op, const Span& x, int pieces, int segments, const Widths& width,
                              double error) {
   std::vector<double> ends;
@@ -50,7 +50,7 @@ std::vector<double> cuts_for(Op op, const Span& x, int pieces, int segments, con
   while (static_cast<int>(ends.size()) < pieces) {
     double to = from;
     for (int k = 8; k > -28; --k) {
-      // A table begins at a whole segment, an eighth of one before what it is for.
+      // A table begins at a segment's border, at least an eighth of a segment before its range.
       const double h = std::ldexp(width.whole, k);
       const double end = std::min(x.hi, (std::floor(from / h - 0.125) + segments - 0.25) * h);
       if (h < width.least || !(end > from)) break;
@@ -71,7 +71,7 @@ std::vector<double> cuts_for(Op op, const Span& x, int pieces, int segments, con
   return {};
 }
 
-/// Ends of the pieces, with errors as equal as can be.
+/// Ends of the pieces, chosen so that their errors are as equal as possible.
 std::vector<double> cuts(Op op, const Span& x, int pieces, int segments, const Widths& width) {
   const double whole = std::fabs(value(op, x.hi) - value(op, x.lo));
   double low = -40, high = 0;  // bits of the error in one piece
@@ -86,7 +86,7 @@ std::vector<double> cuts(Op op, const Span& x, int pieces, int segments, const W
   return best;
 }
 
-/// What the argument is within where the function's value is, which is positive but of log.
+/// The range of the argument for which the value lies in `keep`; values are positive except of log.
 Span inverse_of(Op op, const Span& keep) {
   if (op == Op::logarithm) return exponential(keep);
   const auto inverse = [op](double y) {
@@ -178,7 +178,8 @@ class Pieces {
     return add(std::move(n));
   }
 
-  /// A value like `like`'s, cut off at the ends of `keep` that it reaches.
+  /// Clamps `made`, which has the range `has`, to those ends of `keep` that it exceeds; unit and
+  /// place are those of `like`.
   NodeId cut_off(NodeId made, const Node& like, const Span& has, const Span& keep) {
     if (has.hi > keep.hi) {
       made = make(Op::minimum, like, like.unit,
@@ -191,8 +192,8 @@ class Pieces {
     return made;
   }
 
-  /// min(max(node, keep.lo), keep.hi), the limits as far inside as they go: a function's table is
-  /// then only for what is left of its argument.
+  /// min(max(node, keep.lo), keep.hi), with the limits moved as far inward in the expression as
+  /// possible, so that a function's table covers only the remaining range of its argument.
   NodeId limited(NodeId id, const Span& keep) {
     const Node& n = law_.nodes[at(id)];
     const auto constant = [&](int i) {
@@ -236,7 +237,7 @@ class Pieces {
         return pieces(id, cut, inside);
       }
     }
-    // The node that run() is at has no copy yet.
+    // The current node of run() has no copy yet.
     const NodeId made = at(id) < to_.size() ? to_[at(id)] : copied(n);
     return cut_off(made, n, spans_[at(id)], keep);
   }
@@ -265,7 +266,7 @@ class Pieces {
 
   const Law& law_;
   const std::vector<Span> spans_;
-  std::vector<char> needed_;  ///< has a span: not so what is only within a table's formula
+  std::vector<char> needed_;  ///< per node: it has a span; false if only in a table's formula
   std::vector<char> wide_;
   std::vector<int> users_;
   std::vector<Widths> widths_;

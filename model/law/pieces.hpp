@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A function over a wide range as a sum of itself over parts of it, each with a table of its own.
+// Splits a function of a wide range into a sum of pieces, each with its own table.
 // Documentation: docs/law-compiler.md
 #pragma once
 
@@ -14,9 +14,9 @@ namespace feltgate::law {
 
 constexpr int kMostPieces = 4;
 
-/// The same law in real numbers. Every sqrt, 1/x and exp of what changes in a run is
-/// f(x) = f(min(x, t)) + f(max(x, t)) - f(t), in up to `pieces` pieces, and a constant limit of its
-/// value is one of its argument. `whole`, `b`: of the law as it is.
+/// A law that is equal in real numbers. It replaces every sqrt, 1/x and exp of a changing argument
+/// by f(x) = f(min(x, t)) + f(max(x, t)) - f(t), in up to `pieces` pieces, and moves a constant
+/// limit of the value to the argument. `whole`, `b`: program and bound of the unchanged law.
 Law in_pieces(const Law& law, const Target& target, const Program& whole, const Bound& b,
               int pieces);
 

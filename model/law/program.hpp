@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law as instructions before it has registers: each step's result has a scale, so that proofs
-// can follow what it stands for. Documentation: docs/law-compiler.md
+// A law as instructions before register allocation. Each step's result has a scale, so that proofs
+// know which real value it stands for. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <cstdint>
@@ -16,37 +16,37 @@
 
 namespace feltgate::law {
 
-/// Where an operand comes from: a step's result, Law::inputs, ::states as the run before left them,
-/// a parameter word, a constant, a hidden state (Program::held).
+/// The source of an operand: a step's result, an input (Law::inputs), a state after the previous
+/// run (Program::states), a parameter word, a constant.
 enum class From : std::uint8_t { none, step, input, state, word, constant };
 
 struct Operand {
   From from = From::none;
   int index = -1;
-  double exact = 0;  ///< of a constant: what it stands for, in words, before it was rounded
+  double exact = 0;  ///< of a constant: its value in words before rounding
   bool operator==(const Operand& o) const { return from == o.from && index == o.index; }
   bool operator<(const Operand& o) const {
     return from != o.from ? from < o.from : index < o.index;
   }
 };
 
-/// One instruction. Its result stands for result * scale, in SI, or in turns where `turns`.
+/// One instruction. Its result stands for result * scale, in SI, or in turns if `turns`.
 struct Step {
   EngineOp op = EngineOp::nop;
   int mode = 0;
   Operand x, y;
-  double x_error = 0, y_error = 0;  ///< of a constant operand against what it stands for, in words
+  double x_error = 0, y_error = 0;  ///< rounding error of a constant operand, in words
   int table = -1, offset = 0;       ///< of LRP and TAB: Program::tables, words from its start
   double argument_scale = 1;        ///< of LRP: SI value, or turns, of 1 of x
   double scale = 1;
-  NodeId node = -1;    ///< whose value it is: that node's range holds for it too; -1: a part of one
-  int sign = 1;        ///< -1: it is the negated value of `node`
-  bool turns = false;  ///< wraps, so that its range is no matter
-  int output = -1;     ///< goes to this output
-  int event = -1;      ///< goes to the events with this number
+  NodeId node = -1;    ///< the node whose value (and range) the result has; -1: a part of a node
+  int sign = 1;        ///< -1: the result is the negated value of `node`
+  bool turns = false;  ///< the result wraps, so its range does not matter
+  int output = -1;     ///< the output that receives the result
+  int event = -1;      ///< the number of the event that receives the result
   int skip = 0;        ///< of BRF: steps that it may pass over
   int condition = -1;  ///< of CMP and SEL: the law's node of the condition
-  double margin_scale = 0;  ///< of what ABS takes the sign from, where not `scale`
+  double margin_scale = 0;  ///< of ABS: scale of the operand that gives the sign, if not `scale`
   NodeId floors = -1;       ///< this node's value is rounded down here to a whole number
   bool whole = false;       ///< the law's value is a whole number of words
   Place place;
@@ -55,9 +55,9 @@ struct Step {
 /// A parameter word: the product of nodes that only depend on parameters, divided by scale.
 struct Word {
   std::vector<NodeId> nodes;
-  double scale = 1;      ///< negative: the negated value
-  double exact = 0;      ///< of a word that is a whole multiple of a primary's: that multiple
-  bool primary = false;  ///< the word is the parameter: what it says is the value
+  double scale = 1;      ///< negative: the word holds the negated value
+  double exact = 0;      ///< of a word that is a whole multiple of a primary word: that multiple
+  bool primary = false;  ///< the word is the parameter itself and carries its value
 };
 
 /// A table in table memory.
@@ -67,14 +67,14 @@ struct TableUse {
   bool wraps = false;          ///< all 512 words, any index
   double error = 0;            ///< largest, in words of the value; proven
   std::vector<double> errors;  ///< of each segment
-  std::vector<double> steep;   ///< of each segment and its neighbours: largest slope
+  std::vector<double> steep;   ///< largest slope of each segment and its neighbours
   double slope = 0;            ///< largest change of the value in words per word of the argument
-  double jump = 0;             ///< largest from segment to segment, words
+  double jump = 0;             ///< largest jump between segments, words
   Span values;                 ///< words
   std::string what;            ///< for the listing
   std::string proof;           ///< how its error was proven
-  int line = -1;               ///< >= 0: words of this delay line, which runs write
-  int base = 0;                ///< address, when placed
+  int line = -1;               ///< >= 0: the words belong to this delay line, which runs write
+  int base = 0;                ///< address, once placed
 };
 
 struct StateUse {
@@ -88,7 +88,7 @@ struct LineUse {
   double scale = 1;
   Operand written;   ///< a step
   int table = -1;    ///< Program::tables
-  int pointer = -1;  ///< Program::states: the index that is written next, times 4096
+  int pointer = -1;  ///< index in Program::states of the next index to write, times 4096
 };
 
 struct Program {
@@ -96,8 +96,8 @@ struct Program {
   std::vector<Word> words;
   std::vector<std::int32_t> constants;
   std::vector<TableUse> tables;
-  std::vector<StateUse> states;  ///< as Law::states, then one per event: whether it held; one per
-                                 ///< line: where it is written
+  std::vector<StateUse> states;  ///< as Law::states, then one per event (whether its condition
+                                 ///< held), then one per line (where it is written)
   std::vector<LineUse> lines;
 };
 
@@ -107,7 +107,7 @@ inline bool is_mailbox(const Law& law, const Program& program, std::size_t index
   return n.op == Op::parameter && law.parameters[static_cast<std::size_t>(n.index)].mailbox;
 }
 
-/// Its number in parameter memory: mailbox words lie at the end, up to 31.
+/// The number of word `index` in parameter memory; mailbox words lie at the end, up to 31.
 inline int word_number(const Law& law, const Program& program, int index) {
   const auto i = static_cast<std::size_t>(index);
   int before = 0, from_here = 0;
@@ -121,7 +121,7 @@ inline int word_number(const Law& law, const Program& program, int index) {
   return is_mailbox(law, program, i) ? EngineMap::parameter_words - from_here : before;
 }
 
-/// Steps of `program` that pass acc from the step before.
+/// Whether a step reads acc, the result of the step before.
 inline bool takes_acc(const Step& s) {
   return s.op == EngineOp::mac || s.op == EngineOp::tst ||
          ((s.op == EngineOp::add || s.op == EngineOp::sub) && s.mode >= 2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of constants: values with ranges, whole numbers, the ranges of loops.
+// Lowers constants: values with ranges, whole numbers, the ranges of loops.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr int kMostRounds = 1024;  ///< of one loop
+constexpr int kMostRounds = 1024;  ///< largest number of rounds of one loop
 
-/// A number as written, perhaps with a sign; nullptr for any other expression.
+/// A number as written, with or without a sign; nullptr for any other expression.
 const Expression* literal(const ExpressionPtr& e) {
   const Expression* at = e.get();
   while (at->kind == Expression::Kind::unary && at->name == "-") at = at->arguments[0].get();
@@ -92,7 +92,8 @@ Lowering::Quantity Lowering::quantity(const Statement& s) {
   bool good = true;
   for (Part& p : parts) good = constant_of(p.e, p.what, p.value, p.unit) && good;
   if (!good) return q;
-  // The unit as written: the value's own; else the upper end's, which the lower end takes too.
+  // The unit as written is the value's; without one, the upper end's, which also serves the lower
+  // end.
   const Expression* const of_value = with_unit(s.value);
   const Expression* const of_upper = with_unit(s.upper);
   const Expression* const shown = of_value != nullptr   ? of_value

@@ -16,7 +16,7 @@ Span truth_of_less(const Span& a, const Span& b) {
   return {0, 1};
 }
 
-/// Nodes of a table's body, by jets; `argument` stands for the variable.
+/// Evaluates the nodes of a table's body by jets; `argument` is the variable.
 class Body {
  public:
   Body(const Law& law, const Table& table, const Jet& argument)
@@ -63,7 +63,7 @@ class Body {
         const Span c = arg(0).v;
         if (c.lo > 0) return arg(1);
         if (c.hi <= 0) return arg(2);
-        // The two may not meet: no slope either.
+        // The two values may not join: there is no slope either.
         return {hull(arg(1).v, arg(2).v), whole_line(), whole_line()};
       }
       case Op::sine:
@@ -275,8 +275,8 @@ std::vector<Span> ranges(const Law& law, const Cell& cell) { return Ranges(law, 
 
 namespace {
 
-/// The line through points. A span that reaches a corner by no more than doubles' rounding lies on
-/// one side of it.
+/// The piecewise line through points. A span that passes a corner by only the rounding of doubles
+/// counts as lying on one side.
 Jet points_jet(const Table& table, const Span& x) {
   const double width = (table.domain.upper - table.domain.lower) / table.segments;
   const auto place = [&](double at) { return (at - table.domain.lower) / width; };
@@ -303,8 +303,8 @@ Jet within(const Law& law, const Table& table, const Span& argument) {
   return Body(law, table, {argument, {1, 1}, {0, 0}}).jet(table.body);
 }
 
-/// Of a periodic table, wherever its argument is. Beyond its end by no more than doubles' rounding
-/// is no matter.
+/// The jet of a periodic table for any argument. An excess over its end by only the rounding of
+/// doubles is ignored.
 Jet around(const Law& law, const Table& table, const Span& argument) {
   const Span domain{table.domain.lower, table.domain.upper};
   const double period = domain.width();

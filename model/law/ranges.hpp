@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What values a law's nodes can take, by intervals over a cell of its inputs, parameters and
-// states. Documentation: docs/law-compiler.md
+// Computes the ranges of a law's nodes by interval arithmetic over a cell of its inputs, parameters
+// and states. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <stdexcept>
@@ -15,7 +15,7 @@
 
 namespace feltgate::law {
 
-/// What the compiler refuses: place, reason and mend in one text.
+/// Thrown when the compiler refuses a law: place, reason and mend in one text.
 class Refused : public std::invalid_argument {
  public:
   Refused(const Place& place, const std::string& reason, const std::string& mend)
@@ -30,29 +30,31 @@ struct Cell {
   std::vector<Span> inputs, parameters, states;
 };
 
-/// Everything that the law declares or the design's formats hold.
+/// The cell of all values that the law declares or that the design's formats can hold.
 Cell whole_cell(const Law& law, const Target& target);
 
-/// A function that gets tables of the compiler's own.
+/// Whether the compiler makes tables of its own for the function.
 inline bool has_pieces(Op op) {
   return op == Op::root || op == Op::reciprocal || op == Op::exponential || op == Op::logarithm;
 }
 
-/// Every node's range over the cell; truth values are parts of [0, 1]. Nodes that only the bodies
-/// of tables have are empty.
+/// The range of every node over the cell; a truth value has a part of [0, 1]. Nodes that occur only
+/// in bodies of tables have an empty range.
 std::vector<Span> ranges(const Law& law, const Cell& cell);
 
 /// A table's body, or a function of a node, as a jet of its argument.
 Jet table_jet(const Law& law, const Table& table, const Span& argument);
 double table_value(const Law& law, const Table& table, double argument);
 
-/// x - y is not below 0 where y <= x is required; the same nodes, in the same numbers.
+/// Narrows the range of a node x - y if requirement `r` orders these two nodes: to at least 0 for
+/// y <= x, to at most 0 for x <= y.
 void narrow_difference(const Node& n, const Requirement& r, double* lower, double* upper);
 
 /// Nodes that outputs, events and states need, arguments before users.
 std::vector<NodeId> needed(const Law& law);
 
-/// Depends on nothing but constants and parameters that are no mailbox: the host can compute it.
+/// Per node, whether the host can compute it: it depends only on constants and on parameters that
+/// are not mailboxes.
 std::vector<char> fixed_nodes(const Law& law);
 
 }  // namespace feltgate::law

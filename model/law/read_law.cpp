@@ -18,7 +18,7 @@ namespace feltgate::law {
 
 namespace {
 
-/// A text of a file as UTF-8 that a terminal takes, with '?' for what is none.
+/// A text of a file as printable UTF-8; '?' replaces invalid or unprintable bytes.
 std::string printable(std::string_view text) {
   std::string all;
   for (std::size_t at = 0; at < text.size();) {
@@ -43,7 +43,7 @@ std::string_view line_of(std::string_view text, std::size_t begin) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// The comment that the file begins with: its lines joined.
+/// The comment at the begin of the file, its lines joined.
 std::string summary_of(std::string_view text) {
   std::string summary;
   std::size_t at = 0;
@@ -59,7 +59,7 @@ std::string summary_of(std::string_view text) {
   return summary;
 }
 
-/// The comment behind each parameter, on its line.
+/// Stores the comment after each parameter, on the same line.
 void take_comments(std::string_view text, Law& law) {
   std::size_t begin = 0;
   for (int number = 1; begin <= text.size(); ++number) {
@@ -80,7 +80,7 @@ bool is_utf16(std::string_view text) {
   return mark == "\xff\xfe" || mark == "\xfe\xff" || text[0] == '\0' || text[1] == '\0';
 }
 
-/// Ends of lines that are a CR alone, as old files have them, become those of others.
+/// Replaces line ends that are a single CR, as in old files, by LF.
 std::string with_line_ends(std::string_view text) {
   std::string all(text);
   for (std::size_t i = 0; i < all.size(); ++i) {

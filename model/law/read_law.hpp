@@ -12,12 +12,12 @@
 
 namespace feltgate::law {
 
-/// The law in a file; its name is the file's without folder and ".law". `rate_hz` > 0: the rate in
-/// Hz at which it runs, instead of what the file says; dt and filters follow. Errors: LawError with
-/// everything that is wrong, also when the file cannot be read.
+/// Reads the law in a file; the law's name is the file name without folder and ".law". `rate_hz` >
+/// 0 replaces the rate in the file (Hz); dt and filters follow it. Throws LawError with all errors,
+/// also when the file cannot be read.
 Law read_law(const std::string& path, double rate_hz = 0);
 
-/// The same of a text; errors call it `path`.
+/// The same for a text; errors name it `path`.
 Law read_law_text(std::string_view text, const std::string& path, double rate_hz = 0);
 
 }  // namespace feltgate::law

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the grammar does not understand, as a message, and where reading goes on.
+// Reports syntax errors and resumes parsing after them. Documentation: docs/laws.md
 #include "law/recovery.hpp"
 
 #include <fmt/format.h>
@@ -18,12 +18,12 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr int kMostDepth = 500;    ///< of an expression's tree
-constexpr int kMostBrackets = 60;  ///< open at once: each is a dozen calls of the grammar
-constexpr int kMostChoices = 60;   ///< ifs in one statement, which may stand in each other
+constexpr int kMostDepth = 500;    ///< largest depth of an expression's tree
+constexpr int kMostBrackets = 60;  ///< open at once: each costs a dozen calls of the grammar
+constexpr int kMostChoices = 60;   ///< ifs in one statement, which may be nested
 constexpr std::size_t kMostText = 1U << 16U;
 
-/// Words that begin a statement, and the statement's form.
+/// Keywords that begin a statement, and the statement's form.
 constexpr std::pair<const char*, const char*> kForms[] = {
     {"param", "param NAME = VALUE UNIT in LOWER .. UPPER UNIT"},
     {"mailbox", "mailbox NAME = VALUE UNIT in LOWER .. UPPER UNIT max_age 5 ms"},
@@ -75,7 +75,7 @@ bool is_plain(unsigned char byte) { return byte >= 0x20 && byte < 0x7f; }
 constexpr const char* kPlain =
     "outside of comments a law is plain ASCII; pi is written as a word, micro as u";
 
-/// What stands at `at`, for a message.
+/// Describes the text at `at` for a message.
 std::string found(std::string_view text, std::size_t at) {
   if (at >= text.size()) return "the end of the file";
   if (text.substr(at, 2) == "==") return "\"==\"";
@@ -103,7 +103,7 @@ std::size_t skip(std::string_view text, std::size_t at) {
   return at;
 }
 
-/// The next line after `at` that begins with a statement or ends a loop.
+/// Offset of the next line after `at` that begins with a statement or ends a loop.
 std::size_t next_statement(std::string_view text, std::size_t at) {
   while (true) {
     const std::size_t end = text.find('\n', at);
@@ -115,7 +115,7 @@ std::size_t next_statement(std::string_view text, std::size_t at) {
   }
 }
 
-/// Brackets and ifs that are open at once; the grammar would call itself for each of them.
+/// Limits the brackets and ifs that are open at once, as the grammar recurses for each.
 void check_nesting(std::string_view text, const Places& places, Diagnostics& diagnostics) {
   int open = 0, choices = 0;
   for (std::size_t at = skip(text, 0); at < text.size(); at = skip(text, at)) {
@@ -134,10 +134,10 @@ void check_nesting(std::string_view text, const Places& places, Diagnostics& dia
   }
 }
 
-/// What stands before an error.
+/// The text before an error.
 struct Before {
-  std::string form;     ///< of the last statement that begins
-  std::size_t end = 0;  ///< of the last word or sign
+  std::string form;     ///< form of the last statement that begins before it
+  std::size_t end = 0;  ///< end of the last word or sign before it
 };
 
 Before before(std::string_view text, std::size_t begin, std::size_t end) {
@@ -190,7 +190,7 @@ bool is_keyword(std::string_view word) {
 
 void refuse_word(std::string_view rest) {
   const std::string_view word = word_at(rest, 0);
-  // A number behind a number is no unit: the grammar says what it expected.
+  // A number after a number is not meant as a unit: the grammar reports what it expected.
   if (word.empty() || is_keyword(word) || (word[0] >= '0' && word[0] <= '9')) return;
   const std::string guess = config::did_you_mean(word, unit_symbols());
   throw SyntaxError{rest.data(), "unknown unit \"" + std::string(word.substr(0, 40)) + "\"",
@@ -235,7 +235,7 @@ std::vector<Statement> parse_statements(std::string_view text, Diagnostics& diag
         at = static_cast<std::size_t>(end - text.data());
         continue;
       }
-      // After an error a loop's end may be left over.
+      // After an error, the end of a loop may remain unmatched.
       if (text[at] != '}' || diagnostics.empty()) {
         const Diagnostic d = no_statement(text, at, places);
         diagnostics.add(d.place, d.what, d.mend);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of what a law requires of its parameters.
+// Lowers the `require` statements of a law. Documentation: docs/laws.md
 #include "law/lowering.hpp"
 
 namespace feltgate::law {
@@ -11,7 +11,7 @@ void Lowering::require(const Statement& s) {
   if (condition != kNone) require(condition, true, s.condition->offset);
 }
 
-/// That `condition` is true, or false where it does not hold.
+/// Adds the requirement that `condition` is true, or false if not `holds`.
 void Lowering::require(NodeId condition, bool holds, std::size_t offset) {
   const Node n = graph_.node(condition);
   if (graph_.is_constant(condition) || !graph_.is_fixed(condition)) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Outputs, events and states: what a run leaves. Documentation: docs/law-compiler.md
+// Lowers the results of a run: outputs, events and states. Documentation: docs/law-compiler.md
 #include <cmath>
 
 #include "law/back_end.hpp"
 
 namespace feltgate::law {
 
-/// Unit of what a state will be fed with, so that it needs no conversion.
+/// Unit of the value that a state will receive, so that it needs no conversion; 0 if unknown.
 double BackEnd::state_unit(NodeId id, int depth) const {
   if (depth == 0 || id < 0 || is_fixed(id)) return 0;
   const Node& n = node(id);
@@ -74,7 +74,7 @@ void BackEnd::events() {
     lower_leaves(e.condition);
     flag_ = -1;
     const Operand now = {From::step, raise(e.condition, false)};
-    // It happens where the condition holds and did not in the run before.
+    // The event happens if the condition holds and did not hold in the previous run.
     emit(EngineOp::cmp, 0, {From::state, held}, now, 1, e.condition).condition = e.condition;
     flag_ = -1;
     Step& branch = emit(EngineOp::brf, 1, {}, {}, 1, e.condition);
@@ -115,7 +115,7 @@ Operand BackEnd::rounded_down(NodeId id) {
 Value BackEnd::next_state(const State& s, double scale) {
   double error = 0;
   if (s.whole) {
-    // Rounded down, as the file's language does.
+    // The value is rounded down, as the law language defines.
     const double size = span(s.next).size();
     if (is_fixed(s.next) && node(s.next).whole) return at_scale(s.next, scale, &error);
     const Operand down = node(s.next).whole ? whole_word(s.next) : rounded_down(s.next);
@@ -123,7 +123,7 @@ Value BackEnd::next_state(const State& s, double scale) {
   }
   Value v = at_scale(s.next, scale, &error);
   if (error > 0) {
-    // A number that is no word: what it lacks is the state's error.
+    // A constant that is not a whole number of words: its rounding error is the state's error.
     emit(EngineOp::add, 0, v.operand, constant(0), scale, s.next).x_error = error;
     v.operand = last();
   }
@@ -160,7 +160,7 @@ Value BackEnd::next_state(const State& s, double scale) {
 void BackEnd::states() {
   for (std::size_t i = 0; i < law_.states.size(); ++i) {
     const State& s = law_.states[i];
-    // Its format is chosen where it is first read, or here.
+    // The state's format is chosen at its first read, or else here.
     NodeId own = -1;
     for (const NodeId id : needed(law_)) {
       if (node(id).op == Op::state && node(id).index == static_cast<int>(i)) own = id;
@@ -169,7 +169,7 @@ void BackEnd::states() {
     const double scale = value(own).scale;
     Value v = next_state(s, scale);
     if (v.operand.from == From::state && v.operand.index != static_cast<int>(i)) {
-      // Another state as the run before left it: read before any is written.
+      // The old value of another state: it must be read before any state is written.
       emit(EngineOp::add, 0, v.operand, constant(0), scale, s.next).node = s.next;
       v.operand = last();
     }
@@ -182,7 +182,7 @@ void BackEnd::states() {
   }
 }
 
-/// Steps that nothing needs go; a copy to an output goes into the step that computes it.
+/// Removes unused steps; merges a copy to an output into the step that computes the value.
 void BackEnd::finish() {
   std::vector<Step>& steps = program_.steps;
   const auto register_uses = [&](int i) {
@@ -207,7 +207,7 @@ void BackEnd::finish() {
     s.x = {};
   }
   std::vector<char> kept(steps.size(), 0);
-  // The flag joins comparisons: each needs those before it that it goes on from.
+  // The flag joins comparisons: each one needs the earlier comparisons that it continues.
   for (std::size_t i = steps.size(); i-- > 0;) {
     const Step& s = steps[i];
     if (s.output >= 0 || s.event >= 0 || s.op == EngineOp::brf || s.op == EngineOp::tst) {

@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string> kFunctions{"min", "max",  "clamp", "abs",     "sgn", "sin",
                                           "cos", "sqrt", "exp",   "lowpass", "sum"};
-/// Names that a law may take for its own.
+/// Built-in names that a law may redefine.
 const std::vector<std::string> kFreeFunctions{"floor", "mod", "noise", "log"};
 const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque",
                                        "pi",       "dt",       "true",    "false"};

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What only changes its sign: one ABS instead of a comparison and a selection. Documentation:
-// docs/law-compiler.md
+// Lowers selections that only change a sign to one ABS, in place of a comparison and a selection.
+// Documentation: docs/law-compiler.md
 #include <algorithm>
 
 #include "law/back_end.hpp"
 
 namespace feltgate::law {
 
-/// x < 0 ? -v : v
+/// Whether the node has the form x < 0 ? -v : v.
 bool BackEnd::flips(NodeId id) const {
   const Node& n = node(id);
   if (n.op != Op::select || is_fixed(n.arguments[1]) || is_fixed(n.arguments[2])) return false;
@@ -27,7 +27,7 @@ bool BackEnd::flips(NodeId id) const {
   return a.number == -b.number && a.fixed == b.fixed && a.factors == b.factors;
 }
 
-/// x < 0 ? -c : c of numbers and parameters, as sgn and what it multiplies.
+/// Whether the node has the form x < 0 ? -c : c with c of numbers and parameters; gives x and c.
 bool BackEnd::turned(NodeId id, NodeId* by, Term* amount) const {
   const Node& n = node(id);
   if (n.op != Op::select || !is_fixed(n.arguments[1]) || !is_fixed(n.arguments[2])) return false;
@@ -44,7 +44,7 @@ bool BackEnd::turned(NodeId id, NodeId* by, Term* amount) const {
   return true;
 }
 
-/// A product with a sign among its factors: ABS takes the sign from one word to another.
+/// A product with a sign among its factors: ABS transfers the sign from one word to another.
 Value BackEnd::turned_sum(NodeId id, Term term, double hint) {
   NodeId by = -1, sign = -1;
   Term amount;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Intervals of double whose ends are moved outward after every operation, as model/bounds has them,
-// with the functions that laws use and derivatives up to the second. Documentation:
-// docs/law-compiler.md
+// Intervals of double, rounded outward after every operation as in model/bounds, with the functions
+// of the law language and with derivatives up to the second. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@ constexpr double pi = 3.14159265358979323846;
 inline double down(double x) { return std::nextafter(x, -infinity); }
 inline double up(double x) { return std::nextafter(x, infinity); }
 
-/// All numbers from lo to hi; none where hi < lo.
+/// All numbers from lo to hi; empty if hi < lo.
 struct Span {
   double lo = 0, hi = 0;
   bool empty() const { return !(lo <= hi); }
@@ -39,7 +38,8 @@ inline Span both_of(const Span& a, const Span& b) {
 }
 inline Span wider(const Span& a, double by) { return {down(a.lo - by), up(a.hi + by)}; }
 
-/// A sum of doubles that comes out as 0 is exactly 0: what cannot be negative stays so.
+/// Rounds a sum down. A computed sum of 0 is exactly 0 and stays 0, so a range that cannot be
+/// negative does not become negative.
 inline double sum_down(double x) { return x == 0 ? 0 : down(x); }
 inline double sum_up(double x) { return x == 0 ? 0 : up(x); }
 inline Span operator+(const Span& a, const Span& b) {
@@ -54,7 +54,7 @@ inline Span operator*(const Span& a, const Span& b) {
   const double p = bounded_product(a.lo, b.lo), q = bounded_product(a.lo, b.hi),
                r = bounded_product(a.hi, b.lo), s = bounded_product(a.hi, b.hi);
   Span all = {down(std::min({p, q, r, s})), up(std::max({p, q, r, s}))};
-  // Where both factors have one sign, the product has its own: rounding does not cross 0.
+  // The product of factors with equal signs is not negative: outward rounding must not cross 0.
   if ((a.lo >= 0 && b.lo >= 0) || (a.hi <= 0 && b.hi <= 0)) all.lo = std::max(all.lo, 0.0);
   if ((a.lo >= 0 && b.hi <= 0) || (a.hi <= 0 && b.lo >= 0)) all.hi = std::min(all.hi, 0.0);
   return all;
@@ -65,7 +65,7 @@ inline Span square(const Span& a) {
   const bool zero = a.lo <= 0 && a.hi >= 0;
   return {zero ? 0 : std::max(0.0, down(std::min(p, q))), up(std::max(p, q))};
 }
-/// Of words, which doubles hold exactly.
+/// Product of ranges of words, which doubles hold exactly: no outward rounding.
 inline Span exact_product(const Span& a, const Span& b, bool same) {
   const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
   if (same) return {a.lo <= 0 && a.hi >= 0 ? 0 : std::min(p, s), std::max(p, s)};
@@ -83,17 +83,18 @@ inline Span amount(const Span& a) {
   if (a.hi <= 0) return -a;
   return {0, std::max(-a.lo, a.hi)};
 }
-/// The whole line where 0 is in it.
+/// 1/a; the whole line if `a` contains 0.
 inline Span inverse(const Span& a) {
   if (a.lo <= 0 && a.hi >= 0) return whole_line();
   const Span i = {down(1 / a.hi), up(1 / a.lo)};
   return a.lo > 0 ? Span{std::max(0.0, i.lo), i.hi} : Span{i.lo, std::min(0.0, i.hi)};
 }
-/// Of what of it is not negative.
+/// Square root of the part of `a` that is not negative.
 inline Span root(const Span& a) {
   return {std::max(0.0, down(std::sqrt(std::max(a.lo, 0.0)))), up(std::sqrt(std::max(a.hi, 0.0)))};
 }
-/// The C library's exp, log, sin, cos err by less than a step; four are added.
+/// Moves x by four doubles towards `way`: exp, log, sin and cos of the C library err by less than
+/// one double.
 inline double four_steps(double x, double way) {
   for (int i = 0; i < 4; ++i) x = std::nextafter(x, way);
   return x;
@@ -102,7 +103,7 @@ inline Span exponential(const Span& a) {
   return {std::max(0.0, four_steps(std::exp(a.lo), -infinity)),
           four_steps(std::exp(a.hi), infinity)};
 }
-/// Of what of it is above 0.
+/// Logarithm of the part of `a` above 0.
 inline Span logarithm(const Span& a) {
   return {a.lo > 0 ? four_steps(std::log(a.lo), -infinity) : -infinity,
           a.hi > 0 ? four_steps(std::log(a.hi), infinity) : infinity};
@@ -110,7 +111,7 @@ inline Span logarithm(const Span& a) {
 inline Span cosine(const Span& a) {
   if (!(a.width() < 6.28)) return {-1, 1};
   constexpr double slack = 1e-15;
-  const double size = a.size() * 1e-15;  // of the argument's own reduction
+  const double size = a.size() * 1e-15;  // error of the argument reduction
   Span r = hull({std::cos(a.lo), std::cos(a.lo)}, {std::cos(a.hi), std::cos(a.hi)});
   const double first = std::ceil((a.lo - size) / pi - 1e-12);
   for (double k = first; k * pi <= a.hi + size + 1e-12; ++k) {
@@ -155,7 +156,7 @@ inline Jet logarithm(const Jet& a) {
 }
 inline Jet sine(const Jet& a) { return chain(a, sine(a.v), cosine(a.v), -sine(a.v)); }
 inline Jet cosine(const Jet& a) { return chain(a, cosine(a.v), -sine(a.v), -cosine(a.v)); }
-/// One of two, it is not known which: a kink, so no curvature.
+/// The jet of a selection whose choice is unknown: it has a kink, so its curvature is unbounded.
 inline Jet either_of(const Jet& a, const Jet& b, const Span& v) {
   return {v, hull(a.d1, b.d1), whole_line()};
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the grammar needs beside Boost.Spirit X3. It takes seconds to compile: for grammar.cpp
-// alone.
+// The grammar's additions to Boost.Spirit X3. This header takes seconds to compile: only
+// grammar.cpp includes it.
 #pragma once
 
 #include <boost/range/iterator_range.hpp>
 #include <boost/spirit/home/x3.hpp>
 #include <string>
 
-// What is missing is called by the name of the first rule in it.
+// An error names the expected input by the name of its first rule.
 namespace boost::spirit::x3 {
 
 template <class Subject, class Action>
@@ -45,7 +45,7 @@ namespace x3 = boost::spirit::x3;
 using Iterator = const char*;
 using Text = boost::iterator_range<Iterator>;
 
-/// What `Subject` went over, as text also where it is one part of several.
+/// The text that `Subject` matched, also when it is one part of a sequence.
 template <class Subject>
 struct Raw : x3::unary_parser<Subject, Raw<Subject>> {
   using attribute_type = Text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowering of statements, in the order of the file.
+// Lowers statements, in the order of the file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -104,7 +104,7 @@ void Lowering::define(const Statement& s, Symbol symbol) {
         "choose another name");
     return;
   }
-  // Defined even so: one message is enough.
+  // The name is defined in spite of the error: one message is enough.
   if (is_reserved(s.name)) {
     report(s.name_offset, quoted(s.name) + " is a name that the language brings along",
            "choose another name");
@@ -164,7 +164,7 @@ void Lowering::state(const Statement& s) {
   define(s, symbol);
 }
 
-/// A whole state, 0 or 1; what reads it compares.
+/// A truth-valued state: a whole state, 0 or 1; its readers compare it.
 void Lowering::boolean(const Statement& s) {
   const NodeId first = truth_of(s.value);
   Symbol symbol;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Sums of products: terms, their common scale, the chain of instructions. Documentation:
+// Lowers sums of products: terms, their common scale, the chain of instructions. Documentation:
 // docs/law-compiler.md
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ bool is_whole(double x) { return std::fabs(x - std::nearbyint(x)) <= 1e-12 * std
 
 }  // namespace
 
-/// What multiplies in a node: numbers, parameters, other nodes.
+/// Collects the factors of a node: numbers, parameters, other nodes.
 void BackEnd::gather(NodeId id, bool root, Term& term) const {
   const Node& n = node(id);
   if (n.op == Op::constant) {
@@ -64,7 +64,7 @@ void BackEnd::collect(NodeId id, double number, bool root, std::vector<Term>& te
     term.number = number;
     gather(id, root, term);
     if (term.number == 0) return;
-    // A sum behind nothing but a sign is part of this one.
+    // A sum with only a sign before it becomes part of this sum.
     if (term.fixed.empty() && term.factors.size() == 1 && std::fabs(term.number) == 1 &&
         term.factors[0] != id && once(term.factors[0])) {
       collect(term.factors[0], term.number, false, terms);
@@ -84,7 +84,7 @@ void BackEnd::collect(NodeId id, double number, bool root, std::vector<Term>& te
 
 bool BackEnd::fits_factor(const Value& v) const { return v.size / v.scale <= factor_limit + 1; }
 
-/// The value with as many bits as a factor can have.
+/// The value, shortened to the bits of a factor if necessary.
 Value BackEnd::narrow(const Value& v, NodeId id) {
   if (fits_factor(v)) return v;
   const double bits = std::ceil(std::log2(v.size / v.scale / (factor_limit - 8)));
@@ -106,7 +106,7 @@ BackEnd::Multiply BackEnd::by_number(const Value& v, double ratio, NodeId id) {
     chosen = c;
     if (is_whole(c) && c != 0) break;
   }
-  // A factor below 1 would lose what the product has: in two steps instead.
+  // A factor below 1 would lose bits of the product: two steps are used instead.
   if (std::fabs(chosen) < 1 && std::fabs(ratio) * v.size / v.scale >= 1) {
     const Value less = align(v, v.scale * 65536, id);
     return by_number(less, ratio * 65536, id);
@@ -116,7 +116,7 @@ BackEnd::Multiply BackEnd::by_number(const Value& v, double ratio, NodeId id) {
   return m;
 }
 
-/// Times a parameter word: the word has the most bits that a factor and the four shifts allow.
+/// Multiplication by a parameter word, with the most bits that a factor and the four shifts allow.
 BackEnd::Multiply BackEnd::by_word(const Value& v, const Term& term, double scale, NodeId id) {
   const double size = fixed_size(term.fixed);
   Multiply m;
@@ -155,14 +155,14 @@ BackEnd::Multiply BackEnd::pair(const Value& a, const Value& b, int mode, NodeId
   return m;
 }
 
-/// a * b in a format of its own: the most bits that fit.
+/// a * b in a format of its own, with the most bits that fit.
 Value BackEnd::product(const Value& first, const Value& second, NodeId id) {
   const Value a = first;
   const Value b = fits_factor(a) || fits_factor(second) ? second : narrow(second, id);
   const auto key = std::minmax(a.operand, b.operand);
   const auto found = products_.find(key);
   if (found != products_.end()) {
-    Value known = found->second;  // under a scale of the operands of then
+    Value known = found->second;  // scale and size are relative to those of the operands
     known.scale *= a.scale * b.scale;
     known.size *= a.size * b.size;
     return known;
@@ -201,7 +201,7 @@ double BackEnd::sum_scale(NodeId id, const std::vector<Term>& terms, double hint
     return chosen_scale(id, unit_of(hint), fraction_of(hint), size);
   }
   if (!plain.empty()) {
-    // The unit that most have; of these the most bits that fit.
+    // Takes the unit that most terms have, and of these the most bits that fit.
     double best = plain[0];
     int most = 0;
     for (const double p : plain) {
@@ -252,7 +252,7 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
         chain.products.push_back(by_number(in_ones(term.fixed), term.number / scale, id));
         return;
       }
-      // The sign of a plain word is the instruction's.
+      // The instruction applies the sign of a plain word.
       a.operand = {From::word, word(term.fixed, std::fabs(s))};
       a.sign = s < 0 ? -1 : 1;
     }
@@ -281,7 +281,7 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
   for (int mode = 0; mode < 4; ++mode) {
     if (!same_scale(std::fabs(ratio), std::exp2(-EngineMap::shifts[mode]))) continue;
     if (ratio < 0) {
-      // The one that is negated already, or else the last.
+      // Negates the addend whose negation already exists, otherwise the last one.
       if (negated_.count(v.operand) != 0 && negated_.count(w.operand) == 0) std::swap(v, w);
       w = negated(w, id);
     }
@@ -292,7 +292,7 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
   chain.products.push_back(by_number(t, t.scale * term.number / scale, id));
 }
 
-/// Emits the chain; every step but the first goes on from the one before.
+/// Emits the chain; every step except the first continues from the result of the one before.
 Value BackEnd::chain(const Chain& c, double scale, NodeId id) {
   std::vector<Addend> addends = c.addends;
   std::size_t next = 0;
@@ -303,7 +303,7 @@ Value BackEnd::chain(const Chain& c, double scale, NodeId id) {
     return addends.size();
   };
   std::size_t used = 0;
-  // A value that was computed just now is in acc already.
+  // The value of the previous step is already in acc.
   bool running = false;
   if (!program_.steps.empty() && addends.size() + c.products.size() > 1) {
     for (std::size_t i = 0; i < addends.size() && !c.products.empty(); ++i) {
@@ -358,7 +358,7 @@ Value BackEnd::sum(NodeId id, double hint) {
     }
   }
   if (terms.empty()) terms.push_back({0, {}, {}});
-  // What is computed last is in acc; leaves are nowhere better than in memory.
+  // The value computed last is in acc; leaves stay in memory.
   const auto rank = [this](const Term& t) {
     const bool plain = t.fixed.empty() && t.factors.size() == 1;
     const Op op = plain ? node(t.factors[0]).op : Op::constant;
@@ -371,8 +371,8 @@ Value BackEnd::sum(NodeId id, double hint) {
     const bool alone = t.fixed.empty() && t.factors.size() == 1;
     for (const NodeId f : t.factors) (void)value(f, alone ? hint / std::fabs(t.number) : 0);
   }
-  // A value times a number is the same word under another scale, unless that is of no use where
-  // the value goes.
+  // A value times a number is the same word with another scale, unless the user of the value needs
+  // the first scale.
   const auto renamed = [&] {
     const double scale = value(terms[0].factors[0]).scale;
     return hint == 0 || same_unit(scale * terms[0].number, hint) || !same_unit(scale, hint);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law file as it is written: statements and expressions, before names and units mean anything.
+// The syntax tree of a law file: statements and expressions, before names and units are resolved.
 // Documentation: docs/laws.md
 #pragma once
 
@@ -31,7 +31,7 @@ struct Expression {
     reduce,  ///< name: "sum", "min", "max"; over `variable` from, to, body
   };
   Kind kind = Kind::number;
-  std::size_t offset = 0;  ///< in the text; of a binary one, of its operator
+  std::size_t offset = 0;  ///< in the text; for a binary expression, of its operator
   std::string name, variable;
   double value = 0;  ///< as written, without the unit's factor
   std::string unit_text;
@@ -64,7 +64,7 @@ struct Statement {
   std::size_t offset = 0, name_offset = 0;
   std::string name;
   std::string variable;  ///< of a table or loop
-  ExpressionPtr value;   ///< what stands behind "=", or an event's value
+  ExpressionPtr value;   ///< the expression after "=", or an event's value
   ExpressionPtr lower, upper;
   ExpressionPtr age;        ///< of a mailbox
   ExpressionPtr condition;  ///< of an event or a requirement
@@ -78,11 +78,11 @@ struct Statement {
   std::vector<Statement> body;  ///< of a loop
 };
 
-/// The statements of a text. What is not understood is reported, and reading goes on at the next
-/// line that begins with a statement. Never deeper than a few hundred calls, whatever the text.
+/// Parses the statements of a text. An error is reported, and parsing resumes at the next line that
+/// begins with a statement. Recursion stays below a few hundred calls for any text.
 std::vector<Statement> parse_statements(std::string_view text, Diagnostics& diagnostics);
 
-/// Whether `word` is one of the language: "param", "if", "and", ...
+/// Whether `word` is a keyword: "param", "if", "and", ...
 bool is_keyword(std::string_view word);
 
 }  // namespace feltgate::law

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where a table's formula is a number. Documentation: docs/laws.md
+// Finds places where a table's formula is not a finite number. Documentation: docs/laws.md
 #include "law/table_values.hpp"
 
 #include <algorithm>
@@ -13,15 +13,17 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr int looks = 4096;  // equal parts of the domain, at whose ends it is looked at
+constexpr int looks = 4096;  // equal parts of the domain; the formula is evaluated at their ends
 
-/// Nodes whose values do not go on where another one is chosen.
+/// Whether the value of argument number `argument` reaches the node's value: false for the value
+/// that a selection does not choose.
 bool chosen_from(const Node& n, const std::vector<double>& values, std::size_t argument) {
   return n.op != Op::select || argument == 0 ||
          (values[at(n.arguments[0])] != 0) == (argument == 1);
 }
 
-/// Below what is no number, the first node of which all that it is made of are.
+/// Among the causes of a value that is not a number, the first node whose arguments all are
+/// numbers.
 NodeId first_cause(const Law& law, NodeId id, const std::vector<double>& values) {
   const Node& n = law.nodes[at(id)];
   for (std::size_t i = 0; i < n.arguments.size(); ++i) {

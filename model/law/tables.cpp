@@ -16,9 +16,9 @@ namespace feltgate::law {
 namespace {
 
 constexpr int fraction = 4096;
-constexpr int pieces = 8;  // in which a segment is looked at for its shift
+constexpr int pieces = 8;  // parts of a segment that are examined to find its shift
 
-/// A segment: where it begins and ends, what is asked, what was chosen.
+/// A segment: its ends, and the words chosen for it.
 struct Segment {
   double from, to;
   std::int32_t value, slope;
@@ -27,9 +27,9 @@ struct Segment {
 constexpr int most_halvings = 20;
 constexpr int most_looks = 400;
 
-/// The error of a segment's line against the function over x, both in words: by the curvature,
-/// whose largest effect is width^2/8 of it in the middle; where the function has a kink, in halves
-/// down to the smallest, which is looked at by its slope.
+/// The error of a segment's line against the function over x, both in words. The curvature bounds
+/// it: its largest effect is curvature * width^2/8, in the middle. At a kink the span is halved
+/// repeatedly; the smallest part is bounded by the slope.
 double line_error(const TableRequest& r, const Segment& s, const Span& x, int depth, int* looks) {
   const Jet j = r.function(x);
   const double h = x.hi - x.lo;
@@ -39,7 +39,7 @@ double line_error(const TableRequest& r, const Segment& s, const Span& x, int de
   };
   const double bend = up(h * h / 8 / r.value_scale);
   const Span curved = j.d2 * Span{-bend, 0};  // function - chord
-  // No further than the ends of what both can be.
+  // The difference cannot exceed that of the ranges of both.
   const Span whole = j.v * (1 / r.value_scale) -
                      Span{std::min(line(x.lo), line(x.hi)), std::max(line(x.lo), line(x.hi))};
   if (curved.size() < infinity) {
@@ -109,12 +109,12 @@ TableUse make_table(const TableRequest& r) {
     t.values = hull(t.values, {static_cast<double>(std::min(s.value, s.value + s.slope)),
                                static_cast<double>(std::max(s.value, s.value + s.slope))});
     t.slope = std::max(t.slope, std::fabs(static_cast<double>(s.slope)) / fraction);
-    // What is proven of the part of the segment within the domain.
+    // Proves the part of the segment within the domain.
     s.from = from;
     s.to = to;
     const Span inside = {std::clamp(from, r.domain.lo, r.domain.hi),
                          std::clamp(to, r.domain.lo, r.domain.hi)};
-    // Of one outside: where its line meets the domain's end.
+    // For a segment outside the domain: the point where its line meets the domain's end.
     int looks = 0;
     const double error = line_error(r, s, inside, 0, &looks);
     halved = halved || looks > 0;
@@ -142,7 +142,7 @@ Jet sine_of_turns(const Span& x) { return sine(Jet{x * (2 * pi), {2 * pi, 2 * pi
 TableUse sine_turn(std::int32_t limit, double value_scale) {
   TableRequest r{sine_of_turns, {-0.5, 0.5}, std::ldexp(1.0, -21), -256, 512, value_scale, limit};
   TableUse t = make_table(r);
-  // Word 0 of the memory is index 0.
+  // Rotates the words so that word 0 of the memory is index 0.
   std::rotate(t.words.begin(), t.words.begin() + 256, t.words.end());
   std::rotate(t.errors.begin(), t.errors.begin() + 256, t.errors.end());
   t.low = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Words of table memory for functions, and the proof of their error. Documentation:
+// Makes the words of table memory for functions, and proves their error. Documentation:
 // docs/law-compiler.md
 #pragma once
 
@@ -11,29 +11,31 @@
 
 namespace feltgate::law {
 
-/// A function by jets: value, slope and curvature over a span of its argument, in SI.
+/// A function that returns its jet: value, slope and curvature over a span of its argument, in SI.
 using JetFunction = std::function<Jet(const Span&)>;
 
 struct TableRequest {
   JetFunction function;
-  Span domain;            ///< SI; the argument is taken to its ends
-  double argument_scale;  ///< SI value of 1 of the argument's word
+  Span domain;            ///< SI; the argument is clamped to it
+  double argument_scale;  ///< SI value of one LSB of the argument's word
   int low, count;         ///< first index x >> 12, and how many segments
-  double value_scale;     ///< SI value of 1 of the result
-  std::int32_t limit;     ///< largest size of a value
+  double value_scale;     ///< SI value of one LSB of the result
+  std::int32_t limit;     ///< largest magnitude of a value, words
 };
 
-/// The function, and beyond its domain, where that ends inside a segment, the line of that segment:
-/// from the end to the sample within. `request` must outlive it.
+/// The function, continued beyond its domain where the domain ends inside a segment: there it is
+/// the line through the domain's end and the segment's sample inside. `request` must outlive the
+/// result.
 std::function<double(double)> extended(const TableRequest& request);
 
-/// Segments between samples, each moved so that its largest errors to both sides are equal.
+/// Makes linear segments between samples; each is shifted so that its largest positive and negative
+/// errors are equal.
 TableUse make_table(const TableRequest& request);
 
-/// Sine over all turns: argument 2^21 a turn, values of at most `limit` words.
+/// Sine over a full turn, wrapping: 2^21 words of the argument per turn, values of at most `limit`
+/// words.
 TableUse sine_turn(std::int32_t limit, double value_scale);
-/// Sine over [-1/2, 1/2 + 1/4) turn in segments of 2^-bits turns; more than half a turn for
-/// cosines.
+/// Sine over [-1/2, 1/2) turn in segments of 2^-bits turns; with `cosines`, over [-1/2, 3/4) turn.
 TableUse sine_part(int bits, bool cosines, std::int32_t limit, double value_scale);
 
 }  // namespace feltgate::law

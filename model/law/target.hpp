@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What of a design a law's compiler must know. Documentation: docs/law-compiler.md
+// The properties of a design that the law compiler needs. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <cmath>
@@ -20,14 +20,14 @@ struct Target {
   std::int64_t tick_hz = 1000000;
   int clocks_per_tick = 50;
   int round_clocks = EngineMap::round_clocks;
-  int axes = 1;  ///< of the engine, which gives a run the inputs of all
+  int axes = 1;  ///< axes of the engine; a run reads the inputs of all of them
   int counts_per_turn = 4096;
   Format velocity{1, 10, 21};  ///< rad/s
   Format torque{1, 4, 16};     ///< Nm
   int thread = 0;
 
   double count_rad() const { return 2 * pi / counts_per_turn; }
-  static constexpr double position_counts = 131072;  ///< positions are proven within +- this
+  static constexpr double position_counts = 131072;  ///< proofs hold for |position| up to this
 };
 
 inline Target target_of(const DesignInfo& design) {

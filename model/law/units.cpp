@@ -55,7 +55,7 @@ class Scanner {
   explicit Scanner(std::string_view text) : text_(text) {}
 
   std::size_t scan(UnitValue& value) {
-    std::size_t end = 0;  // of what is a unit so far
+    std::size_t end = 0;  // end of the valid unit so far
     bool divided = false;
     if (factor(value, 1)) end = at_;
     while (true) {
@@ -89,7 +89,7 @@ class Scanner {
     while (peek() == ' ' || peek() == '\t') ++at_;
   }
 
-  /// "(m s)" after a slash.
+  /// Reads a group "(m s)" after a slash.
   bool group(UnitValue& value) {
     if (peek() != '(') return false;
     const std::size_t begin = at_++;
@@ -109,7 +109,7 @@ class Scanner {
     return true;
   }
 
-  /// A symbol with its power, into `value` to the power of `sign`.
+  /// Reads a symbol with its power, and multiplies `value` by it to the power of `sign`.
   bool factor(UnitValue& value, int sign) {
     const std::size_t begin = at_;
     while (is_letter(peek())) ++at_;

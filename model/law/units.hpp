@@ -14,13 +14,13 @@
 
 namespace feltgate::law {
 
-/// What a unit's text means.
+/// The meaning of a unit's text.
 struct UnitValue {
   Unit unit;
   double to_si = 1;
 };
 
-/// A unit's text that cannot be understood: where in the text, what, mend.
+/// Thrown for a unit's text with an error: its place in the text, what is wrong, mend.
 struct UnitError {
   std::size_t offset;
   std::string what, mend;
@@ -28,19 +28,19 @@ struct UnitError {
 
 inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// One symbol, perhaps with a prefix n, u, m, k or M: "Nm", "kHz", "um".
+/// One symbol, optionally with a prefix n, u, m, k or M: "Nm", "kHz", "um".
 std::optional<UnitValue> unit_symbol(std::string_view symbol);
 /// The symbols without their prefixed forms, for suggestions.
 const std::vector<std::string>& unit_symbols();
 
-/// Length of the unit that `text` begins with, 0 where it begins with none; its meaning in
-/// `value`. Errors: UnitError, for a quotient that can be read in two ways or a power beyond 8.
+/// Length of the unit at the begin of `text`, 0 if there is none; `value` gets its meaning. Throws
+/// UnitError for an ambiguous quotient and for a power beyond 8.
 std::size_t scan_unit(std::string_view text, UnitValue& value);
 
 Unit operator+(const Unit& a, const Unit& b);  ///< of a product
 Unit operator-(const Unit& a, const Unit& b);  ///< of a quotient
 Unit operator*(const Unit& a, int power);
-/// The unit in words: "Nm", "kg m^2", "1/s"; "a number" without one.
+/// The unit as text: "Nm", "kg m^2", "1/s"; "a number" for no unit.
 std::string text_of(const Unit& unit);
 
 inline constexpr Unit kNumber{};

@@ -15,12 +15,12 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr double kTold = 0.05;    ///< share of runs that are left out: above, it is told
-constexpr double kTooMany = 0.5;  ///< above, the bound is one of too little
-constexpr double kKept = 0.01;  ///< the small end of a parameter's range that is kept worse is told
-constexpr double kAsSet = 0.1;  ///< the file's own value that is kept worse, which the list shows
+constexpr double kTold = 0.05;    ///< share of excluded runs above which it is reported
+constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
+constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
+constexpr double kAsSet = 0.1;  ///< reported relative error of the file's value, which is listed
 
-/// How the bounds become smaller: what goes into the table that is worst for its size is limited.
+/// The mend for large bounds: limit the argument of the table with the worst error for its size.
 std::string mend(const Program& program, const Bound& b) {
   double worst = 1e-3;
   std::string words = "limit values with clamp, or narrow the ranges of parameters";
@@ -55,7 +55,7 @@ void runs_left_out(const Measured& m, Verdict* v) {
       100 * share, m.in_strips, m.runs));
 }
 
-/// Values of which a word keeps little: the file's, and those at the small end of a range.
+/// Reports values that a word represents badly: the file's value, and the small end of a range.
 void parameters(const Compiled& c, Verdict* v) {
   for (const ImageWord& w : c.image.words) {
     if (!w.formula.empty()) continue;
@@ -109,7 +109,7 @@ void refuse_idle_bounds(const Law& law, const Target& target, const Program& pro
                         const Bound& b) {
   const std::vector<Span> spans = output_ranges(law, target);
   for (std::size_t o = 0; o < spans.size(); ++o) {
-    // A last bit is never refused, and what both can be is rounded outward to one.
+    // One LSB is never refused, and the ranges of law and words are rounded outward to one LSB.
     const double lsb = std::ldexp(1.0, -target.torque.fraction);
     if (b.output[o] <= 2 * lsb || b.output[o] < spans[o].width()) continue;
     throw Refused(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Whether a bound says something: of how many runs, how large beside its output, and which values
-// of parameters are kept. Documentation: docs/law-compiler.md
+// Judges a bound: the share of runs that it covers, its size relative to the output, and the
+// parameter values that the words represent badly. Documentation: docs/law-compiler.md
 #pragma once
 
 #include <string>
@@ -12,27 +12,27 @@
 
 namespace feltgate::law {
 
-/// Sentences that the answer begins with.
+/// The sentences at the begin of the compiler's report.
 struct Verdict {
-  std::vector<std::string> failures;  ///< what was measured is not what was proven
+  std::vector<std::string> failures;  ///< measurements that contradict the proof
   std::vector<std::string> warnings;
 };
 
 Verdict verdict(const Compiled& c, const Measured& m);
 
-/// The lines of a verdict, each with its kind; empty where there is nothing to tell.
+/// The lines of a verdict, each with its kind; empty when there is nothing to report.
 std::string text(const Verdict& v);
 
-/// What an output can be by its law, Nm, as Law::outputs: over all inputs, parameters and states,
-/// within the torque's format, where the limiter ends at last.
+/// The ranges of the outputs by the law, Nm, in the order of Law::outputs: over all inputs,
+/// parameters and states, cut to the torque's format, where the limiter ends at the latest.
 std::vector<Span> output_ranges(const Law& law, const Target& target);
 
-/// The largest bound beside the range of its output; 0 where none is above two last bits.
+/// The largest ratio of a bound to the range of its output; 0 if no bound exceeds two LSB.
 double largest_share(const Law& law, const Target& target, const Bound& b);
 
-constexpr double kLargeShare = 0.01;  ///< from here on it is told, and functions go into pieces
+constexpr double kLargeShare = 0.01;  ///< from this share on: reported, and functions are split
 
-/// Throws Refused where a bound is as large as the range of its output: it says nothing.
+/// Throws Refused when a bound is as large as the range of its output: such a bound is useless.
 void refuse_idle_bounds(const Law& law, const Target& target, const Program& program,
                         const Bound& b);
 

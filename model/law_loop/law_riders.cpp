@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Programs beside real chains. Documentation: docs/laws.md
+// Runs a law in step with a chain: the image, or the graph in the chain's number type.
+// Documentation: docs/laws.md
 #include "law_loop/scene_law.hpp"
 
 #include <cmath>
@@ -52,12 +53,12 @@ class RealLaw : public LawRider {
   std::vector<N> inputs_;
 };
 
-/// The words of an image's parameters as the host changes them.
+/// The parameter words of an image while the host changes them.
 class ChangedWords {
  public:
   ChangedWords(const law::Compiled& law, const LawChanges& changes)
       : law_(law), changes_(changes) {}
-  /// After the next change.
+  /// The words after the next commit.
   std::vector<std::int32_t> next() {
     for (const LawChange& c : changes_.at(next_++)) {
       values_[law_.law.parameters[c.parameter].name] = c.si;
@@ -78,7 +79,7 @@ class ChangedWords {
   std::map<std::string, double> values_;  ///< SI
 };
 
-/// For a Machine or a LawRunner.
+/// Commits the words to a Machine or a LawRunner.
 template <class Runner>
 void commit(Runner& runner, const std::vector<std::int32_t>& words) {
   for (std::size_t n = 0; n < words.size(); ++n) {
@@ -92,7 +93,7 @@ law::MachineInputs inputs_of(const Snapshot& s, std::int64_t velocity, std::int3
           0,          static_cast<std::int32_t>(s.tick)};
 }
 
-/// The image: compiled C++ where the law is a shipped one, else its words in the interpreter.
+/// Runs the image: as compiled C++ if the law is a shipped one, otherwise in the interpreter.
 class FixedLaw : public LawRider {
  public:
   FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
@@ -118,7 +119,7 @@ class FixedLaw : public LawRider {
   std::unique_ptr<law::LawRunner> runner_;
 };
 
-/// The image in the interpreter, whose words can be seen.
+/// Runs the image in the interpreter, which shows its words.
 class StateWatch : public LawWatch {
  public:
   StateWatch(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes,

@@ -28,7 +28,7 @@ class CompiledSceneLaw : public SceneLaw {
  public:
   CompiledSceneLaw(law::Compiled law, DesignInfo design)
       : law_(std::move(law)), design_(std::move(design)), parameters_(law_.image) {
-    // The riders begin with the values as rounded to words.
+    // The riders start with values that are rounded to words.
     changes_.emplace_back();
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
       const law::Parameter& p = law_.law.parameters[n];

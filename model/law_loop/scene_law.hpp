@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A compiled law for loops: loaded by the host's writes, beside it the law in real numbers.
-// Documentation: docs/laws.md
+// A compiled law for simulated loops: the image, loaded by the host's writes, and beside it the law
+// in real numbers. Documentation: docs/laws.md
 #pragma once
 
 #include <cmath>
@@ -16,19 +16,19 @@
 
 namespace feltgate {
 
-/// The law of a file for a design. Errors: law::LawError, law::Refused; std::invalid_argument for a
-/// law of several axes, which a loop of one lever cannot run.
+/// Compiles the law of a file for a design. Throws law::LawError, law::Refused, and
+/// std::invalid_argument for a law of several axes, which a loop of one lever cannot run.
 std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design);
-/// One that is compiled for the design, of one axis.
+/// The same for a law of one axis that is already compiled for the design.
 std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design);
 
-/// A parameter's number, and the value in SI that the host has set.
+/// A host's change of a parameter: its number, and the new value in SI.
 struct LawChange {
   std::size_t parameter;
   double si;
 };
-/// Its value in the numbers of a chain: its word times its step, so that one in counts
-/// equals the position in counts that it is compared with.
+/// The changed value in the number type of a chain: word times step. A value in counts is thus
+/// equal to the position in counts with which it is compared.
 template <class N>
 N rounded(const law::Compiled& law, const LawChange& c) {
   for (const law::ImageWord& w : law.image.words) {
@@ -38,13 +38,13 @@ N rounded(const law::Compiled& law, const LawChange& c) {
   return static_cast<N>(c.si);
 }
 
-/// Runs it in the numbers of a chain of this kind: "fixed" runs the image, "quad" the graph in
-/// binary128, the others in double. `changes` are the parameters' numbers and SI values, in the
-/// order in which they are set, those of a commit together; it may grow.
+/// Changes of parameters in the order in which the host sets them, one entry per commit; the list
+/// may grow. Laws run in the number type of their chain: "fixed" runs the image, "quad" the graph
+/// in binary128, the others the graph in double.
 using LawChanges = std::vector<std::vector<LawChange>>;
 std::unique_ptr<LawRider> make_law_rider(const law::Compiled& law, const DesignInfo& design,
                                          const std::string& kind, const LawChanges& changes);
-/// Runs the image too, and tells its states.
+/// Runs the image and reports its states.
 std::unique_ptr<LawWatch> make_law_watch(const law::Compiled& law, const DesignInfo& design,
                                          const LawChanges& changes, SceneLaw::Told told);
 

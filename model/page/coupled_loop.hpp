@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Two levers that nothing but a law couples: a hand that the mouse leads on either, something that
-// the second one meets. Program words and counts, without cores, motors and friction.
+// Two levers that only a law couples. The mouse leads a hand on one of them; the second lever can
+// meet an object. Simulates program words and counts, without cores, motors and friction.
 // Documentation: docs/page.md
 #pragma once
 
@@ -15,10 +15,10 @@
 
 namespace feltgate::page {
 
-/// What the second lever meets.
+/// The object that the second lever meets.
 enum class Met {
   nothing,
-  spring,  ///< of a stiffness in Nm/rad, at rest at 0 rad
+  spring,  ///< with a stiffness in Nm/rad, at rest at 0 rad
   wall,    ///< the same from CoupledLoop::wall_rad on
   weight,  ///< a torque towards lower angles, Nm
 };
@@ -30,30 +30,30 @@ class CoupledLoop {
   /// What the law reads as tau_hat lags by a first-order filter of this time, as an observer does.
   static constexpr double observer_s = 2e-3;
 
-  /// Levers of this inertia each rest at 0 rad, the hand holds the first. Errors:
+  /// Both levers have this inertia and rest at 0 rad; the hand holds the first. Throws
   /// std::invalid_argument for a broken image.
   CoupledLoop(const std::string& image_text, double inertia_kg_m2)
       : law_(image_text), inertia_kg_m2_(inertia_kg_m2) {}
 
   /// A parameter of the law. Errors: std::invalid_argument.
   void set(const std::string& parameter, double value) { law_.set(parameter, value); }
-  /// The hand holds this lever from now on, 0 or 1, where it is; it brings its mass along, at the
-  /// lever's speed. Errors: std::invalid_argument.
+  /// The hand holds lever 0 or 1 from now on, at the lever's position and speed; its mass moves
+  /// with the lever. Throws std::invalid_argument.
   void hold(int lever);
-  /// Strength: Nm/rad of spring and wall, Nm of the weight. Errors: std::invalid_argument, of a
-  /// negative one.
+  /// Chooses the object. Strength: Nm/rad for spring and wall, Nm for the weight. Throws
+  /// std::invalid_argument for a negative strength.
   void meet(Met what, double strength);
-  /// The angle where the hand wants its lever when the next advance() ends; it moves there evenly.
+  /// The angle to which the hand moves its lever, at constant speed, during the next advance().
   void lead(double theta_rad);
-  /// Runs the law as often as fits; the rest of the time waits for the next call.
+  /// Runs the law as often as it fits in the time; the remainder is added to the next call.
   void advance(double seconds);
 
   int held() const { return held_; }
   double theta_rad(int lever) const { return levers_[index(lever)].theta_rad; }
   double hand_rad() const { return hand_rad_; }
-  /// Of the law on a lever, in the last run.
+  /// Torque of the law on a lever in the last run, Nm.
   double torque_nm(int lever) const { return levers_[index(lever)].torque_nm; }
-  /// What the second lever meets gives it, Nm.
+  /// Torque of the object on the second lever, Nm.
   double met_nm() const { return met_nm_; }
   double time_s() const { return time_s_; }
   const ImageLaw& law() const { return law_; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the page compares itself with: recorded pins and register writes of scenes with the hash of
-// the native twin over them, and a closed loop as it went here; and the compiled laws that it runs
-// without a core. Documentation: docs/page.md
+// Writes the reference data of the page: recorded pins and register writes of scenes, with the hash
+// of the native twin over them; the result of a closed loop; and the compiled laws that the page
+// runs without a core. Documentation: docs/page.md
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -32,7 +32,7 @@ namespace page = feltgate::page;
 const std::string vectors = FELTGATE_SOURCE_DIR "/vectors/";
 const std::string laws = FELTGATE_SOURCE_DIR "/rtl/laws/";
 
-/// Scenes whose inputs are recorded. The calibrations are as long as they are dull.
+/// Scenes whose inputs are recorded; the long calibrations are left out.
 const std::vector<std::string> scenes_of_default = {
     "membrane",       "wall",         "damper",      "spring_compression", "spring_tension",
     "charge_attract", "charge_repel", "torque_step", "hold_and_release"};

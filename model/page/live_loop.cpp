@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The loop that someone plays with. Documentation: docs/page.md
+// The interactive closed loop of the page. Documentation: docs/page.md
 #include "page/live_loop.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace feltgate::page {
 
 namespace {
 
-constexpr double low_supply = 0.35;  ///< of the supply that Break::supply_low leaves
+constexpr double low_supply = 0.35;  ///< share of the supply that remains with Break::supply_low
 
 /// Assumed: a finger that leans on the lever and leaves its swing alone.
 constexpr plant::Impedance fingertip{0.01, 0.3, 135.0, 3000.0, 10.0};
@@ -191,7 +191,7 @@ void LiveLoop::step(Clock clocks) {
                 [this](const Snapshot& s) { tick(s); });
 }
 
-/// What a host does that reads a snapshot, computes the wall and writes its torque.
+/// The action of a host that reads a snapshot, computes the wall and writes its torque.
 void LiveLoop::host(const Snapshot& s) {
   const double depth_rad = s.position * design().count_rad - contact_rad_;
   double torque_nm = 0;

@@ -15,8 +15,8 @@ namespace feltgate::page {
 
 namespace {
 
-/// The lines of a design's header that a compiled core cannot change: without its name, its
-/// parameters' values and what the I2t sum starts from.
+/// The lines of a design's header that a compiled core cannot change: all except its name, its
+/// parameters' values and the start of the I2t sum.
 std::vector<std::string> fixed_lines(const design::Elaborated& e) {
   std::istringstream text(design::cpp_header(e));
   std::vector<std::string> lines;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design file of the user on a core that is already compiled: it runs there when it differs from
-// that core's design in parameter values only. Documentation: docs/page.md
+// Runs a user's design file on a core that is already compiled. The file may differ from that
+// core's design only in parameter values. Documentation: docs/page.md
 #pragma once
 
 #include <string>
@@ -18,12 +18,13 @@ struct OwnDesign {
   std::vector<std::pair<std::string, double>> values;  ///< parameters, quantised, in their units
 };
 
-/// Throws config::ConfigError for a file that is none, std::invalid_argument where no compiled
-/// design has its formats: it says what differs from the nearest.
+/// Finds the compiled design for `text`. Throws config::ConfigError for an invalid file, and
+/// std::invalid_argument when no compiled design has its formats; the message names the differences
+/// from the nearest design.
 OwnDesign own_design(const std::string& text, const std::vector<std::string>& compiled,
                      const std::string& designs_folder, const std::string& registers);
 
-/// The design of `text`, or of the file at `path` where the text is empty.
+/// The elaborated design of `text`, or of the file at `path` if `text` is empty.
 design::Elaborated elaborated(const std::string& text, const std::string& path,
                               const std::string& registers);
 

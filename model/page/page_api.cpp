@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the page in the browser calls: the loop, the hash over recorded inputs, the verdict of the
-// eigenvalues, and a user's own design file. Compiled by Emscripten alone.
+// The functions that the page in the browser calls: the loop, the hash over recorded inputs, the
+// stability border by eigenvalues, and a user's own design file. Only Emscripten compiles it.
 // Documentation: docs/page.md
 #include <emscripten/bind.h>
 #include <emscripten/val.h>

@@ -59,7 +59,7 @@ void PenLoop::step(double dt, Point hand_m_s) {
   velocity_m_s_ = velocity_m_s_ + (held + force_n_) * (dt / hand_.mass_kg);
   const Point next = pen_m_ + velocity_m_s_ * dt;
   pen_m_ = within_reach(next);
-  // What the edge of the reach takes away is speed.
+  // At the edge of the reach the pen loses its speed.
   if (std::hypot(next.x - pen_m_.x, next.y - pen_m_.y) > 1e-12) velocity_m_s_ = {};
   time_s_ += dt;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The pen of the pantograph under a hand that a mouse leads, and a law of two axes that pushes it:
-// program words and counts, without cores, motors and friction. Documentation: docs/page.md
+// The pen of the pantograph in a hand that a mouse leads, with a law of two axes that pushes it.
+// Simulates program words and counts, without cores, motors and friction. Documentation:
+// docs/page.md
 #pragma once
 
 #include <memory>
@@ -17,27 +18,29 @@ namespace feltgate::page {
 
 class PenLoop {
  public:
-  /// Where the pen can be: m from the motors, and in front of them.
+  /// Reach of the pen: smallest and largest distance from the motors, smallest distance in front of
+  /// them, m.
   static constexpr double nearest_m = 0.04, farthest_m = 0.19, front_m = 0.02;
 
-  /// The pen rests at (0, 0.06) m. Errors: std::invalid_argument for a broken image.
+  /// The pen rests at (0, 0.06) m. Throws std::invalid_argument for a broken image.
   explicit PenLoop(const std::string& image_text);
 
-  /// Another law under the same pen and hand. Errors: std::invalid_argument.
+  /// Replaces the law; pen and hand stay. Throws std::invalid_argument.
   void load(const std::string& image_text);
   void set(const std::string& parameter, double value) { law_->set(parameter, value); }
-  /// Pen and hand at rest there.
+  /// Places pen and hand at rest at `at_m`.
   void place(shape::Point at_m);
-  /// Where the hand wants to be when the next advance() ends; it moves there evenly. Drawn into
-  /// reach; what is no place is not followed.
+  /// The place to which the hand moves at constant speed during the next advance(). It is moved
+  /// into reach; a place that is not finite is ignored.
   void lead(shape::Point to_m);
-  /// Runs the law as often as fits, at its own rate; the rest of the time waits for the next call.
+  /// Runs the law at its own rate, as often as it fits in the time; the remainder is added to the
+  /// next call.
   void advance(double seconds);
 
   shape::Point pen_m() const { return pen_m_; }
   shape::Point velocity_m_s() const { return velocity_m_s_; }
   shape::Point hand_m() const { return hand_m_; }
-  /// Of the law on the pen, in the last run.
+  /// Force of the law on the pen in the last run, N.
   shape::Point force_n() const { return force_n_; }
   const ImageLaw& law() const { return *law_; }
   double time_s() const { return time_s_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Errors as the page gets them. Documentation: docs/page.md
+// Returns errors as texts for the page. Documentation: docs/page.md
 #pragma once
 
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace feltgate::page {
 
-/// What went wrong as a text for the page; empty: nothing.
+/// Calls `act`; returns the text of its error, or an empty text.
 template <class Do>
 std::string said(Do&& act) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the page's tab of the bowed string calls. Compiled by Emscripten alone.
+// The functions that the page's tab of the bowed string calls. Only Emscripten compiles it.
 // Documentation: docs/page.md
 #include <emscripten/bind.h>
 #include <emscripten/val.h>

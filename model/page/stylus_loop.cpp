@@ -110,7 +110,7 @@ void StylusLoop::step(double dt, Vec3 hand_m_s) {
   velocity_m_s_ = velocity_m_s_ + dt / (hand_.mass_kg + slides_.mass_kg) * (held + force_n_);
   const Vec3 next = pen_m_ + dt * velocity_m_s_;
   pen_m_ = within_reach(next);
-  // What an end of the reach takes away is speed along it.
+  // At an end of the reach the pen loses its speed along that axis.
   if (next.x != pen_m_.x) velocity_m_s_.x = 0;
   if (next.y != pen_m_.y) velocity_m_s_.y = 0;
   if (next.z != pen_m_.z) velocity_m_s_.z = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A stylus on three slides in a hand that a mouse leads, on a world that a host knows: nearest
-// planes, the law's words and counts, without cores, motors and dry friction.
+// A stylus on three slides, in a hand that a mouse leads. A host knows the world and sends nearest
+// planes to the law. Simulates the law's words and counts, without cores, motors and dry friction.
 // Documentation: docs/page.md
 #pragma once
 
@@ -19,54 +19,55 @@
 
 namespace feltgate::page {
 
-/// What moves along each axis.
+/// Mechanics of each axis.
 struct StylusSlides {
   double mass_kg = 0;
   double friction_ns_m = 0;  ///< viscous
-  double capstan_m = 0;      ///< radius that makes a torque a force
+  double capstan_m = 0;      ///< radius of the capstan: force = torque / radius
 };
 
-/// Of a device file with [slides]: what it says in turns of a capstan.
+/// The slides of a device file with [slides], which are given as rotation of a capstan.
 StylusSlides slides_of(const plant::Parameters& slide);
 
-/// The design that the law's image is compiled for; no program need have it built in.
+/// The design for which the law's image is compiled; it need not be built in.
 DesignInfo stylus_design();
 
 class StylusLoop {
  public:
-  static constexpr double most_n = 3.3;   ///< along each axis, of vectors/devices/stylus.toml
-  static constexpr double reach_m = 0.1;  ///< along each axis, to both sides
+  static constexpr double most_n = 3.3;   ///< largest force per axis, vectors/devices/stylus.toml
+  static constexpr double reach_m = 0.1;  ///< reach along each axis, to both sides
 
-  /// The pen rests at (0, 0, 0.05) m, and nothing is there to touch.
-  /// Errors: std::invalid_argument for a broken image.
+  /// The pen rests at (0, 0, 0.05) m, and the world is empty.
+  /// Throws std::invalid_argument for a broken image.
   StylusLoop(const std::string& image_text, const StylusSlides& slides);
 
-  /// A parameter of the law. What a host sends is touch()'s. Errors: std::invalid_argument.
+  /// Sets a parameter of the law; touch() sets the values that the host sends. Throws
+  /// std::invalid_argument.
   void set(const std::string& parameter, double value);
-  /// A host with another world, material, rate or age, from the next run on. The plane of before
-  /// holds until its first one comes.
+  /// Changes the host's world, material, rate or age from the next run on. The previous plane holds
+  /// until the first new one arrives.
   void touch(const PlaneHostSettings& world);
-  /// Pen and hand at rest there.
+  /// Places pen and hand at rest at `at_m`.
   void place(plant::Vec3 at_m);
-  /// Where the hand wants to be when the next advance() ends; it moves there evenly. Drawn into
-  /// reach; what is no place is not followed.
+  /// The place to which the hand moves at constant speed during the next advance(). It is moved
+  /// into reach; a place that is not finite is ignored.
   void lead(plant::Vec3 to_m);
-  /// Runs host and law as often as fits; the rest of the time waits for the next call.
+  /// Runs host and law as often as they fit in the time; the remainder is added to the next call.
   void advance(double seconds);
 
   plant::Vec3 pen_m() const { return pen_m_; }
   plant::Vec3 velocity_m_s() const { return velocity_m_s_; }
   plant::Vec3 hand_m() const { return hand_m_; }
-  /// On the pen, in the last run.
+  /// Force on the pen in the last run, N.
   plant::Vec3 force_n() const { return force_n_; }
-  /// The law asked for more than most_n then.
+  /// Whether the law demanded more than most_n in that run.
   bool limited() const { return limited_; }
-  /// Of the pen under the world's surface; outside it below 0. 0 where there is no world.
+  /// Depth of the pen below the world's surface, m; negative outside; 0 without a world.
   double depth_m() const;
-  /// What came last; of a host from which nothing has come, nothing.
+  /// The plane that arrived last; nothing if none has arrived.
   std::optional<Plane> plane() const { return host_ ? host_->plane() : std::nullopt; }
-  /// Between the normal that came last and the world's at the pen; age of the pose behind it. Both
-  /// at the end of the last advance(), 0 where no plane has come.
+  /// Angle between the normal that arrived last and the world's normal at the pen; and age of the
+  /// pose of that plane. Both at the end of the last advance(); 0 if no plane has arrived.
   double tilt_rad() const { return tilt_rad_; }
   double age_s() const { return age_s_; }
   const ImageLaw& law() const { return law_; }
@@ -82,7 +83,7 @@ class StylusLoop {
   PlaneHostSettings world_;
   std::optional<PlaneHost> host_;
   Clock host_runs_ = 0;                 ///< the clock of the host: runs since touch()
-  std::map<std::string, double> sent_;  ///< what of it is in the mailbox
+  std::map<std::string, double> sent_;  ///< values of the plane in the mailbox
   plant::Vec3 pen_m_, velocity_m_s_, hand_m_, wanted_m_, force_n_;
   double tilt_rad_ = 0, age_s_ = 0, time_s_ = 0;
   Pace pace_;

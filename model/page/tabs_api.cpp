@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the page's other tabs call: devices that run the words of a law without a core. Compiled by
-// Emscripten alone. Documentation: docs/page.md
+// The functions that the page's other tabs call: devices that run the words of a law without a
+// core. Only Emscripten compiles it. Documentation: docs/page.md
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 

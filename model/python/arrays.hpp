@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Between std::vector and numpy, and between a long run and Ctrl-C. Documentation: docs/python.md
+// Converts between std::vector and numpy, and lets Ctrl-C end a long run. Documentation:
+// docs/python.md
 #pragma once
 
 #include <fmt/format.h>
@@ -21,10 +22,10 @@ namespace feltgate::python {
 
 namespace py = pybind11;
 
-/// Any sequence of numbers, as doubles side by side.
+/// Any sequence of numbers, converted to contiguous doubles.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// A vector as the numpy array that owns it; nothing is copied.
+/// A numpy array that owns the vector; nothing is copied.
 template <class T>
 py::array_t<T> to_array(std::vector<T>&& values) {
   auto owner = std::make_unique<std::vector<T>>(std::move(values));
@@ -35,7 +36,8 @@ py::array_t<T> to_array(std::vector<T>&& values) {
   return py::array_t<T>(size, data, keeper);
 }
 
-/// One dimension of finite numbers. Throws std::invalid_argument that names the argument.
+/// A one-dimensional array of finite numbers as a vector. Throws std::invalid_argument, which names
+/// the argument.
 inline std::vector<double> to_vector(const Doubles& array, const char* name) {
   if (array.ndim() != 1) {
     throw std::invalid_argument(
@@ -51,13 +53,13 @@ inline std::vector<double> to_vector(const Doubles& array, const char* name) {
   return values;
 }
 
-/// In a run that has let go of the interpreter: raises what Ctrl-C left behind.
+/// Raises a pending Ctrl-C; for a run that has released the interpreter's lock.
 inline void check_interrupt() {
   const py::gil_scoped_acquire hold;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-/// A progress callback for runs: Ctrl-C first, then the caller's function of 0..1, if any.
+/// A progress callback for runs: checks Ctrl-C, then calls the caller's function with 0..1, if any.
 inline auto progress_for(const py::object& callback) {
   return [callback](double done) {
     const py::gil_scoped_acquire hold;

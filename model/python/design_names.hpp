@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Names that a design knows, with errors that name the mend. Documentation: docs/python.md
+// Looks up the names of a design; errors give the mend. Documentation: docs/python.md
 #pragma once
 
 #include <string>
@@ -11,11 +11,12 @@
 
 namespace feltgate::python {
 
-/// A design that is compiled in, however coarse. Errors: config::ConfigError.
+/// Elaborates the files of a compiled-in design; a coarse resolution is accepted. Throws
+/// config::ConfigError.
 design::Elaborated elaborated_files(const std::string& design_path,
                                     const std::string& registers_path);
 
-/// All three throw std::invalid_argument for a name that there is not.
+/// The following functions throw std::invalid_argument for an unknown name.
 const ParameterInfo& parameter_of(const DesignInfo& design, const std::string& name);
 int scene_of(const DesignInfo& design, const std::string& name);
 /// closed_loop, open_loop or voltage: the mode of the control word.

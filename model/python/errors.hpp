@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the extension modules say in Python of errors of C++. Documentation: docs/python.md
+// Translates C++ errors to Python exceptions for the extension modules. Documentation:
+// docs/python.md
 #pragma once
 
 #include <exception>
@@ -12,7 +13,7 @@
 
 namespace feltgate::python {
 
-/// A file that cannot be used is a ValueError, like every other unusable input.
+/// An unusable file becomes a ValueError, like every other unusable input.
 inline void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Designs beyond lever and paper: presets, and files that were given to the build of the Python
-// package (FELTGATE_EXTRA_DESIGNS). They are in a module of their own, _designs, which is loaded
-// when the first of them is asked for. Documentation: docs/python.md
+// Designs beyond lever and paper: presets, and files given to the build of the Python package
+// (FELTGATE_EXTRA_DESIGNS). They are in a separate module, _designs, which is loaded when one of
+// them is first used. Documentation: docs/python.md
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@
 
 namespace feltgate::python {
 
-/// Makers of a design that the module _designs has.
+/// Loads the module _designs and returns the makers of one of its designs.
 inline const DesignMakers& loaded(const std::string& name) {
   const py::gil_scoped_acquire hold;
   static const std::vector<DesignMakers>* all = nullptr;
@@ -28,7 +28,7 @@ inline const DesignMakers& loaded(const std::string& name) {
   throw std::logic_error("feltgate._designs has no " + name + "; install the package again");
 }
 
-/// Makes them known to make_engine() and make_real_chain(); returns their names.
+/// Registers these designs for make_engine() and make_real_chain(); returns their names.
 inline std::vector<std::string> add_extra_designs() {
   std::vector<std::string> names;
 #define FELTGATE_DESIGN(name)                                                      \

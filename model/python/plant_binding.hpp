@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The plant as Python sees it: constants by name, and a motor to drive by hand.
+// The Python interface of the plant: constants by name, and a motor that the caller drives.
 // Documentation: docs/python.md
 #pragma once
 
@@ -18,7 +18,7 @@ namespace feltgate::python {
 
 class PyPlant {
  public:
-  /// Keys of `set` are "section.key" of the plant file. Errors: config::ConfigError as for a file.
+  /// Keys of `set` are "section.key" of the plant file. Throws config::ConfigError as for a file.
   PyPlant(const std::string& path, const std::map<std::string, double>& set,
           const std::string& design, const plant::Hand& hand);
 
@@ -26,7 +26,7 @@ class PyPlant {
   /// Every number of the file, by "section.key".
   std::map<std::string, double> parameters() const;
   void reset();
-  /// Each duty holds for `step_clocks`; what the plant shows at the end of each step.
+  /// Applies each duty for `step_clocks`; returns the plant's values at the end of each step.
   py::dict run(const Doubles& duty, Clock step_clocks, bool gates_on);
   double theta_rad() const { return plant_->observables().theta_rad; }
   std::int64_t counts() const { return plant_->encoder().count(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Encoder edges in memory, as Python sees them. Documentation: docs/python.md
+// The Python interface of encoder edges in memory. Documentation: docs/python.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a run gives back to Python: rows as arrays by column, figures as dictionaries.
+// The result of a run in Python: rows as arrays by column, figures as dictionaries.
 // Documentation: docs/python.md
 #pragma once
 
@@ -16,11 +16,11 @@
 
 namespace feltgate::python {
 
-/// Rows of a run, a numpy array for each column of loop/columns.hpp. Made and taken with the GIL
-/// held; add() goes without.
+/// Rows of a run: a numpy array per column of loop/columns.hpp. Constructor and take() need the
+/// GIL; add() does not.
 class RowArrays {
  public:
-  /// Holds up to `rows` rows. Where only one engine runs, the signals of the base are its own.
+  /// Holds up to `rows` rows. With only one engine, the base signals are those of this engine.
   RowArrays(bool closed_loop, const std::vector<std::string>& engines, std::size_t rows);
   void add(const Row& row) {
     if (count_ == rows_) throw std::length_error("more ticks than the run is long");
@@ -28,11 +28,11 @@ class RowArrays {
     for (Bits& b : bits_) b.data[count_] = static_cast<std::uint8_t>(b.column.value(row));
     ++count_;
   }
-  /// By column name.
+  /// The arrays by column name.
   py::dict take() const;
 
  private:
-  /// A column with its array and where that begins.
+  /// A column, its array, and the begin of the array's data.
   template <class T>
   struct Filled {
     Filled(const Column& c, std::size_t rows)
@@ -50,9 +50,9 @@ class RowArrays {
   std::vector<Bits> bits_;
 };
 
-/// Everything but the rows.
+/// The result without the rows.
 py::dict result_dict(const RunResult& result);
-/// Bounds against the reference chain by column name; infinite where nothing can be promised.
+/// Bounds against the reference chain by column name; infinite where no bound is proven.
 py::dict bounds_dict(const bounds::ErrorBounds& bounds);
 
 }  // namespace feltgate::python

@@ -113,7 +113,7 @@ class AxesSweep : public Sweep {
     }
   }
 
-  /// Of the closed loop alone: nobody looks at it.
+  /// CPU time of the closed loop alone, without observers.
   double cpu_s(const AxesScene& scene, AxesLaw& law) const {
     AxesRunOptions o;
     o.design = design_.name;

@@ -18,7 +18,7 @@ namespace {
 constexpr double rounding_nm_rad = 1e-6;  ///< no more than that is no stiffness
 constexpr int look_every = 20;            ///< runs between two looks at the slope
 constexpr double speed_step_rad_s = 1e-3, observed_step_nm = 1e-4;
-/// The torque is not the law's in these.
+/// Causes for which the torque is not that of the law.
 constexpr int left_out =
     static_cast<int>(limit::ramp | limit::gates_closed | limit::hold | limit::chatter);
 
@@ -107,8 +107,8 @@ Eigen::MatrixXd Continuous::fall(double Sample::*input, double step) {
   return out;
 }
 
-// A slope is one that a count and a sixteenth of it show alike; a difference that does not shrink
-// with the distance is a jump.
+// A slope is equal over a count and over a sixteenth of it; a difference that does not shrink with
+// the distance is a jump.
 bool Continuous::smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow) {
   bool all_smooth = true;
   for (Eigen::Index n = 0; n < wide.cols(); ++n) {
@@ -143,7 +143,7 @@ void Continuous::look() {
     slope_.coupled = slope_.coupled || (stiffness - stiffness.transpose()).norm() > rounding_nm_rad;
   }
   const double compared = stiff ? steep : largest(per_torque * damping);
-  // What is stiff ends the search for what only damps.
+  // A stiff place ends the search for places that only damp.
   if (stiff && slope_.stiffness_nm_rad <= 0) steepest_ = steepest_nm_ = 0;
   // Of places that are as steep, the one with the most torque: there the law is not about to end.
   const double here_nm = probe(seen_).cwiseAbs().maxCoeff();

@@ -19,7 +19,7 @@ Margin::Of kind(const Slope& slope, double least_nm_rad) {
   return slope.damping_nm_s_rad > 0 ? Margin::Of::damping : Margin::Of::none;
 }
 
-/// `stable` tells it of a ratio; the stable ones begin at 0 and end once.
+/// Finds the border: `stable` tests a ratio; the stable ratios are those from 0 up to the border.
 Margin search(Margin::Of of, const Slope& slope, const std::function<bool(double)>& stable) {
   Margin m;
   m.of = of;

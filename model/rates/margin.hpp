@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How far a law of a scene is from the border of stability at a rate. Documentation: docs/rates.md
+// Computes the stability margin of a scene's law at a rate. Documentation: docs/rates.md
 #pragma once
 
 #include "rates/continuous.hpp"
@@ -12,18 +12,18 @@ namespace feltgate::rates {
 
 struct Margin {
   enum class Of { stiffness, damping, none } of = Of::none;
-  double border = 0;  ///< largest stable stiffness with the law's damping, Nm/rad; or damping
-  double ratio = 0;   ///< border over what the law has; at 1 the loop swings for ever
+  double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping
+  double ratio = 0;   ///< border divided by the law's value; at 1 the loop oscillates for ever
 };
 
-/// By the eigenvalues of the linear loop, stiffness scaled at the law's damping; of a law that is
-/// nowhere stiff the damping. None where the law has neither, or ends in a jump alone.
-/// `delay_ticks`: from the samples of a run to the first tick in which its torque is in force, at
-/// most `scene_ticks`.
+/// Computes the margin by the eigenvalues of the linear loop: it scales the stiffness at the law's
+/// damping, or the damping if the law is stiff nowhere. There is no margin if the law has neither,
+/// or only a jump. `delay_ticks`: ticks from the samples of a run to the first tick with its
+/// torque, at most `scene_ticks`.
 Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks);
 
-/// The same of several axes: the whole matrix of the stiffness is scaled, or that of the damping.
+/// The same for several axes: it scales the whole matrix of the stiffness, or of the damping.
 Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks);
 

@@ -112,7 +112,7 @@ class LeverSweep : public Sweep {
     add(std::move(row), continuous, set);
   }
 
-  /// Of the closed loop alone: nobody looks at it.
+  /// CPU time of the closed loop alone, without observers.
   double cpu_s(const Scenario& scene, const std::string& design, SceneLaw* law) const {
     RunOptions o;
     o.design = design;
@@ -123,7 +123,7 @@ class LeverSweep : public Sweep {
     return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
 
-  /// The lever's linear friction is on, which plant files keep for such studies.
+  /// Enables the lever's linear friction, which plant files contain for such studies.
   void margins() {
     plant::Parameters plant = plant_;
     plant.effects = scene_.effects;

@@ -31,7 +31,7 @@ std::string slope_text(const Slope& s, double largest_nm) {
   return text;
 }
 
-/// In mNm; of no tick there is none.
+/// The error (rms and largest) in mNm; "-" without ticks.
 std::string error_text(const ErrorFigure& e) {
   if (e.count() == 0) return fmt::format("{:>9} {:>9}", "-", "-");
   return fmt::format("{:>9.4g} {:>9.4g}", 1e3 * e.rms(), 1e3 * e.max());

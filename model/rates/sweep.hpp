@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the rates of one lever and those of a device with several axes have in common.
-// Documentation: docs/rates.md
+// Common parts of the measurement at several rates, for one lever and for a device with several
+// axes. Documentation: docs/rates.md
 #pragma once
 
 #include <map>
@@ -14,34 +14,34 @@
 
 namespace feltgate::rates {
 
-/// One law at all rates, by the virtual run_law().
+/// Runs one law at all rates, by the virtual run_law().
 class Sweep {
  public:
   virtual ~Sweep() = default;
 
  protected:
-  /// `design` is that of the device; `e` must outlive this.
+  /// `design` is the device's design; `e` must outlive this object.
   Sweep(LawSource source, DesignInfo design, const design::Elaborated& e, const Options& options);
 
-  /// Runs the law at the rates that are slower than its fastest, the slowest first, then at that;
-  /// `more` runs follow. Rates at which it cannot be compiled become notes.
+  /// Runs the law at the slower rates, the slowest first, and then at its fastest; `more` runs
+  /// follow. Rates for which the law cannot be compiled become notes.
   void sweep(law::Compiled fast, std::size_t more);
   virtual void run_law(law::Compiled law, RateRow row) = 0;
 
-  /// Whether the row under way is the last of all.
+  /// Whether the current row is the last one.
   bool last() const { return report_.rows.size() + 1 == all_; }
   Continuous::Setting setting(const Scenario& scene) const;
   /// A loop's progress as a share of all rows.
   std::function<void(double)> progress() const;
-  /// What the host has set, for the continuous law; and all that the law was loaded with.
+  /// Passes a value that the host has set to the continuous law, also the values set at load.
   void tell(Continuous& continuous, const std::string& name, double value) const;
   void tell_all(Continuous& continuous, const SceneLaw& law) const;
-  /// From the samples of a run to the first tick in which its torque is in force.
+  /// Ticks from the samples of a run to the first tick with its torque.
   int delay_of(const RateRow& row) const;
-  /// Ticks without torque, which are not compared.
+  /// Notes the ticks without torque, which are not compared.
   void note_stale(const Acted& stale);
   void note_once(const std::string& note);
-  /// Takes the figures of a run over.
+  /// Adds the figures of a run to the report.
   void add(RateRow row, const Continuous& continuous, const Continuous::Setting& setting);
 
   LawSource source_;
@@ -60,11 +60,11 @@ class Sweep {
   std::size_t all_ = 0;
 };
 
-/// At another rate a parameter may have another step, and its range ends up to a step earlier: what
-/// the scene sets there is moved to the end.
+/// Fits the scene's values to an image. At another rate the LSB of a parameter may differ, so its
+/// range may end up to one LSB earlier; values beyond that end are moved to it.
 Scenario fitted(Scenario scene, const law::Image& image);
 
-/// The first of these faults, with its time; empty: none.
+/// The earliest of the faults, with its time; empty if there is none.
 std::string first_fault(const std::map<std::string, Acted>& faults);
 
 }  // namespace feltgate::rates

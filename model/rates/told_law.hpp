@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A loop's law that tells what its host sets: events of the scene, trackers and planes. It passes
-// everything on. Documentation: docs/rates.md
+// A wrapper of a loop's law that reports the values set by its host: by events of the scene,
+// trackers and planes. It forwards everything to the law. Documentation: docs/rates.md
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace feltgate::rates {
 
-/// Gets a parameter, and its value as rounded to its word, in the unit of the law's file.
+/// Receives a parameter and its value, rounded to its word, in the unit of the law's file.
 using ToldValue = std::function<void(const std::string& name, double value)>;
 
 inline void tell(const ToldValue& told, const SceneLaw& law,
@@ -25,7 +25,7 @@ inline void tell(const ToldValue& told, const SceneLaw& law,
   for (const auto& [name, value] : values) told(name, law.value(name));
 }
 
-/// Of one lever. The law must outlive this.
+/// Wrapper for one lever. The law must outlive this object.
 class ToldLaw : public SceneLaw {
  public:
   ToldLaw(SceneLaw& law, ToldValue told) : law_(law), told_(std::move(told)) {}
@@ -69,7 +69,7 @@ class ToldLaw : public SceneLaw {
   ToldValue told_;
 };
 
-/// Of several axes. The law must outlive this.
+/// Wrapper for several axes. The law must outlive this object.
 class ToldAxesLaw : public AxesLaw {
  public:
   ToldAxesLaw(AxesLaw& law, ToldValue told) : law_(law), told_(std::move(told)) {}

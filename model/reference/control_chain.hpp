@@ -14,7 +14,7 @@ namespace feltgate {
 template <class D, class N>
 class ControlChain : public ChainTick<D, N> {
  public:
-  /// State and parameters of the design.
+  /// Restores the state after a reset and the parameters of the design.
   void reset() {
     ChainTick<D, N>::reset();
     this->words().reset();

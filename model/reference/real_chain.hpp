@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The chain tick by tick behind one interface, in fixed point and in real arithmetic: the same laws
-// and the same sampled counts as the core, so that the difference is quantisation and nothing
-// else. Documentation: docs/engines.md
+// One interface to the chain, tick by tick, in fixed point and in real arithmetic. Laws and sampled
+// counts are those of the core, so the only difference is quantisation. Documentation:
+// docs/engines.md
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@
 
 namespace feltgate {
 
-/// Limits that a chain knows nothing of.
+/// Limits of the core that a chain does not have.
 inline constexpr unsigned limits_of_core = limit::gates_closed | limit::hold | limit::chatter;
 
-/// What the wave of one tick starts from.
+/// Inputs of one tick.
 struct ChainIn {
   std::int32_t position = 0;  ///< counts
   std::int16_t travel = 0;    ///< counts, wrapping
   bool armed = false;
   int scene = 0;
   int mode = 0;
-  bool restart = false;  ///< the torque may jump: it ramps
-  Relief relief{};       ///< as the encoder's monitor and the hold timer of the core say
+  bool restart = false;  ///< the torque may jump, so it ramps
+  Relief relief{};       ///< from the encoder's monitor and the hold timer of the core
 };
 
 struct ChainOut {
@@ -46,14 +46,14 @@ class RealChain {
  public:
   virtual ~RealChain() = default;
   virtual const char* name() const = 0;
-  /// The state after a reset and the parameters of the design.
+  /// Restores the state after a reset and the parameters of the design.
   virtual void reset() = 0;
   /// Exact value of the parameter at `address`, in its unit; "fixed" rounds it to its word and
   /// throws std::invalid_argument when it does not fit.
   virtual void set_parameter(int address, double value) = 0;
-  /// The same as a word of the parameter RAM: real arithmetic takes the value that the word means.
+  /// Sets a parameter by its word in the parameter RAM; real arithmetic uses the word's value.
   virtual void set_word(int address, std::uint32_t word) = 0;
-  /// What a program asks for [Nm], for the scene law, in the ticks to come; "fixed" rounds it.
+  /// Sets the program's torque [Nm] for the scene law in the following ticks; "fixed" rounds it.
   virtual void program(double torque_nm) { (void)torque_nm; }
   virtual void tick(const ChainIn& in) = 0;
   /// Signals of the last tick in their units; "fixed" scales its integers, which is exact.
@@ -64,8 +64,8 @@ class RealChain {
   virtual const ChainRaw* raw() const { return nullptr; }
 };
 
-/// Kinds: "fixed" (the core's integers), "float", "double", "quad" (113 bits).
-/// Throws std::invalid_argument naming what there is.
+/// Makes a chain. Kinds: "fixed" (the core's integers), "float", "double", "quad" (113 bits).
+/// Throws std::invalid_argument with the known names for an unknown one.
 std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std::string& kind);
 
 }  // namespace feltgate

@@ -49,7 +49,7 @@ void keep(const Outline& o, std::size_t first, std::size_t last, std::vector<cha
   keep(o, farthest, last, kept);
 }
 
-/// The corners that matter: the outline stays within `kept_within_m`.
+/// The necessary corners: without the others the outline moves by at most `kept_within_m`.
 Outline simplified(const Outline& o) {
   // Two corners far from each other are corners for certain.
   const auto farthest_from = [&](Point p) {

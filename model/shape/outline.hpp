@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The outline of a shape as an SVG file has it, brought into the reach of the pantograph.
+// Reads the outline of a shape from an SVG file and places it in the reach of the pantograph.
 // Documentation: docs/devices/shapes.md
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace feltgate::shape {
 
 struct Point {
-  double x = 0, y = 0;  ///< m; of an outline that was just read in the file's units, y upward
+  double x = 0, y = 0;  ///< m, y upward; directly after reading, in the file's units
 };
 
 inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
@@ -21,36 +21,36 @@ inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 double length(Point a);
 
-/// Corners in order; the last one is joined with the first.
+/// Corners in order; the last corner is connected to the first.
 using Outline = std::vector<Point>;
 
-/// Most corners and curves of the path that is read; a curve becomes `curve_steps` corners.
+/// Largest number of corners and curves of a path; a curve becomes `curve_steps` corners.
 constexpr int most_commands = 2000, curve_steps = 24;
 
-/// The one closed outline of an SVG file: paths, rectangles, circles, ellipses, polygons, with
-/// their transforms. Throws std::invalid_argument "file:line: what; mend" for a file without one,
-/// with several, with one that is open or has more than `most_commands` parts, or that is broken.
+/// Reads the single closed outline of an SVG file: paths, rectangles, circles, ellipses, polygons,
+/// with their transforms. Throws std::invalid_argument "file:line: what; mend" for a broken file,
+/// for no outline or several, and for one that is open or has more than `most_commands` parts.
 Outline read_svg(const std::string& path);
 
-/// Reach of the pantograph's pen, from its motors.
+/// Reach of the pantograph's pen: distances from its motors.
 constexpr double nearest_pen_m = 0.04, farthest_pen_m = 0.19;
 
 struct Placing {
-  double size_m = 0.06;              ///< larger side of what surrounds it
-  Point centre_m = {0.0, 0.12};      ///< middle of what surrounds it
+  double size_m = 0.06;              ///< larger side of its bounding box
+  Point centre_m = {0.0, 0.12};      ///< centre of its bounding box
   double nearest_m = nearest_pen_m;  ///< reach of the pen around the motors
   double farthest_m = farthest_pen_m;
 };
 
-/// Scaled and placed, counter-clockwise, without edges shorter than 1 um and corners that the
-/// outline does without within 0.1 mm. Throws std::invalid_argument "what; mend" where it crosses
-/// itself, has no area or is out of reach.
+/// The outline, scaled and placed, counter-clockwise. Edges shorter than 1 um are removed, and so
+/// are corners whose removal moves the outline by at most 0.1 mm. Throws std::invalid_argument
+/// "what; mend" when it crosses itself, has no area or is out of reach.
 Outline placed(const Outline& outline, const Placing& placing);
 
-/// Twice the area: positive where the outline runs counter-clockwise.
+/// Twice the area; positive for a counter-clockwise outline.
 double doubled_area(const Outline& outline);
 
-/// Whether two edges that are no neighbours meet.
+/// Whether two edges that are not neighbours meet.
 bool crosses_itself(const Outline& outline);
 
 }  // namespace feltgate::shape

@@ -42,7 +42,7 @@ constexpr std::size_t most_depth = 1000;
 
 struct TooMany {};
 
-/// What the library tells while it walks through the document.
+/// Receives the library's calls while it traverses the document.
 class Collector {
  public:
   std::vector<Outline> outlines;
@@ -127,7 +127,7 @@ class Collector {
   int commands_ = 0;
 };
 
-/// Names that SVG does not have, as of drawing programs, are no concern of ours.
+/// Ignores names that are not in SVG, for example those of drawing programs.
 struct Tolerant : svgpp::policy::error::raise_exception<Collector> {
   template <class Element, class Name>
   static bool unknown_element(Collector const&, Element const&, Name const&) {
@@ -151,8 +151,8 @@ using Walk = svgpp::document_traversal<
 
 constexpr std::string_view kNamespace = "http://www.w3.org/2000/svg";
 
-/// Tags that are open at once, at most: the libraries go down into elements by recursion. What
-/// stands in comments counts as well.
+/// Largest number of open tags: the libraries recurse into elements. Tags in comments count as
+/// well.
 std::size_t depth_of(const std::string& text) {
   std::size_t depth = 0, most = 0;
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {

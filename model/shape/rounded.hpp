@@ -17,11 +17,11 @@ struct Piece {
   double curvature_per_m = 0;  ///< positive where it turns left, as around a convex corner
 };
 
-/// Where it ends, and its direction there.
+/// The end of a piece, with its direction there.
 Point end(const Piece& piece);
 Point end_heading(const Piece& piece);
 
-/// Closed, counter-clockwise, without kinks.
+/// A closed curve, counter-clockwise, without kinks.
 struct Curve {
   std::vector<Piece> pieces;
   double length_m = 0;
@@ -31,7 +31,7 @@ struct Curve {
 /// edge is too short for the arcs at its ends.
 Curve rounded(const Outline& outline, double radius_m);
 
-/// Corners, and at each the curve's own direction, a unit vector.
+/// Vertices, and at each the direction of the curve, a unit vector.
 struct Polygon {
   std::vector<Point> at, along;
   std::size_t size() const { return at.size(); }

@@ -82,14 +82,14 @@ double longest(const Polygon& p) {
   return most * 1.0001;
 }
 
-/// The way around.
+/// Length of the outline.
 double perimeter_m(const Polygon& p) {
   double way_m = 0;
   for (std::size_t i = 0; i < p.size(); ++i) way_m += p.edge_m(i);
   return way_m;
 }
 
-/// The way from the first corner to each, as a share of the whole way around.
+/// Distance along the outline from the first corner to each corner, as a share of the whole length.
 std::string shares(const Polygon& p, const char* form) {
   std::vector<double> so_far{0};
   for (std::size_t i = 0; i < p.size(); ++i) so_far.push_back(so_far.back() + p.edge_m(i));
@@ -98,15 +98,15 @@ std::string shares(const Polygon& p, const char* form) {
   return number_list(fmt::format(form, "share"), so_far, "");
 }
 
-/// Ripples that go with the way along the outline: a whole number of them, so that they close.
+/// Ripples over the distance along the outline: their number is whole, so that they close.
 constexpr const char* ripples = R"(
 let height = ripple * sin(2 * pi * ripples * share(place))
 let dx = clamp(ax - height * gy, -0.03 m, 0.03 m)
 let dy = clamp(ay + height * gx, -0.03 m, 0.03 m)
 )";
 
-/// Friction is anchored to a place of the outline: a spring along it, whose anchor slips where it
-/// would pull by more than friction times what presses.
+/// Friction is a spring along the outline. Its anchor slips when the spring would pull with more
+/// than the friction coefficient times the normal force.
 std::string friction(const Polygon& p) {
   return fmt::format(R"(
 # Friction: what the proxy goes along the outline stretches a spring, up to what slips.

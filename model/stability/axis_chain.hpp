@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What an axis of the core hands from tick to tick, without quantisation: estimator, observer,
+// The state of an axis of the core from tick to tick, without quantisation: estimator, observer,
 // torque of a scene or a host, voltage. Derivation: docs/stability.md
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace feltgate::stability {
 
-/// How often a torque is renewed; it is held in between.
+/// Period and delay of a torque, which is held in between.
 struct Renewal {
   int scene_ticks = 1;
   int delay_ticks = 0;  ///< from the samples to the first tick in which their torque acts
 };
 
-/// A tick is begin(), see() the angle, ask() for a torque, drive().
+/// A tick calls, in this order: begin(), see() with the angle, ask() for a torque, drive().
 struct AxisChain {
   double velocity = 0, observer = 0, reference = 0;
   double volts_new = 0, volts = 0;     ///< newest, and in force in this PWM period

@@ -28,7 +28,7 @@ struct BitLoopSetting {
   bool linear = true;
 };
 
-/// The wall's face is at 0 rad, the wall above it.
+/// The loop; the wall's face is at 0 rad and the wall extends above it.
 class BitLoop {
  public:
   /// `design` must be built in. Throws std::invalid_argument for a value that does not fit its
@@ -44,8 +44,8 @@ class BitLoop {
   double tau_ref_nm() const { return chain_->out().tau_ref_nm; }
   std::int32_t position() const { return position_; }
 
-  /// A host's wall: torque from what was read back, position and velocity in rad and rad/s. The
-  /// default is the law of the core's own. Only with scene_ticks > 1.
+  /// A host's wall: torque from the position and velocity that the host has read, rad and rad/s.
+  /// The default is the law of the core's wall. Only with scene_ticks > 1.
   using HostLaw = std::function<double(double theta_rad, double omega_rad_s)>;
   void set_host(HostLaw law) { host_ = std::move(law); }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Poles of a loop that is known by what it does to a state. Derivation: docs/stability.md
+// Finds the dominant poles of a loop that is given as a function on its state. Derivation:
+// docs/stability.md
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,9 +15,9 @@ namespace feltgate::stability {
 /// An eigenvalue as a pole, rad/s.
 using Pole = std::complex<double>;
 
-/// Poles nearest to growth, the fastest growing first; those of a conjugate pair with imag >= 0.
-/// `after` is linear and takes a state `seconds` on; at most `most` of its eigenvalues are sought,
-/// from a start that no wanted mode may lack.
+/// The poles with the largest real parts, the fastest growing first; of a conjugate pair, the one
+/// with imag >= 0. `after` is linear and advances a state by `seconds`. At most `most` eigenvalues
+/// are computed; the start vector must contain every wanted mode.
 std::vector<Pole> dominant_poles(
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& after,
     const Eigen::VectorXd& start, Eigen::Index most, double seconds);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What counts and noise do to a wall that is linearly stable, in the full plant. Documentation:
-// docs/stability.md
+// Experiments in the full plant: the effect of counts and noise on a linearly stable wall.
+// Documentation: docs/stability.md
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace feltgate::stability {
 
-/// A lever pressed into a wall by a hand of constant torque, several times.
+/// Result of pressing a lever into a wall several times, with a constant torque each time.
 struct Rest {
   double stiffness_nm_rad = 0;
   double first_count = 0;  ///< the first press, as counts of penetration
   int presses = 0;
-  int quiet = 0;             ///< presses after which position and torque stand still
+  int quiet = 0;             ///< number of presses after which position and torque come to rest
   int counts = 0;            ///< largest movement, in counts from lowest to highest
   double torque_rms_nm = 0;  ///< of the reference around its mean, largest
   double motor_torque_rms_nm = 0;
@@ -41,7 +41,7 @@ struct HostFigures {
   double torque_rms_nm = 0;  ///< of the reference around its mean
   double angle_rms_rad = 0;  ///< of the lever
 };
-/// A hand of impedance leans lightly on the wall's face.
+/// Runs a host's wall while a hand with impedance leans lightly on its face.
 HostFigures host_wall(const design::Elaborated& design, const plant::Parameters& plant,
                       const HostCase& c);
 

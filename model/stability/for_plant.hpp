@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The design that has the constants of a plant.
+// Makes a design with the constants of a plant.
 // Documentation: docs/designs.md
 #pragma once
 
@@ -19,7 +19,7 @@ struct PlantDesign {
   std::string text;  ///< of the file
   design::Elaborated design;
   std::vector<Constant> changed;   ///< of_design: of the base
-  std::vector<std::string> notes;  ///< what a plant file does not say and a user should look at
+  std::vector<std::string> notes;  ///< values that the plant file lacks and the user should check
 };
 
 /// The design file `base` with the constants of `plant` and what follows from them: current limit,

@@ -35,7 +35,8 @@ struct LinearLoop {
   enum : Eigen::Index { kCurrent, kSpeed, kAngle, kVoltage };
   double tick_s = 0;
   int m1 = 0;
-  /// By what they change over a tick: without the 1 of what stays, so that slow poles keep digits.
+  /// Change of the states over a tick: the transition matrix minus identity, which keeps the digits
+  /// of slow poles.
   Eigen::Matrix4d change;
   double raw_rad_s_rad = 0;  ///< raw velocity per radian of travel in m1 ticks
   double velocity_a1 = 0, observer_a1 = 0;
@@ -45,10 +46,10 @@ struct LinearLoop {
   double damping_nm_s_rad = 0;  ///< of the lever
 };
 
-/// Of the plant count: inductance, back-EMF, and friction that grows with speed.
+/// Makes the loop. Of the plant's effects it uses inductance, back-EMF and viscous friction.
 LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters& plant);
 
-/// The same with a voltage gain and PWM periods, and what the closed forms need.
+/// The same with a voltage gain, PWM periods, and the values for the closed-form expressions.
 struct LoopModel : LinearLoop {
   int pwm_ticks = 0;
   double voltage_gain = 0;

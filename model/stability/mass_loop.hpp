@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The loop of textbooks: a mass with friction, a force that is held between samples, velocity by
-// backward difference. Small enough to check by hand what the big loop is measured with.
+// The textbook loop: a mass with friction, a force held between samples, velocity by backward
+// difference. It is small enough to check the method of the large loop by hand.
 // Documentation: docs/stability.md
 #pragma once
 

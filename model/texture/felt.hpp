@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is felt of a texture, in the engine's words, and how firm it is upright with and without the
-// split of the depth. Documentation: docs/devices/texture.md
+// Computes the force of a texture in the engine's words, and its vertical firmness with and without
+// the split of the depth. Documentation: docs/devices/texture.md
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace feltgate::texture {
 
-/// A compiled law in the interpreter of its words, with the values of its file.
+/// Runs a compiled law in the interpreter, with the values of its file.
 class Words {
  public:
   explicit Words(const law::Compiled& compiled);
-  /// Torques of the axes, Nm, of a run at these positions, in counts, and velocities, in words.
+  /// Torques of the axes, Nm, of a run at positions in counts and velocities in words.
   std::array<double, 3> torque_nm(const std::array<std::int32_t, 3>& counts,
                                   const std::array<std::int32_t, 3>& velocities = {});
   double count_rad() const { return count_rad_; }
@@ -29,27 +29,27 @@ class Words {
   law::Machine machine_;
   int thread_;
   double count_rad_;
-  std::array<double, 3> lsb_nm_{};  ///< 0 where the law has no torque for the axis
+  std::array<double, 3> lsb_nm_{};  ///< LSB of each torque; 0 if the law has none for the axis
 };
 
-/// A row under the pantograph: where counts have the pen that is asked to be at `pen`, and the
-/// force there.
+/// A row under the pantograph: the place of the pen after rounding to counts, and the force there.
 struct PenForce {
   shape::Point at_m, force_n;
 };
 PenForce pen_force(Words& words, shape::Point pen_m);
 
-/// Throws std::invalid_argument where a way of +-`half_m` along the row, from black to `below_m`
-/// under it, leaves what the pen of the pantograph reaches.
+/// Throws std::invalid_argument when the area of +-`half_m` along the row, from black down to
+/// `below_m` below it, leaves the reach of the pantograph's pen.
 void check_reach(const LawRequest& r, double half_m, double below_m);
 
-/// The plane through two pixels alone, as wide as its texel: force along its normal with the depth
-/// along it, which ends where it leaves the texel. `x_m` from the first pixel, `below_m` black.
+/// Force of the plane through two pixels only, as wide as its texel: it acts along the normal, with
+/// the depth along the normal, and ends where the normal leaves the texel. `x_m` from the first
+/// pixel, `below_m` below black.
 shape::Point plane_force(const std::vector<double>& row, const LawRequest& r, double x_m,
                          double below_m);
 
-/// Upright force that is gained from black to `firmness_depth_m` below, over stiffness and way,
-/// mean along the row: 1 is as firm as asked for.
+/// Vertical force gained from black to `firmness_depth_m` below it, divided by stiffness and
+/// distance, averaged along the row: 1 is the requested firmness.
 struct Firmness {
   double split = 0, plane = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A grey image as heights. Documentation: docs/devices/texture.md
+// Reads a grey image as heights. Documentation: docs/devices/texture.md
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ struct Image {
   }
 };
 
-/// Most pixels along a side that are read.
+/// Largest number of pixels along a side.
 constexpr int most_side = 4096;
 
-/// Reads a PNG of 8 bits a channel or less; colours become their luminance, what is transparent
-/// black. Throws std::invalid_argument "file:1: what; mend" for what is no PNG, is broken off, has
-/// 16 bits, less than 2 pixels across, or sides above `most_side`.
+/// Reads a PNG with at most 8 bits per channel; colours become luminance, transparent pixels black.
+/// Throws std::invalid_argument "file:1: what; mend" when the file is not a PNG, is truncated, has
+/// 16 bits, is less than 2 pixels wide, or has a side above `most_side`.
 Image read_png(const std::string& path);
 
 }  // namespace feltgate::texture

@@ -17,7 +17,7 @@ namespace feltgate::texture {
 
 namespace {
 
-/// Rates at which a run has time enough, with room.
+/// Rates that leave a run enough time, with a reserve.
 constexpr int row_khz = 100, field_khz = 50;
 
 [[noreturn]] void refuse(const std::string& said) { throw std::invalid_argument(said); }
@@ -35,7 +35,7 @@ double steepest_along(int n, const At& at, Normals normals) {
   return most;
 }
 
-/// Throws for a texture too steep, or without any.
+/// Throws for a texture that is too steep or flat everywhere.
 void check(const LawRequest& r, double steep, bool alike) {
   if (alike) refuse("all pixels are alike, nothing would be felt; take another row or image");
   const double most = deepest_m(steep, r.texel_m);

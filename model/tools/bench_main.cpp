@@ -26,7 +26,7 @@ struct Arguments {
   bool quick = false, quiet = false;
 };
 
-/// The worst of the works.
+/// The largest bounds over all works.
 bench::ErrorLimits bounds_of(const std::vector<bench::Work>& works) {
   const auto e = elaborate(design::read_design(repository() + "/rtl/designs/lever.toml"),
                            design::read_registers(repository() + "/rtl/registers.toml"));
@@ -46,7 +46,7 @@ int run(const Arguments& a) {
     scenes = a.quick ? std::vector<std::string>{"torque_step_cord"}
                      : std::vector<std::string>{"torque_step_cord", "damper", "wall"};
   }
-  // Opened before the run: a name that cannot be written must not cost it.
+  // The output is opened before the run: an unwritable name must not waste the run.
   files::Outputs outputs;
   files::OutputFile* json = outputs.open("--json", a.json);
   std::vector<std::unique_ptr<bench::Runner>> runners;

@@ -19,7 +19,7 @@
 
 namespace {
 
-/// A bound above this is none: sums of infinities that were moved a step.
+/// A bound above this counts as infinite: outward rounding can make infinity finite.
 constexpr double endless = 1e100;
 
 }  // namespace

@@ -32,7 +32,7 @@ struct BudgetArguments {
   bool quiet = false;
 };
 
-/// A column: its heading, its name in JSON, where it is.
+/// A column: its heading, its name in JSON, and the member with its value.
 struct Column {
   const char* heading;
   const char* name;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Validators of the command line; they see the text, so that nothing has wrapped or become NaN.
-// Documentation: README.md
+// Validators of the command line. They check the text itself, before a conversion can wrap a
+// number. Documentation: README.md
 #include "tools/checks.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace feltgate::checks {
 
 namespace {
 
-/// All of the text as a number; false where it is none.
+/// Converts the whole text to a number; false if it is not a number.
 template <class Number>
 bool parse(const std::string& text, Number* value) {
   const char* end = text.data() + text.size();
@@ -35,8 +35,8 @@ bool has_unit(const std::string& text) {
   }
 }
 
-/// `kind` and `range` make the message; help shows the range alone. A number with a unit becomes
-/// one in `unit`.
+/// `kind` and `range` form the message; the help shows only the range. A number with another unit
+/// is converted to `unit`.
 template <class Number>
 CLI::Validator accepts(const std::string& kind, const std::string& range,
                        std::function<bool(Number)> good, const std::string& unit = "") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which numbers the command line takes: finite ones within a range that the message names.
+// Checks of numbers on the command line: finite and within a range, which the message names.
 // Documentation: README.md
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace feltgate::checks {
 
-/// A finite number from min to max. `unit` follows the range in help and message; may be empty.
-/// Where there is one, give the option its check by transform(): a number with another unit of the
-/// kind is converted (law/amount.hpp).
+/// A finite number from min to max. `unit` follows the range in help and message; it may be empty.
+/// With a unit, attach the check by transform(), because a number with another unit of the same
+/// quantity is converted (law/amount.hpp).
 CLI::Validator number(double min, double max, const std::string& unit);
-/// A finite number above 0, to max.
+/// A finite number above 0, at most max.
 CLI::Validator positive(double max, const std::string& unit);
 /// A whole number from min to max.
 CLI::Validator whole(std::int64_t min, std::int64_t max);
 /// A seed: a whole number from 0 to 2^64 - 1.
 CLI::Validator seed();
-/// A length of time that can be simulated: above 0, to 100000 s.
+/// A duration that can be simulated: above 0, at most 100000 s.
 CLI::Validator seconds();
 
 }  // namespace feltgate::checks

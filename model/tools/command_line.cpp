@@ -18,7 +18,7 @@ namespace feltgate {
 
 namespace {
 
-/// Options and subcommands that a word may have been meant to be.
+/// Options and subcommands that are candidates for a misspelt word.
 std::vector<std::string> words_of(const CLI::App& app, bool options) {
   std::vector<std::string> words;
   for (const CLI::Option* option : app.get_options()) {
@@ -37,7 +37,7 @@ std::string told(const CLI::ParseError& error) {
   return what.rfind(": ", 0) == 0 ? what.substr(2) : what;
 }
 
-/// One line about what the parser refused, with the nearest name for a misspelt one.
+/// One line about an error of the parser, with the nearest name for a misspelt one.
 std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   const CLI::App& at = chosen.empty() ? app : *chosen.front();
@@ -60,7 +60,7 @@ std::string parse_error(const CLI::App& app, const CLI::ParseError& error) {
                      word, config::did_you_mean(word, words), help);
 }
 
-/// An empty word is a shell's variable that was never set; nothing here is named "".
+/// Refuses an empty word: it usually is an unset variable of the shell.
 void refuse_empty_words(int argc, char** argv) {
   for (int n = 1; n < argc; ++n) {
     const std::string word = argv[n];
@@ -75,7 +75,7 @@ void refuse_empty_words(int argc, char** argv) {
   }
 }
 
-/// After what stdout still holds: where both go to one place, what went wrong is the last line.
+/// Prints an error after flushing stdout, so that it is the last line if both go to one place.
 void complain(const CLI::App& app, const std::string& what) {
   std::fflush(stdout);
   std::fputs(fmt::format("{}: {}\n", app.get_name(), what).c_str(), stderr);

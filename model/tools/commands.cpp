@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the subcommands share: places of files, progress. Documentation: README.md
+// Shared functions of the subcommands: paths of files, progress. Documentation: README.md
 #include "tools/commands.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ std::set<std::string> names_in(const std::string& folder) {
   return names;
 }
 
-/// The mend for a path that leads nowhere.
+/// The mend for a path that does not exist.
 std::string near_path(const std::string& path, const std::string& folder) {
   const std::set<std::string> names = names_in(folder);
   const std::string name = config::nearest(fs::path(path).stem().string(), names);
@@ -66,7 +66,7 @@ std::string near_path(const std::string& path, const std::string& folder) {
                       : fmt::format("did you mean {}, which is in {}?", name, folder);
 }
 
-/// The words that start one of the scripts.
+/// The command that starts one of the scripts.
 std::vector<std::string> script_words(const std::string& name,
                                       const std::vector<std::string>& words) {
   const char* python = std::getenv("FELTGATE_PYTHON");

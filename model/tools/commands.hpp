@@ -14,8 +14,8 @@
 
 namespace feltgate {
 
-/// Exit codes: 0 all well, 1 a mismatch or a broken expectation, 2 input that cannot be used;
-/// from 128 on a signal, 130 for Ctrl-C.
+/// Exit codes: 0 success, 1 a mismatch or a failed expectation, 2 unusable input; from 128 on,
+/// ended by a signal (130: Ctrl-C).
 enum Exit : int { exit_ok = 0, exit_failed = 1, exit_unusable = 2, exit_signal = 128 };
 
 /// A subcommand adds its options to the program and sets *exit_code when it has run.
@@ -33,36 +33,36 @@ void add_texture(CLI::App& app, int* exit_code);
 /// demo, figures, explore and synth are orchestration: Python scripts that call this program.
 void add_scripts(CLI::App& app, int* exit_code);
 
-/// The repository: FELTGATE_ROOT, or where this program was built from.
+/// Path of the repository: FELTGATE_ROOT, or the folder from which this program was built.
 std::string repository();
 
-/// `name` itself when it is a path (has a slash or the suffix), else folder/name.toml of the
-/// repository. Throws std::invalid_argument listing what there is.
+/// `name` itself if it is a path (has a slash or the suffix), else folder/name.toml in the
+/// repository. Throws std::invalid_argument with a list of the existing names.
 std::string find_file(const std::string& name, const std::string& folder);
 
-/// The path of a law: given as one, or a name in rtl/laws. Throws likewise.
+/// The path of a law, given as a path or as a name in rtl/laws. Throws like find_file().
 std::string find_law(const std::string& name);
 
-/// Parses the command line, which runs the command that it names, and returns the exit code: the
-/// command's own, or that of an error, which is told on stderr as one line that begins with the
-/// program's name, the nearest name suggested for what is misspelt.
+/// Parses the command line, runs the command, and returns the exit code of the command or of an
+/// error. An error is printed on stderr as one line that begins with the program's name; for a
+/// misspelt name it suggests the nearest one.
 int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code);
 
-/// Runs scripts/NAME with these words, its stdout going to `out`; returns its exit code.
+/// Runs scripts/NAME with `words` as arguments and stdout to `out`; returns its exit code.
 int run_script(const std::string& name, const std::vector<std::string>& words, std::FILE* out);
 
-/// The design point of this name with everything that follows from it, against the register map.
+/// The design point of this name, elaborated against the register map.
 design::Elaborated elaborated_design(const std::string& name);
 
-/// Name of the design that `given` means: a name that is built in, or the path of the file of one.
-/// Throws std::invalid_argument that says how to build another one in.
+/// Name of the built-in design that `given` names, or whose file it is. For another design it
+/// throws std::invalid_argument, which explains how to build that design in.
 std::string built_design(const std::string& given);
 
-/// A spelling of an option that was documented once: still understood, no longer shown.
+/// Adds a former spelling of an option: still accepted, but hidden from the help.
 template <class Value>
 CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value,
                           const CLI::Validator& check) {
-  // A hidden option has no name in messages; its check says it.
+  // Messages do not name a hidden option, so its check does.
   const auto named = [name, check](std::string& word) {
     const std::string error = check(word);
     return error.empty() ? error : name + ": " + error;
@@ -70,19 +70,19 @@ CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value,
   return app->add_option(name, value)->group("")->transform(CLI::Validator(named, ""));
 }
 
-/// Where the waveform around a mismatch goes: mismatch/ in the build folder, or in this one.
+/// Path of the waveform around a mismatch: mismatch/ in the build folder, or in the current folder.
 std::string mismatch_path(const std::string& subject, const std::string& design);
-/// Says where it is and how to look at it.
+/// Prints where the waveform is and how to view it.
 void tell_mismatch(const std::string& first_mismatch, const std::string& path);
 /// Clocks shown before and after the first mismatch.
 constexpr long long mismatch_before = 200, mismatch_after = 20;
 
-/// Progress with rate and time left on a terminal; silent elsewhere.
+/// Shows progress, rate and remaining time on a terminal; silent elsewhere.
 class Progress {
  public:
   Progress(std::string label, bool quiet);
   ~Progress();
-  /// done in 0..1
+  /// `done`: completed share, 0..1.
   void update(double done);
   /// Clears the line.
   void finish();

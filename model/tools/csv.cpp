@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Rows as CSV. Documentation: docs/json.md
+// Writes rows as CSV. Documentation: docs/json.md
 #include "tools/csv.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace feltgate {
 
 namespace {
 
-// Of a value and its comma where everything moves; rest and round numbers are shorter.
+// Mean size of a value with its comma during motion; values at rest and round numbers are shorter.
 constexpr double bytes_per_value = 15;
 
 }  // namespace

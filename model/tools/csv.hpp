@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Rows of a run as a CSV file. Documentation: docs/json.md
+// Writes the rows of a run as a CSV file. Documentation: docs/json.md
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace feltgate {
 
-/// Rows that a file has at most, unless the user says which ticks are wanted.
+/// Default limit of the rows in a file; the user may choose the ticks instead.
 constexpr std::int64_t most_rows = 100'000;
 
-/// The smallest of 1, 2, 5, 10, 20, ... that leaves at most most_rows of so many ticks.
+/// The smallest step of 1, 2, 5, 10, 20, ... that selects at most most_rows of `ticks` ticks.
 int sane_every(std::int64_t ticks);
 
 /// Header and rows, one value per column.
@@ -24,7 +24,7 @@ class CsvWriter {
  public:
   CsvWriter(std::FILE* to, std::vector<Column> columns);
   void add(const Row& row);
-  /// How large the file will be, one line for the user; `every` of `ticks` ticks has a row.
+  /// The expected file size as one line for the user; every `every`-th of `ticks` ticks has a row.
   std::string forecast(std::int64_t ticks, int every) const;
 
  private:

@@ -63,7 +63,7 @@ int design_for(const DesignArguments& a, const design::RegisterMap& registers) {
   return exit_ok;
 }
 
-/// "mine", of a file that becomes rtl/designs/mine.toml.
+/// The design's name, "mine" for a file that becomes rtl/designs/mine.toml.
 std::string name_for(const std::string& plant, const std::string& output) {
   if (!output.empty() && output != "-") return std::filesystem::path(output).stem().string();
   std::string name;

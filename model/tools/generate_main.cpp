@@ -30,7 +30,7 @@ namespace {
                   path.string(), reason));
 }
 
-/// Writes `text` where it differs; in check mode only reports. Returns whether the file was stale.
+/// Writes `text` if the file differs; in check mode only reports. Returns whether it was stale.
 bool update(const fs::path& path, const std::string& text, bool check_only) {
   std::ifstream in(path, std::ios::binary);
   const std::string old{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -49,7 +49,7 @@ bool update(const fs::path& path, const std::string& text, bool check_only) {
   return true;
 }
 
-/// What hosts and other tools read of a design. Returns whether a file was stale.
+/// Writes the files of a design for hosts and other tools. Returns whether a file was stale.
 bool update_host_files(const fs::path& folder, const feltgate::design::Elaborated& e,
                        bool check_only) {
   bool stale = update(folder / "feltgate.h", c_header(e), check_only);
@@ -85,7 +85,7 @@ struct Options {
   bool check_only = false, allow_coarse = false, help = false;
 };
 
-/// False where the arguments make no sense.
+/// Reads the arguments; false if they are invalid.
 bool parse(int argc, char** argv, Options* o) {
   if (argc < 2) return false;
   o->root = argv[1];

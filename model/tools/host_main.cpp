@@ -15,7 +15,7 @@ namespace {
 
 using namespace feltgate;
 
-/// A verb's exit code, errors of board and link among them.
+/// Runs a verb; returns its exit code, also for errors of board and link.
 int guarded(const std::function<int()>& run) {
   try {
     return run();

@@ -99,7 +99,7 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
   return files::json_text(j);
 }
 
-/// The lemmas as files in the folder, each proven by Gappa there.
+/// Writes the lemmas as files in the folder and proves each with Gappa.
 law::GappaCount gappa(const Compiled& c, const LawArguments& a) {
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const law::GappaCount count = law::prove_again(c, a.cells, [&](const law::GappaLemma& l) {
@@ -127,7 +127,7 @@ std::string text(const Compiled& c, const law::GappaCount& g) {
   return s;
 }
 
-/// What an engine without a host holds after configuration.
+/// Writes the initial memory contents of an engine without a host.
 void write_memories(const Compiled& c, const std::string& folder) {
   const law::Content content = law::content(c.image, folder + "/");
   const std::pair<const char*, const std::string*> all[] = {{"program.mem", &content.program},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the commands have in common that make a law of a drawing or an image. Documentation:
+// Common parts of the commands that make a law from a drawing or an image. Documentation:
 // docs/devices/shapes.md, docs/devices/texture.md
 #pragma once
 
@@ -18,13 +18,13 @@
 
 namespace feltgate {
 
-/// The exit code of a command that makes a law; what failed is said once more, as the last lines.
+/// The exit code of a command that makes a law; prints the failures again as the last lines.
 inline int end_of(const law::Verdict& verdict) {
   for (const std::string& f : verdict.failures) fmt::print(stderr, "feltgate: failed: {}\n", f);
   return verdict.failures.empty() ? exit_ok : exit_failed;
 }
 
-/// What make() returns; what it finds wrong is told with the file it comes from.
+/// Returns make(); adds the name of the file to its errors.
 template <class Make>
 auto of_file(const std::string& file, const Make& make) {
   try {
@@ -34,7 +34,7 @@ auto of_file(const std::string& file, const Make& make) {
   }
 }
 
-/// A number that is one, from `low` on: CLI::Range takes a NaN. Says nothing in the help.
+/// A finite number of at least `low` (CLI::Range would accept a NaN); shows nothing in the help.
 inline CLI::Validator finite(double low = -1e300) {
   return {[low](std::string& text) {
             double value = 0;
@@ -46,7 +46,7 @@ inline CLI::Validator finite(double low = -1e300) {
           ""};
 }
 
-/// An option that takes a length with its unit, mm or m; `value` is in m.
+/// Adds an option for a length with its unit, mm or m; `value` receives m.
 inline CLI::Option* add_length(CLI::App& to, const std::string& name, double* value,
                                const std::string& what) {
   static const std::map<std::string, double> units{{"mm", 1e-3}, {"m", 1.0}};

@@ -35,7 +35,7 @@ struct RatesArguments {
   bool lock_step = false, quiet = false;
 };
 
-/// A scene with what it needs to be measured.
+/// A scene with everything that its measurement needs.
 struct Wanted {
   std::string name;
   Scenario scene;  ///< of one lever
@@ -44,7 +44,7 @@ struct Wanted {
   rates::LawSource law;
 };
 
-/// The scene's law, whose path is from the scene's folder, or that for its block.
+/// The scene's law (its path starts at the scene's folder), or the law for its block.
 rates::LawSource law_of(const Scenario& s) {
   if (const rates::BlockLaw* block = rates::block_law(s.scene)) {
     if (block->file.empty()) return {"the law for " + block->scene, block->text};
@@ -57,7 +57,7 @@ rates::LawSource law_of(const Scenario& s) {
   return {law_file(s), ""};
 }
 
-/// The design of the device, which this program has or not.
+/// The design of the device; this program may lack it.
 const AxesDesignMakers* made_for(const AxesScene& scene) {
   return find_axes_design(rates::axes_design(scene));
 }
@@ -80,7 +80,7 @@ Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Ou
   }
   rates::require_one_law(s);
   w.law = {law_file(s), ""};
-  // Without the design measure() tells.
+  // If the design is missing, measure() reports it.
   if (const AxesDesignMakers* made = made_for(*w.device)) {
     const DesignInfo design = made->info();
     const auto law = make_axes_law(w.law.path, design, axes_of(*w.device));
@@ -119,7 +119,7 @@ Wanted wanted(const std::string& name, const RatesArguments& a, files::Outputs& 
 
 rates::Report measured(const Wanted& w, const rates::Options& options) {
   if (w.device) {
-    // measure() tells of a design that is not there.
+    // If the design is missing, measure() reports it.
     const char* other = rates::law_design;
     const std::string design = made_for(*w.device) ? rates::axes_design(*w.device) : other;
     return rates::measure(*w.device, w.law, elaborated_design(design), options);
@@ -127,7 +127,7 @@ rates::Report measured(const Wanted& w, const rates::Options& options) {
   return rates::measure(w.scene, w.law, w.plant, elaborated_design(rates::law_design), options);
 }
 
-/// Every scene of vectors/scenes that renders a law; the others are told.
+/// All scenes of vectors/scenes that render a law; the others are reported.
 std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(fs::path(repository()) / "vectors/scenes")) {
@@ -183,7 +183,7 @@ int run(const RatesArguments& a) {
   if (json != nullptr) json->write(text);
   if (csv != nullptr) csv->write(rates::reports_csv(reports));
   if (picture != nullptr) {
-    // Drawn from a file that goes again.
+    // The picture is drawn from a temporary file.
     const std::string data =
         (fs::temp_directory_path() / fmt::format("feltgate_rates_{}.json", getpid())).string();
     files::OutputFile numbers("--output", data);

@@ -113,7 +113,7 @@ int replay(ReplayArguments& a) {
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);
   if (fst != nullptr) options.fst = fst->named();
-  // The length is not known before the end; a first pass over the file finds it.
+  // A first pass over the file finds its length.
   Clock length = 0;
   if (options.most_clocks > 0) {
     length = options.most_clocks;
@@ -142,7 +142,7 @@ int replay(ReplayArguments& a) {
   if (!a.quiet) outputs.say(run_text(result, labels));
   outputs.commit();
   if (result.mismatches > 0) {
-    // The replay is deterministic: once more, with the waveform on around the place.
+    // The replay is deterministic: it is repeated with the waveform on around the mismatch.
     options.row = nullptr;
     options.progress = nullptr;
     files::OutputFile waveform("waveform", mismatch_path(name, a.design));

@@ -63,7 +63,7 @@ void apply_settings(const std::vector<std::string>& set, const DesignInfo& desig
                                   " is given twice; leave one of them out");
     }
     try {
-      // Of an unknown name check_asked() says what there is.
+      // For an unknown name, check_asked() lists the known ones.
       scenario.parameters[name] = parameter_in(name, item.substr(at + 1), design, law).value_or(0);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("--set {}: {}", item, error.what()));
@@ -89,7 +89,7 @@ std::string law_file(const Scenario& s) {
 
 namespace {
 
-/// The law that the scene runs; none: nullptr.
+/// The law of the scene; nullptr if it has none.
 std::unique_ptr<SceneLaw> law_of(const Scenario& s, const DesignInfo& design) {
   const bool renders = scenes_used(s).count("law") != 0;
   if (s.law.empty() && !renders) return nullptr;
@@ -160,7 +160,7 @@ int run(const RunArguments& a) {
   options.engine = a.engine;
   options.seed = a.seed;
   options.law = law.get();
-  // Opened before the run: a name that cannot be written must not cost it.
+  // Outputs are opened before the run: an unwritable name must not waste the run.
   files::Outputs outputs;
   outputs.reads(scene_path);
   outputs.reads(plant_path);
@@ -186,7 +186,7 @@ int run(const RunArguments& a) {
   const std::vector<Column> columns = row_columns(true, choose_engines(a.engine).names());
   std::vector<CsvWriter> writers;
   if (csv != nullptr) writers.emplace_back(csv->handle(), columns);
-  // The report reads files, so what went to stdout or a device it gets once more.
+  // The report reads files, so outputs to stdout or a device are also written to a file for it.
   std::string json_path = a.json, csv_path = a.csv;
   if (!a.report.empty()) {
     const std::string begin = a.report + "/" + scenario.name;
@@ -243,7 +243,7 @@ int run(const RunArguments& a) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
   }
   if (result.mismatches > 0) {
-    // The run is deterministic: once more, with the waveform on around the place.
+    // The run is deterministic: it is repeated with the waveform on around the mismatch.
     RunOptions again;
     again.design = a.design;
     again.engine = a.engine;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// JSON of a run. Documentation: docs/json.md
+// Writes a run as JSON. Documentation: docs/json.md
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +17,7 @@ namespace {
 
 Json error_json(const ErrorFigure& e) { return {{"max_error", e.max()}, {"rms_error", e.rms()}}; }
 
-/// Infinity has no number in JSON.
+/// Converts a number to JSON, which has no infinity.
 Json finite_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json step_json(const StepFigures& s) {

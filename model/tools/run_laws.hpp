@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What feltgate run needs for scenes with a law or a device of several axes. A program for scenes
-// of the core alone leaves it out. Documentation: docs/architecture.md
+// The parts of feltgate run for scenes with a law or a device of several axes. A program that runs
+// only scenes of the core does not link them. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@
 
 namespace feltgate {
 
-/// Options of `feltgate run` that a scene of several axes takes.
+/// Options of `feltgate run` that apply to a scene of several axes.
 struct AxesArguments {
   std::string scene_path, design, engine, json, csv, fst;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
   int every = 0;  ///< 0: sane_every()
   bool quiet = false;
-  bool columns = false;  ///< print their names alone
+  bool columns = false;  ///< only print the names of the columns
 };
 
-/// Set before main() by run_axes.cpp, where it is linked.
+/// Functions that run_axes.cpp, if linked, sets before main().
 struct LawScenes {
   /// As make_scene_law().
   std::unique_ptr<SceneLaw> (*law)(const std::string& path, const DesignInfo& design) = nullptr;
-  /// Runs and prints; the exit code.
+  /// Runs the scene and prints the result; returns the exit code.
   int (*axes)(const AxesArguments& arguments) = nullptr;
 };
-/// Those of this program.
+/// The functions of this program.
 LawScenes& law_scenes();
 
 }  // namespace feltgate

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A run for reading on a terminal. Documentation: docs/json.md
+// Prints a run as text for a terminal. Documentation: docs/json.md
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,7 +27,7 @@ std::string engine_line(const EngineFigures& e, double simulated_s) {
       e.torque_nm.max(), e.torque_nm.rms(), speed);
 }
 
-/// The bounds below the table of errors, and which ticks they are not for.
+/// The bounds below the table of errors, and the ticks for which they do not hold.
 std::string bound_lines(const RunResult& r) {
   const auto line = [&r](const char* name, double FeltError::*value) {
     const auto told = [&](std::size_t i) {
@@ -185,7 +185,7 @@ std::string felt_text(const RunResult& r) {
 
 namespace {
 
-/// What makes a result that surprises: constants of the plant that the design does not have.
+/// Explains an unexpected result: constants that differ between plant and design.
 std::string differing_lines(const RunLabels& labels) {
   if (labels.differing.empty()) return {};
   std::string text = "the plant is not the one that the design counts on:\n";

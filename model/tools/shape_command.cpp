@@ -101,12 +101,12 @@ shape::LawRequest request(const ShapeArguments& a, const std::string& summary) {
   return r;
 }
 
-/// What a way along the outline takes table memory for: the option's name, nullptr of none.
+/// Name of the option that needs table memory for the distance along the outline; nullptr if none.
 const char* of_way(const ShapeArguments& a) {
   return a.texture ? "--texture" : a.friction ? "--friction" : nullptr;
 }
 
-/// The most vertices whose tables fit.
+/// Largest number of vertices whose tables fit.
 int most_vertices(const ShapeArguments& a) {
   if (a.svgs.size() > 1) return shape::most_resident_words / static_cast<int>(a.svgs.size()) - 3;
   return of_way(a) != nullptr ? shape::most_measured_vertices : shape::most_vertices;
@@ -137,7 +137,7 @@ void check(const ShapeArguments& a) {
   }
 }
 
-/// Several shapes in a law.
+/// Makes a law with several shapes.
 int run_several(const ShapeArguments& a) {
   files::Outputs outputs;
   for (const std::string& svg : a.svgs) outputs.reads(svg);

@@ -26,8 +26,8 @@ struct StabilityArguments {
   bool no_bits = false, no_experiments = false;
 };
 
-/// 1 when the chain's bits and the eigenvalues differ by more than 5 % where the swing spans enough
-/// counts for the two to mean the same.
+/// Exit code: 1 when the chain's bits and the eigenvalues differ by more than 5 % for a swing that
+/// spans enough counts for the comparison.
 int verdict(const stability::Study& study, const files::Outputs& outputs) {
   constexpr double enough_counts = 8, tolerance = 0.05;
   int off = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A recording of named logic levels, before it knows of encoders or clocks; each file format that
-// holds levels is one of these. Documentation: docs/traces.md
+// A recording of named logic levels, independent of encoders and clocks; each file format of levels
+// implements it. Documentation: docs/traces.md
 #pragma once
 
 #include <cstdint>

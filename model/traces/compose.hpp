@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Sources made of sources: one after the other, cut off, with contact bounce, with an index pulse.
+// Combines and changes sources: in sequence, cut off, with contact bounce, with an index pulse.
 // Documentation: docs/traces.md
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What every reader of recordings throws. Documentation: docs/traces.md
+// The error that every reader of recordings throws. Documentation: docs/traces.md
 #pragma once
 
 #include <stdexcept>

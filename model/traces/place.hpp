@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Time of a recording to clock of the FPGA: exact integer mapping and the seeded rule of jitter.
+// Maps the time of a recording to clocks of the FPGA: exact integer mapping and seeded jitter.
 // Documentation: docs/traces.md
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Counts what a perfect x4 decoder must find in a stream of pins, by a plain program of its own
-// that shares nothing with the decoder. Documentation: docs/traces.md
+// Computes the counts that a perfect x4 decoder must find in a stream of pins. The program is
+// independent of the decoder. Documentation: docs/traces.md
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Encoder motions made by rule: seeded, small in memory, the same on every machine (the chirp to
-// within one clock, for it asks the C library for a sine). Documentation: docs/traces.md
+// Generates encoder motions by rules: seeded, small in memory, equal on every machine (the chirp to
+// within one clock, because it uses the C library's sine). Documentation: docs/traces.md
 #pragma once
 
 #include <cstdint>

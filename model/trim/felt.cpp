@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a hand feels of a run. Documentation: docs/trim.md
+// Computes the quantities that a hand feels in a run. Documentation: docs/trim.md
 #include "trim/felt.hpp"
 
 #include <time.h>
@@ -16,7 +16,7 @@ namespace feltgate::trim {
 
 namespace {
 
-// Below these a relative error says nothing.
+// Below these values a relative error has no meaning.
 constexpr double least_torque_nm = 1e-3, least_position_rad = 1.534e-3, least_force_n = 1e-2;
 
 double thread_cpu_s() {
@@ -41,7 +41,7 @@ class Means {
     means[left + 1] += share * right;
     now_ += clocks;
   }
-  /// First and last have half a triangle.
+  /// The first and the last mean have half a triangle.
   std::vector<double> means;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Other motions of the same scene, for checks on what a search did not see.
+// Varies the motion of a scene, for checks on motions that a search did not use.
 // Documentation: docs/trim.md
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace feltgate::trim {
 
-/// A scene with the plant that it is played on.
+/// A scene with its plant.
 struct Motion {
   Scenario scene;
   plant::Parameters plant;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A trimmed scene as a scene file. Documentation: docs/trim.md
+// Writes a trimmed scene as a scene file. Documentation: docs/trim.md
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace feltgate::trim {
 
-/// The scene of `scene.path` with bridge, step and effects of `model`, and the plant that
-/// scene.plant names. The rest is the original's text. Recordings beside the original are
-/// named by their whole path. `comment` goes first, each of its lines behind a #.
+/// Text of the scene file `scene.path` with bridge, step and effects of `model`, and the plant that
+/// scene.plant names. The rest of the text is unchanged, but recordings in the original's folder
+/// get their full path. `comment` comes first, with # before each line.
 std::string scene_text(const Scenario& scene, const Model& model, const std::string& comment);
 
 }  // namespace feltgate::trim

@@ -271,7 +271,7 @@ class Search {
     return ok;
   }
 
-  /// A way back: a model with one part more, or with a finer step (no part).
+  /// A step back: a model with one more part, or with a finer step (then without a part).
   struct Return {
     Model model;
     PartReport* part;
@@ -324,7 +324,7 @@ class Search {
   const Options& options_;
   Runner runner_;
   Reference own_;
-  double sum_ = 0;  ///< of the losses alone of what is dropped
+  double sum_ = 0;  ///< sum of the single losses of the removed parts
   Report out_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Finds the least model of a scene's plant that a hand could not tell from the full one.
+// Finds the smallest model of a scene's plant that a hand cannot distinguish from the full one.
 // Documentation: docs/trim.md
 #pragma once
 
@@ -17,7 +17,7 @@ namespace feltgate::trim {
 struct Options {
   std::string design = "lever";
   double tolerance = 0.01;  ///< of the full model's peak and of its rms, in (0, 1]
-  /// What search and final check take of it, since motions that neither saw may lose more.
+  /// Share of the tolerance that search and final check use, as other motions may lose more.
   double share = 0.75;
   double window_s = 1e-3;    ///< length of the means that are compared
   int full_step_clocks = 5;  ///< of the full model
@@ -27,16 +27,16 @@ struct Options {
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 
-/// A part of the model that can be left out: "gates" or the name of an effect.
+/// A removable part of the model: "gates" or the name of an effect.
 struct PartReport {
   std::string name;
-  Difference alone;  ///< what leaving it out changes where everything else stays (see trim())
-  double saves = 0;  ///< share of the CPU time of the model that it was left out of
-  /// Worst loss of the set with it left out too, or the sum of all alone if that is more; 0 where
-  /// that was not tried.
+  Difference alone;  ///< difference when only this part is removed (see trim())
+  double saves = 0;  ///< saved share of the CPU time of the model with the part
+  /// Worst loss of the set after this removal, or the sum of all single losses if larger; 0 if not
+  /// tried.
   double so_far = 0;
   bool dropped = false;
-  bool put_back = false;  ///< dropped by the search, back after the final check
+  bool put_back = false;  ///< removed by the search, restored by the final check
 };
 
 /// A motion of the final check.
@@ -44,7 +44,8 @@ struct UnseenReport {
   std::uint64_t seed = 0;
   double amplitude = 1, speed = 1;
   Difference difference;
-  bool searched = false;  ///< an effect was put back because of it, so it is unseen no more
+  bool searched =
+      false;  ///< an effect was restored because of it, so it no longer counts as unseen
 };
 
 struct Report {
@@ -60,15 +61,15 @@ struct Report {
   bool smaller() const;
 };
 
-/// What the scene's full model is: gates, and every effect that the scene does not switch off; of
-/// the two frictions `viscous` only where the scene or plant has it. Reads the scene's file.
+/// The full model of the scene: gates, and every effect that the scene does not switch off. Of the
+/// two frictions, `viscous` is used only if scene or plant has it. Reads the scene's file.
 Model full_model(Scenario scene, const plant::Parameters& plant, int step_clocks);
 
 /// Parts of `model` that are computed for this scene.
 std::vector<std::string> parts_of(const Scenario& scene, const Model& model);
 void set_part(Model& model, const std::string& part, bool on);
 
-/// Largest loss of `model` over motions made with these seeds, one report each.
+/// Losses of `model` on motions made with these seeds, one report per motion.
 std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Parameters& plant,
                                        const Model& full, const Model& model,
                                        const Options& options,

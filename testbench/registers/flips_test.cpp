@@ -11,8 +11,6 @@ using feltgate::Lever;
 
 namespace {
 
-constexpr std::uint16_t kControl = Lever::C::control;
-constexpr std::uint16_t kCommand = Lever::C::command;
 constexpr int kWord = Lever::A::velocity_a1;   // refused while armed
 constexpr int kFree = Lever::A::tension_rest;  // of a scene: not refused while armed
 constexpr int kWidth = Lever::C::control_width;

@@ -17,6 +17,8 @@ namespace feltgate::test {
 
 using Twin = Registers<Lever, READ_BACK != 0>;
 using Clock = Sequencer<Lever::clocks_per_tick>;
+constexpr std::uint16_t kControl = Lever::C::control;
+constexpr std::uint16_t kCommand = Lever::C::command;
 
 struct RegistersAdapter {
   static void drive(Vregisters& rtl, const Twin::In& in) {

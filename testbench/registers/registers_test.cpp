@@ -14,8 +14,6 @@ using feltgate::Lever;
 namespace {
 
 constexpr int kCommandBits = 6;
-constexpr std::uint16_t kControl = Lever::C::control;
-constexpr std::uint16_t kCommand = Lever::C::command;
 constexpr int kLast = Lever::clocks_per_tick - 1;
 
 }  // namespace

@@ -15,6 +15,11 @@
 
 namespace feltgate::test {
 
+constexpr int kTick = Design::clocks_per_tick;
+constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;   ///< raw 1 rad/s
+constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;    ///< raw 1 V
+constexpr std::int32_t kAmpere = 1 << Design::f.current.fraction;  ///< raw 1 A
+
 struct SupervisorAdapter {
   static constexpr int kCurrentBits = Design::f.current.width();
   static constexpr int kEstimateBits = Design::f.current_estimate.width();

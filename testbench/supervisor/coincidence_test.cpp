@@ -14,7 +14,6 @@ using feltgate::Fault;
 
 namespace {
 
-constexpr int kTick = Design::clocks_per_tick;
 constexpr int kForgiveTicks = 1 << feltgate::Map::forgive_bits;
 
 /// Armed, and `fixed` due in its clock of this tick or a later one; returns that clock.

@@ -13,14 +13,7 @@
 using namespace feltgate::test;
 using feltgate::Fault;
 
-namespace {
-
-constexpr int kTick = Design::clocks_per_tick;
-constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
-constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;
-constexpr std::int32_t kAmpere = 1 << Design::f.current.fraction;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("supervisor: eight encoder errors trip, one is forgiven every 1024 ticks") {
   Script s;

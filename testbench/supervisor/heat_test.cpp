@@ -13,10 +13,6 @@ using feltgate::Fault;
 
 namespace {
 
-constexpr int kTick = Design::clocks_per_tick;
-constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
-constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;
-
 /// RTL and twin side by side, reset when the test wants.
 class Pair {
  public:

@@ -14,13 +14,7 @@ using namespace feltgate::test;
 using feltgate::Fault;
 using feltgate::Map;
 
-namespace {
-
-constexpr int kTick = Design::clocks_per_tick;
-constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
-constexpr std::int32_t kAmpere = 1 << Design::f.current.fraction;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("supervisor: the speed grows against the commanded current, window after window") {
   Script s;

@@ -13,12 +13,7 @@
 using namespace feltgate::test;
 using feltgate::Fault;
 
-namespace {
-
-constexpr int kTick = Design::clocks_per_tick;
-constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("supervisor: arming asks for a rising request, no fault and no stop") {
   Script s;

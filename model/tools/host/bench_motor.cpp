@@ -24,7 +24,7 @@ BenchMotor::~BenchMotor() {
     hold_.release();
     set_mode(Mode::closed_loop);
   } catch (const std::exception&) {
-    // The link is gone; Hold says what that means.
+    // The link is lost; Hold reports the consequence.
   }
 }
 

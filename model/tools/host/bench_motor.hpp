@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A motor on the bench: its mode, held armed, its fault told. Documentation: docs/calibration.md
+// A motor on the bench: sets its mode, holds it armed, reports its fault. Documentation:
+// docs/calibration.md
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ namespace feltgate::host {
 /// control.mode
 enum class Mode : std::uint32_t { closed_loop = 0, open_loop = 1, direct_voltage = 2 };
 
-/// Holds the mode while it lives; at the end it is closed loop again, disarmed.
+/// Sets the mode during its lifetime; the destructor disarms and restores closed loop.
 class BenchMotor {
  public:
   BenchMotor(Device& device, Mode mode);
@@ -23,13 +24,13 @@ class BenchMotor {
 
   void arm(const std::string& scene) { hold_.arm(scene); }
   void disarm() { hold_.release(); }
-  /// Feeds the watchdog alone.
+  /// Only feeds the watchdog.
   void feed() { hold_.poll(); }
-  /// To be called often: feeds the watchdog. Throws Refused where a fault has ended it.
+  /// Feeds the watchdog; call it often. Throws Refused when a fault has disarmed the motor.
   void poll();
-  /// poll() for so long.
+  /// Calls poll() for `seconds`.
   void wait(double seconds);
-  /// Throws Refused where the board did not keep it.
+  /// Sets a parameter. Throws Refused when the board did not keep the value.
   void set(const std::string& name, double value);
   Device& device() { return device_; }
 

@@ -56,7 +56,8 @@ double torque_typed(const std::string& text, double arm_m) {
   }
 }
 
-/// One point after the other: command, tau_hat's mean, the gauge typed, the command away.
+/// Measures point by point: commands a torque, takes the mean of tau_hat, reads the typed gauge
+/// value, removes the command.
 class Procedure {
  public:
   Procedure(Device& device, const CalibrateArguments& a)
@@ -104,7 +105,7 @@ class Procedure {
     motor_.set("voltage_gain_high", a_.gain);
   }
 
-  /// Commands the value, and gives what the observer sees.
+  /// Commands the value and returns the observer's estimate.
   Reading powered(double value) {
     Device& device = motor_.device();
     motor_.set(command_, 0);
@@ -132,7 +133,7 @@ class Procedure {
     return r;
   }
 
-  /// The reading, if it comes while the motor is allowed to push.
+  /// The reading, if it is typed while the motor may still push.
   std::optional<std::string> answer() {
     const Deadline end = began_ + std::chrono::duration_cast<HostClock::duration>(
                                       std::chrono::duration<double>(a_.hold_s));

@@ -48,7 +48,7 @@ CaptureSetup setup_of(Session& session, const CaptureArguments& a) {
   return s;
 }
 
-/// Waits until the rows are full. Returns false where the trigger did not come.
+/// Waits until the rows are full. Returns false if the trigger did not occur.
 bool wait_for_it(Device& device, Hold& hold, const CaptureArguments& a, const CaptureSetup& setup) {
   constexpr int waits = 2;
   constexpr double rest_s = 0.02;
@@ -102,7 +102,7 @@ void write_trace(Device& device, const Captured& c, const CaptureSetup& setup,
                        encoder);
 }
 
-/// Why a motor that is held is off; nothing while it is on. What was captured may be just that.
+/// Why a held motor is off, or nothing while it is on; the capture may show this very event.
 std::string why_off(Device& device, const Hold& hold) {
   const Tick tick = hold.holds() ? device.tick() : Tick{};
   if (!hold.holds() || device.armed(tick)) return "";

@@ -31,7 +31,7 @@ struct IdentifyArguments {
   bool yes = false;
 };
 
-/// Of the largest voltage, each for step_s: both signs, several sizes.
+/// Steps as shares of the largest voltage, each for step_s: both signs, several sizes.
 constexpr double kPlan[] = {0.5, -0.5, 0.35, -0.35, 0.75, -0.75, 0.4, -0.6, 1.0, -1.0, 0.9, -0.4};
 constexpr double kStandsAfter_s = 0.3, kLongestCoast_s = 20;
 
@@ -96,7 +96,7 @@ class Drives {
     motor_.device().stream(0, 0);
     return recording_;
   }
-  /// Ticks of the stream for so much time of the board; the watchdog is fed meanwhile.
+  /// Collects ticks of the stream for a duration in board time, and feeds the watchdog meanwhile.
   void take(double seconds) {
     Device& device = motor_.device();
     const double until_s = recording_.rows() > 0 ? recording_.time_s.back() + seconds : seconds;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lines of text to whoever connects on this computer. Documentation: docs/host.md
+// Sends lines of text to all programs on this computer that connect. Documentation: docs/host.md
 #pragma once
 
 #include <string>
@@ -9,19 +9,20 @@
 
 namespace feltgate::host {
 
-/// Listens on 127.0.0.1 alone. Never waits: who does not take a line whole is let go.
+/// Listens only on 127.0.0.1. It never waits: a client that does not accept a complete line is
+/// disconnected.
 class LineServer {
  public:
-  /// Port 0: any that is free. Throws std::invalid_argument where it cannot listen.
+  /// Port 0 means any free port. Throws std::invalid_argument when it cannot listen.
   explicit LineServer(int port);
   ~LineServer();
   LineServer(const LineServer&) = delete;
   LineServer& operator=(const LineServer&) = delete;
 
   int port() const { return port_; }
-  /// Takes in those who have connected since.
+  /// Accepts the clients that have connected since the last call.
   void poll();
-  /// To all that are connected; `line` has its line end.
+  /// Sends `line`, which includes its line end, to all clients.
   void send(const std::string& line);
 
  private:

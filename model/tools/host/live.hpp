@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ticks of the stream as people and other programs see them. Documentation: docs/host.md
+// Shows ticks of the stream to people and writes them for other programs. Documentation:
+// docs/host.md
 #pragma once
 
 #include <cstdint>
@@ -13,23 +14,23 @@
 
 namespace feltgate::host {
 
-/// "rad_s" of rad/s, for names of columns; nothing for counts and shares.
+/// The unit as a suffix of column names: "rad_s" for rad/s; empty for counts and shares.
 std::string unit_suffix(const std::string& unit);
 
-/// Head and rows of a CSV that PlotJuggler and `replay` read: time_s, then a column each.
+/// Head and rows of a CSV that PlotJuggler and `replay` read: time_s, then one column per quantity.
 std::string csv_head(const std::vector<const Quantity*>& columns);
 std::string csv_row(const std::vector<const Quantity*>& columns, const Tick& tick);
 
 /// A value from lowest to highest in eighths of a line: "▁▂▅█".
 std::string sparkline(const std::deque<double>& values);
 
-/// How watch shows ticks.
+/// The display of the verb watch.
 class Live {
  public:
   enum class Form { terminal, lines, teleplot };
   Live(Device& device, std::vector<const Quantity*> columns, Form form);
   void show(const Tick& tick);
-  /// Leaves the cursor behind what was shown.
+  /// Moves the cursor below the display.
   void finish();
 
  private:

@@ -28,13 +28,13 @@ void say(Device& device, const std::string& what) {
   std::fflush(stdout);
 }
 
-/// What the arming says of the law; nothing in another scene.
+/// The law's text for the message of arming; empty in another scene.
 std::string of_law(Device& device) {
   if (!device.board().has_engine || device.scene_name(device.tick()) != "law") return "";
   return LawEngine(device).status().crc_good ? "; the CRC of the law holds" : "";
 }
 
-/// Kicks until the end is asked for or a fault comes.
+/// Kicks the watchdog until the user ends it or a fault occurs.
 int hold_armed(Device& device, Hold& hold, double seconds) {
   const Deadline end = within(seconds > 0 ? seconds : 1e9);
   while (!Interruptible::interrupted() && HostClock::now() < end) {

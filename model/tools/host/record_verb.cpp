@@ -66,7 +66,7 @@ int record(Session& session, RecordArguments a) {
   });
   progress.finish();
   if (rows == 0) throw LinkLost(session.options.port + ": no tick of the stream came");
-  // The counter of the frames counts those that the board dropped too.
+  // The counter of the frames also counts frames that the board dropped.
   const std::uint64_t dropped = device.stream_dropped() - dropped_before;
   std::string text = simulated_banner(device.board());
   if (vector != nullptr) {

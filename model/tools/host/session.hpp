@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the verbs of feltgate host share: the port, the board behind it, its design, and holding an
-// armed motor. Documentation: docs/host.md
+// Shared parts of the verbs of feltgate host: the port, its board, the board's design, and holding
+// a motor armed. Documentation: docs/host.md
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,37 +18,37 @@
 
 namespace feltgate::host {
 
-/// Exit codes beside those of all commands: 0 done, 1 the board refused, 2 unusable input.
-constexpr int exit_link = 3;  ///< the link broke down, or nothing answers
+/// Exit codes, with the codes of all commands: 0 done, 1 the board refused, 2 unusable input.
+constexpr int exit_link = 3;  ///< the link failed, or nothing answers
 
-/// The words before the verb.
+/// The options before the verb.
 struct SessionOptions {
   std::string port, design, law;
   int baud = 0;
   double patience_s = 0;
 };
 
-/// One port, opened when it is first asked for.
+/// One port, opened at its first use.
 class Session {
  public:
   SessionOptions options;
 
   Link& link();
-  /// Asked for once.
+  /// The board's data, requested once.
   const BoardInfo& board();
-  /// The board's design: the one given, which must be the board's, or the one of rtl/designs that
-  /// has its CRC. Throws std::invalid_argument that says how to give it.
+  /// The board's design: the given one, which must match the board, or the one in rtl/designs with
+  /// the same CRC. Throws std::invalid_argument, which explains how to give it.
   const KnownDesign& design();
-  /// The design if it is known.
+  /// The design, or nullptr if it is not known.
   const KnownDesign* design_if_known();
   Device& device();
-  /// The engine of the board's laws. Its law is known where --law gives it or this computer loaded
-  /// it. Throws Refused where the board has none, or runs another law than --law.
+  /// The engine of the board's laws. Its law is known if --law gives it or this computer loaded it.
+  /// Throws Refused when the board has no engine, or runs another law than --law.
   LawEngine& laws();
-  /// nullptr where the board has no engine.
+  /// The same, or nullptr when the board has no engine.
   LawEngine* laws_if_any();
-  /// The image of a law file, compiled for the board's design, or of an image. Throws with line,
-  /// reason and mend.
+  /// The image of a law file, compiled for the board's design, or of an image file. Throws with
+  /// line, reason and mend.
   law::Image image_of(const std::string& law);
 
  private:
@@ -61,17 +61,17 @@ class Session {
   bool looked_ = false;
 };
 
-/// A verb of feltgate host. To add one: write its add function, put it into verbs().
+/// A verb of feltgate host. To add one, write its add function and list it in verbs().
 struct Verb {
   const char* name;
   const char* about;
-  /// Adds options to `sub`; returns what runs it and gives the exit code.
+  /// Adds options to `sub`; returns the function that runs the verb and returns the exit code.
   std::function<int(Session&)> (*add)(CLI::App& sub);
 };
-/// In the order in which help shows them.
+/// All verbs in the order of the help.
 const std::vector<Verb>& verbs();
 
-/// While this lives, Ctrl-C, SIGTERM and SIGHUP only set a flag.
+/// During its lifetime, Ctrl-C, SIGTERM and SIGHUP only set a flag.
 class Interruptible {
  public:
   Interruptible();
@@ -81,7 +81,7 @@ class Interruptible {
   static bool interrupted();
 };
 
-/// A KeepAlive that disarms on every way out, and says so where that fails.
+/// A KeepAlive that disarms on every exit path, and reports a failure to do so.
 class Hold {
  public:
   explicit Hold(Device& device) : keep_(device) {}
@@ -89,7 +89,7 @@ class Hold {
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
 
-  /// Arms, with the watchdog awake; Ctrl-C ends the wait for it.
+  /// Arms the motor with the watchdog enabled; Ctrl-C ends the wait.
   void arm(const std::string& scene);
   void take_over() { keep_.take_over(); }
   bool holds() const { return keep_.holds(); }
@@ -101,10 +101,10 @@ class Hold {
   KeepAlive keep_;
 };
 
-/// What to print first wherever values of a simulated board are shown; nothing for a real one.
+/// The banner above values of a simulated board; empty for a real one.
 std::string simulated_banner(const BoardInfo& board);
 
-/// A line about where the link stands, for the end of a verb; nothing when all went well.
+/// A line about link errors, for the end of a verb; empty when there were none.
 std::string link_troubles(const LinkCounts& counts);
 
 }  // namespace feltgate::host

@@ -15,7 +15,7 @@ namespace feltgate::host {
 
 namespace {
 
-/// Ends the stream also on the way out of an error; a link that is lost cannot be told.
+/// Ends the stream, also after an error; over a lost link it cannot be ended.
 class StreamOff {
  public:
   explicit StreamOff(Device& device) : device_(device) {}
@@ -93,7 +93,7 @@ void follow_stream(Device& device, const StreamArguments& a, std::uint32_t perio
         throw Refused("the motor is off" + why);
       }
     } else if (HostClock::now() > silent) {
-      // Silence is a lost link, which this throws for, or a board that was reset.
+      // Silence means a lost link (then this throws) or a board that was reset.
       (void)device.tick();
       device.stream(mask, period);
       silent = within(silent_s);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A stream that watch and record follow: started, watched over, ended. Documentation: docs/host.md
+// Starts, supervises and ends the stream that watch and record follow. Documentation: docs/host.md
 #pragma once
 
 #include <functional>
@@ -14,20 +14,20 @@ namespace feltgate::host {
 
 struct StreamArguments {
   std::vector<std::string> names;
-  std::string arm;     ///< scene to arm for as long as the stream lasts; empty: none
-  double every_s = 0;  ///< from tick to tick
+  std::string arm;     ///< scene to arm while the stream lasts; empty: none
+  double every_s = 0;  ///< interval between shown ticks
   double seconds = 0;  ///< how long; 0: until Ctrl-C
 };
 
-/// --arm, --every, --for and the names.
+/// Adds the options --arm, --every, --for and the names.
 void add_stream_options(CLI::App& sub, StreamArguments& a);
 
-/// Words to stream for these quantities, and status and faults, which every display needs.
+/// Mask of the words to stream: those of the quantities, plus status and faults for every display.
 std::uint16_t stream_mask(Device& device, const StreamArguments& a);
 std::vector<const Quantity*> stream_columns(Device& device, const StreamArguments& a);
 
-/// Streams until the time is over or Ctrl-C; feeds the watchdog and disarms at the end where the
-/// host armed the motor. `period` in ticks. Throws Refused when a fault ends an armed motor.
+/// Streams until the time ends or Ctrl-C. If the host armed the motor, it feeds the watchdog and
+/// disarms at the end. `period` in ticks. Throws Refused when a fault disarms the motor.
 void follow_stream(Device& device, const StreamArguments& a, std::uint32_t period,
                    const std::function<void(const Tick&)>& show);
 

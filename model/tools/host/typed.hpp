@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lines that somebody types while a motor is held. Documentation: docs/calibration.md
+// Reads lines that a user types while a motor is held armed. Documentation: docs/calibration.md
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 
 namespace feltgate::host {
 
-/// A line of the standard input. `meanwhile` is called some twenty times a second until one comes.
-/// Throws std::invalid_argument at the end of the input, with `what` it should have been; nothing
-/// where `go_on` says no.
+/// Reads a line of the standard input; calls `meanwhile` about twenty times a second while it
+/// waits. Returns nothing when `go_on` returns false. Throws std::invalid_argument at the end of
+/// the input; the message names `what` was expected.
 std::optional<std::string> typed_line(const std::string& what, const std::function<bool()>& go_on,
                                       const std::function<void()>& meanwhile);
 

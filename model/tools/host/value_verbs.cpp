@@ -35,8 +35,8 @@ const char* mark(const Quantity& q) {
 
 using ImageWords = std::vector<const law::ImageWord*>;
 
-/// Whether the law that runs has a parameter of this name. Throws for a name that nothing has,
-/// where the board has an engine.
+/// Whether the running law has a parameter of this name. If the board has an engine, throws for a
+/// name that is unknown everywhere.
 bool is_of_law(Session& session, const std::string& name) {
   const LawEngine* laws = session.laws_if_any();
   if (laws == nullptr) return false;
@@ -120,7 +120,7 @@ bool set_word(Device& device, const Setting& s) {
   return well;
 }
 
-/// Parameters of the law, in force together.
+/// Sets parameters of the law so that they take effect together.
 void set_law(LawEngine& laws, const std::vector<std::pair<std::string, double>>& values) {
   const std::vector<double> rounded = laws.set(values);
   for (std::size_t n = 0; n < values.size(); ++n) {
@@ -136,7 +136,7 @@ void set_law(LawEngine& laws, const std::vector<std::pair<std::string, double>>&
 
 int set(Session& session, const std::vector<std::string>& texts) {
   Device& device = session.device();
-  // All of them first: one that cannot be used must not leave the others half done.
+  // All values are checked first: an unusable one must not leave the others half set.
   std::set<std::string> given;
   const auto once = [&given](const std::string& name, const std::string& text) {
     if (given.insert(name).second) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The verbs of feltgate host; each adds its options and returns what runs it. Documentation:
-// docs/host.md
+// The verbs of feltgate host; each adds its options and returns the function that runs it.
+// Documentation: docs/host.md
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -12,8 +12,6 @@ using namespace feltgate::law;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The value of a number without unit.
 double at(const std::string& e, double x = 0) {
   return torque_of("rate = 1 kHz\nout torque = 1 Nm * (" + e + ")", x);

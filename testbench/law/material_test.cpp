@@ -17,7 +17,6 @@ using namespace feltgate::law;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFace = 0.5;
 
 /// The law with everything off but what is named, in SI.

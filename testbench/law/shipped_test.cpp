@@ -15,7 +15,6 @@ using namespace feltgate::law;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180;
 
 }  // namespace

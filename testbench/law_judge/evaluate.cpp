@@ -10,7 +10,6 @@
 namespace feltgate::judge {
 
 namespace {
-std::size_t at(long i) { return static_cast<std::size_t>(i); }
 constexpr Real pi = 3.14159265358979323846264338327950288L;
 }  // namespace
 

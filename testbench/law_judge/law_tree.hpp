@@ -33,7 +33,7 @@ struct Tree {
   Kind kind = Kind::number;
   std::string text;  ///< text of a number; name of every other node that has one
   Real value = 0;    ///< value of a number; lower end of a sum's counter (`index` is the upper end)
-  int index = -1;    ///< in the law's list of what it names; a power; how many runs ago of a line
+  int index = -1;    ///< index in the law's list; an exponent; for a line, the number of runs ago
   std::vector<Node> parts;
 };
 

@@ -100,7 +100,7 @@ TEST_CASE("while armed: parameters that a chain is to take, and ramps that begin
   CHECK(host.write(A::wall_stiffness, 1, true));
   CHECK(host.restart(true, S::wall));
   CHECK_FALSE(host.restart(true, S::wall));
-  // A ramp that has been asked for stays so, whatever comes in the same tick.
+  // A requested ramp stays requested, independent of other writes in the same tick.
   CHECK(host.write(A::torque_limit, 1, true));
   CHECK(host.write(A::ramp_step, 1, true));
   CHECK(host.restart(true, S::wall));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The part between an engine and its axes, with axes that do what a test says: RTL and twin.
+// The part between an engine and its axes, with axes that a test controls: RTL and twin.
 // Documentation: docs/blocks/axes_engine.md
 #pragma once
 
@@ -20,7 +20,7 @@ namespace feltgate::test {
 using H = EngineMap::H;
 constexpr int kAxes = 2;
 
-/// What an axis says.
+/// The signals of an axis.
 struct Axis {
   bool law = false, asks = false, armed = false, zeroed = false;
   std::int32_t position = 0, velocity = 0, tau_hat = 0;
@@ -38,7 +38,7 @@ struct AxisOf {
   int clock_of_tick() const { return in_tick; }
 };
 
-/// The twin as a block of its own.
+/// The twin as a separate block.
 class Twin {
  public:
   struct In {
@@ -169,7 +169,7 @@ inline EngineMemory counting_law() {
   return m;
 }
 
-/// The twin with ticks of 50 clocks and a host, and what it was given, for the RTL.
+/// The twin with ticks of 50 clocks and a host. Its inputs are recorded for the RTL.
 class Device {
  public:
   static constexpr int kTick = 50;
@@ -254,7 +254,7 @@ class Device {
     until_checked(3000);
     set(&Axis::armed, true);
   }
-  /// What was lived, RTL against twin.
+  /// Runs the recorded inputs, RTL against twin.
   void play() {
     Twin again = Bench("axes_engine", 1).run_list(inputs_);
     CHECK(again.engine().memory().data == twin_.engine().memory().data);

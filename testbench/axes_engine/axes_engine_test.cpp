@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// axes_engine: what arming, entries, commits and a silent program make of an engine's torque, RTL
-// against twin on every clock. Documentation: docs/blocks/axes_engine.md
+// axes_engine: the effect of arming, entries, commits and a silent program on an engine's torque.
+// RTL against twin on every clock. Documentation: docs/blocks/axes_engine.md
 #include "axes_engine_bench.hpp"
 #include "catch.hpp"
 #include "random.hpp"

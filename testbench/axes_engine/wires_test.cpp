@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// axes_engine: each bit of what goes to the engine and comes from it is its own, the port's
-// addresses, and a lock that lasts as long as a check. Documentation: docs/blocks/axes_engine.md
+// axes_engine: each bit to and from the engine is connected to its own place; the port's addresses;
+// a lock that lasts as long as a check. Documentation: docs/blocks/axes_engine.md
 #include "axes_engine_bench.hpp"
 #include "catch.hpp"
 

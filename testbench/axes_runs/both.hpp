@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Axes with their engine twice, clock by clock and from event to event, and someone who plays with
-// them. Documentation: docs/blocks/feltgate_axes.md
+// Two twins of axes with their engine, one run clock by clock, one from event to event, with random
+// levers and a random host. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <array>
@@ -197,7 +197,7 @@ void load(Both<N>& b, const EngineMemory& m, unsigned run, unsigned divider, uns
   b.in.reg_addr = 0;
 }
 
-/// Someone moves the levers, the host meddles.
+/// Moves the levers and makes random accesses of the host.
 template <int N>
 void live(Both<N>& b, Random& random, int stretches, bool meddles) {
   std::int64_t pace = 200;

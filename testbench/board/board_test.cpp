@@ -88,7 +88,7 @@ class Bench {
   std::vector<Bytes> frames() {
     const Bytes more = board_->take_sent();
     kept_.insert(kept_.end(), more.begin(), more.end());
-    // What is under way waits for its end.
+    // An incomplete frame stays in kept_ until its end arrives.
     const auto end = std::find(kept_.rbegin(), kept_.rend(), 0xc0).base();
     const Bytes whole(kept_.begin(), end);
     kept_.erase(kept_.begin(), end);

@@ -97,7 +97,7 @@ TEST_CASE("the more tau_hat is fed back, the larger its bound, up to none at all
     CHECK(b.tau_hat_nm.against_quantised > before);
     before = b.tau_hat_nm.against_quantised;
   }
-  // Fed back whole it is an integrator but for the quantised constants: a bound nobody can use.
+  // Fed back whole it is an integrator but for the quantised constants: a bound without use.
   d.kp_1_kg_m2 = 0;
   CHECK(error_bounds(elaborate(d, registers())).tau_hat_nm.against_quantised > 1);
   // Above 1 with either sign the argument through the limit fails; the closed section still holds.

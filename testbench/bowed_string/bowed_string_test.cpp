@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The bowed string: Helmholtz motion over a range of bow force, and what 1 kHz makes of it.
+// The bowed string: Helmholtz motion over a range of bow force, and its motion at 1 kHz.
 // Documentation: docs/devices/bowed_string.md
 #include "bowed_string.hpp"
 

@@ -254,7 +254,7 @@ TEST_CASE("the design that is written can be built and has the constants", "[wri
   CHECK(ours.kv_low == 1.2);
   CHECK(ours.region_nm == 0.13);
 
-  // What no design can have is refused by the generator's own words.
+  // A value that no design can have is refused with the generator's own message.
   CHECK_THROWS_AS(changed_design(path_of("lever"), "bad",
                                  {{"motor", "resistance_ohm", -1, "wrong"}}, registers()),
                   config::ConfigError);

@@ -9,7 +9,7 @@
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_message.hpp>
 #include <catch2/catch_test_macros.hpp>
-using Catch::Approx;  // version 2 does so itself
+using Catch::Approx;  // version 2 already does this
 #else
 #include <catch2/catch.hpp>
 #endif

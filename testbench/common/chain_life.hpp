@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A random life of a chain of laws, for two implementations of it side by side: counts, bursts
-// that saturate the velocity, arming, scenes, modes, parameter words. Documentation:
+// A random stimulus for a chain of laws. Two implementations of the chain run it side by side:
+// counts, bursts that saturate the velocity, arming, scenes, modes, parameter words. Documentation:
 // docs/fixed-point.md
 #pragma once
 
@@ -18,7 +18,7 @@
 namespace feltgate::test {
 
 constexpr std::size_t chain_results = 13;
-/// What a tick shows, in the order of chain_result_names.
+/// The results of one tick, in the order of chain_result_names.
 using ChainResults = std::array<std::int64_t, chain_results>;
 constexpr std::array<const char*, chain_results> chain_result_names = {
     "velocity",   "tau_hat",        "tau_ref",      "current",       "voltage",
@@ -46,10 +46,10 @@ class ChainLife {
 
   explicit ChainLife(std::uint64_t seed) : random_(seed) {}
 
-  /// The next tick; a write, when there is one, comes before it.
+  /// Makes the inputs of the next tick. A returned write must be done before that tick.
   std::optional<Word> next() {
     if (random_.one_in(50)) move(static_cast<int>(random_.between(-2, 2)));
-    // One count per tick: faster than the velocity's format.
+    // One count per tick is faster than the velocity's format can show.
     if (++tick_ % 30'000 > 28'800) move(1);
     if (random_.one_in(5'000)) in_.armed = !random_.one_in(4);
     if (random_.one_in(4'000)) in_.scene = static_cast<int>(random_.below(11));
@@ -57,14 +57,14 @@ class ChainLife {
     if (random_.one_in(9'000)) in_.mode = static_cast<int>(random_.below(3));
     if (random_.one_in(6'000))
       in_.position = static_cast<std::int32_t>(random_.between(-2000, 2000));
-    // At the design's ramp it would see hardly anything but ramps, behind which no position shows.
+    // With the design's ramp the output would be almost always a ramp, which hides the position.
     if (!ramp_written_ || random_.one_in(4'000)) {
       ramp_written_ = true;
       return Word{D::A::ramp_step, random_.below(1u << 18)};
     }
     if (!random_.one_in(250)) return std::nullopt;
     const auto& p = D::parameters[random_.below(std::size(D::parameters))];
-    // A filter's coefficient at random would hide the rest of the chain.
+    // A random filter coefficient would hide the rest of the chain.
     const bool filter = p.address == D::A::velocity_a1 || p.address == D::A::observer_a1;
     if (filter || random_.coin())
       return Word{p.address, static_cast<std::uint32_t>(p.raw & 0xffffffff)};
@@ -85,12 +85,12 @@ class ChainLife {
 };
 
 struct ChainComparison {
-  std::string first_divergence;  ///< empty when there is none
+  std::string first_divergence;  ///< empty if the chains never differ
   ChainResults seen{};           ///< ticks in which each result was not 0
 };
 
-/// Names what a life did not exercise: a signal at rest, a limit that never or always acted. Empty
-/// when there is nothing.
+/// Lists the signals that stayed at rest and the limits that never or always acted. Empty if all
+/// was exercised.
 inline std::string not_exercised(const ChainComparison& c, long ticks) {
   constexpr std::size_t first_limit = 6;
   std::string names;
@@ -101,7 +101,7 @@ inline std::string not_exercised(const ChainComparison& c, long ticks) {
   return names;
 }
 
-/// `ticks` ticks of one life in two chains. Each of the two is given as write(address, data) and
+/// Runs `ticks` ticks of one stimulus in two chains. Each chain offers write(address, data) and
 /// tick(in), which returns the results.
 template <class D, class A, class B>
 ChainComparison compare_lives(std::uint64_t seed, long ticks, A& a, B& b) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which copy in a block of seeded defects is alive, and which mutant a block is: what the
-// environment variables FELTGATE_DEFECT and FELTGATE_MUTANT name. Called by what scripts/defects.py
-// and scripts/mutants.py write. Documentation: docs/testing.md
+// Selects the active copy in a block with seeded defects, and the mutant of a block, from the
+// environment variables FELTGATE_DEFECT and FELTGATE_MUTANT. The code that scripts/defects.py and
+// scripts/mutants.py write calls these functions. Documentation: docs/testing.md
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
 #include <string>
 
-/// The place of the chosen name among these. Where one program has several blocks with defects, it
-/// names several: the last one that a block has is chosen there.
+/// Returns the index of the chosen name in `names`. A program with several blocks with defects may
+/// get several names; a block uses the last one that it has.
 extern "C" int feltgate_chosen_defect(const char* names) {
   const char* chosen = std::getenv("FELTGATE_DEFECT");
   std::istringstream words(chosen == nullptr ? "" : chosen);
@@ -24,7 +24,7 @@ extern "C" int feltgate_chosen_defect(const char* names) {
   std::abort();
 }
 
-/// The number of a mutant, or 0 for the block as it is.
+/// Returns the number of the mutant, or 0 for the unchanged block.
 extern "C" int feltgate_chosen_mutant() {
   const char* chosen = std::getenv("FELTGATE_MUTANT");
   return chosen == nullptr ? 0 : std::atoi(chosen);

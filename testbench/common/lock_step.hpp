@@ -5,7 +5,7 @@
 // Adapter, written per block:
 //   static void drive(Rtl&, const Twin::In&);
 //   template <class Check> static void compare(Check& check, const Rtl&, const Twin::Out&);
-//   static void at_edge(Rtl&);  // optional: inputs that do not last to the edge
+//   static void at_edge(Rtl&);  // optional: changes inputs that end before the clock edge
 // Documentation: docs/testing.md
 #pragma once
 
@@ -42,7 +42,7 @@ struct NoObserver {
 
 }  // namespace detail
 
-/// How often a run resets the block; the times and lengths (1 to 8 clocks) follow from the seed.
+/// How often a run resets the block. The seed sets the times and lengths (1 to 8 clocks).
 struct ResetPlan {
   std::uint32_t mean_distance = 0;  ///< clocks between two resets on average; 0: only at the start
 };
@@ -86,8 +86,8 @@ class LockStep {
     fail_with(block_, seed_, found, file);
   }
 
-  /// A list of inputs from power-up; the first one is held during the reset at the start.
-  /// Returns the twin after the last.
+  /// Runs a list of inputs from power-up; the first input is held during the reset at the start.
+  /// Returns the twin after the last input.
   Twin run_list(const std::vector<In>& inputs) {
     Twin last = prototype_;
     const auto stimulus = [&inputs](std::int64_t clock) {

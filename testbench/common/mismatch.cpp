@@ -43,7 +43,7 @@ void fail_with(const char* block, std::uint64_t seed, const Mismatch& mismatch,
   if (!waveform.empty() && std::filesystem::exists(save)) {
     text << "\nview: gtkwave " << waveform << ' ' << save.string();
   }
-  // Catch breaks lines at 80 columns; these are to be searched and copied.
+  // Catch breaks lines at 80 columns, but a user must be able to search and copy these lines.
   std::cerr << text.str() << std::endl;
   FAIL(text.str());
   throw std::logic_error("FAIL returned");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a lock-step run found first, and how it is reported. Documentation: docs/testing.md
+// The first difference that a lock-step run finds, and its report. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ struct Mismatch {
   std::int64_t cycle = 0;
   const char* signal = nullptr;  ///< port name, or the text of the property
   const char* instant = "";      ///< before or after the rising edge
-  bool is_property = false;      ///< then rtl and twin have no meaning
+  bool is_property = false;      ///< if true, rtl and twin have no meaning
   std::int64_t rtl = 0;
   std::int64_t twin = 0;
 };
 
-/// The low W bits of a word as a two's complement number, 1 <= W <= 64. Verilator hands out signed
+/// The low W bits of a word as a two's complement number, 1 <= W <= 64. Verilator gives signed
 /// ports of odd widths as unsigned words.
 template <int W, class Word>
 constexpr std::int64_t sign_extend(Word word) {
@@ -30,14 +30,14 @@ constexpr std::int64_t sign_extend(Word word) {
   return static_cast<std::int64_t>(((word & mask) ^ sign) - sign);
 }
 
-/// The low W bits of a signed number, as Verilator wants its input ports.
+/// The low W bits of a signed number, in the form that Verilator needs for input ports.
 template <int W, class Word = std::uint32_t>
 constexpr Word port_bits(std::int64_t value) {
   static_assert(W >= 1 && W < 64, "");
   return static_cast<Word>(static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << W) - 1));
 }
 
-/// Compares values; remembers the first difference only, so that the path of equality stays short.
+/// Compares values; keeps only the first difference, so that the code for equal values stays short.
 class Check {
  public:
   template <class RtlWord, class TwinWord>
@@ -63,13 +63,14 @@ class Check {
   Mismatch first_;
 };
 
-/// Not with a mutant, of which only the mismatch is wanted, as soon as it is there.
+/// Returns false with a mutant: there only the mismatch is needed, as early as possible.
 bool waveform_wanted();
 
-/// Where the waveform of a mismatch goes: $FELTGATE_MISMATCH_DIR or <build>/mismatch. Creates it.
+/// Path for the waveform of a mismatch: $FELTGATE_MISMATCH_DIR or <build>/mismatch. Creates the
+/// folder.
 std::string mismatch_file(const char* block);
 
-/// Ends the test case with the message; names the waveform and its save file where one is
+/// Ends the test case with a message that names the waveform, and its save file if one is
 /// committed.
 [[noreturn]] void fail_with(const char* block, std::uint64_t seed, const Mismatch& mismatch,
                             const std::string& waveform);
@@ -77,7 +78,7 @@ std::string mismatch_file(const char* block);
 /// n, or n * $FELTGATE_LONG for the long regression.
 std::int64_t scaled_clocks(std::int64_t n);
 
-/// Whether all is to be tried of what a usual run tries a share of: $FELTGATE_WHOLE.
+/// True if $FELTGATE_WHOLE asks for all cases; a usual run tries only a part of them.
 bool whole_run();
 
 }  // namespace feltgate::test

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's register port behind a bus: the twin of registers with ticks, and nothing else of the
-// core. Documentation: docs/blocks/registers.md
+// The core's register port behind a bus: only the twin of the registers, with ticks; the rest of
+// the core is absent. Documentation: docs/blocks/registers.md
 #pragma once
 
 #include "feltgate/generated/lever.hpp"
@@ -14,13 +14,13 @@ class PortCore {
  public:
   using Twin = Registers<Lever>;
 
-  /// What the port shows in this clock.
+  /// The read data of the port in this clock.
   std::uint32_t rdata() const { return twin_.out().reg_rdata; }
   bool busy() const { return twin_.out().reg_busy; }
   const Twin& twin() const { return twin_; }
   int clock_of_tick() const { return clock_; }
 
-  /// A clock with these on the port.
+  /// Runs one clock with these signals at the port.
   template <class Out>
   void clock(const Out& port) {
     Twin::In in;
@@ -32,7 +32,7 @@ class PortCore {
     twin_.clock(in);
     clock_ = in.tick ? 0 : clock_ + 1;
   }
-  /// Writes that the port took.
+  /// Number of writes that the port accepted.
   int taken() const { return taken_; }
 
  private:

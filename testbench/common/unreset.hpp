@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lock-step of a block, or of registers, without a reset: nothing is compared until the clocks of
-// its pipeline have passed since the reset that the bench drives. Documentation: docs/testing.md
+// Lock-step of a block, or of registers, without a reset input. The comparison starts when the
+// clocks of the pipeline have passed since the reset of the bench. Documentation: docs/testing.md
 #pragma once
 
 namespace feltgate::test {
 
-/// A Verilated block without a reset; the bench wants to drive one.
+/// Adds a reset input, which the bench drives, to a Verilated block that has none.
 template <class Model>
 struct Unreset : Model {
   using Model::Model;
   int rst_ni = 0;
 };
 
-/// A twin that says whether its outputs are those of the RTL: from `Clocks` clocks after a reset
-/// on.
+/// A twin that tells when its outputs must equal those of the RTL: from `Clocks` clocks after a
+/// reset.
 template <class Block, int Clocks>
 struct Filled {
   using In = typename Block::In;
@@ -45,7 +45,7 @@ struct Filled {
   }
 };
 
-/// The same of a block whose outputs depend on the inputs of the clock.
+/// The same for a block whose outputs depend on the inputs of the same clock.
 template <class Block, int Clocks>
 struct FilledPeek {
   using In = typename Block::In;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What is suggested for a misspelt name, and when nothing is. Documentation: docs/designs.md
+// The suggestion for a misspelt name, and the cases without a suggestion. Documentation:
+// docs/designs.md
 #include "config/nearest.hpp"
 
 #include <set>

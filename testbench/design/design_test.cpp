@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// From a design to its integers: coefficient formats, quantisation, what is refused, what is
-// generated. Documentation: docs/designs.md
+// From a design to its integers: coefficient formats, quantisation, refused designs, generated
+// files. Documentation: docs/designs.md
 #include <cmath>
 
 #include "design_fixture.hpp"

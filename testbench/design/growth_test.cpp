@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// No sum or product of the chain can overflow, whatever the host writes into the registers:
-// interval arithmetic over the formats, and the laws themselves at every corner. Documentation:
-// docs/designs.md
+// No sum or product of the chain can overflow for any register values: interval arithmetic over the
+// formats, and the laws at every corner. Documentation: docs/designs.md
 #include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
@@ -30,7 +29,7 @@ struct Interval {
   Real113 low, high;
 };
 
-/// Everything that a format can hold.
+/// The whole range of a format.
 Interval range(Format f) {
   return {-f.sign * power(f.integer), power(f.integer) - power(-f.fraction)};
 }
@@ -47,7 +46,7 @@ Interval operator*(const Interval& a, const Interval& b) {
   return {low, high};
 }
 
-/// Bits below 2^-fraction dropped.
+/// Drops the bits below 2^-fraction.
 Interval truncated(const Interval& x, int fraction) {
   return {floor(x.low * power(fraction)) * power(-fraction),
           floor(x.high * power(fraction)) * power(-fraction)};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Every message about a design file or the register map says file, line, what and mend.
-// Documentation: docs/designs.md
+// Every message about a design file or the register map has the file, the line, the error and a
+// correction. Documentation: docs/designs.md
 #include <vector>
 
 #include "design_fixture.hpp"

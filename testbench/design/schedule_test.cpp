@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A schedule that cannot work is refused, with the reason; one that can has its clocks everywhere.
-// Documentation: docs/schedule.md
+// A schedule that cannot work is refused with the reason; a valid schedule has its clocks in all
+// places. Documentation: docs/schedule.md
 #include "design/schedule.hpp"
 
 #include <regex>

@@ -64,7 +64,7 @@ void break_at(double rad_s, int runs, std::uint64_t seed, Found* found) {
     what.seconds = what.broken_s + 2 * kFoundRad / rad_s;
     what.limit_rad = kFoundRad;
     const Pressed r = press<D>(p, what);
-    const bool changed = r.steps > 1;  // the first may be that of the break itself
+    const bool changed = r.steps > 1;  // the first step may come from the break itself
     ++found->faults;
     found->changed += changed;
     found->by_channel += r.first == Fault::channel;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// encoder_monitor: RTL against twin on every clock, and rows of edges by hand.
+// encoder_monitor: RTL against twin on every clock, and directed sequences of edges.
 // Documentation: docs/blocks/encoder_monitor.md
 #include <Vencoder_monitor.h>
 
@@ -45,7 +45,7 @@ constexpr int kEdgeUnit = 1 << Map::edge_unit_bits, kChatterUnit = 1 << Map::cha
 constexpr int kEnds = Map::edge_units * kEdgeUnit;  ///< ticks without an edge that end a row
 constexpr int kLasts = Map::chatter_units * kChatterUnit;
 
-/// Ticks of two clocks: levels in the first, in the second what nobody looks at.
+/// Ticks of two clocks: the levels in the first clock; values without effect in the second.
 class Script {
  public:
   Script& ticks(int n) {

@@ -21,7 +21,7 @@
 
 namespace feltgate::test {
 
-/// What becomes of the channels A and B.
+/// The defect of the channels A and B.
 enum class Break {
   none,
   a_low,
@@ -90,7 +90,7 @@ struct Press {
   int bounce_clocks = 0;   ///< after each edge the channel goes back and comes again, each so long
 };
 
-/// What came of it; after the break means before the gates closed, too.
+/// The result of a run. Values "after the break" end when the gates close.
 struct Pressed {
   unsigned faults = 0;
   Fault first = Fault::none;
@@ -138,7 +138,7 @@ Pressed press(const plant::Parameters& parameters, const Press& what) {
   double before_rad = lever.observables().theta_rad, frozen_s = 0;
   std::int32_t position = core.out().position;
   Clock at = 0;
-  // The core lies a step behind the lever, so that bounce may last beyond the step.
+  // The core runs one step behind the lever, so that bounce may last longer than the step.
   const auto until = [&](Clock clock) {
     if (clock > at) core.run(in, clock - at, [] {});
     at = std::max(at, clock);

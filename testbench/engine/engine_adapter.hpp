@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ports of the Verilated engine against its twin, and a host that writes and reads both.
+// Connects the Verilated engine's ports to its twin's, and a host that writes and reads both.
 // Documentation: docs/blocks/engine.md
 #pragma once
 
@@ -76,14 +76,15 @@ struct EngineAdapter {
   }
 };
 
-/// A host's next access: a write, or a read that holds the address.
+/// The next access of a host: a write, or a read that holds the address.
 struct Access {
   unsigned addr = 0;
   std::uint32_t word = 0;
   bool write = false;
 };
 
-/// Does accesses one after another: a write as soon as the port is free, a read after some rounds.
+/// Does accesses one after another: a write as soon as the port is free, a read after some rounds
+/// of the threads.
 class EngineHost {
  public:
   std::deque<Access> queue;
@@ -114,7 +115,7 @@ class EngineHost {
     queue.pop_front();
   }
 
-  /// All of an image's words that are not 0, and what belongs to them.
+  /// Writes all words of an image that are not 0, with the settings that belong to them.
   void load(const EngineMemory& m) {
     using H = EngineMap::H;
     write(H::run, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine's twin as a device with a host and ticks of 50 clocks. Documentation:
+// The engine's twin with a host and ticks of 50 clocks. Documentation:
 // docs/blocks/engine.md
 #pragma once
 
@@ -24,8 +24,8 @@ struct Device {
   Twin::In in;
   int since = 0;
   std::int64_t clocks = 0;
-  int jumps = 0;    ///< clocks in which torques may begin to jump
-  int results = 0;  ///< fresh ones
+  int jumps = 0;    ///< clocks in which the twin tells that torques may jump
+  int results = 0;  ///< number of fresh results
 
   std::vector<Twin::In> inputs;
 
@@ -67,7 +67,7 @@ struct Device {
     return word;
   }
   bool status(int bit) { return (read(H::status) >> bit & 1U) != 0; }
-  /// Clocks up to the next fresh result, at most `limit`.
+  /// Returns the number of clocks to the next fresh result, at most `limit`.
   int until_fresh(int limit = 5000) {
     for (int k = 1; k <= limit; ++k) {
       clock();
@@ -84,14 +84,14 @@ inline EngineMemory with_parameters(std::initializer_list<std::int32_t> words) {
   return m;
 }
 
-/// An image that came over the port, so that the RTL can live the same life.
+/// A device whose image was loaded over the port, so that the RTL can run the same inputs.
 struct LoadedDevice : Device {
   explicit LoadedDevice(const EngineMemory& m) {
     Host host;
     host.load(m);
     for (const Access& a : host.queue) write(static_cast<int>(a.addr), a.word);
   }
-  /// What was lived, RTL against twin.
+  /// Runs the recorded inputs, RTL against twin.
   void play() {
     Twin again = Bench("engine", 1).run_list(inputs);
     CHECK(again.memory().data == twin.memory().data);
@@ -99,7 +99,7 @@ struct LoadedDevice : Device {
   }
 };
 
-/// A law of one output in thread 0, and its words for the other axes.
+/// A law with one output in thread 0, and words for the other axes.
 inline EngineMemory image(const std::function<void(EngineMemory&, int)>& make,
                           std::initializer_list<std::int32_t> parameters) {
   EngineMemory m = with_parameters(parameters);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: ends that random lives seldom come to, RTL against twin. Documentation:
+// engine: limits that random runs seldom reach, RTL against twin. Documentation:
 // docs/blocks/engine.md
 #include <algorithm>
 #include <array>
@@ -40,7 +40,7 @@ TEST_CASE(
   m.line_base = EngineMap::table_words - 1;
   std::vector<EngineInstruction> list(110, word(EngineOp::nop, 0, 0, 0));
   list.front() = to(0, EngineOp::add, kParameter, kConstant);
-  list.push_back(to(1, EngineOp::sub, 0, kParameter));  // 0: one set of parameters in all of a run
+  list.push_back(to(1, EngineOp::sub, 0, kParameter));  // 0: one set of parameters per run
   list.push_back(out(0, EngineOp::add, 1, kConstant));
   int n = 0;
   for (const EngineInstruction& i : list) m.set_program(n++, engine_encode(i));
@@ -56,7 +56,7 @@ TEST_CASE(
     device.clock(phase);
     device.in.enter = true;
     device.clock();
-    // What is written after a commit waits for the run that has its bank.
+    // A write after a commit waits for the end of the run that uses its bank.
     device.write(H::data + kParameter, static_cast<std::uint32_t>(++value));
     device.write(H::commit, 1);
     device.write(H::data + kParameter, static_cast<std::uint32_t>(++value));
@@ -67,7 +67,7 @@ TEST_CASE(
   device.play();
 }
 
-// In a block RAM it may be any word, so nobody should write a program that runs.
+// In a block RAM the fetched word may be any word, so a host should not write a program that runs.
 TEST_CASE("engine: a program word written in the clock that fetches it, RTL against twin") {
   using Op = EngineOp;
   EngineMemory m;
@@ -100,7 +100,7 @@ TEST_CASE("engine: lines that are taken away in the clock of an entry are not cl
   device.write(H::run, 1);
   device.in.enter = true;
   device.write(H::line_base, EngineMap::table_words);
-  CHECK(device.read(H::table + 505) == 0);  // run was written: cleared then
+  CHECK(device.read(H::table + 505) == 0);  // the write of run cleared it
   device.write(H::run, 0);
   device.write(H::table + 505, 78);
   device.write(H::line_base, 500);
@@ -193,7 +193,7 @@ TEST_CASE("engine: products beyond every window saturate") {
 
 TEST_CASE("engine: ages have 16 bits, and a program is late after as many ticks") {
   LoadedDevice device(image(wall, {100, 20000, -60000}));
-  // Both ages with each bit set and cleared twice; what is written last counts.
+  // Sets and clears each bit of both ages twice; the last write counts.
   for (const std::uint32_t age : {0xffffu, 0u, 0xffffu, 0x5555u, 0xaaaau, 0u, 1100u}) {
     device.write(H::mailbox_age, age);
     device.write(H::max_age, age);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: a host that falls silent leaves no torque; what ramps and what does not.
+// engine: no torque remains when the host stops writing; which changes are announced as jumps.
 // Documentation: docs/blocks/engine.md
 #include "catch.hpp"
 #include "engine_device.hpp"
@@ -12,7 +12,7 @@ using S = EngineMap::S;
 
 namespace {
 
-constexpr int kMailbox = 30;  // its first word of parameters
+constexpr int kMailbox = 30;  // first parameter word of the mailbox
 
 /// torque = parameter 0 + mailbox word 30, each from -1000 to 1000.
 EngineMemory fed_law() {
@@ -35,14 +35,15 @@ struct Fed : LoadedDevice {
   void set(int n, std::int32_t value) {
     write(H::data + kParameter + n, static_cast<std::uint32_t>(value));
   }
-  /// Commits; how often the torque was said to jump until the runs of before are over.
+  /// Commits. Returns how often a jump of the torque was announced until the earlier runs have
+  /// ended.
   int commit() {
     const int before = jumps;
     write(H::commit, 1);
     while (status(S::status_committing)) clock();
     return jumps - before;
   }
-  /// Ticks until the mailbox is late, -1 for none within `limit`.
+  /// Returns the ticks until the mailbox is late, or -1 if it is not late within `limit`.
   int until_late(int limit) {
     in.addr = H::status;
     for (int ticks = 0; ticks <= limit;) {
@@ -58,9 +59,9 @@ struct Fed : LoadedDevice {
 
 TEST_CASE("engine: a commit of mailbox words jumps nothing, one of a parameter does") {
   Fed device(1000);
-  // Nothing was fed before: the first commit lets the torque rise.
+  // The mailbox was never fed before: the first commit lets the torque rise.
   CHECK(device.commit() == 1);
-  CHECK(device.commit() == 0);  // both banks are alike
+  CHECK(device.commit() == 0);  // both banks are equal
   for (const int n : {30, 31}) {
     for (const std::int32_t value : {1, -1, 1000, -1000, 0}) {
       device.set(n, value);
@@ -73,7 +74,8 @@ TEST_CASE("engine: a commit of mailbox words jumps nothing, one of a parameter d
     for (const std::int32_t value : {1, 2, 1, -1, 1000, -1000}) {
       device.set(n, value);
       CHECK(device.commit() == 1);
-      // What the host does not write again is that of the commit before the last: it jumps back.
+      // A word that the host does not write again has its value of the commit before the last: the
+      // torque jumps back.
       if (value == 1000) CHECK(device.commit() == 1);
       if (value == 1000) CHECK(device.commit() == 1);
       device.set(n, value);
@@ -83,7 +85,7 @@ TEST_CASE("engine: a commit of mailbox words jumps nothing, one of a parameter d
   device.write(H::mailbox_first, 31);
   device.set(30, 7);
   CHECK(device.commit() == 1);
-  // All of it is a parameter where there is no mailbox.
+  // Without a mailbox all words are parameters.
   device.write(H::mailbox_first, 32);
   device.set(31, 5);
   CHECK(device.commit() == 1);
@@ -99,7 +101,7 @@ TEST_CASE("engine: without a commit in its time the torques are 0, until the nex
     device.set(0, 300);
     device.set(kMailbox, 20);
     device.clock(20 * kTick);
-    CHECK(device.out().torque[0] == 0);  // nothing was fed
+    CHECK(device.out().torque[0] == 0);  // the mailbox was not fed
     for (int k = 0; k < 3; ++k) {
       device.set(0, 300);
       device.set(kMailbox, 20 + k);
@@ -107,7 +109,7 @@ TEST_CASE("engine: without a commit in its time the torques are 0, until the nex
       REQUIRE(device.until_fresh() > 0);
       REQUIRE(device.until_fresh() > 0);
       CHECK(device.out().torque[0] == 320 + k);
-      // A refused commit feeds nothing.
+      // A refused commit does not feed the mailbox.
       device.clock(10 * kTick);
       device.set(1, 1001);
       CHECK(device.commit() == 0);
@@ -123,7 +125,7 @@ TEST_CASE("engine: without a commit in its time the torques are 0, until the nex
       CHECK(device.out().torque[0] == 0);
       device.clock(20 * kTick);
       CHECK(device.out().torque[0] == 0);
-      CHECK_FALSE(device.out().late);  // the program runs
+      CHECK_FALSE(device.out().late);  // the program still runs
     }
     device.play();
   }
@@ -147,7 +149,7 @@ TEST_CASE(
     CHECK(device.out().torque[0] == 0);
     device.play();
   }
-  // Outputs: a run that never ends.
+  // Age of the outputs: the run never ends.
   EngineMemory m;
   program(m, 0, {word(EngineOp::brf, 1, 0, 0)});
   for (const std::uint32_t lowered : {0U, 1U, 98U, 99U}) {
@@ -203,7 +205,8 @@ TEST_CASE("engine: a bank comes into force with a tick, whenever its check ends"
   }
 }
 
-// The ends of both counters of age, RTL against twin: ticks every 4 clocks, each ends a step.
+// The largest values of both age counters, RTL against twin: a tick every 4 clocks, each ends a
+// step.
 TEST_CASE("engine: ages of 65535, RTL against twin") {
   struct Ends {
     Host host;
@@ -212,7 +215,7 @@ TEST_CASE("engine: ages of 65535, RTL against twin") {
       host.write(H::max_age, 65535);
       host.write(H::mailbox_age, 65535);
       host.write(H::mailbox_first, 31);
-      host.write(H::run, 2);  // a thread whose program gives nothing, and never ends
+      host.write(H::run, 2);  // this thread's program has no output and no end
       host.write(H::commit, 1);
     }
     Twin::In operator()(std::int64_t clock, const Twin::Out& out) {

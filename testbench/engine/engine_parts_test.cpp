@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: its parts alone, from their first clock and as nothing in an engine asks them.
+// engine: its parts alone, from their first clock and with inputs that no engine gives.
 // Documentation: docs/blocks/engine.md
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ Outputs::In watched(unsigned max_age) {
   return in;
 }
 
-/// Ticks up to the one that makes it late.
+/// Returns the number of ticks up to the tick that makes the outputs late.
 int ticks_to_late(Outputs& outputs, unsigned max_age) {
   Outputs::In in = watched(max_age);
   for (int ticks = 1; ticks < 100; ++ticks) {
@@ -39,7 +39,7 @@ int ticks_to_late(Outputs& outputs, unsigned max_age) {
   return -1;
 }
 
-/// Clocks of a check whose beats are `every` clocks apart.
+/// Returns the clocks of a check whose beats are `every` clocks apart.
 int clocks_of_check(EngineCrc& crc, int line_base, int every) {
   EngineCrc::In in;
   in.line_base = line_base;
@@ -134,7 +134,7 @@ TEST_CASE(
   constexpr int words = EngineMap::program_words + EngineMap::data_words - EngineMap::D::lower;
   for (const int line_base : {0, 37, 512}) {
     EngineCrc crc;
-    // Behind the last word come its bits.
+    // After the last word the check still processes its bits.
     const int clocks = 60 * 3 * (words + line_base) + (line_base == 0 ? 32 : 40);
     CHECK(clocks_of_check(crc, line_base, 60) == clocks);
     CHECK(clocks_of_check(crc, line_base, 60) == clocks);

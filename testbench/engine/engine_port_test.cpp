@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: what starts, commits, checks and watches does so when it must; what a host sees.
+// engine: starts, commits, checks and monitors act at the right time; words that a host reads.
 // Documentation: docs/blocks/engine.md
 #include "catch.hpp"
 #include "engine_device.hpp"
@@ -69,7 +69,7 @@ TEST_CASE("engine: an image loaded over the port is read back, and its CRC holds
     return device.out().crc_good;
   };
   CHECK(crc());
-  device.write(H::table + 400, 0x1234);  // a line
+  device.write(H::table + 400, 0x1234);  // a word of a line
   CHECK(crc());
   for (const int addr :
        {H::program + 511, H::program, H::data + 384, H::data + 511, H::table + 399}) {
@@ -77,7 +77,7 @@ TEST_CASE("engine: an image loaded over the port is read back, and its CRC holds
     CHECK_FALSE(crc());
     device.write(addr, device.read(addr) ^ 0x40);
   }
-  device.write(H::high, 0);  // a write of the low bits takes the upper four with it
+  device.write(H::high, 0);  // a write of the low bits also writes the upper four
   const std::uint64_t high = m.program_at(7) >> 32;
   device.write(H::program + 7, device.read(H::program + 7));
   CHECK(crc() == (high == 0));
@@ -93,7 +93,7 @@ TEST_CASE("engine: locked, nothing of the image can be written, parameters can")
       device.write(addr, before + 1);
       CHECK(device.read(addr) == before + (locked ? 0 : 1));
     }
-    device.write(H::data + 48, 5);  // an input, never
+    device.write(H::data + 48, 5);  // an input: the write has no effect
     CHECK(device.read(H::data + 48) != 5);
   }
   device.in.locked = true;
@@ -149,7 +149,7 @@ TEST_CASE("engine: the age is of the last result; no program, and any, keeps it 
   Device device(image(wall, {100, 20000, -60000}));
   device.write(H::max_age, 10);
   device.clock(2000);
-  CHECK_FALSE(device.out().late);  // nothing should run
+  CHECK_FALSE(device.out().late);  // no program is enabled
   device.write(H::run, 1);
   device.clock(5000);
   CHECK_FALSE(device.out().late);
@@ -161,7 +161,7 @@ TEST_CASE("engine: the age is of the last result; no program, and any, keeps it 
     }
     return ticks;
   };
-  // A loop, a run without an output, an output without an end.
+  // Programs: a loop, a run without an output, an output without an end.
   for (const EngineInstruction& i :
        {word(EngineOp::brf, 1, 0, 0), word(EngineOp::add, 0, 0, 0, EngineTarget::none, 0, true),
         word(EngineOp::brf, 1, 0, 0, EngineTarget::output, 0)}) {
@@ -172,7 +172,7 @@ TEST_CASE("engine: the age is of the last result; no program, and any, keeps it 
     CHECK(ticks <= 12);
     program(device.twin.memory(), 0, {out(0, EngineOp::add, 0, 0)});
     device.clock(3000);
-    CHECK(device.out().late);  // until entered anew
+    CHECK(device.out().late);  // stays late until the law is entered again
     device.in.enter = true;
     device.clock(2);
     CHECK_FALSE(device.out().late);
@@ -198,7 +198,7 @@ TEST_CASE("engine: a thread that is switched off ends amid its run") {
   device.in.addr = H::run;
   device.in.wdata = 0;
   device.in.write = true;
-  count(12);  // what is in the pipeline
+  count(12);  // lets the pipeline run empty
   events = 0;
   count(20 * kTick);
   CHECK(events == 0);
@@ -234,7 +234,8 @@ TEST_CASE("engine: the first run after arming, entering and a write of run has a
 
 TEST_CASE("engine: lines are zeros when states begin anew, and nothing else of the table") {
   EngineMemory m;
-  // Writes 7 into the last word of the lines in every run, and gives what was in the first.
+  // Writes 7 into the last word of the lines in every run and outputs the earlier content of the
+  // first word.
   m.set_data(kConstant + 1, 7);
   m.set_data(kConstant + 2, 511 << 12);
   m.line_base = 400;
@@ -263,7 +264,7 @@ TEST_CASE("engine: lines are zeros when states begin anew, and nothing else of t
   };
   device.write(H::max_age, 2);
   device.write(H::run, 1);
-  // A word a clock but for the system's turn of six; 5 ms are 250,000 clocks.
+  // One word per clock, except in the system's turn (one of six); 5 ms are 250,000 clocks.
   const std::int64_t begun = device.clocks;
   REQUIRE(device.until_fresh() > 0);
   CHECK(device.clocks - begun < 1000);
@@ -286,7 +287,7 @@ TEST_CASE("engine: lines are zeros when states begin anew, and nothing else of t
     CHECK(device.clocks - from < 200);
     CHECK(device.clocks - from > 112);
     REQUIRE(device.until_fresh() > 0);
-    CHECK(device.out().torque[0] == 0);  // what the first run found
+    CHECK(device.out().torque[0] == 0);  // the value that the first run read
     device.clock(3 * kTick);
     expect(what, true);
   };
@@ -296,19 +297,19 @@ TEST_CASE("engine: lines are zeros when states begin anew, and nothing else of t
   fill();
   device.in.armed = true;
   entered("arming");
-  // Amid a run, wherever it is.
+  // In the middle of a run, at any point of it.
   for (int k = 0; k < 2 * kTick; k += 3) {
     device.clock(k);
     device.in.enter = true;
     entered("entry again");
   }
-  // Once more while it is under way: from the start.
+  // A second start during the clearing begins from the start.
   fill();
   device.in.enter = true;
   device.clock(60);
   device.in.enter = true;
   entered("twice");
-  // One word, and none.
+  // Lines of one word and of no word.
   for (const int base : {511, 512}) {
     fill();
     device.write(H::line_base, static_cast<std::uint32_t>(base));
@@ -319,7 +320,7 @@ TEST_CASE("engine: lines are zeros when states begin anew, and nothing else of t
     for (int n = 0; n < 511; ++n) CHECK(now.table_at(n) == m.table_at(n));
     CHECK(now.table_at(511) == (base == 511 ? 7 : m.table_at(511)));
   }
-  // All of the table: a word a clock but for one in six.
+  // The whole table: one word per clock, except one clock in six.
   device.write(H::line_base, 0);
   device.in.enter = true;
   device.clock();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: what a reset brings back, of a configured twin too, and what is known behind it.
-// Documentation: docs/blocks/engine.md
+// engine: the state that a reset restores, also in a configured twin, and the state that is known
+// after it. Documentation: docs/blocks/engine.md
 #include <cstdint>
 
 #include "catch.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: programs written by hand and random ones, run by run: RTL and twin give what the
-// interpreter gives. Documentation: docs/blocks/engine.md
+// engine: programs written by hand and random programs, run by run: RTL and twin give the same
+// results as the interpreter. Documentation: docs/blocks/engine.md
 #include <memory>
 
 #include "catch.hpp"
@@ -17,7 +17,7 @@ using law::MachineInputs;
 
 namespace {
 
-/// Loads an image over the host's port, runs it at every tick over inputs at random, in lock-step.
+/// Loads an image over the host's port and runs it at every tick with random inputs, in lock-step.
 void run_in_lock_step(EngineMemory m, std::uint64_t seed, std::int64_t clocks,
                       bool commits = false) {
   m.line_base = 200;
@@ -132,7 +132,7 @@ TEST_CASE("engine: every run of every thread is what the interpreter gives") {
           inputs[3 * n + 1] = device.in.velocity[n] = corner(random);
           inputs[3 * n + 2] = device.in.tau_hat[n] = corner(random);
         }
-        // The inputs are of the clock of the tick on; here they change just behind one.
+        // A run uses the inputs from the clock of its tick on; here they change just after a tick.
         device.since = kTick - 1;
         inputs[9] = static_cast<std::int32_t>(device.in.tick_count + 1);
         const auto& run = machine.run(thread, inputs, 300);
@@ -146,7 +146,7 @@ TEST_CASE("engine: every run of every thread is what the interpreter gives") {
             REQUIRE(device.out().event_value == run.events[seen].value);
             ++seen;
           }
-          device.since = 1;  // no tick amid a run
+          device.since = 1;  // no tick during a run
           device.clock();
         }
         REQUIRE(seen == run.events.size());

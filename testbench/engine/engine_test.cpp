@@ -14,8 +14,8 @@ using namespace feltgate::test;
 
 namespace {
 
-/// A life: random programs and data in all memories, ticks, a host that writes and reads anywhere,
-/// commits, CRCs, arming, locks.
+/// Random stimulus: random programs and data in all memories, ticks, a host that writes and reads
+/// any address, commits, CRCs, arming, locks.
 class Life {
  public:
   Life(std::uint64_t seed, bool busy) : random_(seed), busy_(busy) {
@@ -53,7 +53,7 @@ class Life {
   void next_tick() {
     since_ = 0;
     period_ = random_.one_in(8) ? 3 + static_cast<int>(random_.below(90)) : 50;
-    // To the next step of the mailbox's age, sometimes.
+    // Sometimes jumps to the next step of the mailbox's age.
     in_.tick_count += random_.one_in(8) ? 64 - in_.tick_count % 64 : 1;
     for (std::size_t n = 0; n < AXES; ++n) {
       in_.position[n] = corner(random_);
@@ -77,7 +77,7 @@ class Life {
       case 3:
         host_.write(H::commit, random_.below(4));
         break;
-      case 4: {  // a whole set of parameters, within their ranges or nearly
+      case 4: {  // a whole set of parameters, in or just outside their ranges
         for (int n = 0; n < 32; ++n) {
           const bool beyond = random_.one_in(300);
           host_.write(H::data + EngineMap::D::parameter + n + (random_.one_in(2) ? 32 : 0),
@@ -124,7 +124,7 @@ class Life {
   int since_ = 0, period_ = 50;
 };
 
-/// What was reached; a count that is too low fails the test.
+/// Counts the states reached; a count that is too low fails the test.
 struct Reached {
   std::int64_t fresh = 0, late = 0, events = 0, lost = 0, refused = 0, banks = 0, overrun = 0,
                crc = 0;

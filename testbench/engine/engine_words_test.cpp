@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// engine: no word of the host is lost unseen, and none comes too late for what it was written for.
-// Documentation: docs/blocks/engine.md
+// engine: no word of the host is lost without a flag, and no word arrives after the commit that it
+// was written for. Documentation: docs/blocks/engine.md
 #include "catch.hpp"
 #include "engine_device.hpp"
 
@@ -12,7 +12,7 @@ using S = EngineMap::S;
 
 namespace {
 
-/// A word in one clock; what becomes of it is not waited for.
+/// Writes a word in one clock and does not wait for the result.
 void post(Device* device, int addr, std::uint32_t word) {
   device->in.addr = static_cast<unsigned>(addr);
   device->in.wdata = word;
@@ -20,7 +20,7 @@ void post(Device* device, int addr, std::uint32_t word) {
   device->clock();
 }
 
-/// Parameter 0 from -1000 to 1000, and a run that never ends.
+/// An image with parameter 0 from -1000 to 1000 and a run that never ends.
 EngineMemory endless() {
   EngineMemory m;
   program(m, 0, {word(EngineOp::brf, 1, 0, 0)});
@@ -40,23 +40,23 @@ TEST_CASE("engine: words of a set that is being committed are dropped and told")
     CHECK_FALSE(device.status(S::status_dropped));
     device.write(H::commit, 1);
     device.clock(100 * kTick);
-    // In force, and still under way: the run has the set before.
+    // The new set is in force, but the run continues with the set before.
     REQUIRE(device.status(S::status_bank));
     REQUIRE(device.status(S::status_committing));
     CHECK_FALSE(device.status(S::status_dropped));
-    // What is no word of a set is not dropped, nor is a commit of nothing.
+    // A word outside the set is not dropped; a commit without words is not dropped either.
     device.write(H::data + kConstant + 3, 1);
     device.write(H::commit, 0);
     CHECK_FALSE(device.status(S::status_dropped));
     device.write(commits ? H::commit : H::data + kParameter, commits ? 1 : 8);
     CHECK(device.status(S::status_dropped));
-    device.write(H::commit, 3);  // told again
+    device.write(H::commit, 3);  // reported again
     CHECK(device.status(S::status_dropped));
     device.write(H::run, 0);
     CHECK_FALSE(device.status(S::status_committing));
     CHECK(device.status(S::status_bank));
     CHECK(device.status(S::status_dropped));
-    CHECK(device.read(H::data + kParameter) == 0);  // of the idle set
+    CHECK(device.read(H::data + kParameter) == 0);  // the word of the idle set
     device.write(H::commit, 2);
     CHECK_FALSE(device.status(S::status_dropped));
     CHECK_FALSE(device.status(S::status_committing));
@@ -104,7 +104,7 @@ TEST_CASE("engine: a parameter written in the clock before the commit is of that
 
 TEST_CASE("engine: a word that waits when a CRC is asked for is in it") {
   EngineMemory m;
-  // Three threads that run for ever leave few turns, and the inputs of the fourth take these.
+  // Three endless threads leave few turns, and the inputs of the fourth thread use them.
   for (int t = 0; t < 3; ++t) {
     const int first = EngineMap::thread_words * t;
     program(m, t, {word(EngineOp::brf, 0, 0, first), word(EngineOp::brf, 1, 0, first)});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A compiled law of three torques through the same runs of the interpreter, the engine's twin and
-// its RTL with three axes. Documentation: docs/blocks/engine.md
+// Runs a compiled law of three torques in the interpreter, in the engine's twin and in its RTL with
+// three axes, with the same inputs. Documentation: docs/blocks/engine.md
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@
 
 namespace feltgate::test {
 
-/// Checks torques and data words of every run; `counts(step)` are the positions. How many runs had
-/// a first torque that is not 0.
+/// Checks torques and data words of every run; `counts(step)` are the positions. Returns the number
+/// of runs whose first torque is not 0.
 template <class Counts>
 int same_bits(const law::Compiled& c, int steps, const Counts& counts) {
   const EngineMemory memory = law::memory(c.image);
@@ -39,7 +39,7 @@ int same_bits(const law::Compiled& c, int steps, const Counts& counts) {
   device.in.armed = true;
   device.since = -1000;  // no tick before the first run
   device.write(H::run, 1);
-  device.clock(60);  // until the threads know it
+  device.clock(60);  // until the threads have started
   machine.enter();
   int felt = 0, same = 0;
   for (int step = 0; step < steps; ++step) {
@@ -53,7 +53,7 @@ int same_bits(const law::Compiled& c, int steps, const Counts& counts) {
     inputs[9] = static_cast<std::int32_t>(device.in.tick_count + 1);
     const law::MachineRun& run = machine.run(c.target.thread, inputs);
     REQUIRE(run.ended);
-    // A tick, and none amid the run.
+    // One tick, and no tick during the run.
     device.since = kTick - 1;
     device.clock();
     for (int k = 0; k < 6 * (run.instructions + 8); ++k) {
@@ -64,7 +64,7 @@ int same_bits(const law::Compiled& c, int steps, const Counts& counts) {
       same += run.outputs[axis] == device.out().torque[axis] ? 1 : 0;
     }
     felt += run.outputs[0] != 0 ? 1 : 0;
-    // What programs write; the bank of parameters that is not in force is the host's.
+    // Only words that programs write: the host owns the bank of parameters that is not in force.
     for (int k = 0; k < EngineMap::D::parameter; ++k) {
       if (device.twin.memory().data_at(k) != machine.memory().data_at(k))
         FAIL("word " << k << " of step " << step);

@@ -12,7 +12,7 @@
 
 namespace feltgate::test {
 
-/// Numbers at the corners of every width that matters, and random ones of every size.
+/// Returns a number at the ends of a width that matters, or a random number of any size.
 inline std::int32_t corner(Random& random) {
   static const std::int64_t corners[] = {0,      1,       2,       0x7ff,   0x800,   0xfff,  0x1000,
                                          0xffff, 0x10000, 0x1ffff, 0x20000, 0x3ffff, 0x40000};
@@ -30,7 +30,8 @@ inline std::int32_t corner(Random& random) {
   }
 }
 
-/// A data address that programs like: private, inputs, exchange, parameters, constants.
+/// Returns a data address that programs use often: private, inputs, exchange, parameters,
+/// constants.
 inline int random_address(Random& random) {
   switch (random.below(6)) {
     case 0:
@@ -46,7 +47,7 @@ inline int random_address(Random& random) {
   }
 }
 
-/// Any instruction, ends and outputs often enough. One in 40 is 36 random bits.
+/// Returns any instruction, with frequent ends and outputs. One in 40 is 36 random bits.
 inline std::uint64_t random_instruction(Random& random) {
   if (random.one_in(40)) {
     return static_cast<std::uint64_t>(random.below(0xffffffffU)) << 4 | random.below(16);
@@ -63,7 +64,7 @@ inline std::uint64_t random_instruction(Random& random) {
   return engine_encode(i);
 }
 
-/// All memories. Parameters lie within their ranges.
+/// Random content for all memories. Parameters are within their ranges.
 inline EngineMemory random_memory(Random& random) {
   EngineMemory m;
   using D = EngineMap::D;
@@ -73,7 +74,7 @@ inline EngineMemory random_memory(Random& random) {
     const bool input = n < 256 && n % 64 >= EngineMap::input_first;
     m.set_data(n, input ? 0 : corner(random));
   }
-  // Most programs come to an end, with outputs of all axes, unless they branch elsewhere.
+  // Most programs end, with outputs for all axes, unless they branch elsewhere.
   for (int thread = 0; thread < EngineMap::threads; ++thread) {
     if (random.one_in(6)) continue;
     int at = thread * EngineMap::thread_words + 1 + static_cast<int>(random.below(12));
@@ -98,8 +99,8 @@ inline EngineMemory random_memory(Random& random) {
   return m;
 }
 
-/// Straight programs in all threads of every instruction and mode over corners, each result an
-/// event.
+/// Programs without branches in all threads, with every instruction and mode on corner values; each
+/// result is an event.
 inline EngineMemory random_arithmetic(Random& random) {
   EngineMemory m = random_memory(random);
   for (int thread = 0; thread < EngineMap::threads; ++thread) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Someone meddles while the engine's twin goes run by run: words in any clock, commits, resets,
-// what is read. Documentation: docs/blocks/engine.md
+// A host acts at any clock while the engine's twin runs run by run: writes, commits, resets and
+// reads. Documentation: docs/blocks/engine.md
 #include "../machine/random_program.hpp"
 #include "pair.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What EngineRuns keeps, by itself: ticks, writes, instructions, outputs.
+// The parts of EngineRuns alone: ticks, writes, instructions, outputs.
 // Documentation: docs/blocks/engine.md
 #include "../machine/machine_programs.hpp"
 #include "catch.hpp"

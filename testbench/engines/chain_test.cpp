@@ -23,7 +23,7 @@ namespace {
 
 using namespace feltgate;
 
-/// What a run has exercised: ticks by limit, scene and mode.
+/// Coverage of a run: ticks by limit, scene and mode.
 struct Seen {
   std::array<std::int64_t, 8> limits{};
   std::array<std::int64_t, 16> scenes{};

@@ -58,7 +58,7 @@ void compare(const char* design, std::uint64_t seed, int steps, Faults& faults) 
   waiting->keep_gate_times(false);
   const ParameterInfo& nominal = *d.find("nominal_current_squared");
   for (const std::uint32_t word : {(1u << 31) - 1, static_cast<std::uint32_t>(nominal.raw)}) {
-    for (Engine* e : {exact.get(), waiting.get()}) {  // the heat of power-up goes
+    for (Engine* e : {exact.get(), waiting.get()}) {  // removes the heat of power-up
       e->write(nominal.address, word);
       e->advance(10 * d.clocks_per_tick, nullptr, nullptr);
     }

@@ -24,7 +24,8 @@ EncoderPins pins_at(std::int64_t count) {
 
 Bench::Bench(const std::string& design, Cores cores)
     : cores_(cores), ensemble_(design, choice(cores), 1, pins_at(0), Waveform{}) {
-  // The host takes over; no self-test keeps the torque away, and no ramp smooths a step.
+  // The host takes control; the self-test is off, so that it does not hold back the torque; no ramp
+  // smooths a step.
   ensemble_.skip_self_test();
   control("free", false);
   set("ramp_step", 1.0);

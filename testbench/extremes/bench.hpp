@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core on a bench: encoder edges and register writes go in, one sample per tick comes out, of the
-// core (RTL and twin in lock-step, or the twin alone) and of the same chain in double.
-// Documentation: docs/extremes.md
+// A core on a bench. Its inputs are encoder edges and register writes. Its output is one sample per
+// tick, from the core (RTL and twin in lock-step, or the twin alone) and from the same chain in
+// double. Documentation: docs/extremes.md
 #pragma once
 
 #include <algorithm>
@@ -37,26 +37,26 @@ class Bench {
   double tick_s() const { return 1.0 / static_cast<double>(design().tick_hz); }
   Clock now() const { return ensemble_.lead_const().now(); }
 
-  /// A parameter in its unit. Writes are carried out one per tick, in order.
+  /// Sets a parameter, in its unit. Writes are carried out one per tick, in order.
   void set(const std::string& parameter, double value) {
     ensemble_.set_parameter(parameter, value);
   }
-  /// Asks to arm (or not) with this scene and mode; ramps are off.
+  /// Requests to arm (or disarm) with this scene and mode; ramps are off.
   void control(const std::string& scene, bool arm, int mode = 0);
   /// Sets a scene's parameters first, arms, and runs until the core is armed.
   void arm(const std::string& scene, int mode = 0);
   void stop(bool pressed);
 
-  /// The count moves by `by` at this clock; beyond one in size the pins jump. Clocks must not fall.
+  /// Moves the count by `by` at this clock; if |by| > 1 the pins jump. Clocks must not decrease.
   void move(Clock at, int by);
-  /// Moves of one count at an even rate from `from` on, until `count` moves are made.
+  /// Makes `count` moves of one count at an even rate, from clock `from` on.
   void turn(Clock from, double counts_per_s, std::int64_t count);
-  std::int64_t count() const { return count_; }  ///< where the pins are going, in counts
+  std::int64_t count() const { return count_; }  ///< final position of the moves so far, in counts
 
-  /// `ticks` ticks; each(sample) after each.
+  /// Runs `ticks` ticks and calls each(sample) after each.
   template <class Each>
   void run(std::int64_t ticks, Each&& each) {
-    // The engine keeps the edges that lie ahead; snapshots of one stretch are kept at once.
+    // The engine keeps the future edges; the snapshots of one stretch are kept together.
     const EncoderEvent *first = edges_.data(), *last = first + edges_.size();
     for (std::int64_t left = ticks; left > 0; left -= stretch_ticks) {
       const std::int64_t now = std::min(left, stretch_ticks);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The extremes as named cases: each computes what must come out and measures it in RTL, twin and
-// floating point. One list serves the tests, `feltgate extremes` and docs/extremes.md.
+// The extremes as named cases. Each case computes the expected result and measures it in RTL, twin
+// and floating point. The tests, `feltgate extremes` and docs/extremes.md use the same list.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace feltgate::extremes {
 
-/// What must come out: a value in [low, high], and where the bounds come from.
+/// The expected result: a value in [low, high], and the text for the table.
 struct Expected {
   double low = 0, high = 0;
-  std::string text;  ///< as the table shows it
+  std::string text;  ///< text in the table
 };
 Expected exactly(double value);
 Expected near(double value, double tolerance);
@@ -29,7 +29,7 @@ struct Finding {
   std::string what, unit;
   Expected expected;
   std::optional<double> rtl, twin, real;
-  bool real_may_differ = false;  ///< the row is about quantisation: the bounds are not for `real`
+  bool real_may_differ = false;  ///< row about quantisation: the bounds do not apply to `real`
   bool chaotic = false;          ///< digits depend on the last bit of the plant: not compared
 
   bool holds() const;
@@ -40,14 +40,14 @@ struct Outcome {
   std::int64_t mismatches = 0;  ///< clocks in which RTL and twin showed different outputs
   std::string first_mismatch;
   double rtl_s = 0, twin_s = 0;  ///< device time simulated
-  std::string note;              ///< what each engine ran of the case
+  std::string note;              ///< the part of the case that each engine ran
 
   bool holds() const;
 };
 
 struct Settings {
   std::string root;                           ///< the repository
-  std::function<void(double done)> progress;  ///< of a long case, 0..1; may be empty
+  std::function<void(double done)> progress;  ///< progress of a long case, 0..1; may be empty
 };
 
 struct Case {

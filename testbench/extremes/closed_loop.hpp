@@ -14,10 +14,10 @@ namespace feltgate::extremes {
 
 enum class Driver { lock_step, twin, real };
 
-/// A plant of vectors/plants.
+/// Reads a plant from vectors/plants.
 plant::Parameters shipped_plant(const Settings& settings, const std::string& name);
 
-/// Motor and lever as linear as they can be: inductance and back-EMF, viscous friction of `b`.
+/// A motor and lever with only linear effects: inductance, back-EMF, and viscous friction `b`.
 plant::Parameters linear_plant(const Settings& settings, double b_nm_s_rad);
 
 /// Runs it, calls row(r) once per tick, and adds mismatches and device time to the outcome.
@@ -25,7 +25,7 @@ RunResult run_loop(const Scenario& scenario, const plant::Parameters& plant,
                    const std::string& design, Driver driver, Outcome* outcome,
                    const std::function<void(const Row&)>& row);
 
-/// Puts a measured value into the columns that this driver is.
+/// Puts a measured value into the columns of this driver.
 void fill(Finding* finding, Driver driver, double value);
 
 /// Root mean square and range of a signal.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// 24 hours of device time: no count is lost, no filter's bias grows. Documentation:
+// 24 hours of device time: no count is lost and no filter's bias grows. Documentation:
 // docs/extremes.md
 #include "extremes/day.hpp"
 
@@ -20,20 +20,20 @@ namespace {
 
 constexpr int day_minutes = 24 * 60;
 constexpr std::int64_t minute_ticks = 60'000'000;
-/// Of a dither over one edge, the fastest that the core does not take for a dead channel.
+/// The fastest dither over one edge that the core does not take for a dead channel.
 constexpr std::int64_t dither_ticks = (std::int64_t{Map::edge_units} << Map::edge_unit_bits) + 64;
 
 /// The motion of one minute: bursts at 599 rad/s, strokes by hand, single counts, dither, rest.
-/// Returns the counts that it ends away from where it began.
+/// Returns the difference between end and start, in counts.
 void motion(LongRun& r, int minute) {
   const std::int64_t begin = r.stepped_ticks();
   r.turn(390'625, 128);            // 1 s at 599 rad/s
-  r.turn(-195'000 - minute, 128);  // not quite half of it back, a little more every minute
+  r.turn(-195'000 - minute, 128);  // almost half of it back, a little more every minute
   r.wait(20'000);
   for (int k = 0; k < 4; ++k) r.turn(k % 2 == 0 ? 2500 : -2500, 4000);  // strokes at 19 rad/s
   r.turn(60, 500'000);                                                  // 100 counts a second
   r.dither(500 + minute % 7 * 2, dither_ticks * Lever::clocks_per_tick);
-  r.until_tick(begin + minute_ticks);  // and rest
+  r.until_tick(begin + minute_ticks);  // rest until the minute ends
 }
 
 constexpr std::int64_t net(int minute) { return 390'625 - 195'000 - minute + 60; }
@@ -41,7 +41,7 @@ constexpr std::int64_t edges_of(int minute) {
   return 390'625 + 195'000 + minute + 4 * 2500 + 60 + 500 + minute % 7 * 2;
 }
 
-/// What is kept of a stretch of minutes.
+/// Results of a stretch of minutes.
 struct Segment {
   std::int64_t drift = 0;  ///< largest difference of position and counts fed, in any minute
   std::int64_t lost_ticks = 0, edges = 0, minutes = 0;
@@ -80,7 +80,7 @@ Segment run_segment(int from, int to, const std::function<void()>& minute_done) 
   return s;
 }
 
-/// Signals that differ, the position left out: it is what the day is about.
+/// Returns the number of signals that differ, without the position, which this case measures.
 double differing(const CoreOut& a, const CoreOut& b) {
   return static_cast<double>(
       (a.velocity != b.velocity) + (a.tau_hat != b.tau_hat) + (a.tau_ref != b.tau_ref) +
@@ -95,7 +95,7 @@ Finding twin(const std::string& what, const std::string& unit, const Expected& e
 
 Outcome clock_of_the_simulator(const Settings&) {
   Outcome o;
-  // Microseconds in float32: the first one that cannot be added any more.
+  // Microseconds in float32: the first time to which 1 us cannot be added any more.
   const auto stands_still = [](float us) {
     const volatile float next = us + 1.0F;
     return next == us;
@@ -115,7 +115,8 @@ Outcome clock_of_the_simulator(const Settings&) {
   return o;
 }
 
-/// The day in as many segments as there are processors. A thread that throws ends the case so.
+/// Splits the day into as many segments as there are processors. An exception in a thread ends the
+/// case.
 std::vector<Segment> run_segments(const Settings& s, int minutes) {
   std::mutex telling;
   int done = 0;
@@ -168,7 +169,7 @@ Outcome device_time(const Settings& s, int minutes) {
                             between(0, 0.5 / a1 * lsb), lsb * static_cast<double>(all.velocity)));
   o.findings.push_back(twin("largest tau_hat left at rest: one LSB", "Nm", between(0, 1.0 / 65536),
                             static_cast<double>(all.tau_hat) / 65536));
-  // What the filter's dead band leaves has either sign: only over many minutes is it a drift.
+  // The rest of the filter's dead band has either sign: only over many minutes can it be a drift.
   if (minutes == day_minutes) {
     const auto drifted = segments.back().last_velocity - segments.front().first_velocity;
     o.findings.push_back(twin("velocity left after the last minute less that after the first",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A day of device time on the twin of the whole core, every tick of it. Documentation:
+// A day of device time on the twin of the whole core, with every tick simulated. Documentation:
 // docs/extremes.md
 #pragma once
 
@@ -15,7 +15,8 @@
 
 namespace feltgate::extremes {
 
-/// The core of `lever`, armed in the scene `free`, and an encoder that is moved edge by edge.
+/// The core of the design `lever`, armed in the scene `free`, with an encoder that moves edge by
+/// edge.
 class LongRun {
  public:
   LongRun() {
@@ -26,7 +27,7 @@ class LongRun {
 
   /// `ticks` ticks without an edge.
   void wait(std::int64_t ticks) { clocks(ticks * Lever::clocks_per_tick); }
-  /// So many counts up or down, one every `clocks_each` clocks.
+  /// Moves `counts` up or down, one count every `clocks_each` clocks.
   void turn(std::int64_t counts, std::int64_t clocks_each) {
     const int step = counts > 0 ? 1 : -1;
     for (std::int64_t k = std::abs(counts); k > 0; --k) {
@@ -36,11 +37,11 @@ class LongRun {
       in_.encoder = pins_at(count_);
     }
   }
-  /// Forth and back over one edge.
+  /// Moves forth and back over one edge.
   void dither(std::int64_t edges, std::int64_t clocks_each) {
     for (std::int64_t k = 0; k < edges; ++k) turn(k % 2 == 0 ? 1 : -1, clocks_each);
   }
-  /// On to the whole tick of this number.
+  /// Runs to the start of this tick.
   void until_tick(std::int64_t tick) { clocks(tick * Lever::clocks_per_tick - clock_); }
 
   std::int64_t stepped_ticks() const { return clock_ / Lever::clocks_per_tick; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The decoder alone, RTL and twin in lock-step: cheap enough for a state on every clock, and its
-// count can start anywhere. Documentation: docs/extremes.md
+// The decoder alone, RTL and twin in lock-step. It is fast enough for a new state on every clock,
+// and its count can start at any value. Documentation: docs/extremes.md
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class DecoderPair {
 
   void set_filter(int samples) { in_.filter = static_cast<std::uint8_t>(samples); }
 
-  /// One clock with the pins of this state.
+  /// Runs one clock with the pins of this state.
   void clock(std::int64_t state) {
     const EncoderPins pins = pins_at(state);
     in_.a = pins.a;
@@ -36,7 +36,7 @@ class DecoderPair {
     rtl_flags_ += rtl_->illegal_o != 0 ? 1 : 0;
     twin_flags_ += twin_.out().illegal ? 1 : 0;
   }
-  /// The state held, until every counter has seen it.
+  /// Holds the state until every counter has processed it.
   void settle(std::int64_t state) {
     for (int k = 0; k < 40; ++k) clock(state);
   }

@@ -22,7 +22,7 @@ void add(Outcome* o, const std::string& what, const std::string& unit, const Exp
   o->findings.push_back({what, unit, expected, rtl, twin, real});
 }
 
-/// States per clock at `quarters`/4; jumps of two are what a decoder can know to be lost.
+/// States per clock at `quarters`/4; the decoder can detect only jumps of two states as lost.
 Outcome states_per_clock(const std::vector<int>& rates) {
   Outcome o;
   for (const int quarters : rates) {
@@ -35,7 +35,7 @@ Outcome states_per_clock(const std::vector<int>& rates) {
       const std::int64_t jump = next - state;
       singles += jump == 1 ? 1 : 0;
       doubles += jump == 2 ? 1 : 0;
-      backs += jump == 3 ? 1 : 0;  // three forward look like one back
+      backs += jump == 3 ? 1 : 0;  // three states forward look like one state back
       state = next;
       d.clock(state);
     }
@@ -59,7 +59,7 @@ Outcome states_per_clock(const std::vector<int>& rates) {
 
 Outcome decoder_limit(const Settings&) {
   Outcome o = states_per_clock({4});
-  // One state a clock in radians.
+  // One state per clock, in rad/s.
   const double limit = count_rad * clock_hz;
   add(&o, "speed that this is, 1024 lines", "rad/s", near(76699, 0.5), limit, limit, limit);
   o.note = "The double column is the motion itself.";
@@ -82,7 +82,7 @@ Outcome decoder_aliasing(const Settings&) {
   return o;
 }
 
-/// Least clocks per state at which the filter of F samples still counts everything.
+/// Returns the least clocks per state at which the filter of F samples still counts every state.
 std::pair<int, int> least_dwell(int filter) {
   int rtl = 99, twin = 99;
   for (int dwell = 16; dwell >= 1; --dwell) {
@@ -104,7 +104,7 @@ std::pair<int, int> least_dwell(int filter) {
 Outcome filter_limit(const Settings&) {
   Outcome o;
   for (const int f : {0, 1, 4, 7, 8, 15}) {
-    // A channel keeps its level for two states and is believed after F + 1 samples.
+    // A channel keeps its level for two states; the filter accepts it after F + 1 samples.
     const int expected = (f + 2) / 2;
     const auto [rtl, twin] = least_dwell(f);
     add(&o, "least clocks per state, filter " + number(f), "clock", exactly(expected), rtl, twin);
@@ -118,12 +118,13 @@ Outcome filter_limit(const Settings&) {
 }
 
 Outcome wrap_16(const Settings&) {
-  // The velocity's 16-bit travel wraps at 613.6 rad/s; the difference of a window must not notice.
+  // The velocity's 16-bit travel wraps at 613.6 rad/s; the difference over a window must stay
+  // correct.
   Outcome o;
   for (const char* design : {"lever", "paper"}) {
     Bench b(design, Cores::lock_step);
     b.set("overspeed", 900);
-    // Most of the way at a state a clock, then the last thousands at the speed.
+    // Most of the way at one state per clock, the last thousands of states at the tested speed.
     constexpr std::int64_t fast = 28000, slow = 8000;
     b.run(4);
     const Clock from = b.now() + 50;

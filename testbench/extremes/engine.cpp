@@ -25,7 +25,7 @@ void add(Outcome* o, const std::string& what, const std::string& unit, const Exp
   o->findings.push_back({what, unit, expected, found.rtl, found.twin, {}});
 }
 
-/// Clocks from here to the next fresh result in each, at most `limit`.
+/// Returns the clocks to the next fresh result in RTL and twin, at most `limit`.
 Both until_fresh(EnginePair* pair, std::int64_t limit) {
   Both found{-1, -1};
   for (std::int64_t k = 1; k <= limit && (found.rtl < 0 || found.twin < 0); ++k) {
@@ -38,7 +38,7 @@ Both until_fresh(EnginePair* pair, std::int64_t limit) {
 
 Outcome law_table_ends(const Settings&) {
   Outcome o;
-  constexpr std::int32_t value = 1 << 19, slope = 1 << 15;  // one beyond the largest
+  constexpr std::int32_t value = 1 << 19, slope = 1 << 15;  // one more than the largest
   EngineMemory m;
   m.set_table(0, engine_table_word(-value, -slope));
   m.set_table(511, engine_table_word(value - 1, slope - 1));
@@ -50,7 +50,7 @@ Outcome law_table_ends(const Settings&) {
     pair.clock(4 * clocks_per_tick);
     add(&o, what, "LSB", exactly(expected), pair.torque());
   };
-  // A segment is 4096 places; from its last place the slope is taken 4095/4096 of the way.
+  // A segment has 4096 places; at its last place the slope counts for 4095/4096 of the segment.
   const double most = 4095.0 / 4096;
   at("first place: its value", 0, -value);
   at("last place of the first segment", 4095, std::round(-value - slope * most));
@@ -78,10 +78,10 @@ Outcome law_age(const Settings&) {
     pair.write(H::run, 1);
     until_fresh(&pair, 1000);
     const Both before = pair.late();
-    // No result from now on, but of a run that has begun: the program becomes an endless one.
+    // The program becomes endless: no more results, except from a run that has begun.
     pair.write(H::program, static_cast<std::uint32_t>(engine_encode(word(Op::brf, 1, 0, 0))));
     Both ticks{-1, -1};
-    int count = 0;  // since the last result
+    int count = 0;  // ticks since the last result
     for (std::int64_t k = 0;
          k < clocks_per_tick * (max_age + 10) && (ticks.rtl < 0 || ticks.twin < 0); ++k) {
       pair.clock();
@@ -90,7 +90,7 @@ Outcome law_age(const Settings&) {
       if (ticks.twin < 0 && pair.late().twin > 0) ticks.twin = count;
     }
     const std::string of = ", max_age " + number(max_age);
-    // Without any age the next tick is too late, whatever it brings.
+    // With a largest age of 0 the next tick is always too late.
     add(&o, "late with a result in every tick" + of, "", exactly(max_age == 0 ? 1 : 0), before);
     if (max_age > 0) {
       add(&o, "ticks from the last result to late" + of, "", exactly(max_age + 1), ticks);
@@ -159,7 +159,7 @@ Outcome law_program_512(const Settings&) {
   pair.write(H::max_age, static_cast<std::uint32_t>(ticks));
   pair.write(H::run, 1);
   until_fresh(&pair, 10'000);
-  Both clocks;  // of three, since a run begins in one of six clocks
+  Both clocks;  // three measurements, because a run begins in one of six clocks
   for (int k = 0; k < 3; ++k) {
     const Both next = until_fresh(&pair, 10'000);
     clocks.rtl += next.rtl / 3, clocks.twin += next.twin / 3;
@@ -182,7 +182,7 @@ Outcome law_program_512(const Settings&) {
   pair.clock(10'000);
   pair.write(H::divider0, static_cast<std::uint32_t>(ticks - 1));
   pair.write(H::run, 1);
-  pair.clock(400'000);  // each run ends 34 clocks later, until a start finds one that waits
+  pair.clock(400'000);  // each run ends 34 clocks later, until a start comes while one waits
   add(&o, "starts missed with a tick less", "", exactly(1), overrun());
   pair.report(&o);
   o.note = "One program over the words of all four threads, 6 clocks an instruction.";
@@ -195,8 +195,8 @@ Outcome law_threads_at_once(const Settings&) {
   for (int n = 0; n < EngineMap::threads; ++n) {
     const int own = EngineMap::D::exchange + n * EngineMap::exchange_words;
     m.set_data(kConstant + 1 + n, 1 << (4 * n));
-    // Each tells its event and writes its words in the same turn of the round; all read all words.
-    // The private one is addressed as if it were the last thread's, and is its own.
+    // Each thread makes its event and writes its words in the same turn of the round; all threads
+    // read all words. Each addresses its private word like the last thread, but reaches its own.
     constexpr int shared = 3 * EngineMap::private_words + 5;
     const int last = EngineMap::D::exchange;
     program(m, n,

@@ -13,7 +13,7 @@
 
 namespace feltgate::extremes {
 
-/// What both say of the same.
+/// One value from RTL and from twin.
 struct Both {
   double rtl = 0, twin = 0;
 };
@@ -24,7 +24,7 @@ class EnginePair {
   using H = EngineMap::H;
   static constexpr int clocks_per_tick = 50;
 
-  /// The image comes over the port, as from a host.
+  /// Loads the image over the port, as a host does.
   explicit EnginePair(const EngineMemory& image) {
     rtl_.reset(3);
     twin_.reset();
@@ -33,7 +33,7 @@ class EnginePair {
     for (const test::Access& a : host.queue) write(static_cast<int>(a.addr), a.word);
   }
 
-  Twin::In in;  ///< of the next clock; ticks come by themselves
+  Twin::In in;  ///< inputs of the next clock; the pair makes the ticks itself
 
   void clock() {
     in.tick = ++since_ == clocks_per_tick;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Every extreme as a named test: what it expects holds in RTL, twin and double, and
-// docs/extremes.md says the same. Documentation: docs/extremes.md
+// Every extreme as a named test: the expected result holds in RTL, twin and double, and
+// docs/extremes.md shows the same values. Documentation: docs/extremes.md
 #include <fstream>
 #include <set>
 #include <sstream>

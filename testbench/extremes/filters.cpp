@@ -20,12 +20,12 @@ namespace {
 constexpr int fraction = lowpass_a1.fraction;
 constexpr double one = 1 << fraction;
 
-/// Where a filter comes to rest around an input, from above and from below.
+/// The values at which a filter comes to rest around an input, from above and from below.
 struct Rest {
   std::int64_t low = 0, high = 0;
 };
 
-/// From the state y until the filter stands still.
+/// Runs from the state y until the filter stands still.
 template <class Filter>
 std::int64_t settled(Filter& filter, std::int64_t y, std::int64_t x, std::int64_t a1) {
   filter.start(y);
@@ -54,7 +54,7 @@ Rest twin_rest(std::int64_t input, std::int64_t a1) {
   return rest(twin, input, a1);
 }
 
-/// Least guard bits for which the band is below half an output LSB.
+/// Returns the least number of guard bits for which the band is below half an output LSB.
 double guard_bits(const Rest& r) {
   const auto widest = static_cast<double>(std::max(-r.low, r.high));
   return std::floor(std::log2(2 * widest)) + 1;
@@ -64,7 +64,7 @@ struct Mode {
   const char* name;
   Round round;
   Rest (*twin)(std::int64_t, std::int64_t);
-  double guard_bits;  ///< by the documentation's table
+  double guard_bits;  ///< value in the documentation's table
 };
 
 void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
@@ -102,7 +102,8 @@ Outcome dead_bands(const Settings&) {
   return o;
 }
 
-/// Output LSB by which a constant is missed with `g` guard bits, coming from 100 LSB above.
+/// Returns the final error for a constant input with `g` guard bits, in output LSB, starting 100
+/// LSB above.
 template <class Filter>
 double output_error(Filter& filter, std::int64_t a1, int g) {
   const std::int64_t lsb = std::int64_t{1} << g;
@@ -185,7 +186,8 @@ Outcome slow_pole(const Settings&) {
     if (x.real.velocity_rad_s < 0.98 * raw) real_at = t;
   });
   b.report(&o);
-  // Half a window later; a count in the window moves the raw velocity by 4 rad/s, filtered to 0.02.
+  // The core's velocity is half a window later. One count in the window changes the raw velocity by
+  // 4 rad/s, and the filtered one by 0.02.
   o.findings.push_back(finding(Cores::twin, "2 % settling of the core's velocity", "s",
                                near(samples * 1e-6 + 193e-6, 3e-3), at, real_at));
   o.rtl_s += rtl.seconds();
@@ -198,7 +200,7 @@ Outcome coefficient_zero(const Settings&) {
   Bench b("paper", Cores::lock_step);
   for (int i = 0; i < b.design().parameter_count; ++i) {
     const ParameterInfo& p = b.design().parameters[i];
-    // Every coefficient, and nothing else: limits and scene geometry stay.
+    // Only the coefficients change; limits and scene geometry stay.
     if (std::string(p.unit).find('/') == std::string::npos && std::string(p.unit) != "1") continue;
     if (std::string(p.name) != "ramp_step") b.set(p.name, 0);
   }
@@ -273,7 +275,7 @@ Outcome coefficient_max(const Settings&) {
 
 Outcome coefficient_bits(const Settings& s) {
   Outcome o;
-  // How slow a filter a design may ask for: the fraction bits of the state decide.
+  // The slowest filter that a design may have; the fraction bits of the state set it.
   const auto registers = design::read_registers(s.root + "/rtl/registers.toml");
   const auto accepted = [&](double cutoff, int fraction_bits) {
     design::Design d = design::read_design(s.root + "/rtl/designs/lever.toml");

@@ -65,7 +65,7 @@ Outcome stall_pole(const Settings&) {
   return o;
 }
 
-/// The design with this Kp, for the pole finder.
+/// Returns the design with this Kp, for the pole finder.
 design::Elaborated wide_at(double kp, const Settings& s) {
   design::Design d = design::read_design(s.root + "/testbench/extremes/designs/wide.toml");
   d.kp_1_kg_m2 = kp;
@@ -88,10 +88,10 @@ double first_unstable_ratio(double kp, double about, const Settings& s) {
   return (low + high) / 2;
 }
 
-/// The hand lets go of a lever at 20 rad/s; what becomes of it.
+/// Result after the hand lets go of a lever at 20 rad/s.
 struct LetGo {
   double late_share = 0;   ///< largest current of the last 20 ms over its limit; a trip counts as 1
-  double speed_ratio = 0;  ///< speed at the end over that at release
+  double speed_ratio = 0;  ///< speed at the end divided by the speed at release
 };
 LetGo let_go(const std::string& design, const plant::Parameters& plant,
              const std::map<std::string, double>& parameters, Driver driver, Outcome* o) {
@@ -191,7 +191,7 @@ Outcome lever_inertia(const Settings& s) {
   return o;
 }
 
-/// Voltage at stall at a constant reference, after the observer has settled.
+/// Returns the voltage at stall for a constant reference, after the observer has settled.
 double stall_voltage(Bench& b, double tau, double* real) {
   double core = 0;
   b.set("setpoint_torque", tau);
@@ -258,8 +258,8 @@ Outcome lever_monotone(const Settings&) {
   return o;
 }
 
-/// A lever pressed into a wall by a constant torque and let go off its resting depth; slope of the
-/// logarithm of the swing's size over its half periods.
+/// A constant torque presses a lever into a wall; the lever is released away from its resting
+/// depth. Returns the slope of the logarithm of the swing's size over its half periods.
 double growth(const Settings& s, double stiffness, double damping, double seconds, Driver driver,
               Outcome* o) {
   constexpr double press_nm = 0.45;
@@ -269,7 +269,7 @@ double growth(const Settings& s, double stiffness, double damping, double second
   scene.duration_s = seconds;
   scene.arm_s = 0;
   scene.scene = "wall";
-  // Nothing in the voltage law but gains, as in the eigenvalues.
+  // The voltage law has only its gains, as in the eigenvalues.
   scene.parameters = {{"ramp_step", 1},          {"wall_contact", 0},
                       {"wall_damping", damping}, {"wall_stiffness", stiffness * count_rad},
                       {"dead_voltage", 0},       {"dead_voltage_slope", 0},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The low-pass alone at its default widths, RTL and twin; a class of RTL per rounding mode, one
-// sample takes six clocks. Documentation: docs/extremes.md
+// The low-pass alone at its default widths, RTL and twin. Each rounding mode has its own RTL class.
+// One sample takes six clocks. Documentation: docs/extremes.md
 #pragma once
 
 #include <Vlowpass.h>
@@ -45,16 +45,16 @@ class LowpassAlone {
  public:
   LowpassAlone() { rtl_.reset(1); }
 
-  /// The state is put to `y`.
+  /// Sets the state to `y`.
   void start(std::int64_t y) { sample(y, 0, true); }
-  /// One sample; returns the new state.
+  /// Runs one sample; returns the new state.
   std::int64_t sample(std::int64_t x, std::int64_t a1, bool follow = false) {
     rtl_->x_i = static_cast<std::uint32_t>(x);
     rtl_->follow_i = follow;
     rtl_->valid_i = 1;
     edge();
     rtl_->valid_i = 0;
-    // 33 bits of difference times the coefficient, as the shared multiplier gives it.
+    // 33 bits of difference times the coefficient, as the shared multiplier computes it.
     const std::int64_t operand = static_cast<std::int64_t>(rtl_->operand_o << 31) >> 31;
     for (int k = 0; k < 4; ++k) edge();
     rtl_->product_i = static_cast<std::uint64_t>(operand * a1) & ((std::uint64_t{1} << 53) - 1);

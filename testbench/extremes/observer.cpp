@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Extremes of the observer: no wind-up however long the lever is blocked, the I2t trip, and rest.
+// Extremes of the observer: no wind-up for any time of a blocked lever, the I2t trip, and rest.
 // Documentation: docs/extremes.md
 #include <cmath>
 #include <set>
@@ -30,7 +30,7 @@ struct Release {
 struct Releases {
   Release core, real;
   double tau_hat_before_nm = 0;
-  std::int64_t last_change_ticks = 0;  ///< after which nothing moved while blocked
+  std::int64_t last_change_ticks = 0;  ///< the last tick with a change while blocked
 };
 
 Releases blocked(double seconds, Cores cores, Outcome* o) {
@@ -38,7 +38,7 @@ Releases blocked(double seconds, Cores cores, Outcome* o) {
   Bench b("paper", cores);
   b.set("current_limit", limit_a);
   b.set("setpoint_torque", 0);
-  b.set("hold_time", 8192);  // never: the torque is to stay
+  b.set("hold_time", 8192);  // never: the torque must stay
   b.arm("setpoint");
   b.set("setpoint_torque", pull_nm);
   Releases r;
@@ -104,7 +104,7 @@ Outcome windup_1_s(const Settings&) {
   Outcome o;
   const Releases all = blocked(1.0, Cores::twin, &o);
   add_release(&o, " after 1 s", Cores::twin, all);
-  // The RTL comes to the same state in a fraction of that: afterwards nothing moves any more.
+  // The RTL reaches the same state in a fraction of that time; afterwards no signal changes.
   const Releases part = blocked(60e-3, Cores::lock_step, &o);
   add_release(&o, " after 60 ms", Cores::lock_step, part);
   o.findings.push_back(finding(Cores::twin, "last change of any signal while blocked", "ms",
@@ -127,10 +127,11 @@ Outcome windup_60_s(const Settings&) {
   return o;
 }
 
-/// When the sum of I^2 - Inom^2 reaches the budget: the estimate follows the closed form at stall.
+/// Returns the time at which the sum of I^2 - Inom^2 reaches the budget; the estimate follows the
+/// closed form at stall.
 double trip_time(double budget_a2_s, double tau_ref) {
   constexpr double r = 0.42, kv = 0.95, nominal = 5.77, limit = 8.264463;
-  constexpr double dead = (24 + 2 * 0.7) * 25 / 2500;  // what the dead time takes, given back
+  constexpr double dead = (24 + 2 * 0.7) * 25 / 2500;  // compensation of the dead time
   double sum = 0;
   std::int64_t k = 0;
   for (; sum < budget_a2_s * 1e6; ++k) {
@@ -149,7 +150,7 @@ Outcome windup_trip(const Settings&) {
     const double budget = 730 * share;
     Bench b("paper", cores);
     b.set("setpoint_torque", 0);
-    b.set("nominal_current_squared", 1e5);  // the heat of power-up goes
+    b.set("nominal_current_squared", 1e5);  // removes the heat of power-up
     b.run(b.ticks(6e-3));
     b.set("nominal_current_squared", 5.77 * 5.77);
     b.set("i2t_budget", budget * 1e6);
@@ -202,7 +203,7 @@ Outcome rest(const Settings& s) {
                                  exactly(0), tau_hat, real));
     o.findings.push_back(
         finding(Cores::lock_step, "largest duty, never moved", "clock", exactly(0), duty));
-    // A motion, and rest: the filters stop within their dead bands and stay there.
+    // A motion, then rest: the filters stop within their dead bands and stay there.
     b.turn(b.now(), 3000, 90);
     b.run(b.ticks(80e-3));
     std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t>> states;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// In the program that links this, the RTL of `paper` is the one that FELTGATE_DEFECT names.
+// In a program that links this file, FELTGATE_DEFECT selects the RTL of `paper`.
 // Documentation: docs/testing.md
 #include <Vpaper_with_defects.h>
 

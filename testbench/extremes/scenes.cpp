@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Extremes of the scenes: 1/x^2 through zero, its limit cycle with a hand and the core that ends
-// it, and the border in the published voltage gain. Documentation: docs/extremes.md
+// Extremes of the scenes: 1/x^2 through zero, its limit cycle with a hand, the linear core that
+// ends this cycle, and the border in the published voltage gain. Documentation: docs/extremes.md
 #include <cmath>
 
 #include "extremes/closed_loop.hpp"
@@ -16,7 +16,7 @@ namespace {
 constexpr double count_rad = 6.283185307179586 / 4096;
 constexpr double charge = 0.02;  // Nm rad^2
 
-/// The law as the documentation has it; x in counts, core in rad, 0 for none.
+/// The law from the documentation; x in counts, width of the core in rad, 0 for none.
 double law(bool attract, int x, double core_rad) {
   const double rad = x * count_rad;
   double pull;  // towards the charge, along -x
@@ -74,7 +74,8 @@ Outcome charge_through_zero(const Settings&) {
   return o;
 }
 
-/// A hand rests on an attracting charge whose linear core is this wide; the torque after a while.
+/// A hand rests on an attracting charge with a linear core of this width; measures the torque after
+/// `seconds`.
 void hold_on_charge(const Settings& s, double core_rad, double seconds, Finding* half, Finding* rms,
                     Driver driver, Outcome* o) {
   Scenario scene;
@@ -89,7 +90,7 @@ void hold_on_charge(const Settings& s, double core_rad, double seconds, Finding*
   if (core_rad > 0) scene.parameters["attract_core_slope"] = slope;
   plant::HandPhase hand;
   hand.kind = plant::HandPhase::Kind::kImpedance;
-  scene.hand.start_rad = 2.5 * count_rad;  // where the hand would like to stay, too
+  scene.hand.start_rad = 2.5 * count_rad;  // the hand also wants to stay here
   scene.hand.radius_m = 0.2;
   scene.hand.phases = {hand};
   Spread torque;

@@ -64,7 +64,7 @@ bool same_cell(const std::string& a, const std::string& b) {
   return std::abs(x - y) <= 0.01 * std::max(std::abs(x), std::abs(y));
 }
 
-/// The section of one case in a page, with its heading; empty where there is none.
+/// The section of one case in a page, with its heading; empty if the page has none.
 std::string section_of(const std::string& page, const std::string& name) {
   const std::string place = "### " + name + "\n";
   const std::size_t begin = page.find(place);

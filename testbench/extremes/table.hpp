@@ -21,21 +21,21 @@ struct Result {
 /// Four digits, no trailing zeros.
 std::string number(double value);
 
-/// One case for reading on a terminal.
+/// One case as text for a terminal.
 std::string text(const Result& result);
 
 /// All results as a JSON object.
 std::string json(const std::vector<Result>& results);
 
-/// The rows of one case as the page has them, with its heading.
+/// The rows of one case in the form of the page, with its heading.
 std::string markdown(const Result& result);
 
-/// docs/extremes.md; the section of a long case that has not run is taken from `before`, the page
-/// as it was.
+/// Returns the text of docs/extremes.md. The section of a long case that has not run is copied from
+/// `before`, the old page.
 std::string page(const std::vector<Result>& results, const std::string& before);
 
-/// What in the committed `page` no longer says what `result` says, one line each; a measured value
-/// may differ by 1 % (another libm), one marked chaotic is not compared.
+/// Lists the rows of the committed `page` that differ from `result`, one line each. A measured
+/// value may differ by 1 % (another libm); a value marked chaotic is not compared.
 std::vector<std::string> stale_rows(const std::string& page, const Result& result);
 
 }  // namespace feltgate::extremes

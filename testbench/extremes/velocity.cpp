@@ -26,7 +26,7 @@ Window window(const std::string& design) {
   return design == "paper" ? Window{4, 386e-6, 386} : Window{2, 767e-6, 767};
 }
 
-/// Half an LSB over a1: where a rounding low-pass stops short of its input.
+/// Half an LSB over a1: the distance at which a rounding low-pass stops before its input.
 double dead_band(const DesignInfo& d) {
   return 0.5 / -std::expm1(-cutoff / static_cast<double>(d.tick_hz)) *
          std::ldexp(1.0, -d.velocity.fraction);
@@ -62,7 +62,8 @@ Outcome one_count_per_second(const Settings&) {
     o.findings.push_back(finding(Cores::lock_step, "falls to 1/e in 1/wc" + in, "ms",
                                  near(1e3 / cutoff, 0.01), static_cast<double>(fallen) * 1e-3,
                                  static_cast<double>(real_fallen) * 1e-3));
-    // The mean of a second: the filter has gain 1, but stops half an LSB over a1 before its end.
+    // The mean over a second: the filter has gain 1, but stops half an LSB over a1 before its final
+    // value.
     Bench day(design, Cores::twin);
     day.turn(0, 1.0, 3);
     double sum = 0, real_sum = 0;
@@ -178,7 +179,7 @@ Outcome speed_613_6(const Settings&) {
   return o;
 }
 
-/// Response of window and low-pass to a speed that sets in at once.
+/// Response of window and low-pass to a step of the speed.
 double estimate(double speed, double t, const Window& w) {
   const double tau = 1 / cutoff;
   const auto ramp = [&](double x) {
@@ -191,7 +192,7 @@ Outcome speed_795(const Settings&) {
   Outcome o;
   const Window w = window("lever");
   const double speed = 795;
-  // When the estimate crosses the limit of 613.6 rad/s.
+  // The time at which the estimate crosses the limit of 613.6 rad/s.
   double low = 0, high = 0.02;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;

@@ -7,7 +7,7 @@
 
 namespace feltgate::extremes {
 
-/// Makes engines and chains of "wide" known; may be called again.
+/// Registers engines and chains of "wide"; may be called more than once.
 void use_wide_design();
 
 }  // namespace feltgate::extremes

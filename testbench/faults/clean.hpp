@@ -13,13 +13,13 @@ namespace feltgate::faults {
 struct CleanResult {
   double scenes_s = 0, recordings_s = 0, dither_s = 0;  ///< device time of each kind
   std::int64_t alarms = 0;                              ///< faults, and motors disarmed
-  std::string first;                                    ///< what the first one was
+  std::string first;                                    ///< description of the first alarm
   double seconds() const { return scenes_s + recordings_s + dither_s; }
 };
 
-/// So many seconds of device time on the twin: a twelfth in closed loop (scenes, hands and their
-/// strength drawn from the seed), the rest the shipped recordings in a loop, dither on one edge,
-/// and rest.
+/// Runs the twin for `seconds` of device time. A twelfth is closed loop (scenes, hands and their
+/// strength come from the seed); the rest is the shipped recordings in a loop, dither on one edge,
+/// and a lever at rest.
 CleanResult run_clean(const std::string& root, double seconds, std::uint64_t seed,
                       const std::function<void(double done)>& progress);
 

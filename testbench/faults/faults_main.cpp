@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_faults: runs a part of the campaign and prints a line of JSON for each fault;
-// scripts/faults.py starts it, and makes the table. Documentation: docs/verification.md
+// feltgate_faults: runs a part of the campaign and prints one line of JSON per fault.
+// scripts/faults.py starts this program and makes the table. Documentation: docs/verification.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A share of the fault campaign; that its classes can be told apart; the listed cases. What each
-// fault is and where the classes part: docs/verification.md
+// Tests a part of the fault campaign, the separation of its classes, and the listed cases.
+// docs/verification.md defines each fault and the limits of the classes.
 #include <fstream>
 #include <map>
 #include <string>
@@ -24,7 +24,7 @@ std::vector<Outcome> outcomes(const StateCampaign& campaign,
   std::vector<Outcome> found;
   const std::int64_t mismatches =
       run(campaign, faults, [&](const StateResult& r) { found.push_back(r.outcome); });
-  CHECK(mismatches == 0);  // RTL and twin, in the ticks without a fault
+  CHECK(mismatches == 0);  // RTL against twin, in the ticks without a fault
   return found;
 }
 
@@ -37,7 +37,7 @@ std::size_t bit_of(const std::string& name, int bit) {
   return 0;
 }
 
-/// In the scene wall, which pushes by then.
+/// A fault in the scene wall, at a tick at which the wall pushes.
 StateFault at_the_wall(const std::string& name, int bit) {
   StateFault f;
   f.tick = 105'000;
@@ -168,7 +168,8 @@ TEST_CASE("faults: each kind at the pins ends as it must") {
       if (name == "channel dead") CHECK(r.outcome.travel_rad <= 0.08);
     }
     INFO(name);
-    // Of a short all edges may be illegal; where they are few the count stands, unflagged.
+    // Shorted channels can make every edge illegal. With few edges the count stands still and no
+    // fault is flagged: one of the six seeds may end so.
     if (kinds[k].promise == Promise::flagged) {
       CHECK(detected >= (name == "channels shorted" ? 5 : 6));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What becomes of a fault: the classes of the campaign and what decides between them.
+// Outcome of a fault: the classes of the campaign and the rules that select one.
 // Documentation: docs/verification.md
 #pragma once
 
@@ -14,9 +14,9 @@
 namespace feltgate::faults {
 
 enum class Class {
-  masked,     ///< no output ever differed, the state is the sound one again
+  masked,     ///< no output ever differed, and the state equals that of the sound core again
   latent,     ///< no torque, position or gate is wrong, but the state still differs at the end
-  transient,  ///< outputs differed, too little or too shortly, and are right again
+  transient,  ///< outputs differed, by too little or for too short a time, and are right again
   off,        ///< the gates are off and the motor is disarmed; no fault is latched
   detected,   ///< a fault is latched, the gates are off
   silent,     ///< torque or position wrong, unflagged
@@ -29,29 +29,30 @@ inline const char* name_of(Class c) {
   return names[static_cast<int>(c)];
 }
 
-/// Where the classes part, for ticks of 1 us.
+/// Limits between the classes, for ticks of 1 us.
 struct Limits {
   double torque_nm = 0.5;      ///< the design's limit
-  double silent_share = 0.05;  ///< of it
-  double unsafe_share = 1.2;   ///< of it
+  double silent_share = 0.05;  ///< share of torque_nm
+  double unsafe_share = 1.2;   ///< share of torque_nm
   int ticks = 1000;            ///< longer than this
   int both_clocks = 1;         ///< both switches of a leg: longer than this
 };
 
 struct Outcome {
   Class is = Class::masked;
-  std::string why;              ///< of silent and unsafe
-  unsigned flagged = 0;         ///< faults latched that a sound core has not
+  std::string why;              ///< reason, for silent and unsafe
+  unsigned flagged = 0;         ///< latched faults that the sound core does not have
   std::int64_t off_after = -1;  ///< ticks from the fault to the gates off
-  double peak_nm = 0;           ///< of the torque's deviation, from the fault to the gates off
-  double integral_nm_s = 0;     ///< of its size
-  int both_clocks = 0;          ///< longest time with both switches of a leg on
-  double motor_peak_nm = 0;     ///< of the motor's own torque
-  double travel_rad = 0;        ///< of the lever, from the fault to the flag
+  double peak_nm = 0;        ///< largest deviation of the torque, from the fault to the gates off
+  double integral_nm_s = 0;  ///< integral of the size of that deviation
+  int both_clocks = 0;       ///< longest time with both switches of a leg on
+  double motor_peak_nm = 0;  ///< largest torque of the motor itself
+  double travel_rad = 0;     ///< travel of the lever, from the fault to the flag
   bool count_changed = false;
 };
 
-/// Gates of one tick: clocks that each was on, and the longest run with both of a leg on.
+/// Gates of one tick: clocks for which each gate was on, and the longest run of clocks with both
+/// gates of a leg on.
 struct GateTimes {
   int a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0, both = 0;
   bool on() const { return (a_hi | a_lo | b_hi | b_lo) != 0; }
@@ -60,8 +61,8 @@ struct GateTimes {
   }
 };
 
-/// Looks at the torque of a core under a fault beside that of a sound core on the same lever, tick
-/// by tick. Both torques are those of the winding's voltage, mean of a PWM period, less the
+/// Compares, tick by tick, the torque of a core with a fault with that of a sound core on the same
+/// lever. Each torque is computed from the winding's voltage (mean of a PWM period) minus the
 /// back-EMF.
 class TorqueJudge {
  public:
@@ -71,7 +72,7 @@ class TorqueJudge {
   };
   TorqueJudge(const Motor& motor, const Limits& limits) : m_(motor), l_(limits) {}
 
-  /// A tick before the fault: the means go on from there.
+  /// Takes a tick before the fault, so that the means over a PWM period are already filled.
   void before(const GateTimes& gates, double motor_torque_nm) {
     faulty_.add(share(gates), gates.on(), m_.period_ticks);
     sound_.add(share(gates), gates.on(), m_.period_ticks);
@@ -86,7 +87,7 @@ class TorqueJudge {
     if (faulty.both > o->both_clocks) o->both_clocks = faulty.both;
     const double motor = std::abs(motor_.mean());
     o->motor_peak_nm = larger(o->motor_peak_nm, motor);
-    // What remains after the gates went off is a free lever.
+    // After the gates are off the lever is free: its torque is not judged.
     if (faulty_.on() || !flagged) {
       o->peak_nm = larger(o->peak_nm, std::abs(e));
       o->integral_nm_s += std::abs(e) * 1e-6;
@@ -115,7 +116,7 @@ class TorqueJudge {
       sum_ += share;
       on_ += on ? 1 : 0;
       at_ = at_ + 1 == ticks ? 0 : at_ + 1;
-      if (at_ == 0) {  // no rounding adds up
+      if (at_ == 0) {  // starts a new sum, so that rounding errors do not add up
         sum_ = 0;
         for (int k = 0; k < filled_; ++k) sum_ += shares_[k];
       }

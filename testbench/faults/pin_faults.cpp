@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Faults at pins and register port. Documentation: docs/verification.md
+// Faults at the pins and at the register port. Documentation: docs/verification.md
 #include "faults/pin_faults.hpp"
 
 #include <fmt/format.h>
@@ -30,16 +30,16 @@ struct Case {
   int scene = 0, filter = 0;
   std::vector<Word> words;
   plant::Hand hand;
-  double warm_s = 0.1;    ///< before the fault
-  double seconds = 0.06;  ///< after it
-  double from_s = 0;      ///< the fault's moment, since the warm-up
-  Break pins;             ///< clocks since the fault's tick begins
-  std::vector<Word>
-      writes;  ///< the host's, one a tick, from the fault on; the sound core gets none
+  double warm_s = 0.1;       ///< time before the fault
+  double seconds = 0.06;     ///< time after the fault
+  double from_s = 0;         ///< moment of the fault, counted from the end of the warm-up
+  Break pins;                ///< its times are clocks from the start of the fault's tick
+  std::vector<Word> writes;  ///< writes of the host, one per tick from the fault on; the sound core
+                             ///< gets none of them
   bool stop = false;
   bool swapped_from_the_start = false;
   bool position_matters = true;
-  bool alone = false;  ///< what is wrong is the lever: the sound core trips as well
+  bool alone = false;  ///< the lever itself is wrong: the sound core trips as well
 };
 
 constexpr std::array moving_scenes{"wall", "membrane", "spring_tension", "damper", "free"};
@@ -64,7 +64,7 @@ Case moving(Random* r, double rad_s) {
   return c;
 }
 
-/// One of the acts: a hand that leans, sways or moves in a scene that acts.
+/// One of the acts: a hand leans, sways or moves in a scene that acts.
 Case acting(Random* r) {
   static const std::vector<Act> all = acts();
   const Act& a = all[r->below(all.size() - 1)];  // the last is disarmed
@@ -77,13 +77,13 @@ Case acting(Random* r) {
   return c;
 }
 
-/// One of the acts whose hand leans, and stays there.
+/// One of the acts in which the hand leans and stays.
 Case leaning(Random* r) {
   using Kind = plant::Segment::Kind;
   Case c = acting(r);
   while (c.hand.phases[0].profile.back().kind != Kind::kSine) c = acting(r);
   c.hand.phases[0].profile.back().amplitude = 0;
-  c.warm_s = std::max(c.warm_s, 0.2);  // it has come to rest
+  c.warm_s = std::max(c.warm_s, 0.2);  // the lever is at rest by then
   return c;
 }
 
@@ -117,7 +117,7 @@ void glitches(Random* r, int shortest, int longest, double per_clock, Clock last
     const Clock to = from + r->between(shortest, longest);
     const unsigned channels = r->below(8) == 0 ? 3u : r->below(6) == 0 ? 4u : 1u << r->below(2);
     c->pins.pulses.push_back({from, to, channels});
-    at = static_cast<double>(to + longest + 4);  // apart, so that each is one pulse to the filter
+    at = static_cast<double>(to + longest + 4);  // a gap, so that the filter sees separate pulses
   }
 }
 
@@ -126,7 +126,7 @@ plant::Hand spun_hand(double to_rad_s) {
   spin.kind = plant::HandPhase::Kind::kPrescribed;
   plant::Hand hand;
   double rad = 0;
-  for (int k = 1; k <= 40; ++k) {  // speed by speed: the acceleration is bounded
+  for (int k = 1; k <= 40; ++k) {  // in 40 steps of speed, so that the acceleration is bounded
     plant::Segment s;
     s.kind = plant::Segment::Kind::kRamp;
     s.duration_s = 0.004;
@@ -194,7 +194,7 @@ Case make(std::size_t kind, Random* r) {
     c.words = {word("self_test_torque", 0.05), word("self_test_pulse", 39),
                word("self_test_quiet", 156)};
     c.hand = plant::Hand{};
-    c.warm_s = 0.012 + 0.02 * share(r);  // the fault is there already: arming begins it
+    c.warm_s = 0.012 + 0.02 * share(r);  // the fault exists already: it begins when the core arms
     c.seconds = 0.06;
     c.position_matters = false;
     c.what = "free lever at rest";
@@ -284,7 +284,7 @@ PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t
   faulty.in.encoder = sound.in.encoder = lever.encoder().pins();
   const auto warm = static_cast<std::int64_t>((c.warm_s + c.from_s) * 1e6);
   const std::int64_t ticks = static_cast<std::int64_t>(c.seconds * 1e6);
-  // The fault begins with a tick; its own clocks are counted from there.
+  // The fault begins with a tick; its clocks are counted from the start of that tick.
   c.pins.from = warm * kTick + 1 + random.below(kTick);
   for (Pulse& p : c.pins.pulses) p.from += warm * kTick, p.to += warm * kTick;
   if (c.swapped_from_the_start) c.pins.kind = Break::Kind::swapped, c.pins.from = 1;
@@ -317,10 +317,11 @@ PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t
     const bool broken = t >= warm;
     const auto k = static_cast<std::size_t>(t - warm);
     if (broken && k < c.writes.size()) one = c.writes[k];
-    // What the free lever is asked for is no fault: both get it.
+    // These writes are no fault: both cores get them.
     if (c.swapped_from_the_start && one) both = one;
     gates = faulty.tick(events, begin, both ? both : one, c.stop && k == 0 && broken);
-    // A swapped encoder of a lever at rest, or wrong words: beside it a sound core.
+    // A swapped encoder of a lever at rest, or wrong words: a sound core runs beside the faulty
+    // one.
     const GateTimes other = sound.tick(lever.events(), begin, both, false);
     if (!broken) {
       if (t >= warm - motor.period_ticks)

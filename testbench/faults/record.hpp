@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A fault and what became of it as one line of JSON, and back. Documentation: docs/verification.md
+// Writes a fault and its outcome as one line of JSON, and reads such a line. Documentation:
+// docs/verification.md
 #pragma once
 
 #include <string>
@@ -15,13 +16,13 @@ std::string line_of(const StateResult& result, const std::vector<StateBit>& bits
                     const std::vector<std::string>& act_names);
 std::string line_of(const PinResult& result);
 
-/// A case of a list: either of the two. Throws std::invalid_argument naming what is wrong.
+/// A case of a list: a pin fault or a state fault. Throws std::invalid_argument with the reason.
 struct CaseLine {
   bool pins = false;
   StateFault state;
   std::size_t kind = 0;
   std::uint64_t seed = 0;
-  std::string expected;  ///< class
+  std::string expected;  ///< name of the expected class
 };
 CaseLine read_case(const std::string& line);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The Verilated core with its state open: a flip-flop or a word of a memory is flipped, and all
-// logic that follows from it evaluated anew; the whole state is copied and compared. Documentation:
-// docs/verification.md
+// The Verilated core with access to its state. A test can flip a flip-flop or a word of a memory
+// (all logic that depends on it is evaluated again), and copy and compare the whole state.
+// Documentation: docs/verification.md
 #pragma once
 
 #include <Vfaults.h>
@@ -41,13 +41,14 @@ class RtlState {
   RtlState(const RtlState&) = delete;
   RtlState& operator=(const RtlState&) = delete;
 
-  /// The state of another; both of one program, so that the bytes mean the same.
+  /// Copies the state of another core. Both must be in one program, so that the bytes mean the
+  /// same.
   void copy(const RtlState& o) {
     std::memcpy(begin(), o.begin(), size());
     in_ = o.in_;
   }
   bool same_state(const RtlState& o) const { return std::memcmp(begin(), o.begin(), size()) == 0; }
-  /// Bytes that differ, by offset, for looking into it.
+  /// Lists the bytes that differ, by offset, for debugging.
   template <class Each>
   void differing(const RtlState& o, Each&& each) const {
     for (std::size_t k = 0; k < size(); ++k) {
@@ -55,13 +56,13 @@ class RtlState {
     }
   }
 
-  // Flips: after a clock, before the next.
+  // Call flips between two clocks.
   void flip(int flop) {
     const Flop& f = kFlops[flop];
     byte_of(f) ^= mask_of(f);
     settle();
   }
-  /// The flip-flop keeps this level over the edge that was.
+  /// Sets the flip-flop to this level, as if it had kept it over the last edge.
   void hold(int flop, bool level) {
     const Flop& f = kFlops[flop];
     if (((byte_of(f) & mask_of(f)) != 0) != level) flip(flop);
@@ -108,7 +109,7 @@ class RtlState {
   /// What Verilator computes before the first clock: all combinational logic, from the registers.
   void settle() { Vfaults___024root___eval_settle(rtl_->rootp); }
 
-  // All that the model holds lies between its first member and the pointer to its symbols.
+  // The whole state of the model lies between its first member and the pointer to its symbols.
   unsigned char* begin() { return reinterpret_cast<unsigned char*>(&rtl_->rootp->clk_i); }
   const unsigned char* begin() const {
     return reinterpret_cast<const unsigned char*>(&rtl_->rootp->clk_i);
@@ -118,7 +119,7 @@ class RtlState {
                                     begin());
   }
 
-  // One context for all of them: a Verilated scope ends in that of its thread.
+  // All models share one context: a Verilated scope ends in the context of its thread.
   static std::unique_ptr<Vfaults> make(std::uint64_t seed) {
     static VerilatedContext context;
     context.randReset(2);
@@ -146,7 +147,8 @@ class GateCount {
     run_ = both ? run_ + 1 : 0;
     if (run_ > times_.both) times_.both = run_;
   }
-  /// Of the clocks since the last call; a run goes on.
+  /// Returns the counts of the clocks since the last call; a run of both gates continues over the
+  /// call.
   GateTimes take() {
     const GateTimes t = times_;
     times_ = {};

@@ -22,7 +22,7 @@ namespace {
 
 bool begins(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 
-/// What a register belongs to.
+/// Sets the group of a register, and whether it counts as safety.
 void sort_in(StateBit* b) {
   const std::string& n = b->name;
   const auto is = [&](const char* group, bool safety = true) {
@@ -64,12 +64,12 @@ struct Loop {
   GateTimes gates;
 };
 
-/// Events of the plant's step as pins per clock.
+/// Turns the events of a plant step into pins per clock.
 class Pins {
  public:
   Pins(const std::vector<EncoderEvent>& events, Clock from, EncoderPins before)
       : events_(events), at_(from), pins_(before) {}
-  /// Whether the pins change with this clock.
+  /// Returns whether the pins change in this clock.
   bool step(Clock clock) {
     bool changed = false;
     while (next_ < events_.size() && events_[next_].clock <= at_ + clock) {
@@ -126,7 +126,7 @@ class Branches {
     in_.scene = static_cast<std::uint8_t>(act.scene);
   }
 
-  /// Runs to the end of this many ticks since the beginning.
+  /// Runs until this many ticks since the beginning have ended.
   void to(std::int64_t tick) {
     for (; tick_ < tick; ++tick_) {
       in_.reg_write = false;
@@ -141,7 +141,7 @@ class Branches {
       Pins pins(loop_.plant.events(), tick_ * kTick, in_.encoder);
       GateCount gates;
       CoreIn held = in_;
-      int waits = 0;  // clocks that the twin is behind, all with the inputs `held`
+      int waits = 0;  // clocks by which the twin is behind; the inputs in all of them are `held`
       const auto catch_up = [&] {
         if (held.reg_write) {
           twin_.clock(held);
@@ -292,7 +292,7 @@ class Branches {
   std::vector<StateBit> bits_;
   std::int64_t tick_ = 0, mismatches_ = 0;
   bool same_ = false;
-  std::deque<std::pair<GateTimes, double>> history_;  ///< a period of the PWM: gates, motor torque
+  std::deque<std::pair<GateTimes, double>> history_;  ///< one PWM period: gates, motor torque
 };
 
 }  // namespace
@@ -314,7 +314,7 @@ std::vector<StateBit> state_bits() {
                       "parameter RAM", true});
     }
   }
-  for (int bit = 0; bit < 16; ++bit) {  // of so many words alike a few stand for all
+  for (int bit = 0; bit < 16; ++bit) {  // many words are alike: a few stand for all
     for (int k = 0; k < 8; ++k) {
       bits.push_back(
           {StateBit::Kind::line, "velocity line", k * 127 + 5, bit, "velocity line", true});
@@ -348,7 +348,7 @@ std::vector<StateFault> plan(const StateCampaign& c) {
   std::size_t act = 0;
   for (const std::size_t n : chosen) {
     for (int k = 0; k < c.flips_per_bit; ++k) add(act++ % count, {n});
-    ++act;  // another order of acts for the next bit
+    ++act;  // the next bit starts with another act
   }
   for (int k = 0; k < c.doubles; ++k) {
     add(act++ % count, {chosen[random.below(chosen.size())], chosen[random.below(chosen.size())]});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the faults meet. Documentation: docs/verification.md
+// The scenes, motor, lever and hands for the fault campaign. Documentation: docs/verification.md
 #include "faults/world.hpp"
 
 #include <algorithm>
@@ -89,8 +89,8 @@ TorqueJudge::Motor motor_of_plant(const std::string& root) {
 plant::Bridge bridge_of(const GateTimes& g, int clocks) {
   const double n = clocks;
   const double a_hi = g.a_hi / n, b_hi = g.b_hi / n;
-  // Both switches of a leg: the supply is shorted, which the plant does not know. It is unsafe
-  // anyway.
+  // With both switches of a leg on, the supply is shorted. The plant does not model this; the case
+  // is unsafe anyway.
   return plant::Bridge::gates(a_hi, std::min(g.a_lo / n, 1 - a_hi), b_hi,
                               std::min(g.b_lo / n, 1 - b_hi));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the faults meet: scenes that really act, with motor, lever and a hand. Documentation:
-// docs/verification.md
+// The environment of the fault campaign: scenes that give torque, with motor, lever and a hand.
+// Documentation: docs/verification.md
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace feltgate::faults {
 
-/// A parameter's word, by its address.
+/// The word of a parameter, with its address.
 struct Word {
   int address = 0;
   std::uint32_t data = 0;
@@ -28,8 +28,8 @@ struct Act {
   bool arm = true;
   std::vector<Word> words;  ///< written before arming
   plant::Hand hand;
-  double warm_s = 0.1;     ///< before faults come: the scene acts by then
-  double window_s = 0.06;  ///< in which they come
+  double warm_s = 0.1;     ///< time before the faults; the scene gives torque by then
+  double window_s = 0.06;  ///< time in which the faults come
 };
 
 /// Wall, spring, damper, membrane, charge, setpoint, free, disarmed; of design `lever`.
@@ -45,7 +45,7 @@ plant::Plant make_plant(const std::string& root, const plant::Hand& hand);
 TorqueJudge::Motor motor_of_plant(const std::string& root);
 double count_rad();
 
-/// The bridge that these gate times are, as the plant takes it.
+/// Converts gate times to the bridge input of the plant.
 plant::Bridge bridge_of(const GateTimes& gates, int clocks);
 
 }  // namespace feltgate::faults

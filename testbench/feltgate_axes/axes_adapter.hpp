@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ports of the Verilated axes against their twin, AXES of them. Documentation:
-// docs/blocks/feltgate_axes.md
+// Connects the ports of the Verilated axes to their twin's. AXES is the number of axes.
+// Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <Vfeltgate_axes.h>
@@ -18,7 +18,7 @@
 
 namespace feltgate::test {
 
-// With the engine a velocity of fewer bits than its words.
+// With the engine, a design whose velocity has fewer bits than the engine's words.
 using Design = std::conditional_t<ENGINE != 0, PantographLaw, LeverLaw>;
 constexpr int kAxes = AXES;
 constexpr bool kEngine = ENGINE != 0;

@@ -72,7 +72,7 @@ class LawLife : public Life {
     for (int n = 0; n < kAxes; ++n) control(n, scene, true);
   }
   bool armed() const { return out(0).armed && out(1).armed; }
-  /// Ticks until both are armed.
+  /// Returns the number of ticks until both are armed, at most `limit`.
   int until_armed(int limit) {
     int n = 0;
     while (!armed() && n < limit) ticks(1), ++n;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Axes with a host and a panel that do what a test says, and what must hold between axes whatever
-// comes. Documentation: docs/blocks/feltgate_axes.md
+// Axes with a host and a panel that a test controls, and the properties between axes that must hold
+// for all inputs. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <vector>
@@ -20,18 +20,18 @@ constexpr int kTick = Design::clocks_per_tick;
 inline constexpr std::uint32_t kHost =
     static_cast<std::uint32_t>(Design::control_reset) | 1u << C::control_host;
 
-/// What a life has met, by axis.
+/// Counts of the events in a run, by axis.
 struct Tally {
   std::int64_t clocks = 0, armed = 0;
   std::int64_t own[kAxes] = {}, spread[kAxes] = {}, tests[kAxes] = {};
 };
 
-/// What must hold whatever comes.
+/// Properties that must hold for all inputs.
 struct Watch {
   Tally* tally;
-  bool gates = false;   ///< of all, the clock before
-  bool faulty = false;  ///< of any, the clock before
-  int testing = -1;     ///< the axis whose pulse it is
+  bool gates = false;   ///< gates of all axes on in the clock before
+  bool faulty = false;  ///< fault of any axis in the clock before
+  int testing = -1;     ///< the axis whose self-test pulse runs
   unsigned first[3] = {0, 0, 0};
 
   const char* operator()(const In&, const Vfeltgate_axes& rtl, const AxesTwin& twin, bool reset) {
@@ -53,7 +53,7 @@ struct Watch {
       if (fault != 0 && first[n] != 0 && fault != first[n] && !reset)
         return "the first cause is kept";
       first[n] = fault;
-      // A pulse of the self-test: its torque while the test lasts.
+      // A pulse of the self-test: a torque while the test runs.
       const bool pulse = twin.core(n).testing() && twin.core(n).out().tau_ref != 0;
       pulses += pulse ? 1 : 0;
       tally->tests[n] += pulse ? 1 : 0;
@@ -65,10 +65,10 @@ struct Watch {
     }
     ++tally->clocks;
     tally->armed += armed == kAxes ? 1 : 0;
-    // A fault in the very clock of the arming, or of the end of a tick, is that of one axis for a
-    // tick.
+    // A fault in the clock of arming, or in the last clock of a tick, belongs to only one axis for
+    // a tick.
     if (armed != 0 && armed != kAxes && !any) return "armed together";
-    // A fault of any, one clock for the others.
+    // A fault of any axis turns off the gates of the others one clock later.
     if (faulty && any && enabled != 0) return "gates on a clock after a fault";
     if (pulses > 1) return "two tests at once";
     faulty = any;
@@ -76,7 +76,8 @@ struct Watch {
   }
 };
 
-/// Axes with a host, who does what a test says: the twin at once, the RTL beside one afterwards.
+/// Axes with a host that a test controls. The twin runs at once; play() then runs the RTL beside a
+/// twin.
 class Life {
  public:
   In in;
@@ -96,7 +97,7 @@ class Life {
     to_clock(0);
     clocks(n * kTick);
   }
-  /// One count of axis n.
+  /// Moves axis n by one count.
   void turn(int n, bool up) {
     phase_[n] += up ? 1U : 3U;
     axis(n).encoder = pins_at(phase_[n], axis(n).encoder.z);
@@ -123,7 +124,7 @@ class Life {
           kHost | static_cast<std::uint32_t>(scene) << C::control_scene |
               std::uint32_t{arm} << C::control_arm);
   }
-  /// All, without a ramp.
+  /// Arms all axes, without a ramp.
   void arm(int scene, std::uint32_t test_pulse = 0) {
     for (int n = 0; n < kAxes; ++n) control(n, scene, false);
     write_all(A::self_test_pulse, test_pulse);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Random but plausible life of several axes: each has a lever as a core alone has, and one host,
-// who mostly asks all of them for the same. Documentation: docs/blocks/feltgate_axes.md
+// Random but plausible stimulus of several axes. Each axis has a lever, as a single core has; one
+// host mostly requests the same from all axes. Documentation: docs/blocks/feltgate_axes.md
 #pragma once
 
 #include <deque>
@@ -12,11 +12,11 @@
 
 namespace feltgate::test {
 
-/// Inputs clock by clock; all state inside, so that a copy repeats the run.
+/// Inputs clock by clock. All state is inside, so that a copy repeats the run.
 template <class D, int N>
 class AxesStimulus {
  public:
-  /// `patience`: for so many clocks after a request to arm nobody writes another.
+  /// `patience`: for this many clocks after a request to arm, no other request is written.
   explicit AxesStimulus(std::uint64_t seed, std::int64_t patience = 0)
       : random_(seed), patience_(patience) {
     for (int n = 0; n < N; ++n) levers_.emplace_back(seed + 1000u * static_cast<unsigned>(n));

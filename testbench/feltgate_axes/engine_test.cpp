@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Axes with their engine: a law on two axes, loaded by the host, RTL against twin in every clock;
-// what arming, ramps and the age monitor make of it. Documentation: docs/blocks/feltgate_axes.md
+// Axes with their engine: the host loads a law for two axes; RTL against twin in every clock. The
+// tests include arming, ramps and the age monitor. Documentation: docs/blocks/feltgate_axes.md
 #include "axes_law_life.hpp"
 #include "axes_stimulus.hpp"
 
@@ -12,7 +12,7 @@ using D = Design;
 
 namespace {
 
-/// Two levers that a spring couples: parameters 0 and 1 are minus and plus the stiffness, torque
+/// A spring couples two levers. Parameters 0 and 1 are minus and plus the stiffness, in torque
 /// steps per count.
 EngineMemory coupling() {
   using Op = EngineOp;
@@ -44,7 +44,7 @@ TEST_CASE("engine: a law on two axes, each with its torque, two ticks after the 
   CHECK(s.out(1).position == -1);
   CHECK(s.out(0).tau_ref == -600);
   CHECK(s.out(1).tau_ref == 600);
-  // From the sample of a count to the tick in which its torque is the reference.
+  // The time from the sample of a count to the tick in which its torque is the reference.
   s.step(0, true);
   int ticks = 0;
   while (s.out(0).tau_ref != -700 && ticks < 10) s.ticks(1), ++ticks;
@@ -85,7 +85,7 @@ TEST_CASE(
   s.load(kLaw, kCrc ^ 1u);
   s.ask(D::S::law);
   CHECK(s.until_armed(6000) == 6000);
-  // Without a law it does not matter; entering it is a fault.
+  // A wrong CRC has no effect in a scene without a law; entering the law scene is then a fault.
   s.ask(D::S::setpoint);
   const int waited = s.until_armed(6000);
   INFO("ticks " << waited);
@@ -121,7 +121,7 @@ TEST_CASE("engine: a commit while armed, a zero and the entry into the scene ram
   s.ask(D::S::setpoint);
   CHECK(s.until_armed(6000) < 6000);
   for (int k = 0; k < 5; ++k) s.step(0, true);
-  // Slow: 4 torque steps a tick; no tick moves the reference by more.
+  // A slow ramp: no tick moves the reference by more than 4 torque steps.
   constexpr int fine = D::f.ramp.fraction - D::f.torque.fraction;
   s.write_all(A::ramp_step, 4u << fine);
   std::int32_t before = s.out(0).tau_ref;
@@ -160,7 +160,7 @@ TEST_CASE("engine: while armed its program is locked, its words are read") {
   s.engine(H::program + 1, 0);
   CHECK(s.engine_word(H::program + 1) == low);
   CHECK((s.engine_word(H::status) >> EngineMap::S::status_crc_good & 1u) == 1);
-  // Another axis' address reads its own.
+  // The address of another axis reads that axis's own word.
   CHECK(s.read(1, C::control) != 0);
   s.play();
 }
@@ -178,7 +178,7 @@ TEST_CASE("engine: random levers and hosts around a law") {
                                                          : then(clock);
     }
   };
-  // Lives in which the check of the law ends before a lever of the stimulus has another fault.
+  // Runs in which the check of the law ends before a lever of the stimulus causes another fault.
   Tally tally;
   for (const unsigned seed : {4U, 8U, 10U}) {
     AxesBench bench("feltgate_axes", seed);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Axes: RTL against twin, every output of each on every clock, and what must hold between them.
-// AXES is how many. Documentation: docs/blocks/feltgate_axes.md
+// Axes: RTL against twin, every output of each axis on every clock, and the properties between
+// axes. AXES is the number of axes. Documentation: docs/blocks/feltgate_axes.md
 #include "feltgate/feltgate_axes.hpp"
 
 #include "axes_life.hpp"
@@ -113,7 +113,7 @@ TEST_CASE("axes: a fault of any opens the gates of all, and each keeps its first
       CHECK(s.out(m).first_fault == static_cast<unsigned>(m == n ? Fault::stop : Fault::axis));
       CHECK(s.out(m).faults == fault_bit(m == n ? Fault::stop : Fault::axis));
     }
-    // None is armed before all are cleared.
+    // No axis is armed before the faults of all axes are cleared.
     s.ticks(1);
     for (int m = 0; m < kAxes; ++m) s.control(m, D::S::setpoint, false);
     for (int m = 0; m < kAxes; ++m) {
@@ -150,7 +150,7 @@ TEST_CASE(
         s.ticks(2);
       }
       for (int n = 0; n < kAxes; ++n) CHECK_FALSE(s.out(n).gates_enable);
-      // Nor where one of them is armed by the host and the others are the panel's.
+      // No axis is armed if the host arms one axis and the panel controls the others.
       s.control(first, D::S::setpoint, false);
       s.control(first, D::S::setpoint, true);
       s.ticks(2);
@@ -167,7 +167,7 @@ TEST_CASE("axes: own scene and polarity, programmed torque by axis, duties in on
   for (int n = 0; n < kAxes; ++n) s.axis(n).law_torque = torque(0.1 * (n + 1));
   s.ticks(3);
   for (int n = 0; n < kAxes; ++n) CHECK(s.out(n).tau_ref == torque(0.1 * (n + 1)));
-  // The duties of one tick are in force with the same clock.
+  // The duties of one tick take effect in the same clock.
   std::int64_t changed[3] = {-1, -1, -1};
   for (int n = 0; n < kAxes; ++n) s.axis(n).law_torque = torque(-0.1 * (n + 1));
   for (std::int64_t c = 0; c < 3 * D::pwm_period; ++c) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Axes: limits and faults that random lives bring about in one axis or another, in each of them on
-// purpose. Documentation: docs/blocks/feltgate_axes.md
+// Axes: directed tests of limits and faults in each axis; random runs reach each only in some axis.
+// Documentation: docs/blocks/feltgate_axes.md
 #include "axes_life.hpp"
 
 using namespace feltgate;
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kMost = 0x7fffffff;
 
-/// Limits that were met in so many ticks.
+/// Returns the limits that acted in the next `ticks` ticks.
 unsigned met(Life& s, int n, int ticks) {
   unsigned limits = 0;
   for (; ticks > 0; --ticks) {

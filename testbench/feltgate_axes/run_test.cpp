@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of the axes from event to event against its clocks: the same outputs at the end of every
-// stretch, and in every snapshot. Documentation: docs/blocks/feltgate_axes.md
+// Compares the twin of the axes run from event to event with the twin run clock by clock: same
+// outputs at the end of every stretch, and in every snapshot. Documentation:
+// docs/blocks/feltgate_axes.md
 #include <vector>
 
 #include "axes_stimulus.hpp"
@@ -62,7 +63,7 @@ TEST_CASE("axes: from event to event as clock by clock") {
       const auto check = [&](const AxesOut<kCores>& a, const AxesOut<kCores>& b, bool whole) {
         for (std::size_t n = 0; n < kCores; ++n) {
           CoreOut one = a.axis[n], other = b.axis[n];
-          if (!whole) {  // amid a stretch the words are not shown one by one
+          if (!whole) {  // within a stretch the words are not shown one by one
             for (CoreOut* o : {&one, &other}) {
               o->reg_rdata = o->word_data = o->word_slot = 0;
               o->reg_busy = o->word_valid = false;
@@ -112,7 +113,7 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
   In in;
   in.arm = true;
   Axes calm = made();
-  std::int64_t arms = 0;  // clocks until they are armed
+  std::int64_t arms = 0;  // clocks until the axes are armed
   for (; !calm.out().axis[0].armed; ++arms) {
     REQUIRE(arms < 2'000 * D::clocks_per_tick);
     calm.clock(in);
@@ -133,7 +134,7 @@ TEST_CASE("axes: one that faults in the tick that would arm them all") {
           if (!(by_clock.out().axis[m] == by_event.out().axis[m])) FAIL("another output");
         }
       };
-      // Both channels at once are an error, of which some are borne.
+      // A change of both channels at once is an error; some errors are tolerated.
       const auto err = [&pins] { pins.a = pins.b = !pins.a; };
       now.arm = false;
       for (int error = 0; error < Map::errors_borne; ++error) {

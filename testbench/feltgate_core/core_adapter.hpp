@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's ports for the lock-step: RTL against twin, every output. Documentation:
+// Connects the core's ports to the lock-step: every output, RTL against twin. Documentation:
 // docs/testing.md
 #pragma once
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a life of a core has exercised, and what it has not. Documentation: docs/testing.md
+// Records what a run of a core has exercised, and lists what it has not. Documentation:
+// docs/testing.md
 #pragma once
 
 #include <array>
@@ -21,10 +22,10 @@ inline constexpr std::array<int, 12> snapshot_slots{
     Map::R::encoder, Map::R::index,       Map::R::velocity, Map::R::tau_hat,
     Map::R::tau_ref, Map::R::current_ref, Map::R::voltage,  Map::R::duty};
 
-/// What a run has exercised.
+/// Coverage of one run.
 class Coverage {
  public:
-  /// The outputs after each clock.
+  /// Takes the outputs after each clock.
   void add(const CoreOut& o) {
     ++clocks_;
     armed_ += o.armed;
@@ -35,7 +36,7 @@ class Coverage {
     if (gates_ && !o.gates_enable) ++faults_[o.first_fault & 15u];
     gates_ = o.gates_enable;
   }
-  /// The same, with the inputs of the clock and the clock of the tick that comes next.
+  /// The same, with the inputs of this clock and the number of the next clock in the tick.
   void add(const CoreIn& in, const CoreOut& o, int clock_of_tick) {
     const bool busy = busy_;
     busy_ = o.reg_busy;
@@ -75,14 +76,15 @@ class Coverage {
   double tau_ref_pinned_share() const { return share(limits_[Map::L::torque]); }
   double eased_share() const { return share(eased_); }
   double frozen_share() const { return share(frozen_); }
-  /// Scenes below this number that ran armed, the reserved number 1 and those not built left out.
+  /// Number of scenes below `numbers` that ran armed, without the reserved number 1 and the scenes
+  /// not built.
   int scenes_seen(std::size_t numbers) const {
     int n = 0;
     for (std::size_t s = 0; s < numbers; ++s) n += s != 1 && scenes_[s] > 0 ? 1 : 0;
     return n;
   }
-  /// What was reached less than `times` times: a word per gap, nothing where all was.
-  /// `outside`: programs and other axes are played.
+  /// Lists, one word each, what was reached less than `times` times; empty if there is nothing.
+  /// `outside`: the run also drives programs and other axes.
   std::string gaps(std::int64_t times, bool outside = false) const {
     std::string text;
     const auto ask = [&](std::int64_t n, const std::string& what) {
@@ -117,7 +119,8 @@ class Coverage {
   }
 
  private:
-  /// Causes that no input of a whole core brings about: ticks_stand_test, word_flip_test; reserved.
+  /// True for causes that no input of a whole core can produce (ticks_stand_test and word_flip_test
+  /// test them) and for reserved numbers.
   static bool broken_hardware_alone(Fault cause) {
     return cause == Fault::tick || cause == Fault::word || cause == Fault::jump ||
            cause == Fault::link;
@@ -129,7 +132,7 @@ class Coverage {
   std::int64_t clocks_ = 0, armed_ = 0, eased_ = 0, frozen_ = 0;
   std::int64_t zeroes_at_the_end_ = 0, kicks_ = 0, disarms_past_a_write_ = 0;
   std::array<std::int64_t, limit::names.size()> limits_{};  ///< clocks
-  std::array<std::int64_t, 16> scenes_{};                   ///< clocks armed in it
+  std::array<std::int64_t, 16> scenes_{};                   ///< clocks armed in each scene
   std::array<std::int64_t, 16> faults_{};                   ///< first causes that closed the gates
   std::array<std::int64_t, 64> words_{};                    ///< reads, by slot
   bool gates_ = false, busy_ = false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core with a host, a panel and a lever that do what a test says: the twin at once, afterwards
-// the RTL beside one. Documentation: docs/blocks/feltgate_core.md
+// A core with a host, a panel and a lever that a test controls. The twin runs at once; play() then
+// runs the RTL beside a twin. Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ inline std::uint32_t word_of_design(int address) {
   return 0;
 }
 
-/// What happens to a twin, and afterwards to the RTL beside one.
+/// Runs the twin and records its inputs; the RTL runs them later beside a twin.
 class Life {
  public:
   CoreIn in;
@@ -49,7 +49,7 @@ class Life {
     to_clock(0);
     clocks(n * kTick);
   }
-  /// Early in a tick, and to its end.
+  /// Writes early in a tick and runs to the end of that tick.
   void write(int address, std::uint32_t word) {
     to_clock(5);
     in.reg_addr = static_cast<std::uint16_t>(address);
@@ -61,7 +61,8 @@ class Life {
   }
   void as_designed(int address) { write(address, word_of_design(address)); }
   void command(int bit) { write(C::command, 1u << bit); }
-  /// Armed in this scene and mode, without a self-test and, but for the first step, without a ramp.
+  /// Arms in this scene and mode, without a self-test and, except for the first step, without a
+  /// ramp.
   void arm(int scene, int mode = 0, unsigned filter = 0) {
     std::uint32_t word = kHost & ~(15u << C::control_filter);
     word |= filter << C::control_filter | static_cast<std::uint32_t>(scene) << C::control_scene |
@@ -78,13 +79,13 @@ class Life {
     REQUIRE(out().faults == 0);
   }
   void disarm() { write(C::control, kHost); }
-  /// A word of the port, four clocks later.
+  /// Reads a word at the port; takes four clocks.
   std::uint32_t read(int address) {
     in.reg_addr = static_cast<std::uint16_t>(address);
     clocks(4);
     return out().reg_rdata;
   }
-  /// One count.
+  /// Moves the lever by one count.
   void step(bool up) {
     phase_ += up ? 1u : 3u;
     const bool a = (phase_ & 2u) != 0;

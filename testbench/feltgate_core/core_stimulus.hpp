@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Random but plausible life of a core: a lever that moves, a host that writes registers, a panel.
-// Documentation: docs/testing.md
+// Random but plausible stimulus of a core: a lever that moves, a host that writes registers, a
+// panel. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ namespace feltgate::test {
 template <class D>
 class CoreStimulus {
  public:
-  /// Draws of neighbouring seeds are the same row, a place further on; these are not.
+  /// Neighbouring seeds of the generator give the same sequence shifted by one; the seed is changed
+  /// here to prevent this.
   explicit CoreStimulus(std::uint64_t seed)
       : random_(Random(seed).bits()), outside_(Random(~seed).bits()) {}
 
@@ -31,7 +32,7 @@ class CoreStimulus {
     if (kOutside) outside();
     return in_;
   }
-  /// With the outputs of the clock before: another axis's test begins and ends with a tick.
+  /// `out`: outputs of the clock before. Another axis's test begins and ends with a tick.
   CoreIn operator()(std::int64_t clock, const CoreOut& out) {
     const bool last = out.snapshot_valid;
     if (kOutside && first_) {
@@ -43,7 +44,8 @@ class CoreStimulus {
   }
 
  private:
-  /// Speed is held for a while: rest, hand-like, fast, and the edge of what the decoder can follow.
+  /// Keeps a speed for a while: rest, hand-like, fast, or the highest speed that the decoder can
+  /// follow.
   void move() {
     if (left_-- <= 0) {
       left_ = 2'000 + random_.below(60'000);
@@ -59,7 +61,7 @@ class CoreStimulus {
       many_indices_ = random_.one_in(8);
       gathers_ = false;
     }
-    if (random_.one_in(bad_cable_ ? 3'000 : 400'000)) phase_ += 2;  // both channels at once
+    if (random_.one_in(bad_cable_ ? 3'000 : 400'000)) phase_ += 2;  // both channels change at once
     if (spacing_ > 0 && --wait_ <= 0) {
       wait_ = spacing_;
       if (gathers_) spacing_ -= spacing_ / 8;
@@ -76,9 +78,9 @@ class CoreStimulus {
     int address;  ///< or one of these
     std::uint32_t word;
   };
-  static constexpr int kSetOff = -1;  ///< the lever, a count every `word` clocks
+  static constexpr int kSetOff = -1;  ///< moves the lever by one count every `word` clocks
   static constexpr int kRest = -2;    ///< no write for `word` clocks
-  static constexpr int kBreak = -3;   ///< what is wrong with the encoder: see break_encoder()
+  static constexpr int kBreak = -3;   ///< sets the defect of the encoder, see break_encoder()
 
   void host() {
     if (rest_ > 0) --rest_;
@@ -87,7 +89,7 @@ class CoreStimulus {
       if (random_.one_in(500)) look();
       return;
     }
-    if (!test_written_) {  // else a design that has it on from power-up would do little else
+    if (!test_written_) {  // a design with the self-test on from power-up would do little else
       test_written_ = true;
       return write(D::A::self_test_pulse, 0);
     }
@@ -104,13 +106,13 @@ class CoreStimulus {
       if (next.address == kBreak) return break_encoder(next.word);
       return set_off(next.word);
     }
-    // At the design's ramp a run of some thousand ticks would see nothing but ramps.
+    // With the design's ramp a run of some thousand ticks would see only ramps.
     if (!ramp_written_ || random_.one_in(20)) {
       ramp_written_ = true;
       write(D::A::ramp_step, random_.below(1u << 24));
       return;
     }
-    if (random_.one_in(16)) {  // at the design's nothing would be held for long enough
+    if (random_.one_in(16)) {  // with the design's hold time no torque would be held long enough
       write(D::A::hold_time, random_.below(3));
       return;
     }
@@ -123,7 +125,8 @@ class CoreStimulus {
       write(D::C::command, random_.below(32));
     }
   }
-  /// The lever, which is otherwise by itself: from now on a count every so many clocks, and faster.
+  /// Takes over the lever's random motion: from now on one count every `spacing` clocks, then
+  /// faster.
   void set_off(std::uint32_t spacing) {
     left_ = 30'000;
     spacing_ = spacing;
@@ -134,7 +137,8 @@ class CoreStimulus {
     dead_ = 0;
     up_ = !up_;
   }
-  /// One channel is dead, or the cable bad, or the index at every eighth count; or nothing moves.
+  /// Makes one channel dead, or the cable bad, or the index appear at every eighth count; or stops
+  /// all motion.
   void break_encoder(std::uint32_t how) {
     left_ = 25'000;
     spacing_ = how == 4 ? 0 : 200 + random_.below(200);
@@ -148,7 +152,7 @@ class CoreStimulus {
     in_.reg_wdata = word;
   }
 
-  /// Reads, mostly of the snapshot.
+  /// Makes reads, mostly of the snapshot.
   void look() {
     const std::uint32_t what = random_.below(8);
     const auto any = random_.below(static_cast<std::uint32_t>(snapshot_slots.size()));
@@ -158,7 +162,7 @@ class CoreStimulus {
                                                : random_.below(0x400));
   }
 
-  /// What random words would hardly ever bring about: writes one after the other.
+  /// Makes a sequence of writes for a state that random words would hardly ever reach.
   void make_plan() {
     const auto then = [this](int address, std::uint32_t word) { plan_.push_back({address, word}); };
     const auto as_designed = [&](int address) {
@@ -175,7 +179,7 @@ class CoreStimulus {
       then(D::C::control, host | 1u << D::C::control_arm | any_scene() << D::C::control_scene);
     };
     switch (random_.below(14)) {
-      case 0:  // a motor that gets too hot, from cold
+      case 0:  // a cold motor gets too hot
         then(D::A::nominal_current_squared, 0x7fffffff);
         as_designed(D::A::i2t_budget);
         arm();
@@ -187,7 +191,7 @@ class CoreStimulus {
         as_designed(D::A::nominal_current_squared);
         as_designed(D::A::i2t_budget);
         break;
-      case 1:  // a host that falls silent
+      case 1:  // the host stops its kicks
         arm();
         then(D::C::command, 1u << D::C::command_kick);
         then(D::A::watchdog_ticks, random_.below(120));
@@ -195,12 +199,12 @@ class CoreStimulus {
         as_designed(D::A::watchdog_ticks);
         break;
       case 2:
-      case 6:  // a lever that seems to run away
+      case 6:  // the lever seems to run away
         arm();
         then(D::A::polarity_ticks, random_.below(6));
         then(D::A::polarity_speed, some(random_.below(D::f.velocity.fraction + 1)));
         then(D::A::polarity_current, some(random_.below(D::f.current.fraction)));
-        for (int k = 0; k < 2; ++k) {  // one way and the other
+        for (int k = 0; k < 2; ++k) {  // in both directions
           then(kSetOff, 2'000);
           then(kRest, 12'000);
         }
@@ -209,18 +213,18 @@ class CoreStimulus {
         as_designed(D::A::polarity_speed);
         as_designed(D::A::polarity_current);
         break;
-      case 3:  // a self-test that takes what comes for an answer
+      case 3:  // a self-test that accepts any answer
         then(D::A::self_test_quiet, 0);
         then(D::A::self_test_pulse, 1 + random_.below(3));
         arm();
         break;
-      case 4:  // a lever that is too fast
+      case 4:  // the lever is too fast
         arm();
         then(D::A::overspeed, some(D::f.velocity.fraction + random_.below(9)));
         write_something(then);
         as_designed(D::A::overspeed);
         break;
-      case 5:  // a heavy one: the observer comes to its ends
+      case 5:  // a heavy lever: the observer reaches its limits
         then(D::C::control, host);
         then(D::A::inertia_gain, (1u << D::coefficient_bits) - 1);
         then(D::A::overspeed, 0x7fffffff);
@@ -236,7 +240,7 @@ class CoreStimulus {
         then(kBreak, random_.below(4));
         then(kRest, 25'000);
         break;
-      case 9:  // a torque that is held
+      case 9:  // a torque is held
         arm();
         then(D::A::hold_torque, some(10));
         then(D::A::hold_time, 0);
@@ -258,7 +262,7 @@ class CoreStimulus {
     in_ = kept;
   }
 
-  /// Mostly around the design's value, sometimes anywhere in the word's format.
+  /// Writes a parameter: mostly near the design's value, sometimes any value of the word's format.
   void write_parameter() {
     const auto& p =
         D::parameters[random_.below(static_cast<std::uint32_t>(std::size(D::parameters)))];
@@ -269,9 +273,9 @@ class CoreStimulus {
     if (how < 3) raw = random_.between(raw / 2, raw < high / 2 ? raw + raw / 2 : high);
     if (how == 3)
       raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
-    // A lever that may run away, so that the observer comes to its ends.
+    // The lever may run away, so that the observer reaches its limits.
     if (p.address == D::A::overspeed && how < 6) raw = high;
-    // Self-tests that are over soon.
+    // Short self-tests.
     const bool test_time = p.address == D::A::self_test_quiet || p.address == D::A::self_test_pulse;
     if (test_time && how < 6) raw = random_.below(4);
     if (raw > high) raw = high;
@@ -298,7 +302,7 @@ class CoreStimulus {
     in_.reg_wdata = word;
   }
 
-  /// Programs and other axes, where the design has them.
+  /// Drives programs and other axes, if the design has them.
   void outside() {
     Random& r = outside_;
     if (r.one_in(40)) {
@@ -318,7 +322,7 @@ class CoreStimulus {
   void panel() {
     if (random_.one_in(50'000)) in_.arm = !in_.arm;
     if (random_.one_in(100'000)) in_.scene = static_cast<std::uint8_t>(random_.below(16));
-    // Zeros in a row come in any clock of a tick.
+    // Several zero commands in a row may come in any clock of a tick.
     if (random_.one_in(40'000)) zeros_ = 1 + random_.below(20);
     in_.set_zero = zeros_ > 0 && random_.one_in(D::clocks_per_tick);
     if (in_.set_zero) --zeros_;
@@ -333,7 +337,7 @@ class CoreStimulus {
 
   Random random_, outside_;
   CoreIn in_;
-  bool first_ = false;  ///< the clock to come is a tick's first
+  bool first_ = false;  ///< the next clock is the first of a tick
   std::int64_t left_ = 0;
   std::int64_t spacing_ = 0, wait_ = 0;
   bool up_ = true, bad_cable_ = false, ramp_written_ = false;

@@ -23,13 +23,13 @@ using feltgate::test::Coverage;
 
 constexpr bool kPrograms = feltgate::scene_built<D>(feltgate::Map::S::law);
 
-/// What a core tells other axes.
+/// Compares the signals from a core to other axes.
 const char* differs_to_axes(const CoreIn& in, const Vfeltgate_core& rtl, const Twin& twin) {
   if ((rtl.asks_o != 0) != twin.asks(in)) return "asks_o is not the twin's";
   if ((rtl.ready_o != 0) != twin.ready()) return "ready_o is not the twin's";
   if ((rtl.measured_o != 0) != twin.measured()) return "measured_o is not the twin's";
   if ((rtl.zeroed_o != 0) != twin.zeroed()) return "zeroed_o is not the twin's";
-  // Within a tick the twin shows the end of a test a clock later.
+  // Within a tick the twin shows the end of a test one clock later.
   if (!twin.out().snapshot_valid) return nullptr;
   return (rtl.testing_o != 0) == twin.testing() ? nullptr : "testing_o is not the twin's";
 }
@@ -50,13 +50,13 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
     total.merge(seen);
   }
   INFO(total.text());
-  // Slow ticks are too few for it.
+  // A design with slow ticks runs too few ticks for these checks.
   if (scaled_clocks(1'500'000) / D::clocks_per_tick < 10'000) return;
-  // A stimulus that never arms, or that pins an output, would hide every error.
-  CHECK(total.armed_share() > (kPrograms ? 0.2 : 0.3));  // the others must ask, too
-  CHECK(total.duty_pinned_share() < 0.35);  // the back-EMF of a fast lever is above the supply
+  // A stimulus that never arms, or that keeps an output at its limit, would hide every error.
+  CHECK(total.armed_share() > (kPrograms ? 0.2 : 0.3));  // with programs all axes must request
+  CHECK(total.duty_pinned_share() < 0.35);  // the back-EMF of a fast lever exceeds the supply
   CHECK(total.tau_ref_pinned_share() < 0.5);
-  // Of the eleven numbers, 1 is reserved; without programs 10 is none.
+  // Of the eleven numbers, 1 is reserved, and 10 has no scene without programs.
   CHECK(total.scenes_seen(kPrograms ? 11 : 10) == (kPrograms ? 10 : 9));
   CHECK(total.gaps(2, kPrograms) == "");
   CHECK(total.eased_share() > 0.005);
@@ -73,7 +73,7 @@ TEST_CASE("core: resets at random times, random state before them") {
 
 TEST_CASE("core: sampled position to duty register in the clocks that the schedule says") {
   if (!feltgate::scene_built<D>(D::S::spring_tension)) return;
-  // One step of the encoder in front of a stiff spring; the clock of the sample is wave clock 0.
+  // The encoder makes one step against a stiff spring; wave clock 0 is the clock of the sample.
   Twin twin;
   CoreStimulus<D> host(1);
   CoreIn in;
@@ -97,7 +97,7 @@ TEST_CASE("core: sampled position to duty register in the clocks that the schedu
   for (int k = 0; k < 500; ++k) twin.clock(in);
   constexpr int sample = feltgate::Map::first_wave_clock + feltgate::Map::T::sample;
   while (twin.clock_of_tick() != sample + 1) twin.clock(in);
-  // The step is decoded during this tick, sampled by the next wave.
+  // The step is decoded in this tick and sampled by the next wave.
   for (int step = 0; step < 40; ++step) {
     in.encoder.b = (step & 1) == 0 ? !in.encoder.a : in.encoder.a;
     if ((step & 1) == 1) in.encoder.a = !in.encoder.a, in.encoder.b = in.encoder.a;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The gates at the pins of the whole core: a stop between the edges of the clock and without one,
-// and the duty after arming again. The raw pins are looked at 20 times a clock, which no comparison
-// from edge to edge can do. Documentation: docs/blocks/supervisor.md
+// The gates at the pins of the whole core: a stop between the edges of the clock, a stop without a
+// clock, and the duty after arming again. The test samples the raw pins 20 times per clock; a
+// comparison from edge to edge cannot do this. Documentation: docs/blocks/supervisor.md
 #include "Vfeltgate_core.h"
 #include "catch.hpp"
 #include "engines/lock_step_core.hpp"
@@ -25,10 +25,10 @@ using D = feltgate::FELTGATE_DESIGN;
 
 namespace {
 
-constexpr int kPhases = 20;  // of a clock: it rises before phase 0 and falls before phase 10
+constexpr int kPhases = 20;  // phases of a clock: rise before phase 0, fall before phase 10
 constexpr unsigned kStop = 1u << static_cast<unsigned>(Fault::stop);
 
-/// RTL and twin with one panel and one host; the twin is told what the stop did since the last
+/// RTL and twin with one panel and one host; the twin gets the changes of the stop since the last
 /// edge.
 class Bridge {
  public:
@@ -43,7 +43,7 @@ class Bridge {
   }
   const feltgate::CoreOut& twin() const { return twin_.out(); }
 
-  /// One phase: the clock where it is due, then the stop.
+  /// Runs one phase: first the clock edge, if one is due, then the stop.
   void phase(bool stop) {
     if (phase_ == 0) rise();
     if (phase_ == kPhases / 2) {
@@ -62,7 +62,7 @@ class Bridge {
     rtl_->stop_i = stop;
     rtl_->eval();
   }
-  /// In all phases until it is let go.
+  /// Keeps the stop on in all phases until it is released.
   void hold_stop(bool hold) {
     held_ = hold;
     set_stop(hold);
@@ -74,7 +74,7 @@ class Bridge {
     in_.reg_write = true;
     clocks(1);
     in_.reg_write = false;
-    clocks(1);  // taken with its first edge
+    clocks(1);  // the write is accepted at the first edge
     while (twin_.out().reg_busy) clocks(1);
   }
   void control(bool arm) {
@@ -82,7 +82,7 @@ class Bridge {
                              static_cast<std::uint32_t>(arm) << D::C::control_arm |
                              2u << D::C::control_mode);
   }
-  /// Armed in voltage mode, in the middle of a pulse of the high switch of leg A.
+  /// Arms in voltage mode and stops in the middle of a pulse of the high switch of leg A.
   void arm() {
     control(true);
     for (int k = 0; k < 4 * D::pwm_period && gates() != 9; ++k) clocks(1);
@@ -117,7 +117,7 @@ class Bridge {
 
   feltgate::RtlModel<Vfeltgate_core> rtl_;
   feltgate::FeltgateCore<D> twin_;
-  CoreIn in_, driven_;  ///< wanted, and at the pins since the clock fell
+  CoreIn in_, driven_;  ///< inputs wanted, and inputs at the pins since the clock fell
   int phase_ = 0;
   bool seen_ = false, held_ = false;
 };
@@ -133,7 +133,7 @@ TEST_CASE("core: a stop between the edges closes the gates at once and is a faul
   bridge.write(D::A::voltage_step, volts(24));  // no ramp
   bridge.write(D::A::voltage_setpoint, volts(6));
   bridge.disarm();
-  for (const int width : {0, 1, 7, 20, 45}) {  // phases; 0: gone before the next look
+  for (const int width : {0, 1, 7, 20, 45}) {  // in phases; 0: ends before the next sample
     for (int phase = 0; phase < kPhases; ++phase) {
       CAPTURE(width, phase);
       bridge.arm();
@@ -165,7 +165,7 @@ TEST_CASE("core: a stop closes the gates of a core whose clock stands") {
     bridge.disarm();
     bridge.arm();
     bridge.phases(phase);
-    bridge.set_stop(true);  // from here on no clock
+    bridge.set_stop(true);  // no clock edges from here on
     CAPTURE(phase);
     REQUIRE(bridge.gates() == 0);
     bridge.set_stop(false);
@@ -173,7 +173,7 @@ TEST_CASE("core: a stop closes the gates of a core whose clock stands") {
     bridge.set_stop(true);
     bridge.set_stop(false);
     REQUIRE(bridge.gates() == 0);
-    for (int k = 0; k < 5 * kPhases; ++k) {  // and again with it
+    for (int k = 0; k < 5 * kPhases; ++k) {  // clock edges again
       bridge.phase(false);
       REQUIRE(bridge.gates() == 0);
     }
@@ -192,11 +192,11 @@ TEST_CASE("core: a stop while disarmed keeps it disarmed and is no fault") {
     bridge.set_stop(false);
     bridge.clocks(D::clocks_per_tick);
     REQUIRE(bridge.twin().faults == 0);
-    bridge.arm();  // the pulse is forgotten
+    bridge.arm();  // the earlier stop pulse has no effect
     REQUIRE(bridge.twin().armed);
     bridge.disarm();
     bridge.hold_stop(true);
-    bridge.control(true);  // during a stop the request is lost
+    bridge.control(true);  // a request during a stop is lost
     bridge.clocks(2 * D::clocks_per_tick);
     REQUIRE_FALSE(bridge.twin().armed);
     bridge.hold_stop(false);
@@ -219,7 +219,7 @@ TEST_CASE("core: arming again begins with a duty of 0, not with that of the last
     bridge.write(D::A::voltage_setpoint, 0);
     bridge.control(false);
     bridge.control(true);
-    bridge.clocks(D::clocks_per_tick);  // two ticks after the old arming's last
+    bridge.clocks(D::clocks_per_tick);  // two ticks after the last tick of the old arming
     REQUIRE(bridge.twin().armed);
     REQUIRE(bridge.twin().duty_active == 0);
     for (int k = 0; k < 2 * D::pwm_period; ++k) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The scene of programs and what other axes say, brought about on purpose: twin against what must
-// come out, RTL against twin. Documentation: docs/blocks/feltgate_core.md
+// Directed tests of the scene for programs and of the signals from other axes: twin against
+// expected values, RTL against twin. Documentation: docs/blocks/feltgate_core.md
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -24,7 +24,7 @@ TEST_CASE("law: the torque of the port in its clock is the tick's, limited") {
   Life s;
   s.arm(D::S::law);
   s.ticks(2);
-  // Before and after its clock anything may stand there.
+  // The input matters only in its clock; before and after it may have any value.
   for (const double nm : {0.1, -0.2, 0.0, 0.3}) {
     s.to_clock(kSampled);
     s.in.law_torque = torque(nm);
@@ -37,7 +37,7 @@ TEST_CASE("law: the torque of the port in its clock is the tick's, limited") {
   s.ticks(1);
   CHECK(s.shown().tau_ref == static_cast<std::int32_t>(word_of_design(A::torque_limit)));
   CHECK((s.shown().limits >> Map::L::torque & 1u) == 1);
-  // In another scene nobody looks, and disarmed it is 0.
+  // Another scene ignores the input, and when disarmed the torque is 0.
   s.write(C::control, kHost | 1u << C::control_arm);
   s.ticks(400);
   CHECK(s.shown().tau_ref == 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Causes of fault on purpose: watchdog, I2t and wrong polarity at their time. Twin against what
-// must come out, RTL against twin. Documentation: docs/blocks/feltgate_core.md
+// Directed tests of faults: watchdog, I2t and wrong polarity trip at their time. Twin against
+// expected values, RTL against twin. Documentation: docs/blocks/feltgate_core.md
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -17,7 +17,7 @@ TEST_CASE("core: the watchdog is fed by a kick alone, and by one beside a clear"
     s.write(A::watchdog_ticks, ticks);
     s.arm(D::S::free);
     s.ticks(3 * ticks);
-    REQUIRE(s.out().gates_enable);  // asleep
+    REQUIRE(s.out().gates_enable);  // the watchdog is off
     for (int k = 0; k < 4; ++k) {
       s.write(C::command, 1u << C::command_kick | others);
       s.ticks(ticks - 2);
@@ -93,7 +93,8 @@ TEST_CASE("core: heat is that of the voltage less the back-EMF") {
 }
 
 TEST_CASE("core: heat while the lever gathers speed is that of the velocity of each tick") {
-  // From 14 A to next to nothing: a tick too early or too late would be many ticks at the end.
+  // Currents from 14 A to almost 0: a tick too early or too late would become many ticks at the
+  // end.
   std::int64_t budget = 0xffffffff;
   for (const bool first : {true, false}) {
     Life s;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a random life would reach by luck only, brought about on purpose: each word of the snapshot,
-// a zero in each clock of a tick, positions at the ends of what scenes see. Twin against what must
-// come out, RTL against twin. Documentation: docs/blocks/feltgate_core.md
+// Directed tests of states that a random run would reach only by luck: each word of the snapshot, a
+// zero command in each clock of a tick, positions at the ends of the scenes' range. Twin against
+// expected values, RTL against twin. Documentation: docs/blocks/feltgate_core.md
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
 
@@ -21,7 +21,7 @@ TEST_CASE("core: each word of the snapshot is that of the pins, in every phase o
   std::array<std::int64_t, 64> changes{};
   std::array<std::uint32_t, 64> before{};
   for (int k = 0; k < 200; ++k) {
-    // Something in each clock of a tick: an edge, an index, an illegal step.
+    // An event in each clock of a tick: an edge, an index, an illegal step.
     s.to_clock(0);
     s.clocks(k % kTick);
     if (k % 7 == 6) {
@@ -40,7 +40,7 @@ TEST_CASE("core: each word of the snapshot is that of the pins, in every phase o
     }
     s.to_clock(0);
     if (k % 5 == 0) s.ticks(1);
-    // All of the tick that ended, in one tick.
+    // All words are of the tick that ended, and are read in one tick.
     const CoreOut o = s.shown();
     const auto check = [&](const char* name, int slot, std::uint32_t expected) {
       const std::uint32_t word = s.read(C::snapshot + slot);
@@ -64,7 +64,7 @@ TEST_CASE("core: each word of the snapshot is that of the pins, in every phase o
     CHECK(((status >> C::status_scene) & 15u) == o.scene);
     CHECK(((status >> C::status_armed) & 1u) == o.armed);
     CHECK(((status >> C::status_encoder_error) & 1u) == (errors > 0));
-    // These pass by in the middle of a tick: looked at when they have come to rest.
+    // These values change in the middle of a tick: they are checked when they are at rest.
     if (k % 5 != 0) continue;
     check("faults", R::faults,
           std::uint32_t{o.faults} << C::faults_seen | std::uint32_t{o.first_fault}
@@ -112,7 +112,7 @@ TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end be
     Life s;
     s.write(A::overspeed, 0x7fffffff);
     s.write(A::polarity_speed, 0x7fffffff);
-    // A spring from a few counts before the end on, such that one count is some torque.
+    // A spring that begins a few counts before the end, with a visible torque per count.
     constexpr int counts_fraction = 8;
     const std::int64_t rest = (up ? end - 3 : -end - 1 + 3) * (std::int64_t{1} << counts_fraction);
     s.write(A::tension_rest, low(rest));
@@ -129,14 +129,15 @@ TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end be
       REQUIRE(s.out().position == (up ? end + k : -end - k));
       s.move(up ? 1 : -1, kTick);
     }
-    // A count is a step of torque up to the end, and nothing beyond; the lower end is a count on.
+    // Each count is a step of torque up to the end and has no effect beyond it; the lower end is
+    // one count further.
     const std::size_t last = up ? 6 : 7;
     for (std::size_t k = 1; k < torques.size(); ++k) {
       INFO("up " << up << ", count " << k << ": " << torques[k - 1] << ", " << torques[k]);
       REQUIRE((torques[k] != torques[k - 1]) == (k <= last));
     }
     s.disarm();
-    s.move((up ? 1 : -1) * (std::int64_t{end} - 100), 1);  // nearly where the bit above is used
+    s.move((up ? 1 : -1) * (std::int64_t{end} - 100), 1);  // just before the next higher bit
     s.arm(D::S::spring_tension);
     s.ticks(4);
     CHECK(s.shown().tau_ref == torques.back());

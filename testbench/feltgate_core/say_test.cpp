@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_core: panel and host take the say from each other, and neither arms by that.
+// feltgate_core: panel and host take control from each other, and this alone never arms the motor.
 // Documentation: docs/blocks/feltgate_core.md
 #include "core_life.hpp"
 
@@ -22,7 +22,7 @@ bool opens(Life& s, int ticks) {
   return false;
 }
 
-/// The panel's request falls and rises.
+/// Lowers and raises the panel's request.
 bool key_arms(Life& s) {
   s.in.arm = false;
   s.ticks(2);
@@ -38,7 +38,7 @@ TEST_CASE("say: the host gives it back, and what the panel asked for before does
   s.ticks(2);
   REQUIRE(key_arms(s));
   s.write(C::control, kHost | kArm);
-  CHECK(s.out().gates_enable);  // it stays armed
+  CHECK(s.out().gates_enable);  // the motor stays armed
   s.write(C::control, kHost);
   CHECK_FALSE(s.out().gates_enable);
   s.write(C::control, kPanel);
@@ -85,10 +85,10 @@ TEST_CASE("say: a host that asks before it has the say asks in vain") {
   s.write(C::control, kHost);
   s.write(C::control, kHost | kArm);
   CHECK(opens(s, 1));
-  s.write(C::control, kPanel);  // nobody asks at the panel
+  s.write(C::control, kPanel);  // the panel does not request arming
   s.ticks(1);
   CHECK_FALSE(s.out().gates_enable);
-  s.write(C::control, kHost | kArm);  // its bit was low: one word does
+  s.write(C::control, kHost | kArm);  // the arm bit was low: one write is enough
   CHECK(opens(s, 1));
   s.play();
 }
@@ -101,7 +101,7 @@ TEST_CASE("say: what is written in the tick in which the motor arms is held or r
   s.write(C::control, (kPanel & ~kMode) | kVoltage);
   s.ticks(2);
   s.in.arm = true;
-  s.write(C::control, kPanel & ~kMode);  // closed loop, of which nothing was tested
+  s.write(C::control, kPanel & ~kMode);  // asks for closed loop, which had no self-test
   CHECK(s.out().gates_enable);
   CHECK((s.read(C::control) & kMode) == kVoltage);
   s.in.arm = false;
@@ -113,7 +113,7 @@ TEST_CASE("say: what is written in the tick in which the motor arms is held or r
   CHECK(s.out().gates_enable);
   CHECK(s.read(A::self_test_pulse) == 39);
   s.ticks(5);
-  CHECK(s.out().tau_ref == 0);  // the test goes on
+  CHECK(s.out().tau_ref == 0);  // the self-test continues
   s.play();
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("say: a clear of faults while armed leaves what the encoder has shown"
     s.clocks(20);
   };
   index();
-  s.move(100, 40);  // a slip: the index comes again where it cannot be
+  s.move(100, 40);  // a slip: the index appears at a wrong position
   s.command(C::command_clear_faults);
   CHECK(s.out().armed);
   index();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core over many seeds: a hundred lives against the twin, and one life from twenty states that
-// the registers may be born with. Documentation: docs/testing.md
+// The core with many seeds: a hundred random runs against the twin, and one run from twenty random
+// initial states of the registers. Documentation: docs/testing.md
 #include <array>
 #include <cstdint>
 #include <iostream>
@@ -22,7 +22,7 @@ using feltgate::test::scaled_clocks;
 
 namespace {
 
-/// Every output, and what the registers drive of it.
+/// Returns a hash of the outputs.
 std::uint64_t outputs(const Vfeltgate_core& rtl) {
   std::uint64_t hash = 0;
   for (const std::uint64_t port : std::array<std::uint64_t, 25>{
@@ -76,7 +76,7 @@ TEST_CASE("core: what the registers are born with is forgotten by a reset", "[in
     CAPTURE(seed);
     RtlModel<Vfeltgate_core> rtl(seed);
     born.insert(outputs(*rtl));
-    // The gates are off at power-up, whatever else the registers say.
+    // The gates are off at power-up for every initial state of the other registers.
     REQUIRE((rtl->gate_a_hi_o | rtl->gate_a_lo_o | rtl->gate_b_hi_o | rtl->gate_b_lo_o) == 0);
     rtl.reset(4);
     CoreStimulus<Design> stimulus(9);
@@ -92,6 +92,6 @@ TEST_CASE("core: what the registers are born with is forgotten by a reset", "[in
     if (first.empty()) first = now;
     REQUIRE(now == first);
   }
-  REQUIRE(born.size() == states);  // else nothing was random
+  REQUIRE(born.size() == states);  // all initial states must differ, or the random fill failed
   REQUIRE(std::set<std::uint64_t>(first.begin(), first.end()).size() > clocks / 1000);
 }

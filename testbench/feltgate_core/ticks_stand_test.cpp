@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core whose tick counter stands, in each clock of a tick and anywhere in a period of the PWM:
-// the gates go off, though neither the host's watchdog nor any limit runs any more.
-// stand/ticks_stand.patch makes the counter stand. Documentation: docs/blocks/supervisor.md
+// The tick counter of a core stops, in each clock of a tick and anywhere in a PWM period. The gates
+// must go off, although the host's watchdog and the limits no longer run. stand/ticks_stand.patch
+// makes the counter stop. Documentation: docs/blocks/supervisor.md
 #include <algorithm>
 #include <cstdio>
 
@@ -84,7 +84,8 @@ TEST_CASE("core: ticks that stand close the gates") {
       core.clocks(clock);
       REQUIRE(core.out().gates_enable);
       core.stand();
-      // Counted from the last tick, which was `clock` clocks ago: a tick in reach may still come.
+      // Clocks since the last tick, which was `clock` clocks ago; a tick that is already near may
+      // still come.
       int after = clock;
       const int limit = (kPeriods + 1) * D::pwm_period + 2;
       while (core.out().gates_enable && after <= limit + kTick) {
@@ -94,8 +95,8 @@ TEST_CASE("core: ticks that stand close the gates") {
       core.clocks(1);  // the registers of the gates
       ++after;
       REQUIRE(core.out().gates == 0);
-      REQUIRE(core.out().faults != 0);  // a wave that never ends trips others sooner
-      // The counter may stand in the last clock of a tick: then that tick was the last.
+      REQUIRE(core.out().faults != 0);  // a wave that never ends trips other faults sooner
+      // If the counter stops in the last clock of a tick, that tick is the last one.
       REQUIRE(after <= limit + (clock >= kTick - 2 ? kTick : 0));
       longest = std::max(longest, after);
       shortest = std::min(shortest, after);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_core: pins between its blocks that random life hardly moves, each seen at an output.
-// Documentation: docs/blocks/feltgate_core.md
+// feltgate_core: signals between its blocks that random runs hardly change; each test makes one
+// visible at an output. Documentation: docs/blocks/feltgate_core.md
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -17,7 +17,7 @@ TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with 
   s.write(C::control, kHost | 1u << C::control_arm);
   s.ticks(3);
   CHECK_FALSE(s.out().armed);
-  s.in.axis_silent = false;  // the last one asks
+  s.in.axis_silent = false;  // the last axis requests arming
   s.ticks(1);
   CHECK(s.out().armed);
   s.in.axis_silent = true;
@@ -27,7 +27,7 @@ TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with 
   s.in.axis_silent = false;
   s.ticks(3);
   CHECK_FALSE(s.out().armed);
-  s.in.axis_blocked = false;  // a request that was in vain must fall first
+  s.in.axis_blocked = false;  // a refused request must fall first
   s.ticks(3);
   CHECK_FALSE(s.out().armed);
   s.in.axis_silent = true;
@@ -35,7 +35,7 @@ TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with 
   s.in.axis_silent = false;
   s.ticks(1);
   CHECK(s.out().armed);
-  s.in.axis_blocked = true;  // and once armed nobody looks
+  s.in.axis_blocked = true;  // once armed, this input has no effect
   s.ticks(3);
   CHECK(s.out().armed);
   s.play();
@@ -201,7 +201,7 @@ TEST_CASE("core: budgets of heat that last up to some hundred ticks, RTL and twi
     s.play();
   }
   CHECK(fell > 3);
-  CHECK(longest > 100);  // 1 % of the heat is a tick
+  CHECK(longest > 100);  // 1 % of the heat is one tick
 }
 
 TEST_CASE("core: of the words that make the heat the low 17 bits count") {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bits of parameters that change by themselves under an armed motor: found by their check, the
-// gates off within a tick, RTL against twin on every clock. Documentation: docs/blocks/registers.md
+// Bits of parameters flip while the motor is armed. Their check must find the flip and turn the
+// gates off within a tick. RTL against twin on every clock. Documentation: docs/blocks/registers.md
 #include <Vcore_open.h>
 #include <Vcore_open___024root.h>
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kTick = D::clocks_per_tick;
 
-/// Both cores in step; the RTL's memory can be reached.
+/// RTL and twin in step, with access to the RTL's memory.
 class Pair {
  public:
   CoreIn in;
@@ -69,13 +69,13 @@ class Pair {
     }
     twin_.flip_control(bit);
   }
-  /// A bit of the register that holds the velocity; in the RTL alone.
+  /// Flips a bit of the velocity's register, in the RTL only.
   void flip_velocity(int bit) {
     auto& y = rtl_->rootp->feltgate_core__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
     y ^= IData{1} << bit;
   }
   CoreOut rtl() const { return feltgate::read_outputs<D>(*rtl_); }
-  /// Armed in `scene`, the pipeline of the parameter bus full.
+  /// Arms in `scene` and fills the pipeline of the parameter bus.
   void arm(int scene) {
     in.scene = static_cast<std::uint8_t>(scene);
     in.arm = false;
@@ -105,7 +105,7 @@ class Pair {
   int mismatches_ = 0;
 };
 
-/// But without the self-test, as a pair begins.
+/// The design's word, but with the self-test off, as in a new Pair.
 std::uint32_t word_of_design(int address) {
   if (address == D::A::self_test_pulse) return 0;
   for (const auto& p : D::parameters) {
@@ -121,7 +121,8 @@ int clocks_to_fall(Pair& pair, int limit) {
   return n;
 }
 
-/// A flipped bit of an armed pair opens the gates where the word is `used`, and only there.
+/// Checks that a flipped bit of an armed pair turns the gates off if and only if the word is
+/// `used`.
 void check_flip(Pair& pair, int address, int bit, bool used) {
   REQUIRE(pair.out().gates_enable);
   pair.flip(address, bit);
@@ -136,7 +137,8 @@ TEST_CASE("core: each bit of each word that a scene uses opens the gates within 
   Pair pair;
   int flips = 0;
   for (const auto& p : D::parameters) {
-    // These are on the bus in place of another word only: high torque, a held one, the self-test.
+    // These words are on the bus only in place of another word: at high torque, at a held torque,
+    // in the self-test.
     if (p.address == D::A::voltage_gain_high || p.address == D::A::hold_limit) continue;
     if (p.address == D::A::self_test_torque) continue;
     const int scene = p.address < 64 ? D::S::free : p.address / 32;
@@ -170,7 +172,7 @@ TEST_CASE("core: a bit of the voltage gain of high torque opens the gates where 
         pair.write(D::A::setpoint_torque, static_cast<std::uint32_t>(torque));
         pair.write(D::A::region_torque, border);
         pair.write(D::A::ramp_step,
-                   1u << D::P::ramp_step.fraction);  // 1 Nm a tick: it is over soon
+                   1u << D::P::ramp_step.fraction);  // 1 Nm a tick: the ramp ends soon
         pair.arm(D::S::setpoint);
         pair.clocks(8 * kTick);
         REQUIRE(std::abs(pair.out().tau_ref) == std::abs(torque));
@@ -258,10 +260,10 @@ TEST_CASE("core: each control bit that holds while armed opens the gates at once
 TEST_CASE("core: a velocity that jumps opens the gates within a tick") {
   constexpr int weight = D::f.velocity.width() + D::coefficient_bits - D::P::velocity_a1.fraction;
   for (int bit = 0; bit < D::f.velocity.width(); ++bit) {
-    if (bit == weight + 1) continue;  // found or not: the filter takes a part of it at once
+    if (bit == weight + 1) continue;  // may be found or not: the filter absorbs a part at once
     Pair pair;
     pair.arm(D::S::free);
-    // Half of full scale trips over-speed as well, whose number is lower.
+    // Half of full scale also trips over-speed, whose number is lower.
     pair.flip_velocity(bit);
     pair.clocks(kTick);
     INFO("bit " << bit);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A contact captured and read back over the UART, RTL and twin in lock-step: each word is that of
-// its tick. Documentation: docs/blocks/feltgate_linked.md
+// Captures a contact and reads it back over the UART, RTL and twin in lock-step: each word belongs
+// to its tick. Documentation: docs/blocks/feltgate_linked.md
 #include <array>
 #include <map>
 #include <memory>
@@ -25,16 +25,16 @@ constexpr std::uint32_t kMask = 1U << N::status | 1U << N::position | 1U << N::t
                                 1U << N::voltage | 1U << N::duty;
 constexpr std::uint32_t kPre = 100, kRows = 1U << LinkMap::rows_log2;
 
-/// What a session has seen.
+/// Data that a session has received.
 struct Seen {
-  std::map<std::uint32_t, Tick> ticks;  ///< at the core's ports, by the word tick
+  std::map<std::uint32_t, Tick> ticks;  ///< signals at the core's ports, by the word `tick`
   std::vector<std::vector<std::uint32_t>> replies;
   std::vector<std::vector<std::uint32_t>> streamed;  ///< mask, then the words
   std::uint32_t first = 0;
   bool over = false;
 };
 
-/// A lever that is pushed into a wall, a host that asks one thing after the other.
+/// A lever is pushed into a wall; a host sends one request after another.
 struct Session {
   std::shared_ptr<Seen> seen;
   UartLine line{D::clock_hz, BAUD};
@@ -88,11 +88,11 @@ struct Session {
     if (step < writes.size()) {
       wire = request(2, ++sequence, writes[step][0], writes[step][1]);
     } else if (step == writes.size()) {
-      wire = request(1, ++sequence, A::capture_state, 1);  // until it is done
+      wire = request(1, ++sequence, A::capture_state, 1);  // repeated until the capture is done
     } else if (step == writes.size() + 1) {
       wire = request(1, ++sequence, A::capture_first, 2);
     } else {
-      // Eight rows at once: the first, those around the trigger, the last.
+      // Reads eight rows at a time: the first, those around the trigger, the last.
       static constexpr std::uint32_t rows[] = {0, 8, kPre - 8, kPre, kPre + 8, 600, kRows - 8};
       const std::size_t n = step - writes.size() - 2;
       if (n == std::size(rows)) {
@@ -100,7 +100,7 @@ struct Session {
         asked = true;
         return;
       }
-      // A read does not go round: the rows of a block may end with the memory.
+      // A read does not wrap around: a block of rows may end at the end of the memory.
       const std::uint32_t row = (seen->first + rows[n]) % kRows;
       wire = request(1, ++sequence, LinkMap::memory + row * 8, std::min(kRows - row, 8U) * 8);
     }
@@ -143,7 +143,7 @@ TEST_CASE("feltgate_linked: a contact, captured and streamed, is that of the cor
   REQUIRE(seen->replies.size() == 8);
   REQUIRE(seen->replies[0][1] == kRows);
 
-  // The tick before the torque is first negative, and that tick, are where they should be.
+  // The first tick with a negative torque, and the tick before it, are in the expected rows.
   std::size_t compared = 0;
   std::uint32_t trigger = 0;
   for (const auto& [n, words] : seen->ticks) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_linked: RTL against twin on every clock, UART pins included, with requests and what is
-// none at random; requests one by one; random frames by the thousand; the twin from event to event.
+// feltgate_linked: RTL against twin on every clock, including the UART pins, with random requests
+// and invalid frames; single requests; thousands of random frames; the twin from event to event.
 // Documentation: docs/blocks/feltgate_linked.md
 #include <cstdio>
 #include <deque>
@@ -23,7 +23,7 @@ constexpr std::uint32_t control(bool arm, int scene) {
          static_cast<std::uint32_t>(scene) << D::C::control_scene;
 }
 
-/// A lever, a panel, and whatever comes over the wire.
+/// A lever, a panel, and the bytes on the wire.
 struct Stimulus {
   explicit Stimulus(std::uint64_t seed)
       : random(seed), frames(Random(seed + 1)), line(D::clock_hz, BAUD) {}
@@ -55,7 +55,7 @@ struct Stimulus {
   void send(const Bytes& wire) {
     for (const std::uint8_t byte : wire) line.send(byte);
   }
-  /// The host arms, and disarms while a long reply is on its way.
+  /// The host arms, and disarms while a long reply is being sent.
   void arm_and_disarm() {
     const auto next = [this] { return frames.sequence = (frames.sequence + 1) & 255; };
     send(request(2, next(), D::C::control, control(false, D::S::damper)));
@@ -93,7 +93,7 @@ struct Host {
   void send(const Bytes& wire) {
     for (const std::uint8_t byte : wire) board.send(byte);
   }
-  /// Sends, and takes what comes until the line is silent.
+  /// Sends, and collects the bytes received until the line is silent.
   Bytes ask(const Bytes& wire) {
     got.clear();
     send(wire);
@@ -105,7 +105,7 @@ struct Host {
     } while (got.size() != before);
     return got;
   }
-  /// Words of the reply to a read; it must come.
+  /// Returns the words of the reply to a read; the reply must come.
   std::vector<std::uint32_t> read(int sequence, std::uint32_t address, std::uint32_t words) {
     const Bytes wire = ask(request(1, sequence, address, words));
     return words_of(wire, 0x81, sequence, address, words);
@@ -113,7 +113,8 @@ struct Host {
   std::uint32_t write(int sequence, std::uint32_t address, std::uint32_t value) {
     return words_of(ask(request(2, sequence, address, value)), 0x82, sequence, address, 1)[0];
   }
-  /// Arms; the status of the reply, or where there is an engine, of when its CRC is computed.
+  /// Arms. Returns the status of the reply or, with an engine, the status after its CRC is
+  /// computed.
   std::uint32_t arm(int sequence) {
     const std::uint32_t status = write(sequence, D::C::control, control(true, D::S::damper));
     if (D::engine == 0) return status;
@@ -241,7 +242,7 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
   const std::int64_t wanted = scaled_clocks(FRAMES);
   while (reader.good + reader.bad < wanted) {
     Bytes wire = frames.any();
-    if (frames.random.one_in(2)) wire.push_back(0xc0);  // else the next one ends it
+    if (frames.random.one_in(2)) wire.push_back(0xc0);  // otherwise the next frame's END ends it
     const std::int64_t writes = host.board.core().writes();
     host.got.clear();
     std::int64_t good = 0, expected = 0;
@@ -254,7 +255,7 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
       if (f.kind != 2 || f.sequence == last) continue;
       last = f.sequence;
       if (f.address < 0x200) words[f.address] = f.value;
-      // A disarmed core takes every write; of the addresses at which something is.
+      // A disarmed core accepts every write to an address with a register.
       if (f.address < 0x200 || f.address == D::C::control || f.address == D::C::command) {
         ++expected;
       }
@@ -265,7 +266,7 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
     if (good == 0) REQUIRE(host.got.empty());
     if (good > 0) REQUIRE(!host.got.empty());
     replies += good;
-    // So that the next write is not refused.
+    // Disarms, so that the next write is not refused.
     if (host.board.out().core.armed) {
       last = (last + 1) & 255;
       REQUIRE(!host.ask(request(2, last, D::C::control, control(false, 0))).empty());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/feltgate_linked.sv as the lock-step takes it. Documentation:
+// Twin of rtl/link/feltgate_linked.sv in the form that the lock-step needs. Documentation:
 // docs/blocks/feltgate_linked.md
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a host, a bad wire and a stranger send: requests, and what is none. Beside it a reader of
-// the wire that says which frames are requests, written from docs/link.md alone. Documentation:
+// Random frames: requests of a host, and invalid bytes as from a bad wire or another device. A
+// separate reader, written only from docs/link.md, tells which frames are requests. Documentation:
 // docs/testing.md
 #pragma once
 
@@ -21,7 +21,7 @@ inline void add_number(Bytes& bytes, std::uint32_t number, int size) {
   for (int k = 0; k < size; ++k) bytes.push_back(static_cast<std::uint8_t>(number >> 8 * k));
 }
 
-/// A body as it goes over the wire.
+/// Returns a body in the form sent over the wire.
 inline Bytes framed(Bytes body) {
   add_number(body, crc32(body.data(), body.size()), 4);
   Bytes wire{0xc0};
@@ -33,7 +33,7 @@ inline Bytes framed(Bytes body) {
   return wire;
 }
 
-/// Between two ends of frames: the body and its CRC, without escapes.
+/// Returns the bytes between two ENDs without escapes: the body and its CRC.
 inline Bytes unescaped(const Bytes& frame) {
   Bytes body;
   for (std::size_t k = 0; k < frame.size(); ++k) {
@@ -44,7 +44,7 @@ inline Bytes unescaped(const Bytes& frame) {
   return body;
 }
 
-/// The words of a body behind its head of four bytes, without the CRC.
+/// Returns the words of a body after its head of four bytes, without the CRC.
 inline std::vector<std::uint32_t> body_words(const Bytes& body) {
   std::vector<std::uint32_t> words;
   for (std::size_t at = 4; at + 8 <= body.size(); at += 4) {
@@ -62,9 +62,9 @@ inline Bytes request(int kind, int sequence, std::uint32_t address, std::uint32_
   return framed(body);
 }
 
-/// Frames of the wire, byte by byte.
+/// Reads frames from the wire, byte by byte.
 struct WireReader {
-  bool engine = false;  ///< the board's features say so
+  bool engine = false;  ///< the board has an engine, by its features word
   struct Frame {
     bool good = false;
     int kind = 0, sequence = 0;
@@ -73,7 +73,7 @@ struct WireReader {
   Bytes raw;
   std::int64_t good = 0, bad = 0;
 
-  /// True where a frame ends, which is then in `last`.
+  /// Takes a byte. Returns true at the end of a frame; the frame is then in `last`.
   bool take(std::uint8_t byte) {
     if (byte != 0xc0) {
       raw.push_back(byte);
@@ -113,14 +113,14 @@ struct WireReader {
   }
 };
 
-/// Requests and what is none, at random.
+/// Makes random requests and invalid frames.
 struct RandomFrames {
   explicit RandomFrames(Random r, bool may_stream = true) : random(r), streams(may_stream) {}
 
   Random random;
   int sequence = 0;
 
-  bool streams = true;  ///< they may begin a stream
+  bool streams = true;  ///< requests may start a stream
 
   std::uint32_t address() {
     const std::uint32_t any = any_address();
@@ -148,7 +148,7 @@ struct RandomFrames {
     return random.one_in(3) ? random.below(64) : v;
   }
   Bytes any() {
-    if (random.one_in(12)) {  // right but for kind, length or count
+    if (random.one_in(12)) {  // valid except for kind, length or count
       Bytes body;
       const std::uint32_t size = random.one_in(2) ? 8 : random.below(20);
       for (std::uint32_t k = 0; k < size; ++k) {
@@ -167,16 +167,16 @@ struct RandomFrames {
     Bytes wire = good_request();
     const auto at = [&] { return static_cast<std::ptrdiff_t>(random.below(wire.size())); };
     switch (random.below(8)) {
-      case 0:  // a bit
+      case 0:  // one bit is flipped
         wire[static_cast<std::size_t>(at())] ^= static_cast<std::uint8_t>(1U << random.below(8));
         break;
       case 1:  // a byte is lost
         wire.erase(wire.begin() + at());
         break;
-      case 2:  // half a frame
+      case 2:  // the frame is cut
         wire.resize(static_cast<std::size_t>(at()));
         break;
-      case 3:  // a byte too many
+      case 3:  // one extra byte
         wire.insert(wire.begin() + at(), static_cast<std::uint8_t>(random.below(256)));
         break;
       default:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law loaded over the UART, armed, felt, changed while it runs, and its events taken: RTL and
-// twin in lock-step. Documentation: docs/blocks/feltgate_linked.md
+// A host loads a law over the UART, arms, changes parameters while it runs, and reads its events.
+// RTL and twin in lock-step. Documentation: docs/blocks/feltgate_linked.md
 #include "linked_life.hpp"
 
 using namespace feltgate;
@@ -10,7 +10,7 @@ using namespace feltgate::test;
 
 namespace {
 
-/// Torque for a position, as a word of the torque format.
+/// Returns the torque for a position, as a word of the torque format.
 int torque(double stiffness, int counts) {
   const double nm = -stiffness * counts * design_info<D>().count_rad;
   return static_cast<int>(std::lround(std::ldexp(nm, D::f.torque.fraction)));
@@ -42,7 +42,7 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   CHECK(s.out().core.position == 10);
   CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
 
-  // A parameter, in force with the commit alone.
+  // A parameter takes effect only with the commit.
   const double before = parameters.value("stiffness");
   auto writes = parameters.set("stiffness", 0.5);
   const law::HostWord commit = writes.back();
@@ -54,7 +54,7 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   s.ticks(40);
   CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
 
-  // One out of its range is refused, with its number.
+  // A parameter out of its range is refused, and its number is reported.
   writes.front().data = 0x7fffffff;
   s.write_engine(writes);
   s.write_engine({commit});
@@ -64,7 +64,7 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   CHECK((status[0] >> EngineMap::S::status_refused & 1U) == 1);
   CHECK(status[1] == static_cast<std::uint32_t>(image().words[0].word));
 
-  // The event: a read leaves it, a write takes it, a repeated write takes no second one.
+  // The event: a read keeps it, a write removes it, a repeated write does not remove a second one.
   for (int k = 0; k < 9; ++k) s.step(false);
   for (int k = 0; k < 9; ++k) s.step(true);
   auto event = s.engine(H::event_count, 5);
@@ -98,7 +98,7 @@ TEST_CASE("feltgate_linked: an event of the law triggers the capture in its tick
   for (int k = 0; k < 9; ++k) s.step(true);
   const auto number = static_cast<std::uint32_t>(image().events[0].number);
   for (const std::uint32_t level : {511U, number, std::uint32_t{LinkMap::any_event}}) {
-    // Below where the event comes, and it is forgotten.
+    // Moves the lever below the position of the event and removes the old events.
     for (int k = 0; k < 9; ++k) s.step(false);
     while (s.engine(H::event_count)[0] > 0) {
       s.write(static_cast<std::uint32_t>(EngineMap::port_first + H::event_tick), 0);
@@ -114,7 +114,7 @@ TEST_CASE("feltgate_linked: an event of the law triggers the capture in its tick
     REQUIRE(event[0] == 1);
     s.ticks(1 << LinkMap::rows_log2);
     const auto state = s.read(A::capture_state, 1)[0];
-    if (level == 511U) {  // another's
+    if (level == 511U) {  // the number of another event
       CHECK(state == 2);
       continue;
     }
@@ -146,7 +146,7 @@ TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disar
   Life s;
   s.clocks(5000);
   s.write_engine(law::load_into_zeros(image()));
-  s.control(true);  // the CRC is computed now, 1.1 ms
+  s.control(true);  // the engine now computes the CRC, 1.1 ms
   s.send(request(1, 200, static_cast<std::uint32_t>(EngineMap::port_first + H::status), 1));
   s.clocks(20'000);
   CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
@@ -158,7 +158,7 @@ TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disar
   s.control(false);
   s.ticks(2);
   CHECK_FALSE(s.out().core.gates_enable);
-  // The panel clears a fault while the engine is busy with a commit of the host.
+  // The panel clears a fault while the engine processes a commit of the host.
   s.arm();
   s.in.stop = true;
   s.clocks(1);

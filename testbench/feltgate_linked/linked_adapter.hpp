@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The linked core of a test's design, and its ports against the twin. Documentation:
+// The linked core of a test's design; connects its ports to the twin's. Documentation:
 // docs/blocks/feltgate_linked.md
 #pragma once
 

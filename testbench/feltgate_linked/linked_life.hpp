@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A host that loads a law and a lever that feels it: the twin at once, afterwards the RTL beside
-// one. Documentation: docs/blocks/feltgate_linked.md
+// A host loads a law and a lever moves in it. The twin runs at once; play() then runs the RTL
+// beside a twin. Documentation: docs/blocks/feltgate_linked.md
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ namespace feltgate::test {
 using H = EngineMap::H;
 constexpr int kTick = D::clocks_per_tick;
 
-/// A spring with an event on its way.
+/// The image of a spring with an event at a position.
 inline const law::Image& image() {
   static const law::Image made = [] {
     const char* text =
@@ -33,13 +33,13 @@ inline const law::Image& image() {
   return made;
 }
 
-/// A host and a lever at the twin's pins; what they do is kept, and played to the RTL afterwards.
+/// A host and a lever at the twin's pins. Their actions are recorded; the RTL runs them later.
 class Life {
  public:
   LinkedIn in;
 
   const LinkedOut& out() const { return twin_->out(); }
-  std::vector<int> event_clocks;  ///< of the tick
+  std::vector<int> event_clocks;  ///< clock of the tick for each event
   void clocks(std::int64_t count) {
     for (; count > 0; --count) {
       in.uart_rx = line_.level();
@@ -53,8 +53,8 @@ class Life {
   void send(const Bytes& wire) {
     for (const std::uint8_t byte : wire) line_.send(byte);
   }
-  /// The words of the reply; none where the line stays silent.
-  std::vector<std::uint32_t> ask(const Bytes& wire) {  // its sequence is not escaped
+  /// Returns the words of the reply; empty if the line stays silent.
+  std::vector<std::uint32_t> ask(const Bytes& wire) {  // the sequence number is not escaped
     send(wire);
     for (int wait = 0; wait < 700 || line_.unsent() > 0; ++wait) {
       clocks(100);
@@ -65,7 +65,7 @@ class Life {
           continue;
         }
         const Bytes frame = std::exchange(frame_, {});
-        // Those before it may be answered too.
+        // Earlier requests may be answered too.
         if (frame.size() > 2 && frame[1] == wire[2]) return body_words(unescaped(frame));
       }
     }
@@ -82,7 +82,8 @@ class Life {
   std::vector<std::uint32_t> engine(int address, std::uint32_t words = 1) {
     return read(static_cast<std::uint32_t>(EngineMap::port_first + address), words);
   }
-  /// All but the last as fast as the wire goes: each acts as soon as its frame is whole.
+  /// Sends all frames but the last at the full rate of the wire: each acts when its frame is
+  /// complete.
   void write_engine(const std::vector<law::HostWord>& words) {
     for (std::size_t k = 0; k < words.size(); ++k) {
       const auto address = static_cast<std::uint32_t>(EngineMap::port_first + words[k].address);
@@ -106,17 +107,17 @@ class Life {
     control(true);
     for (int k = 0; k < 3000 && !out().core.armed; ++k) ticks(1);
   }
-  /// One count.
+  /// Moves by one count.
   void turn(bool up) {
     phase_ += up ? 1U : 3U;
     in.encoder = pins_at(phase_, in.encoder.z);
   }
-  /// One count, and four ticks.
+  /// Moves by one count and runs four ticks.
   void step(bool up) {
     turn(up);
     ticks(4);
   }
-  /// What was done, at the RTL beside a twin.
+  /// Runs the recorded actions on the RTL beside a twin.
   void play() {
     Bench bench("feltgate_linked", 7);
     const std::vector<LinkedIn>& inputs = inputs_;

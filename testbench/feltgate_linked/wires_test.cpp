@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_linked: pins between its blocks that requests at random hardly move, each seen at an
-// output or by the host. Documentation: docs/blocks/feltgate_linked.md
+// feltgate_linked: signals between its blocks that random requests hardly change; each test makes
+// one visible at an output or to the host. Documentation: docs/blocks/feltgate_linked.md
 #include <array>
 #include <functional>
 
@@ -15,7 +15,7 @@ using C = D::C;
 
 namespace {
 
-/// The spring whose event has this number.
+/// The spring, with this number for its event.
 law::Image numbered(int number) {
   law::Image made = image();
   int events = 0;
@@ -30,7 +30,7 @@ law::Image numbered(int number) {
   return made;
 }
 
-/// A lever with a spring, armed; these words are written before.
+/// An armed lever with a spring; the given words are written before arming.
 struct Armed : Life {
   explicit Armed(const std::vector<std::array<std::uint32_t, 2>>& words = {}) {
     clocks(5000);
@@ -83,7 +83,7 @@ TEST_CASE("link: a capture is triggered by the event whose number has all its bi
     s.ticks(1 << LinkMap::rows_log2);
     CHECK(s.read(A::capture_state, 1)[0] == 4);
     CHECK(s.engine(H::event_number)[0] == static_cast<std::uint32_t>(number));
-    // A row is a tick: all addresses of the memory are their own.
+    // One row per tick: each address of the memory holds its own row.
     const std::uint32_t first = s.read(A::capture_first, 1)[0], rows = 1U << LinkMap::rows_log2;
     const auto at = [&](std::uint32_t row) {
       return s.read(LinkMap::memory + 8 * ((first + row) % rows), 1)[0];
@@ -102,10 +102,10 @@ TEST_CASE("link: an event is taken once, however long the engine is busy") {
     for (int k = 0; k < 9; ++k) s.step(true);
   }
   REQUIRE(s.engine(H::event_count)[0] == 5);
-  for (int k = 0; k < 9; ++k) s.step(false);  // else arming would tell one more
+  for (int k = 0; k < 9; ++k) s.step(false);  // otherwise arming would report one more event
   s.control(false);
   s.ticks(3);
-  // Armed again: until the CRC is computed the write waits at the port.
+  // Arms again: the write waits at the port until the CRC is computed.
   s.control(true);
   const Bytes take = request(2, 201, EngineMap::port_first + H::event_tick, 0);
   s.send(take);
@@ -188,8 +188,8 @@ TEST_CASE("linked: each cause of fault is its own at the pins") {
     CHECK(s.out().core.first_fault == static_cast<unsigned>(way.cause));
     CHECK_FALSE(s.out().core.gates_enable);
     s.control(false);
-    s.write(D::A::i2t_budget, 0xffffffff);  // else the heat stays a fault
-    s.write(D::A::overspeed, 0x7fffffff);   // and the last of the velocity
+    s.write(D::A::i2t_budget, 0xffffffff);  // otherwise the heat remains a fault
+    s.write(D::A::overspeed, 0x7fffffff);   // and so does the remaining velocity
     s.write(C::command, 1U << C::command_clear_faults);
     s.ticks(3);
     CHECK(s.out().core.faults == 0);
@@ -215,7 +215,7 @@ TEST_CASE("linked: each limit is its own at the pins") {
   for (const Way& way : ways) {
     Armed s(way.words);
     s.write(A::stream_words, (1U << LinkMap::snapshot_words) - 1);
-    s.write(A::stream_period, 500);  // all words in all these lives
+    s.write(A::stream_period, 500);  // streams all words in every case
     unsigned seen = 0;
     for (int k = 0; k < 120; ++k) {
       s.step(true);
@@ -241,7 +241,7 @@ TEST_CASE("linked: each limit is its own at the pins") {
   CHECK((seen & limit::chatter) != 0);
   s.play();
 
-  // Thousands of rad/s, until the motion is over.
+  // Thousands of rad/s until the motion ends.
   Armed fast({{D::A::overspeed, 0x7fffffff}});
   seen = 0;
   for (int k = 0; k < 4'000; ++k) {

@@ -54,7 +54,7 @@ using namespace feltgate;
 
 constexpr int kMostSeconds = 2;  ///< of CPU time, so that a busy machine hangs nothing
 
-std::string finding;  ///< where the input goes that must not be lost
+std::string finding;  ///< path for the input of a crash or hang
 std::string current;  ///< the input being read
 
 /// Keeps the input of a crash or hang. The process is about to end: only plain calls.
@@ -119,7 +119,7 @@ std::vector<std::string> read_corpus(char** first, char** last) {
 
 double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// One reader, and what was seen of it.
+/// One reader and its results.
 class Session {
  public:
   Session(const fuzz::Reader& reader, fs::path folder)
@@ -239,7 +239,7 @@ int main(int argc, char** argv) {
   try {
     auto corpus = read_corpus(argv + 5, argv + argc);
     fuzz::set_root(argv[2]);
-    // What a reader writes to a relative path would land in the folder of the input.
+    // A write of a reader to a relative path would go to the folder of the input.
     fs::current_path(folder);
     code = fuzz_reader(*reader, std::atol(argv[3]), std::strtoull(argv[4], nullptr, 10), corpus,
                        folder);

@@ -15,7 +15,7 @@ using test::Random;
 
 constexpr std::size_t kMost = 1U << 16U;  ///< an input never grows beyond this
 
-/// Numbers at the edge of what a reader takes, and what is no number.
+/// Numbers at the limits of a reader, and texts that are not numbers.
 constexpr const char* kNumbers[] = {"0",
                                     "-0.0",
                                     "-1",

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Three cores and the compiled law of the coupling around the gimbal, bit by bit. docs/gimbal.md
+// Three cores and the compiled law of the coupling in closed loop with the gimbal, bit by bit.
+// docs/gimbal.md
 #include <algorithm>
 
 #include "../pantograph/image_axes.hpp"
@@ -17,7 +18,7 @@ using Cores = AxesTwin<LeverLaw, Gimbal>;
 
 namespace {
 
-/// The motors that the design is made for, without a capstan between.
+/// The motors of the design, without a capstan.
 GimbalParameters direct() {
   GimbalParameters p = gimbal();
   p.joint.drum_radius_m = p.joint.pulley_radius_m;
@@ -87,7 +88,8 @@ TEST_CASE("law file to bridge with three cores: home by the shorter way, no flip
       CHECK(cores.out(i).armed);
       CHECK(cores.out(i).faults == 0);
     }
-    // From -179 degrees up, from 181 (the same place, a turn further) likewise: toward 0 and 360.
+    // The lever turns up from -179 degrees, and also from 181 (the same orientation, one turn
+    // further): to 0 and 360.
     const double way = plant.seen().theta_rad[0] - hand.start_rad[0];
     CHECK(way > 0.3);
     CHECK(way < 3.0);

@@ -19,7 +19,7 @@ inline std::string gimbal_file() {
 }
 inline GimbalParameters gimbal() { return read_gimbal_file(gimbal_file()); }
 
-/// Three different moments everywhere: nothing cancels.
+/// Three different moments in every body, so that no terms cancel.
 inline GimbalBodies uneven_bodies() {
   return {{1e-4, 3e-4, 2e-4}, {4e-5, 7e-5, 9e-5}, {5e-5, 8e-5, 1.1e-4}, {3e-5, 5e-5, 2e-5}};
 }

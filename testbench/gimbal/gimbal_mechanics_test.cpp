@@ -25,7 +25,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return m;
 }
 
-/// The textbook's turning matrices; the plant has none.
+/// Rotation matrices from the textbook; the plant uses none.
 Matrix turn(int axis, double rad) {
   const double c = std::cos(rad), s = std::sin(rad);
   if (axis == 2) return {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
@@ -110,7 +110,7 @@ TEST_CASE("joint speeds turn the handle as its differences say", "[gimbal]") {
       CHECK(length(turning - expected) < 1e-8);
       // The same in the handle's own frame.
       CHECK(length(p.handle.turn(p.handle_by[j]) - turning) < 1e-14);
-      // Power at the handle is power at the joints.
+      // Power at the handle equals power at the joints.
       const Vec3 nm{0.3, -0.2, 0.7};
       CHECK(p.torque(nm)[j] == Approx(dot(nm, turning)).margin(1e-15));
     }

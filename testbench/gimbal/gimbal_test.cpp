@@ -30,7 +30,7 @@ double angle_between(const Quaternion& a, const Quaternion& b) {
   return 2.0 * std::atan2(length(q.vector()), std::abs(q.w));
 }
 
-/// A spring of the device between its handle and `to`, as a law of the joints.
+/// A spring between the device's handle and `to`, as a law of the joints.
 AxesLaw<3> coupled(double stiffness, double damping, Quaternion to) {
   return [=](const AxesMotion<3>& m) {
     const GimbalPose p = gimbal_pose(m.theta_rad);
@@ -145,7 +145,7 @@ TEST_CASE("a coupling in closed loop: no flip from 181 to 359 degrees, passive",
     loop.run(clocks_of(1.5),
              [&](const Gimbal& now) { least_rad = std::min(least_rad, now.seen().theta_rad[0]); });
     CHECK(least_rad > (degrees - 1.0) * kDegree);
-    // Dry friction of 7 mNm at a joint leaves a little.
+    // Dry friction of 7 mNm at a joint leaves a small error.
     CHECK(angle_between(plant.seen().handle, home) < 0.05);
     CHECK(plant.seen().theta_rad[0] == Approx(360 * kDegree).margin(0.05));
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of a board at a host's bytes, clock by clock as the host waits: nothing depends on how
-// busy the machine is. The wire can lose bytes, or be cut.
+// The twin of a board, connected to a host by bytes. It runs clock by clock while the host waits,
+// so that the load of the machine has no effect. The wire can lose bytes, or be cut.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class BoardInProcess : public host::Transport {
       if (lost > 0 && random_.uniform() < lost) continue;
       board.send(data[n]);
     }
-    // Somebody who writes on and on does not outrun the wire.
+    // A host that writes without a pause must wait for the wire.
     while (board.unsent() > 64) run(5000);
   }
   std::size_t read(std::uint8_t* data, std::size_t size, host::Deadline) override {
@@ -53,8 +53,8 @@ class BoardInProcess : public host::Transport {
 
   LinkedCore<D> board{LinkedOptions{3'000'000, true, 0}};
   LinkedIn in;
-  std::int64_t left = -1;  ///< bytes until the wire is cut; -1: it is not
-  double lost = 0;         ///< share of bytes to the board
+  std::int64_t left = -1;  ///< bytes until the wire is cut; -1: not cut
+  double lost = 0;         ///< share of bytes to the board that are lost
   std::function<void(const std::vector<std::uint8_t>&)> before_write;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A software board and a host's link to it over a pair of sockets.
+// A software board, and a host's link to it over a pair of sockets.
 #pragma once
 
 #include <sys/socket.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A host and a lever that follow a script: the twin runs as it is told, play() runs RTL and twin on
-// all of it. Documentation: docs/testing.md
+// A host and a lever that follow a script. The twin runs each step at once; play() then runs RTL
+// and twin on the whole script. Documentation: docs/testing.md
 #pragma once
 
 #include <Vfeltgate_core.h>
@@ -73,7 +73,7 @@ class CoreScript {
     return *this;
   }
 
-  /// On the port for one clock, taken or not.
+  /// Puts a write on the port for one clock, whether it is accepted or not.
   void pulse(int address, std::uint32_t data) {
     in.reg_addr = static_cast<std::uint16_t>(address);
     in.reg_wdata = data;
@@ -81,12 +81,12 @@ class CoreScript {
     clock();
     in.reg_write = false;
   }
-  /// Held until it is taken.
+  /// Holds a write until it is accepted.
   void hold(int address, std::uint32_t data) {
     while (out().reg_busy) pulse(address, data);
     pulse(address, data);
   }
-  /// Carried out.
+  /// Each of these waits until its write is done.
   CoreScript& skip_self_test() { return write(D::A::self_test_pulse, 0); }
   CoreScript& write(int address, std::int64_t data) {
     hold(address, static_cast<std::uint32_t>(data & 0xffffffff));

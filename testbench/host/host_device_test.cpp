@@ -211,7 +211,7 @@ TEST_CASE("host device: positions become edges that give the core the same posit
     std::vector<host::PositionAt> positions{
         {0, static_cast<std::int32_t>(random.below(1000)) - 500}};
     for (int n = 1; n < 400; ++n) {
-      const std::int64_t most = period == 1 ? 37 : 60;  // an edge a clock or so
+      const std::int64_t most = period == 1 ? 37 : 60;  // about one edge per clock
       positions.push_back(
           {n * period,
            positions.back().count + static_cast<std::int32_t>(random.below(2 * most + 1) - most)});
@@ -244,7 +244,7 @@ TEST_CASE("host device: positions become edges that give the core the same posit
 }
 
 TEST_CASE("host device: a captured motion, replayed from rest, gives the same ticks") {
-  // The first twin gets edges anywhere in a tick; of it only the positions at ticks are kept.
+  // The first twin gets edges at any clock of a tick; only its positions at ticks are kept.
   SplitMix64 random(11);
   TwinDevice<Lever> first, again;
   for (TwinDevice<Lever>* twin : {&first, &again}) {

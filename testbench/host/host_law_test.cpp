@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Laws in a board's engine, the host's library against the twin: loaded, cut off, refused, set,
-// felt, told.
+// The host's library with laws in a board's engine (the twin): loading, a cut wire, refusals,
+// parameters, torque, events.
 #include "catch.hpp"
 #include "law_on_board.hpp"
 
@@ -30,7 +30,7 @@ TEST_CASE("host law: loaded, armed, felt, changed while it runs") {
   CHECK(std::abs(set[1] - 0.05) < 1e-4);
   b.settle();
   CHECK(std::abs(b.torque() + 0.5 * (100 * count_rad - 0.05)) < 3e-4);
-  // One after the other, as banks alternate.
+  // Several sets in a row, because the banks alternate.
   CHECK(std::abs(b.engine.set({{"rest", 0}})[0]) < 1e-9);
   CHECK(std::abs(b.engine.get("stiffness") - 0.5) < 1e-4);
   b.settle();
@@ -41,7 +41,7 @@ TEST_CASE("host law: loaded, armed, felt, changed while it runs") {
   b.device.disarm();
   CHECK(b.engine.load(damper()).written > 0);
   CHECK(b.engine.holds(damper()));
-  // The same again: nothing to write.
+  // Loading the same law again writes nothing.
   CHECK(b.engine.load(damper()).written == 0);
   b.device.arm("law", false);
   CHECK(b.armed());
@@ -50,7 +50,7 @@ TEST_CASE("host law: loaded, armed, felt, changed while it runs") {
 TEST_CASE("host law: none is loaded while the host asks for a motor that is not armed yet") {
   OnBoard b;
   b.engine.load(spring());
-  // The check of a law whose CRC is another never lets it arm.
+  // With a wrong CRC the law's check never lets the core arm.
   b.link.write(EngineMap::port_first + EngineMap::H::crc, 0);
   constexpr std::uint32_t asks = 1u << LeverLaw::C::control_host | 1u << LeverLaw::C::control_arm;
   const std::uint32_t control =
@@ -62,7 +62,7 @@ TEST_CASE("host law: none is loaded while the host asks for a motor that is not 
   CHECK(told([&] { b.engine.load(damper()); }) ==
         "the motor is asked to arm, and its law is locked: disarm first");
   CHECK(b.engine.holds(spring()));
-  // Either alone asks for nothing.
+  // One of the two bits alone requests nothing.
   for (const int bit : {LeverLaw::C::control_host, LeverLaw::C::control_arm}) {
     b.link.write(LeverLaw::C::control, (control & ~asks) | 1u << bit);
     b.wire->run(5 * std::int64_t{LeverLaw::clocks_per_tick});
@@ -75,7 +75,7 @@ TEST_CASE("host law: a set of which a word was dropped is not committed, and it 
   b.engine.load(spring());
   constexpr int base = EngineMap::port_first, own = EngineMap::thread_words;
   constexpr int word = base + law::Image::parameter_base;
-  // Another program, whose commit a run that does not end keeps under way for some time.
+  // Another program; a run that does not end delays its commit for some time.
   const auto program = static_cast<int>(EngineMap::H::program);
   EngineInstruction loop;
   loop.op = EngineOp::brf;
@@ -93,12 +93,12 @@ TEST_CASE("host law: a set of which a word was dropped is not committed, and it 
     other.write(word, 0);
     other.write(base + EngineMap::H::run, 1);
   };
-  // What was dropped before concerns nobody.
+  // A word dropped earlier has no effect on the next set.
   meddle();
   REQUIRE(b.engine.status().dropped);
   CHECK(std::abs(b.engine.set({{"stiffness", 0.5}})[0] - 0.5) < 1e-4);
   CHECK_FALSE(b.engine.status().dropped);
-  // In the middle of a set.
+  // The write comes in the middle of a set.
   b.wire->before_write = [&](const std::vector<std::uint8_t>& frame) {
     const bool first =
         frame.size() > 4 && frame[1] == LinkMap::kind_write && (frame[3] | frame[4] << 8) == word;
@@ -124,7 +124,7 @@ TEST_CASE("host law: a load that is cut off at any point leaves nothing that arm
     b.engine.load(spring());
     whole = 1'000'000 - b.wire->left;
   }
-  // Over nothing, and over another law.
+  // Loads into an empty engine, and over another law.
   for (const bool over : {false, true}) {
     for (const int part : {2, 6}) {
       OnBoard b;
@@ -140,7 +140,7 @@ TEST_CASE("host law: a load that is cut off at any point leaves nothing that arm
       const bool old = over && engine.holds(damper());
       const std::string refused = told([&] { device.arm("law", false); });
       if (old) {
-        // Nothing of the new one had come: the old one, which stands still.
+        // No word of the new law had arrived: the old law is there, stopped.
         CHECK(b.torque() == 0);
       } else {
         CHECK(refused.find("CRC does not hold") != std::string::npos);
@@ -184,7 +184,7 @@ TEST_CASE("host law: names, units and ranges of parameters") {
   CHECK(told([&] { b.engine.value_in(rest, "2rad"); }).find("out of its range") !=
         std::string::npos);
   CHECK(told([&] { b.engine.get("clicks"); }).find("it has ") != std::string::npos);
-  // One of two that cannot be: neither is set.
+  // If one of two values is out of range, neither is set.
   CHECK(told([&] { b.engine.set({{"rest", 0.5}, {"stiffness", 7}}); }).find("stiffness = 7") == 0);
   CHECK(b.engine.get("rest") == 0);
 }
@@ -193,7 +193,7 @@ TEST_CASE("host law: the board refuses a set with a word out of its range, and s
   OnBoard b;
   law::Image wrong = spring();
   const law::ImageWord& word = wrong.words.front();
-  // A range that the host does not know of: narrower on the board than in the image.
+  // The board has a narrower range than the image; the host does not know it.
   b.engine.load(spring());
   const int upper = EngineMap::H::data + law::Image::upper_base + word.word;
   b.link.write(EngineMap::port_first + upper, 100);
@@ -224,7 +224,7 @@ TEST_CASE("host law: events by name, each once, whatever is lost on the way") {
   CHECK(all[1].name == "below");
   CHECK(all[2].name == "beyond");
   CHECK(all[0].value > 0.01);
-  CHECK(all[0].value < 0.016);  // a run takes the time of some counts
+  CHECK(all[0].value < 0.016);  // the lever moves some counts during a run
   CHECK(all[0].tick < all[1].tick);
   CHECK(all[1].tick < all[2].tick);
   CHECK(b.engine.events_lost() == 0);
@@ -266,7 +266,7 @@ TEST_CASE(
       swing(-20), swing(10);
       b.wire->run(1100 * std::int64_t{LeverLaw::clocks_per_tick});
       REQUIRE(host::capture_state(b.device) == 4);
-      // Of all rows only the trigger's: its tick.
+      // Reads only the tick in the row of the trigger.
       const auto row = b.link.read(LinkMap::A::capture_first) + 5;
       const int at = static_cast<int>(LinkMap::memory + row % (1U << LinkMap::rows_log2) * 8);
       const std::uint32_t tick = b.link.read(at);
@@ -312,7 +312,7 @@ TEST_CASE("host law: a law is known again when the port is opened again") {
   REQUIRE(other.recognise(folder.string()));
   CHECK(other.image()->name == "spring");
   CHECK(std::abs(other.get("rest") - 0.25) < 1e-4);
-  // The same numbers in another program: not this one.
+  // Another program with the same numbers must not be taken for this one.
   law::Image twisted = spring();
   twisted.program[0] ^= std::uint64_t{1} << 32;
   CHECK_FALSE(other.holds(twisted));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The host's frames and link against a board that speaks the format by its own code: with nothing
-// wrong, with noise, silence, garbage, and with the cable pulled.
+// The host's frames and link against a board that has its own code for the format: without errors,
+// with noise, silence, garbage, and with the cable pulled.
 #include "catch.hpp"
 
 #include <chrono>
@@ -60,7 +60,7 @@ TEST_CASE("host frames: random bytes come through, and every flipped bit is noti
     wire[at] ^= static_cast<std::uint8_t>(1u << random.below(8));
     reader.add(wire.data(), wire.size());
     while (const auto frame = reader.next()) {
-      // Of a frame whose first or last END was hit, the payload itself is whole.
+      // If the first or last END of a frame was hit, its payload is still complete.
       REQUIRE((*frame == payload && (at == 0 || at + 1 == wire.size())));
     }
     const Bytes end{0xc0};
@@ -116,7 +116,7 @@ TEST_CASE("host link: noise both ways costs time and no word") {
 
 TEST_CASE("host link: late answers are not taken for the next one's") {
   Noise noise;
-  noise.delay_s = 0.3;  // later than the first repetition, whose answer comes as well
+  noise.delay_s = 0.3;  // later than the first repetition, which is answered as well
   BoardOnPipe p(noise);
   for (std::uint32_t n = 0; n < 3; ++n) {
     REQUIRE(p.link.read(LinkMap::A::identity) == 0x46454c54);

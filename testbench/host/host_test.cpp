@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Whatever a host or a panel does to an armed core, the torque does not jump and no disarm gets
-// lost: the whole core, RTL against twin. Documentation: docs/blocks/ramp.md
+// The torque must not jump, and no disarm may be lost, for every action of a host or a panel on an
+// armed core. The whole core, RTL against twin. Documentation: docs/blocks/ramp.md
 #include "core_script.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/while_armed.hpp"
@@ -18,16 +18,16 @@ using C = D::C;
 using S = D::S;
 using Script = CoreScript<D>;
 
-constexpr std::int64_t kMilli = 66;  // of a Nm
+constexpr std::int64_t kMilli = 66;  // 1 mNm in torque LSB
 constexpr int kFine = D::f.ramp.fraction - D::f.torque.fraction;
-constexpr std::int64_t kStep = kMilli;  // of the ramp in these tests: 1 mNm in a tick
+constexpr std::int64_t kStep = kMilli;  // step of the ramp in these tests: 1 mNm per tick
 
-/// Armed under about 0.46 Nm of the spring, 600 counts from its rest position: the lever has moved
-/// there, or the spring was set there and the lever has not moved at all.
+/// Arms with about 0.46 Nm from the spring, 600 counts from its rest position. Either the lever
+/// moves there, or the rest position is set and the lever does not move.
 Script under_the_spring(bool moved = true) {
   Script s;
   s.skip_self_test().write(A::ramp_step, kStep << kFine);
-  if (moved) s.move(600).ticks(800);  // the velocity's window passes
+  if (moved) s.move(600).ticks(800);  // waits for the velocity's window
   if (!moved) s.write(A::tension_rest, -600 * 256);
   s.arm(S::spring_tension);
   REQUIRE(s.out().tau_ref < -400 * kMilli);
@@ -35,7 +35,8 @@ Script under_the_spring(bool moved = true) {
   return s;
 }
 
-/// What was asked for moved the torque by at least this, and never by more than a step of the ramp.
+/// Checks that the torque changed by at least `least` in all, and by at most one step of the ramp
+/// per tick.
 void check_ramped(Script& s, std::int64_t before, std::int64_t least) {
   REQUIRE((s.out().limits >> Map::L::ramp & 1U) != 0);
   s.settle();
@@ -78,7 +79,8 @@ TEST_CASE("host: a change of scene and each word of the scene in use ramp") {
     s.control(S::free, true).ticks(2);
     check_ramped(s, before, 400 * kMilli);
   }
-  // Every word of every scene, to 0, to its half and to its end, the lever where it may be felt.
+  // Sets every word of every scene to 0, to half and to its end value, with the lever where the
+  // word may have an effect.
   int moved = 0, words = 0;
   for (const ParameterInfo& p : D::parameters) {
     const int scene = p.address / 32;
@@ -88,8 +90,8 @@ TEST_CASE("host: a change of scene and each word of the scene in use ramp") {
     for (const int position : {600, 250, 80}) {
       Script s;
       s.skip_self_test().write(A::ramp_step, kStep << kFine);
-      // Through the membrane's face, into the wall; a speed that lasts for the window, for a
-      // damper.
+      // Moves through the membrane's face and into the wall; the speed lasts for the velocity's
+      // window, for a damper.
       s.move(position, 120);
       s.control(scene, false).ticks(2);
       s.control(scene, true).ticks(4000);
@@ -172,7 +174,7 @@ TEST_CASE("host: words behind the ramp are refused while armed, and it shows") {
     REQUIRE(seen.voltage == 0);
     REQUIRE(seen.duty == 0);
     REQUIRE(s.out().duty == before.duty);
-    // Disarmed it is taken.
+    // When disarmed, the write is accepted.
     s.control(S::spring_tension, false).ticks(1);
     s.write(p.address, highest(p) / 2);
     REQUIRE(s.read(p.address) == static_cast<std::uint32_t>(highest(p) / 2));
@@ -189,7 +191,7 @@ TEST_CASE("host: mode, polarities, PWM mode and filter hold while armed") {
     const CoreOut before = s.out();
     s.control(S::spring_tension, true, 1U << n).ticks(3);
     REQUIRE(s.out().duty == before.duty);
-    // The lever moves on: what counts is that it counts the same way.
+    // The lever moves further; the position must count in the same direction.
     const std::int32_t position = s.out().position;
     s.move(8, 400).ticks(2);
     REQUIRE(s.out().position == position + 8);
@@ -197,7 +199,7 @@ TEST_CASE("host: mode, polarities, PWM mode and filter hold while armed") {
     REQUIRE(s.read(C::control) == Script::control_word(S::spring_tension, true));
     REQUIRE((s.status() >> C::status_mode & 3U) == 0);
     REQUIRE(s.out().gates_enable);
-    // The word that disarms carries it.
+    // The word that disarms also contains the change.
     s.control(S::spring_tension, false, 1U << n);
     REQUIRE(s.read(C::control) == Script::control_word(S::spring_tension, false, 1U << n));
     s.play();
@@ -224,7 +226,7 @@ TEST_CASE("host: a disarm acts at the end of the running tick, whatever waits") 
       s.ticks(3);
       REQUIRE_FALSE(s.out().armed);
       REQUIRE(s.out().tau_ref == 0);
-      // And arms again afterwards.
+      // Arming works again afterwards.
       s.control(S::spring_tension, true).ticks(2);
       REQUIRE(s.out().armed);
       s.play();
@@ -255,7 +257,7 @@ TEST_CASE("host: a stop acts in three clocks, beside whatever waits, and stays")
   for (int c = 0; c <= Script::kLast; ++c) {
     for (const int again : {0, 1, 5, 60}) {
       Script s = under_the_spring();
-      s.hold(C::command, 1U << C::command_clear_faults);  // waits; the stop outlives it
+      s.hold(C::command, 1U << C::command_clear_faults);  // waits; the stop lasts longer
       if (c > 0) s.until(std::max(c, 2));
       s.pulse(C::command, 1U << C::command_stop);
       for (int k = 0; k < again; ++k) s.pulse(C::command, 1U << C::command_stop);
@@ -265,7 +267,7 @@ TEST_CASE("host: a stop acts in three clocks, beside whatever waits, and stays")
       s.ticks(3);
       REQUIRE_FALSE(s.out().armed);
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::stop));
-      // Arming takes the request to fall and the fault to be cleared.
+      // Arming needs a falling request and a cleared fault.
       s.control(S::free, false).ticks(1);
       s.control(S::free, true).ticks(2);
       REQUIRE_FALSE(s.out().armed);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board with an engine, in this process, and the host's library on its wire; laws for it.
+// A board with an engine in this process, the host's library on its wire, and laws for it.
 #pragma once
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ struct OnBoard : OnWire<LeverLaw> {
   double torque() {
     return std::ldexp(wire->board.out().core.tau_ref, -LeverLaw::f.torque.fraction);
   }
-  /// Until a ramp is over.
+  /// Runs until a ramp has ended.
   void settle() { wire->run(10'000 * std::int64_t{LeverLaw::clocks_per_tick}); }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A limit is a magnitude: under load a negative word is as good as 0, and no word lets more out
-// than it says. The whole core, RTL against twin. Documentation: docs/blocks/limiter.md
+// A limit is a magnitude: under load a negative word acts as 0, and no word lets more through than
+// its value. The whole core, RTL against twin. Documentation: docs/blocks/limiter.md
 #include "core_script.hpp"
 #include "feltgate/generated/lever.hpp"
 
@@ -34,7 +34,7 @@ constexpr std::int64_t kExtremes[] = {-1,
                                       (1 << 22) + 1000,
                                       0x40000000};
 
-/// One tick of a core under about 0.46 Nm of a spring that was set beside the lever.
+/// One tick of a core with about 0.46 Nm from a spring whose rest position is beside the lever.
 struct Tick {
   std::int64_t tau_ref, current, voltage, duty;
   bool operator==(const Tick& o) const {
@@ -42,7 +42,7 @@ struct Tick {
   }
 };
 
-/// Armed with `word` at `address`, which is written while disarmed.
+/// Writes `word` to `address` while disarmed, then arms; returns the ticks.
 std::vector<Tick> under_load(int address, std::int64_t word, Script& s, int scene, int position) {
   s.skip_self_test();
   s.write(A::ramp_step, (5 * kMilli) << kFine);
@@ -68,7 +68,8 @@ std::vector<Tick> under_load(int address, std::int64_t word, int scene = S::spri
   return seen;
 }
 
-/// What a limit may let out: its low bits, as many as a limit has; one beyond its signal, 0.
+/// Returns the largest value that a limit may let through: its low bits; 0 if the value is beyond
+/// the signal's range.
 std::int64_t allowed(std::int64_t word, int signal_bits) {
   const auto low =
       static_cast<std::uint32_t>(word & 0xffffffff) & ((1U << D::f.limiter.width()) - 1);
@@ -97,7 +98,7 @@ TEST_CASE(
       const std::int64_t most = allowed(word, limit.bits);
       for (const Tick& t : seen) REQUIRE(size(t.*limit.signal) <= most);
       if (most == 0) REQUIRE(seen == at_0);
-      // Sign-extended or not, a negative word never is a large limit.
+      // A negative word, sign-extended or not, is never a large limit.
       if (word < 0 && word >= -(1 << 21)) REQUIRE(most == 0);
       let_through += size(seen.back().*limit.signal) > 0 ? 1 : 0;
     }
@@ -114,7 +115,7 @@ TEST_CASE("limits: a negative ramp is the slowest, a negative dead voltage or me
     REQUIRE(under_load(A::dead_voltage, word) == under_load(A::dead_voltage, 0));
     REQUIRE(under_load(A::membrane_torque, word, S::membrane, 500) ==
             under_load(A::membrane_torque, 0, S::membrane, 500));
-    // Where the regions part: beyond a negative border as beyond 0.
+    // The border between the regions: a negative border acts as 0.
     REQUIRE(under_load(A::region_torque, word) == under_load(A::region_torque, 0));
   }
   REQUIRE(size(under_load(A::membrane_torque, 500 * kMilli, S::membrane, 500).back().tau_ref) > 0);
@@ -143,7 +144,7 @@ TEST_CASE("limits: the same words written to an armed core") {
 TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
   for (const std::int64_t word : {-1, -1000, INT32_MIN}) {
     INFO("word " << word);
-    {  // everything is too fast, armed or not
+    {  // every speed is too fast, armed or not
       Script s;
       under_load(A::setpoint_torque, 0, s, S::spring_tension, 0);
       s.write(A::overspeed, word).ticks(1);
@@ -151,7 +152,7 @@ TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::speed));
       s.play();
     }
-    {  // silent at once
+    {  // the watchdog trips at once
       Script s;
       s.command(C::command_kick);
       under_load(A::setpoint_torque, 0, s, S::spring_tension, 0);
@@ -160,7 +161,7 @@ TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::watchdog));
       s.play();
     }
-    // No nominal current: the heat of every tick counts, as with 0.
+    // A negative nominal current acts as 0: the heat of every tick counts.
     int ticks[2] = {};
     for (const bool negative : {false, true}) {
       Script s;
@@ -168,7 +169,7 @@ TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
       under_load(A::setpoint_torque, 0, s, S::spring_tension, 0);
       s.write(A::i2t_budget, 0xffffffff).ticks(10);
       REQUIRE(s.out().gates_enable);
-      // The sum is half the design's budget after power-up, and grows.
+      // After power-up the sum is half the design's budget, and it grows.
       s.write(A::i2t_budget, D::i2t_start + 1'000'000);
       while (s.out().gates_enable && ticks[negative] < 5'000) s.ticks(1), ++ticks[negative];
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::i2t));
@@ -176,7 +177,7 @@ TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
     }
     REQUIRE(ticks[0] == ticks[1]);
   }
-  Script s;  // no budget
+  Script s;  // a budget of zero
   under_load(A::setpoint_torque, 0, s, S::spring_tension, 0);
   s.write(A::i2t_budget, 0).ticks(1);
   REQUIRE(s.out().first_fault == static_cast<int>(Fault::i2t));

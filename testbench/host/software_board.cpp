@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The board's side of the link, written from docs/link.md and nothing else. Documentation:
+// The board's side of the link, written only from docs/link.md. Documentation:
 // docs/link.md
 #include "software_board.hpp"
 
@@ -167,7 +167,7 @@ std::uint32_t SoftwareBoard::read(int address) {
     int column = address & 7;
     for (int k = 0; k < words; ++k) {
       if ((memory_[0x1022] >> k & 1) == 0 || column-- > 0) continue;
-      // The ring has turned: its oldest row lies at capture_first.
+      // The ring has wrapped: its oldest row is at capture_first.
       const auto nth = static_cast<std::uint32_t>((row - 700 + rows) % rows);
       return snapshot(k, capture_trigger_ + (nth - memory_[0x1023]) * memory_[0x1024]);
     }
@@ -338,7 +338,7 @@ void SoftwareBoard::send(const Bytes& payload) {
   std::size_t done = 0;
   while (done < sent.size()) {
     const ssize_t n = ::write(descriptor_, sent.data() + done, sent.size() - done);
-    if (n <= 0) return;  // nobody reads: those bytes are gone, as on a wire
+    if (n <= 0) return;  // no reader: these bytes are lost, as on a wire
     done += static_cast<std::size_t>(n);
   }
 }
@@ -346,7 +346,7 @@ void SoftwareBoard::send(const Bytes& payload) {
 void SoftwareBoard::send_stream() {
   const std::uint32_t period = memory_[0x1011];
   if (period == 0 || static_cast<std::int32_t>(now() - next_frame_) < 0) return;
-  // A wire carries a frame in half a millisecond; those that it is too late for are dropped.
+  // A wire needs half a millisecond per frame; frames that are too late are dropped.
   const std::uint32_t late = (now() - next_frame_) / period;
   frame_counter_ = static_cast<std::uint8_t>(frame_counter_ + late);
   memory_[0x1012] += late;
@@ -378,7 +378,7 @@ void SoftwareBoard::run() {
       const ssize_t got = ::read(descriptor_, buffer, sizeof buffer);
       for (ssize_t n = 0; n < got; ++n) receive(buffer[n]);
     } else if ((waits.revents & (POLLHUP | POLLERR)) != 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // nobody has the other end open
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the other end is not open
     }
     follow_capture();
     send_stream();

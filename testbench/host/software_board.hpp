@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board in software for the tests of the host: it speaks the link's format by its own code, moves
-// its lever by a formula, and can be made to lose and spoil bytes. No core, no twin.
+// A board in software for the tests of the host. It has its own code for the link's format, moves
+// its lever by a formula, and can lose and corrupt bytes. It contains no core and no twin.
 // Documentation: docs/link.md
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace feltgate::test {
 
-/// What goes wrong on the wire, each way, as a share of 1.
+/// Errors on the wire, in each direction, as a share of 1.
 struct Noise {
   double drop = 0;     ///< of the bytes
   double flip = 0;     ///< of the bytes: one bit of it
@@ -32,21 +32,21 @@ struct Noise {
 /// second.
 class SoftwareBoard {
  public:
-  /// Takes the descriptor over.
+  /// Takes ownership of the descriptor.
   explicit SoftwareBoard(int descriptor, Noise noise = {}, std::uint64_t seed = 1);
   ~SoftwareBoard();
   SoftwareBoard(const SoftwareBoard&) = delete;
   SoftwareBoard& operator=(const SoftwareBoard&) = delete;
 
-  /// Answers nothing from now on, or again.
+  /// Stops or restarts all answers.
   void set_silent(bool silent) { silent_ = silent; }
-  /// Closes its end, as when a cable is pulled.
+  /// Closes the board's end, like a pulled cable.
   void unplug();
   /// Latches this fault and disarms.
   void set_fault(int number);
   void set_design_crc(std::uint32_t crc);
 
-  /// Writes in the order in which they were done.
+  /// Returns the writes in the order in which they were done.
   std::vector<std::pair<int, std::uint32_t>> writes();
   std::uint32_t word(int address);
   std::uint32_t frames_bad();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The software board on a pseudo-terminal: prints the name, then follows orders from stdin until it
-// ends: fault N, silent, loud, unplug, crc N, armed?, kicks?, word ADDRESS.
+// The software board on a pseudo-terminal. It prints the terminal's name, then executes commands
+// from stdin until stdin ends: fault N, silent, loud, unplug, crc N, armed?, kicks?, word ADDRESS.
 #include <fcntl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   }
   const int master = open_terminal();
   const std::string name = ::ptsname(master);
-  // Held open without the host: else the terminal hangs up whenever a host ends.
+  // Kept open without a host: otherwise the terminal hangs up when a host ends.
   int slave = ::open(name.c_str(), O_RDWR | O_NOCTTY);
   termios raw{};
   (void)::tcgetattr(slave, &raw);

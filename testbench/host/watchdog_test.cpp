@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A design that requires the watchdog arms for nobody who has not kicked it: the whole core, RTL
-// against twin. Documentation: docs/blocks/supervisor.md
+// A design that requires the watchdog arms only after a kick. The whole core, RTL against twin.
+// Documentation: docs/blocks/supervisor.md
 #include FELTGATE_DESIGN_HEADER
 #include "core_script.hpp"
 
@@ -35,7 +35,7 @@ TEST_CASE("watchdog: no motor is armed before the first kick, and the status say
       REQUIRE_FALSE(s.out().armed);
       REQUIRE(s.out().first_fault == 0);
     }
-    // The kick lets the next rising request through, not one that stands.
+    // A kick lets the next rising request arm; a request that is already high does not arm.
     s.command(C::command_kick).ticks(4);
     REQUIRE_FALSE(unkicked(s));
     REQUIRE_FALSE(s.out().armed);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Every construct of the language as instructions: within the bound, and bounded at all.
+// Every construct of the language as instructions: the errors are within the bound, and the bound
+// is finite.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -160,7 +161,7 @@ TEST_CASE("phases, delay lines and events run on as the law does") {
   require_within(c, true);
 }
 
-// A sum of parameters alone with a condition, or an element, that is multiplied.
+// A sum of only parameters, with a condition or an element, is multiplied.
 TEST_CASE("what only depends on parameters keeps its terms") {
   const std::string way = "let way = if side < 0 then -1 else 1\n";
   const std::string parameters =
@@ -178,7 +179,7 @@ TEST_CASE("what only depends on parameters keeps its terms") {
       "min(clamp(position, -1, 1), 2 * (if not (p < 0.3) or side < 0 then p else way + 0.2))"};
   for (const std::string& formula : formulas) {
     INFO(formula);
-    // Every name is used, and nothing of it is seen.
+    // Every name is used, without an effect on the torque.
     const std::string text = parameters + way + "out torque = 1 Nm * (" + formula +
                              " + 0 * (p + side + k + way + steps[0]))\n";
     const Compiled c = compiled(text);
@@ -295,7 +296,7 @@ TEST_CASE("the first run has the initial values, every entry again") {
   CHECK(torque() == Approx(0.3).margin(2e-5));
 }
 
-// A whole state's sum is made in a step of 2^-30 here; to come down to ones takes two products.
+// The sum of a whole state has a step of 2^-30 here; two products scale it to a step of 1.
 TEST_CASE("a whole state keeps its value through a fine sum") {
   const Compiled c = compiled(
       "param count = 1 in 0 .. 4 whole\nstate stage = 0 in 0 .. 3 whole\n"

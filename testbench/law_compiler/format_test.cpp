@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Formats that the search must not take, and memory that tables ask for. Documentation:
+// Formats that the search must not choose, and the memory that tables need. Documentation:
 // docs/law-compiler.md
 #include "catch.hpp"
 #include "law/compile.hpp"
@@ -10,7 +10,7 @@
 namespace feltgate::law {
 namespace {
 
-/// The largest difference from the law in a run of its own, and the bound.
+/// Checks that the largest difference from the law, in separate runs, is within the bound.
 void check_within(const std::string& text) {
   const Compiled c = compile_text(text, "x.law", Target{});
   const Measured m = measure(c, 1, 5000);

@@ -52,7 +52,7 @@ TEST_CASE("mailbox words lie at the end, and the shortest max_age counts") {
   }
   CHECK(mailboxes == 2);
   CHECK(image.mailbox_first == 30);
-  // Late after the 78th step of 64 us at the latest.
+  // The mailbox is late after the 78th step of 64 us at the latest.
   CHECK(image.mailbox_age == 77);
   CHECK(read_image(text(image)) == image);
   CHECK(read_image(text(image)).mailbox_age == 77);
@@ -62,7 +62,7 @@ TEST_CASE("mailbox words lie at the end, and the shortest max_age counts") {
        {HostWord{EngineMap::H::mailbox_first, 30}, HostWord{EngineMap::H::mailbox_age, 77}}) {
     CHECK(std::count(writes.begin(), writes.end(), w) == 1);
   }
-  // The program reads them there.
+  // The program reads the words at these addresses.
   bool goal = false;
   for (const EngineInstruction& i : c.assembled.instructions) {
     for (const int address : {i.a, i.b}) {
@@ -78,7 +78,7 @@ TEST_CASE("mailbox words lie at the end, and the shortest max_age counts") {
 TEST_CASE("the CRC is zlib's, over program, ranges, constants and tables") {
   Image image;
   const std::uint32_t empty = crc(image);
-  image.data[0] = 5;    // private words are not in it
+  image.data[0] = 5;    // private words are not part of the CRC
   image.data[320] = 5;  // nor are parameters, which have ranges
   CHECK(crc(image) == empty);
   image.data[448] = 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Functions over wide ranges, in pieces: the same law in real numbers, and a bound that says
-// something.
+// Functions over wide ranges, in pieces: the law in real numbers stays the same, and the bound is
+// useful.
 #include "law/pieces.hpp"
 
 #include <catch2/catch.hpp>
@@ -88,7 +88,7 @@ TEST_CASE("functions over wide ranges have bounds that say something") {
   for (const char* text : wide_laws) {
     INFO(text);
     const Compiled c = compile_text(text, "x.law", Target{});
-    // A root within a quotient has the errors of both.
+    // A root inside a quotient has the errors of both.
     const bool both = std::string(text).find("r + 0.1") != std::string::npos;
     CHECK(largest_share(c.law, c.target, c.bound) < (both ? 0.1 : 0.02));
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
@@ -102,7 +102,7 @@ TEST_CASE("functions over wide ranges have bounds that say something") {
 }
 
 TEST_CASE("a table whose domain ends inside a segment is the function there") {
-  // From the end's value on, as a flat line, the bounds were 34, 79 and 109 uNm.
+  // With a flat line from the end of the domain on, the bounds were 34, 79 and 109 uNm.
   for (const char* text :
        {"table f(x) on [0.1, 0.73] = exp(x)\nout torque = 0.1 Nm * f(position)\n",
         "table f(x) on [-0.37, 1.21] = 1 + 0.4 * x - 0.2 * x^3 with 24 segments\n"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How often laws run in the engine's twin, clock by clock, beside what the compiler says.
+// The run rate of laws in the engine's twin, clock by clock, against the rate that the compiler
+// reports.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -13,7 +14,7 @@ namespace {
 
 using test::Seen;
 
-/// Runs of a law that are looked at: few of a slow one, which has long ticks between.
+/// Number of runs to check: few for a slow law, because the time between its runs is long.
 int runs_at(int divider) { return divider < 100 ? 240 : 12; }
 
 template <int Axes>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What cannot be proven, fitted or scheduled is refused with line, reason and mend.
+// The compiler refuses laws that it cannot prove, fit or schedule. The message has the line, the
+// reason and a correction.
 #include <catch2/catch.hpp>
 
 #include "law/compile.hpp"
@@ -85,7 +86,7 @@ TEST_CASE("a root of what can be negative, a division by what can be zero, a log
              Contains("log of what can be -1;"));
   CHECK_THAT(refusal("out torque = 0.1 Nm * sqrt(position)\n"), Contains("x.law:1:"));
   CHECK_THAT(refusal("out torque = 0.1 Nm / position\n"), Contains("x.law:1:"));
-  // The length of an arrow is never the root of less than 0.
+  // The length of a vector is never the root of a negative number.
   CHECK(refusal("let lean = clamp(position, -1, 1)\nlet twice = 2 * lean\n"
                 "out torque = 0.1 Nm * clamp(sqrt(lean^2 + twice^2), 0, 1)\n") == "compiled");
 }

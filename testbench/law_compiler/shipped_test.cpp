@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Every shipped law: proven, small, fast, and what runs is within the bound.
+// Every shipped law is proven, small and fast, and its runs stay within the bound.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <map>
@@ -22,7 +22,7 @@ void require_within(const Compiled& c, const Measured& m) {
     // The law itself runs in double.
     REQUIRE(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-8);
   }
-  // Not what the bound does not cover.
+  // Only few runs may be in strips, which the bound does not cover.
   REQUIRE(m.in_strips * 20 <= m.runs);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("a law of one input and no state is run over all of its positions") {
   CHECK(m.all_inputs);
   CHECK(m.runs == 262145);
   require_within(c, m);
-  // One last bit of torque, as the page of laws promises.
+  // One LSB of torque, as docs/laws.md promises.
   CHECK(m.output[0] <= std::ldexp(1.0, -16));
   CHECK_FALSE(measure_all(shipped("damper")).all_inputs);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where words and law may go different ways: nowhere but within a strip that is told.
+// Words and law may decide differently only within a reported strip.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@
 namespace feltgate::law {
 namespace {
 
-/// Few runs are left out, the others within the bound.
+/// Checks that few runs are in strips and that the others are within the bound.
 void require_within(const Compiled& c, std::int64_t runs) {
   const Measured m = measure(c, 5, runs);
   INFO("measured " << m.output[0] << ", bound " << c.bound.output[0]);
@@ -22,7 +22,7 @@ void require_within(const Compiled& c, std::int64_t runs) {
   CHECK(c.bound.output[0] < 5e-5);
 }
 
-// A comparison that only changes another one, and truth values that are kept for a while.
+// A comparison that only changes another comparison, and truth values that are stored.
 TEST_CASE("comparisons of comparisons have strips") {
   const std::string parameters = "param q = 0 in -1 .. 1\n";
   for (const std::string formula :
@@ -39,7 +39,7 @@ TEST_CASE("comparisons of comparisons have strips") {
   }
 }
 
-// What is exact is compared exactly, however coarse its step: four comparisons, either side.
+// Exact values are compared exactly, even with a coarse step: four comparisons, on both sides.
 void require_thresholds(const std::string& declared, const std::string& what,
                         const std::vector<double>& thresholds) {
   for (const double threshold : thresholds) {
@@ -127,8 +127,9 @@ TEST_CASE("a delay that is computed has a strip") {
   require_within(c, 20000);
 }
 
-// The format of tau_hat's limit is too coarse for what is rounded down, and the output's bound ends
-// at its range: the strip is there all the same, with the jump beyond the bound.
+// The format of tau_hat's limit is too coarse for the value that is rounded down, and the output's
+// bound is limited by its range. The strip must still be reported, with a jump larger than the
+// bound.
 TEST_CASE("a bound that ends at the output's range hides no strip") {
   const Compiled c = compiled(
       "state kept = 0.25 in -2 .. 2\nlet t = clamp(0.5 * (tau_hat / (1 Nm)), -2, 2)\n"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A bound says something: it is of most runs, less than its output's range, and what a parameter
-// does not keep is told.
+// A bound must be useful: it covers most runs and is less than the output's range. Parameters that
+// break this are reported.
 #include "law/verdict.hpp"
 
 #include <catch2/catch.hpp>
@@ -57,7 +57,7 @@ TEST_CASE("what was measured above the bound, or is no number, fails") {
 }
 
 TEST_CASE("a run is left out where words and law go different ways, not where both are near") {
-  // Without a touch both sides are 0, exactly.
+  // Without a contact both sides are exactly 0.
   const Compiled c = compiled(
       "param give = 0.1 in 0 .. 1\nlet x = 0.3 * clamp(position, 0, 1)\n"
       "out torque = if x * x > give then 0.1 Nm else 0.2 Nm\n");
@@ -80,7 +80,7 @@ TEST_CASE("a bound as large as its output's range is refused, one of 1 % of it t
   CHECK(c.bound.output[0] > 0.01 * output_ranges(c.law, c.target)[0].width());
   CHECK_THAT(text(verdict(c, {})), Contains("warning: torque: the bound") &&
                                        Contains("narrow what goes into f in line 2"));
-  // One last bit is no matter, however small the torque.
+  // An error of one LSB gives no warning, even if the torque is small.
   CHECK(verdict(compiled("out torque = 0.0002 Nm * clamp(position, 0, 1)\n"), {}).warnings.empty());
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("the bound at the values that are set, of every shipped law") {
       }
     };
     within(measure_all(c));
-    // The first 50 runs are with what the file sets.
+    // The first 50 runs use the parameters of the file.
     for (std::uint64_t seed = 1; seed <= 60; ++seed) within(measure(c, seed, 50));
   }
   CHECK(smaller >= 5);

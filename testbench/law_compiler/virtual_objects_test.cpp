@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The words of a flywheel keep momentum and energy within what the bound lets a run add.
-// Documentation: docs/devices/flywheel.md
+// The words of a flywheel keep momentum and energy, except for the error that the bound allows per
+// run. Documentation: docs/devices/flywheel.md
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -81,7 +81,7 @@ TEST_CASE("flywheel in words: torque times time is its momentum, within the boun
 TEST_CASE("flywheel in words: without damping it swings on, its energy within the bound") {
   Wheel wheel(false);
   wheel.run(0);
-  wheel.run(30);  // the lever moves, and is held
+  wheel.run(30);  // the lever moves, then is held
   const auto energy = [&] {
     const double w = wheel.state("speed"), x = wheel.state("twist");
     return wheel.inertia * w * w / 2 + wheel.stiffness * x * x / 2;
@@ -89,7 +89,7 @@ TEST_CASE("flywheel in words: without damping it swings on, its energy within th
   const double before = energy(), most = std::sqrt(2 * before / wheel.inertia),
                far = std::sqrt(2 * before / wheel.stiffness);
   CHECK(far == Approx(0.046).epsilon(0.02));
-  // The step's own swing, and what each run may add.
+  // The swing from the time step, and the error that each run may add.
   const double swing = before * std::sqrt(wheel.stiffness / wheel.inertia) * wheel.dt();
   const double added =
       wheel.inertia * most * wheel.drift("speed") + wheel.stiffness * far * wheel.drift("twist");

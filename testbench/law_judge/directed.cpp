@@ -47,7 +47,7 @@ void parameters_alone(std::vector<Directed>& all) {
   }
 }
 
-/// Comparisons of whole states with what lies between whole numbers, and with whole ones.
+/// Comparisons of whole states with values between whole numbers, and with whole numbers.
 void whole_states(std::vector<Directed>& all) {
   const Kind kinds[] = {Kind::less, Kind::less_equal, Kind::more, Kind::more_equal};
   for (const char* threshold : {"0.5", "1.5", "2.5", "1", "0.25"}) {
@@ -83,7 +83,7 @@ void renamed(std::vector<Directed>& all) {
                            make(Kind::logarithm, {y}))});
 }
 
-/// Whole parameters times numbers that no word of theirs can hold.
+/// Whole parameters times numbers that their words cannot hold.
 void whole_parameters(std::vector<Directed>& all) {
   Law l;
   const Node count = l.param("count", 1, -2, 4, true);
@@ -193,7 +193,7 @@ void dropped(std::vector<Directed>& all) {
   }
 }
 
-/// What only the end of a table's last piece reaches.
+/// Values that only the end of a table's last piece reaches.
 void last_piece(std::vector<Directed>& all) {
   Law l;
   l.tables.push_back({"curve", 0, 2, {}, {0, 0.1, 0.1, 0.1, 4}, 0});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law in long double, by docs/laws.md.
+// Evaluates a law in long double, as docs/laws.md defines it.
 #include <algorithm>
 #include <cmath>
 
@@ -66,13 +66,13 @@ long Evaluator::decide(const Node& n, long taken, long other, Real distance, Rea
   return taken;
 }
 
-/// a < b, where `n` is the comparison as it is written.
+/// Evaluates a < b; `n` is the comparison as written in the law.
 bool Evaluator::less(const Node& n, const Node& a, const Node& b) {
   Real x = of(a), y = b ? of(b) : 0;
   const bool whole_a = whole(a), whole_b = !b || whole(b);
   const bool exact =
       (whole_a && (whole_b || b->kind == Kind::number)) || (whole_b && a->kind == Kind::number);
-  // What is whole is whole, however its word's step comes out.
+  // A whole value is rounded to a whole number, because its word's step may not be exact.
   if (whole_a) x = std::nearbyint(x);
   if (whole_b) y = std::nearbyint(y);
   const bool is = x < y;
@@ -99,7 +99,7 @@ bool Evaluator::truth(const Node& n) {
     }
     case Kind::state:
       return before_->states[at(n->index)] != 0;
-    // Both sides, so that all that is compared is known.
+    // Evaluates both sides, so that all comparisons are known.
     case Kind::both: {
       const bool a = truth(p[0]), b = truth(p[1]);
       return a && b;
@@ -124,7 +124,7 @@ Real Evaluator::element(const Node& n) {
   return values[at(decide(n, taken, other, std::fabs(x - near), std::fabs(x), exact))];
 }
 
-/// x rounded down, which is what it decides of.
+/// Returns x rounded down, and records this as a decision.
 Real Evaluator::floored(const Node& n, Real x) {
   const bool exact = whole(n->parts[0]) && (n->parts.size() < 2 || whole(n->parts[1]));
   const Real near = std::nearbyint(x);

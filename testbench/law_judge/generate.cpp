@@ -21,7 +21,7 @@ class Generator {
     const int axes = shape_ == Shape::axes ? 2 + below(2) : 1;
     for (int axis = 0; axis < axes; ++axis) {
       axis_ = axis;
-      // What goes out as it is computed, or times a number, or limited.
+      // The output: the torque itself, or times a number, or limited.
       const Node t = torque();
       law_.torques.push_back(one_in(3) ? t : one_in(3) ? value(0.1, 4) * t : limited(t, -4, 4));
     }
@@ -35,7 +35,7 @@ class Generator {
  private:
   int below(int n) { return static_cast<int>(random_.below(n)); }
   bool one_in(int n) { return below(n) == 0; }
-  /// As it will be printed.
+  /// Returns a number with the digits that will be printed.
   double between(double a, double b) {
     return std::strtod(fmt::format("{:.3f}", random_.between(a, b)).c_str(), nullptr);
   }
@@ -55,7 +55,7 @@ class Generator {
       law_.params.push_back({"hold", "mNm", 1e-3, 100, 0, 800, false, false});
       params_.push_back(make(Kind::param, {}, last(law_.params), "hold"));
     }
-    // Over decades: by the host's functions alone.
+    // A parameter over decades, used only in functions that the host computes.
     if (one_in(4)) wide_ = law_.param("wide", 1, 0.01, 100);
     count_ = law_.param("count", 1, 0, 4, true);
     if (shape_ == Shape::memory && one_in(3)) {
@@ -127,7 +127,7 @@ class Generator {
         t.body = x / (value(0.3, 1) + make(Kind::absolute, {x}));
         break;
       default: {
-        // Points lie at whole numbers of their distance.
+        // The points are at whole multiples of their distance.
         const double step = 0.25 * (1 + below(2));
         const int first = -below(4), count = 4 + below(5);
         t.lower = first * step;
@@ -139,7 +139,7 @@ class Generator {
       }
     }
     law_.tables.push_back(t);
-    // One argument, for each format of one is a table of its own.
+    // All uses share one argument, because each format of an argument needs its own table.
     const Node argument = value(0.5, 2) * moving();
     curve_ = make(Kind::table, {one_in(2) ? argument + some(params_) : argument}, 0, "curve");
   }
@@ -176,7 +176,7 @@ class Generator {
     for (Line& l : law_.lines) l.written = limited(expression(2), -2, 2);
   }
 
-  /// What is no parameter and no constant.
+  /// Returns an expression that is neither a parameter nor a constant.
   Node moving() {
     switch (below(kept_.empty() ? 5 : 7)) {
       case 0:
@@ -229,7 +229,7 @@ class Generator {
     }
   }
 
-  /// Of parameters and numbers alone, so that the host computes it.
+  /// Returns an expression of parameters and numbers only, which the host computes.
   Node fixed(int depth) {
     if (wide_ && one_in(4)) {
       const Node limit = value(0.5, 3);
@@ -327,7 +327,7 @@ class Generator {
       case 14:
         return sgn(moving() - some(params_)) * a;
       default: {
-        // Not where inputs often are, at 0.
+        // Not at 0, where inputs often are.
         const Node x = limited(a, -3, 3) + value(0.05, 0.25);
         return one_in(2) ? value(0.1, 0.5) * make(Kind::floor, {value(0.5, 4) * x})
                          : make(Kind::modulo, {x, value(0.3, 2)});
@@ -335,9 +335,9 @@ class Generator {
     }
   }
 
-  /// A root or, in its place, a logarithm.
+  /// Returns a root or, sometimes, a logarithm.
   Kind root_kind() { return roots_.below(3) == 0 ? Kind::logarithm : Kind::root; }
-  /// Table memory holds few of both.
+  /// The table memory is small: a law with tables gets no function here.
   Node unless_tables(Kind function, const Node& x) const {
     return law_.tables.empty() ? make(function, {x}) : limited(x, -2, 2);
   }
@@ -345,7 +345,7 @@ class Generator {
   Node torque() {
     switch (shape_) {
       case Shape::parameters_alone: {
-        // A way by a condition, a strength by parameters, and something added to it.
+        // A direction from a condition, a strength from parameters, and an added term.
         const Node way = one_in(3)   ? sgn(some(params_))
                          : one_in(2) ? sgn(moving() - some(params_))
                                      : choose(condition(1), fixed(1), fixed(1));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Of the compiler this takes what it claims: bounds, strips by their lines, the words and their
-// scales. Nothing of how it came to them.
+// The judge uses only the results of the compiler: bounds, strips by their lines, the words and
+// their scales. It uses nothing of the way in which the compiler found them.
 #include "judge.hpp"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class Judge {
     }
     const bool memory = !law_.states.empty() || !law_.lines.empty();
     if (!memory || !c_.bound.states_bounded) return verdict_;
-    // Free: law and words go on by themselves.
+    // A free run: law and words each continue from their own states.
     enter();
     for (int i = 0; i < runs / 2 && verdict_.failure.empty(); ++i) {
       if (i % 100 == 50) set_parameters(false);
@@ -132,7 +132,7 @@ class Judge {
   Real state(std::size_t k) const {
     return data(k) * static_cast<Real>(c_.program.states[k].scale);
   }
-  /// What was written `ago` runs ago into line k.
+  /// Returns the value written into line k `ago` runs ago.
   Real kept(std::size_t k, int ago) const {
     const law::LineUse& use = c_.program.lines[k];
     const int length = c_.law.lines[k].length, next = data(at(use.pointer)) / 4096;
@@ -141,7 +141,7 @@ class Judge {
            static_cast<Real>(use.scale);
   }
 
-  /// States anywhere in their ranges, from which a run has its bound as well.
+  /// Sets random states in their ranges; the bound of a run holds from these as well.
   void scatter() {
     for (const long k : state_index_) {
       if (k < 0) continue;
@@ -151,7 +151,7 @@ class Judge {
       const std::int64_t word = corner == 0   ? use.lower
                                 : corner == 1 ? use.upper
                                               : use.lower + random_.below(width + 1);
-      // A whole state has the words of whole numbers alone.
+      // The word of a whole state always stands for a whole number.
       const auto one = static_cast<std::int64_t>(std::llround(1 / use.scale));
       const std::int64_t off = c_.law.states[at(k)].whole ? ((word % one) + one) % one : 0;
       machine_.memory().set_data(address(at(k)), static_cast<std::int32_t>(word - off));
@@ -159,7 +159,7 @@ class Judge {
     resync();
   }
 
-  /// The law goes on from what the words left.
+  /// Sets the law's states to those of the words.
   void resync() {
     for (std::size_t k = 0; k < law_.states.size(); ++k) {
       if (state_index_[k] >= 0) before_.states[k] = state(at(state_index_[k]));
@@ -179,7 +179,7 @@ class Judge {
     for (std::size_t i = 0; i < 9; ++i) before_.inputs[i] = input_si(c_.target, i, words[i]);
   }
 
-  /// Inputs beside which a comparison turns, between two random ones.
+  /// Searches, between two random inputs, for inputs at which a comparison changes its result.
   void aim() {
     Inputs from, to;
     inputs(&from);
@@ -217,7 +217,7 @@ class Judge {
     step(true);
   }
 
-  /// One run of both. Whether only a turned comparison explains the words.
+  /// Runs words and law once. Returns whether only a turned comparison explains the words.
   bool step(bool aimed) {
     set_inputs(words_);
     law::MachineInputs inputs{};
@@ -254,7 +254,7 @@ class Judge {
     held_ = o.holds;
   }
 
-  /// Whether the strips that the run is in tell of a difference of torque as large as this.
+  /// Returns whether the declared strips of this run allow a difference of torque this large.
   bool told(const Outcome& o) const {
     for (std::size_t k = 0; k < c_.law.outputs.size(); ++k) {
       const std::size_t axis = at(c_.law.outputs[k].axis);
@@ -273,7 +273,7 @@ class Judge {
     return difference_.rfind("torque", 0) == 0;
   }
 
-  /// Whether words and law are the same where comparisons within their strips turn out otherwise.
+  /// Returns whether words and law agree if comparisons within their strips give the other result.
   bool explain(const Outcome& o, const std::map<long, long>& forced, int depth) {
     for (const Decision& d : o.decisions) {
       const double w = strips_.width(d);
@@ -288,8 +288,8 @@ class Judge {
     return false;
   }
 
-  /// The largest distance of anything that a run leaves, by its bound; more than 1: too far. What
-  /// is no number is far.
+  /// Returns the largest distance between words and law after a run, divided by its bound; more
+  /// than 1 is a failure. NaN counts as a failure.
   double apart(const Outcome& o, bool tell) {
     double far = 0;
     const auto one = [&](const std::string& what, Real words, Real law, double bound, Real width) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law's words, run by the interpreter, beside the law in long double.
+// Compares a law's words, run by the interpreter, with the law in long double.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@ struct Verdict {
   std::string failure;  ///< empty: none
   std::int64_t runs = 0;
   std::int64_t turned =
-      0;  ///< where only a comparison within its declared strip explains the words
-  std::string first_turned;                  ///< the first of those
-  std::int64_t aimed = 0, aimed_turned = 0;  ///< the same of runs that were aimed at a comparison
+      0;  ///< runs in which only a turned comparison within its declared strip explains the words
+  std::string first_turned;                  ///< the first of these runs
+  std::int64_t aimed = 0, aimed_turned = 0;  ///< the same for runs aimed at a comparison
   int unread_states = 0;  ///< states that no step reads; their words are not judged
-  double worst = 0;  ///< largest distance of a torque from its law, by the bound, without those
+  double worst = 0;  ///< largest error of a torque divided by its bound, without the turned runs
 };
 
-/// The words of `compiled` against `law`: torques, events, states and lines of every run. Ends at
-/// the first failure.
+/// Compares the words of `compiled` with `law`: torques, events, states and lines of every run.
+/// Ends at the first failure.
 Verdict judge(const Law& law, const Printer& printer, const feltgate::law::Compiled& compiled,
               std::uint64_t seed, int runs);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The compiler's adversary: random laws, their words against a judge that shares nothing with it.
+// Random laws against the compiler: a judge without shared code checks their words.
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdlib>
@@ -24,7 +24,7 @@ int from_environment(const char* name, int otherwise) {
 
 struct Total {
   int laws = 0, refused = 0, failed = 0;
-  int left_out = 0;  ///< laws of which strips explain more than a tenth of the runs
+  int left_out = 0;  ///< laws for which strips explain more than a tenth of the runs
   Verdict runs;
 
   void add(const std::string& name, const Law& law, std::uint64_t seed, int runs_each) {
@@ -74,14 +74,14 @@ TEST_CASE("laws that come close to their bounds") {
   CHECK(total.left_out == 0);
 }
 
-/// FELTGATE_JUDGE_FIRST, FELTGATE_JUDGE_LAWS: a part of them, from this law on.
+/// FELTGATE_JUDGE_FIRST and FELTGATE_JUDGE_LAWS select the first law and the number of laws.
 TEST_CASE("random laws stay within their bounds") {
   const int first = from_environment("FELTGATE_JUDGE_FIRST", 0);
   const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? 100000 : 300);
   const int most = from_environment("FELTGATE_JUDGE_MOST", 4);
   const auto began = std::chrono::steady_clock::now();
   Total total;
-  // A broken compiler needs no more laws to be seen.
+  // After enough failures no more laws are needed.
   for (int i = first; i < first + count && total.failed <= most; ++i) {
     const auto seed = static_cast<std::uint64_t>(i) + 1;
     total.add("law " + std::to_string(i), random_law(seed, static_cast<Shape>(i % shapes)), seed,
@@ -98,7 +98,7 @@ TEST_CASE("random laws stay within their bounds") {
                   << " explained by a strip; " << r.aimed << " aimed at a comparison, "
                   << r.aimed_turned << " explained by its strip; " << r.unread_states
                   << " states that no step reads");
-  // Of few laws a share says little.
+  // With few laws a share means little: 50 are added.
   CHECK(total.refused * 10 <= total.laws + 50);
   CHECK(total.left_out * 200 <= total.laws + 100);
   CHECK(r.turned * 100 <= r.runs + 1000);

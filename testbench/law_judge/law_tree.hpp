@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Laws as trees of the test's own: printed as text for the compiler, and evaluated in long double
-// from docs/laws.md alone. Nothing of model/law is used here.
+// Laws as trees of the test itself. They are printed as text for the compiler, and evaluated in
+// long double as docs/laws.md defines. No code of model/law is used here.
 #pragma once
 
 #include <fmt/format.h>
@@ -33,9 +33,9 @@ using Node = std::shared_ptr<const Tree>;
 
 struct Tree {
   Kind kind = Kind::number;
-  std::string text;  ///< of a number; name of all else that has one
-  Real value = 0;    ///< of a number; lower end of a sum's counter, whose upper end is `index`
-  int index = -1;    ///< in the law's list of what it names; a power; how many runs ago of a line
+  std::string text;  ///< text of a number; name of every other node that has one
+  Real value = 0;    ///< value of a number; lower end of a sum's counter (`index` is the upper end)
+  int index = -1;    ///< index in the law's list; an exponent; for a line, the number of runs ago
   std::vector<Node> parts;
 };
 
@@ -43,7 +43,7 @@ inline Node make(Kind kind, std::vector<Node> parts, int index = -1, std::string
                  Real value = 0) {
   return std::make_shared<const Tree>(Tree{kind, std::move(text), value, index, std::move(parts)});
 }
-/// The value is that of the text, as every reader of a decimal takes it.
+/// The value is the text read as a decimal number.
 inline Node number(const std::string& text) {
   return make(Kind::number, {}, -1, text, std::strtod(text.c_str(), nullptr));
 }
@@ -71,7 +71,7 @@ inline Node choose(const Node& condition, const Node& a, const Node& b) {
 }
 
 struct Param {
-  std::string name, unit;  ///< `unit` stands behind its numbers; empty: none
+  std::string name, unit;  ///< `unit` follows its numbers; empty: none
   Real to_si = 1;
   double initial = 0, lower = 0, upper = 1;  ///< in `unit`
   bool whole = false, mailbox = false;
@@ -80,14 +80,14 @@ struct State {
   std::string name;
   double initial = 0, lower = 0, upper = 1;
   bool whole = false, phase = false;
-  Node next;  ///< none, and no lowpass: a noise, whose every value is taken as the words have it
-  Node follows, frequency;  ///< of a lowpass, which is a state without a line of its own
-  bool truth = false;       ///< a bool: whole, in 0 .. 1, and `next` is a condition
+  Node next;  ///< empty without a lowpass: a noise, whose values are taken from the words
+  Node follows, frequency;  ///< for a lowpass, which is a state without its own line
+  bool truth = false;       ///< a bool: whole, 0 to 1, and `next` is a condition
 };
 struct Table {
   std::string name;
   double lower = 0, upper = 1;
-  Node body;  ///< of Kind::counter, the variable
+  Node body;  ///< a function of Kind::counter, the variable
   std::vector<double> points;
   int segments = 0;  ///< 0: the compiler chooses
   bool periodic = false;
@@ -111,7 +111,7 @@ struct Event {
   Node value, condition;
 };
 
-/// A law; what no output, event, state or line needs is not printed.
+/// A law. Parts that no output, event, state or line needs are not printed.
 struct Law {
   double rate_khz = 0;
   std::vector<Param> params;
@@ -149,13 +149,13 @@ inline Node tau_hat(int axis = 0) {
               axis == 0 ? "tau_hat" : fmt::format("tau_hat[{}]", axis));
 }
 
-/// The text of a law. Every comparison, sgn and element of an array begins a line of its own, so
-/// that a line says which one it is.
+/// The text of a law. Every comparison, sgn and array element begins a new line, so that the line
+/// number identifies it.
 class Printer {
  public:
   explicit Printer(const Law& law);
   const std::string& text() const { return text_; }
-  /// Of what canonical() gives: the lines that it is on.
+  /// For each text that canonical() returns: its lines.
   const std::map<std::string, std::set<int>>& lines() const { return lines_; }
   bool needed(const std::string& name) const { return needed_.count(name) != 0; }
 
@@ -173,18 +173,19 @@ class Printer {
   std::map<std::string, std::set<int>> lines_;
 };
 
-/// A comparison as a < b, an element's index, a floor or a mod, its lets written in full.
+/// Returns the text of a comparison as a < b, of an element's index, of a floor or of a mod, with
+/// its lets written in full.
 std::string canonical(const Law& law, const Node& n);
 
-/// What a run decided, and how near it was to deciding otherwise.
+/// A decision of a run, and its distance from the other result.
 struct Decision {
   long key = 0;
   const std::string* canonical = nullptr;
-  long taken = 0;      ///< 0, 1; of an element the index
-  long other = 0;      ///< the nearest other
-  Real distance = 0;   ///< of the operands from where it would turn
-  Real rounding = 0;   ///< within which doubles may tell equal operands apart
-  bool exact = false;  ///< both sides are whole by the law itself: nothing is near
+  long taken = 0;      ///< 0 or 1; for an element its index
+  long other = 0;      ///< the nearest other result
+  Real distance = 0;   ///< distance of the operands from the turning point
+  Real rounding = 0;   ///< distance within which rounding of doubles may separate equal operands
+  bool exact = false;  ///< both sides are whole by definition: no rounding
 };
 
 struct Outcome {
@@ -193,14 +194,15 @@ struct Outcome {
   std::vector<Decision> decisions;
 };
 
-/// The law's memory and surroundings before a run, SI.
+/// The law's memory and inputs before a run, in SI units.
 struct Before {
   std::vector<Real> params, inputs, states;
-  std::vector<std::vector<Real>> lines;  ///< [line][k]: what was written k + 1 runs ago
+  std::vector<std::vector<Real>> lines;  ///< [line][k]: value written k + 1 runs ago
   Real rate_hz = 1;
 };
 
-/// One run in long double. `forced`: decisions that are made so, whatever their operands say.
+/// One run in long double. `forced`: decisions whose result is given, independent of their
+/// operands.
 class Evaluator {
  public:
   explicit Evaluator(const Law& law) : law_(law) {}

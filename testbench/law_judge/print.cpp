@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law's text.
+// Prints a law as text.
 #include "law_tree.hpp"
 
 namespace feltgate::judge {
@@ -14,7 +14,8 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
   return s;
 }
 
-/// An expression's text; `mark` gives what stands before a comparison's sign, `let` a let's text.
+/// Returns an expression's text. `mark` returns the text before a comparison's sign, `let` the text
+/// of a let.
 template <class Mark, class Let>
 std::string written(const Law& law, const Node& n, const Mark& mark, const Let& let) {
   std::vector<std::string> p;
@@ -125,13 +126,13 @@ std::string canonical(const Law& law, const Node& n) {
   std::string b = n->kind == Kind::sign ? "0" : full(law, n->parts[1]);
   if (n->kind == Kind::equal) return a + " == " + b;
   if (n->kind == Kind::differs) return a + " != " + b;
-  // a > b is b < a, and a <= b is its opposite: one comparison.
+  // a > b is b < a, and a <= b is the opposite of this: all are one comparison.
   if (n->kind == Kind::more || n->kind == Kind::less_equal) std::swap(a, b);
   return a + " < " + b;
 }
 
 std::string Printer::mark(const Node& n) {
-  // The text before it is known when all is printed: an operand may be printed first.
+  // The text before the mark is known only at the end, because an operand may be printed first.
   marks_.push_back(canonical(law_, n));
   return fmt::format("\x01{}\x02", marks_.size() - 1);
 }

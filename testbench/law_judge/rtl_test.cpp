@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Some of the random laws on the RTL: the words of the interpreter, which the judge compares with
-// the laws themselves.
+// Runs some of the random laws on the RTL: its words must equal the words of the interpreter, which
+// the judge compares with the laws.
 #include "engine/machine.hpp"
 #include "engine_device.hpp"
 #include "generate.hpp"
@@ -16,11 +16,11 @@ namespace {
 
 std::int64_t lived = 0, told = 0;
 
-/// The law, entered, and `runs` runs with any inputs and parameters.
+/// Loads and enters the law, and makes `runs` runs with random inputs and parameters.
 void live(const law::Compiled& c, std::uint64_t seed, int runs) {
   SplitMix64 random(seed);
   test::LoadedDevice device(law::memory(c.image));
-  device.clock(100);                      // until the last word is in
+  device.clock(100);                      // until the last word is written
   EngineMemory m = device.twin.memory();  // one bank of parameters is not set yet
   m.line_base = c.image.line_base;
   law::Machine machine(m);
@@ -56,7 +56,7 @@ void live(const law::Compiled& c, std::uint64_t seed, int runs) {
       device.in.velocity[n] = inputs[3 * n + 1] = static_cast<std::int32_t>(words[3 * n + 1]);
       device.in.tau_hat[n] = inputs[3 * n + 2] = static_cast<std::int32_t>(words[3 * n + 2]);
     }
-    device.clock();  // the tick takes what stands a clock before it
+    device.clock();  // a tick samples the inputs of the clock before it
     device.since = test::kTick - 1;
     inputs[9] = static_cast<std::int32_t>(device.in.tick_count + 1);
     const law::MachineRun& run = machine.run(0, inputs);
@@ -70,7 +70,7 @@ void live(const law::Compiled& c, std::uint64_t seed, int runs) {
         REQUIRE(device.out().event_value == run.events[events].value);
         ++events;
       }
-      device.since = 1;  // no tick amid a run
+      device.since = 1;  // no tick during a run
       device.clock();
     }
     REQUIRE(events == run.events.size());
@@ -89,7 +89,7 @@ void live(const law::Compiled& c, std::uint64_t seed, int runs) {
 TEST_CASE("random laws on the RTL: torques, events and words of the interpreter") {
   law::Target target;
   target.axes = AXES;
-  // One of each shape.
+  // One law of each shape.
   for (std::uint64_t seed = 1; seed <= shapes; ++seed) {
     const Law law = random_law(seed, static_cast<Shape>(seed - 1));
     const std::string text = Printer(law).text();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the compiler tells of a law's comparisons, and the inputs that a run is given.
+// The compiler's strips for a law's comparisons, and the inputs of a run.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace feltgate::judge {
 
-/// The strips of the compiler's answer, by the comparison that is on their line.
+/// The strips that the compiler reports, sorted by the comparison on their line.
 class Strips {
  public:
   Strips(const Printer& printer, const feltgate::law::Compiled& c) {
@@ -35,12 +35,12 @@ class Strips {
     }
   }
 
-  /// To either side of where the comparison turns; 0: it has none.
+  /// Returns the width to each side of the turning point; 0: no strip.
   double width(const Decision& d) const {
     const auto found = widths_.find(*d.canonical);
     return found == widths_.end() ? 0 : found->second;
   }
-  /// How far an output may be off in it, Nm; only of one that has a width.
+  /// Returns the largest error of an output in the strip, Nm. Valid only if the width is not 0.
   double jump(const Decision& d, std::size_t output) const {
     return jumps_.at(*d.canonical)[output];
   }
@@ -50,7 +50,7 @@ class Strips {
   std::map<std::string, std::vector<double>> jumps_;
 };
 
-/// Where the compiler has what has this name; -1: nowhere.
+/// Returns the index of this name in the compiler's list; -1: not there.
 template <class List>
 long index(const List& list, const std::string& name) {
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -59,15 +59,16 @@ long index(const List& list, const std::string& name) {
   return -1;
 }
 
-/// Whether a step reads the state. The words of one that none reads need not follow the law: what
-/// should have read it is judged by itself.
+/// Returns whether a step reads the state. The words of a state that no step reads need not follow
+/// the law; the values that should have read it are judged separately.
 inline bool is_read(const feltgate::law::Program& program, long state) {
   const feltgate::law::Operand o{feltgate::law::From::state, static_cast<int>(state)};
   return std::any_of(program.steps.begin(), program.steps.end(),
                      [&](const feltgate::law::Step& s) { return s.x == o || s.y == o; });
 }
 
-/// What is wrong with a parameter's word: it is its value, and near to what the file says.
+/// Returns the error in a parameter's word, or an empty text. The word must be in the range, and
+/// close to the value in the file.
 inline std::string wrong_word(const Param& param, const feltgate::law::ImageWord& w,
                               std::int32_t word, bool initial) {
   const double step = std::fabs(w.scale), unit = static_cast<double>(param.to_si);
@@ -97,7 +98,7 @@ inline Real first(const State& s, const feltgate::law::StateUse& use) {
 /// Words of the inputs of three axes.
 using Inputs = std::array<std::int64_t, 9>;
 
-/// Of any size, ends among them.
+/// Makes random inputs of any size, sometimes at the ends of their range.
 inline void random_inputs(const feltgate::law::Target& target, SplitMix64& random, Inputs* words) {
   for (std::size_t i = 0; i < words->size(); ++i) {
     const Format f = i % 3 == 1 ? target.velocity : target.torque;

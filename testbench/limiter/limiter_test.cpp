@@ -87,7 +87,7 @@ struct RandomCases {
                   static_cast<std::uint64_t>(kWidth - 1));  // one misfit bit
     if (random.one_in(8)) limit = -1 - limit;
     c.param = static_cast<std::uint32_t>(limit);
-    // What lies above the limit's bits does not count.
+    // The bits above the limit's width have no effect.
     if (random.one_in(4)) c.param ^= static_cast<std::uint32_t>(random.bits()) << (kWidth % 32);
     c.x = static_cast<std::int64_t>(random.bits()) >>
           (64 - kWide + static_cast<int>(random.below(static_cast<std::uint64_t>(kWide))));

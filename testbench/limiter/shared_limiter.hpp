@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's one limiter as a block under test sees it: its own results in the clock after the
-// limit's word, those of others in every other clock, so that taking one a clock early or late
-// shows. Documentation: docs/blocks/limiter.md
+// The core's shared limiter for a block under test. It gives the block's own result in the clock
+// after the limit's word, and results of other blocks in all other clocks, so that a read one clock
+// early or late is found. Documentation: docs/blocks/limiter.md
 #pragma once
 
 #include "limiter_twin.hpp"
@@ -16,7 +16,7 @@ class SharedLimiter {
  public:
   explicit SharedLimiter(std::uint64_t seed) : random_(seed) {}
 
-  /// What the block sees in this clock. Call clock() once after that.
+  /// The result in this clock. Call clock() once after it.
   std::int64_t limited() const { return out_.limited; }
   bool beyond() const { return out_.beyond; }
 

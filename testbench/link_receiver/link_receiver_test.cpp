@@ -80,7 +80,7 @@ struct Stimulus {
   }
 };
 
-/// What the page says of each frame, a clock after its end.
+/// The expected result of each frame by the documentation, a clock after its end.
 struct Page {
   explicit Page(std::shared_ptr<WireReader> r) : reader(std::move(r)) {}
 

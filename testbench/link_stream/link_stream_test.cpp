@@ -113,7 +113,7 @@ Frame parsed(const std::vector<std::uint8_t>& bytes) {
   }
   return f;
 }
-/// All words are those of the tick that the frame names; returns it.
+/// Checks that all words are of the tick in the frame; returns this tick.
 std::uint32_t check_frame(const Frame& f) {
   REQUIRE(f.kind == LinkMap::kind_stream);
   REQUIRE((f.mask >> LinkMap::N::tick & 1u) == 1);

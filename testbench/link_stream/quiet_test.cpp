@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// link_stream: what its twin says of coming ticks, for those who skip them. Documentation:
+// link_stream: the twin's prediction for coming ticks, for code that skips them. Documentation:
 // docs/blocks/link_stream.md
 #include "catch.hpp"
 #include "feltgate/link_stream.hpp"

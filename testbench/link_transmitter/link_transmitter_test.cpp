@@ -89,7 +89,7 @@ struct Stimulus {
   }
 };
 
-/// What was taken of the sources comes out framed, one after the other.
+/// Checks that the bytes taken from the sources come out as frames, one after the other.
 struct Wire {
   struct Seen {
     Bytes taken, sent;

@@ -20,7 +20,7 @@ TEST_CASE("link_transmitter: while it waits nothing changes but by a frame or a 
   for (int k = 0; k < 200'000; ++k) {
     for (FrameByte* source : {&in.reply, &in.stream}) {
       if (source->valid) continue;
-      // Soon amid a frame, else seldom.
+      // Often within a frame, otherwise seldom.
       const bool asked = source == &in.reply ? twin.out().reply_ready : twin.out().stream_ready;
       const bool begins = random.one_in(asked ? 5 : 2'000);
       *source = {begins, static_cast<std::uint8_t>(random.below(256)), random.one_in(4)};

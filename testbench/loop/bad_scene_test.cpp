@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Scenes that cannot be run: each is refused, or ended, with file, line and what to change.
-// Documentation: docs/scenes.md, docs/plant.md
+// Scenes that cannot run: each is refused or stopped with a message that has file, line and the
+// change to make. Documentation: docs/scenes.md, docs/plant.md
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +20,8 @@ using namespace feltgate;
 const std::string kHead =
     "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\n[core]\nscene = \"free\"\n";  // 5 lines
 
-/// The message of a scene's text, read and run with the twin; empty where all goes well.
+/// Reads a scene's text and runs it with the twin. Returns the error message; empty without an
+/// error.
 std::string told(const std::string& text, const std::string& plant_change = "",
                  bool resolve = true) {
   const std::string folder = std::filesystem::temp_directory_path().string();
@@ -84,7 +85,7 @@ TEST_CASE("a parameter may have its unit behind it, and one of something else ha
   expect(told(kHead + "[parameters]\nwall_stifness = \"1 Nm/rad\"\n"), "7: ", "wall_stiffness");
   expect(told(kHead + "[[event]]\nat_s = 0.01\nset = { wall_stiffness = \"1 kg\" }\n"),
          "7: wall_stiffness: ", "write");
-  // Nobody runs a scene whose amounts were left out.
+  // A scene read without its amounts must not run.
   CHECK(told(with("\"0.1 Nm/deg\""), "", false).find("write numbers") != std::string::npos);
 }
 
@@ -122,7 +123,7 @@ TEST_CASE("events that never come", "[bad_scene]") {
     expect(told(event(late)), "7: the event at ", "move the event, or raise duration_s");
   }
   CHECK(told(event("0.019")) == "");
-  // Arming later than the end is not arming.
+  // An arming time after the end of the scene means that it does not arm.
   CHECK(told(kHead + "arm_s = 1e300\n[[expect]]\nfigure = \"tau_ref_max_nm\"\nhigh = 0\n") == "");
   expect(told("duration_s = 1e300\n"), "1: ", "");
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a run felt like: closed forms first, then a scene. Documentation: docs/json.md
+// The figures of a run for the hand (felt torque and energy): closed forms first, then a scene.
+// Documentation: docs/json.md
 #include "loop/felt.hpp"
 
 #include <cmath>
@@ -193,7 +194,7 @@ TEST_CASE("a jump of the speed that the hand imposes is told with line, size and
   REQUIRE(locked.size() == 1);
   CHECK(locked[0].find("toml:12: the hand's speed jumps by -3.75 rad/s at 0.05 s") !=
         std::string::npos);
-  // After a phase in which the lever is free nobody knows its speed.
+  // After a phase with a free lever its speed is unknown.
   CHECK(told("[[hand.phase]]\nkind = \"free\"\nduration_s = 0.1\n" + phase + at_rest + "]\n")
             .empty());
   const std::string arm =

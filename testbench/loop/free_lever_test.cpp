@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a hand feels of a free and of a damped lever, by the core's bits and by formulas. With
-// FELTGATE_SHOW=1 the table of the page. Simulation. Documentation: docs/devices/free_lever.md
+// The torque that a hand feels at a free and at a damped lever, from the core's bits and from
+// formulas. With FELTGATE_SHOW=1 it prints the table of the page. Simulation. Documentation:
+// docs/devices/free_lever.md
 #include <fmt/format.h>
 
 #include <algorithm>

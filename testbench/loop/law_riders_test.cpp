@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Laws in double and quad beside the engine's: they ramp where the core does, and have no torque
-// where a mailbox is too old. Documentation: docs/laws.md
+// Laws in double and quad beside the engine's law: they ramp when the core ramps, and give no
+// torque when a mailbox is too old. Documentation: docs/laws.md
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where the steps of the plant end, and that long ones change nothing. Documentation: docs/plant.md
+// The ends of the plant's steps; long steps do not change the results. Documentation: docs/plant.md
 #include "loop/step_plan.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Walls and ceilings on a sensor of the host: how quiet a lever rests on them by encoder, by
-// tracker, filtered and fused. Simulation. Documentation: docs/devices/drums.md
+// Walls and ceilings with a sensor of the host: how quietly a lever rests on them with an encoder,
+// with a tracker, filtered and fused. Simulation. Documentation: docs/devices/drums.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace feltgate;
 
-/// What the host knows the lever's place by.
+/// The sensor from which the host knows the lever's angle.
 struct Sensor {
   const char* name;
   double rate_hz, noise_rad, resolution_rad, alpha;

@@ -50,7 +50,7 @@ Wide centred(Wide v, int bits) {
 }
 Wide clamped(Wide v) { return std::clamp(v, -power(31), power(31) - 1); }
 
-/// What the page says, in plain arithmetic.
+/// The result by the documentation, in plain arithmetic.
 Wide expected(EngineOp op, int mode, Wide acc, bool flag, Wide x, Wide y, Wide t) {
   static const int shifts[] = {0, 12, 17, 27};
   const int s = shifts[mode];

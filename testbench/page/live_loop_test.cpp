@@ -24,7 +24,7 @@ plant::Parameters plant_named(const std::string& name) {
   return plant::read_plant_file(root + "/vectors/plants/" + name + ".toml");
 }
 
-/// What an exception of `act` says; "" without one.
+/// Returns the message of an exception of `act`; "" without one.
 template <class Act>
 std::string refusal(Act&& act) {
   try {

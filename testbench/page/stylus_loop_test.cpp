@@ -196,7 +196,7 @@ TEST_CASE("page: friction drags as the grip up to its cone, and slips there, alo
       // Words of the law: mu of 2^-10, torques of 2 uNm at 10 mm.
       CHECK(f.x == Approx(-drag_n).margin(2e-3));
       CHECK(f.y == Approx(along_y_m_s > 0 ? -drag_n : 0).margin(2e-3));
-      // What the hand, so far ahead, pulls with: drag, and the slides' friction.
+      // The pull of the hand at this distance: drag, and the slides' friction.
       CHECK(hand.stiffness_n_m * (loop.hand_m().x - loop.pen_m().x) ==
             Approx(drag_n + 0.003 * 0.05).margin(5e-3));
       const double across_n = std::hypot(f.x, f.y);

@@ -21,7 +21,7 @@ using Cores = AxesTwin<LeverLaw, Pantograph>;
 
 namespace {
 
-/// The motors that the design is made for, without a capstan between.
+/// The motors of the design, without a capstan.
 PantographParameters direct() {
   PantographParameters p = pantograph();
   p.joint.drum_radius_m = p.joint.pulley_radius_m;
@@ -29,12 +29,12 @@ PantographParameters direct() {
   return p;
 }
 
-/// The joints' counts at the start of the cores: what homing finds.
+/// The joints' counts at the start of the cores, as homing finds them.
 std::array<std::int64_t, 2> home(const Pantograph& plant) {
   return {plant.encoder(0).count(), plant.encoder(1).count()};
 }
 
-/// Encoders alone.
+/// A device that only reads the encoders.
 struct Pins {
   static constexpr std::size_t axes = 2;
   struct Levels {
@@ -155,7 +155,7 @@ TEST_CASE("the compiled law: its force at the pen is the linkage's, its place wi
       for (std::size_t i = 0; i < 2; ++i) {
         worst_nm = feltgate::larger(worst_nm, std::abs(nm[i] - asked[i]));
       }
-      // Height that the law must have seen to ask for this: its force along y.
+      // The depth that corresponds to the commanded force along y.
       worst_m = feltgate::larger(worst_m, std::abs(depth_m - p.force(nm).y / stiffness));
     }
   }

@@ -17,7 +17,7 @@ struct Placed {
   double angle;
 };
 
-/// Where centres and angles of all links are, by the law of cosines at elbow 1.
+/// Centres and angles of all links, by the law of cosines at elbow 1.
 std::array<Placed, 5> places(const LinkageGeometry& g, const LinkageBodies& b, const Joints& t) {
   const auto along = [](double angle) { return Vec2{std::cos(angle), std::sin(angle)}; };
   const Vec2 elbow_1 = g.crank_1_m * along(t[0]);
@@ -128,7 +128,7 @@ TEST_CASE("Coriolis torques are those of Lagrange's equation", "[dynamics]") {
 }
 
 TEST_CASE("without friction the energy is constant over 10 s", "[dynamics]") {
-  // Between elastic stops, and with motors apart, where nothing but the energy is kept.
+  // Between elastic stops, and with separate motor axes: only the energy is conserved.
   struct Case {
     LinkageMechanics mechanics;
     LinkageState state;

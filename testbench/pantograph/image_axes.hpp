@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law file, compiled for a design, its program words run by the engine's interpreter: a program
-// of several axes, bit by bit what an engine computes. docs/pantograph.md
+// Compiles a law file for a design and runs its program words in the engine's interpreter. The
+// program of several axes gives the same bits as an engine. docs/pantograph.md
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ class ImageAxes {
     write();
   }
 
-  /// A parameter or mailbox word, in SI.
+  /// Sets a parameter or mailbox word, in SI units.
   void set(const std::string& name, double si) {
     std::size_t i = 0;
     for (const law::ImageWord& w : compiled_.image.words) {
@@ -59,8 +59,8 @@ class ImageAxes {
     return torque;
   }
 
-  /// As often as the compiler says that it can start; what a run gives is there with the next
-  /// start.
+  /// The program starts at the rate that the compiler reports; the result of a run is available at
+  /// the next start.
   AxesProgram<N> program() {
     return [this, since = compiled_.divider](const AxesWords<N>& words) mutable {
       if (++since < compiled_.divider) return shown_;

@@ -19,7 +19,7 @@ class LawAxes {
   explicit LawAxes(const std::string& name)
       : law_(law::read_law(std::string(FELTGATE_SOURCE_DIR) + "/rtl/laws/" + name + ".law")),
         evaluation_(law_) {}
-  LawAxes(const LawAxes&) = delete;  // the evaluation refers to the law beside it
+  LawAxes(const LawAxes&) = delete;  // the evaluation refers to the law in this object
   LawAxes& operator=(const LawAxes&) = delete;
 
   void set(const std::string& name, double si) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The shipped law of the pantograph, in real numbers, against the linkage's own kinematics (no line
-// is shared) and around it in closed loop. docs/pantograph.md
+// The shipped law of the pantograph in real numbers, against the linkage's own kinematics (no
+// shared code) and in closed loop with the linkage. docs/pantograph.md
 #include "catch.hpp"
 #include "law_axes.hpp"
 #include "pantograph_fixture.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Geometry of the linkage: places, Jacobian, inverse. docs/pantograph.md
+// Geometry of the linkage: positions, Jacobian, inverse. docs/pantograph.md
 #include "catch.hpp"
 #include "pantograph_fixture.hpp"
 
@@ -10,7 +10,7 @@ using namespace feltgate::plant;
 
 namespace {
 
-/// Calls `check(theta)` all over the way of the cranks.
+/// Calls `check(theta)` over the whole range of the cranks.
 template <class Check>
 void everywhere(Check&& check) {
   for (double first = -60.0; first <= 150.0; first += 15.0) {
@@ -128,7 +128,7 @@ TEST_CASE("force, speeds and torques are inverse to each other", "[linkage]") {
     const Vec2 moved = p.pen_speed(p.omega(speed));
     CHECK(moved.x == Approx(speed.x).epsilon(1e-9));
     CHECK(moved.y == Approx(speed.y).epsilon(1e-9));
-    // Power at the pen is power at the joints.
+    // Power at the pen equals power at the joints.
     CHECK(dot(p.torque(force), p.omega(speed)) == Approx(dot(force, speed)).epsilon(1e-9));
   });
 }

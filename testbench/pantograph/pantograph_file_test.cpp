@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Files of linkages: what they mean and what their errors say. docs/pantograph.md
+// Files of linkages: their values and their error messages. docs/pantograph.md
 #include "catch.hpp"
 #include "config/toml_reader.hpp"
 #include "pantograph_fixture.hpp"
@@ -58,7 +58,7 @@ TEST_CASE("the shipped pantograph is read", "[pantograph_file]") {
   CHECK(p.encoder.lines == 1024);
   CHECK(p.effects.lugre);
   CHECK_FALSE(p.effects.viscous);
-  // What the file says of its links: 1270 kg/m^3 of 100 x 15 x 6 mm.
+  // The links of the file: 1270 kg/m^3, 100 x 15 x 6 mm.
   const double kg = 1270 * 0.1 * 0.015 * 0.006;
   CHECK(p.bodies.rod_1.mass_kg == Approx(kg).epsilon(5e-3));
   CHECK(p.bodies.rod_1.inertia_kg_m2 ==

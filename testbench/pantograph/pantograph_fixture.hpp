@@ -23,7 +23,7 @@ inline PantographParameters pantograph() {
   return read_pantograph_file(linkage_file("pantograph"));
 }
 
-/// Four different links, motors apart: nothing cancels.
+/// Four different links and separate motor axes, so that no terms cancel.
 inline LinkageGeometry uneven() { return {0.03, 0.09, 0.12, 0.11, 0.08}; }
 inline LinkageBodies uneven_bodies() {
   return {{0.02, 0.04, 1.1e-5},
@@ -35,7 +35,7 @@ inline LinkageBodies uneven_bodies() {
 }
 inline constexpr AngleStops kFarStops{-100.0, 100.0, 1.0, 1.0};
 
-/// Without friction, motors' inertia and stops' losses.
+/// Mechanics without friction, motor inertia and losses in the stops.
 inline LinkageMechanics frictionless(const AngleStops& stops) {
   const PantographParameters p = pantograph();
   return {p.linkage, p.bodies, stops};

@@ -13,7 +13,7 @@ using namespace feltgate::plant;
 
 namespace {
 
-// Without dead time, whose loss is that of the current at the beginning of a step.
+// Without dead time, because its loss depends on the current at the beginning of a step.
 Vec2 pushed(const PantographParameters& p, double n_x, double n_y, Clock step, double seconds) {
   Effects on = p.effects;
   on.dead_time = false;
@@ -51,7 +51,7 @@ TEST_CASE("gates move the pen: up by both motors, to the side by one way", "[pan
       CHECK(s.current_a[1] == Approx(-s.current_a[0]).epsilon(1e-9));
     } else {
       CHECK(s.pen_m.x < -0.0005);  // both positive: the pen turns about the motors
-      // The pen flies outward meanwhile.
+      // The pen moves outward at the same time.
       CHECK(s.omega_rad_s[0] == Approx(s.omega_rad_s[1]).epsilon(0.1));
     }
     CHECK_FALSE(s.shoot_through);
@@ -108,7 +108,7 @@ TEST_CASE("stall: current, torque and force are the closed form's", "[pantograph
   CHECK(plant.seen().hand_n.y == Approx(-nm / (0.1 * std::cos(30 * kDegree))).epsilon(1e-6));
   CHECK(plant.seen().supply_a == Approx(2 * 0.2 * amps).epsilon(1e-6));
 
-  // Dead time takes the same share of both: 0.5 us of 50 us.
+  // Dead time reduces both by the same share: 0.5 us of 50 us.
   Pantograph late(p, p.effects, Drive{}, hold);
   while (late.now() < clocks_of(0.01)) {
     late.advance({Bridge::averaged(duty[0]), Bridge::averaged(duty[1])}, 250);
@@ -173,7 +173,7 @@ TEST_CASE("the plant's step is of second order, and 5 us are enough", "[pantogra
 TEST_CASE("dry friction of the capstan holds small forces and lets larger ones go",
           "[pantograph]") {
   const PantographParameters p = pantograph();
-  // Breaking away takes 3*4.5 mNm at a crank: 0.156 N along y at this pose.
+  // Break-away needs 3*4.5 mNm at a crank: 0.156 N along y at this pose.
   const double break_n = 3 * p.lugre.static_nm / (0.1 * std::cos(30 * kDegree));
   for (const double share : {0.8, 1.3}) {
     PenPhase push;

@@ -49,7 +49,7 @@ TEST_CASE("pen hand: static displacement is force over stiffness, in both direct
   Effects dynamic = kNoEffects;
   dynamic.hand_dynamics = true;
   plant = Pantograph(p, dynamic, Drive{}, hand_at_rest(start));
-  // The torques follow the place, so that the force at the pen is constant.
+  // The torques follow the position, so that the force at the pen is constant.
   for (int i = 0; i < 250000; ++i) {
     plant.advance(plant.linkage().pose(plant.seen().theta_rad).torque(force), 500);
   }
@@ -165,7 +165,7 @@ TEST_CASE("an imposed motion: places, Newton's force, the work of a cycle", "[pe
   CHECK(plant.seen().pen_m.x == Approx(0.025).epsilon(1e-12));
   CHECK(plant.seen().pen_m.y == Approx(0.12).epsilon(1e-12));
   CHECK(plant.seen().pen_m_s.x == Approx(1.875 * 0.05 / 0.2).epsilon(1e-9));
-  // At rest at both ends: all the work came back.
+  // At rest at both ends: all the work was returned.
   run(plant, {}, 0.2, 25);
   CHECK(plant.seen().pen_m.x == Approx(0.05).epsilon(1e-12));
   CHECK(plant.seen().hand_work_j == Approx(0.0).margin(1e-8));

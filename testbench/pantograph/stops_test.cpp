@@ -18,7 +18,7 @@ double between(const LinkageState& s) { return s.theta_rad[1] - s.theta_rad[0]; 
 LinkageState closing(const AngleStops& stops, bool low, double rad_s) {
   LinkageState s;
   const double gap = low ? stops.least_rad + 0.02 : stops.most_rad - 0.02;
-  // Symmetric about the vertical, so that all of the energy goes into the stop.
+  // Symmetric about the vertical, so that all the energy goes into the stop.
   s.theta_rad = {90 * kDegree - 0.5 * gap, 90 * kDegree + 0.5 * gap};
   const double w = low ? rad_s : -rad_s;
   s.omega_rad_s = {0.5 * w, -0.5 * w};
@@ -102,7 +102,8 @@ TEST_CASE("a hand that leans on a stop and trembles gets no energy from it", "[s
       mechanics.step(s, load, 5e-6);
       least = std::min(least, s.hand_work_j);
       pressed = pressed || between(s) < stops.least_rad;
-      // What the hand gave is there, or lost in the stop, which never gives.
+      // The hand's work equals the stored energy plus the loss in the stop; the stop never adds
+      // energy.
       const double there = mechanics.stored_j(s) - begin + mechanics.stop_loss_j();
       worst = feltgate::larger(worst, std::abs(there - s.hand_work_j));
     }
@@ -147,7 +148,7 @@ TEST_CASE("a drop against the stop, as a table", "[.drop]") {
       }
       mechanics.step(s, load, 5e-6);
     }
-    // What the force did is there, or lost in the stop.
+    // The work of the force equals the stored energy plus the loss in the stop.
     CHECK(mechanics.stored_j(s) + mechanics.stop_loss_j() == Approx(s.hand_work_j).epsilon(1e-7));
   }
 }

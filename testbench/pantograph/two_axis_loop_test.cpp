@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law around the pantograph, sampled and late: a wall and drag felt by a hand. docs/pantograph.md
+// A law in closed loop with the pantograph, with sampling and delay: a wall and drag act on a hand.
+// docs/pantograph.md
 #include "plant/pantograph/two_axis_loop.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
@@ -55,7 +56,7 @@ TEST_CASE("the wall pushes and never pulls, drag is everywhere", "[loop]") {
   const Vec2 in = wall.force_n({0.0, kEdge - 0.01}, {0.1, -0.05});
   CHECK(in.x == Approx(-0.2));
   CHECK(in.y == Approx(3.0 + 1.0 + 0.1));
-  // Its damping would hold back a pen that leaves this fast.
+  // Without a limit, the wall's damping would pull back a pen that leaves this fast.
   CHECK(wall.force_n({0.0, kEdge - 0.01}, {0.0, 0.5}).y == Approx(-1.0));
   CHECK(wall.force_n({0.0, kEdge + 0.01}, {0.0, -0.5}).y == Approx(1.0));
 }
@@ -94,7 +95,7 @@ TEST_CASE("samples and delays lie on their clocks", "[loop]") {
 }
 
 TEST_CASE("a device sees every edge between two calls once", "[loop]") {
-  // Stands where the twin of a core will: it counts pins, and is asked every 7000 clocks.
+  // Takes the place of a core's twin: it counts the pins and is called every 7000 clocks.
   struct Counter : TwoAxisDevice {
     std::array<std::size_t, 2> edges{};
     Clock asked = -1;
@@ -128,7 +129,7 @@ TEST_CASE("a device sees every edge between two calls once", "[loop]") {
 TEST_CASE("wall: what the hand feels is stiffness times depth, and it is passive", "[loop]") {
   const PantographParameters p = pantograph();
   Effects on = p.effects;
-  on.dead_time = false;  // the law's voltage does not make up for it: 0.6 N at this pose
+  on.dead_time = false;  // the law's voltage does not compensate it: 0.6 N at this pose
   for (const bool voltage : {false, true}) {
     Pantograph plant(p, on, Drive{}, presser());
     WallAndDrag wall{kEdge, 300.0, 1.0, 0.0};
@@ -142,7 +143,7 @@ TEST_CASE("wall: what the hand feels is stiffness times depth, and it is passive
     // Dry friction of both joints may carry up to 0.16 N of it.
     CHECK(felt.held_n == Approx(-300.0 * felt.held_m).margin(0.25));
     CHECK(felt.held_n < -1.0);
-    // Forth and back: the hand got nothing that it had not given, and paid for friction.
+    // Forth and back: the hand got no more energy than it gave, and lost some to friction.
     CHECK(felt.least_work_j > -1e-6);
     CHECK(felt.work_j > 1e-3);
     CHECK(plant.seen().pen_m.y > kEdge);
@@ -167,7 +168,7 @@ TEST_CASE("drag: the force against the motion is drag times speed", "[loop]") {
   double worst = 0.0;
   loop.run(clocks_of(0.9), [&](const Pantograph& now) {
     if (now.seconds() < 0.1) return;
-    // Without the force that bends the cranks' motion into a straight line: that of no law.
+    // The law's force only, without the force that bends the cranks' motion into a straight line.
     const LinkagePose pose = now.linkage().pose(now.seen().theta_rad);
     const Vec2 law = pose.force(now.seen().motor_nm);
     worst = feltgate::larger(worst, length(law + 20.0 * Vec2{0.06, 0.02}));

@@ -80,7 +80,7 @@ Means averaged(const Parameters& p, const Drive& drive, double duty) {
 TEST_CASE("an averaged duty has the pulses that the PWM gives", "[bridge]") {
   constexpr int period = 1000, dead = 25, shortest = 10;
   Parameters p = shipped("p24");
-  p.effects.inductance = false;  // no ripple that would soften the dead time
+  p.effects.inductance = false;  // without ripple, which would smooth the effect of the dead time
   Drive drive;
   drive.pwm_hz = drive.clock_hz / period;
   drive.shortest_s = shortest / drive.clock_hz;
@@ -108,8 +108,8 @@ TEST_CASE("averaged and switched bridge agree", "[bridge]") {
   const Parameters p = shipped("p24");
   Parameters ideal = p;
   ideal.effects.dead_time = false;
-  // The torque that the dead voltage takes: where ripple turns the current round within each period
-  // it dithers the brushes, which the averaged mode leaves out.
+  // The torque lost by the dead voltage. If ripple reverses the current within each period, it
+  // dithers the brushes; the averaged mode does not model this.
   const double brushes_nm =
       p.motor.dead_voltage_v / p.motor.resistance_ohm * p.motor.torque_constant_nm_a;
   double worst_nm = 0.0;
@@ -141,7 +141,7 @@ TEST_CASE("averaged and switched bridge agree", "[bridge]") {
     }
   }
   CAPTURE(worst_nm, without_nm);
-  // Leaving the dead time out would be far worse.
+  // Without the dead time in the model the error would be far larger.
   CHECK(without_nm > 0.08);
 }
 
@@ -150,7 +150,8 @@ TEST_CASE("dead time takes t_dead*f per switching leg", "[bridge]") {
   Drive drive;
   drive.pwm_hz = 50e3;
   BridgeModel one(drive, p.supply, p.motor, p.effects);
-  // At 10 A no edge sees the current change its sign: 0.025 of the bus, and two diode drops for it.
+  // At 10 A the current keeps its sign at all edges: the loss is 0.025 of the bus voltage, plus two
+  // diode drops for this time.
   CHECK(one.voltage(Bridge::averaged(0.5), 24.0, 10.0).at_positive_v(24.0) ==
         Approx(12.0 - 0.6 - 0.035));
   CHECK(one.voltage(Bridge::averaged(0.5), 24.0, -10.0).at_negative_v(24.0) ==
@@ -190,7 +191,7 @@ TEST_CASE("all gates off: the current decays through the diodes into the supply"
 }
 
 TEST_CASE("the current through zero is exact whatever the step", "[bridge]") {
-  for (const double back_v : {-0.1, -2.0}) {  // stays at zero, goes on
+  for (const double back_v : {-0.1, -2.0}) {  // the current stays at zero; the current continues
     Winding coarse(0.42, 82.3e-6);
     coarse.set_step(100e-6);
     Winding fine(0.42, 82.3e-6);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Encoder edges: where, when, in which order. docs/plant.md
+// Encoder edges: position, time and order. docs/plant.md
 #include <set>
 
 #include "catch.hpp"
@@ -16,7 +16,7 @@ constexpr double kCountRad = 6.283185307179586476925 / 4096.0;
 
 EncoderParameters imperfect() { return shipped("p24").encoder; }
 
-// Position that a x4 decoder would count, checking that one pin changes at a time.
+// Counts the position like a x4 decoder and checks that only one pin changes at a time.
 class Decoder {
  public:
   explicit Decoder(EncoderPins pins) : pins_(pins) {}
@@ -105,7 +105,7 @@ TEST_CASE("a crossing is stamped with the first clock at or after it", "[encoder
   CHECK(events[1].clock == 1100);
   events.clear();
   encoder.advance(103.5 * kCountRad, 1125, 100,
-                  events);  // one edge a clock: the most that pins show
+                  events);  // one edge per clock: the highest rate at the pins
   CHECK(events.size() == 100);
   CHECK(events.back().clock <= 1225);
   CHECK(encoder.count() == 103);

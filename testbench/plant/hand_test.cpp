@@ -17,7 +17,7 @@ double friction_at(const Parameters& p, double rad_s, double seconds) {
   effects.lugre = true;
   Plant plant(p, effects, Drive{}, moving({segment(Segment::Kind::kRamp, 10.0, 10.0 * rad_s)}));
   run(plant, Bridge::off(), seconds);
-  // Without motor the hand carries the friction.
+  // Without a motor the hand gives the torque against friction.
   CHECK(plant.observables().hand_torque_nm == Approx(plant.observables().friction_nm));
   return plant.observables().hand_torque_nm;
 }
@@ -95,7 +95,7 @@ TEST_CASE("impedance: the lever follows the equilibrium and phases go on", "[han
   run(plant, Bridge::off(), 0.001);
   CHECK(plant.observables().theta_rad == Approx(before).margin(0.01));
   run(plant, Bridge::off(), 4.0, 50);
-  // Friction may hold the lever up to static/stiffness away.
+  // Friction may hold the lever at a distance of up to static/stiffness.
   CHECK(plant.observables().theta_rad == Approx(0.8).margin(4.5e-3 / 1.35));
 }
 
@@ -150,7 +150,8 @@ TEST_CASE("friction, cord and hand only take energy", "[hand]") {
     }
     CHECK(before < 0.2);
   }
-  // Closed cycles of a prescribed motion: the hand's work is what friction takes, never negative.
+  // Closed cycles of a prescribed motion: the hand's work equals the friction loss and is never
+  // negative.
   for (const double amplitude : {1e-5, 1e-3, 0.5}) {
     Effects effects = kNoEffects;
     effects.lugre = true;
@@ -169,7 +170,7 @@ TEST_CASE("friction, cord and hand only take energy", "[hand]") {
     CHECK(work_j < 4.0 * amplitude * (4.5e-3 + 0.02 * amplitude * 62.9) + 1e-12);
     if (amplitude == 0.5) CHECK(work_j == Approx(4.0 * 0.5 * 3.5e-3).epsilon(0.03));
   }
-  // A torque pulse against the cord, then no motor: what is stored in lever and cord only falls.
+  // A torque pulse against the cord, then no motor: the energy stored in lever and cord only falls.
   Effects effects = kNoEffects;
   Plant plant(p, effects, Drive{}, hand_of(Kind::kCord));
   run(plant, volts(p, 4.0), 2e-3);

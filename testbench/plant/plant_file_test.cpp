@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Plant files and [hand] tables: what they mean and what their errors say. docs/plant.md
+// Plant files and [hand] tables: their values and their error messages. docs/plant.md
 #include <cstdio>
 #include <fstream>
 

@@ -32,7 +32,7 @@ inline constexpr double kClockHz = 50e6;
 
 inline Clock clocks_of(double seconds) { return std::llround(seconds * kClockHz); }
 
-/// Duty of the averaged bridge that makes `volts` on the nominal supply.
+/// The averaged bridge with the duty that gives `volts` at the nominal supply.
 inline Bridge volts(const Parameters& p, double volts) {
   return Bridge::averaged(volts / p.supply.voltage_v);
 }

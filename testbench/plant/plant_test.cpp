@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motor and lever against closed forms; effects that are off; step-size convergence. docs/plant.md
+// Motor and lever against closed forms; effects switched off; convergence with the step size.
+// docs/plant.md
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -16,8 +17,8 @@ using namespace feltgate::plant;
 
 namespace {
 
-// A model of the no-load run as anyone would first write it: everything, bristles included, by
-// explicit fourth-order Runge-Kutta at 1 us. Kept to show what goes wrong.
+// A simple model of the no-load run: all states, including the bristles, by explicit fourth-order
+// Runge-Kutta at 1 us. It is here to show how this method fails.
 double naive_no_load_rad_s(const Parameters& p, double seconds) {
   using State = std::array<double, 3>;  // omega, current, z
   const auto rates = [&p](const State& s) {
@@ -91,7 +92,7 @@ TEST_CASE("no-load speed does not depend on the step", "[plant]") {
   CHECK(no_load_rad_s(p, 50, 0.3) == Approx(fine).epsilon(1e-6));
   CHECK(no_load_rad_s(p, 250, 0.3) == Approx(fine).epsilon(1e-6));
 
-  // At rest of the transient: V = R*i + Ke*w + Vd with Kt*i = coulomb + sigma2*w.
+  // After the transient: V = R*i + Ke*w + Vd with Kt*i = coulomb + sigma2*w.
   const double kt = p.motor.torque_constant_nm_a;
   const double expected =
       (p.supply.voltage_v - p.motor.dead_voltage_v -

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// How stiff a plant may be for its step, and what ends a run that nothing can show. docs/plant.md
+// The largest stiffness of a plant for its step, and the errors that end a run that cannot be
+// simulated. docs/plant.md
 #include "plant/stiffness.hpp"
 #include "feltgate/largest.hpp"
 
@@ -24,7 +25,8 @@ HandPhase cord(double damping_nm_s_rad, double stiffness_nm_rad = 0.0) {
   return phase;
 }
 
-/// Largest speed in 200 steps after a jolt of 100 steps; infinite where the plant gave up.
+/// Largest speed in 200 steps after a jolt of 100 steps; infinite if the plant stopped with an
+/// error.
 double largest_speed(const Parameters& p, const Effects& on, const HandPhase& phase) {
   Plant plant(p, on, Drive{}, hand_of(phase));
   double largest = 0.0;
@@ -82,13 +84,13 @@ TEST_CASE("mechanical poles have their closed forms", "[stiffness]") {
   const double b = 1.0 / j, k = 30.0 / j;
   CHECK(mechanical_pole_1_s(p, on, cord(1.0, 30.0), radius) ==
         Approx(b / 2 + std::sqrt(b * b / 4 - k)).epsilon(1e-6));
-  // A light hand on a stiff grip swings against the lever as against a wall.
+  // A light hand on a stiff grip swings against the lever like against a wall.
   HandPhase light;
   light.kind = Kind::kImpedance;
   light.impedance.mass_kg = 1e-6;
   light.impedance.grip_damping_ns_m = 10.0;
   CHECK(mechanical_pole_1_s(p, on, light, radius) == Approx(16.45e6).epsilon(0.001));
-  on.hand_dynamics = false;  // it imposes its motion
+  on.hand_dynamics = false;  // the hand imposes its motion
   CHECK(mechanical_pole_1_s(p, on, light, radius) == 0.0);
 }
 
@@ -98,7 +100,7 @@ TEST_CASE("within the bound a plant is damped, beyond it grows", "[stiffness]") 
   const double most = most_pole_steps * j / kStepS;
   CHECK(largest_speed(p, kNoEffects, cord(0.99 * most)) < 1e-6);
   CHECK(std::isinf(largest_speed(p, kNoEffects, cord(1.3 * most))));
-  // Friction's damping acts from outside of the Runge-Kutta step: its bound is 1.
+  // The damping of friction is computed outside the Runge-Kutta step: its bound is 1.
   Parameters sticky = shipped("p24");
   Effects on = kNoEffects;
   on.lugre = true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ports of the Verilated pwm against its twin, and what no bridge may ever see.
-// Documentation: docs/blocks/pwm.md
+// Connects the Verilated pwm's ports to its twin's, and checks for gate states that no bridge may
+// get. Documentation: docs/blocks/pwm.md
 #pragma once
 
 #include <Vpwm.h>
@@ -33,7 +33,7 @@ struct PwmAdapter {
 
 using PwmBench = LockStep<Vpwm, Pwm, PwmAdapter>;
 
-/// Watches the gates of the RTL alone, clock by clock.
+/// Checks the gates of the RTL only, clock by clock.
 class BridgeGuard {
  public:
   BridgeGuard(int dead_clocks, int shortest_clocks)
@@ -52,7 +52,7 @@ class BridgeGuard {
       totals.disables += was_enabled_ ? 1 : 0;
     }
     was_enabled_ = in.enable && !in_reset;
-    // What opens or closes the gates, or changes the wiring, may cut the pulse that it meets.
+    // Inputs that turn the gates on or off, or change mode or polarity, may cut a running pulse.
     const bool cuts =
         in_reset || !in.enable || in.clear || in.mode != mode_ || in.polarity != polarity_;
     if (cuts) last_cut_ = clock_;
@@ -60,7 +60,8 @@ class BridgeGuard {
     polarity_ = in.polarity;
     for (int gate = 0; gate < 4; ++gate) {
       if (!on[gate]) {
-        // Taken with the next period, at the gates a few clocks and a dead time later.
+        // Such a change is used from the next period on; the gates follow a few clocks and a dead
+        // time later.
         if (was_on_[gate] && on_since_[gate] > last_cut_ + 2 * period_ + dead_clocks_) {
           if (clock_ - on_since_[gate] < shortest_clocks_) return "no pulse is too short";
           ++totals.whole_pulses;

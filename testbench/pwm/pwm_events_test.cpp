@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of the PWM from event to event, by itself and inside the core's twin, against the same
-// clock by clock. Documentation: docs/blocks/pwm.md
+// Compares the twin of the PWM run from event to event, alone and inside the core's twin, with the
+// twin run clock by clock. Documentation: docs/blocks/pwm.md
 #include <algorithm>
 #include <array>
 
@@ -31,7 +31,7 @@ std::uint8_t bits_of(const Pwm::Out& g) {
                                    (g.gate_b_hi ? 4 : 0) + (g.gate_b_lo ? 8 : 0));
 }
 
-/// Clock by clock, with all that CoreGates tells.
+/// Runs clock by clock and collects the same data as CoreGates.
 struct Clocked {
   Pwm pwm;
   std::array<std::int64_t, 4> on{};
@@ -95,7 +95,7 @@ TEST_CASE("gates of the core: from event to event as clock by clock") {
       }
     }
     INFO("period " << size.period << ": " << passed << " of " << clocks);
-    // Pieces are mostly longer than a stretch without an edge, in a period of 4 all are.
+    // Most pieces are longer than a stretch without an edge; in a period of 4 all are.
     CHECK((passed > clocks / 60 || size.period < 24));
   }
 }
@@ -162,7 +162,7 @@ TEST_CASE("pwm: a steady period has few clocks that are not skipped") {
       CHECK(steps <= 12);
     }
   }
-  // Disabled, too, it skips to the end of the period.
+  // When disabled, the twin also skips to the end of the period.
   Pwm::In off;
   Pwm pwm(1000, 25);
   for (int k = 0; k < 1500; ++k) pwm.clock(off);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// pwm: RTL against twin on every clock, on-times against the closed form, and the bridge guarded.
-// Documentation: docs/blocks/pwm.md
+// pwm: RTL against twin on every clock, on-times against the closed form, and checks of forbidden
+// bridge states. Documentation: docs/blocks/pwm.md
 #include <cstdlib>
 #include <vector>
 
@@ -17,7 +17,8 @@ namespace {
 constexpr int kPeriod = PWM_PERIOD;
 constexpr int kDead = PWM_DEAD;
 constexpr int kShortest = PWM_SHORTEST;
-// Every duty of a short period; of a long one the ends, the dead time, odd and even.
+// All duties of a short period; for a long period the ends and values near the dead time, odd and
+// even.
 std::vector<int> duties() {
   std::vector<int> list;
   for (int d = -kPeriod - 8; d <= kPeriod + 8; ++d) {
@@ -78,9 +79,9 @@ TEST_CASE("pwm: on-times are exact for every duty, mode and polarity") {
         const Gates gates = record([in](std::int64_t) { return in; }, 3 * kPeriod);
         const int from = 2 * kPeriod;
         CAPTURE(mode, polarity, duty);
-        // Written out from the definition, apart from the twin.
+        // Computed from the definition, independent of the twin.
         const int d = std::min(kPeriod, std::max(-kPeriod, polarity ? -duty : duty));
-        // Clocks wanted high without a pulse that is too short.
+        // The wanted high clocks, without a pulse that is too short.
         const auto whole = [mode](int high) {
           if (kShortest == 1) return high;
           const bool no_high = high > kDead && high < kDead + kShortest && !mode;
@@ -112,11 +113,12 @@ TEST_CASE("pwm: pulses are centred in the period to half a clock") {
   for (int duty = kDead + kShortest; duty <= most; duty += kPeriod < 100 ? 1 : 97) {
     const Pwm::In in = steady(false, false, duty);
     const Gates gates = record([in](std::int64_t) { return in; }, 4 * kPeriod);
-    const int from = 2 * kPeriod + 3;  // where the gates' period begins
+    const int from = 2 * kPeriod + 3;  // start of a period at the gates
     int first = 0;
     while (!gates.a_hi[static_cast<std::size_t>(from + first)]) ++first;
     const int last = first + Gates::count(gates.a_hi, from, kPeriod) - 1;
-    // The dead time is taken from the front: without it first + last would be Period - 1 or Period.
+    // The dead time shortens the front of a pulse: without it first + last would be Period - 1 or
+    // Period.
     const int sum = first - kDead + last;
     CAPTURE(duty, first, last);
     REQUIRE((sum == kPeriod - 1 || sum == kPeriod));
@@ -185,8 +187,8 @@ TEST_CASE("pwm: a gate changes with the clock or the clear, and no pulse is shor
     return unsigned{rtl->gate_a_hi_o} | rtl->gate_a_lo_o * 2u | rtl->gate_b_hi_o * 4u |
            rtl->gate_b_lo_o * 8u;
   };
-  // Inputs change after the edge, before the next one and with it, as registers of all delays
-  // would.
+  // The inputs change after the edge, before the next edge and with it, like registers with any
+  // delay.
   const auto scramble = [&] {
     if (random.one_in(in.enable ? 2 * kDead + 40 : 9)) in.enable = !in.enable;
     if (random.one_in(kPeriod)) in.mode = !in.mode;
@@ -207,7 +209,7 @@ TEST_CASE("pwm: a gate changes with the clock or the clear, and no pulse is shor
     scramble();
     rtl.low();
     if (gates() != before) FAIL("a gate moved before the edge, at clock " << clock);
-    if (random.one_in(200)) {  // the clear alone may: at once, and what it cuts is not counted
+    if (random.one_in(200)) {  // only the clear acts at once; a pulse that it cuts is not counted
       rtl->clear_i = 1;
       rtl->eval();
       if (gates() != 0) FAIL("a gate stayed on through a clear, at clock " << clock);
@@ -224,7 +226,7 @@ TEST_CASE("pwm: a gate changes with the clock or the clear, and no pulse is shor
       on[gate] = is_on ? on[gate] + 1 : 0;
     }
   }
-  REQUIRE(shortest == 1);  // of a duty of DeadClocks + 1, and of an enable that falls
+  REQUIRE(shortest == 1);  // from a duty of DeadClocks + 1, and from a falling enable
 }
 
 TEST_CASE("pwm: the duty of the last enable never meets the gates of the next") {
@@ -240,7 +242,7 @@ TEST_CASE("pwm: the duty of the last enable never meets the gates of the next") 
       };
       const Gates gates = record(stimulus, fall + off + 4 * kPeriod);
       CAPTURE(mode, off);
-      // From the second enable on the duty is 0: no voltage in any whole period.
+      // After the second enable the duty is 0: no voltage in any whole period.
       for (int from = fall + off + 1; from < fall + off + 3 * kPeriod; ++from) {
         const auto at = static_cast<std::size_t>(from);
         if (!mode && (gates.a_hi[at] || gates.b_hi[at])) FAIL("a high switch at " << from);

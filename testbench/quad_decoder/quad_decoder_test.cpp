@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// quad_decoder: RTL against twin on every clock, and both against what an encoder means.
+// quad_decoder: RTL against twin on every clock, and both against the motion of an encoder.
 // Documentation: docs/blocks/quad_decoder.md
 #include <algorithm>
 #include <limits>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int32_t kStart = RESET_POSITION;  // near the wrap
 
-/// Counts up from the start, modulo 2^32.
+/// Returns the counts since the start, modulo 2^32.
 std::int32_t moved(const QuadDecoder& decoder) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(decoder.out().position) -
                                    static_cast<std::uint32_t>(kStart));
@@ -147,7 +147,8 @@ TEST_CASE("quad_decoder: set-zero loses no edge, whichever clock it meets") {
       script.hold(12).phase(direction, 20);
       script.list[clock].set_zero = true;
       const QuadDecoder end = play(script);
-      // The pin of clock 12 is in travel from clock 15 on: from there the zero contains the step.
+      // The pin change of clock 12 is in the travel from clock 15 on: from then the set-zero
+      // includes the step.
       REQUIRE(end.out().position == (clock >= 15 ? 0 : direction));
       REQUIRE(end.out().travel == ((kStart + direction) & 0xffff));
     }
@@ -257,7 +258,7 @@ class Shaft {
     }
     return *this;
   }
-  /// The shaft moves and the channels do not tell.
+  /// Moves the shaft without a change of the channels.
   Shaft& slip(int counts) {
     at_ += counts;
     slipped_ += counts;
@@ -291,7 +292,7 @@ TEST_CASE("quad_decoder: an index fits whole revolutions, by its width both ways
       Shaft shaft(width, way > 0 ? -20 : 40);
       shaft.turn(way * 150).zero().turn(-way * 170).turn(way * 3 * INDEX_COUNTS);
       REQUIRE_FALSE(shaft.wrong());
-      for (int k = 0; k < 5; ++k) shaft.turn(-way * 70).turn(way * 70);  // both ways over it
+      for (int k = 0; k < 5; ++k) shaft.turn(-way * 70).turn(way * 70);  // both directions
       REQUIRE_FALSE(shaft.wrong());
     }
   }
@@ -301,7 +302,7 @@ TEST_CASE("quad_decoder: a count that has slipped does not fit its index, until 
   for (const int slip : {-20, -12, -8, 9, 12, 20}) {
     Shaft shaft(1, -10);
     shaft.turn(45).slip(slip).turn(5);
-    REQUIRE_FALSE(shaft.wrong());  // no index yet
+    REQUIRE_FALSE(shaft.wrong());  // no index seen yet
     shaft.turn(INDEX_COUNTS);
     REQUIRE(shaft.wrong());
     shaft.turn(-2 * INDEX_COUNTS).zero();

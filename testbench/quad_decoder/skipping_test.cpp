@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// quad_decoder: what the twin alone says of the clocks that are skipped between two changes of a
-// pin. Documentation: docs/blocks/quad_decoder.md
+// quad_decoder: the twin alone, which can skip the clocks between two changes of a pin.
+// Documentation: docs/blocks/quad_decoder.md
 #include "catch.hpp"
 #include "stimulus.hpp"
 
@@ -11,7 +11,8 @@ using namespace feltgate::test;
 
 namespace {
 
-/// Fields that differ in two values, one after another: each is told, as is their sum.
+/// Changes one field after another: the comparison must find each single difference, and all of
+/// them together.
 template <class T, class... Change>
 void each_field_counts(Change... changes) {
   const T plain;
@@ -121,7 +122,7 @@ TEST_CASE("quad_decoder: two events in one clock are both counted before it is s
     }
   };
   clock(20);
-  // From a pulse on Z that is too short to both channels' change.
+  // Delay from a pulse on Z that is too short to the change of both channels.
   for (int lead = -6; lead <= 6; ++lead) {
     const int before = every.out().error_count + every.out().rejected_count;
     for (int k = 0; k < 40; ++k) {
@@ -148,7 +149,8 @@ TEST_CASE("quad_decoder: an index rests when no level, old or new, is high") {
         twin.clock(in);
       }
       in.z = false;
-      // Pin, two synchronisers, the level before and, where it passes, the filter's.
+      // Clocks for the pin, two synchronisers, the earlier level and, if the pulse passes, the
+      // filter.
       const int rests = passes ? 3 + filter : 3;
       for (int k = 0; k < 40; ++k) {
         CAPTURE(filter, high, k);

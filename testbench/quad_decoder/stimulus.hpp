@@ -40,7 +40,7 @@ class Script {
   std::vector<QuadDecoder::In> list;
 };
 
-/// What a random run is made of; distances are means in clocks, 0: never.
+/// Settings of a random run: mean distances in clocks; 0: never.
 struct Mix {
   std::uint8_t filter = 0;
   bool polarity = false;
@@ -54,7 +54,7 @@ struct Mix {
   std::uint32_t registers = 0;  ///< between two changes of filter or polarity
 };
 
-/// A shaft that wanders, with glitches of 1 to 20 clocks laid over its pins.
+/// A shaft with random motion, and glitches of 1 to 20 clocks on its pins.
 class Wander {
  public:
   Wander(std::uint64_t seed, const Mix& mix) : mix_(mix), random_(seed) {
@@ -99,8 +99,8 @@ class Wander {
   std::uint32_t glitch_left_ = 0;
 };
 
-/// The decoder told otherwise: a level counts once the last filter+1 samples agree, the phase is an
-/// angle modulo 4, everything is late by a fixed number of clocks. Shares no code with the twin.
+/// An independent model of the decoder: a level is valid when the last filter+1 samples agree, the
+/// phase is an angle modulo 4, and all outputs have a fixed delay. It shares no code with the twin.
 /// The filter must not change during a run.
 class Oracle {
  public:
@@ -110,7 +110,7 @@ class Oracle {
     std::int64_t up = 0, down = 0, illegal = 0, index = 0, rejected = 0, resets = 0;
   };
 
-  /// After each clock: nullptr, or what the outputs should have been and are not.
+  /// Call it after each clock. Returns nullptr, or the property that the outputs break.
   const char* operator()(const QuadDecoder::In& in, const QuadDecoder::Out& out, bool in_reset) {
     if (in_reset) {
       totals.resets += was_reset_ ? 0 : 1;
@@ -123,7 +123,7 @@ class Oracle {
     if (in.set_zero) zero_ = travel_;
     if (index_) index_position_ = position;
     index_ = false;
-    // The sample of two clocks ago decides now.
+    // The sample of two clocks ago takes effect now.
     late_[clock_ % 3] = in;
     const int step = clock_ >= 2 ? accept(late_[(clock_ - 2) % 3]) : 0;
     ++clock_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// ramp of a design behind the core's limiter: adapter, waves, and the chain beside clock().
-// Documentation: docs/blocks/ramp.md
+// The ramp of a design after the core's limiter: adapter, waves, and the chain compared with
+// clock(). Documentation: docs/blocks/ramp.md
 #pragma once
 
 #include <Vramp.h>
@@ -20,11 +20,11 @@ using Rendered = fixed_of<Design::f.scene_torque.key()>;
 using Step = fixed_of<Design::P::ramp_step.key()>;
 constexpr int kFine = Design::f.ramp.fraction - Design::f.torque.fraction;
 
-/// What one wave works on.
+/// The inputs of one wave.
 struct Wave {
   bool armed = true;
   int scene = 0;
-  bool restart = false;                              ///< the torque may jump with it
+  bool restart = false;                              ///< the torque may jump in this wave
   std::int64_t rendered = 0;                         ///< torque of the scene
   std::int64_t limit = Torque::max_raw(), step = 0;  ///< words
   int pulse = 0;  ///< sign of the self-test's, while the ramp takes the motor for disarmed
@@ -119,7 +119,7 @@ struct Tally {
                eased_changes = 0, frozen[2] = {}, fallen[2] = {}, pulsed = 0, pulsed_frozen = 0;
 };
 
-/// The chain gives the same; and what limit and ramp promise.
+/// Checks that the chain gives the same result, and the properties of limit and ramp.
 struct ChainBeside {
   Tally* tally;
   Law chain{};

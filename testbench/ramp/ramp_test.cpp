@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// ramp: RTL against twin on every clock, its course by hand, and its distance from quad precision.
-// Documentation: docs/blocks/ramp.md
+// ramp: RTL against twin on every clock, directed tests of its course, and its error against quad
+// precision. Documentation: docs/blocks/ramp.md
 #include "ramp_bench.hpp"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct RandomWaves {
   }
 };
 
-/// What the RTL showed after each wave.
+/// The outputs of the RTL after each wave.
 struct Seen {
   std::int64_t tau = 0;
   bool ramp = false, limit = false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// registers: what the twin alone has, for campaigns of faults, for skipping and for the core: bits
-// that flip, words on their way, what waits. Documentation: docs/blocks/registers.md
+// registers: functions that only the twin has, for fault campaigns, for skipping and for the core:
+// flipped bits, words in the pipeline, waiting writes. Documentation: docs/blocks/registers.md
 #include "catch.hpp"
 #include "host.hpp"
 
@@ -47,7 +47,7 @@ struct Flipped {
     ask(address, word);
     tick();
   }
-  /// A word that is wrong is told when it is or was fetched in the three clocks from now on.
+  /// Runs three clocks. Returns whether an error is reported: a wrong word that is or was fetched.
   bool told() {
     bool error = false;
     for (int k = 0; k < 3; ++k) {

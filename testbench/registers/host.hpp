@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ports of the Verilated registers, a host that follows a script and one that does as it pleases.
+// Ports of the Verilated registers, a host that follows a script, and a random host.
 // Documentation: docs/blocks/registers.md
 #pragma once
 
@@ -107,7 +107,7 @@ class Script {
     clock_.clock({});
     return now;
   }
-  /// On to clock c of a tick, of the next one if that clock has passed.
+  /// Runs to clock c of this tick, or of the next tick if that clock has passed.
   Script& until(int c) {
     do {
       clock();
@@ -148,7 +148,7 @@ class Script {
   std::vector<Twin::In> list_;
 };
 
-/// Any access at any time.
+/// Makes any access at any time.
 class RandomHost {
  public:
   RandomHost(std::uint64_t seed, ResetPlan plan) : random_(seed), clock_(seed, plan) {}
@@ -168,7 +168,7 @@ class RandomHost {
     in.region_high = in_force_.region_high;
     in.eased = in_force_.eased;
     in.testing = in_force_.testing;
-    // Some writes are held for a while, others are gone in the clock after.
+    // Some writes are held for a while, others last one clock.
     if (!in_force_.reg_write || random_.one_in(in.tick ? 2 : 60)) {
       if (random_.one_in(4)) in_force_.reg_addr = any_address();
       in_force_.reg_write = random_.one_in(20);

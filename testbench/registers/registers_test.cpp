@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// registers: RTL against twin on every clock, and both against what the port promises to a host.
-// Documentation: docs/blocks/registers.md
+// registers: RTL against twin on every clock, and both against the documented behaviour of the
+// port. Documentation: docs/blocks/registers.md
 #include <set>
 
 #include "catch.hpp"
@@ -80,7 +80,7 @@ TEST_CASE("registers: a write is taken when none waits; one that is not taken le
     REQUIRE(host.bus(Lever::A::i2t_budget) == 2920000000U);
     REQUIRE(host.out().control == Lever::control_reset);
   }
-  // Nor does a write to nowhere or to a word that is only read keep the port busy.
+  // A write to an unused address or to a read-only word does not make the port busy either.
   for (const int address : {0x202, 0x2ff, 0x300, 0x33f, 0x340, 0xfff}) {
     host.write(static_cast<std::uint16_t>(address), 0xffffffffU);
     REQUIRE_FALSE(host.out().reg_busy);
@@ -240,7 +240,7 @@ TEST_CASE("registers: while armed, mode, polarities, PWM mode and filter hold") 
     REQUIRE(host.out().control == (kHost | kArm | 9U << 2));
     REQUIRE(host.read(kControl) == (READ_BACK != 0 ? host.out().control : 0U));
   }
-  // The word that disarms carries them.
+  // The word that disarms also contains these changes.
   host.hold(kControl, kHost | 0x7fc0U);
   host.until(0);
   REQUIRE(host.out().control == (kHost | 0x7fc0U));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What a write does while the core is armed, and the class that carries it to a chain without a
-// port. Documentation: docs/registers.md
+// The effect of a write while the core is armed, and the class that gives this effect to a chain
+// without a port. Documentation: docs/registers.md
 #include "feltgate/while_armed.hpp"
 
 #include "catch.hpp"
@@ -46,7 +46,7 @@ TEST_CASE("while armed: the control word's fields hold") {
   host.restart(true, S::wall);
   CHECK_FALSE(host.write(C::control, armed_by_host | mode(3), true));
   CHECK(host.mode() == 2);
-  // Without the host's say nothing disarms.
+  // If the host does not have control, its writes do not disarm.
   CHECK_FALSE(host.write(C::control, mode(3), true));
   CHECK(host.mode() == 2);
   SECTION("until it disarms") {
@@ -100,7 +100,7 @@ TEST_CASE("while armed: parameters that a chain is to take, and ramps that begin
   CHECK(host.write(A::wall_stiffness, 1, true));
   CHECK(host.restart(true, S::wall));
   CHECK_FALSE(host.restart(true, S::wall));
-  // A ramp that has been asked for stays so, whatever comes in the same tick.
+  // A requested ramp stays requested, independent of other writes in the same tick.
   CHECK(host.write(A::torque_limit, 1, true));
   CHECK(host.write(A::ramp_step, 1, true));
   CHECK(host.restart(true, S::wall));

@@ -46,7 +46,7 @@ class Memory {
     words_.set_raw(address, word);
   }
   std::uint32_t word(int address) const { return ram_[static_cast<std::size_t>(address)]; }
-  /// What is on the bus in clock t of a wave.
+  /// The content of the bus in clock t of a wave.
   std::uint32_t slot(int scene, int t) const {
     if (t < 0 || t >= Map::wave_length) return 0;
     return word(((Map::scene_slots >> t) & 1u) != 0 ? scene * 32 + t : t);
@@ -66,7 +66,7 @@ class Memory {
   Words<Design, Fixed> words_;
 };
 
-/// What one wave starts from.
+/// The inputs at the start of a wave.
 struct Wave {
   bool armed = true;
   int scene = 0;
@@ -80,14 +80,14 @@ struct Wave {
   static constexpr int kShortest = Map::T::torque_limited + 2;
 };
 
-/// What the stimulus shares with the observer.
+/// The data that stimulus and observer share.
 struct Probe {
   Memory memory;
   Wave wave;
   int t = -1;  ///< clock of the wave; -1 in reset
 };
 
-/// What a scene block is shown in one clock.
+/// The inputs of a scene block in one clock.
 struct Bus {
   bool armed = false;
   std::uint64_t wave = 0;
@@ -160,7 +160,7 @@ class Waves {
     }
     return bus;
   }
-  /// The multiplier's result; noise where nobody listens.
+  /// The multiplier's result; noise in clocks in which no block reads it.
   std::int64_t product(const Probe& p) {
     const Wave& w = p.wave;
     const std::int64_t distance = distance_of(p.memory, w);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ports of the Verilated scenes against its twin, and what each wave must have done.
+// Connects the ports of the Verilated scenes to the twin's, and checks the result of each wave.
 // Documentation: docs/blocks/scenes.md
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A shipped scene with the self-test switched on: what the scene expects still comes out.
+// A shipped scene with the self-test on: the expectations of the scene still hold.
 // FELTGATE_SCENE names it. RTL and twin are in lock-step in `wall`, and with FELTGATE_WHOLE in
 // all. Documentation: docs/blocks/self_test.md
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// self_test: RTL against twin on every clock, and its course by hand. In closed loop:
+// self_test: RTL against twin on every clock, and directed tests of its course. In closed loop:
 // start_test.cpp. Documentation: docs/blocks/self_test.md
 #include <Vself_test.h>
 
@@ -43,7 +43,7 @@ struct Adapter {
 };
 using Bench = LockStep<Vself_test, Twin, Adapter>;
 
-/// What one wave works on.
+/// The inputs of one wave.
 struct Wave {
   bool armed = true, direct = false;
   int step = 0;                       ///< counts since the wave before
@@ -52,7 +52,7 @@ struct Wave {
   bool waits = false;                 ///< another axis is before
 };
 
-/// What a wave showed.
+/// The outputs of a wave.
 struct Seen {
   bool busy = false, trip = false;
   int pulse = 0;

@@ -29,7 +29,7 @@ struct Adapter {
 };
 using Bench = LockStep<Vsequencer, Twin, Adapter>;
 
-/// What the contract says of the n-th clock after a reset, without a state machine.
+/// The specified outputs in the n-th clock after a reset, without a state machine.
 struct Definition {
   std::int64_t n = 0;
 

@@ -21,7 +21,7 @@ law::Compiled compiled(const shape::Curve& curve, shape::Kind kind, int vertices
 
 constexpr int steps = 400;
 
-/// Counts of the cranks with the pen on a way that goes in and out of the shape, all around it.
+/// Counts of the cranks for a pen path that goes in and out of the shape, all around it.
 std::array<std::int32_t, 2> counts(const law::Target& target, int step) {
   const double angle = 0.013 * step, away = 0.028 + 0.012 * std::sin(0.057 * step);
   const auto a = shape::cranks({away * std::cos(angle), 0.12 + away * std::sin(angle)});
@@ -73,7 +73,7 @@ TEST_CASE("a texture and friction are proven too, beside 80 vertices") {
 }
 
 TEST_CASE("shapes in the interpreter, the engine's twin and its RTL: the same bits") {
-  // An engine of three axes asks for three torques.
+  // An engine of three axes needs three torques.
   const std::string third = "out torque[2] = 0.1 Nm * sin(position[2])\n";
   const shape::Curve fish = shape::curve_of("fish", 2e-3);
   for (const shape::Kind kind : shape::all_kinds()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What the laws of a shape push with: closed forms, one motion under three laws, a thin tail.
+// The forces from the laws of a shape: closed forms, one motion under three laws, a thin tail.
 // Documentation: docs/devices/shapes.md
 #include <algorithm>
 #include <cmath>
@@ -151,7 +151,7 @@ TEST_CASE("friction: a spring along the outline that slips at its share of what 
       REQUIRE(f.x == Approx(0.1).epsilon(1e-3));
     }
   }
-  // Let go: the anchor is forgotten.
+  // The pen leaves the shape: the anchor is reset.
   CHECK(length(pen.at({0.04, 0.112}, settle)) < 1e-12);
   CHECK(std::fabs(pen.at({0.028, 0.112}, settle).y) < 1e-5);
 }
@@ -221,7 +221,7 @@ TEST_CASE("a thin tail pushed through: the proxy holds on to the side it came fr
     CHECK(jumps(held) == 0);
     CHECK(held.back().y == Approx(50 * (0.122 - below.y)).epsilon(1e-3));
     CHECK(std::fabs(held.back().x) < 1e-3);
-    // Through and out: it still pushes back.
+    // The pen passes through and out: the law still pushes back.
     const auto through = pushed(law_of(c, kind, 100), above, {0.0, 0.116}, 0.1e-3);
     CHECK(through.back().y > 0.25);
   }
@@ -259,7 +259,7 @@ TEST_CASE(
                     << force.y << " N instead of " << wanted.x << ", " << wanted.y);
       worst = feltgate::larger(worst, length(force - wanted));
       ++felt;
-      // Another shape under the pen: first nothing, then what it has there.
+      // Another shape is set under the pen: first no force, then the force of the new shape.
       pen.set_parameter(2, k == 0 ? 5 : 0);
       CHECK(length(pen.at(in, 1)) == 0);
       CHECK(length(pen.at(in, 2 * vertices - 3)) == 0);

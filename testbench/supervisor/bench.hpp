@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Ports of the Verilated supervisor, scripts that it follows beside its twin, and what must hold of
-// its gates whatever comes. Documentation: docs/blocks/supervisor.md
+// Ports of the Verilated supervisor, scripts for RTL and twin, and the properties of the gates that
+// must hold for all inputs. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <Vsupervisor.h>
@@ -45,7 +45,7 @@ struct SupervisorAdapter {
     rtl.param_i = in.param;
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
   }
-  static void at_edge(Vsupervisor& rtl) { rtl.stop_i = 0; }  // seen since the last edge, not after
+  static void at_edge(Vsupervisor& rtl) { rtl.stop_i = 0; }  // the pulse ends before the edge
   template <class Check>
   static void compare(Check& check, const Vsupervisor& rtl, const Twin::Out& out) {
     check("current_estimate", sign_extend<kEstimateBits>(rtl.current_estimate_o),
@@ -59,7 +59,8 @@ struct SupervisorAdapter {
 };
 using SupervisorBench = LockStep<Vsupervisor, Twin, SupervisorAdapter>;
 
-/// Runs the twin through changes of a scenario, and afterwards the RTL beside it.
+/// Runs the twin through the changes of a scenario; afterwards the RTL runs the same inputs beside
+/// a twin.
 class Script {
  public:
   Scenario now;
@@ -78,26 +79,27 @@ class Script {
     return *this;
   }
   Script& ticks(std::int64_t n) { return clocks(n * Design::clocks_per_tick); }
-  /// On to clock c of a tick, of the next one if that clock has passed or is now.
+  /// Runs to clock c of this tick, or of the next tick if that clock is now or has passed.
   Script& until(int c) {
     const int left = c - clock_of_tick();
     return clocks(left > 0 ? left : left + Design::clocks_per_tick);
   }
-  /// n clocks with an illegal transition each.
+  /// Runs n clocks with one illegal transition in each.
   Script& errors(std::int64_t n) {
     now.encoder_error = true;
     clocks(n);
     now.encoder_error = false;
     return *this;
   }
-  /// The request falls, rises, and a tick ends: armed, if all is well.
+  /// Lowers and raises the request and runs to the end of a tick: the supervisor is then armed if
+  /// no fault prevents it.
   Script& arm() {
     now.arm = false;
     until(0).ticks(1);
     now.arm = true;
     return ticks(1);
   }
-  /// Disarmed and without a fault at the start of a tick.
+  /// Disarms and clears the faults; ends at the start of a tick.
   Script& clear() {
     now.arm = false;
     now.clear_faults = true;
@@ -105,7 +107,8 @@ class Script {
     now.clear_faults = false;
     return *this;
   }
-  /// Clock by clock until the gates fall; the clocks it took, or -1 after `limit`.
+  /// Runs clock by clock until the gates fall. Returns the number of clocks, or -1 after `limit`
+  /// clocks.
   std::int64_t clocks_to_fall(std::int64_t limit) {
     std::int64_t n = 0;
     while (out().gates_enable && n <= limit) {
@@ -152,7 +155,7 @@ class Script {
   std::vector<Part> parts_;
 };
 
-/// Lets the heat of power-up go at once.
+/// Removes the heat of power-up at once.
 inline void cool(Script& s) {
   const std::uint32_t nominal = s.now.words.nominal_current_squared;
   s.now.words.nominal_current_squared = (1U << 31) - 1;
@@ -166,13 +169,13 @@ inline constexpr int kHeat = Twin::heat_clock + 1;
 inline constexpr int kPolarity = Twin::polarity_clock + 1;
 inline constexpr int kWatchdog = Twin::watchdog_clock + 1;
 
-/// This cause and no other.
+/// True if this cause is latched and no other.
 inline bool only(const Script& script, Fault cause) {
   return script.out().faults == fault_bit(cause) &&
          script.out().first_fault == static_cast<unsigned>(cause);
 }
 
-/// Watches the RTL alone.
+/// Checks the properties on the RTL alone.
 class Watch {
  public:
   Watch(std::array<std::int64_t, 16>* trips, std::int64_t* armings)
@@ -186,10 +189,10 @@ class Watch {
       if (gates || armed || rtl.faults_o != 0) broken = "reset: gates off, no fault";
     } else {
       if (gates && rtl.faults_o != 0) broken = "no gates beside a fault";
-      // The pin is low again since the edge: what it set holds on.
+      // The pin may be low again since the edge, but the stop that it set remains.
       if (in.stop && gates_ && rtl.gates_clear_o == 0)
         broken = "a stop clears the gates until it is dealt with";
-      // A stop just before they open is a fault of what it armed, within some clocks.
+      // After a stop just before the gates open, the fault may need some clocks to close them.
       on_ = gates ? on_ + 1 : 0;
       stopped_ = in.stop ? 4 : stopped_ - (stopped_ > 0 ? 1 : 0);
       if (on_ > 4 && stopped_ == 0 && rtl.gates_clear_o != 0) broken = "open gates are not cleared";
@@ -224,7 +227,7 @@ class Watch {
   unsigned faults_ = 0;
   unsigned first_ = 0;
   std::int64_t on_ = 0;  ///< clocks with the gates open
-  int stopped_ = 0;      ///< clocks in which a stop may not yet have closed the gates
+  int stopped_ = 0;      ///< clocks for which a stop need not have closed the gates yet
 };
 
 }  // namespace feltgate::test

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core around the supervisor's twin: multiplier, parameter bus and signals that change in the
-// wave clocks in which the real ones do. Documentation: docs/blocks/supervisor.md
+// A model of the core around the supervisor's twin: multiplier, parameter bus, and signals that
+// change in the same wave clocks as in the real core. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include "../sequencer/sequencer_twin.hpp"
@@ -29,23 +29,23 @@ inline bool same(const Twin::Out& a, const Twin::Out& b) {
          a.gates_enable == b.gates_enable && a.faults == b.faults && a.first_fault == b.first_fault;
 }
 
-/// What the core would do around the supervisor from now on.
+/// The inputs that the core gives to the supervisor from now on.
 struct Scenario {
   bool host = false;
   bool host_arm = false;
   bool arm = false;
   bool disarm = false;
   bool stop = false;
-  bool clear_faults = false;  ///< these two at the end of each tick
+  bool clear_faults = false;  ///< clear_faults and kick act at the end of each tick
   bool kick = false;
   bool encoder_error = false;
   bool period_start = false;
   bool axis_silent = false;
   bool axis_blocked = false;
-  bool ticks_stand = false;      ///< neither ticks nor waves
-  bool tick_stuck = false;       ///< high
-  std::uint16_t trips = 0;       ///< of other blocks
-  std::int32_t voltage = 0;      ///< raw; in force once the wave has brought it
+  bool ticks_stand = false;      ///< the tick counter stands: no ticks and no waves
+  bool tick_stuck = false;       ///< the tick signal stays high
+  std::uint16_t trips = 0;       ///< faults from other blocks
+  std::int32_t voltage = 0;      ///< raw; takes effect when the wave brings it
   std::int32_t velocity = 0;     ///< raw; the same
   std::int32_t current_ref = 0;  ///< raw; the same
   Twin::Words words = design_words();
@@ -72,7 +72,8 @@ struct Scenario {
   }
 };
 
-/// Turns a scenario into the inputs of one clock. Buses carry noise in clocks that are not ours.
+/// Turns a scenario into the inputs of one clock. The buses carry noise in the clocks of other
+/// blocks.
 class Bus {
  public:
   explicit Bus(std::uint64_t seed) : noise_(seed) {}

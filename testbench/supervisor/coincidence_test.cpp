@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// supervisor: two things in one clock, and the far end of the watchdog.
+// supervisor: two events in one clock, and the largest limit of the watchdog.
 // Documentation: docs/blocks/supervisor.md
 #include <set>
 #include <utility>
@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kForgiveTicks = 1 << feltgate::Map::forgive_bits;
 
-/// Armed, and `fixed` due in its clock of this tick or a later one; returns that clock.
+/// Arms and prepares the fault `fixed`, which trips at its fixed clock of this or a later tick.
+/// Returns that clock.
 int provoke(Script& s, Fault fixed) {
   const auto design = Scenario::design_words();
   switch (fixed) {
@@ -34,7 +35,7 @@ int provoke(Script& s, Fault fixed) {
       s.now.velocity = 0;
       s.now.current_ref = -static_cast<std::int32_t>(design.polarity_current) - 1;
       s.arm().ticks(2);
-      for (int k = 1; k <= 2; ++k) {  // a tick is a window
+      for (int k = 1; k <= 2; ++k) {  // a window is one tick
         s.now.velocity = k << Design::f.velocity.fraction;
         if (k == 1) s.ticks(1);
       }
@@ -49,7 +50,7 @@ int provoke(Script& s, Fault fixed) {
   }
 }
 
-/// Lets `free` be seen in clock c of the running tick, which has reached clock 0.
+/// Makes the fault `free` visible in clock c of the running tick, which is at clock 0.
 void join(Script& s, Fault free, int c) {
   const auto to = [&s](int clock) {
     if (clock > s.clock_of_tick()) s.until(clock);
@@ -68,7 +69,7 @@ void join(Script& s, Fault free, int c) {
       s.clocks(2);
       return;
     case Fault::tick:
-      // More periods begin than a tick has.
+      // More PWM periods begin than one tick can contain.
       s.now.period_start = true;
       s.clocks((kTick + Design::pwm_period - 1) / Design::pwm_period);
       s.now.period_start = false;
@@ -100,7 +101,7 @@ TEST_CASE("supervisor: two causes in one clock are both latched, the lower is th
       alone.until(clock);
       REQUIRE(alone.out().faults == 0);
       alone.clocks(1);
-      REQUIRE(only(alone, fixed));  // and this clock it is
+      REQUIRE(only(alone, fixed));  // and it trips in this clock
       join(s, free, clock);
       REQUIRE(s.clock_of_tick() == (clock + 1) % kTick);
       REQUIRE(s.out().faults == (fault_bit(fixed) | fault_bit(free)));
@@ -131,7 +132,7 @@ TEST_CASE("supervisor: another cause in the clock of the clear is then the first
   s.now.trips = 0;
   s.now.clear_faults = false;
   REQUIRE(only(s, Fault::link));
-  s.arm();  // not beside a fault
+  s.arm();  // arming is refused while a fault is latched
   REQUIRE_FALSE(s.out().armed);
   s.clear();
   s.arm();
@@ -145,11 +146,11 @@ TEST_CASE(
     Script s;
     s.arm();
     s.errors(before);
-    s.until(0).ticks(kForgiveTicks - 5).clocks(kTick - 1);  // five of them are over
-    s.errors(1);  // in the last clock of the tick that forgives
+    s.until(0).ticks(kForgiveTicks - 5).clocks(kTick - 1);  // five of these ticks have passed
+    s.errors(1);  // in the last clock of the tick that removes an error
     CAPTURE(before);
     REQUIRE(s.out().faults == (before == 7 ? fault_bit(Fault::encoder) : 0));
-    if (before == 7) s.clear().arm();  // from 0 on
+    if (before == 7) s.clear().arm();  // starts again at 0 errors
     s.errors(before == 7 ? 7 : 6 - before);
     REQUIRE(s.out().gates_enable);
     s.errors(1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// supervisor: what takes longer, linked last, so that a defect is found by something shorter first.
+// supervisor: the long tests. They are linked last, so that a shorter test finds a defect first.
 // Documentation: docs/blocks/supervisor.md
 #include <array>
 #include <cmath>
@@ -32,7 +32,7 @@ TEST_CASE("supervisor: eight encoder errors trip, one is forgiven every 1024 tic
   s.errors(1);
   REQUIRE(only(s, Fault::encoder));
   s.clear();
-  for (int k = 0; k < 30; ++k) {  // less than one in 1024 ticks: never a fault
+  for (int k = 0; k < 30; ++k) {  // less than one error in 1024 ticks: never a fault
     s.errors(1);
     s.ticks(1030);
   }
@@ -52,15 +52,15 @@ TEST_CASE("supervisor: I2t trips when the closed form says") {
     const double budget = 3000.0 * excess + current * current;
     s.now.words.i2t_budget = static_cast<std::uint32_t>(budget * 4.0);
     s.arm();
-    // The sum is I^2 after the first armed tick and is compared in the tick after.
+    // After the first armed tick the sum is I^2; it is compared in the next tick.
     const std::int64_t clocks = s.clocks_to_fall(4000 * kTick);
     REQUIRE(only(s, Fault::i2t));
     REQUIRE((clocks - kHeat) % kTick == 0);
     const auto ticks = static_cast<double>((clocks - kHeat) / kTick);
-    // I is one LSB off at most and I^2 loses up to a quarter more.
+    // I has an error of at most one LSB, and I^2 loses up to 0.25 more.
     const double error = (3 * lsb * std::fabs(current) + 0.25) / excess * 3000.0 + 2.0;
     REQUIRE(std::fabs(ticks - 3001.0) <= error);
-    // The heat is not forgotten with the fault: it goes by the nominal square per tick.
+    // Clearing the fault does not clear the heat: the heat falls by the nominal square per tick.
     for (int k = 0; k < 100 && s.out().faults != 0; ++k) s.clear().ticks(1);
     s.arm();
     REQUIRE(s.clocks_to_fall(60 * kTick) > 0);
@@ -106,7 +106,7 @@ TEST_CASE("supervisor: the I2t sum does not wrap at the largest budget", "[endur
     s.clear().ticks(1);
     REQUIRE(s.out().faults == fault_bit(Fault::i2t));
   }
-  // Nothing was added in the tick of the fault: at most 8 ticks more, and it is below the budget.
+  // The tick of the fault adds no heat: after at most 8 more ticks the heat is below the budget.
   s.now.words.nominal_current_squared = static_cast<std::uint32_t>(square / 8 + 1);
   for (int k = 0; k < 5; ++k) s.clear();
   REQUIRE(s.out().faults == 0);
@@ -122,7 +122,7 @@ TEST_CASE("supervisor: anything at any time, with and without resets") {
     Watch watch(&trips, &armings);
     bench.run(RandomCore(seed, plan), scaled_clocks(400000), plan, watch);
   }
-  // Each cause was the first one often enough, while the motor was armed.
+  // Each cause was often enough the first cause while the motor was armed.
   for (std::size_t cause = 1; cause < trips.size(); ++cause) {
     CAPTURE(cause, trips[cause]);
     CHECK(trips[cause] >= (cause <= 6 || cause == 9 ? 16 : 2));

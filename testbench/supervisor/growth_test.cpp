@@ -16,23 +16,23 @@ using namespace feltgate;
 struct Formats {
   Format velocity;
 };
-/// A velocity of 21 bits, 7 of which are below what is watched.
+/// A velocity of 21 bits; the check ignores the lowest 7 bits.
 struct Design {
   static constexpr Formats f{{1, 8, Map::growth_bits + 7}};
 };
 using Check = Runaway<Design>;
-constexpr std::int32_t kUnit = 128;  ///< what is watched of a velocity
+constexpr std::int32_t kUnit = 128;  ///< smallest step of velocity that the check sees
 constexpr std::uint32_t kTicks = 5, kGrowth = 3 * kUnit, kCurrent = 50;
 constexpr std::uint32_t kNegative = 0xffffffff;
 constexpr int kWindows = Map::runaway_windows;
 
-/// A motor that drives a lever away: velocity gained per tick, against a current.
+/// A motor that drives a lever away: the velocity grows every tick, against the current.
 struct Motion {
   Check check;
   std::int32_t velocity = 0, current = 100;
   bool live = true;
 
-  /// One tick as the twin of the supervisor makes it.
+  /// Runs one tick as the supervisor's twin does.
   bool tick(std::int32_t step) {
     velocity += step;
     check.compare_growth(check.gain(velocity), velocity, kGrowth);
@@ -40,7 +40,7 @@ struct Motion {
     check.turn(velocity, current, kTicks, live);
     return check.due();
   }
-  /// Ticks until it is due, 0: not within so many.
+  /// Number of ticks until the check trips; 0: not within `most` ticks.
   int due_after(std::int32_t step, int most = 200) {
     for (int k = 1; k <= most; ++k) {
       if (tick(step)) return k;
@@ -87,7 +87,7 @@ TEST_CASE("runaway: due after as many windows of growth as are needed, at their 
   Motion strong_enough;
   strong_enough.current = kCurrent + 1;
   CHECK(strong_enough.due_after(-kUnit) == windows);
-  // And still at the end of the next one.
+  // The check is due again at the end of the next window.
   CHECK(up.due_after(kUnit) == static_cast<int>(kTicks));
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("runaway: never due along the current, at a weak one, at a lesser grow
   CHECK(along.due_after(kUnit) == 0);
   weak.current = kCurrent;
   CHECK(weak.due_after(-kUnit) == 0);
-  // As much as the limit is not over it.
+  // A growth equal to the limit does not trip.
   CHECK(slow.due_after(-3 * kUnit / 5) == 0);
   away.live = false;
   CHECK(away.due_after(-kUnit) == 0);
@@ -137,7 +137,7 @@ TEST_CASE("runaway: a window without growth, or a tick not against, begins anew"
 
 TEST_CASE("runaway: growth and velocity, velocity and current: 0 counts as upward") {
   const auto due = [](std::int32_t gained, std::int32_t velocity, std::int32_t current) {
-    Check check;  // limits of -1: everything is over them; a window is a tick
+    Check check;  // limits of -1: every value is over them; a window is one tick
     for (int k = 0; k < kWindows; ++k) {
       check.compare_growth(gained, velocity, kNegative);
       check.compare_current(current, kNegative);

@@ -13,7 +13,7 @@ using feltgate::Fault;
 
 namespace {
 
-/// RTL and twin side by side, reset when the test wants.
+/// RTL and twin side by side; the test chooses when to reset them.
 class Pair {
  public:
   Scenario now;
@@ -61,7 +61,7 @@ TEST_CASE("supervisor: power-up begins with half the heat, a reset forgets none"
   Pair s;
   s.now.words.nominal_current_squared = 0;
   s.now.voltage = 5 * kVolt;
-  const auto expect = [&](bool hot, double budget) {  // nothing cools, nothing heats
+  const auto expect = [&](bool hot, double budget) {  // the heat stays constant
     s.now.words.i2t_budget = static_cast<std::uint32_t>(budget);
     s.reset(3);
     s.ticks(2);
@@ -69,13 +69,13 @@ TEST_CASE("supervisor: power-up begins with half the heat, a reset forgets none"
   };
   expect(false, start + 1);
   expect(true, start);
-  // Armed for a while: hotter by so many squares, and a reset of any length changes nothing.
+  // Armed ticks add one square each. A reset of any length does not change the heat.
   s.now.words.i2t_budget = 0xffffffffU;
   s.reset(3);
   s.now.arm = false;
   s.ticks(2);
   s.now.arm = true;
-  s.ticks(101);  // of which one is the arming's
+  s.ticks(101);  // the first of them is the tick of arming
   s.now.arm = false;
   s.ticks(2);
   const double estimate = 5.0 / 0.42;
@@ -83,7 +83,7 @@ TEST_CASE("supervisor: power-up begins with half the heat, a reset forgets none"
   expect(true, start + 0.98 * heat);
   expect(true, start + 0.98 * heat);
   expect(false, start + 1.02 * heat);
-  // It decays as ever: a nominal square per tick.
+  // The heat falls as before: one nominal square per tick.
   s.now.words.nominal_current_squared = start;
   s.now.words.i2t_budget = start;
   s.reset(1);
@@ -104,11 +104,11 @@ TEST_CASE("supervisor: I2t in integers, on the estimate of voltage and speed") {
   const std::int64_t estimate = s.out().current_estimate;
   const std::int64_t square = estimate * estimate / (1 << 14);
   for (const int ticks : {1, 2, 3, 100}) {
-    // The largest budget that so many armed ticks reach.
+    // The largest budget that the heat reaches in `ticks` armed ticks.
     s.now.words.i2t_budget = static_cast<std::uint32_t>(square + (ticks - 1) * (square - 100));
     s.arm();
     REQUIRE(s.clocks_to_fall(200 * kTick) == ticks * kTick + kHeat);
-    s.now.words.nominal_current_squared = (1U << 31) - 1;  // cold at once, and never below
+    s.now.words.nominal_current_squared = (1U << 31) - 1;  // the heat falls to 0 at once, not below
     s.ticks(4);
     s.now.words.nominal_current_squared = 100;
     s.clear().clear();

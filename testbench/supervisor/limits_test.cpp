@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// supervisor: every bit of what is compared with a limit, and of the counters that are.
+// supervisor: every bit of the signals and counters that are compared with a limit.
 // Documentation: docs/blocks/supervisor.md
 #include <array>
 
@@ -17,8 +17,9 @@ namespace {
 
 constexpr std::uint64_t clock_of(int t) { return std::uint64_t{1} << t; }
 
-/// Ticks in each clock, as no core has them, with the watchdog's two clocks in each of them: armed,
-/// not yet kicked for 100 clocks at a limit of 3, then kicked once, at this limit.
+/// A tick in every clock (no real core does this), with the watchdog's two clocks in each. The
+/// motor is armed, runs 100 clocks without a kick at a limit of 3, and is then kicked once, at
+/// `limit`.
 struct FastTicks {
   std::uint32_t limit;
   Twin::In operator()(std::int64_t k) const {
@@ -26,13 +27,13 @@ struct FastTicks {
     in.tick = true;
     in.arm = k >= 20;
     in.kick = k == 120;
-    // Not beside the kick, where both would look at the time before it.
+    // The limit is not compared near the kick: it would be compared with the time before the kick.
     if (k < 119 || k > 121) in.wave |= clock_of(Map::W::watchdog_ticks);
     if (k < 119 || k > 122) in.wave |= clock_of(Map::T::watchdog);
     in.param = k < 120 ? 3 : limit;
     return in;
   }
-  /// When it must trip, give or take the pipeline.
+  /// The clock at which the watchdog must trip, with the pipeline's uncertainty.
   std::int64_t end() const { return 120 + std::int64_t{limit} + 4; }
 };
 

@@ -51,7 +51,7 @@ TEST_CASE("supervisor: the speed grows against the commanded current, window aft
       s.ticks(1);
       REQUIRE(s.out().gates_enable);
     }
-    // A gap of one tick: its windows are the first again.
+    // After a gap of one tick the windows count from the first again.
     windows(enough, 0, current + 1);
     s.now.current_ref = 0;
     s.ticks(1);
@@ -69,7 +69,7 @@ TEST_CASE("supervisor: the speed grows against the commanded current, window aft
     REQUIRE(s.clocks_to_fall(20 * kTick) == kPolarity);
     REQUIRE(only(s, Fault::polarity));
     s.clear();
-    windows(enough, enough, current + 1);  // while disarmed nothing is counted
+    windows(enough, enough, current + 1);  // windows do not count while disarmed
     s.ticks(30);
     REQUIRE(s.out().faults == 0);
     s.arm();

@@ -13,7 +13,7 @@ namespace feltgate::test {
 /// RandomScenario with stops and encoder errors at any clock.
 class RandomCore {
  public:
-  /// `near`: many words stand at the signals that they are compared with.
+  /// `near`: many limits are equal or close to the signals that they are compared with.
   RandomCore(std::uint64_t seed, ResetPlan plan, bool near = false)
       : random_(seed), scenarios_(seed, near), clock_(seed, plan), bus_(seed) {}
 
@@ -24,14 +24,14 @@ class RandomCore {
       storm_ = random_.one_in(300) ? 40 : 0;
       hurry_ = random_.one_in(100);
     }
-    // The request, the commands and the words change at the end of a tick as the registers do.
+    // The request, the commands and the words change at the end of a tick, like the registers.
     if (now.slot_fetch == 0) s_ = next_;
     first_ = false;
     s_.stop = random_.one_in(6000) || (s_.stop && !random_.one_in(100));
     s_.encoder_error = random_.one_in(3000) || (storm_ > 0 && random_.coin());
     if (storm_ > 0) --storm_;
     s_.period_start = random_.one_in(hurry_ ? 30 : 3000);
-    // Causes of other blocks, and the command stop.
+    // Faults from other blocks, and the command stop.
     s_.trips = 0;
     if (random_.one_in(3000)) {
       s_.trips = static_cast<std::uint16_t>(1U << (7 + random_.below(9)));
@@ -48,7 +48,7 @@ class RandomCore {
   Scenario next_;
   bool first_ = true;
   int storm_ = 0;
-  bool hurry_ = false;  ///< periods of the PWM shorter than a tick
+  bool hurry_ = false;  ///< PWM periods are shorter than a tick
 };
 
 }  // namespace feltgate::test

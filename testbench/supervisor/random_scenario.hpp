@@ -10,8 +10,8 @@
 
 namespace feltgate::test {
 
-/// A scenario that wanders: mostly quiet, so that the motor is armed for a while, with small
-/// limits.
+/// A random scenario with small limits. It is mostly quiet, so that the motor stays armed for a
+/// while.
 class RandomScenario {
  public:
   explicit RandomScenario(std::uint64_t seed, bool near = false)
@@ -19,7 +19,7 @@ class RandomScenario {
     s_.words.nominal_current_squared = (1U << 31) - 1;  // until the first limits: cold
   }
 
-  /// Of the next tick; everything but the two asynchronous inputs is in force.
+  /// Returns the scenario of the next tick; it sets all inputs except the two asynchronous ones.
   const Scenario& next() {
     s_.clear_faults = random_.one_in(12);
     s_.kick = random_.one_in(15);
@@ -42,10 +42,11 @@ class RandomScenario {
   }
 
  private:
-  /// Limits at the very signals, or one bit beside; currents of one bit, and of all below it.
+  /// Sets limits equal to the signals or one bit away, and currents with one bit set or with all
+  /// bits below it set.
   void come_near() {
     auto& words = s_.words;
-    if (drift_ != 0 && words_.one_in(10)) {  // against the speed that grows
+    if (drift_ != 0 && words_.one_in(10)) {  // current against the growing speed
       const std::int32_t bit = 1 << words_.below(Design::f.current.width() - 1);
       const std::int32_t size = words_.coin() ? bit : bit - 1;
       s_.current_ref = drift_ < 0 ? size : -size;
@@ -53,7 +54,7 @@ class RandomScenario {
       if (size > 0 && !words_.one_in(4)) --words.polarity_current;
       words.polarity_speed = words_.below(1U << 10);
     }
-    if (words_.one_in(200)) {  // a heat that falls and rises by much
+    if (words_.one_in(200)) {  // the heat falls and rises by large steps
       words.inverse_resistance = 0x1ffff;
       words.i2t_budget = static_cast<std::uint32_t>(words_.bits() & 0xffffffff) >> words_.below(12);
       words.nominal_current_squared = 1U << words_.below(31);
@@ -105,7 +106,7 @@ class RandomScenario {
   Random random_, axes_, words_, say_;
   bool near_;
   Scenario s_;
-  std::int32_t drift_ = 0;  ///< of the velocity in a tick
+  std::int32_t drift_ = 0;  ///< change of the velocity per tick
 };
 
 }  // namespace feltgate::test

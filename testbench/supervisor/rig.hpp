@@ -23,7 +23,8 @@ inline plant::Parameters motor_of(const std::string& name) {
   return plant::read_plant_file(std::string(FELTGATE_ROOT) + "/vectors/plants/" + name + ".toml");
 }
 
-/// One tick at a time, without the self-test; the bridge is averaged and takes the duty in force at the tick's begin.
+/// Runs one tick at a time, without the self-test. The bridge is averaged and uses the duty at the
+/// start of the tick.
 template <class D>
 class Rig {
  public:

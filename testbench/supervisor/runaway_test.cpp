@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The check for a wrong polarity in simulation: swapped motors and encoders are found, scenes,
-// recordings, fast dampers, end stops and hands are not. Each case prints its rows of the table in
-// docs/blocks/supervisor.md, with its number of runs; scenes and recordings are hidden cases, so
-// that a usual run does not look as if it had tried them.
+// The check for a wrong polarity in simulation: it must trip with swapped motors and encoders, and
+// must not trip with scenes, recordings, fast dampers, end stops and hands. Each case prints its
+// rows of the table in docs/blocks/supervisor.md, with its number of runs. Scenes and recordings
+// are hidden test cases, so that a usual run does not report them as tried.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ using plant::Hand;
 using plant::HandPhase;
 using plant::Segment;
 
-/// Asks for a torque at once, with the core's own check and the heat asleep.
+/// Commands a torque without a ramp, with the core's own check and the heat limit disabled.
 template <class D>
 void ask(Rig<D>& rig, const char* scene, double torque_nm = 0.0) {
   rig.device.select(scene);
@@ -58,10 +58,10 @@ Watchers<D> watched(Rig<D>& rig, double duration_s) {
 
 struct Found {
   Count count;
-  std::array<double, kGrowth.size()> travel_rad{};  ///< the longest way to the trip
+  std::array<double, kGrowth.size()> travel_rad{};  ///< the longest travel to the trip
 };
 
-/// A free lever that is wired wrong, from a random place, on random friction and inertia.
+/// A free lever with wrong wiring: random start position, friction and inertia.
 template <class D>
 void run_away(Found& found, double torque_nm, Wiring wiring, SplitMix64& random) {
   plant::Parameters motor = motor_of("p24");
@@ -112,7 +112,8 @@ Segment ramp(double to, double duration_s) {
   return s;
 }
 
-/// From rest to a speed, which is then kept; as many short ramps, none of which gains 4 rad/s.
+/// Accelerates from rest to a speed and keeps it. The motion is split into short ramps that gain
+/// less than 4 rad/s each.
 std::vector<Segment> gather(double rad_s, double rise_s, double keep_s) {
   const int parts = 200;
   std::vector<Segment> way;
@@ -125,7 +126,8 @@ std::vector<Segment> gather(double rad_s, double rise_s, double keep_s) {
   return way;
 }
 
-/// The hand takes the lever to a speed against the damper, or arms it there; then it lets go.
+/// The hand moves the lever at a speed against the damper, or the damper is armed at that speed;
+/// then the hand lets go.
 void fast_dampers(Count& count) {
   for (const double rad_s : {30.0, 65.0, 100.0, 200.0, 300.0, 400.0, 500.0, 600.0, -65.0, -600.0}) {
     for (const double arm_s : {0.0, 0.8}) {
@@ -139,7 +141,7 @@ void fast_dampers(Count& count) {
   }
 }
 
-/// A correctly wired lever falls on its end stop and bounces.
+/// A correctly wired lever hits its end stop and bounces.
 void rebounds(Count& count) {
   for (const double stiffness : {20.0, 50.0, 100.0, 300.0, 1000.0}) {
     for (const double restitution : {0.3, 0.6, 0.9}) {
@@ -156,7 +158,8 @@ void rebounds(Count& count) {
   }
 }
 
-/// A hand carries the lever to 5 rad/s against 0.5 Nm: by its own mass behind a grip, or at once.
+/// A hand moves the lever at up to 5 rad/s against 0.5 Nm: as a mass behind a grip, or as an
+/// imposed motion.
 void hands(Count& count) {
   for (const double radius : {0.1, 0.2}) {
     for (const double sign : {1.0, -1.0}) {
@@ -180,14 +183,14 @@ void hands(Count& count) {
   }
 }
 
-/// Runs every scene of the core itself; the number of those left out.
+/// Runs every scene that the core itself computes. Returns the number of scenes left out.
 template <class D>
 std::int64_t scenes(Count& count, const std::string& design) {
   std::int64_t left_out = 0;
   const std::filesystem::path folder = std::string(FELTGATE_ROOT) + "/vectors/scenes";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
-    // Several axes, or a law: they need an engine.
+    // Scenes with several axes or with a law need an engine.
     if (names_device(entry.path().string()) || !read_scenario(entry.path().string()).law.empty()) {
       ++left_out;
       continue;
@@ -253,7 +256,8 @@ std::vector<Recording> recordings() {
   return all;
 }
 
-/// A row of the table: in how many runs each limit tripped, and the longest way to it.
+/// A row of the table: the number of runs in which each limit tripped, and the longest travel to
+/// the trip.
 void print_row(const char* what, const Count& count, const Found* found = nullptr) {
   std::printf("| %s |", what);
   for (std::size_t n = 0; n < kGrowth.size(); ++n) {
@@ -265,7 +269,7 @@ void print_row(const char* what, const Count& count, const Found* found = nullpt
   std::printf("\n");
 }
 
-/// No false alarm with the shipped limit, in so many runs at least.
+/// Checks that the shipped limit gave no false alarm, in at least `at_least` runs.
 void check_false(const char* what, const Count& count, std::int64_t at_least) {
   print_row(what, count);
   INFO(what);

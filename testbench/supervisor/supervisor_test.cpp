@@ -24,7 +24,7 @@ TEST_CASE("supervisor: arming asks for a rising request, no fault and no stop") 
   s.ticks(1);
   s.now.arm = true;
   s.clocks(kTick - 1);
-  REQUIRE_FALSE(s.out().armed);  // only when the tick ends
+  REQUIRE_FALSE(s.out().armed);  // arming takes effect when the tick ends
   s.clocks(1);
   REQUIRE((s.out().armed && s.out().gates_enable));
   s.clocks(10);
@@ -63,14 +63,14 @@ TEST_CASE("supervisor: arming asks for a rising request, no fault and no stop") 
 }
 
 TEST_CASE("supervisor: whoever gets the say must be seen to ask for nothing first") {
-  for (const bool to_host : {false, true}) {   // who gets the say while asking
-    for (const bool of_old : {false, true}) {  // what the other one asks for then
+  for (const bool to_host : {false, true}) {   // the side that gets control while it requests
+    for (const bool of_old : {false, true}) {  // the request of the other side at that time
       Script s;
       bool& gets = to_host ? s.now.host_arm : s.now.arm;
       bool& other = to_host ? s.now.arm : s.now.host_arm;
       s.now.host = !to_host;
       s.ticks(2);
-      gets = true;  // while the other one has the say
+      gets = true;  // while the other side has control
       other = of_old;
       s.ticks(2);
       REQUIRE(s.out().armed == of_old);
@@ -89,7 +89,7 @@ TEST_CASE("supervisor: whoever gets the say must be seen to ask for nothing firs
       gets = true;
       s.ticks(1);
       REQUIRE(s.out().gates_enable);
-      other = true;  // and it goes on while the say goes to and fro, as long as both ask
+      other = true;  // it stays armed while control changes sides, as long as both request it
       s.now.host = !to_host;
       s.ticks(3);
       s.now.host = to_host;
@@ -113,7 +113,7 @@ TEST_CASE("supervisor: a request of before a stop or a fault is not one after it
     s.now.stop = false;
     s.ticks(1);
     REQUIRE(only(s, Fault::stop) == gates_on);
-    s.now.axis_silent = true;  // of several axes another one falls silent, clears, and asks again
+    s.now.axis_silent = true;  // another axis stops its request, clears its faults, requests again
     s.now.clear_faults = true;
     s.ticks(2);
     REQUIRE(only(s, Fault::stop) == gates_on);
@@ -121,7 +121,7 @@ TEST_CASE("supervisor: a request of before a stop or a fault is not one after it
     s.now.axis_silent = false;
     s.ticks(3);
     REQUIRE_FALSE(s.out().armed);
-    s.now.host = true;  // the host takes the say, clears, and gives it back
+    s.now.host = true;  // the host takes control, clears the faults, and gives control back
     s.now.clear_faults = true;
     s.ticks(2);
     REQUIRE(s.out().faults == 0);
@@ -146,11 +146,11 @@ TEST_CASE("supervisor: over-speed at the limit plus one bit, either way") {
     s.now.velocity = bad;
     REQUIRE(s.clocks_to_fall(kTick) == kSpeed);
     REQUIRE(only(s, Fault::speed));
-    REQUIRE(s.out().armed);  // the wave goes on
+    REQUIRE(s.out().armed);  // the wave still runs
     s.until(0);
     REQUIRE_FALSE(s.out().armed);
     s.clear().ticks(1);
-    REQUIRE(s.out().faults == fault_bit(Fault::speed));  // the cause stands
+    REQUIRE(s.out().faults == fault_bit(Fault::speed));  // the cause is still present
     s.now.velocity = 0;
     s.clear().clear();
     REQUIRE(s.out().faults == 0);
@@ -262,7 +262,7 @@ TEST_CASE(
   for (const bool high : {false, true}) {
     for (int phase = 0; phase < kTick; ++phase) {
       Script s;
-      const auto period = [&s](int clocks) {  // begins, and lasts so long
+      const auto period = [&s](int clocks) {  // starts a PWM period that lasts `clocks`
         s.now.period_start = true;
         s.clocks(1);
         s.now.period_start = false;
@@ -301,7 +301,7 @@ TEST_CASE("supervisor: the first cause stays, of two at once the lower number") 
   s.now.velocity = 0;
   s.clear().clear();
   REQUIRE(s.out().faults == 0);
-  // The eighth encoder error in the clock in which over-speed is seen.
+  // The eighth encoder error arrives in the clock in which over-speed is detected.
   for (const bool too_fast : {false, true}) {
     s.arm().errors(7);
     s.now.velocity = too_fast ? std::numeric_limits<std::int32_t>::min() : 0;

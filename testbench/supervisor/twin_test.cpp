@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// supervisor: the twin alone. A tick at once against its clocks, the estimate of the current
-// against real arithmetic. Documentation: docs/blocks/supervisor.md
+// supervisor: the twin alone. The step of a whole tick is compared with the clock-by-clock twin,
+// and the estimate of the current with real arithmetic. Documentation: docs/blocks/supervisor.md
 #include <cmath>
 
 #include "catch.hpp"
@@ -22,7 +22,7 @@ TEST_CASE("supervisor: a tick at once is its clocks one by one") {
   for (std::int64_t k = 0; k < scaled_clocks(60000); ++k) {
     const Scenario before = now;
     now = scenarios.next();
-    // A tick at once knows no host and no other axes.
+    // The step of a whole tick has no host and no other axes.
     now.host = now.disarm = now.axis_silent = now.axis_blocked = false;
     Twin::Tick tick;
     tick.voltage_before = before.voltage;
@@ -33,7 +33,7 @@ TEST_CASE("supervisor: a tick at once is its clocks one by one") {
     tick.clear_faults = now.clear_faults;
     tick.kick = now.kick;
     int fell = -1;
-    if (k > 0) {  // in the first the synchroniser settles
+    if (k > 0) {  // the synchroniser settles in the first tick
       REQUIRE(at_once.steady(false));
       const bool near = at_once.near_trip(now.words);
       fell = at_once.tick(now.words, tick);
@@ -80,8 +80,8 @@ struct Kicked : Design {
   static constexpr int require_watchdog = 1;
 };
 
-/// Whether the gates are open after ten ticks with a watchdog of two: armed after one, kicked
-/// before or not.
+/// Returns whether the gates are open after ten ticks with a watchdog of two ticks. The motor is
+/// armed after one tick, with or without a kick before.
 template <class D>
 bool open_after_ten(bool kicked) {
   feltgate::Supervisor<D> twin;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// supervisor: the far end of the watchdog, 2^24 ticks without a kick: the twin counts them, into
-// the RTL's counter all but the last few are put. Documentation: docs/blocks/supervisor.md
+// supervisor: the largest time of the watchdog, 2^24 ticks without a kick. The twin counts all
+// ticks; the test writes all but the last few directly into the RTL's counter. Documentation:
+// docs/blocks/supervisor.md
 #include <Vsupervisor_open.h>
 #include <Vsupervisor_open___024root.h>
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kLongest = std::int64_t{1} << feltgate::Map::kickless_bits;
 
-/// Supervisor and twin, tick by tick.
+/// RTL and twin of the supervisor, tick by tick.
 class Pair {
  public:
   Scenario now;
@@ -34,7 +35,7 @@ class Pair {
       wave_.clock({});
     }
   }
-  /// So many ticks without a wave.
+  /// Passes `ticks` ticks without a wave.
   void pass(std::int64_t ticks) {
     Twin::In in;
     in.arm = in.tick = true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Where the check for a wrong polarity would trip with three limits, beside a core in closed loop.
-// Documentation: docs/blocks/supervisor.md
+// Three copies of the check for a wrong polarity, each with another limit, beside a core in closed
+// loop: they record where each would trip. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ inline constexpr std::size_t kShipped = 1;
 
 inline const ParameterInfo& word_of(const DesignInfo& d, const char* name) { return *d.find(name); }
 
-/// The check with each limit, beside a core whose own is asleep.
+/// Runs the check with each limit, beside a core whose own check is disabled.
 template <class D>
 class Watchers {
  public:
@@ -51,7 +51,7 @@ class Watchers {
     tick(std::llround(std::ldexp(r.velocity_rad_s, D::f.velocity.fraction)),
          std::llround(std::ldexp(r.current_a, D::f.current.fraction)), true);
   }
-  /// The tick in which it tripped, from 0, or -1.
+  /// The tick (from 0) in which limit n tripped, or -1.
   std::int64_t tripped(std::size_t n) const { return at_[n]; }
 
  private:
@@ -61,7 +61,7 @@ class Watchers {
   std::int64_t before_ = 0, ticks_seen_ = 0;
 };
 
-/// How many runs there were, and in how many each limit tripped.
+/// The number of runs, and for each limit the number of runs in which it tripped.
 struct Count {
   std::int64_t runs = 0;
   std::array<std::int64_t, kGrowth.size()> trips{};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// torque_control and dob in a loop on a blocked lever, and torque_control beside quad precision.
-// Documentation: docs/blocks/torque_control.md
+// torque_control and dob in a closed loop with a blocked lever, and torque_control against quad
+// precision. Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct TwinAlone {
   }
 };
 
-/// The classic mistake: the observer sees the current before its limit.
+/// A common mistake: the observer gets the current before its limit.
 struct Unlimited {
   TwinAlone twin, without;
   Control::Out run(const Wave& w) {
@@ -45,7 +45,8 @@ struct Unlimited {
   }
 };
 
-/// A blocked lever: the observer sees the current of the tick before, the control its tau_hat.
+/// A blocked lever: the observer gets the current of the tick before; the control gets tau_hat of
+/// the observer.
 template <class Driven>
 class Loop {
  public:
@@ -86,11 +87,11 @@ struct ExactWords : ParameterReader<Design, ExactWords> {
 struct Worst {
   double current = 0, current_bound = 0, voltage = 0, voltage_bound = 0, duty = 0, duty_bound = 0;
 
-  /// Compares one wave; the text of the bound that does not hold, or nullptr.
+  /// Compares one wave. Returns the name of the bound that does not hold, or nullptr.
   const char* add(const Wave& w) {
     Step fixed;
     TorqueControlStep<Design, Real<quad>> real;
-    if (w.mode == Mode::voltage) {  // the tick before has brought it to the set-point
+    if (w.mode == Mode::voltage) {  // the tick before has set the voltage to the set-point
       fixed.voltage = Voltage::from_raw(w.words.at(A::voltage_setpoint));
       real.voltage = static_cast<quad>(w.words.at(A::voltage_setpoint)) * lsb(14);
     }
@@ -104,7 +105,8 @@ struct Worst {
     const auto off = [](int address) { return coefficient_error(parameter(address)); };
     const quad ampere = lsb(16), volt = lsb(14);
     const bool direct = w.mode == Mode::voltage;
-    // A truncated product errs by less than one LSB; a limit by its own quantisation instead.
+    // A truncated product has an error of less than one LSB; a limit has only the error of its
+    // quantisation.
     quad i = direct ? off(A::voltage_to_current) * magnitude(words.setpoint) + ampere
                     : off(A::torque_gain) * magnitude(tau_ref) +
                           off(A::observer_gain) * magnitude(tau_hat) + 2 * ampere;
@@ -116,7 +118,8 @@ struct Worst {
                  ? quad{0}
                  : static_cast<quad>(parameter(gain).si) * i + off(gain) * magnitude(real.current) +
                        volt + off(A::emf_constant) * magnitude(omega) + volt + dead;
-    // At the window's end the window errs, and the back-EMF in its middle.
+    // At the end of the window the errors are those of the window and of the back-EMF at its
+    // centre.
     v = std::max(v, off(A::voltage_window) + off(A::emf_constant) * magnitude(omega) + volt);
     const quad d = static_cast<quad>(parameter(A::duty_gain).si) * v +
                    off(A::duty_gain) * magnitude(real.applied) + quad{0.5};

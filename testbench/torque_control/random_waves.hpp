@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Random waves for torque_control, what they exercised, and tick() beside clock().
+// Random waves for torque_control, their coverage, and tick() against clock().
 // Documentation: docs/blocks/torque_control.md
 #pragma once
 
@@ -67,8 +67,8 @@ struct RandomWaves {
 using Twin = Watched<Control, Wave>;
 using Bench = LockStep<Vtorque_control, Twin, Adapter>;
 
-/// A wave, then up to `spread` - 1 clocks of rest. The one that follows a reset is disarmed, as in
-/// the core: the sums have no reset.
+/// A wave, then up to `spread` - 1 clocks of rest. The wave after a reset is disarmed, as in the
+/// core, because the sums have no reset.
 struct Waves {
   Waves(std::uint64_t seed, std::uint32_t more_clocks)
       : next{Random(seed)}, shared(seed + 1), spread(more_clocks) {}
@@ -98,16 +98,16 @@ struct Waves {
   int clock = 0, period = kShortest;
 };
 
-/// By sign where it has one: [0] negative, [1] positive.
+/// Counts, by sign if the value has one: [0] negative, [1] positive.
 struct Tally {
   std::int64_t waves = 0, disarmed = 0, modes[4] = {}, current[2] = {}, voltage[2] = {},
                duty[2] = {}, dead[2] = {}, dead_linear = 0, border[2] = {}, high[2] = {};
 };
 
-/// tick() is due when the duty is.
+/// Runs tick() at the clock at which the duty is ready.
 struct TickBeside {
   Tally* tally;
-  Step step{};  // the voltage of the tick before is the ramp's
+  Step step{};  // the ramp starts from the voltage of the tick before
 
   const char* operator()(const Twin::In& in, const Vtorque_control& rtl, const Twin&,
                          bool in_reset) {
@@ -124,7 +124,7 @@ struct TickBeside {
         out.limit.duty != step.limit.duty) {
       return "limits of tick() are those of clock()";
     }
-    // Whatever the words are, the current is within the window; the port's format ends at +-32 V.
+    // For all words the voltage is within the window; the port's format ends at +-32 V.
     const Words& words = in.aside.words;
     const auto window =
         std::max<std::int64_t>(0, words.get<Step::Law::kVoltageKey>(A::voltage_window).raw());

@@ -108,7 +108,7 @@ TEST_CASE("torque_control: voltage mode ramps to the set-point, within the windo
   double before = 0;
   for (const double set : {3.0, -3.0, 24.0}) {
     w.words.set(A::voltage_setpoint, std::llround(std::ldexp(set, 14)));
-    // Arming and a change of the set-point ramp, at stall to no more than the window.
+    // Arming and a change of the set-point ramp the voltage; at stall it stays within the window.
     Control::Out out;
     for (int k = 0; k < 15000; ++k) {
       out = rtl.run(w);
@@ -196,7 +196,7 @@ TEST_CASE("torque_control: with the observer at stall, paper's loop has its pole
     Loop<TwinAlone> loop;
     const auto tau_hat = loop.run(w, 40000);
     const double target = std::ldexp(static_cast<double>(w.tau_ref), -16);
-    // 2 % settling: the last tick outside.
+    // Time of 2 % settling: the last tick outside.
     std::size_t settled = tau_hat.size();
     while (std::fabs(tau_hat[settled - 1] / target - 1) <= 0.02) --settled;
     REQUIRE(std::fabs(static_cast<double>(settled) * 1e-3 / 9.988 - 1) < 0.01);
@@ -247,7 +247,7 @@ TEST_CASE("torque_control: no wind-up at the current limit") {
   REQUIRE(ticks_until_sign_changes(twin, 1000000) == 1);
   Loop<RtlAlone> rtl;
   REQUIRE(ticks_until_sign_changes(rtl, 20000) == 1);
-  // The same law with the observer fed what the limit has not yet cut: about 2 ms.
+  // The same law, but the observer gets the current before the limit: about 2 ms.
   Loop<Unlimited> wrong;
   const int wrong_ticks = ticks_until_sign_changes(wrong, 20000);
   REQUIRE(wrong_ticks > 1500);

@@ -30,9 +30,9 @@ class TorqueControl {
     bool beyond = false;
   };
   struct Out {
-    std::int64_t ahead = 0;   ///< to the limiter, a clock before the limit's word
-    std::int64_t late = 0;    ///< in the clock of the limit's word
-    std::int64_t addend = 0;  ///< what `applied` has more than `limited`
+    std::int64_t ahead = 0;   ///< value for the limiter, a clock before the limit's word
+    std::int64_t late = 0;    ///< value for the limiter, in the clock of the limit's word
+    std::int64_t addend = 0;  ///< difference `applied` - `limited`
     bool region_high = false;
     std::int64_t current_ref = 0;
     std::int64_t voltage = 0;
@@ -129,7 +129,7 @@ class TorqueControl {
   static typename Number::raw_type raw(std::int64_t value) {
     return static_cast<typename Number::raw_type>(value);
   }
-  /// The low bits that a port has.
+  /// Cuts a value to the width of a port.
   template <int Width>
   static std::int64_t shown(std::int64_t value) {
     return feltgate::detail::wrapped<std::int64_t>(value, 1, Width);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// torque_control of a design as it sits in the core: the words of a wave on the parameter bus, its
-// operands on the shared multiplier, its sums in the shared limiter, and the adapter.
-// Documentation: docs/blocks/torque_control.md
+// The environment of torque_control in the core: the words of a wave on the parameter bus, the
+// shared multiplier, the shared limiter, and the adapter. Documentation:
+// docs/blocks/torque_control.md
 #pragma once
 
 #include <Vtorque_control.h>
@@ -50,7 +50,7 @@ struct Words : ParameterReader<Design, Words> {
   std::array<std::int32_t, 51> raw{};
 };
 
-/// What one wave works on.
+/// The inputs of one wave.
 struct Wave {
   Words words;
   Mode mode = Mode::closed_loop;
@@ -58,13 +58,13 @@ struct Wave {
   std::int64_t tau_ref = 0, tau_hat = 0, velocity = 0;
 };
 
-/// The wave as tick() takes it.
+/// Runs tick() with the wave.
 inline void tick(Step& step, const Wave& w) {
   step.tick(w.words, w.armed, w.mode, Torque::from_raw(w.tau_ref), Torque::from_raw(w.tau_hat),
             Velocity::from_raw(w.velocity));
 }
 
-/// What torque_control shares, and what it sees of it when the others use it.
+/// The parts that torque_control shares, with the values on them when other blocks use them.
 struct Shared {
   explicit Shared(std::uint64_t seed) : mult(seed), limiter(seed + 1), garbage(seed + 2) {}
   SharedMult mult;
@@ -147,7 +147,7 @@ struct Adapter {
     rtl.limited_i = port_bits<Design::f.limiter.width()>(in.limited);
     rtl.beyond_i = in.beyond;
   }
-  /// The RTL's outputs as the twin's.
+  /// Converts the RTL's outputs to the twin's type.
   static Control::Out outputs(const Vtorque_control& rtl) {
     Control::Out out;
     out.region_high = rtl.region_high_o != 0;
@@ -180,7 +180,7 @@ struct Adapter {
   }
 };
 
-/// The RTL alone, wave by wave: for closed loops, in which its outputs come back.
+/// The RTL alone, wave by wave: for closed loops, in which its inputs depend on its outputs.
 class RtlAlone {
  public:
   RtlAlone() : rtl_(&context_), shared_(41) {

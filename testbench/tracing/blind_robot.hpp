@@ -22,7 +22,7 @@ struct Touch {
   Point pen_m, force_n;
 };
 
-/// What is left of a walk around a shape.
+/// The data kept from a walk around a shape.
 struct Trace {
   std::vector<Touch> probed;   ///< of pressing straight in, before the walk
   std::vector<Touch> touches;  ///< of the walk
@@ -30,7 +30,7 @@ struct Trace {
   double seconds = 0;          ///< until then, or until it gave up
 };
 
-/// What pressing in and letting go tells of the shape.
+/// The data on the shape from pressing in and letting go.
 struct Material {
   double stiffness_n_m = 0, damping_ns_m = 0;
 };

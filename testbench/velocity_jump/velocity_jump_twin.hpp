@@ -14,7 +14,7 @@ namespace feltgate {
 template <class D>
 class VelocityJump {
  public:
-  /// What the low-pass moves by in a tick is below 2^weight bits of the velocity.
+  /// The low-pass changes in a tick by less than 2^weight bits of the velocity.
   static constexpr int weight =
       D::f.velocity.width() + D::coefficient_bits - D::P::velocity_a1.fraction;
   static constexpr bool compares = weight >= 0 && weight <= D::f.velocity.width() - 2;

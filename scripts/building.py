@@ -73,8 +73,10 @@ class Beside:
         return f"building {self.now} {self.step}".rstrip() if self.now else ""
 
     def _work(self):
+        if not self.targets:
+            return
         state = self.build / "launcher"
-        state.mkdir(exist_ok=True)
+        state.mkdir(parents=True, exist_ok=True)
         with open(state / "lock", "ab") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             for target in self.targets:

@@ -23,6 +23,7 @@ class Meter {
  public:
   explicit Meter(const Compiled& c) : c_(c), law_(c.law), machine_(memory(c.image)) {
     result_.output.assign(c.law.outputs.size(), 0);
+    result_.move.assign(c.law.states.size(), 0);
     for (const int step : c.assembled.step_of) {
       strips_.push_back(nullptr);
       for (const Strip& s : c.bound.strips) {
@@ -83,7 +84,15 @@ class Meter {
     }
     for (std::size_t i = 0; i < c_.law.lines.size() && started_ && !free_running; ++i) take_line(i);
     started_ = true;
+    std::vector<double> before;
+    for (std::size_t k = 0; k < c_.law.states.size(); ++k) before.push_back(law_.state(k));
     law_.run(values);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const State& s = c_.law.states[k];
+      double move = std::fabs(law_.state(k) - before[k]);
+      if (s.phase) move = std::min(move, std::fabs(s.range.upper - s.range.lower - move));
+      result_.move[k] = larger(result_.move[k], move);
+    }
     bool otherwise = false;
     const MachineRun& run = machine_.run_seen(
         c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {

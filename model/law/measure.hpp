@@ -16,7 +16,8 @@ struct Measured {
   std::vector<double> output;  ///< largest difference, Nm, as Law::outputs
   std::int64_t runs = 0;
   std::int64_t in_strips = 0;  ///< runs excluded from `output`: a comparison was in its strip
-  bool all_inputs = false;     ///< ran every value of the only input, with default parameters
+  std::vector<double> move;  ///< SI: largest change of a state in a run of the law, as Law::states
+  bool all_inputs = false;   ///< ran every value of the only input, with default parameters
 };
 
 /// Measures with random inputs and parameters, corners included. Before each run the law's states

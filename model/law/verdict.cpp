@@ -18,6 +18,7 @@ namespace {
 constexpr double kTold = 0.05;    ///< share of excluded runs above which it is reported
 constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
+constexpr double kSlow = 0.01;  ///< reported error of a run beside the largest move of a state
 constexpr double kAsSet = 0.1;  ///< reported relative error of the file's value, which is listed
 
 /// The mend for large bounds: limit the argument of the table with the worst error for its size.
@@ -39,8 +40,9 @@ std::string mend(const Program& program, const Bound& b) {
 }
 
 std::string name_of(const Law& law, std::size_t o) {
-  return law.outputs.size() == 1 ? law.outputs[o].name
-                                 : fmt::format("{}[{}]", law.outputs[o].name, law.outputs[o].axis);
+  return law.outputs.size() == 1 && law.outputs[o].axis == 0
+             ? law.outputs[o].name
+             : fmt::format("{}[{}]", law.outputs[o].name, law.outputs[o].axis);
 }
 
 void runs_left_out(const Measured& m, Verdict* v) {
@@ -79,6 +81,20 @@ void parameters(const Compiled& c, Verdict* v) {
           (least < step / 2 ? fmt::format(", and those below {} become 0", si(step / 2)) : "") +
           mend);
     }
+  }
+}
+
+/// Reports states that move by little more than their words can express: in the words they move at
+/// another speed, or stand still. A bound of one run does not show that.
+void states(const Compiled& c, const Measured& m, Verdict* v) {
+  if (c.bound.states_bounded || m.move.size() != c.law.states.size()) return;
+  for (std::size_t k = 0; k < m.move.size(); ++k) {
+    if (!(c.bound.drift[k] > kSlow * m.move[k]) || !(m.move[k] > 0)) continue;
+    v->warnings.push_back(
+        fmt::format("state {}: a run moves it by {:.3g} at most, and its step of {:.3g} adds an "
+                    "error of up to {:.3g} to that, so that it may move at another speed or stand "
+                    "still; give the law a lower rate, or the state a narrower range",
+                    c.law.states[k].name, m.move[k], c.program.states[k].scale, c.bound.drift[k]));
   }
 }
 
@@ -147,6 +163,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
                     u.place.line, u.place.column, u.name));
   }
   runs_left_out(m, &v);
+  states(c, m, &v);
   parameters(c, &v);
   return v;
 }

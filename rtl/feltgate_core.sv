@@ -32,11 +32,11 @@ module feltgate_core #(
 
     // Programmed torque of the scene law; state of other axes. Tie unused inputs to 0.
     input  logic signed [feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // sampled in T_LAW_TORQUE
-    input  logic law_late_i,      // law_torque_i is too old: it counts as 0; a fault
+    input  logic law_late_i,      // no valid law_torque_i: it counts as 0; a fault if used
     input  logic law_restart_i,   // last clock of a tick: ramp from the next tick on
     input  logic axis_fault_i,    // another axis has a fault
-    input  logic axis_silent_i,   // another axis does not request arming
-    input  logic axis_blocked_i,  // another axis is not ready to arm
+    input  logic axis_silent_i,   // another axis, or the program's CRC, does not let it arm
+    input  logic axis_blocked_i,  // another axis is not ready, or the program's CRC is wrong
     input  logic axis_testing_i,  // another axis runs its self-test: the scene waits
     input  logic axis_waits_i,    // an axis of a lower number does: the self-test waits
     output logic asks_o,          // state of this axis for the others: requests arming

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Measures how long a torque above hold_torque acts on a lever that stands still. After hold_time
-// the torque limit is hold_limit until the encoder moves. Evaluated once per tick, in T_HOLD.
+// the torque limit is hold_limit until the encoder moves or the axis disarms. Evaluated once per
+// tick, in T_HOLD.
 // Documentation: docs/blocks/hold_timer.md
 `default_nettype none
 

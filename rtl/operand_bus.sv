@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The operand bus to the multiplier. In each wave clock one source drives it, all others are 0, so
-// an OR combines them. A value that is held longer enters through a copy that is 0 outside its
-// clocks. The bus is combinational from its copies. Documentation: docs/blocks/operand_bus.md
+// The operand bus to the multiplier. In each wave clock at most one source drives it, all others
+// are 0, so an OR combines them. A value that is held longer is gated, or enters through a copy that
+// is 0 outside its clocks. Combinational from its inputs and copies. docs/blocks/operand_bus.md
 
 `default_nettype none
 

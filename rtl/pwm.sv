@@ -76,7 +76,7 @@ module pwm #(
   assign {threshold_d, unused_sum} = {antiphase_q ? HALF : 14'sd0, 1'b1} + {addend, increment};
 
   // A duty of one arming must not reach the gates in the next arming, so disabling clears it. Duty
-  // 0 needs no sign, so the sign registers keep their value.
+  // 0 needs no sign, so the sign registers are not cleared.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) duty_active_o <= 13'sd0;
     else if (!enable_i) duty_active_o <= 13'sd0;

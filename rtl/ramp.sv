@@ -20,7 +20,7 @@ module ramp (
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                      beyond_i,
-    input  logic                                      frozen_i,  // 1: |tau_ref| must not grow
+    input  logic                                      frozen_i,  // 1: only toward 0, or to > 0
     input  logic                                      eased_i,   // 1: the limit is hold_limit
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts

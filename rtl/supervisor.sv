@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fourteen
-// fault causes itself; other blocks report theirs on trips_i. A fault is latched and the gates are
-// off one clock after the cause is seen. A limit is compared in the clock S_* in which it is on the
-// parameter bus, and acts in the next clock, T_*. Estimated current [1,8,8] A,
+// fault causes itself; other blocks report theirs on trips_i. A fault is latched and
+// gates_enable_o falls one clock after the cause is seen; the gates are off a clock later. A limit
+// is compared in the clock S_* in which it is on the parameter bus, and acts in the next, T_*. Estimated current [1,8,8] A,
 // I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
@@ -117,7 +117,7 @@ module supervisor (
 
   // Two tick counters share an adder and a comparator: cause 3 uses them in the clock in which its
   // limit is on the bus, cause 5 in all others. A counter with its top bit set has reached every
-  // limit, so wrapping does not occur.
+  // limit. A wrap of the kick counter before the first kick has no effect.
   localparam int RUNAWAY_W  = feltgate_map_pkg::RUNAWAY_BITS + 1;
   localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 

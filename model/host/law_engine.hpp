@@ -29,7 +29,7 @@ struct EngineStatus {
   bool mailbox_late = false;  ///< the law's mailbox was not fed in time: no torque until it is
   bool overrun = false;       ///< since the load, a start found its thread still running
   int bank = 0;               ///< the bank in force
-  bool dropped = false;       ///< a write or a commit came during a commit, and was lost
+  bool dropped = false;       ///< a write during a commit or while locked was lost
   int refused_word = 0;       ///< word 0 to 31 that caused the last refusal
 };
 

@@ -17,8 +17,8 @@ module engine #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic                    armed_i,
-    input  logic                    enter_i,       // one clock: an axis entered the scene of laws
-    input  logic                    locked_i,      // 1: programs, tables and registers are read-only
+    input  logic                    enter_i,       // one clock: the first axis entered the law scene
+    input  logic                    locked_i,      // 1: only parameters and COMMIT are writable
     input  logic                    tick_i,        // one clock; inputs of this tick, held
     input  logic [            31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
@@ -39,7 +39,7 @@ module engine #(
     input  logic [            31:0] wdata_i,
     input  logic                    write_i,       // one clock, while busy_o is 0
     input  logic                    read_i,        // one clock: the host has taken rdata_o
-    output logic [            31:0] rdata_o,       // valid when addr_i was held 32 clocks
+    output logic [            31:0] rdata_o,       // valid: addr_i held 32 clocks, busy_o 0
     output logic                    busy_o
 );
   // Host words that are registers.

@@ -3,8 +3,8 @@
 //
 // Barrel processor of the engine: memories and four threads. A round has six turns of one clock:
 // one instruction per thread and two turns of the system; in the second of these the system reads.
-// The system writes a word in any turn without an instruction. Clock n in a comment or a name
-// (x2_q) is the clock of the instruction, 0 to 7. docs/blocks/engine.md
+// The system writes a word in any turn without an instruction, except that one. Clock n in a
+// comment or a name (x2_q) is the clock of the instruction, 0 to 7. docs/blocks/engine.md
 
 `default_nettype none
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// CRC-32 (that of zlib) over all words that no program can write: the program, ranges and
-// constants, and the table below the lines. A word of 36 bits counts as five bytes. One bit per
-// clock; the whole CRC takes 1.1 ms at 50 MHz. docs/blocks/engine.md
+// CRC-32 (that of zlib) over the program, ranges and constants, and the table below the
+// lines; no program can write these. A word of 36 bits counts as five bytes. One bit per clock; the
+// whole CRC takes at most 0.96 ms at 50 MHz. docs/blocks/engine.md
 
 `default_nettype none
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Age of the mailbox. If no commit comes within max_age_i steps, late_o is 1 (torques 0) until the
-// next commit. jumps_o reports when torques can jump. One step is 64 ticks. docs/blocks/engine.md
+// Age of the mailbox. If more than max_age_i steps end without a commit, late_o is 1 (torques 0)
+// until the next commit. jumps_o reports when torques can jump. One step is 64 ticks. docs/blocks/engine.md
 
 `default_nettype none
 

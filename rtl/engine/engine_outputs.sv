@@ -25,7 +25,7 @@ module engine_outputs #(
     input  logic        [ 1:0] number_i,
     output logic signed [feltgate_pkg::TORQUE_W*AxisCount-1:0] torque_o,
     output logic               fresh_o,    // one clock: all axes renewed since the last fresh_o
-    output logic               late_o      // not fresh for max_age_i ticks; held until enter_i
+    output logic               late_o      // not fresh for > max_age_i ticks; until enter_i
 );
   localparam int W = feltgate_pkg::TORQUE_W;
 

@@ -50,7 +50,7 @@ module link_capture #(
     Idle = 3'd0,
     Fill = 3'd1,  // takes the rows before the trigger
     Wait = 3'd2,  // waits for the trigger; the ring wraps
-    Rest = 3'd3,  // takes the row of the trigger and the rows after it
+    Rest = 3'd3,  // takes the rows after the trigger, and its row if Wait did not
     Done = 3'd4
   } state_q;
   logic runs;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Executes a request of the host. It writes at once, and only once per sequence number; it reads
-// each word while the reply is being sent. Words belong to the core, the engine, the link itself,
+// Executes a request of the host. It writes at once, but not again with the sequence number of the
+// last write; it reads each word while the reply is being sent. Words belong to the core, the engine, the link itself,
 // the stream or the capture. Documentation: docs/blocks/link_port.md
 `default_nettype none
 

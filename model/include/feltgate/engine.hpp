@@ -25,7 +25,7 @@ class Engine {
   struct In {
     bool armed = false;
     bool enter = false;   ///< one clock: the scene of laws was entered
-    bool locked = false;  ///< programs, tables and registers cannot be written
+    bool locked = false;  ///< only parameters and COMMIT can be written
     bool tick = false;    ///< one clock; the inputs belong to this tick and are held
     std::uint32_t tick_count = 0;
     typename Inputs::Axes position{}, velocity{}, tau_hat{};

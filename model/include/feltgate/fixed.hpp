@@ -219,7 +219,7 @@ constexpr To narrow(fixed<S, I, F> x, bool* saturated = nullptr) {
   using Raw = std::conditional_t<(needed <= 64), std::int64_t, int128_t>;
   Raw y = 0;
   if constexpr (drop >= needed - 1) {
-    // Every bit is dropped: |x| is at most half of the target's last bit, so only truncation can
+    // Every bit is dropped: -1/2 <= x < 1/2 of the target's last bit, so only truncation can
     // give another result than 0.
     y = (R == Round::truncate && x.raw() < 0) ? Raw{-1} : Raw{0};
   } else if constexpr (drop > 0) {

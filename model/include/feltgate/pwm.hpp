@@ -47,7 +47,7 @@ class Pwm {
   };
 
   /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64. `shortest_clocks`: shortest pulse
-  /// at a gate, 1 to 255; if above 1, the dead time must be at most half a period.
+  /// at a gate, 1 to 255; if above 1, both together are at most half a period.
   explicit Pwm(int period = 1000, int dead_clocks = 25, int shortest_clocks = 1)
       : period_(period), dead_(dead_clocks - 1), shortest_(shortest_clocks) {
     reset();

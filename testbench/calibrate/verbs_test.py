@@ -62,7 +62,7 @@ class VerbTest(ProgramTest):
 
 class Calibrate(VerbTest):
     def test_the_page(self):
-        commands = block_after("need no board, and PORT is").strip().splitlines()
+        commands = block_after("no board is needed, and PORT is").strip().splitlines()
         self.assertEqual(len(commands), 2)
         for line in commands:
             words = shlex.split(line.replace("docs/", f"{ROOT}/docs/"))

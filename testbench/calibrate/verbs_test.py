@@ -69,7 +69,7 @@ class Calibrate(VerbTest):
             self.assertEqual(words[:2], ["feltgate", "host"])
             printed = self.host(*words[2:])
             if line == commands[0]:
-                self.assertEqual(printed.strip(), block_after("The first prints").strip())
+                self.assertEqual(printed.strip(), block_after("The first command prints").strip())
         self.builds(self.folder / "mine.toml")
         text = (self.folder / "mine.toml").read_text(encoding="utf-8")
         self.assertIn("kv_low = 1.14", text)

@@ -75,7 +75,7 @@ build() {
   lock_build
   configure "$1" || exit
   if [[ ! -f $BUILD/.ninja_log && $2 != build.ninja ]]; then
-    say "building what '$command' needs (${*:2}) in $BUILD, once; later starts build what changed"
+    say "building ${*:2} in $BUILD, once; later starts build what changed"
   fi
   NINJA_STATUS='[%f/%t] ' run_logged "building" "$STATE/build.log" \
     ninja -C "$BUILD" "${@:2}" || exit

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import interrupts
+from crew import Crew
 
 
 class BuildError(Exception):
@@ -38,21 +39,24 @@ class Beside:
     """Programs that are built one after the other while the caller does other work. The launcher's
     lock is held meanwhile. Left early, the build ends."""
 
+    POLL_S = 0.2
+
     def __init__(self, build, targets):
         self.build, self.targets = Path(build), list(targets)
         self.built, self.now, self.step, self.failure = set(), "", "", ""
-        self._process, self._ended = None, False
+        self._crew, self._ended = Crew(), threading.Event()
         self._thread = threading.Thread(target=self._work, daemon=True)
 
     def __enter__(self):
-        self._thread.start()
+        if self.targets:
+            self._thread.start()
         return self
 
     def __exit__(self, *_):
-        self._ended = True
-        if self._process is not None and self._process.poll() is None:
-            self._process.terminate()
-        self._thread.join()
+        self._ended.set()
+        self._crew.end()
+        if self.targets:
+            self._thread.join()
 
     def ready(self, program):
         """Whether a program can be started: it is not to be built, or is built. BuildError where
@@ -66,45 +70,54 @@ class Beside:
     def wait(self, program):
         """Until it can be started."""
         while not self.ready(program):
-            time.sleep(0.2)
+            time.sleep(self.POLL_S)
 
     def text(self):
         """What is being built, for a line of progress; "" where all is."""
         return f"building {self.now} {self.step}".rstrip() if self.now else ""
 
     def _work(self):
-        if not self.targets:
-            return
         state = self.build / "launcher"
-        state.mkdir(parents=True, exist_ok=True)
-        with open(state / "lock", "ab") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            for target in self.targets:
-                self.now = target
-                try:
-                    status = self._make(target, state / "build.log")
-                except OSError as error:
-                    self.failure = f"{target}: {error}"
-                    break
-                if self._ended:
-                    break
-                if status:
-                    self.failure = f"{target} was not built; the whole log: {state / 'build.log'}"
-                    break
-                self.built.add(target)
-        self.now = ""
+        try:
+            state.mkdir(parents=True, exist_ok=True)
+            with open(state / "lock", "ab") as lock, open(state / "build.log", "ab") as log:
+                self._lock(lock)
+                for target in self.targets:
+                    self.now = target
+                    if self._make(target, log):
+                        if not self._ended.is_set():
+                            self.failure = f"{target} was not built; the whole log: {log.name}"
+                        return
+                    self.built.add(target)
+        except OSError as error:
+            self.failure = f"the build cannot start: {error}"
+        except interrupts.Interrupted:
+            pass  # The caller has left.
+        finally:
+            self.now = ""
+
+    def _lock(self, lock):
+        """Another start may build in the same folder for minutes."""
+        while True:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                return
+            except BlockingIOError:
+                if self._ended.wait(self.POLL_S):
+                    raise interrupts.Interrupted() from None
 
     def _make(self, target, log):
-        command = ["ninja", "-C", self.build, target]
-        with log.open("ab") as file, subprocess.Popen(
-            command,
+        """The status of the build of one target."""
+        process = self._crew.start(
+            ["ninja", "-C", self.build, target],
             env={**os.environ, "NINJA_STATUS": "[%f/%t] "},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-        ) as self._process:
-            for line in self._process.stdout:
-                file.write(line)
+        )
+        with process.stdout:
+            for line in process.stdout:
+                log.write(line)
                 if found := re.match(rb"\[\d+/\d+\]", line):
                     self.step = found[0].decode()
-        return self._process.returncode
+        return self._crew.wait(process)[0]

@@ -15,6 +15,7 @@ import os
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import building
@@ -118,9 +119,70 @@ def warmed_up(workers):
     return pool
 
 
-def programs_to_build():
-    """Those that the launcher leaves to this script, so that scenes run meanwhile."""
-    return os.environ.get("FELTGATE_BUILD_BESIDE", "").split()
+def programs(jobs):
+    """Those that the jobs and the study of the walls need, in the order of their use, without the
+    one that the launcher has built."""
+    order = sorted(jobs, key=lambda job: job.name not in demo_page.CARDS)
+    names = dict.fromkeys(runs.program_path(job.design).name for job in order)
+    names[runs.program_path().name] = None
+    names.pop(runs.FIRST_PROGRAM, None)
+    return list(names)
+
+
+def run_all(demo, jobs, folder, arguments):
+    """The demo with all runs, drawings and figures; its page grows meanwhile."""
+    with contextlib.ExitStack() as beside:
+        pool = warmed_up(arguments.jobs)
+        beside.callback(pool.shutdown, cancel_futures=True)
+        targets = programs(jobs) if os.environ.get("FELTGATE_BUILD_BESIDE") else []
+        builds = beside.enter_context(building.Beside(runs.build_folder(), targets))
+        progress = beside.enter_context(Progress(jobs, beside=builds.text))
+
+        def page_so_far(ended, drawn):
+            part = demo.part(
+                ended,
+                drawn,
+                wrong=faults(ended),
+                took_s=time.monotonic() - progress.began,
+                so_far=f"{progress.finished} of {progress.count} runs so far, about "
+                f"{progress.left()} minutes to go. The demo writes this page again as its runs "
+                "end: load it again to see more.",
+            )
+            return demo_page.document(part)
+
+        growing = Growing(pool, demo.shown, folder / "demo.html", page_so_far)
+        done = runs.run_all(
+            jobs,
+            folder / "data",
+            progress,
+            arguments.jobs,
+            first=demo_page.CARDS,
+            ready=lambda job: builds.ready(runs.program_path(job.design).name),
+            ended=growing.take,
+        )
+        builds.wait(runs.program_path().name)
+        study, figures, walls, complaint = None, [], None, ""
+        if not arguments.no_figures:
+            study = beside.enter_context(stability_section.Study(folder))
+            # The large ones first, so that no core waits for the last of them.
+            figures = [f.result() for f in all_figures.start(pool, done, DESIGNS)]
+        drawn = growing.result()
+        if study:
+            walls, complaint = study.result()
+    unreadable = [
+        f"{r.job.recording.title}: {r.complaint}"
+        for r in done.values()
+        if not r.ran and r.job.recording and not r.job.recording.sure
+    ]
+    return replace(
+        demo,
+        runs=done,
+        drawn=drawn,
+        figures=figures,
+        stability=walls,
+        wrong=faults(done) + ([complaint] if complaint else []),
+        unreadable=demo.unreadable + unreadable,
+    )
 
 
 def arguments_of(argv):
@@ -174,78 +236,17 @@ def main(argv=None):
             f"{total:.0f} s of device time",
             file=sys.stderr,
         )
-        shown = [job.name for job in scenes + devices + replays]
-        with contextlib.ExitStack() as beside:
-            pool = beside.enter_context(warmed_up(arguments.jobs))
-            builds = beside.enter_context(
-                building.Beside(runs.build_folder(), programs_to_build())
-            )
-            progress = beside.enter_context(Progress(jobs, beside=builds.text))
-
-            def so_far(drawn):
-                """The page of what is drawn."""
-                there = [name for name in shown if name in drawn]
-                return demo_page.document(
-                    demo_page.Demo(
-                        runs={name: ended[name] for name in there},
-                        scenes=[job.name for job in scenes if job.name in drawn],
-                        devices=[job.name for job in devices if job.name in drawn],
-                        replays=[job.name for job in replays if job.name in drawn],
-                        drawn=drawn,
-                        wrong=faults({name: ended[name] for name in there}),
-                        where=where,
-                        own=where == recordings.OWN,
-                        took_s=time.monotonic() - began,
-                        so_far=f"{progress.finished} of {progress.count} runs so far, about "
-                        f"{progress.left()} minutes to go. The demo writes this page again as its "
-                        "runs end: load it again to see more.",
-                    )
-                )
-
-            ended = {}
-            growing = Growing(pool, shown, folder / "demo.html", so_far)
-
-            def take(run):
-                ended[run.job.name] = run
-                growing.take(run)
-
-            done = runs.run_all(
-                jobs,
-                folder / "data",
-                progress,
-                arguments.jobs,
-                first=demo_page.CARDS,
-                ready=lambda job: builds.ready(runs.program_path(job.design).name),
-                ended=take,
-            )
-            builds.wait("feltgate")
-            study = None
-            if not arguments.no_figures:
-                study = beside.enter_context(stability_section.Study(folder))
-            # The large ones first, so that no core waits for the last of them.
-            waiting = [] if arguments.no_figures else all_figures.start(pool, done, DESIGNS)
-            drawn = [figure.result() for figure in waiting]
-            shown_runs = growing.result()
-            walls, complaint = study.result() if study else (None, "")
-        unreadable += [
-            f"{r.job.recording.title}: {r.complaint}"
-            for r in done.values()
-            if not r.ran and r.job.recording and not r.job.recording.sure
-        ]
         demo = demo_page.Demo(
-            runs=done,
+            runs={},
             scenes=[job.name for job in scenes],
             devices=[job.name for job in devices],
             replays=[job.name for job in replays],
-            drawn=shown_runs,
-            figures=drawn,
-            stability=walls,
-            wrong=faults(done) + ([complaint] if complaint else []),
             unreadable=unreadable,
             where=where,
             own=where == recordings.OWN,
-            took_s=time.monotonic() - began,
         )
+        demo = run_all(demo, jobs, folder, arguments)
+        demo = replace(demo, took_s=time.monotonic() - began)
         path = write(folder, demo)
     except (OSError, building.BuildError) as error:
         print(f"demo: {error}", file=sys.stderr)

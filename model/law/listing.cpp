@@ -102,9 +102,7 @@ std::string report(const Compiled& c, const Measured& m) {
                    "as set Nm", m.all_inputs ? "exact maximum" : "measured Nm");
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const Output& output = c.law.outputs[o];
-    const std::string name = c.law.outputs.size() == 1 && output.axis == 0
-                                 ? output.name
-                                 : fmt::format("{}[{}]", output.name, output.axis);
+    const std::string name = name_of(output, c.law);
     s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}\n", name, c.bound.output[o],
                      c.bound.output[o] / lsb, c.bound.as_set[o],
                      m.output.empty() ? 0.0 : m.output[o]);

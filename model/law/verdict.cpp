@@ -39,12 +39,6 @@ std::string mend(const Program& program, const Bound& b) {
   return words;
 }
 
-std::string name_of(const Law& law, std::size_t o) {
-  return law.outputs.size() == 1 && law.outputs[o].axis == 0
-             ? law.outputs[o].name
-             : fmt::format("{}[{}]", law.outputs[o].name, law.outputs[o].axis);
-}
-
 void runs_left_out(const Measured& m, Verdict* v) {
   const double share =
       static_cast<double>(m.in_strips) / static_cast<double>(std::max<std::int64_t>(m.runs, 1));
@@ -84,21 +78,27 @@ void parameters(const Compiled& c, Verdict* v) {
   }
 }
 
-/// Reports states that move by little more than their words can express: in the words they move at
-/// another speed, or stand still. A bound of one run does not show that.
+/// Reports states that, in the measured runs, moved by little more than their words can express: in
+/// the words they move at another speed, or stand still. A bound of one run does not show that.
 void states(const Compiled& c, const Measured& m, Verdict* v) {
   if (c.bound.states_bounded || m.move.size() != c.law.states.size()) return;
   for (std::size_t k = 0; k < m.move.size(); ++k) {
     if (!(c.bound.drift[k] > kSlow * m.move[k]) || !(m.move[k] > 0)) continue;
-    v->warnings.push_back(
-        fmt::format("state {}: a run moves it by {:.3g} at most, and its step of {:.3g} adds an "
-                    "error of up to {:.3g} to that, so that it may move at another speed or stand "
-                    "still; give the law a lower rate, or the state a narrower range",
-                    c.law.states[k].name, m.move[k], c.program.states[k].scale, c.bound.drift[k]));
+    v->warnings.push_back(fmt::format(
+        "state {}: a run moved it by {:.3g} at most (measured), and a run adds an error of "
+        "up to {:.3g} to that (its step is {:.3g}), so that it may move at another "
+        "speed or stand still; give the law a lower rate, or the state a narrower range",
+        c.law.states[k].name, m.move[k], c.bound.drift[k], c.program.states[k].scale));
   }
 }
 
 }  // namespace
+
+std::string name_of(const Output& output, const Law& law) {
+  return law.outputs.size() == 1 && output.axis == 0
+             ? output.name
+             : fmt::format("{}[{}]", output.name, output.axis);
+}
 
 std::vector<Span> output_ranges(const Law& law, const Target& target) {
   const std::vector<Span> spans = ranges(law, whole_cell(law, target));
@@ -132,7 +132,7 @@ void refuse_idle_bounds(const Law& law, const Target& target, const Program& pro
         law.outputs[o].place,
         fmt::format("the proven bound of {}, {:.3g} Nm, is as large as its range, {:.3g} .. {:.3g} "
                     "Nm: it says nothing",
-                    name_of(law, o), b.output[o], spans[o].lo, spans[o].hi),
+                    name_of(law.outputs[o], law), b.output[o], spans[o].lo, spans[o].hi),
         mend(program, b));
   }
 }
@@ -142,7 +142,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
   const std::vector<Span> spans = output_ranges(c.law, c.target);
   const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
-    const std::string name = name_of(c.law, o);
+    const std::string name = name_of(c.law.outputs[o], c.law);
     const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
     if (o < m.output.size() && !(m.output[o] <= bound * (1 + 1e-9) + 1e-9)) {
       v.failures.push_back(

@@ -23,6 +23,9 @@ Verdict verdict(const Compiled& c, const Measured& m);
 /// The lines of a verdict, each with its kind; empty when there is nothing to report.
 std::string text(const Verdict& v);
 
+/// "torque", or with its axis "torque[2]" where that is not the only one or not axis 0.
+std::string name_of(const Output& output, const Law& law);
+
 /// The ranges of the outputs by the law, Nm, in the order of Law::outputs: over all inputs,
 /// parameters and states, cut to the torque's format, where the limiter ends at the latest.
 std::vector<Span> output_ranges(const Law& law, const Target& target);

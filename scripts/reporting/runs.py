@@ -22,6 +22,7 @@ import numpy as np
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 SCENES = ROOT / "vectors" / "scenes"
+FIRST_PROGRAM = "feltgate_run"  # has the design lever alone, and is built before the others
 ENGINE_DESIGN = "lever_law"  # has an engine for laws, and a program of its own
 
 
@@ -31,12 +32,12 @@ def build_folder():
 
 def program_path(design=""):
     """Where the program of a design lies once it is built; of none, the program with every
-    command. feltgate_run has the design lever alone and is built before the others."""
+    command."""
     path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
     if path.name == "feltgate" and design.endswith("_law"):
         return path.with_name(f"feltgate_{design}")
     if path.name == "feltgate" and design == "lever":
-        small = path.with_name("feltgate_run")
+        small = path.with_name(FIRST_PROGRAM)
         return small if os.access(small, os.X_OK) else path
     return path
 

@@ -36,14 +36,14 @@ TEST_CASE("a state that its words cannot move is reported") {
     return text(verdict(c, measure(c, 1, 2000)));
   };
   const std::string sine = "out torque = 0.01 Nm * sin(2 * pi * ph)\n";
-  const std::string dead = "state ph: a run moves it by 2e-06 at most";
+  const std::string dead = "state ph: a run moved it by 2e-06 at most";
   CHECK_THAT(warnings("phase ph = 0 in 0 .. 1\nnext ph = ph + 1 Hz * dt\n" + sine),
              Catch::Contains(dead) && Catch::Contains("give the law a lower rate"));
   CHECK_THAT(warnings("state x = 1 in 0 .. 1\nnext x = x * 0.999995\nout torque = x * 0.1 Nm\n"),
-             Catch::Contains("state x: a run moves it by 5e-06 at most"));
+             Catch::Contains("state x: a run moved it by 5e-06 at most"));
   CHECK_THAT(warnings("rate = 1 MHz\nstate t = 0 s in 0 .. 100 s\nnext t = min(t + dt, 100 s)\n"
                       "out torque = if t > 10 s then 0.1 Nm else 0\n"),
-             Catch::Contains("state t: a run moves it by 1e-06 at most"));
+             Catch::Contains("state t: a run moved it by 1e-06 at most"));
   // Words that are fine enough, and the mend.
   CHECK(warnings("param f = 1 Hz in 0 .. 400 Hz\nphase ph = 0 in 0 .. 1\nnext ph = ph + f * dt\n" +
                  sine)

@@ -102,6 +102,7 @@ TEST_CASE("random laws stay within their bounds") {
   CHECK(total.refused * 10 <= total.laws + 50);
   CHECK(total.left_out * 200 <= total.laws + 100);
   CHECK(r.turned * 100 <= r.runs + 1000);
+  CHECK(r.unread_states * 100 <= total.laws + 100);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
 VENV = Path("none")
@@ -23,7 +24,7 @@ if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
     VENV = Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "scripts"))
 import block_results  # noqa: E402
-from mutating import twin, twin_parser, twin_places, twin_results  # noqa: E402
+from mutating import twin, twin_parser, twin_places, twin_programs, twin_results  # noqa: E402
 from mutating import twin_runs, twin_source  # noqa: E402
 
 try:
@@ -40,6 +41,26 @@ def header(text, **more):
 
 def names(text):
     return [m.name for m in header(text).mutants]
+
+
+class Plans(unittest.TestCase):
+    """Which commands of a build folder are taken."""
+
+    def plan(self, launcher):
+        lines = [
+            f"{launcher}/usr/bin/c++ -DX -O3 -MF a.o.d -o t.dir/a.o -c /r/model/a.cpp",
+            ": && /usr/bin/c++ -O3  t.dir/a.o -o testbench/t  lib.a && :",
+        ]
+        maker = twin_programs.Maker(Path("/b"), Path("/r"), Path("/f"), ["h"], 1, 1)
+        with mock.patch.object(twin_programs, "ninja", return_value="\n".join(lines)), \
+                mock.patch.object(twin_programs, "dependencies", return_value={}):
+            return maker.plan("t")[0]["t.dir/a.o"]
+
+    def test_a_launcher_is_left_out_with_its_options(self):
+        plain = self.plan("")
+        self.assertEqual(plain[0], "/usr/bin/c++")
+        for launcher in ("/usr/bin/ccache ", "/usr/bin/cmake -E env A=b /usr/bin/ccache "):
+            self.assertEqual(self.plan(launcher), plain)
 
 
 @unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"),

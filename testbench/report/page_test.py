@@ -265,15 +265,23 @@ class Room(Recorded):
         pool, pages = ThreadPoolExecutor(1), []
         with mock.patch.object(demo_page, "draw", lambda run: drawn):
             growing = Growing(pool, ["a", "b"], self.folder / "demo.html",
-                              lambda found: pages.append(set(found)) or "page")
+                              lambda _, drawn: pages.append(set(drawn)) or "page")
             growing.EVERY_S = 0
             for name in ("a", "unknown", "b"):
                 growing.take(Run(Job(name, (), 1.0), 0, summary={"x": 1}))
             found = growing.result()
             pool.shutdown()
         self.assertEqual(set(found), {"a", "b"})
-        self.assertEqual(pages[-1] | {"a"}, {"a", "b"})
+        self.assertEqual(pages[0], {"a"})
         self.assertEqual((self.folder / "demo.html").read_text(), "page")
+
+    def test_a_page_that_cannot_be_written_is_told(self):
+        drawn = demo_page.Drawn([], card="<div>first</div>")
+        with mock.patch.object(demo_page, "draw", lambda run: drawn), ThreadPoolExecutor(1) as pool:
+            growing = Growing(pool, ["a"], self.folder / "none" / "demo.html", lambda *_: "page")
+            growing.take(Run(Job("a", (), 1.0), 0, summary={"x": 1}))
+            pool.shutdown()
+            self.assertRaises(OSError, growing.result)
 
     def test_few_steps_are_a_line_of_the_demo(self):
         runs = {}

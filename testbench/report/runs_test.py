@@ -3,6 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Jobs, their results and their progress. Documentation: docs/figures.md"""
 
+import fcntl
 import io
 import os
 import time
@@ -124,10 +125,20 @@ class Building(Bench):
             self.assertTrue(builds.ready("one"))
 
     def test_left_early_it_ends(self):
-        with self.builds("exec sleep 300") as builds:
-            while builds._process is None:
+        with self.builds(f"echo $$ > {self.folder}/pid.part; mv {self.folder}/pid.part {self.folder}/pid; exec sleep 300") as builds:
+            while not (self.folder / "pid").exists():
                 time.sleep(0.01)
-        self.assertIsNotNone(builds._process.poll())
+        self.assertRaises(ProcessLookupError, os.kill, int((self.folder / "pid").read_text()), 0)
+        self.assertFalse((self.folder / "done").exists())
+        self.assertEqual((builds.text(), builds.failure), ("", ""))
+
+    def test_another_start_is_waited_for_and_can_be_left(self):
+        (self.folder / "launcher").mkdir()
+        with open(self.folder / "launcher" / "lock", "wb") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            with self.builds(f"touch {self.folder}/done"):
+                time.sleep(0.5)
+        self.assertFalse((self.folder / "done").exists())
 
 
 class Bar(unittest.TestCase):

@@ -65,12 +65,17 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     for (double i = from; !t.wraps && i <= to; ++i) {
       const auto k = static_cast<std::size_t>(i);
       if (near) f.error = larger(f.error, t.errors[k] + t.steep[k] * x.error);
+      if (i < first || i > end) continue;
       const double v = engine_table_value(t.words[k]), rise = engine_table_slope(t.words[k]);
+      if (i > first && i < end) {  // all of the segment
+        f.words = hull(f.words, {std::min(v, v + rise), std::max(v, v + rise)});
+        continue;
+      }
       const auto line = [&, begin = 4096 * (i + t.low - s.offset)](double word) {
         const double y = v + rise * std::clamp((word - begin) / 4096, 0.0, 1.0);
         return Span{std::floor(y), std::ceil(y)};
       };
-      if (i >= first && i <= end) f.words = hull(f.words, hull(line(x.words.lo), line(x.words.hi)));
+      f.words = hull(f.words, hull(line(x.words.lo), line(x.words.hi)));
     }
     if (!near || t.wraps) f.error += t.slope * x.error;
     // Law and words may be separated by one or more seams between segments.

@@ -24,9 +24,8 @@ struct Choice {
   int uniform = 0;                 ///< > 0: first fraction bits of selected and of kept values
   bool states_first = false;       ///< order of the roots
   int sine_bits = 0;      ///< log2 of segments per turn; 9: all table memory; 0: as many as fit
-  int line_fraction = 0;  ///< > 0: fraction bits of all delay lines
-  int table_bits = 0;     ///< log2 of segments of every other table; 0: as many as fit
   std::map<std::string, TableUse> made;  ///< tables by a key of their content: each proven once
+  std::map<std::string, int> fractions;  ///< fraction bits of such tables' values, by their domain
 };
 
 /// Thrown when no instructions exist for this choice of formats; another choice may have some.

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "law/compile.hpp"
 #include "law/finish.hpp"
@@ -17,14 +19,33 @@ namespace feltgate::law {
 namespace {
 
 constexpr int most_tried = 1500;
+constexpr double least_error = 0.4;  ///< LSB of the torque; a smaller error costs the same
 
 struct Candidate {
   Choice choice;
   Program program;
   double cost = infinity;
   Unfit unfit{""};  ///< why there is no program
-  std::vector<Unproven> unproven;
 };
+
+/// The cost of a program without error and strips.
+double least_cost(const Law& law, const Target& target, const Program& program,
+                  const std::vector<Span>& spans) {
+  // Sums the instructions, with a larger weight for a tick of time, and the bits that a host cannot
+  // set.
+  const auto steps = static_cast<double>(program.steps.size());
+  const int clocks = engine_period(static_cast<int>(program.steps.size()), target.axes);
+  const double ticks = std::ceil(1.0 * clocks / target.clocks_per_tick);
+  double c = (steps > 8 ? 0.4 * steps + 1.6 : 0.6 * steps) + (law.rate_hz > 0 ? 0 : 3 * ticks) +
+             std::log2(least_error);
+  for (const Word& w : program.words) {
+    double size = 1;
+    for (const NodeId id : w.nodes) size *= spans[static_cast<std::size_t>(id)].size();
+    const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
+    c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
+  }
+  return c;
+}
 
 class Search {
  public:
@@ -32,17 +53,17 @@ class Search {
       : law_(law), target_(target), spans_(spans) {}
 
   Candidate run(int* tried) {
-    Candidate best = evaluate({});
+    Candidate best = evaluate({}, infinity);
     Choice other;
     other.states_first = true;
-    if (!law_.states.empty()) keep(best, evaluate(other));
+    if (!law_.states.empty()) try_choice(best, other);
     for (const int uniform : {target_.torque.fraction, 20, 24}) {
       for (const bool first : {false, true}) {
         if (first && law_.states.empty()) continue;
         Choice c;
         c.uniform = uniform;
         c.states_first = first;
-        keep(best, evaluate(c));
+        try_choice(best, c);
       }
     }
     best.choice.uniform = 0;
@@ -56,29 +77,37 @@ class Search {
   }
 
  private:
-  Candidate evaluate(const Choice& choice) {
+  /// Keeps the choice if it costs less. The costs only fall, so a choice that came before cannot
+  /// win.
+  void try_choice(Candidate& best, const Choice& choice) {
     ++tried_;
+    if (!seen_.insert({choice.uniform, choice.states_first, choice.sine_bits, choice.fraction})
+             .second)
+      return;
+    Candidate c = evaluate(choice, best.cost);
+    if (c.cost < best.cost - 1e-9) best = std::move(c);
+  }
+
+  /// Its cost; infinity where no program exists, or where the program alone costs more than
+  /// `enough`.
+  Candidate evaluate(const Choice& choice, double enough) {
     Candidate c;
     c.choice = choice;
-    c.choice.made = made_;
+    c.choice.made.swap(made_);
+    c.choice.fractions.swap(fractions_);
     try {
       c.program = lower(law_, target_, spans_, c.choice);
       mark_primary(law_, c.program);
-      const Bound b = bound(law_, target_, c.program, 0, &spans_);
-      c.cost = cost(law_, target_, c.program, b, spans_);
-      c.unproven = b.unproven;
+      if (least_cost(law_, target_, c.program, spans_) < enough) {
+        c.cost =
+            cost(law_, target_, c.program, bound(law_, target_, c.program, 0, &spans_), spans_);
+      }
     } catch (const Unfit& e) {
       c.unfit = e;
     }
-    made_ = std::move(c.choice.made);
-    c.choice.made.clear();
+    made_.swap(c.choice.made);
+    fractions_.swap(c.choice.fractions);
     return c;
-  }
-
-  static bool keep(Candidate& best, Candidate&& c) {
-    if (!(c.cost < best.cost - 1e-9)) return false;
-    best = std::move(c);
-    return true;
   }
 
   void singles(Candidate& best) {
@@ -96,12 +125,12 @@ class Search {
           if (tried_ >= most_tried) return;
           Choice c = best.choice;
           c.fraction[id] = to;
-          keep(best, evaluate(c));
+          try_choice(best, c);
           const std::vector<NodeId> members = group(id, best.choice);
           if (members.size() < 2) continue;
           c = best.choice;
           for (const NodeId m : members) c.fraction[m] = to;
-          keep(best, evaluate(c));
+          try_choice(best, c);
         }
       }
     }
@@ -141,7 +170,9 @@ class Search {
   const Target& target_;
   const std::vector<Span> spans_;
   std::map<std::string, TableUse> made_;
-  int tried_ = 0;
+  std::map<std::string, int> fractions_;
+  std::set<std::tuple<int, bool, int, std::map<NodeId, int>>> seen_;
+  int tried_ = 1;
 };
 
 }  // namespace
@@ -190,19 +221,8 @@ double cost(const Law& law, const Target& target, const Program& program, const 
       drifts += std::max(0.0, std::log2(program.states[i].scale / size * 262144));
     }
   }
-  // Sums the instructions, with a larger weight for a tick of time, the bits of the error, and the
-  // bits that a host cannot set.
-  const auto steps = static_cast<double>(program.steps.size());
-  const int clocks = engine_period(static_cast<int>(program.steps.size()), target.axes);
-  const double ticks = std::ceil(1.0 * clocks / target.clocks_per_tick);
-  double c = (steps > 8 ? 0.4 * steps + 1.6 : 0.6 * steps) + (law.rate_hz > 0 ? 0 : 3 * ticks) +
-             std::log2(std::max(error, 0.4));
-  for (const Word& w : program.words) {
-    double size = 1;
-    for (const NodeId id : w.nodes) size *= spans[static_cast<std::size_t>(id)].size();
-    const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
-    c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
-  }
+  double c = least_cost(law, target, program, spans) +
+             std::log2(std::max(error, least_error) / least_error);
   c += strips + drifts + 1e4 * static_cast<double>(b.unproven.size());
   c += b.states_bounded ? 0 : 1000;
   return c;

@@ -165,9 +165,7 @@ Value BackEnd::function(NodeId id) {
   if (user) range = both_of(range, {table->domain.lower, table->domain.upper});
   const int words = table_words_left_ / std::max(1, other_tables_);
   const bool asked = user && table->segments > 0;
-  const int wanted = asked                    ? std::max(words, table->segments + 1)
-                     : choice_.table_bits > 0 ? std::min(words, 1 << choice_.table_bits)
-                                              : words;
+  const int wanted = asked ? std::max(words, table->segments + 1) : words;
   if (wanted < 2) {
     throw Refused(n.place, "no table memory is left for this",
                   "ask for fewer segments of the other tables");
@@ -215,7 +213,13 @@ Value BackEnd::function(NodeId id) {
   r.low = first(scale);
   r.count = count(scale);
   r.limit = 524287;
-  const int fraction = value_fraction(r);
+  const std::string shape =
+      fmt::format("{} {} {:.17g} {} {} {:.17g} {:.17g}", static_cast<int>(n.op), n.index, scale,
+                  r.low, r.count, range.lo, range.hi);
+  const auto known_fraction = choice_.fractions.find(shape);
+  const int fraction = known_fraction != choice_.fractions.end()
+                           ? known_fraction->second
+                           : choice_.fractions.emplace(shape, value_fraction(r)).first->second;
   // A table through points is stored once, like an array: its first reader chooses the scale.
   const std::string memory = fmt::format("points {}", n.index);
   const auto same = memory_scales_.find(memory);

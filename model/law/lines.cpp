@@ -19,9 +19,7 @@ void BackEnd::begin_lines() {
     const double size = std::max({std::fabs(l.range.lower), std::fabs(l.range.upper), 1e-9});
     LineUse use;
     use.pointer = static_cast<int>(law_.states.size() + law_.events.size() + i);
-    const int fraction = choice_.line_fraction > 0 ? choice_.line_fraction
-                                                   : largest_fraction(l.written, 1, size) - 1;
-    use.scale = std::ldexp(1.0, -std::min(fraction, largest_fraction(l.written, 1, size)));
+    use.scale = std::ldexp(1.0, 1 - largest_fraction(l.written, 1, size));
     TableUse t;
     t.line = static_cast<int>(i);
     t.what = l.name;

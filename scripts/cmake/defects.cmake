@@ -23,6 +23,7 @@ function(feltgate_defect_names variable file)
   if(EXISTS "${file}")
     file(STRINGS "${file}" names REGEX "^== ")
     list(TRANSFORM names REPLACE "^== " "")
+    list(REMOVE_DUPLICATES names)  # defects.py refuses them, and says where
   endif()
   if(NOT names)
     message(FATAL_ERROR "${file}: no defect there; docs/testing.md says how")

@@ -87,7 +87,7 @@ def find_blocks(root):
                 twin=beside if tested else public,
                 test=test,
                 doc=Path(f"docs/blocks/{name}.md"),
-                defects=tuple(sorted(root.glob(f"testbench/{name}/defects/*.patch"))),
+                defects=tuple(patches.names(root / f"testbench/{name}/defects.diff")),
             )
         )
     return blocks
@@ -106,11 +106,11 @@ def check_block(root, block):
         yield f"{block.rtl}: no module {block.name} in it; name the module as the file"
     if str(block.doc) not in rtl:
         yield f"{block.rtl}: does not name its page; add {block.doc} to the head comment"
-    folder = f"testbench/{block.name}/defects"
+    file = f"testbench/{block.name}/defects.diff"
     if not block.defects:
-        yield f"{folder}: no seeded defect of {block.rtl}; add a patch, docs/testing.md says how"
+        yield f"{file}: no seeded defect of {block.rtl}; add one, docs/testing.md says how"
     if re.search(r"\bDefect\b", rtl):
-        yield f"{block.rtl}: the word Defect; what breaks it is a patch in {folder}"
+        yield f"{block.rtl}: the word Defect; what breaks it is a patch in {file}"
     if (root / block.doc).exists():
         links = linked_files(root, block.doc)
         for path in filter(None, (block.rtl, block.law, block.twin, block.test)):
@@ -120,17 +120,18 @@ def check_block(root, block):
 
 
 def check_defects(root):
-    """Each patch says what it breaks, and a test is built with it."""
-    for patch in sorted(root.glob("testbench/*/defects/*.patch")):
-        relative = patch.relative_to(root)
-        try:
-            patches.summary(patch)
-        except patches.DefectError as error:
-            yield str(error).replace(str(patch), str(relative))
-        rules = patch.parents[1] / "CMakeLists.txt"
+    """Each defect is well-formed, and a test is built with it; those of proofs are in their list."""
+    for file in sorted(root.glob("testbench/**/*.diff")):
+        rules = file.parent / ("proofs.toml" if file.parent.name == "proofs" else "CMakeLists.txt")
         text = rules.read_text(encoding="utf-8") if rules.exists() else ""
-        if not re.search(rf"WITH_DEFECTS|feltgate_patches|\b{patch.stem}\b", text):
-            yield f"{relative}: no test is built with it; name it in {rules.relative_to(root)}"
+        try:
+            for patch in patches.chosen(file):
+                patches.touched(patch)
+                if not re.search(rf"WITH_DEFECTS|feltgate_defect_|\b{patch.name}\b", text):
+                    where = rules.relative_to(root)
+                    yield f"{patch.relative_to(root)}: no test is built with it; name it in {where}"
+        except patches.DefectError as error:
+            yield str(error).replace(f"{root}/", "")
 
 
 def linked_files(root, page):

@@ -17,6 +17,7 @@ RTL = (
     "// docs/blocks/{0}.md\n"
     "module {0};\n{1}endmodule\n"
 )
+DEFECT = "== inverted\nIt is inverted.\n--- a/x\n+++ b/x\n"
 LISTS = f"{check_blocks.BEGIN}\n{check_blocks.END}\n"
 CORE = "files:\n" + "".join(f"      {line}\n" for line in LISTS.splitlines())
 
@@ -44,7 +45,7 @@ class CheckBlocks(unittest.TestCase):
 
     def add_block(self, name, test):
         self.put(f"rtl/{name}.sv", RTL.format(name, ""))
-        self.put(f"testbench/{name}/defects/inverted.patch", "It is inverted.\n--- a/x\n")
+        self.put(f"testbench/{name}/defects.diff", DEFECT)
         self.put(f"testbench/{name}/CMakeLists.txt", f"feltgate_block_test({name} WITH_DEFECTS)\n")
         class_name = check_blocks.class_name(name)
         self.put(f"model/include/feltgate/{name}.hpp", f"class {class_name} {{}};\n")
@@ -207,13 +208,17 @@ class CheckBlocks(unittest.TestCase):
     def test_defects(self):
         self.put("rtl/alpha.sv", RTL.format("alpha", "  assign a = Defect == 1;\n"))
         self.expect("rtl/alpha.sv: the word Defect")
-        self.put("testbench/alpha/defects/inverted.patch", "--- a/x\n")
-        self.expect("testbench/alpha/defects/inverted.patch: its first line does not say")
+        self.put("testbench/alpha/defects.diff", DEFECT.replace("It is inverted.\n", ""))
+        self.expect("testbench/alpha/defects.diff/inverted: its first line does not say")
+        self.put("testbench/alpha/defects.diff", DEFECT)
+        self.put("testbench/alpha/proofs/defects.diff", DEFECT)
+        self.put("testbench/alpha/proofs/proofs.toml", 'defect = "other"\n')
+        self.expect("testbench/alpha/proofs/defects.diff/inverted: no test is built with it")
         self.put("testbench/alpha/CMakeLists.txt", "feltgate_block_test(alpha)\n")
-        self.expect("testbench/alpha/defects/inverted.patch: no test is built with it")
-        (self.root / "testbench/alpha/defects/inverted.patch").unlink()
+        self.expect("testbench/alpha/defects.diff/inverted: no test is built with it")
+        (self.root / "testbench/alpha/defects.diff").unlink()
         self.put("rtl/alpha.sv", RTL.format("alpha", ""))
-        self.expect("testbench/alpha/defects: no seeded defect of rtl/alpha.sv")
+        self.expect("testbench/alpha/defects.diff: no seeded defect of rtl/alpha.sv")
 
     def test_module_name_and_page_name(self):
         self.put("rtl/alpha.sv", "module beta;\nendmodule\n")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""defects.py must refuse what is no defect: each test gives it one patch of a small tree."""
+"""defects.py must refuse what is no defect: each test gives it a file of them in a small tree."""
 
 import difflib
 import tempfile
@@ -36,6 +36,8 @@ class Defects(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
+        self.file = self.root / "defects.diff"
+        self.defects = {}
         (self.root / "rtl").mkdir()
         for path, text in zip(SOURCES, (CHILD, TOP)):
             (self.root / path).write_text(text, encoding="utf-8")
@@ -45,9 +47,13 @@ class Defects(unittest.TestCase):
         self.assertIn(old, text)
         lines = [t.splitlines(True) for t in (text, text.replace(old, new))]
         body = "".join(difflib.unified_diff(*lines, f"a/{path}", f"b/{path}", n=1))
-        patch = self.root / f"{name}.patch"
-        patch.write_text(first + body, encoding="utf-8")
-        return patch
+        return self.put(name, first + body)
+
+    def put(self, name, text):
+        """Writes the file with this defect beside those before; the defect."""
+        self.defects[name] = f"== {name}\n{text}"
+        self.file.write_text("\n".join(["# A head.\n", *self.defects.values()]), encoding="utf-8")
+        return self.file / name
 
     def refused(self, patch, *words):
         with self.assertRaises(patches.DefectError) as caught:
@@ -79,9 +85,7 @@ class Defects(unittest.TestCase):
     def test_changes_nothing(self):
         self.refused(self.patch("// late", "// a clock later"), "changes no code of rtl/child.sv")
         self.refused(self.patch("y_o <= a_i", "y_o  <=  a_i"), "changes no code")
-        empty = self.root / "empty.patch"
-        empty.write_text("It breaks nothing.\n")
-        self.refused(empty, "changes no file")
+        self.refused(self.put("empty", "It breaks nothing.\n"), "changes no file")
 
     def test_does_not_say_what_it_breaks(self):
         self.refused(self.patch("<= a_i", "<= ~a_i", first=""), "first line")
@@ -89,7 +93,40 @@ class Defects(unittest.TestCase):
 
     def test_names(self):
         for name in ("No-Word", "none"):
-            self.refused(self.patch("<= a_i", "<= ~a_i", name=name), "rename it")
+            self.defects = {}
+            self.refused(self.patch("<= a_i", "<= ~a_i", name=name), str(self.file), "rename it")
+
+    def test_several_in_a_file(self):
+        one = self.patch("<= a_i", "<= ~a_i")
+        two = self.patch("<= a_i", "<= '0", name="dead", first="It is 0.\nCaught by: a*\n")
+        self.assertEqual(patches.chosen(self.file), [one, two])
+        self.assertEqual(patches.chosen(self.file, ["dead"]), [two])
+        self.assertEqual(patches.text_of(one), self.defects["inverted"].partition("\n")[2])
+        self.assertEqual(patches.names(self.root / "none.diff"), [])
+        for patch, text in ((one, "~a_i"), (two, "'0")):
+            made = patches.patched(patch, self.root)[SOURCES[0]]
+            self.assertEqual(made, CHILD.replace("<= a_i", f"<= {text}"))
+        self.refused(self.file / "other", "no defect other", "inverted, dead")
+
+    def test_what_git_writes_is_taken(self):
+        text = self.patch("<= a_i", "<= ~a_i").parent.read_text()
+        self.file.write_text(text.replace("---", "diff --git a/x b/x\nindex 1..2 100644\n---"))
+        self.assertTrue(patches.patched(self.file / "inverted", self.root))
+
+    def test_malformed_file(self):
+        patch = self.patch("<= a_i", "<= ~a_i")
+        text = self.file.read_text()
+        section = self.defects["inverted"]
+        for wrong, words in (
+            (text + section, "two defects inverted"),
+            ("It is inverted.\n" + text, "before the first line"),
+            (text + section.replace("==", "==="), "'=== inverted' is no line of a diff"),
+            (text + section.partition("\n")[2], "'It is inverted.' is no line of a diff"),
+            (text + section.partition(".\n")[2], "two diffs of a file"),
+        ):
+            with self.subTest(words):
+                self.file.write_text(wrong)
+                self.refused(patch, str(self.file), words)
 
     def test_file_that_is_gone(self):
         patch = self.patch("<= a_i", "<= ~a_i")

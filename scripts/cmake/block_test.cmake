@@ -6,7 +6,7 @@
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
 # verilates rtl/<block>.sv or rtl/FOLDER/<block>.sv, links it with testbench/<block>/<block>_test.cpp and with the
 # TESTS in the same folder, and adds the CTest <test> (default <block>, labels unit and lockstep).
-# WITH_DEFECTS: also <test>.<defect> (label mutation) for each patch in testbench/<block>/defects, which passes only when an assertion fails, and
+# WITH_DEFECTS: also <test>.<defect> (label mutation) for each defect in testbench/<block>/defects.diff, which passes only when an assertion fails, and
 # mutate.<test>, a share of the block's mutants.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
 # go to the RTL, DEFINES to the test. <test>_cover is the same test on RTL with coverage counters.
@@ -67,7 +67,7 @@ function(feltgate_block_test block)
     set(arg_DESIGN lever)
   endif()
   if(arg_DEFECTS)
-    message(FATAL_ERROR "${block}: DEFECTS ${arg_DEFECTS}; defects are patches, say WITH_DEFECTS")
+    message(FATAL_ERROR "${block}: DEFECTS ${arg_DEFECTS}; defects are in defects.diff, say WITH_DEFECTS")
   endif()
   if(NOT arg_PACKAGE)
     set(arg_PACKAGE "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
@@ -123,8 +123,7 @@ function(feltgate_block_test block)
     target_link_libraries(${arg_NAME}_defects PRIVATE
       feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_defects_rtl)
     feltgate_same_class(${arg_NAME}_defects ${block} ${arg_NAME}_rtl ${arg_NAME}_defects_rtl)
-    feltgate_patches(patches ${block})
-    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects PATCHES ${patches})
+    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects FILE "${FELTGATE_ROOT}/testbench/${block}/defects.diff")
     feltgate_mutants(${arg_NAME} ${block} "${package};${sources}" "${arg_LIBRARIES}" ${arg_PARAMS})
   endif()
 endfunction()

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Seeded defects: patches in testbench/<block>/defects. All patches of a block are in one model,
-# all patches of a test's headers in one program.
+# Seeded defects: patches in testbench/<block>/defects.diff. All defects of a block are in one model,
+# all defects of a test's headers in one program. FILE is that of the folder where none is named,
+# DEFECTS are all of it where none are.
 # docs/testing.md
 include_guard(GLOBAL)
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
@@ -16,37 +17,73 @@ set(FELTGATE_EXPECT_QUIET "${CMAKE_CURRENT_LIST_DIR}/expect_quiet.cmake")
 add_library(feltgate_chosen_defect STATIC ${FELTGATE_ROOT}/testbench/common/chosen_defect.cpp)
 target_compile_options(feltgate_chosen_defect PRIVATE ${FELTGATE_WARNINGS})
 
-# feltgate_patches(<variable> <block>): the patches of a block, of which there must be one.
-function(feltgate_patches variable block)
-  file(GLOB patches CONFIGURE_DEPENDS "${FELTGATE_ROOT}/testbench/${block}/defects/*.patch")
-  if(NOT patches)
-    message(FATAL_ERROR "testbench/${block}/defects: no patch there; docs/testing.md says how")
+# feltgate_defect_names(<variable> <file>): the defects of a file, of which there must be one.
+function(feltgate_defect_names variable file)
+  set(names "")
+  if(EXISTS "${file}")
+    file(STRINGS "${file}" names REGEX "^== ")
+    list(TRANSFORM names REPLACE "^== " "")
+    list(REMOVE_DUPLICATES names)  # defects.py refuses them, and says where
   endif()
-  set(${variable} "${patches}" PARENT_SCOPE)
+  if(NOT names)
+    message(FATAL_ERROR "${file}: no defect there; docs/testing.md says how")
+  endif()
+  set(${variable} "${names}" PARENT_SCOPE)
 endfunction()
 
-# feltgate_patched_files(<variable> <patches>...): what they change, relative to the repository.
-function(feltgate_patched_files variable)
+# feltgate_defect_lines(<variable> <file> <name> <begin>): the rest of the lines of a defect that begin so.
+function(feltgate_defect_lines variable file name begin)
+  set(found "")
+  set(here "")
+  file(STRINGS "${file}" lines REGEX "^(== |${begin})")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^== (.*)")
+      set(here "${CMAKE_MATCH_1}")
+    elseif(here STREQUAL name)
+      string(REGEX REPLACE "^${begin}" "" line "${line}")
+      list(APPEND found "${line}")
+    endif()
+  endforeach()
+  if(NOT "== ${name}" IN_LIST lines)
+    message(FATAL_ERROR "${file}: no defect ${name}")
+  endif()
+  set(${variable} "${found}" PARENT_SCOPE)
+endfunction()
+
+# feltgate_patched_files(<variable> <file> <name>...): what these defects change, relative to the repository.
+function(feltgate_patched_files variable file)
   set(all "")
-  foreach(patch IN LISTS ARGN)
-    file(STRINGS "${patch}" files REGEX "^\\+\\+\\+ b/")
-    list(TRANSFORM files REPLACE "^\\+\\+\\+ b/([^ \t]+).*" "\\1")
+  foreach(name IN LISTS ARGN)
+    feltgate_defect_lines(files "${file}" ${name} "\\+\\+\\+ b/")
     list(APPEND all ${files})
   endforeach()
+  list(TRANSFORM all REPLACE "[ \t].*" "")
   list(REMOVE_DUPLICATES all)
   set(${variable} "${all}" PARENT_SCOPE)
 endfunction()
 
+# arg_FILE and arg_DEFECTS where they are not given.
+macro(feltgate_default_defects)
+  if(NOT arg_FILE)
+    set(arg_FILE "${CMAKE_CURRENT_SOURCE_DIR}/defects.diff")
+  endif()
+  if(NOT arg_DEFECTS)
+    feltgate_defect_names(arg_DEFECTS "${arg_FILE}")
+  endif()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${arg_FILE}")
+endmacro()
+
 # feltgate_verilate_defects(<target> <block> <package> <sources> [verilator arguments...]): a library
 # with the class V<block>, which is what the environment variable FELTGATE_DEFECT names: the block with
-# the defect of a patch, or with none. Copies of the block side by side, of which one has a clock.
+# one of its defects, or with none. Copies of the block side by side, of which one has a clock.
 function(feltgate_verilate_defects target block package sources)
-  feltgate_patches(patches ${block})
+  set(file "${FELTGATE_ROOT}/testbench/${block}/defects.diff")
+  feltgate_defect_names(names "${file}")
   set(copies "${CMAKE_CURRENT_BINARY_DIR}/${target}.sv")
   add_custom_command(OUTPUT "${copies}"
     COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" block ${block} --root "${FELTGATE_ROOT}"
-            --output "${copies}" --patches ${patches} --sources ${sources}
-    DEPENDS ${patches} ${sources} ${FELTGATE_SEEDING}
+            --output "${copies}" --defects "${file}" --sources ${sources}
+    DEPENDS "${file}" ${sources} ${FELTGATE_SEEDING}
     COMMENT "Seeding defects into ${block}" VERBATIM)
   list(FILTER sources EXCLUDE REGEX "/${block}\\.sv$")
   # A defect may leave signals unused; what does not elaborate is an error. Flat: modules that stay are
@@ -84,18 +121,19 @@ function(feltgate_seeded_sources variable)
   set(${variable} "${seeded}" PARENT_SCOPE)
 endfunction()
 
-# feltgate_defect_program(<target> PATCHES p... SOURCES s... [LIBRARIES l...]): a Catch2 program of these
-# sources on headers that hold the statements of all patches; FELTGATE_DEFECT says which are executed.
+# feltgate_defect_program(<target> [FILE f] [DEFECTS names...] SOURCES s... [LIBRARIES l...]): a Catch2 program of
+# these sources on headers that hold the statements of all defects; FELTGATE_DEFECT says which are executed.
 function(feltgate_defect_program target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PATCHES;SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FILE" "DEFECTS;SOURCES;LIBRARIES")
+  feltgate_default_defects()
   set(copies "${CMAKE_CURRENT_BINARY_DIR}/${target}.headers")
-  feltgate_patched_files(changed ${arg_PATCHES})
+  feltgate_patched_files(changed "${arg_FILE}" ${arg_DEFECTS})
   list(TRANSFORM changed PREPEND "${FELTGATE_ROOT}/")
   add_custom_command(OUTPUT "${copies}/seeded_choice.hpp"
     COMMAND ${CMAKE_COMMAND} -E rm -rf "${copies}"
-    COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" headers ${arg_PATCHES}
+    COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" headers "${arg_FILE}" ${arg_DEFECTS}
             --root "${FELTGATE_ROOT}" --output "${copies}"
-    DEPENDS ${arg_PATCHES} ${changed} ${FELTGATE_SEEDING}
+    DEPENDS "${arg_FILE}" ${changed} ${FELTGATE_SEEDING}
     COMMENT "Seeding defects for ${target}" VERBATIM)
   add_executable(${target} ${arg_SOURCES} "${copies}/seeded_choice.hpp")
   target_include_directories(${target} BEFORE PRIVATE "${copies}/model/include" "${copies}/model")
@@ -107,17 +145,15 @@ function(feltgate_defect_program target)
     feltgate_catch_main feltgate_model feltgate_chosen_defect ${arg_LIBRARIES})
 endfunction()
 
-# feltgate_defect_tests(<test> <program> PATCHES p... [CASES tag]): <test>.<patch> passes when an assertion
-# fails, <test>.none when the same program finds nothing in the copy without a defect; in a usual run without
-# cases tagged [endurance]. A patch whose second line is "Caught by: CASE" is tried with that case alone.
+# feltgate_defect_tests(<test> <program> [FILE f] [DEFECTS names...] [CASES tag]): <test>.<defect> passes when an
+# assertion fails, <test>.none when the same program finds nothing in the copy without a defect; in a usual run without
+# cases tagged [endurance]. A defect whose second line is "Caught by: CASE" is tried with that case alone.
 function(feltgate_defect_tests test program)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "CASES" "PATCHES")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILE;CASES" "DEFECTS")
+  feltgate_default_defects()
   set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>;${arg_CASES}")
-  foreach(patch IN LISTS arg_PATCHES)
-    get_filename_component(name "${patch}" NAME_WE)
-    file(STRINGS "${patch}" case LIMIT_COUNT 1 REGEX "^Caught by: ")
-    string(REGEX REPLACE "^Caught by: " "" case "${case}")
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${patch}")
+  foreach(name IN LISTS arg_DEFECTS)
+    feltgate_defect_lines(case "${arg_FILE}" ${name} "Caught by: ")
     add_test(NAME ${test}.${name}
       COMMAND ${CMAKE_COMMAND} "${command};${case}" -P "${FELTGATE_EXPECT_FAILURE}")
     set_tests_properties(${test}.${name} PROPERTIES LABELS mutation TIMEOUT 3600

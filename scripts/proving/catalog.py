@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import rtl_sources
+from seeding import patches
 
 from . import unproven
 
@@ -27,7 +28,7 @@ class CatalogError(Exception):
 class Property:
     name: str
     says: str
-    defect: Path  # the patch that must break it
+    defect: Path  # FILE/NAME of the patch that must break it
     ports: tuple
     from_any: object  # the defect shows too late after a reset: true, from any state that meets the rest;
     # "next", from any that met the rest up to the clock before; "alone", from any state, where the assertion
@@ -79,8 +80,10 @@ def wrapper_text(root, path):
 def defect_path(root, block, name):
     """NAME is a patch of the block's proofs, of its test, or BLOCK/NAME of another's test."""
     where, _, stem = name.rpartition("/")
-    own = root / f"testbench/{block}/proofs/defects/{name}.patch"
-    return own if own.is_file() else root / f"testbench/{where or block}/defects/{stem}.patch"
+    own = root / f"testbench/{block}/proofs/defects.diff"
+    if name in patches.names(own):
+        return own / name
+    return root / f"testbench/{where or block}/defects.diff" / stem
 
 
 def read_proof(root, block, path, table):
@@ -106,7 +109,7 @@ def read_proof(root, block, path, table):
             if key not in entry:
                 raise wrong(f"property '{label}' without '{key}'")
         defect = defect_path(root, block, entry["defect"])
-        if not defect.is_file():
+        if defect.name not in patches.names(defect.parent):
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
         properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
                                    entry.get("from_any", False)))

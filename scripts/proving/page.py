@@ -96,10 +96,10 @@ def proof_lines(proof, entries):
         "|---|---|---|",
     ]
     for entry in entries[0]["properties"]:
-        stem = entry["defect"].rpartition("/")[2].removesuffix(".patch")
+        file, _, name = entry["defect"].rpartition("/")
         lines.append(
             f"| `{entry['name']}` | {entry['says']} "
-            f"| [{stem}](../{entry['defect']}), {entry['caught_at']} |"
+            f"| [{name}](../{file}), {entry['caught_at']} |"
         )
     return [*lines, ""]
 

@@ -143,7 +143,7 @@ def block_of_defects(block, patches, sources, root=ROOT):
         for path in change:
             if path not in texts:
                 raise DefectError(f"{patch}: changes {path}, which is not part of {block}'s test")
-        copies[patch.stem] = renamed_copy(texts, change, patch.stem, block)
+        copies[patch.name] = renamed_copy(texts, change, patch.name, block)
     return chooser(block, head, list(copies)) + "\n".join(copies.values())
 
 

@@ -78,7 +78,7 @@ def write_headers(patches, output, root=ROOT):
         link.parent.mkdir(parents=True, exist_ok=True)
         link.unlink(missing_ok=True)
         link.symlink_to(header)
-    changes = {patch.stem: patched(patch, root) for patch in patches}
+    changes = {patch.name: patched(patch, root) for patch in patches}
     choice = output / "seeded_choice.hpp"
     choice.parent.mkdir(parents=True, exist_ok=True)
     choice.write_text(CHOICE.format(names=" ".join([NONE, *changes])), encoding="utf-8")

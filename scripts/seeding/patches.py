@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Applies patches to copies, and checks the rules for a patch."""
+"""Applies patches to copies, and checks the rules for a patch.
+
+A patch is a section of a file of seeded defects, named as if that were a folder: FILE/NAME.
+"""
 
 import re
 import subprocess
@@ -9,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 NONE = "none"
+DIFF_BEGINS = r"(--- |\+\+\+ |@@ |diff |index )"
 
 
 class DefectError(Exception):
@@ -20,28 +24,59 @@ def code_only(text):
     return re.sub(r"//[^\n]*|/\*.*?\*/|\s+", " ", text, flags=re.S).split()
 
 
-def summary(patch):
-    """The first line of a patch: what it breaks."""
-    line = patch.read_text(encoding="utf-8").partition("\n")[0].strip()
-    if not line or re.match(r"(---|\+\+\+|@@|diff|index|Index)", line):
+def names(file):
+    """The defects of a file, in its order; none where there is no such file."""
+    return re.findall(r"^== (.*)", file.read_text(encoding="utf-8"), re.M) if file.is_file() else []
+
+
+def chosen(file, some=()):
+    """Patches of these names of a file; without names: all of it."""
+    return [Path(file, name) for name in some or read(Path(file))]
+
+
+def read(file):
+    """{name: text} of a file of defects, each after a line '== name'."""
+    head, *parts = re.split(r"^== (.*)\n", file.read_text(encoding="utf-8"), flags=re.M)
+    for line in head.splitlines():
+        if line and not line.startswith("#"):
+            raise DefectError(f"{file}: '{line}' is before the first line '== name'; move it")
+    found = {}
+    for name, text in zip(parts[::2], parts[1::2]):
+        if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or name == NONE:
+            raise DefectError(f"{file}: '== {name}': its name is no word like carry_lost; rename it")
+        if name in found:
+            raise DefectError(f"{file}: two defects {name}; rename one")
+        found[name] = text.strip("\n") + "\n"
+    return found
+
+
+def text_of(patch):
+    """What it breaks, and the diff; refused where a line is neither."""
+    found = read(patch.parent)
+    if patch.name not in found:
+        raise DefectError(f"{patch.parent}: no defect {patch.name}; there are {', '.join(found)}")
+    text = found[patch.name]
+    if not text.strip() or re.match(DIFF_BEGINS, text):
         raise DefectError(f"{patch}: its first line does not say what it breaks; write it there")
-    if not re.fullmatch(r"[a-z][a-z0-9_]*", patch.stem) or patch.stem == NONE:
-        raise DefectError(f"{patch}: its name is no word like missing_carry; rename it")
-    return line
+    begin = re.search(rf"^{DIFF_BEGINS}", text, re.M)
+    for line in text[begin.start() :].split("\n") if begin else ():
+        if not re.match(rf"{DIFF_BEGINS}|[ +\-\\]|$", line):
+            raise DefectError(f"{patch}: '{line}' is no line of a diff; remove or correct it")
+    return text
 
 
 def touched(patch):
     """Paths of the files that a patch changes, relative to the repository."""
-    text = patch.read_text(encoding="utf-8")
-    paths = [Path(path) for path in re.findall(r"^\+\+\+ b/(\S+)", text, re.M)]
+    paths = [Path(path) for path in re.findall(r"^\+\+\+ b/(\S+)", text_of(patch), re.M)]
     if not paths:
         raise DefectError(f"{patch}: changes no file; make it with git diff")
+    if len(set(paths)) < len(paths):
+        raise DefectError(f"{patch}: two diffs of a file; write '== name' between two defects")
     return paths
 
 
 def patched(patch, root=ROOT):
     """{path: text} of the files that a patch changes, as they are with it."""
-    summary(patch)
     before, after = {}, {}
     with tempfile.TemporaryDirectory() as folder:
         for path in touched(patch):
@@ -51,8 +86,10 @@ def patched(patch, root=ROOT):
             Path(folder, path).parent.mkdir(parents=True, exist_ok=True)
             Path(folder, path).write_text(before[path], encoding="utf-8")
         command = ["patch", "-p1", "--fuzz=0", "--batch", "--forward", "--reject-file=-"]
-        command += ["--no-backup-if-mismatch", "-d", folder, "-i", patch.resolve()]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        command += ["--no-backup-if-mismatch", "-d", folder]
+        done = subprocess.run(
+            command, input=text_of(patch), capture_output=True, encoding="utf-8", check=False
+        )
         if done.returncode:
             raise DefectError(f"{patch}: does not apply; make it again\n{done.stdout}{done.stderr}")
         for path in before:

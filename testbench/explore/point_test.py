@@ -90,11 +90,11 @@ class Evaluation(unittest.TestCase):
     def test_a_defect_of_the_rtl_fails_the_point(self):
         # The second is of the supervisor's own multiplier, and seen by the heat alone.
         for name, changes in (
-            ("dob/defects/other_sign_of_inertia", {}),
-            ("explore/defects/supervisor_multiplies_for_control", COARSE),
+            ("dob/defects.diff/other_sign_of_inertia", {}),
+            ("explore/defects.diff/supervisor_multiplies_for_control", COARSE),
         ):
-            defect = ROOT / f"testbench/{name}.patch"
-            folder = Path(self.folder.name, defect.stem)
+            defect = ROOT / "testbench" / name
+            folder = Path(self.folder.name, defect.name)
             copies = {p.name: p for p in patches.write_copies(defect, folder)}
             sources = [copies.get(path.name, path) for path in point.rtl_sources()]
             with (

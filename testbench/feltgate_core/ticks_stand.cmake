@@ -1,29 +1,32 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_ticks_stand(<name> <package> [DEFECT <patch>] [DEFINES ...] [INCLUDES ...] [AFTER target]):
+# feltgate_ticks_stand(<name> <package> [DEFECT <file> <name>] [DEFINES ...] [INCLUDES ...] [AFTER target]):
 # ticks_stand_test.cpp on a copy of the core in which the counter of the tick can be made to stand.
-# DEFECT: a further patch, with which the test must fail.
+# DEFECT: a further change, with which the test must fail.
 include_guard(GLOBAL)
 
 function(feltgate_ticks_stand name package)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "DEFECT;AFTER" "DEFINES;INCLUDES")
-  set(stand "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/stand/ticks_stand.patch")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "AFTER" "DEFECT;DEFINES;INCLUDES")
+  set(defects "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/stand.diff" ticks_stand ${arg_DEFECT})
+  set(files "")
   set(copies "${CMAKE_CURRENT_BINARY_DIR}/${name}.copies")
   set(sources ${FELTGATE_CORE_SOURCES})
   set(patched "")
   set(commands "")
-  foreach(patch IN ITEMS "${stand}" ${arg_DEFECT})
-    list(APPEND commands COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" copy "${patch}"
+  while(defects)
+    list(POP_FRONT defects diff defect)
+    list(APPEND files "${diff}")
+    list(APPEND commands COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_DEFECTS}" copy "${diff}" ${defect}
       --output "${copies}")
-    feltgate_patched_files(changed "${patch}")
+    feltgate_patched_files(changed "${diff}" ${defect})
     foreach(file IN LISTS changed)
       list(TRANSFORM sources REPLACE "^${FELTGATE_ROOT}/${file}$" "${copies}/${file}")
       list(APPEND patched "${copies}/${file}")
     endforeach()
-  endforeach()
+  endwhile()
   add_custom_command(OUTPUT ${patched} ${commands}
-    DEPENDS "${stand}" ${arg_DEFECT} ${FELTGATE_CORE_SOURCES} ${FELTGATE_SEEDING} VERBATIM)
+    DEPENDS ${files} ${FELTGATE_CORE_SOURCES} ${FELTGATE_SEEDING} VERBATIM)
   feltgate_verilate(${name}_rtl feltgate_core "${package};${sources}" -Wno-lint -Wno-style)
   add_executable(${name}_test "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/ticks_stand_test.cpp")
   if(arg_AFTER)

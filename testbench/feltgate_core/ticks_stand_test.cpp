@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The tick counter of a core stops, in each clock of a tick and anywhere in a PWM period. The gates
-// must go off, although the host's watchdog and the limits no longer run. stand/ticks_stand.patch
+// must go off, although the host's watchdog and the limits no longer run. stand.diff
 // makes the counter stop. Documentation: docs/blocks/supervisor.md
 #include <algorithm>
 #include <cstdio>

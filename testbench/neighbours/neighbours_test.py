@@ -16,6 +16,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
+sys.path.insert(0, str(ROOT / "scripts"))
+from seeding import patches  # noqa: E402
+
 VENV = Path(sys.argv.pop(1))
 EXAMPLES = ROOT / "docs/examples"
 
@@ -36,8 +39,7 @@ def broken(folder, patch):
         shutil.copytree(ROOT / name, folder / name)
     shutil.copy(ROOT / "feltgate.core", folder)
     if patch:
-        with open(ROOT / "testbench" / patch, encoding="utf-8") as text:
-            subprocess.run(["patch", "-s", "--fuzz=0", "-p1"], stdin=text, cwd=folder, check=True)
+        patches.write_copies(ROOT / "testbench" / patch, folder)
     return folder
 
 
@@ -85,7 +87,7 @@ class Fusesoc(Neighbours):
         self.assertEqual(status, 0, said)
         self.assertIn("smoke: passed", said)
         root = broken(
-            self.folder / "copy", "wishbone_port/defects/answered_while_it_waits.patch"
+            self.folder / "copy", "wishbone_port/defects.diff/answered_while_it_waits"
         )
         _, said, _ = self.fusesoc("sim", root=root)
         self.assertIn("instead of", said)
@@ -158,7 +160,7 @@ class Cocotb(Neighbours):
 
     def test_a_defect_is_seen(self):
         self.need("iverilog")
-        root = broken(self.folder / "copy", "axi_lite_port/defects/disarm_waits.patch")
+        root = broken(self.folder / "copy", "axi_lite_port/defects.diff/disarm_waits")
         status, said = self.example(root)
         self.assertEqual(status, 1, said)
         self.assertIn("a_disarm_passes_a_write_that_waits failed", said)
@@ -191,7 +193,7 @@ class Litex(Neighbours):
 
     def test_a_defect_is_seen(self):
         self.need("iverilog")
-        root = broken(self.folder / "copy", "wishbone_port/defects/error_is_no_error.patch")
+        root = broken(self.folder / "copy", "wishbone_port/defects.diff/error_is_no_error")
         said = self.soc(root)
         self.assertNotIn("soc: passed", said)
 

@@ -47,7 +47,7 @@ class Catalogue(unittest.TestCase):
         self.root = Path(self.folder.name)
         self.write("testbench/b/proofs/proofs.toml", TOML)
         self.write("testbench/b/proofs/p.sv", WRAPPER)
-        self.write("testbench/b/defects/d.patch", "It breaks.\n")
+        self.write("testbench/b/defects.diff", "== d\nIt breaks.\n")
         self.write("rtl/b.sv", RTL)
 
     def write(self, name, text):
@@ -99,7 +99,7 @@ class Catalogue(unittest.TestCase):
             catalog.open_ports(self.root, catalog.read(self.root))
 
     def test_defects_beside_the_proof_come_first(self):
-        self.write("testbench/b/proofs/defects/d.patch", "It breaks.\n")
+        self.write("testbench/b/proofs/defects.diff", "== d\nIt breaks.\n")
         (proof,) = catalog.read(self.root)
         self.assertEqual(proof.properties[0].defect.parent.parent.name, "proofs")
 

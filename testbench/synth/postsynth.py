@@ -77,7 +77,7 @@ def main():
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--registered", action="store_true", help="MULT18X18D with its registers")
     parser.add_argument("--parameter", action="append", default=[], help="of RTL and netlist")
-    parser.add_argument("--defect", type=Path, help="a patch, of the netlist alone")
+    parser.add_argument("--defect", nargs=2, metavar=("FILE", "NAME"), help="of the netlist alone")
     options = parser.parse_args()
     block, output, models = options.board or options.block, options.output, MODELS
     output.mkdir(parents=True, exist_ok=True)
@@ -98,7 +98,7 @@ def main():
             )
         values = [p.split("=") for p in options.parameter]
         if options.defect:
-            for path, text in patches.patched(options.defect, options.root).items():
+            for path, text in patches.patched(Path(*options.defect), options.root).items():
                 (output / path.name).write_text(text, encoding="utf-8")
         change = " ".join(f"-chparam {n} {v}" for n, v in values)
         if options.board:  # Yosys 0.23 takes a parameter of a top with parameters below it only so

@@ -28,9 +28,8 @@ sys.path.insert(0, str(ROOT / "scripts"))
 
 def subcommands():
     """Their names, as the launcher lists them."""
-    launcher = (ROOT / "feltgate").read_text(encoding="utf-8")
-    table = launcher.split("COMMANDS=(", 1)[1].split("\n)", 1)[0]
-    return re.findall(r'^\s*"([a-z]+)\|', table, re.M)
+    table = (ROOT / "scripts/commands.txt").read_text(encoding="utf-8")
+    return re.findall(r"^([a-z]+)\|", table, re.M)
 
 
 def host_verbs():

@@ -102,7 +102,7 @@ double BackEnd::chosen_scale(NodeId id, double unit, int preferred, double size)
   if (found != choice_.fraction.end()) {
     if (found->second > most) throw Unfit("a value does not fit in 32 bits", id);
     fraction = found->second;
-    if (fraction < least) throw Unfit("noise repeats early in fewer bits", id);
+    if (least > 0 && fraction < least) throw Unfit("noise repeats early in fewer bits", id);
   }
   choice_.fraction[id] = fraction;
   return std::ldexp(unit, -fraction);
@@ -239,10 +239,11 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
   if (scale == 0 && hint != 0) scale = hint;
   const int preferred = scale == 0 ? 30 : -static_cast<int>(std::lround(std::log2(scale / unit)));
   if (!chosen) {
-    // A value whose word has this scale fits as it is.
+    // An input whose own word has this scale fits as it is, although it fills the word.
     size = 0;
     for (const NodeId c : children) {
-      if (is_fixed(c) || !same_scale(value(c).scale, scale)) size = std::max(size, span(c).size());
+      const bool own = node(c).op == Op::input && same_scale(value(c).scale, scale);
+      if (!own) size = std::max(size, span(c).size());
     }
     return std::ldexp(unit, -std::min(preferred, largest_fraction(id, unit, size)));
   }

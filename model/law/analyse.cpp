@@ -187,7 +187,7 @@ Fact Analysis::result(const Step& s) {
       // Law and words may round down to different numbers only near a whole number.
       f.error = 0;
       if (x.error > 0) margin(x.error);
-      if (wrong(step_)) f.error = std::ceil(x.error / power(s.mode)) + 1;
+      if (wrong(step_)) f.error = std::ceil(x.error / power(s.mode));
       return f;
     }
     case EngineOp::min: {

@@ -83,7 +83,8 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     f.error = raised(f.error + 0.5);
   } else if (x.error > 0) {
     margin(x.error);
-    if (wrong(step_)) f.error += t.values.width();
+    // The index is wrong by one where its error is less than one.
+    if (wrong(step_)) f.error += x.error <= 4096 ? t.neighbours() : t.values.width();
   }
   return f;
 }

@@ -246,6 +246,9 @@ class Bounds {
         any = larger(any, more);
         s.jump.push_back(more > 0 ? larger(0.0, most.output_error[o] - b->output[o]) : 0.0);
       }
+      for (std::size_t k = 0; k < base.state_error.size(); ++k) {
+        s.next.push_back(larger(0.0, swapped.state_error[k] - base.state_error[k]));
+      }
       // The values of states and events are wrong as well.
       const bool kept = !law_.states.empty() || !law_.events.empty();
       if (!(any <= 0) || kept) b->strips.push_back(s);

@@ -73,6 +73,7 @@ struct Strip {
   double width = 0;  ///< on each side, in `unit`
   Unit unit;
   std::vector<double> jump;  ///< of each output, Nm
+  std::vector<double> next;  ///< of each state, then of each line: of its next value, SI
 };
 
 struct Bound {

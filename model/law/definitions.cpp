@@ -22,6 +22,16 @@ constexpr int kMostSegments = 511;  // they take one word more
 
 std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 
+/// How an argument is limited to what the function takes; empty for an operation that takes all.
+std::string limit_of(Op op) {
+  const char* const form = op == Op::root          ? "sqrt(max(x, 0))"
+                           : op == Op::logarithm   ? "log(max(x, 0.01))"
+                           : op == Op::reciprocal  ? "1 / max(x, 0.01)"
+                           : op == Op::exponential ? "exp(min(x, 100))"
+                                                   : nullptr;
+  return form == nullptr ? "" : std::string(", or limit what it is of, e.g. ") + form;
+}
+
 }  // namespace
 
 void Lowering::refuse_changing(NodeId body, const Statement& s) {
@@ -124,8 +134,7 @@ void Lowering::table(const Statement& s) {
         diagnostics_.add(
             graph_.node(none.node).place,
             fmt::format("in the table {} this is no number at {:.6g}", quoted(s.name), none.x),
-            "let the table end where its formula does, or limit what it is of, e.g. "
-            "sqrt(max(x, 0))");
+            "let the table end where its formula does" + limit_of(graph_.node(none.node).op));
       }
       symbol.index = index;
     }

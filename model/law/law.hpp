@@ -116,6 +116,7 @@ struct State {
                         ///< the hull of 0 and the node's range
   NodeId next = -1;
   Place place;
+  int least_fraction = 0;  ///< of a phase over 0 .. 1: the fraction bits that it must have
 };
 
 /// A function of one variable: a formula that the compiler samples, or a line through points.

@@ -53,6 +53,34 @@ std::string tables(const Compiled& c) {
              : s + fmt::format("table memory: {} of {} words\n", words, EngineMap::table_words);
 }
 
+/// A unit as it stands behind a number.
+std::string behind(const Unit& unit) { return unit == kNumber ? "" : with_blank(text_of(unit)); }
+
+/// What a strip may change: the outputs, or else the states by which it reaches them later.
+std::string changed(const Compiled& c, const Strip& strip) {
+  double jump = 0;
+  for (const double j : strip.jump) jump = std::max(jump, j);
+  if (jump > 0) return fmt::format("outputs may then differ by {:.3g} Nm", jump);
+  const std::size_t states = c.law.states.size();
+  std::string s;
+  for (std::size_t k = 0; k < strip.next.size(); ++k) {
+    if (!(strip.next[k] > 0)) continue;
+    s += s.empty() ? "outputs differ only in later runs, through " : ", ";
+    if (k >= states) {
+      s += "line " + c.law.lines[k - states].name;
+      continue;
+    }
+    const State& state = c.law.states[k];
+    const double width = state.range.upper - state.range.lower;
+    s += state.phase && strip.condition == state.next
+             ? fmt::format("phase {}, which may wrap in another run", state.name)
+             : fmt::format("state {}, whose next value may differ by {:.3g}{}", state.name,
+                           std::min(strip.next[k], width), behind(state.unit));
+  }
+  if (!s.empty()) return s;
+  return c.law.events.empty() ? "no output differs" : "no output differs, but an event may";
+}
+
 /// Lists where the law can jump, and the strips in which the words may be on the other side.
 std::string strips(const Compiled& c) {
   std::string s;
@@ -63,16 +91,11 @@ std::string strips(const Compiled& c) {
     if (s.find(line) == std::string::npos) s += line;
   }
   for (const Strip& strip : c.bound.strips) {
-    double jump = 0;
-    for (const double j : strip.jump) jump = std::max(jump, j);
-    const std::string unit = text_of(strip.unit);
     s += fmt::format("strip: line {}, column {}: ", strip.place.line, strip.place.column) +
          fmt::format(
-             "within {:.3g}{}{} of {} may go either way; outputs may then differ by "
-             "{:.3g} Nm\n",
-             strip.width, unit.empty() ? "" : " ", unit,
+             "within {:.3g}{} of {} may go either way; {}\n", strip.width, behind(strip.unit),
              strip.floors >= 0 ? "a whole number what is rounded down" : "equal the comparison",
-             jump);
+             changed(c, strip));
   }
   return s;
 }

@@ -94,13 +94,15 @@ double BackEnd::chosen_scale(NodeId id, double unit, int preferred, double size)
   const auto found = choice_.fraction.find(id);
   const int most = largest_fraction(id, unit, size);
   const Op op = node(id).op;
+  const int least = op == Op::state ? law_.states[at(node(id).index)].least_fraction : 0;
   if (choice_.uniform > 0 && (op == Op::state || op == Op::select || op == Op::parameter)) {
-    preferred = choice_.uniform;
+    preferred = std::max(choice_.uniform, least);
   }
   int fraction = std::min(preferred, most);
   if (found != choice_.fraction.end()) {
     if (found->second > most) throw Unfit("a value does not fit in 32 bits", id);
     fraction = found->second;
+    if (least > 0 && fraction < least) throw Unfit("noise repeats early in fewer bits", id);
   }
   choice_.fraction[id] = fraction;
   return std::ldexp(unit, -fraction);
@@ -237,6 +239,12 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
   if (scale == 0 && hint != 0) scale = hint;
   const int preferred = scale == 0 ? 30 : -static_cast<int>(std::lround(std::log2(scale / unit)));
   if (!chosen) {
+    // An input whose own word has this scale fits as it is, although it fills the word.
+    size = 0;
+    for (const NodeId c : children) {
+      const bool own = node(c).op == Op::input && same_scale(value(c).scale, scale);
+      if (!own) size = std::max(size, span(c).size());
+    }
     return std::ldexp(unit, -std::min(preferred, largest_fraction(id, unit, size)));
   }
   return chosen_scale(id, unit, preferred, size);

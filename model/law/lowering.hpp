@@ -53,6 +53,7 @@ class Lowering {
   void refuse_changing(NodeId body, const Statement& s);
   void refuse_open(const Table& table, const Statement& s);
   void note_unused(const std::map<std::string, Symbol>& symbols);
+  void note_unread();
   void check_ends(const Statement* last);
 
   // quantities.cpp

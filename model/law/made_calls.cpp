@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kMostWhole = 64;    ///< largest number of values of floor
 constexpr int kMostRanged = 128;  ///< largest number of calls that use their argument's range
+constexpr int kNoiseBits = 20;    ///< of noise's two phases, which repeat after 2^21 runs
 
 }  // namespace
 
@@ -128,6 +129,7 @@ NodeId Lowering::noise(const Expression& e) {
     s.initial = part((seed + 1) * (i == 0 ? 0.7548776662466927 : 0.5698402909980532));
     s.range = {0, 1};
     s.phase = true;
+    s.least_fraction = kNoiseBits;
     s.place = place;
     const auto index = static_cast<int>(law_.states.size());
     law_.states.push_back(s);

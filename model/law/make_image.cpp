@@ -9,10 +9,13 @@
 
 #include "law/compile.hpp"
 #include "law/finish.hpp"
+#include "law/verdict.hpp"
 
 namespace feltgate::law {
 
 namespace {
+
+constexpr std::size_t kMostConstants = 64, kMostWords = EngineMap::parameter_words;
 
 std::string number(double value) {
   return value < 0 ? fmt::format("{:.17g} neg", -value) : fmt::format("{:.17g}", value);
@@ -101,9 +104,17 @@ class ImageMaker {
       image_.program[at(target_.thread * EngineMap::thread_words) + i] =
           engine_encode(assembled_.instructions[i]);
     }
-    if (program_.constants.size() > 64) {
-      throw Refused(fmt::format("the law needs {} constants, 64 fit", program_.constants.size()),
-                    "make some of them tables or elements of an array");
+    if (program_.constants.size() > kMostConstants) {
+      const std::size_t over = program_.constants.size() - kMostConstants;
+      throw Refused(
+          first_beyond(),
+          fmt::format("the law needs {} constants, {} fit, and here is the first that does not",
+                      program_.constants.size(), kMostConstants),
+          program_.words.size() + over > kMostWords
+              ? "compute fewer terms that each have a number of their own"
+              : fmt::format("write {} of its numbers as a param each: params have a memory of "
+                            "their own, of which {} of {} words are free",
+                            over, kMostWords - program_.words.size(), kMostWords));
     }
     for (std::size_t i = 0; i < program_.constants.size(); ++i) {
       image_.data[Image::constant_base + i] = program_.constants[i];
@@ -143,14 +154,18 @@ class ImageMaker {
       const double a = s.lo / w.scale, b = s.hi / w.scale;
       if (w.primary) {
         const int index = law_.nodes[at(w.nodes[0])].index;
-        describe(law_.parameters[at(index)], &word);
+        const Parameter& p = law_.parameters[at(index)];
+        describe(p, &word);
         word.lower = static_cast<std::int32_t>(std::ceil(std::min(a, b) - 1e-6));
         word.upper = static_cast<std::int32_t>(std::floor(std::max(a, b) + 1e-6));
         if (word.lower > word.upper) {
-          throw Refused(law_.parameters[at(index)].place,
-                        fmt::format("no word of {} lies in its range: one step is {:.3g}",
-                                    word.name, std::fabs(w.scale)),
-                        "make the range wider");
+          const double step = std::fabs(w.scale);
+          // Far from 0, where a step is a small part, a wider range holds a word.
+          const bool far = std::min(std::fabs(a), std::fabs(b)) > 5;
+          throw Refused(p.place,
+                        fmt::format("no word of {} lies in its range: its step is {:.3g}{}",
+                                    word.name, step / p.to_si, with_blank(p.unit_text)),
+                        far ? "make the range wider than that step" : finer(p, step));
         }
       } else {
         const double r = std::max(1.0, std::fabs(w.exact));
@@ -185,9 +200,15 @@ class ImageMaker {
       word.upper = static_cast<std::int32_t>(std::floor(parameter.range.upper / word.scale));
       image_.words.push_back(word);
     }
-    if (image_.words.size() > 32) {
-      throw Refused(fmt::format("the law needs {} parameter words, 32 fit", image_.words.size()),
-                    "make some parameters constants");
+    if (image_.words.size() > kMostWords) {
+      const Place place = program_.words.size() > kMostWords
+                              ? law_.nodes[at(program_.words[kMostWords].nodes[0])].place
+                              : law_.parameters.back().place;
+      throw Refused(
+          place,
+          fmt::format("the law needs {} parameter words, {} fit", image_.words.size(), kMostWords),
+          "write some parameters as numbers, with let, or use fewer different formulas of "
+          "parameters: each is a word");
     }
     image_.mailbox_first = EngineMap::parameter_words - mailboxes;
     image_.mailbox_age = mailboxes > 0 ? mailbox_age() : 0;
@@ -219,6 +240,15 @@ class ImageMaker {
       if (broken.empty()) continue;
       throw Refused(r.place, "the law requires " + broken, "give the parameters other values");
     }
+  }
+
+  /// Where the first constant is used that has no place in the memory.
+  Place first_beyond() const {
+    const Operand beyond{From::constant, kMostConstants};
+    for (const Step& s : program_.steps) {
+      if (s.x == beyond || s.y == beyond) return s.place;
+    }
+    return law_.outputs.front().place;
   }
 
   /// The engine's count for the shortest max_age: data are late after more than this number of

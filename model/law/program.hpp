@@ -5,6 +5,8 @@
 // know which real value it stands for. Documentation: docs/law-compiler.md
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -75,6 +77,18 @@ struct TableUse {
   std::string proof;           ///< how its error was proven
   int line = -1;               ///< >= 0: the words belong to this delay line, which runs write
   int base = 0;                ///< address, once placed
+
+  /// Of an array: the largest difference between two elements that follow each other.
+  double neighbours() const {
+    double most = 0;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const auto element = [this](std::size_t k) {
+        return double(static_cast<std::int32_t>(words[k]));
+      };
+      most = std::max(most, std::fabs(element(i) - element(i - 1)));
+    }
+    return most;
+  }
 };
 
 struct StateUse {

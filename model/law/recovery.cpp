@@ -159,6 +159,16 @@ Diagnostic explained(std::string_view text, std::size_t begin, const SyntaxError
     return {places.of(at), found(text, at) + " is a word of the language and no name",
             "choose another name"};
   }
+  if (error.what == "expected an expression") {
+    std::size_t first = at;
+    while (first < text.size() && (text[first] == '+' || text[first] == '-')) {
+      first = skip(text, first + 1);
+    }
+    if (word_at(text, first) == "if") {
+      return {places.of(first), "an if inside of an expression, without parentheses",
+              "write it as a factor or a term: 2 * (if CONDITION then 1 else 0)"};
+    }
+  }
   const Before last = before(text, begin, at);
   const bool plain = at >= text.size() || is_plain(byte_at(text, at));
   const std::string mend = plain ? "the form is: " + last.form : kPlain;

@@ -45,6 +45,7 @@ void Lowering::run(const std::vector<Statement>& statements) {
   for (const Statement& s : statements) statement(s);
   check_ends(statements.empty() ? nullptr : &statements.back());
   note_unused(scope_.close());
+  note_unread();
   const auto before = [](const Unused& a, const Unused& b) {
     return std::tie(a.place.line, a.place.column) < std::tie(b.place.line, b.place.column);
   };
@@ -330,6 +331,47 @@ void Lowering::note_unused(const std::map<std::string, Symbol>& symbols) {
     };
     const bool known = std::any_of(law_.unused.begin(), law_.unused.end(), same);
     if (!symbol.used && !known) law_.unused.push_back({name, symbol.place});
+  }
+}
+
+/// Notes the states and lines of the file that neither an output nor an event depends on, even if
+/// their own next values read them.
+void Lowering::note_unread() {
+  if (!diagnostics_.empty()) return;
+  std::vector<char> needed(law_.nodes.size(), 0), read(law_.states.size(), 0),
+      heard(law_.lines.size(), 0);
+  const auto need = [&](NodeId id) { needed[static_cast<std::size_t>(id)] = 1; };
+  for (const Output& o : law_.outputs) need(o.value);
+  for (const Event& e : law_.events) need(e.value), need(e.condition);
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = needed.size(); i-- > 0;) {
+      if (needed[i] == 0) continue;
+      const Node& n = law_.nodes[i];
+      for (const NodeId a : n.arguments) need(a);
+      if (n.op != Op::state && n.op != Op::line_read) continue;
+      const auto index = static_cast<std::size_t>(n.index);
+      if (std::exchange((n.op == Op::state ? read : heard)[index], 1) != 0) continue;
+      need(n.op == Op::state ? law_.states[index].next : law_.lines[index].written);
+      more = true;
+    }
+  }
+  const auto note = [&](const std::string& name, const Place& place) {
+    const auto same = [&](const Unused& u) { return u.name == name; };
+    const auto defined = defined_.find(name);
+    // Filters and noise have states of their own, which no statement defines.
+    if (defined == defined_.end() || defined->second.line != place.line ||
+        defined->second.column != place.column ||
+        std::any_of(law_.unused.begin(), law_.unused.end(), same)) {
+      return;
+    }
+    law_.unused.push_back({name, place});
+  };
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (read[i] == 0) note(law_.states[i].name, law_.states[i].place);
+  }
+  for (std::size_t i = 0; i < heard.size(); ++i) {
+    if (heard[i] == 0) note(law_.lines[i].name, law_.lines[i].place);
   }
 }
 

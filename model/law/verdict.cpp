@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "law/diagnostics.hpp"
+#include "law/finish.hpp"
+#include "law/units.hpp"
 
 namespace feltgate::law {
 
@@ -51,30 +54,102 @@ void runs_left_out(const Measured& m, Verdict* v) {
       100 * share, m.in_strips, m.runs));
 }
 
-/// Reports values that a word represents badly: the file's value, and the small end of a range.
+/// Whether the range of a word, whose largest magnitude is `size`, may decide its step.
+bool full(double size, double step) { return size / step >= 0x1p10; }
+
+/// What a word keeps of its values.
+struct Kept {
+  std::string name, unit;
+  double to_si = 1, step = 1;
+  double set = 0, word = 0;  ///< the set value, and that of its word
+  Span range;
+  bool one = false;      ///< the range holds a single word
+  double share = kKept;  ///< reported relative error at the small end of the range
+  std::string mend;      ///< of the set value
+  std::string range_mend;
+};
+
+/// Reports values that a word represents badly: the set value, and the small end of a range.
+void kept_badly(const Kept& k, Verdict* v) {
+  const auto si = [&](double value) { return fmt::format("{:.3g}", value / k.to_si + 0.0); };
+  const std::string unit = with_blank(k.unit), step = "; its step is " + si(k.step) + ": ";
+  // Differences of the rounding of doubles are no values.
+  const double off = std::fabs(k.word - k.set), rounded = 1e-15 * k.range.size();
+  if (off > kAsSet * std::fabs(k.set) && off > rounded) {
+    v->warnings.push_back(fmt::format("{}: {:.6g}{} of the file becomes {:.6g}", k.name,
+                                      k.set / k.to_si, unit, k.word / k.to_si + 0.0) +
+                          step + k.mend);
+  } else if (k.one && k.range.width() > rounded) {
+    v->warnings.push_back(fmt::format("{}: every value of {} .. {}{} becomes {}", k.name,
+                                      si(k.range.lo), si(k.range.hi), unit, si(k.word)) +
+                          step + k.mend);
+  }
+  const double least = std::min(std::fabs(k.range.lo), std::fabs(k.range.hi));
+  if ((k.range.lo <= 0 && k.range.hi >= 0) || k.step / 2 <= k.share * least) return;
+  v->warnings.push_back(
+      fmt::format("{}: of {} .. {}{} only values from {} on are kept to {:.0f} %", k.name,
+                  si(k.range.lo), si(k.range.hi), unit, si(k.step / 2 / k.share), 100 * k.share) +
+      (least < k.step / 2 ? fmt::format(", and those below {} become 0", si(k.step / 2)) : "") +
+      step + k.range_mend);
+}
+
 void parameters(const Compiled& c, Verdict* v) {
   for (const ImageWord& w : c.image.words) {
     if (!w.formula.empty()) continue;
     for (const Parameter& p : c.law.parameters) {
       if (p.name != w.name) continue;
-      const auto si = [&](double value) { return fmt::format("{:.3g}", value / w.to_si); };
-      const double step = std::fabs(w.scale), kept = w.initial * w.scale;
-      const std::string mend = fmt::format("; its step is {}: narrow its range", si(step));
-      const std::string unit = w.unit.empty() ? "" : " " + w.unit;
-      if (!(std::fabs(kept - p.initial) <= kAsSet * std::fabs(p.initial))) {
-        v->warnings.push_back(fmt::format("{}: {:.6g}{} of the file becomes {:.6g}{}", w.name,
-                                          p.initial / w.to_si, unit, kept / w.to_si + 0.0, mend));
-      }
-      const double low = p.range.lower, high = p.range.upper;
-      const bool none_at_0 = low > 0 || high < 0;
-      const double least = std::min(std::fabs(low), std::fabs(high));
-      if (!none_at_0 || p.whole || step / 2 <= kKept * least) continue;
-      v->warnings.push_back(
-          fmt::format("{}: of {} .. {}{} only values from {} on are kept to 1 %", w.name, si(low),
-                      si(high), unit, si(step / 2 / kKept)) +
-          (least < step / 2 ? fmt::format(", and those below {} become 0", si(step / 2)) : "") +
-          mend);
+      Kept k;
+      k.name = w.name;
+      k.unit = w.unit;
+      k.to_si = w.to_si;
+      k.step = std::fabs(w.scale);
+      k.set = p.initial;
+      k.word = w.initial * w.scale;
+      k.range = {p.range.lower, p.range.upper};
+      k.one = w.lower == w.upper;
+      k.mend = finer(p, k.step);
+      k.range_mend = "narrow its range, or begin it there";
+      // A whole parameter has a word for each of its values.
+      if (p.whole) k.share = infinity;
+      kept_badly(k, v);
     }
+  }
+}
+
+/// Reports the same of the words that the host computes from the other words.
+void computed(const Compiled& c, Verdict* v) {
+  std::map<std::string, double> values;
+  for (const ImageWord& w : c.image.words) {
+    if (w.formula.empty()) values[w.name] = w.initial * w.scale;
+  }
+  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
+  for (std::size_t i = 0; i < c.program.words.size(); ++i) {
+    const ImageWord& w = c.image.words[i];
+    if (w.formula.empty()) continue;
+    const std::vector<NodeId>& nodes = c.program.words[i].nodes;
+    const Node& first = c.law.nodes[at(nodes.front())];
+    Kept k;
+    k.range = {1, 1};
+    for (const NodeId n : nodes) {
+      k.name += (k.name.empty() ? "" : " * ") + formula(c.law, n);
+      k.range = k.range * spans[at(n)];
+    }
+    const Operand word{From::word, static_cast<int>(i)};
+    for (const Step& step : c.program.steps) {
+      if (!(step.x == word) && !(step.y == word)) continue;
+      k.name = fmt::format("line {}: {}, which the host computes", step.place.line, k.name);
+      break;
+    }
+    if (nodes.size() == 1 && !(first.unit == kNumber)) k.unit = text_of(first.unit);
+    k.step = std::fabs(w.scale);
+    k.set = evaluate_formula(w.formula, [&](const std::string& name) { return values.at(name); });
+    k.word = w.initial * w.scale;
+    k.one = w.lower == w.upper;
+    k.share = kAsSet;
+    k.mend = std::string(full(k.range.size(), k.step) ? "narrow the ranges, or " : "") +
+             fmt::format("give what it is made of values that make it {:.3g} or more", 5 * k.step);
+    k.range_mend = "narrow the ranges of what it is made of";
+    kept_badly(k, v);
   }
 }
 
@@ -93,6 +168,14 @@ void states(const Compiled& c, const Measured& m, Verdict* v) {
 }
 
 }  // namespace
+
+std::string finer(const Parameter& p, double step) {
+  const std::string least = fmt::format("give it a value of {:.3g}{} or more", 5 * step / p.to_si,
+                                        with_blank(p.unit_text));
+  return full(std::max(std::fabs(p.range.lower), std::fabs(p.range.upper)), step)
+             ? "narrow its range, or " + least
+             : least + ", and a range with that value";
+}
 
 std::string name_of(const Output& output, const Law& law) {
   return law.outputs.size() == 1 && output.axis == 0
@@ -165,6 +248,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
   runs_left_out(m, &v);
   states(c, m, &v);
   parameters(c, &v);
+  computed(c, &v);
   return v;
 }
 

@@ -32,6 +32,14 @@ const Bad kGrammar[] = {
      "let, state, next, out, ..."},
     {"let a = (1 + 2" OUT,
      "1:15: expected \")\" before the end of the line; the form is: let NAME = EXPRESSION"},
+    {"out torque = 0.1 Nm * if position < 1 then 1 else 2",
+     "1:23: an if inside of an expression, without parentheses; write it as a factor or a term: 2 "
+     "* "
+     "(if CONDITION then 1 else 0)"},
+    {"let a = 1 + -if 1 < 2 then 1 else 2" OUT,
+     "1:14: an if inside of an expression, without parentheses; write it as a factor or a term: 2 "
+     "* "
+     "(if CONDITION then 1 else 0)"},
     {"let a = 1 +" OUT,
      "1:12: expected an expression before the end of the line; the form is: let NAME = EXPRESSION"},
     {"let a = 2 x" OUT,

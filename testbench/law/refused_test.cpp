@@ -92,7 +92,7 @@ const Bad kMeaning[] = {
     {"table f(x) on [-1, 3] = if x > 2 then 1 else 1 / x\nout torque = 1 Nm * f(position)",
      "1:48: in the table \"f\" this is no number at 0; let the table end where its formula does, "
      "or "
-     "limit what it is of, e.g. sqrt(max(x, 0))"},
+     "limit what it is of, e.g. 1 / max(x, 0.01)"},
     {"table f(x) on [0, 1] = x\nout torque = 1 Nm * f",
      "2:21: the table \"f\" without its argument; write f(...)"},
     {"array f = [1, 2]\nout torque = 1 Nm * f",
@@ -242,7 +242,12 @@ const Bad kMeaning[] = {
     {"table f(x) on [0, 1] = log(x)\nout torque = 1 Nm * f(position)",
      "1:24: in the table \"f\" this is no number at 0; let the table end where its formula does, "
      "or "
-     "limit what it is of, e.g. sqrt(max(x, 0))"},
+     "limit what it is of, e.g. log(max(x, 0.01))"},
+    {"table f(x) on [0, 1024] = exp(x)\nout torque = 1 Nm * f(position)",
+     "1:27: in the table \"f\" this is no number at 710; let the table end where its formula "
+     "does, or limit what it is of, e.g. exp(min(x, 100))"},
+    {"table f(x) on [0, 1] = (1e200 + x) * (1e200 + x)\nout torque = 1 Nm * f(position)",
+     "1:36: in the table \"f\" this is no number at 0; let the table end where its formula does"},
     {"out torque = 1 Nm * log(0)",
      "1:21: the logarithm of a number that is not above 0; its argument must be above 0"},
     {"param a = 1 in 0 .. 1000\nout torque = 1 Nm * exp(a)",

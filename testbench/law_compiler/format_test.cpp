@@ -55,5 +55,22 @@ TEST_CASE("tables get the segments that they ask for, or are refused") {
       "out torque = 0.1 Nm * f(abs(position))\n");
 }
 
+TEST_CASE("noise keeps the bits that its period needs, in every format") {
+  // The other states of these laws drift: the search cannot tell from the bound that noise is
+  // rounded.
+  for (const char* text :
+       {"phase ph = 0 in 0 .. 1\nnext ph = ph + 1 Hz * dt\n"
+        "out torque = 0.01 Nm * sin(2 * pi * ph) + 1 mNm * noise(1)\n",
+        "rate = 1 kHz\nparam f = 10 Hz in 0.001 .. 100 Hz\n"
+        "out torque = 0.1 Nm * lowpass(lowpass(clamp(position, -1, 1), f), f) + 0.01 Nm * "
+        "noise(77)^3\n"}) {
+    INFO(text);
+    const Compiled c = compile_text(text, "x.law", Target{});
+    for (std::size_t k = 0; k < c.law.states.size(); ++k) {
+      if (c.law.states[k].name.rfind("noise", 0) == 0) CHECK(c.program.states[k].scale <= 0x1p-20);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace feltgate::law

@@ -33,6 +33,30 @@ TEST_CASE("a state that can leave its range is refused") {
       r, Contains("x.law:1:") && Contains("state total can leave its range") && Contains("clamp"));
 }
 
+TEST_CASE("more constants and parameter words than fit are refused at the first beyond") {
+  // Each term has a frequency and a phase of its own; the first `params` phases are parameters.
+  const auto law = [](int terms, int params) {
+    std::string text, sum;
+    for (int i = 0; i < params; ++i) {
+      text += "param p" + std::to_string(i) + " = 0." + std::to_string(i + 101) + " in 0 .. 1\n";
+    }
+    for (int i = 0; i < terms; ++i) {
+      sum += (i == 0 ? "" : "\n+ ") + std::string("sin(") + std::to_string(i + 1) +
+             " * position + " +
+             (i < params ? "p" + std::to_string(i) : "0." + std::to_string(i + 101)) + ")";
+    }
+    return text + "out torque = 1 mNm * (" + sum + ")\n";
+  };
+  const std::string r = refusal(law(35, 0));
+  CHECK_THAT(r, Contains("constants, 64 fit, and here is the first that does not; write ") &&
+                    Contains(" of its numbers as a param each") &&
+                    Contains("32 of 32 words are free"));
+  CHECK_THAT(r, !Contains("x.law:1:"));
+  CHECK(refusal(law(35, 8)) == "compiled");
+  CHECK_THAT(refusal(law(35, 33)), Contains("x.law:") && !Contains("x.law:1:") &&
+                                       Contains("parameter words, 32 fit; write some"));
+}
+
 TEST_CASE("a rate that the instructions do not fit is refused with the figures") {
   const std::string r = refusal(
       "rate = 1 MHz\n"
@@ -139,9 +163,9 @@ TEST_CASE(
   const Compiled c =
       compile_text("param a = 1 in 0 .. 1e12\nout torque = 1 Nm * clamp(a * position, -1, 1)\n",
                    "a\"b\\.law", Target{});
-  CHECK_THAT(
-      report(c, measure(c, 1, 10)),
-      Contains("warning: a: 1 of the file becomes 0; its step is 8.54e+07: narrow its range\n"));
+  CHECK_THAT(report(c, measure(c, 1, 10)),
+             Contains("warning: a: 1 of the file becomes 0; its step is 8.54e+07: narrow its "
+                      "range, or give it a value of 4.27e+08 or more\n"));
   const std::string header = cpp_header(c, "a\"b\\");
   CHECK_THAT(header, Contains("name = \"a\\\"b\\\\\";"));
   CHECK_THAT(header, Contains("// Generated from a\"b/\n"));

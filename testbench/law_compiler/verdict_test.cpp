@@ -149,24 +149,72 @@ TEST_CASE("values of a parameter that its step does not keep are told") {
              Contains("tiny: of -1e+03 .. -1e-06 only values from"));
 }
 
+TEST_CASE("words that the host computes are told as parameters are") {
+  const auto warned = [](const std::string& law) { return text(verdict(compiled(law), {})); };
+  // The word of a quotient that reaches to 4e6 has a step of hundreds.
+  const std::string quotient =
+      " in 0.001 .. 1000\nout torque = 1 mNm * clamp(k / mass * position, -1, 1)\n";
+  CHECK_THAT(
+      warned("param k = 0.1 in 0 .. 4000\nparam mass = 1000" + quotient),
+      Contains("line 3: k * 1/(mass), which the host computes: 9.99985e-05 of the file becomes 0; "
+               "its step is") &&
+          Contains(": narrow the ranges, or give"));
+  CHECK_THAT(
+      warned("param k = 4000 in 0.1 .. 4000\nparam mass = 1" + quotient),
+      Contains("line 3: k * 1/(mass), which the host computes: of 0.0001 .. 4e+06 only values "
+               "from") &&
+          Contains("become 0"));
+  CHECK(warned("param k = 1 in 0 .. 40\nparam mass = 1 in 0.5 .. 2\n"
+               "out torque = 1 mNm * k / mass * clamp(position, -1, 1)\n")
+            .empty());
+}
+
+TEST_CASE("a step that is larger than a parameter's range is told, with a mend that works") {
+  const auto said = [](const std::string& declared) {
+    const std::string law = "param k = " + declared + "\nout torque = k\n";
+    const std::string refused = refusal(law);
+    return refused == "compiled" ? text(verdict(compiled(law), {})) : refused;
+  };
+  const std::string mend = ": give it a value of 7.63e+04 nNm or more, and a range with that value";
+  CHECK_THAT(said("1 nNm in 0 .. 2 nNm"),
+             Contains("k: 1 nNm of the file becomes 0; its step is 1.53e+04" + mend));
+  CHECK_THAT(said("0 nNm in 0 .. 2 nNm"),
+             Contains("k: every value of 0 .. 2 nNm becomes 0; its step is 1.53e+04" + mend));
+  CHECK_THAT(
+      said("100 nNm in 90 nNm .. 110 nNm"),
+      Contains("no word of k lies in its range: its step is 1.53e+04 nNm; " + mend.substr(2)));
+  CHECK(said("76300 nNm in 0 .. 100000 nNm").empty());
+  CHECK_THAT(said("1000001 nNm in 1000000 nNm .. 1000002 nNm"),
+             Contains("no word of k lies in its range") &&
+                 Contains("make the range wider than that step"));
+  CHECK(said("1000001 nNm in 990000 nNm .. 1010000 nNm").empty());
+}
+
 TEST_CASE("names that nothing uses are told, and are no matter for what is used") {
   const std::string used = "out torque = 0.1 Nm * clamp(position, -1, 1)\n";
   for (const char* unused :
        {"param a = 1 Nm in 0 .. 2 Nm\n", "mailbox a = 0 in -1 .. 1 max_age 5 ms\n", "let a = 1\n",
         "let a = 2 * velocity\n", "var a = 1\n", "state a = 0 in -1 .. 1\nnext a = 0.5 * a\n",
         "state a = 0 in -1 .. 1\nnext a = clamp(position, -1, 1)\n",
-        "phase a = 0 in 0 .. 1\nnext a = 0.25\n", "bool a = true\nnext a = position > 1\n",
-        "table a(x) on [0, 1] = x\n", "array a = [1, 2]\n",
-        "line a[3] in -1 .. 1\nnext a = clamp(position, -1, 1)\n",
+        "line a[3] in -1 .. 1\nnext a = 0.5 * a[1]\n", "phase a = 0 in 0 .. 1\nnext a = 0.25\n",
+        "bool a = true\nnext a = position > 1\n", "table a(x) on [0, 1] = x\n",
+        "array a = [1, 2]\n", "line a[3] in -1 .. 1\nnext a = clamp(position, -1, 1)\n",
         "for i in 0 .. 3 { let a = i }\n"}) {
     INFO(unused);
     const Compiled c = compiled(unused + used);
     const Verdict v = verdict(c, measure(c, 1, 1000, false));
     CHECK(v.failures.empty());
-    const bool own = std::string(unused).find("a = 0.5 * a") != std::string::npos;
-    REQUIRE(v.warnings.size() == (own ? 0 : 1));
-    if (!own) CHECK_THAT(v.warnings[0], Contains("\"a\" is never used; use it, or take it out"));
+    REQUIRE(v.warnings.size() == 1);
+    CHECK_THAT(v.warnings[0], Contains("\"a\" is never used; use it, or take it out"));
   }
+  // What only events depend on is used, and so is what decides another state.
+  CHECK(compiled(used + "state a = 0 in -1 .. 1\nnext a = 0.5 * a\nbool b = false\n"
+                        "next b = a > 0.1\nevent e when b\n")
+            .law.unused.empty());
+  CHECK(compiled("state a = 0 in -1 .. 1\nstate b = 0 in -1 .. 1\nnext a = 0.5 * b\n"
+                 "next b = 0.5 * a\n" +
+                 used)
+            .law.unused.size() == 2);
 }
 
 TEST_CASE("torque beyond its format is told with the law's range") {

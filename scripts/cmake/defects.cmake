@@ -146,20 +146,37 @@ function(feltgate_defect_program target)
 endfunction()
 
 # feltgate_defect_tests(<test> <program> [FILE f] [DEFECTS names...] [CASES tag]): <test>.<defect> passes when an
-# assertion fails, <test>.none when the same program finds nothing in the copy without a defect; in a usual run without
-# cases tagged [endurance]. A defect whose second line is "Caught by: CASE" is tried with that case alone.
+# assertion fails, <test>.none when the same program finds nothing in the copy without a defect. A defect whose second
+# line is "Caught by: CASE[,CASE]" is tried with these cases alone; where each has that line, so is the copy without a
+# defect in a usual run, but for cases tagged [endurance].
 function(feltgate_defect_tests test program)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILE;CASES" "DEFECTS")
   feltgate_default_defects()
-  set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>;${arg_CASES}")
+  set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>")
+  set(cases "")
+  set(all FALSE)
   foreach(name IN LISTS arg_DEFECTS)
-    feltgate_defect_lines(case "${arg_FILE}" ${name} "Caught by: ")
+    set(case "${arg_CASES}")
+    if(NOT case)
+      feltgate_defect_lines(case "${arg_FILE}" ${name} "Caught by: ")
+    endif()
+    if(case)
+      list(APPEND cases "${case}")
+    else()
+      set(all TRUE)
+    endif()
     add_test(NAME ${test}.${name}
       COMMAND ${CMAKE_COMMAND} "${command};${case}" -P "${FELTGATE_EXPECT_FAILURE}")
     set_tests_properties(${test}.${name} PROPERTIES LABELS mutation TIMEOUT 3600
       ENVIRONMENT "FELTGATE_LONG=1;FELTGATE_DEFECT=${name};FELTGATE_MISMATCH_DIR=${PROJECT_BINARY_DIR}/mismatch/${name}")
   endforeach()
-  add_test(NAME ${test}.none COMMAND ${CMAKE_COMMAND} "${command}" -P "${FELTGATE_EXPECT_QUIET}")
+  list(REMOVE_DUPLICATES cases)
+  if(all)
+    set(cases "~[endurance]")
+  endif()
+  list(JOIN cases "," cases)
+  add_test(NAME ${test}.none
+    COMMAND ${CMAKE_COMMAND} "${command};${arg_CASES}" "-DCASES=${cases}" -P "${FELTGATE_EXPECT_QUIET}")
   set_tests_properties(${test}.none PROPERTIES LABELS mutation TIMEOUT 3600
     ENVIRONMENT "FELTGATE_LONG=1;FELTGATE_DEFECT=none")
 endfunction()

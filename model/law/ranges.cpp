@@ -167,7 +167,7 @@ class Ranges {
         return derived < 0 ? own : both_of(own, spans_[at(derived)]);
       }
       case Op::input:
-        return cell_.inputs[at(n.index)];
+        return n.index < 0 ? whole_line() : cell_.inputs[at(n.index)];  // < 0: a table's variable
       case Op::state:
         return cell_.states[at(n.index)];
       case Op::add: {

@@ -111,7 +111,6 @@ class Lowering {
   NodeId mod(const Expression& e);
   NodeId noise(const Expression& e);
   NodeId angle(const Expression& e);
-  NodeId arctangent(NodeId t, Place place);
   int angle_table(Place place);
   std::string own_name(std::string name, Place place);
 

@@ -109,36 +109,20 @@ std::string Lowering::own_name(std::string name, Place place) {
   return name;
 }
 
-/// The arctangent of t in -1 .. 1: two halvings of the angle, then the series, to 1e-17.
-NodeId Lowering::arctangent(NodeId t, Place place) {
-  const auto number = [&](double value) { return graph_.constant(value, kNumber, place); };
-  for (int i = 0; i < 2; ++i) {
-    const NodeId root = graph_.function(
-        Op::root, graph_.add(number(1), graph_.multiply(t, t, place), place), place);
-    t = graph_.divide(t, graph_.add(number(1), root, place), place);
-  }
-  const NodeId square = graph_.multiply(t, t, place);
-  NodeId sum = number(0);
-  for (int k = 10; k >= 0; --k) {
-    sum = graph_.add(number((k % 2 == 0 ? 4.0 : -4.0) / (2 * k + 1)),
-                     graph_.multiply(square, sum, place), place);
-  }
-  return graph_.multiply(t, sum, place);
-}
-
 /// The angle, 0 to pi, by c = x / (|x| + |y|): pi/2 -+ (pi/4 + atan(2 |c| - 1)).
 int Lowering::angle_table(Place place) {
   if (angle_table_ >= 0) return angle_table_;
   const auto number = [&](double value) { return graph_.constant(value, kNumber, place); };
   angle_table_ = static_cast<int>(law_.tables.size());
   Table t;
-  t.name = own_name("angle", place);
+  t.name = own_name("atan2", place);
   t.domain = {-1, 1};
   t.argument = graph_.table_argument(angle_table_, kNumber, place);
   t.place = place;
   const auto quarter = [&](NodeId c) {
     const NodeId q = graph_.multiply(number(2), graph_.larger(c, number(0), place), place);
-    return graph_.add(number(kPi / 4), arctangent(graph_.subtract(q, number(1), place), place),
+    return graph_.add(number(kPi / 4),
+                      graph_.function(Op::arctangent, graph_.subtract(q, number(1), place), place),
                       place);
   };
   const NodeId right = graph_.subtract(number(kPi / 2), quarter(t.argument), place);
@@ -154,6 +138,10 @@ NodeId Lowering::angle(const Expression& e) {
   const Place place = at(e.offset);
   NodeId y = number_of(ey), x = number_of(ex);
   if (!fit(y, x, *ey, *ex, ex->offset, "and")) return kNone;
+  if (graph_.is_constant(y) && graph_.is_constant(x)) {
+    const double a = graph_.node(y).value, b = graph_.node(x).value;
+    return graph_.constant(a == 0 && b == 0 ? kPi / 2 : std::atan2(a, b), kNumber, place);
+  }
   if (in_table_ || (graph_.is_fixed(y) && graph_.is_fixed(x))) {
     report(e.offset, in_table_ ? "atan2 in a table" : "atan2 of what only depends on parameters",
            in_table_ ? "take it out of the table, into its argument" : "make a parameter of it");

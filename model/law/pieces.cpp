@@ -146,6 +146,14 @@ class Pieces {
         to_.push_back(copied(n));
       }
     }
+    for (std::size_t i = 0; i < law_.nodes.size(); ++i) {
+      const Node& n = law_.nodes[i];
+      if (n.op != Op::multiply || needed_[i] == 0) continue;
+      // The range of x / r with r >= |x| is not seen behind the pieces of 1 / r.
+      const Span own = spans_[i], all = spans_[at(n.arguments[0])] * spans_[at(n.arguments[1])];
+      const bool narrow = n.arguments[0] != n.arguments[1] && !all.within(own);
+      if (narrow) made_.known.push_back({to_[i], {own.lo, own.hi}});
+    }
     const auto move = [this](NodeId& id) { id = id < 0 ? id : to_[at(id)]; };
     for (Parameter& p : made_.parameters) move(p.derived);
     each_root(made_, move);

@@ -51,9 +51,7 @@ class Bounds {
   Bound run(int splits, bool one_run, bool with_strips) {
     Cell whole = cell_;
     limits_ = splits > 0;
-    for (const NodeId id : limits_ ? sums_of(law_) : std::vector<NodeId>{}) {
-      if (whole_[at(id)].size() < infinity) whole.sums.emplace_back(id, whole_[at(id)]);
-    }
+    if (limits_) whole = with_sums(law_, whole);
     bounded_ = !one_run;
     if (bounded_) settle(whole);
     leaves_.push_back({whole, whole_facts(whole)});

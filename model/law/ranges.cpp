@@ -109,7 +109,9 @@ class Ranges {
   std::vector<Span> all() {
     spans_.assign(law_.nodes.size(), Span{1, 0});
     limits_.assign(law_.nodes.size(), whole_line());
-    for (const auto& [id, range] : law_.known) limits_[at(id)] = {range.lower, range.upper};
+    for (const auto& [id, range] : law_.known) {
+      if (!cell_.sums.empty()) limits_[at(id)] = {range.lower, range.upper};
+    }
     const std::vector<NodeId> order = needed(law_);
     forward(order);
     for (const auto& [id, s] : cell_.sums) {
@@ -179,7 +181,8 @@ class Ranges {
   /// k x / r with r >= |x| lies between -|k| and |k|.
   Span product(const Node& n) const {
     const Span all = spans_[at(n.arguments[0])] * spans_[at(n.arguments[1])];
-    for (int i = 0; i < 2; ++i) {
+    // Formats are chosen without this: words may lie outside where their error is large.
+    for (int i = 0; i < 2 && !cell_.sums.empty(); ++i) {
       const Node& r = node(n.arguments[at(i)]);
       if (r.op != Op::reciprocal) continue;
       NodeId x = n.arguments[at(1 - i)];
@@ -452,6 +455,14 @@ std::vector<NodeId> sums_of(const Law& law) {
     if (n.op == Op::reciprocal) find_sums(law, n.arguments[0], &found);
   }
   return found;
+}
+
+Cell with_sums(const Law& law, Cell cell) {
+  const std::vector<Span> spans = ranges(law, cell);
+  for (const NodeId id : sums_of(law)) {
+    if (spans[at(id)].size() < infinity) cell.sums.emplace_back(id, spans[at(id)]);
+  }
+  return cell;
 }
 
 void narrow_by_sums(const Law& law, Cell* cell) {

@@ -47,6 +47,8 @@ std::vector<Span> ranges(const Law& law, const Cell& cell);
 
 /// The sums of squares or amounts that a reciprocal is of, e.g. x^2 + y^2 of 1 / sqrt(x^2 + y^2).
 std::vector<NodeId> sums_of(const Law& law);
+/// The cell with these sums, over their whole ranges.
+Cell with_sums(const Law& law, Cell cell);
 /// Narrows the cell's inputs and states to what its sums allow.
 void narrow_by_sums(const Law& law, Cell* cell);
 

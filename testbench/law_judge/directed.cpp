@@ -221,7 +221,7 @@ void directions(std::vector<Directed>& all) {
   all.push_back(
       {"the angle of two speeds",
        of({}, times(0.3, angle(times(0.1, velocity(1)), times(0.02, velocity()) + 0.1, 0.5, 2)))});
-  for (const double e : {0.01, 0.1}) {
+  for (const double e : {0.05, 0.1}) {
     Law l;
     const Node p = l.param("p", 1, 0.1, 1);
     const Node near = limited(x, -1, 1), beside = limited(y, -1, 1);

@@ -108,97 +108,20 @@ class Ranges {
 
   std::vector<Span> all() {
     spans_.assign(law_.nodes.size(), Span{1, 0});
-    limits_.assign(law_.nodes.size(), whole_line());
-    for (const auto& [id, range] : law_.known) {
-      if (!cell_.sums.empty()) limits_[at(id)] = {range.lower, range.upper};
-    }
     const std::vector<NodeId> order = needed(law_);
-    forward(order);
-    for (const auto& [id, s] : cell_.sums) {
-      limit(id, s);
-      limit_terms(id, s.hi);
+    for (const NodeId id : order) spans_[at(id)] = span(id);
+    if (cell_.sums.empty()) return spans_;
+    const std::vector<Span> limits = limits_by_sums(law_, cell_, spans_);
+    for (const NodeId id : order) {
+      // Without a common part no value is in the cell; the analysis finds that by the sum.
+      const Span own = span(id), both = both_of(own, limits[at(id)]);
+      spans_[at(id)] = both.empty() ? own : both;
     }
-    if (!cell_.sums.empty()) forward(order);
     return spans_;
   }
 
  private:
   const Node& node(NodeId id) const { return law_.nodes[at(id)]; }
-
-  void forward(const std::vector<NodeId>& order) {
-    for (const NodeId id : order) {
-      spans_[at(id)] = span(id);
-      // Without a common part no value is in the cell; the analysis finds that by the sum.
-      const Span both = both_of(spans_[at(id)], limits_[at(id)]);
-      if (!both.empty()) spans_[at(id)] = both;
-    }
-  }
-
-  /// The node's value lies in `s`; so do those of which it is a limit, a negative or a multiple.
-  void limit(NodeId id, Span s) {
-    limits_[at(id)] = both_of(limits_[at(id)], s);
-    const Node& n = node(id);
-    if (n.op == Op::negate) limit(n.arguments[0], -s);
-    if (n.arguments.size() != 2) return;
-    const int c = node(n.arguments[0]).op == Op::constant ? 0 : 1;
-    if (node(n.arguments[at(c)]).op != Op::constant) return;
-    const double number = node(n.arguments[at(c)]).value;
-    const NodeId other = n.arguments[at(1 - c)];
-    if (n.op == Op::multiply && number != 0) limit(other, s * inverse(Span{number, number}));
-    if (n.op == Op::maximum) limit(other, {number < s.lo ? s.lo : -infinity, s.hi});
-    if (n.op == Op::minimum) limit(other, {s.lo, number > s.hi ? s.hi : infinity});
-  }
-
-  /// The terms of a sum that is at most `most`.
-  void limit_terms(NodeId id, double most) {
-    const Node& n = node(id);
-    const auto arg = [&](int i) { return n.arguments[at(i)]; };
-    if (n.op == Op::add) {
-      for (int i = 0; i < 2; ++i) limit_terms(arg(i), up(most - spans_[at(arg(1 - i))].lo));
-    } else if (n.op == Op::absolute) {
-      limit(arg(0), {-most, most});
-    } else if (n.op == Op::multiply && arg(0) == arg(1)) {
-      const double end = root(Span{0, most}).hi;
-      limit(arg(0), {-end, end});
-    } else if (n.op == Op::multiply && node(arg(0)).op == Op::constant && node(arg(0)).value > 0) {
-      limit_terms(arg(1), up(most / node(arg(0)).value));
-    }
-  }
-
-  /// Whether r >= |x|: a root of x^2 and more, or |x| and more.
-  bool reaches(NodeId r, NodeId x, bool squared) const {
-    const Node& n = node(r);
-    const auto arg = [&](int i) { return n.arguments[at(i)]; };
-    if (n.op == Op::root && !squared) return reaches(arg(0), x, true);
-    if (n.op == Op::absolute && !squared) return arg(0) == x;
-    if (n.op == Op::multiply && squared) return arg(0) == x && arg(1) == x;
-    if (n.op == Op::maximum) return reaches(arg(0), x, squared) || reaches(arg(1), x, squared);
-    if (n.op != Op::add) return false;
-    return (spans_[at(arg(0))].lo >= 0 && reaches(arg(1), x, squared)) ||
-           (spans_[at(arg(1))].lo >= 0 && reaches(arg(0), x, squared));
-  }
-
-  /// k x / r with r >= |x| lies between -|k| and |k|.
-  Span product(const Node& n) const {
-    const Span all = spans_[at(n.arguments[0])] * spans_[at(n.arguments[1])];
-    // Formats are chosen without this: words may lie outside where their error is large.
-    for (int i = 0; i < 2 && !cell_.sums.empty(); ++i) {
-      const Node& r = node(n.arguments[at(i)]);
-      if (r.op != Op::reciprocal) continue;
-      NodeId x = n.arguments[at(1 - i)];
-      Span k{1, 1};
-      const Node& scaled = node(x);
-      const bool by = scaled.op == Op::multiply && scaled.arguments[0] != scaled.arguments[1];
-      if (by && (node(scaled.arguments[0]).op == Op::constant ||
-                 node(scaled.arguments[0]).op == Op::parameter)) {
-        k = spans_[at(scaled.arguments[0])];
-        x = scaled.arguments[1];
-      }
-      const Span inside = both_of(all, {-k.size(), k.size()});
-      if (reaches(r.arguments[0], x, false) && !inside.empty()) return inside;
-    }
-    return all;
-  }
 
   /// y + a * (x - y) with a in 0 .. 1 lies between x and y.
   bool between(const Node& sum, Span* result) const {
@@ -269,7 +192,8 @@ class Ranges {
         return d;
       }
       case Op::multiply:
-        return n.arguments[0] == n.arguments[1] ? square(arg(0)) : product(n);
+        return n.arguments[0] == n.arguments[1] ? square(arg(0))
+                                                : product_range(law_, cell_, spans_, n);
       case Op::negate:
         return -arg(0);
       case Op::absolute:
@@ -321,7 +245,7 @@ class Ranges {
 
   const Law& law_;
   const Cell& cell_;
-  std::vector<Span> spans_, limits_;
+  std::vector<Span> spans_;
 };
 
 }  // namespace
@@ -420,112 +344,6 @@ Jet table_jet(const Law& law, const Table& table, const Span& argument) {
 double table_value(const Law& law, const Table& table, double argument) {
   const Span v = table_jet(law, table, {argument, argument}).v;
   return v.middle();
-}
-
-namespace {
-
-/// The number of squares and amounts of which the node is a sum; -1: of something else, too.
-int count_terms(const Law& law, NodeId id) {
-  const Node& n = law.nodes[at(id)];
-  if (n.op == Op::constant) return n.value >= 0 ? 0 : -1;
-  if (n.op == Op::absolute) return 1;
-  if (n.op != Op::multiply && n.op != Op::add) return -1;
-  if (n.op == Op::multiply && n.arguments[0] == n.arguments[1]) return 1;
-  const int a = count_terms(law, n.arguments[0]), b = count_terms(law, n.arguments[1]);
-  if (n.op == Op::multiply) return law.nodes[at(n.arguments[0])].op == Op::constant ? a + b : -1;
-  return a < 0 || b < 0 ? -1 : a + b;
-}
-
-void find_sums(const Law& law, NodeId id, std::vector<NodeId>* found) {
-  const Node& n = law.nodes[at(id)];
-  if (count_terms(law, id) >= 2) {
-    if (std::find(found->begin(), found->end(), id) == found->end()) found->push_back(id);
-    return;
-  }
-  if (n.op != Op::root && n.op != Op::minimum && n.op != Op::maximum && n.op != Op::add) return;
-  for (const NodeId a : n.arguments) find_sums(law, a, found);
-}
-
-}  // namespace
-
-std::vector<NodeId> sums_of(const Law& law) {
-  std::vector<NodeId> found;
-  for (const NodeId id : needed(law)) {
-    const Node& n = law.nodes[at(id)];
-    if (n.op == Op::reciprocal) find_sums(law, n.arguments[0], &found);
-  }
-  return found;
-}
-
-Cell with_sums(const Law& law, Cell cell) {
-  const std::vector<Span> spans = ranges(law, cell);
-  for (const NodeId id : sums_of(law)) {
-    if (spans[at(id)].size() < infinity) cell.sums.emplace_back(id, spans[at(id)]);
-  }
-  return cell;
-}
-
-void narrow_by_sums(const Law& law, Cell* cell) {
-  if (cell->sums.empty()) return;
-  const std::vector<Span> spans = ranges(law, *cell);
-  for (const NodeId id : needed(law)) {
-    const Node& n = law.nodes[at(id)];
-    if (n.op == Op::input) cell->inputs[at(n.index)] = spans[at(id)];
-    if (n.op == Op::state) cell->states[at(n.index)] = spans[at(id)];
-  }
-}
-
-std::vector<NodeId> needed(const Law& law) {
-  std::vector<char> wanted(law.nodes.size(), 0);
-  std::vector<NodeId> stack;
-  const auto want = [&](NodeId id) {
-    if (id >= 0 && wanted[at(id)] == 0) {
-      wanted[at(id)] = 1;
-      stack.push_back(id);
-    }
-  };
-  for (const Output& o : law.outputs) want(o.value);
-  for (const Event& e : law.events) {
-    want(e.value);
-    want(e.condition);
-  }
-  for (const State& s : law.states) want(s.next);
-  for (const Line& l : law.lines) want(l.written);
-  while (!stack.empty()) {
-    const NodeId id = stack.back();
-    stack.pop_back();
-    const Node& n = law.nodes[at(id)];
-    for (const NodeId a : n.arguments) want(a);
-    if (n.op == Op::parameter) want(law.parameters[at(n.index)].derived);
-  }
-  std::vector<NodeId> list;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i] != 0) list.push_back(static_cast<NodeId>(i));
-  }
-  return list;
-}
-
-std::vector<char> fixed_nodes(const Law& law) {
-  std::vector<char> fixed(law.nodes.size(), 0);
-  for (std::size_t i = 0; i < law.nodes.size(); ++i) {
-    const Node& n = law.nodes[i];
-    switch (n.op) {
-      case Op::constant:
-        fixed[i] = 1;
-        break;
-      case Op::parameter:
-        fixed[i] = law.parameters[at(n.index)].mailbox ? 0 : 1;
-        break;
-      case Op::input:
-      case Op::state:
-      case Op::line_read:
-        break;
-      default:
-        fixed[i] = 1;
-        for (const NodeId a : n.arguments) fixed[i] = static_cast<char>(fixed[i] & fixed[at(a)]);
-    }
-  }
-  return fixed;
 }
 
 }  // namespace feltgate::law

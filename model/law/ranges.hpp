@@ -52,6 +52,12 @@ Cell with_sums(const Law& law, Cell cell);
 /// Narrows the cell's inputs and states to what its sums allow.
 void narrow_by_sums(const Law& law, Cell* cell);
 
+/// What the cell's sums, and Law::known, say about every node's range. `spans`: the ranges without.
+std::vector<Span> limits_by_sums(const Law& law, const Cell& cell, const std::vector<Span>& spans);
+/// The range of a product. In a cell with sums, that of x / r with r >= |x| is -1 .. 1; formats are
+/// chosen without, because words may lie outside where their error is large.
+Span product_range(const Law& law, const Cell& cell, const std::vector<Span>& spans, const Node& n);
+
 /// A table's body, or a function of a node, as a jet of its argument.
 Jet table_jet(const Law& law, const Table& table, const Span& argument);
 double table_value(const Law& law, const Table& table, double argument);

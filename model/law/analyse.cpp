@@ -31,6 +31,9 @@ CellFacts Analysis::run() {
   if (explain_) facts_.reasons.resize(program_.steps.size());
   facts_.output_error.assign(law_.outputs.size(), 0);
   facts_.output_apart.assign(law_.outputs.size(), 0);
+  for (const auto& [id, s] : cell_.sums) {
+    if (!spans_[at(id)].within(s)) facts_.reachable = false;
+  }
   for (std::size_t p = 0; p < law_.parameters.size(); ++p) {
     // The cell is empty if its ranges of a derived parameter and of the formula do not overlap.
     const NodeId from = law_.parameters[p].derived;

@@ -32,6 +32,7 @@ std::vector<Span*> sides(Cell& c) {
   for (auto* part : {&c.inputs, &c.states, &c.parameters}) {
     for (Span& s : *part) all.push_back(&s);
   }
+  for (auto& [id, s] : c.sums) all.push_back(&s);
   return all;
 }
 
@@ -50,6 +51,7 @@ class Bounds {
   Bound run(int splits, bool one_run, bool with_strips) {
     Cell whole = cell_;
     limits_ = splits > 0;
+    if (limits_) whole = with_sums(law_, whole);
     bounded_ = !one_run;
     if (bounded_) settle(whole);
     leaves_.push_back({whole, whole_facts(whole)});
@@ -166,12 +168,16 @@ class Bounds {
       Span* first = sides(a.cell)[s];
       Span* second = sides(b.cell)[s];
       if (!(first->width() > 0)) continue;
-      const double middle = first->middle();
+      // A sum of squares is halved by its size.
+      const bool by_size = s >= count - whole.sums.size() && first->lo > 0;
+      const double middle = by_size ? std::sqrt(first->lo * first->hi) : first->middle();
       first->hi = middle;
       second->lo = middle;
+      const double share = (middle - first->lo) / sides(whole)[s]->width();
+      narrow_by_sums(law_, &a.cell);
+      narrow_by_sums(law_, &b.cell);
       a.facts = facts(a.cell);
       b.facts = facts(b.cell);
-      const double share = (middle - first->lo) / sides(whole)[s]->width();
       const double score = std::max(worst(a.facts), worst(b.facts)) +
                            1e-3 * std::min(worst(a.facts), worst(b.facts)) - 1e-9 * share;
       // While no side reduces the bound, the side with the largest relative width is halved.

@@ -42,6 +42,7 @@ NodeId Lowering::call(const Expression& e) {
   if (e.name == "floor") return floor_call(e);
   if (e.name == "mod") return mod(e);
   if (e.name == "noise") return noise(e);
+  if (e.name == "atan2") return angle(e);
   if (e.name == "abs") {
     return takes(e, 1, "abs(x)") ? graph_.absolute(number_of(e.arguments[0]), at(e.offset)) : kNone;
   }

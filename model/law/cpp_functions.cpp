@@ -65,6 +65,8 @@ std::string expression(const Law& law, const Node& n) {
       return "law::exponential_of(" + arg(0) + ")";
     case Op::logarithm:
       return "law::logarithm_of(" + arg(0) + ")";
+    case Op::arctangent:
+      return "law::arctangent_of(" + arg(0) + ")";
     case Op::lookup:
       return fmt::format("{}({})", cpp_table_name(law, n.index), arg(0));
     case Op::element:

@@ -115,7 +115,9 @@ void Lowering::table(const Statement& s) {
       variable.node = t.argument;
       scope_.define(s.variable, variable);
       defining_ = s.name;
+      in_table_ = true;
       t.body = number_of(s.value);
+      in_table_ = false;
       defining_.clear();
       scope_.close();
     } else {

@@ -256,6 +256,8 @@ N Evaluation<N>::compute(const Node& n, const std::vector<N>& values) const {
       return exponential_of(arg(0));
     case Op::logarithm:
       return logarithm_of(arg(0));
+    case Op::arctangent:
+      return arctangent_of(arg(0));
     case Op::lookup:
       return table(index, arg(0));
     case Op::line_read:

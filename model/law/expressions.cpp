@@ -145,10 +145,8 @@ NodeId Lowering::unknown(const Expression& e, const char* what, bool functions) 
       }
       known += " and what table defines above";
     }
-    const bool angle = functions && e.name.rfind("atan", 0) == 0;
-    if (angle) known = "docs/laws.md, Tables, has the angle of two axes as a law";
     report(e.offset, std::string("unknown ") + what + " \"" + e.name + "\"",
-           guess.empty() || angle ? known : "did you mean \"" + guess + "\"?");
+           guess.empty() ? known : "did you mean \"" + guess + "\"?");
   }
   return kNone;
 }

@@ -240,6 +240,8 @@ std::string text(const Law& law, NodeId id, int depth) {
       return call("exp");
     case Op::logarithm:
       return call("log");
+    case Op::arctangent:
+      return call("atan");
     case Op::lookup:
       return call(law.tables[index].name.c_str());
     case Op::element:

@@ -159,9 +159,14 @@ bool Cutter::law_between(NodeId id) {
 
 void Cutter::law_ranges() {
   n_ = -1;
+  Cell free = c_.bound.parts[at(cell_)];
+  free.sums.clear();
+  const std::vector<Span> without = ranges(c_.law, free);
   while (!wanted_.empty()) {
     const NodeId id = *wanted_.rbegin();
     wanted_.erase(id);
+    // What the cell's sums narrow is a condition of the cell.
+    if (!without[at(id)].within(spans_[at(id)])) continue;
     const Node& n = c_.law.nodes[at(id)];
     const bool two = n.arguments.size() == 2;
     std::string value;
@@ -184,6 +189,11 @@ void Cutter::law_ranges() {
         break;
       case Op::multiply:
         value = argument(0) + " * " + argument(1);
+        // The range of x / r with r >= |x| is given.
+        if (n.arguments[0] != n.arguments[1] &&
+            !(spans_[at(n.arguments[0])] * spans_[at(n.arguments[1])]).within(spans_[at(id)])) {
+          continue;
+        }
         break;
       case Op::negate:
         value = "-" + argument(0);

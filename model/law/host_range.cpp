@@ -103,6 +103,7 @@ Range host_range(const Law& law, const Node& n, const std::vector<Range>& ranges
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       return {*low, *high};
     }
+    case Op::arctangent:
     case Op::lookup:
     case Op::input:
     case Op::state:

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace feltgate::law {
@@ -64,6 +65,7 @@ enum class Op : std::uint8_t {
   reciprocal,   ///< 1/a, argument away from 0
   exponential,  ///< e^a
   logarithm,    ///< natural, argument > 0
+  arctangent,   ///< only in the table of atan2
   lookup,       ///< Law::tables[index] at a: linear between its samples, clamped to its ends
   element,    ///< Law::arrays[index], element a (a whole number, rounded down), clamped to its ends
   line_read,  ///< Law::lines[index]: what was written b runs ago, b in 1 .. length; argument a is b
@@ -197,6 +199,7 @@ struct Law {
   std::vector<Requirement> requirements;
   std::vector<Unused> unused;  ///< in the order of the file
   std::vector<Node> nodes;
+  std::vector<std::pair<NodeId, Range>> known;  ///< ranges of nodes, from before a rewriting
 };
 
 }  // namespace feltgate::law

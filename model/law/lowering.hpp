@@ -111,6 +111,8 @@ class Lowering {
   NodeId floor_call(const Expression& e);
   NodeId mod(const Expression& e);
   NodeId noise(const Expression& e);
+  NodeId angle(const Expression& e);
+  int angle_table(Place place);
   std::string own_name(std::string name, Place place);
 
   NodeId step_time(Place place);
@@ -130,7 +132,8 @@ class Lowering {
   std::map<std::string, Place> defined_;  ///< every name of the file, for "before its definition"
   std::map<std::pair<NodeId, NodeId>, NodeId> filters_;
   std::map<int, NodeId> noises_;  ///< by seed
-  int floor_array_ = -1;
+  int floor_array_ = -1, angle_table_ = -1;
+  bool in_table_ = false;  ///< in a table's formula
   int ranged_ = 0;
   std::set<std::string> has_next_;
   bool any_out_ = false;

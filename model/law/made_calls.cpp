@@ -16,13 +16,14 @@ namespace {
 constexpr int kMostWhole = 64;    ///< largest number of values of floor
 constexpr int kMostRanged = 128;  ///< largest number of calls that use their argument's range
 constexpr int kNoiseBits = 20;    ///< of noise's two phases, which repeat after 2^21 runs
+constexpr double kLeastShare = 1.0 / 128;  ///< of the ranges of x and y: the floor of |x| + |y|
 
 }  // namespace
 
 /// The range of a node by the file's declarations; an input has no limits.
 Span Lowering::range_of(NodeId id, const Expression& e) {
   if (++ranged_ > kMostRanged) {
-    report(e.offset, fmt::format("more than {} calls of floor and mod", kMostRanged),
+    report(e.offset, fmt::format("more than {} calls of floor, mod and atan2", kMostRanged),
            "make the loops shorter; the engine's program has 512");
     throw TooLong();
   }
@@ -107,6 +108,67 @@ std::string Lowering::own_name(std::string name, Place place) {
   while (defined_.count(name) != 0) name += "_";
   defined_.emplace(name, place);
   return name;
+}
+
+/// The angle, 0 to pi, by c = x / (|x| + |y|): pi/2 -+ (pi/4 + atan(2 |c| - 1)).
+int Lowering::angle_table(Place place) {
+  if (angle_table_ >= 0) return angle_table_;
+  const auto number = [&](double value) { return graph_.constant(value, kNumber, place); };
+  angle_table_ = static_cast<int>(law_.tables.size());
+  Table t;
+  t.name = own_name("atan2", place);
+  t.domain = {-1, 1};
+  t.argument = graph_.table_argument(angle_table_, kNumber, place);
+  t.place = place;
+  const auto quarter = [&](NodeId c) {
+    const NodeId q = graph_.multiply(number(2), graph_.larger(c, number(0), place), place);
+    return graph_.add(number(kPi / 4),
+                      graph_.function(Op::arctangent, graph_.subtract(q, number(1), place), place),
+                      place);
+  };
+  const NodeId right = graph_.subtract(number(kPi / 2), quarter(t.argument), place);
+  t.body = graph_.add(right, quarter(graph_.negate(t.argument, place)), place);
+  law_.tables.push_back(t);
+  return angle_table_;
+}
+
+/// atan2(y, x), without a comparison other than y < 0. Near (0, 0), a floor replaces |x| + |y|.
+NodeId Lowering::angle(const Expression& e) {
+  if (!takes(e, 2, "atan2(y, x)")) return kNone;
+  const ExpressionPtr &ey = e.arguments[0], &ex = e.arguments[1];
+  const Place place = at(e.offset);
+  NodeId y = number_of(ey), x = number_of(ex);
+  if (!fit(y, x, *ey, *ex, ex->offset, "and")) return kNone;
+  if (graph_.is_constant(y) && graph_.is_constant(x)) {
+    const double a = graph_.node(y).value, b = graph_.node(x).value;
+    return graph_.constant(a == 0 && b == 0 ? kPi / 2 : std::atan2(a, b), kNumber, place);
+  }
+  if (in_table_ || (graph_.is_fixed(y) && graph_.is_fixed(x))) {
+    report(e.offset, in_table_ ? "atan2 in a table" : "atan2 of what only depends on parameters",
+           in_table_ ? "take it out of the table, into its argument" : "make a parameter of it");
+    return kNone;
+  }
+  const double ends = range_of(y, e).size() + range_of(x, e).size();
+  if (!(ends < infinity)) {
+    report(e.offset, "atan2 of what has no end",
+           "limit both with clamp, the smallest range is the most exact one");
+    return kNone;
+  }
+  const NodeId least = graph_.constant(ends * kLeastShare, graph_.node(x).unit, place);
+  const NodeId sum = graph_.add(graph_.absolute(x, place), graph_.absolute(y, place), place);
+  const NodeId across = graph_.divide(x, graph_.larger(sum, least, place), place);
+  const NodeId upper = graph_.lookup(angle_table(place), across, kNumber, place);
+  // A limit beyond 0 does not change the sign: y without it may be exact.
+  for (const Node* n = &graph_.node(y); n->op == Op::minimum || n->op == Op::maximum;
+       n = &graph_.node(y)) {
+    const int c = graph_.is_constant(n->arguments[0]) ? 0 : 1;
+    const double end = graph_.node(n->arguments[law::at(c)]).value;
+    if (!graph_.is_constant(n->arguments[law::at(c)])) break;
+    if (n->op == Op::minimum ? end < 0 : end >= 0) break;
+    y = n->arguments[law::at(1 - c)];
+  }
+  const NodeId below = graph_.less(y, graph_.constant(0, graph_.node(y).unit, place), place);
+  return graph_.select(below, graph_.negate(upper, place), upper, place);
 }
 
 /// Noise: a phase whose increment is a second phase with a constant increment. It takes all values

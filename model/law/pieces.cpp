@@ -102,7 +102,8 @@ class Pieces {
  public:
   Pieces(const Law& law, const Target& target, const Program& whole, const Bound& b, int pieces)
       : law_(law),
-        spans_(ranges(law, whole_cell(law, target))),
+        whole_(whole_cell(law, target)),
+        spans_(ranges(law, whole_)),
         needed_(law.nodes.size(), 0),
         wide_(law.nodes.size(), 0),
         users_(law.nodes.size(), 0),
@@ -145,6 +146,15 @@ class Pieces {
       } else {
         to_.push_back(copied(n));
       }
+    }
+    const std::vector<Span> spans = ranges(law_, with_sums(law_, whole_));
+    for (std::size_t i = 0; i < law_.nodes.size(); ++i) {
+      const Node& n = law_.nodes[i];
+      if (n.op != Op::multiply || needed_[i] == 0) continue;
+      // The range of x / r with r >= |x| is not seen behind the pieces of 1 / r.
+      const Span own = spans[i], all = spans[at(n.arguments[0])] * spans[at(n.arguments[1])];
+      const bool narrow = n.arguments[0] != n.arguments[1] && !all.within(own);
+      if (narrow) made_.known.push_back({to_[i], {own.lo, own.hi}});
     }
     const auto move = [this](NodeId& id) { id = id < 0 ? id : to_[at(id)]; };
     for (Parameter& p : made_.parameters) move(p.derived);
@@ -265,6 +275,7 @@ class Pieces {
   }
 
   const Law& law_;
+  const Cell whole_;
   const std::vector<Span> spans_;
   std::vector<char> needed_;  ///< per node: it has a span; false if only in a table's formula
   std::vector<char> wide_;

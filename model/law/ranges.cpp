@@ -78,6 +78,8 @@ class Body {
         return exponential(arg(0));
       case Op::logarithm:
         return logarithm(arg(0));
+      case Op::arctangent:
+        return arctangent(arg(0));
       case Op::lookup: {
         const Table& t = law_.tables[at(n.index)];
         Jet a = arg(0);
@@ -106,7 +108,15 @@ class Ranges {
 
   std::vector<Span> all() {
     spans_.assign(law_.nodes.size(), Span{1, 0});
-    for (const NodeId id : needed(law_)) spans_[at(id)] = span(id);
+    const std::vector<NodeId> order = needed(law_);
+    for (const NodeId id : order) spans_[at(id)] = span(id);
+    if (cell_.sums.empty()) return spans_;
+    const std::vector<Span> limits = limits_by_sums(law_, cell_, spans_);
+    for (const NodeId id : order) {
+      // Without a common part no value is in the cell; the analysis finds that by the sum.
+      const Span own = span(id), both = both_of(own, limits[at(id)]);
+      spans_[at(id)] = both.empty() ? own : both;
+    }
     return spans_;
   }
 
@@ -167,7 +177,7 @@ class Ranges {
         return derived < 0 ? own : both_of(own, spans_[at(derived)]);
       }
       case Op::input:
-        return cell_.inputs[at(n.index)];
+        return n.index < 0 ? whole_line() : cell_.inputs[at(n.index)];  // < 0: a table's variable
       case Op::state:
         return cell_.states[at(n.index)];
       case Op::add: {
@@ -182,7 +192,8 @@ class Ranges {
         return d;
       }
       case Op::multiply:
-        return n.arguments[0] == n.arguments[1] ? square(arg(0)) : arg(0) * arg(1);
+        return n.arguments[0] == n.arguments[1] ? square(arg(0))
+                                                : product_range(law_, cell_, spans_, n);
       case Op::negate:
         return -arg(0);
       case Op::absolute:
@@ -219,6 +230,8 @@ class Ranges {
         return exponential(arg(0));
       case Op::logarithm:
         return logarithm(arg(0));
+      case Op::arctangent:
+        return arctangent(arg(0));
       case Op::lookup:
         return lookup(n, arg(0));
       case Op::element:
@@ -331,59 +344,6 @@ Jet table_jet(const Law& law, const Table& table, const Span& argument) {
 double table_value(const Law& law, const Table& table, double argument) {
   const Span v = table_jet(law, table, {argument, argument}).v;
   return v.middle();
-}
-
-std::vector<NodeId> needed(const Law& law) {
-  std::vector<char> wanted(law.nodes.size(), 0);
-  std::vector<NodeId> stack;
-  const auto want = [&](NodeId id) {
-    if (id >= 0 && wanted[at(id)] == 0) {
-      wanted[at(id)] = 1;
-      stack.push_back(id);
-    }
-  };
-  for (const Output& o : law.outputs) want(o.value);
-  for (const Event& e : law.events) {
-    want(e.value);
-    want(e.condition);
-  }
-  for (const State& s : law.states) want(s.next);
-  for (const Line& l : law.lines) want(l.written);
-  while (!stack.empty()) {
-    const NodeId id = stack.back();
-    stack.pop_back();
-    const Node& n = law.nodes[at(id)];
-    for (const NodeId a : n.arguments) want(a);
-    if (n.op == Op::parameter) want(law.parameters[at(n.index)].derived);
-  }
-  std::vector<NodeId> list;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i] != 0) list.push_back(static_cast<NodeId>(i));
-  }
-  return list;
-}
-
-std::vector<char> fixed_nodes(const Law& law) {
-  std::vector<char> fixed(law.nodes.size(), 0);
-  for (std::size_t i = 0; i < law.nodes.size(); ++i) {
-    const Node& n = law.nodes[i];
-    switch (n.op) {
-      case Op::constant:
-        fixed[i] = 1;
-        break;
-      case Op::parameter:
-        fixed[i] = law.parameters[at(n.index)].mailbox ? 0 : 1;
-        break;
-      case Op::input:
-      case Op::state:
-      case Op::line_read:
-        break;
-      default:
-        fixed[i] = 1;
-        for (const NodeId a : n.arguments) fixed[i] = static_cast<char>(fixed[i] & fixed[at(a)]);
-    }
-  }
-  return fixed;
 }
 
 }  // namespace feltgate::law

@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "law/law.hpp"
@@ -28,6 +29,8 @@ class Refused : public std::invalid_argument {
 /// A box of values, in the order of Law::inputs, ::parameters, ::states.
 struct Cell {
   std::vector<Span> inputs, parameters, states;
+  /// Sums of squares or amounts, and the part of their range to which the cell is confined.
+  std::vector<std::pair<NodeId, Span>> sums;
 };
 
 /// The cell of all values that the law declares or that the design's formats can hold.
@@ -41,6 +44,19 @@ inline bool has_pieces(Op op) {
 /// The range of every node over the cell; a truth value has a part of [0, 1]. Nodes that occur only
 /// in bodies of tables have an empty range.
 std::vector<Span> ranges(const Law& law, const Cell& cell);
+
+/// The sums of squares or amounts that a reciprocal is of, e.g. x^2 + y^2 of 1 / sqrt(x^2 + y^2).
+std::vector<NodeId> sums_of(const Law& law);
+/// The cell with these sums, over their whole ranges.
+Cell with_sums(const Law& law, Cell cell);
+/// Narrows the cell's inputs and states to what its sums allow.
+void narrow_by_sums(const Law& law, Cell* cell);
+
+/// What the cell's sums, and Law::known, say about every node's range. `spans`: the ranges without.
+std::vector<Span> limits_by_sums(const Law& law, const Cell& cell, const std::vector<Span>& spans);
+/// The range of a product. In a cell with sums, that of x / r with r >= |x| is -1 .. 1; formats are
+/// chosen without, because words may lie outside where their error is large.
+Span product_range(const Law& law, const Cell& cell, const std::vector<Span>& spans, const Node& n);
 
 /// A table's body, or a function of a node, as a jet of its argument.
 Jet table_jet(const Law& law, const Table& table, const Span& argument);

@@ -11,7 +11,7 @@ namespace {
 const std::vector<std::string> kFunctions{"min", "max",  "clamp", "abs",     "sgn", "sin",
                                           "cos", "sqrt", "exp",   "lowpass", "sum"};
 /// Built-in names that a law may redefine.
-const std::vector<std::string> kFreeFunctions{"floor", "mod", "noise", "log"};
+const std::vector<std::string> kFreeFunctions{"floor", "mod", "noise", "log", "atan2"};
 const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque",
                                        "pi",       "dt",       "true",    "false"};
 

@@ -105,8 +105,8 @@ inline Span inverse(const Span& a) {
 inline Span root(const Span& a) {
   return {std::max(0.0, down(std::sqrt(std::max(a.lo, 0.0)))), up(std::sqrt(std::max(a.hi, 0.0)))};
 }
-/// Moves x by four doubles towards `way`: exp, log, sin and cos of the C library err by less than
-/// one double.
+/// Moves x by four doubles towards `way`: exp, log, atan, sin and cos of the C library err by less
+/// than one double.
 inline double four_steps(double x, double way) {
   for (int i = 0; i < 4; ++i) x = way > 0 ? up(x) : down(x);
   return x;
@@ -119,6 +119,9 @@ inline Span exponential(const Span& a) {
 inline Span logarithm(const Span& a) {
   return {a.lo > 0 ? four_steps(std::log(a.lo), -infinity) : -infinity,
           a.hi > 0 ? four_steps(std::log(a.hi), infinity) : infinity};
+}
+inline Span arctangent(const Span& a) {
+  return {four_steps(std::atan(a.lo), -infinity), four_steps(std::atan(a.hi), infinity)};
 }
 inline Span cosine(const Span& a) {
   if (!(a.width() < 6.28)) return {-1, 1};
@@ -165,6 +168,10 @@ inline Jet exponential(const Jet& a) {
 inline Jet logarithm(const Jet& a) {
   const Span i = inverse(a.v);
   return chain(a, logarithm(a.v), i, -square(i));
+}
+inline Jet arctangent(const Jet& a) {
+  const Span i = inverse(Span{1, 1} + square(a.v));
+  return chain(a, arctangent(a.v), i, a.v * square(i) * -2.0);
 }
 inline Jet sine(const Jet& a) { return chain(a, sine(a.v), cosine(a.v), -sine(a.v)); }
 inline Jet cosine(const Jet& a) { return chain(a, cosine(a.v), -sine(a.v), -cosine(a.v)); }

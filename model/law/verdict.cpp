@@ -184,7 +184,7 @@ std::string name_of(const Output& output, const Law& law) {
 }
 
 std::vector<Span> output_ranges(const Law& law, const Target& target) {
-  const std::vector<Span> spans = ranges(law, whole_cell(law, target));
+  const std::vector<Span> spans = ranges(law, with_sums(law, whole_cell(law, target)));
   const double end = std::ldexp(1.0, target.torque.integer);
   std::vector<Span> list;
   for (const Output& o : law.outputs) {

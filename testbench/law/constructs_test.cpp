@@ -56,6 +56,22 @@ TEST_CASE("functions") {
   CHECK(at("sin(pi / 6) + cos(0) + sqrt(4) + exp(0) + log(exp(1))") == Approx(5.5));
 }
 
+TEST_CASE("atan2") {
+  const auto angle = [](const std::string& y, double x) {
+    return at("atan2(" + y + ", clamp(position, -1, 1))", x);
+  };
+  for (const double x : {-1.0, -0.5, -0.03, 0.0, 0.02, 0.25, 1.0}) {
+    for (const double y : {-1.0, -0.25, 0.25, 0.6, 1.0}) {
+      CHECK(angle(std::to_string(y), x) == Approx(std::atan2(y, x)));
+    }
+    if (x != 0) CHECK(angle("0", x) == Approx(std::atan2(0.0, x)).margin(1e-12));
+  }
+  // Below 1/128 of both ranges it goes to a right angle.
+  CHECK(angle("0", 0) == Approx(kPi / 2));
+  CHECK(angle("0", 1.0 / 256) == Approx(std::atan2(0.5, 0.5)));
+  CHECK(at("atan2(-1, -1) + atan2(0, 0)") == Approx(-kPi / 4));
+}
+
 TEST_CASE("floor and mod") {
   for (const double x : {-4.5, -2.0, -0.25, 0.0, 0.75, 3.0, 4.99}) {
     CHECK(at("floor(clamp(position, -5, 5))", x) == std::floor(x));

@@ -24,6 +24,7 @@ TEST_CASE("Quad: as long double, to its digits") {
     CHECK(off(sine_of(q), std::sin(x)) < 1e-18);
     CHECK(off(cosine_of(q), std::cos(x)) < 1e-18);
     CHECK(off(exponential_of(q), std::exp(x)) <= 1e-18 * std::exp(static_cast<double>(x)));
+    CHECK(off(arctangent_of(q), std::atan(x)) < 1e-18);
     if (x > 0) CHECK(off(logarithm_of(q), std::log(x)) < 1e-18);
     CHECK(off(root_of(Quad{q * q}), std::fabs(x)) < 1e-17);
     CHECK(off(floor_of(q), std::floor(x)) == 0);

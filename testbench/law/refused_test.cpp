@@ -49,9 +49,23 @@ const Bad kMeaning[] = {
      "1:21: unknown function \"sinn\"; did you mean \"sin\"?"},
     {"out torque = 1 Nm * tan(position)",
      "1:21: unknown function \"tan\"; there are min, max, clamp, abs, sgn, sin, cos, sqrt, exp, "
-     "lowpass, sum, floor, mod, noise, log, and what table defines above"},
+     "lowpass, sum, floor, mod, noise, log, atan2, and what table defines above"},
     {"out torque = 1 Nm * atan2(position[1], position)",
-     "1:21: unknown function \"atan2\"; docs/laws.md, Tables, has the angle of two axes as a law"},
+     "1:21: atan2 of what has no end; limit both with clamp, the smallest range is the most exact "
+     "one"},
+    {"out torque = 1 Nm * atan2(clamp(position[1], 0, 1))",
+     "1:21: atan2 with 1 arguments; write atan2(y, x)"},
+    {"out torque = 1 Nm * atan2(clamp(position[1], 0, 1), 1 m)",
+     "1:53: a number and m: units differ; both sides need the same unit"},
+    {"param a = 1 in 0 .. 2\nout torque = 1 Nm * atan2(a, 1)",
+     "2:21: atan2 of what only depends on parameters; make a parameter of it"},
+    {"table f(x) on [0, 1] = atan2(x, 1)\nout torque = 1 Nm * f(position)",
+     "1:24: atan2 in a table; take it out of the table, into its argument"},
+    {"table f(x) on [0, 3] = floor(x)\nout torque = 1 Nm * f(position)",
+     "1:24: floor of what has no end; limit it with clamp to 64 of them; what repeats for ever is "
+     "a "
+     "periodic table"},
+    {"let atan2 = 1\nout torque = 1 Nm * atan2", "read"},
     {"let floor = 1\nout torque = 1 Nm * floor", "read"},
     {"let log = 1\nout torque = 1 Nm * log", "read"},
     {"let floor = 1\nout torque = 1 Nm * floor(position)",

@@ -214,6 +214,22 @@ void full_factors(std::vector<Directed>& all) {
   }
 }
 
+/// The angle and the direction of two axes, and a cut that has a strip.
+void directions(std::vector<Directed>& all) {
+  const Node x = position(), y = position(1);
+  all.push_back({"the angle of two axes", of({}, times(0.3, angle(y, x, 1, 1)))});
+  all.push_back(
+      {"the angle of two speeds",
+       of({}, times(0.3, angle(times(0.1, velocity(1)), times(0.02, velocity()) + 0.1, 0.5, 2)))});
+  for (const double e : {0.05, 0.1}) {
+    Law l;
+    const Node p = l.param("p", 1, 0.1, 1);
+    const Node near = limited(x, -1, 1), beside = limited(y, -1, 1);
+    all.push_back({"a direction", of(l, direction(near, beside, e))});
+    all.push_back({"a direction times a parameter", of(l, p * direction(near - p, beside, e))});
+  }
+}
+
 }  // namespace
 
 std::vector<Directed> tight_laws() {
@@ -232,6 +248,7 @@ std::vector<Directed> directed_laws() {
   nested(all);
   renamed(all);
   rounded_down(all);
+  directions(all);
   return all;
 }
 

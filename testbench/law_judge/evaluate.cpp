@@ -215,6 +215,13 @@ Real Evaluator::of(const Node& n) {
     }
     case Kind::noise:
       return 2 * before_->states[at(n->index)] - 1;
+    case Kind::angle: {
+      const Real x = arg(1), c = x / n->value;
+      const Real y = std::fabs(arg(0));
+      const Real upper =
+          std::fabs(x) + y < n->value ? std::atan2(1 - std::fabs(c), c) : std::atan2(y, x);
+      return less(n, n->parts[0], {}) ? -upper : upper;
+    }
     case Kind::sign:
       return less(n, n->parts[0], {}) ? -1 : 1;
     case Kind::choice: {

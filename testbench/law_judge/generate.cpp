@@ -10,7 +10,8 @@ namespace {
 
 class Generator {
  public:
-  Generator(std::uint64_t seed, Shape shape) : random_(seed), roots_(seed), shape_(shape) {}
+  Generator(std::uint64_t seed, Shape shape)
+      : random_(seed), roots_(seed), angles_(seed + 1000), shape_(shape) {}
 
   Law law() {
     parameters();
@@ -311,10 +312,12 @@ class Generator {
       case 8:
         return choose(condition(depth - 1), a, b);
       case 9:
-        return unless_tables(one_in(2) ? Kind::sine : Kind::cosine,
-                             number(1.0 + below(20), 0) * position(axis()) + a);
+        return or_angle(unless_tables(one_in(2) ? Kind::sine : Kind::cosine,
+                                      number(1.0 + below(20), 0) * position(axis()) + a),
+                        a, b);
       case 10:
-        return unless_tables(root_kind(), value(0.05, 1) + make(Kind::absolute, {a}));
+        return or_angle(unless_tables(root_kind(), value(0.05, 1) + make(Kind::absolute, {a})), a,
+                        b);
       case 11:
         if (!law_.tables.empty()) return a - b;
         return a / (value(0.3, 1) + make(Kind::absolute, {b}));
@@ -335,6 +338,17 @@ class Generator {
     }
   }
 
+  /// Returns `other` or, sometimes and once in a law, the angle or a direction of two values.
+  Node or_angle(const Node& other, const Node& a, const Node& b) {
+    if (angled_ || !law_.tables.empty() || angles_.below(2) != 0) return other;
+    angled_ = true;
+    const auto end = [this] { return 0.25 * static_cast<double>(1 + angles_.below(8)); };
+    const Node x = position(axis_) + a, y = position(shape_ == Shape::axes ? 1 - axis_ % 2 : 0) - b;
+    if (angles_.below(2) == 0) return angle(y, x, end(), end());
+    const double e = 0.01 * static_cast<double>(1 + angles_.below(20));
+    const Node near = limited(x, -end(), end()), beside = limited(y, -2, 2);
+    return angles_.below(2) == 0 ? direction(near, beside, e) : direction(beside, near, e);
+  }
   /// Returns a root or, sometimes, a logarithm.
   Kind root_kind() { return roots_.below(3) == 0 ? Kind::logarithm : Kind::root; }
   /// The table memory is small: a law with tables gets no function here.
@@ -369,12 +383,13 @@ class Generator {
   }
 
   static constexpr Real pi = 3.14159265358979323846264338327950288L;
-  SplitMix64 random_, roots_;
+  SplitMix64 random_, roots_, angles_;
   Shape shape_;
   Law law_;
   std::vector<Node> params_, kept_, stages_;
   Node count_, wide_, held_, mailbox_, let_, curve_;
   int phase_ = -1, axis_ = 0;
+  bool angled_ = false;
 };
 
 }  // namespace

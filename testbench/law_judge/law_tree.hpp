@@ -24,6 +24,7 @@ enum class Kind {
   number, param, input, state, line, let, counter,  // leaves
   add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
   sine, cosine, root, exponential, logarithm, table, element, sign, choice, sum, floor, modulo, noise,
+  angle,  // atan2(y, x); value: the floor of |x| + |y|
   less, less_equal, more, more_equal, equal, differs, both, either, opposite
 };
 // clang-format on
@@ -65,6 +66,16 @@ inline Node operator>=(const Node& a, const Node& b) { return make(Kind::more_eq
 inline Node sgn(const Node& a) { return make(Kind::sign, {a}); }
 inline Node limited(const Node& a, double lower, double upper) {
   return make(Kind::clamp, {a, number(lower), number(upper)});
+}
+/// atan2 of `y` and `x`, limited to +-`end_y` and +-`end_x`; without these limits both have no end.
+inline Node angle(const Node& y, const Node& x, double end_y, double end_x) {
+  return make(Kind::angle, {limited(y, -end_y, end_y), limited(x, -end_x, end_x)}, -1, "",
+              (static_cast<Real>(end_y) + end_x) / 128);
+}
+/// x by the root of x^2 + y^2 + e^2.
+inline Node direction(const Node& x, const Node& y, double e) {
+  const auto square = [](const Node& n) { return make(Kind::power, {n}, 2); };
+  return x / make(Kind::root, {square(x) + square(y) + square(number(e))});
 }
 inline Node choose(const Node& condition, const Node& a, const Node& b) {
   return make(Kind::choice, {condition, a, b});

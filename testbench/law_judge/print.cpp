@@ -81,6 +81,8 @@ std::string written(const Law& law, const Node& n, const Mark& mark, const Let& 
       return mark(n) + call("mod");
     case Kind::noise:
       return "noise(" + n->text + ")";
+    case Kind::angle:
+      return mark(n) + call("atan2");
     case Kind::sign:
       return mark(n) + call("sgn");
     case Kind::choice:
@@ -123,7 +125,7 @@ std::string canonical(const Law& law, const Node& n) {
   if (n->kind == Kind::element) return n->text + "[" + a + "]";
   if (n->kind == Kind::floor) return "floor(" + a + ")";
   if (n->kind == Kind::modulo) return "mod(" + a + ", " + full(law, n->parts[1]) + ")";
-  std::string b = n->kind == Kind::sign ? "0" : full(law, n->parts[1]);
+  std::string b = n->kind == Kind::sign || n->kind == Kind::angle ? "0" : full(law, n->parts[1]);
   if (n->kind == Kind::equal) return a + " == " + b;
   if (n->kind == Kind::differs) return a + " != " + b;
   // a > b is b < a, and a <= b is the opposite of this: all are one comparison.

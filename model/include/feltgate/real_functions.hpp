@@ -122,4 +122,15 @@ N logarithm_of(N x) {
   }
 }
 
+template <class N>
+N arctangent_of(N x) {
+  if constexpr (kInLibrary<N>) {
+    return std::atan(x);
+  } else {
+    const N y = static_cast<N>(std::atan(static_cast<long double>(x)));
+    // The tangent of the rest, which is below 1e-18.
+    return y + (x * cosine_of(y) - sine_of(y)) / (cosine_of(y) + x * sine_of(y));
+  }
+}
+
 }  // namespace feltgate::law

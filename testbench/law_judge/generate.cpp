@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 #include "generate.hpp"
 
-#include "feltgate/random.hpp"
+#include "angles.hpp"
 
 namespace feltgate::judge {
 
@@ -14,6 +14,7 @@ class Generator {
       : random_(seed), roots_(seed), angles_(seed + 1000), shape_(shape) {}
 
   Law law() {
+    angles_.allowed = shape_ != Shape::nested && shape_ != Shape::tables;
     parameters();
     memory();
     things();
@@ -266,6 +267,7 @@ class Generator {
   }
 
   Node condition(int depth) {
+    const Angles::Without none(angles_);
     if (!stages_.empty() && one_in(2)) {
       const Node with = one_in(4)   ? count_
                         : one_in(2) ? number(fmt::format("{}.5", below(3)))
@@ -338,16 +340,9 @@ class Generator {
     }
   }
 
-  /// Returns `other` or, sometimes and once in a law, the angle or a direction of two values.
   Node or_angle(const Node& other, const Node& a, const Node& b) {
-    if (angled_ || !law_.tables.empty() || angles_.below(2) != 0) return other;
-    angled_ = true;
-    const auto end = [this] { return 0.25 * static_cast<double>(1 + angles_.below(8)); };
-    const Node x = position(axis_) + a, y = position(shape_ == Shape::axes ? 1 - axis_ % 2 : 0) - b;
-    if (angles_.below(2) == 0) return angle(y, x, end(), end());
-    const double e = 0.01 * static_cast<double>(1 + angles_.below(20));
-    const Node near = limited(x, -end(), end()), beside = limited(y, -2, 2);
-    return angles_.below(2) == 0 ? direction(near, beside, e) : direction(beside, near, e);
+    const int beside = shape_ == Shape::axes ? 1 - axis_ % 2 : 0;
+    return angles_.or_angle(other, position(axis_) + a, position(beside) - b);
   }
   /// Returns a root or, sometimes, a logarithm.
   Kind root_kind() { return roots_.below(3) == 0 ? Kind::logarithm : Kind::root; }
@@ -383,13 +378,13 @@ class Generator {
   }
 
   static constexpr Real pi = 3.14159265358979323846264338327950288L;
-  SplitMix64 random_, roots_, angles_;
+  SplitMix64 random_, roots_;
+  Angles angles_;
   Shape shape_;
   Law law_;
   std::vector<Node> params_, kept_, stages_;
   Node count_, wide_, held_, mailbox_, let_, curve_;
   int phase_ = -1, axis_ = 0;
-  bool angled_ = false;
 };
 
 }  // namespace

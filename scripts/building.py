@@ -90,7 +90,7 @@ class Beside:
                         return
                     self.built.add(target)
         except OSError as error:
-            self.failure = f"the build cannot start: {error}"
+            self.failure = f"the build stopped: {error}"
         except interrupts.Interrupted:
             pass  # The caller has left.
         finally:
@@ -115,9 +115,12 @@ class Beside:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
         )
-        with process.stdout:
-            for line in process.stdout:
-                log.write(line)
-                if found := re.match(rb"\[\d+/\d+\]", line):
-                    self.step = found[0].decode()
-        return self._crew.wait(process)[0]
+        try:
+            with process.stdout:
+                for line in process.stdout:
+                    log.write(line)
+                    if found := re.match(rb"\[\d+/\d+\]", line):
+                        self.step = found[0].decode()
+        finally:
+            status = self._crew.wait(process)[0]
+        return status

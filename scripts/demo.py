@@ -189,7 +189,7 @@ def arguments_of(argv):
     parser = command_options.parser(
         "demo",
         "Every object in closed loop, every recording whole, through RTL and twin in\n"
-        "lock-step; one HTML report. About ten minutes on two cores.",
+        "lock-step; one HTML report. About 17 minutes on two cores.",
         EPILOG,
     )
     parser.add_argument(

@@ -306,10 +306,11 @@ NodeId Graph::function(Op op, NodeId a, Place place) {
                      "its argument must be above 0");
     return kNone;
   }
-  const double value = op == Op::sine     ? std::sin(n.value)
-                       : op == Op::cosine ? std::cos(n.value)
-                       : op == Op::root   ? std::sqrt(n.value)
-                                          : std::exp(n.value);
+  const double value = op == Op::sine         ? std::sin(n.value)
+                       : op == Op::cosine     ? std::cos(n.value)
+                       : op == Op::root       ? std::sqrt(n.value)
+                       : op == Op::arctangent ? std::atan(n.value)
+                                              : std::exp(n.value);
   return constant(value, unit, place);
 }
 

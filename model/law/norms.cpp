@@ -6,6 +6,7 @@
 #include "law/ranges.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace feltgate::law {
 
@@ -15,7 +16,10 @@ namespace {
 class Limits {
  public:
   Limits(const Law& law, const std::vector<Span>& spans)
-      : law_(law), spans_(spans), limits_(spans.size(), whole_line()) {}
+      : law_(law),
+        spans_(spans),
+        limits_(spans.size(), whole_line()),
+        most_(spans.size(), infinity) {}
 
   std::vector<Span> run(const Cell& cell) {
     for (const auto& [id, range] : law_.known) limits_[at(id)] = {range.lower, range.upper};
@@ -44,8 +48,11 @@ class Limits {
     if (n.op == Op::minimum) limit(other, {s.lo, number > s.hi ? s.hi : infinity});
   }
 
-  /// The terms of a sum that is at most `most`.
+  /// The terms of a sum that is at most `most`. A node that is read twice is limited again only by
+  /// less.
   void limit_terms(NodeId id, double most) {
+    if (!(most < most_[at(id)])) return;
+    most_[at(id)] = most;
     const Node& n = node(id);
     const auto arg = [&](int i) { return n.arguments[at(i)]; };
     if (n.op == Op::add) {
@@ -63,42 +70,62 @@ class Limits {
   const Law& law_;
   const std::vector<Span>& spans_;
   std::vector<Span> limits_;
+  std::vector<double> most_;
 };
 
-/// Whether r >= |x|: a root of x^2 and more, or |x| and more.
-bool reaches(const Law& law, const std::vector<Span>& spans, NodeId r, NodeId x, bool squared) {
-  const Node& n = law.nodes[at(r)];
-  const auto arg = [&](int i) { return n.arguments[at(i)]; };
-  if (n.op == Op::root && !squared) return reaches(law, spans, arg(0), x, true);
-  if (n.op == Op::absolute && !squared) return arg(0) == x;
-  if (n.op == Op::multiply && squared) return arg(0) == x && arg(1) == x;
-  if (n.op == Op::maximum)
-    return reaches(law, spans, arg(0), x, squared) || reaches(law, spans, arg(1), x, squared);
-  if (n.op != Op::add) return false;
-  return (spans[at(arg(0))].lo >= 0 && reaches(law, spans, arg(1), x, squared)) ||
-         (spans[at(arg(1))].lo >= 0 && reaches(law, spans, arg(0), x, squared));
-}
+/// Whether a node r is at least |x|: a root of x^2 and more, or |x| and more.
+class Reach {
+ public:
+  Reach(const Law& law, const std::vector<Span>& spans, NodeId x)
+      : law_(law), spans_(spans), x_(x), missed_(spans.size(), 0) {}
 
-/// The number of squares and amounts of which the node is a sum; -1: of something else, too.
-int count_terms(const Law& law, NodeId id) {
-  const Node& n = law.nodes[at(id)];
-  if (n.op == Op::constant) return n.value >= 0 ? 0 : -1;
-  if (n.op == Op::absolute) return 1;
-  if (n.op != Op::multiply && n.op != Op::add) return -1;
-  if (n.op == Op::multiply && n.arguments[0] == n.arguments[1]) return 1;
-  const int a = count_terms(law, n.arguments[0]), b = count_terms(law, n.arguments[1]);
-  if (n.op == Op::multiply) return law.nodes[at(n.arguments[0])].op == Op::constant ? a + b : -1;
-  return a < 0 || b < 0 ? -1 : a + b;
-}
-
-void find_sums(const Law& law, NodeId id, std::vector<NodeId>* found) {
-  const Node& n = law.nodes[at(id)];
-  if (count_terms(law, id) >= 2) {
-    if (std::find(found->begin(), found->end(), id) == found->end()) found->push_back(id);
-    return;
+  bool of(NodeId r, bool squared = false) {
+    char& missed = missed_[at(r)];
+    const char bit = squared ? 2 : 1;
+    if ((missed & bit) != 0 || !reaches(law_.nodes[at(r)], squared)) {
+      missed = static_cast<char>(missed | bit);
+      return false;
+    }
+    return true;
   }
-  if (n.op != Op::root && n.op != Op::minimum && n.op != Op::maximum && n.op != Op::add) return;
-  for (const NodeId a : n.arguments) find_sums(law, a, found);
+
+ private:
+  bool reaches(const Node& n, bool squared) {
+    const auto arg = [&](int i) { return n.arguments[at(i)]; };
+    const auto positive = [&](int i) { return spans_[at(arg(i))].lo >= 0; };
+    if (n.op == Op::root && !squared) return of(arg(0), true);
+    if (n.op == Op::absolute && !squared) return arg(0) == x_;
+    if (n.op == Op::multiply && squared) return arg(0) == x_ && arg(1) == x_;
+    if (n.op == Op::maximum) return of(arg(0), squared) || of(arg(1), squared);
+    return n.op == Op::add &&
+           ((positive(0) && of(arg(1), squared)) || (positive(1) && of(arg(0), squared)));
+  }
+
+  const Law& law_;
+  const std::vector<Span>& spans_;
+  NodeId x_;
+  std::vector<char> missed_;
+};
+
+/// For each node the number of squares and amounts of which it is a sum; -1: of something else,
+/// too.
+std::vector<int> terms(const Law& law) {
+  constexpr int kMost = 1000;  // more count as many: a sum of itself doubles
+  std::vector<int> count(law.nodes.size(), -1);
+  // Arguments come before the nodes that read them.
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const Node& n = law.nodes[i];
+    const auto arg = [&](int k) { return n.arguments[at(k)]; };
+    const auto of = [&](int k) { return count[at(arg(k))]; };
+    if (n.op == Op::constant && n.value >= 0) count[i] = 0;
+    if (n.op == Op::absolute || (n.op == Op::multiply && arg(0) == arg(1))) count[i] = 1;
+    if (n.op == Op::multiply && arg(0) != arg(1) && law.nodes[at(arg(0))].op == Op::constant &&
+        of(0) == 0) {
+      count[i] = of(1);
+    }
+    if (n.op == Op::add && of(0) >= 0 && of(1) >= 0) count[i] = std::min(of(0) + of(1), kMost);
+  }
+  return count;
 }
 
 }  // namespace
@@ -125,17 +152,31 @@ Span product_range(const Law& law, const Cell& cell, const std::vector<Span>& sp
       x = scaled.arguments[1];
     }
     const Span inside = both_of(all, {-k.size(), k.size()});
-    if (reaches(law, spans, r.arguments[0], x, false) && !inside.empty()) return inside;
+    if (Reach(law, spans, x).of(r.arguments[0]) && !inside.empty()) return inside;
   }
   return all;
 }
 
 std::vector<NodeId> sums_of(const Law& law) {
-  std::vector<NodeId> found;
+  const std::vector<int> count = terms(law);
+  std::vector<NodeId> found, next;
+  std::vector<char> seen(law.nodes.size(), 0);
   for (const NodeId id : needed(law)) {
     const Node& n = law.nodes[at(id)];
-    if (n.op == Op::reciprocal) find_sums(law, n.arguments[0], &found);
+    if (n.op == Op::reciprocal) next.push_back(n.arguments[0]);
   }
+  while (!next.empty()) {
+    const NodeId id = next.back();
+    next.pop_back();
+    if (std::exchange(seen[at(id)], 1) != 0) continue;
+    const Node& n = law.nodes[at(id)];
+    if (count[at(id)] >= 2) {
+      found.push_back(id);
+    } else if (n.op == Op::root || n.op == Op::minimum || n.op == Op::maximum || n.op == Op::add) {
+      next.insert(next.end(), n.arguments.begin(), n.arguments.end());
+    }
+  }
+  std::sort(found.begin(), found.end());
   return found;
 }
 

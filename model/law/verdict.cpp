@@ -60,10 +60,11 @@ bool full(double size, double step) { return size / step >= 0x1p10; }
 /// What a word keeps of its values.
 struct Kept {
   std::string name, unit;
+  std::string of;  ///< whose the set value is
   double to_si = 1, step = 1;
   double set = 0, word = 0;  ///< the set value, and that of its word
   Span range;
-  bool one = false;      ///< the range holds a single word
+  double noise = 0;      ///< of the set value, by the rounding of doubles
   double share = kKept;  ///< reported relative error at the small end of the range
   std::string mend;      ///< of the set value
   std::string range_mend;
@@ -72,14 +73,16 @@ struct Kept {
 /// Reports values that a word represents badly: the set value, and the small end of a range.
 void kept_badly(const Kept& k, Verdict* v) {
   const auto si = [&](double value) { return fmt::format("{:.3g}", value / k.to_si + 0.0); };
+  // Small values of a range below 0 are negative.
+  const auto small = [&](double value) { return si(k.range.hi < 0 ? -value : value); };
+  const auto nearest = [&](double value) { return std::nearbyint(value / k.step); };
   const std::string unit = with_blank(k.unit), step = "; its step is " + si(k.step) + ": ";
-  // Differences of the rounding of doubles are no values.
-  const double off = std::fabs(k.word - k.set), rounded = 1e-15 * k.range.size();
-  if (off > kAsSet * std::fabs(k.set) && off > rounded) {
-    v->warnings.push_back(fmt::format("{}: {:.6g}{} of the file becomes {:.6g}", k.name,
-                                      k.set / k.to_si, unit, k.word / k.to_si + 0.0) +
+  const double off = std::fabs(k.word - k.set);
+  if (off > kAsSet * std::fabs(k.set) && off > k.noise) {
+    v->warnings.push_back(fmt::format("{}: {:.6g}{}{} becomes {:.6g}", k.name, k.set / k.to_si,
+                                      unit, k.of, k.word / k.to_si + 0.0) +
                           step + k.mend);
-  } else if (k.one && k.range.width() > rounded) {
+  } else if (nearest(k.range.lo) == nearest(k.range.hi) && k.range.width() > k.noise) {
     v->warnings.push_back(fmt::format("{}: every value of {} .. {}{} becomes {}", k.name,
                                       si(k.range.lo), si(k.range.hi), unit, si(k.word)) +
                           step + k.mend);
@@ -88,8 +91,11 @@ void kept_badly(const Kept& k, Verdict* v) {
   if ((k.range.lo <= 0 && k.range.hi >= 0) || k.step / 2 <= k.share * least) return;
   v->warnings.push_back(
       fmt::format("{}: of {} .. {}{} only values from {} on are kept to {:.0f} %", k.name,
-                  si(k.range.lo), si(k.range.hi), unit, si(k.step / 2 / k.share), 100 * k.share) +
-      (least < k.step / 2 ? fmt::format(", and those below {} become 0", si(k.step / 2)) : "") +
+                  si(k.range.lo), si(k.range.hi), unit, small(k.step / 2 / k.share),
+                  100 * k.share) +
+      (least < k.step / 2
+           ? fmt::format(", and those nearer to 0 than {} become 0", small(k.step / 2))
+           : "") +
       step + k.range_mend);
 }
 
@@ -106,7 +112,7 @@ void parameters(const Compiled& c, Verdict* v) {
       k.set = p.initial;
       k.word = w.initial * w.scale;
       k.range = {p.range.lower, p.range.upper};
-      k.one = w.lower == w.upper;
+      k.of = " of the file";
       k.mend = finer(p, k.step);
       k.range_mend = "narrow its range, or begin it there";
       // A whole parameter has a word for each of its values.
@@ -144,10 +150,11 @@ void computed(const Compiled& c, Verdict* v) {
     k.step = std::fabs(w.scale);
     k.set = evaluate_formula(w.formula, [&](const std::string& name) { return values.at(name); });
     k.word = w.initial * w.scale;
-    k.one = w.lower == w.upper;
+    k.noise = 1e-15 * k.range.size();
     k.share = kAsSet;
     k.mend = std::string(full(k.range.size(), k.step) ? "narrow the ranges, or " : "") +
-             fmt::format("give what it is made of values that make it {:.3g} or more", 5 * k.step);
+             fmt::format("give what it is made of values that make it {:.3g} or more in size",
+                         5 * k.step);
     k.range_mend = "narrow the ranges of what it is made of";
     kept_badly(k, v);
   }
@@ -170,8 +177,10 @@ void states(const Compiled& c, const Measured& m, Verdict* v) {
 }  // namespace
 
 std::string finer(const Parameter& p, double step) {
-  const std::string least = fmt::format("give it a value of {:.3g}{} or more", 5 * step / p.to_si,
-                                        with_blank(p.unit_text));
+  const bool negative = p.range.lower < 0 && p.range.upper <= 0;
+  const std::string least =
+      fmt::format("give it a value of {:.3g}{} or {}", (negative ? -5 : 5) * step / p.to_si,
+                  with_blank(p.unit_text), negative ? "less" : "more");
   return full(std::max(std::fabs(p.range.lower), std::fabs(p.range.upper)), step)
              ? "narrow its range, or " + least
              : least + ", and a range with that value";

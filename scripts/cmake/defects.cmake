@@ -3,7 +3,7 @@
 #
 # Seeded defects: patches in testbench/<block>/defects.diff. All defects of a block are in one model,
 # all defects of a test's headers in one program. FILE is that of the folder where none is named,
-# DEFECTS are all of it where none are.
+# without DEFECTS all defects of the file are taken.
 # docs/testing.md
 include_guard(GLOBAL)
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
@@ -146,20 +146,17 @@ function(feltgate_defect_program target)
 endfunction()
 
 # feltgate_defect_tests(<test> <program> [FILE f] [DEFECTS names...] [CASES tag]): <test>.<defect> passes when an
-# assertion fails, <test>.none when the same program finds nothing in the copy without a defect. A defect whose second
-# line is "Caught by: CASE[,CASE]" is tried with these cases alone; where each has that line, so is the copy without a
-# defect in a usual run, but for cases tagged [endurance].
+# assertion fails, <test>.none when the same program finds nothing in the copy without a defect. A defect with a line
+# "Caught by: CASE[,CASE]" is tried with these cases alone. If all defects have that line, a usual run tries the copy
+# without a defect with the cases that they name, else with all cases not tagged [endurance].
 function(feltgate_defect_tests test program)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILE;CASES" "DEFECTS")
   feltgate_default_defects()
-  set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>")
+  set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>;${arg_CASES}")
   set(cases "")
   set(all FALSE)
   foreach(name IN LISTS arg_DEFECTS)
-    set(case "${arg_CASES}")
-    if(NOT case)
-      feltgate_defect_lines(case "${arg_FILE}" ${name} "Caught by: ")
-    endif()
+    feltgate_defect_lines(case "${arg_FILE}" ${name} "Caught by: ")
     if(case)
       list(APPEND cases "${case}")
     else()
@@ -176,7 +173,7 @@ function(feltgate_defect_tests test program)
   endif()
   list(JOIN cases "," cases)
   add_test(NAME ${test}.none
-    COMMAND ${CMAKE_COMMAND} "${command};${arg_CASES}" "-DCASES=${cases}" -P "${FELTGATE_EXPECT_QUIET}")
+    COMMAND ${CMAKE_COMMAND} "${command}" "-DCASES=${cases}" -P "${FELTGATE_EXPECT_QUIET}")
   set_tests_properties(${test}.none PROPERTIES LABELS mutation TIMEOUT 3600
     ENVIRONMENT "FELTGATE_LONG=1;FELTGATE_DEFECT=none")
 endfunction()

@@ -25,6 +25,7 @@ function(feltgate_ticks_stand name package)
       list(APPEND patched "${copies}/${file}")
     endforeach()
   endwhile()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
   add_custom_command(OUTPUT ${patched} ${commands}
     DEPENDS ${files} ${FELTGATE_CORE_SOURCES} ${FELTGATE_SEEDING} VERBATIM)
   feltgate_verilate(${name}_rtl feltgate_core "${package};${sources}" -Wno-lint -Wno-style)

@@ -106,6 +106,17 @@ class Tables(Machine):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((out / "explore.html").is_file())
         self.assertLessEqual({c.split()[0] for c in self.log()}, {"dpkg-query", "python3"})
+        self.assertFalse(list(self.folder.rglob("venv-*")))
+
+    def test_an_option_asks_for_its_packages_wherever_it_is(self):
+        self.installed(*BUILD_PACKAGES)
+        for words, package in (
+            (("law", "--gappa", "out", "x.law"), "gappa"),
+            (("law", "x.law", "--gappa=out"), "gappa"),
+            (("host", "--picture=o", "PORT", "watch"), "python3-matplotlib"),
+            (("explore", "--engine=dask", "space.toml"), "python3-distributed"),
+        ):
+            self.assertIn(package, self.start(*words).stderr)
 
     def test_python_is_asked_for_and_nothing_else(self):
         done = self.start("explore", "page", str(ROOT / "vectors/spaces/trade.csv"))
@@ -134,6 +145,16 @@ class Presets(Machine):
         self.assertEqual(self.built("design", "fast"), [["feltgate"]])
         self.assertEqual(self.built("run", "wall", "--design", "paper"), [["feltgate"]])
         self.assertEqual(self.built("run", "wall", "--design", "my/own.toml"), [["feltgate"]])
+        # Programs of their own and scripts have all designs, or none.
+        out = str(self.folder / "out")
+        for words, target in (
+            (("board", "--design", "lever_law", "--hand", "swing"), "feltgate_board"),
+            (("board", "--design", "lever_law", "--rtl"), "feltgate_board_rtl"),
+            (("host", "PORT", "info", "--design", "lever_law"), "feltgate_host"),
+            (("product", "board", "--design", "fast", "-o", out), "feltgate_generate"),
+            (("rates", "wall", "--design", "fast"), "feltgate_lever_law"),
+        ):
+            self.assertEqual(self.built(*words), [[target]])
         # That none has the name is said by any program.
         self.assertEqual(self.built("run", "wall", "--design", "faster"), [["feltgate_run"]])
 

@@ -142,11 +142,13 @@ TEST_CASE("values of a parameter that its step does not keep are told") {
                  Contains("become 0; its step is"));
   CHECK_THAT(warned("1e-6 .. 1000"), !Contains("of the file becomes"));
   CHECK_THAT(warned("0 .. 1000"), !Contains("tiny: of"));
+  CHECK_THAT(warned("0 .. 1e16"), Contains("tiny: 1 of the file becomes 0"));
   CHECK_THAT(warned("0.5 .. 2"), !Contains("tiny"));
   CHECK_THAT(text(verdict(compiled("param tiny = -1 in -1000 .. -1e-6\nout torque = 0.01 Nm * "
                                    "clamp(tiny * position, -1, 1)\n"),
                           {})),
-             Contains("tiny: of -1e+03 .. -1e-06 only values from"));
+             Contains("tiny: of -1e+03 .. -1e-06 only values from -") &&
+                 Contains("those nearer to 0 than -"));
 }
 
 TEST_CASE("words that the host computes are told as parameters are") {
@@ -154,16 +156,20 @@ TEST_CASE("words that the host computes are told as parameters are") {
   // The word of a quotient that reaches to 4e6 has a step of hundreds.
   const std::string quotient =
       " in 0.001 .. 1000\nout torque = 1 mNm * clamp(k / mass * position, -1, 1)\n";
-  CHECK_THAT(
-      warned("param k = 0.1 in 0 .. 4000\nparam mass = 1000" + quotient),
-      Contains("line 3: k * 1/(mass), which the host computes: 9.99985e-05 of the file becomes 0; "
-               "its step is") &&
-          Contains(": narrow the ranges, or give"));
+  CHECK_THAT(warned("param k = 0.1 in 0 .. 4000\nparam mass = 1000" + quotient),
+             Contains("line 3: k * 1/(mass), which the host computes: 9.99985e-05 becomes 0; "
+                      "its step is") &&
+                 Contains(": narrow the ranges, or give"));
   CHECK_THAT(
       warned("param k = 4000 in 0.1 .. 4000\nparam mass = 1" + quotient),
       Contains("line 3: k * 1/(mass), which the host computes: of 0.0001 .. 4e+06 only values "
                "from") &&
           Contains("become 0"));
+  // The word's ends are 0 and 1, all its values 0.
+  CHECK_THAT(
+      warned("param a = 0 in 0 .. 1e-9\nparam b = 1 in 0.5 .. 1\nout torque = 1 Nm * a * b\n"),
+      Contains("a * b, which the host computes: every value of 0 .. 1e-09") &&
+          Contains("becomes 0"));
   CHECK(warned("param k = 1 in 0 .. 40\nparam mass = 1 in 0.5 .. 2\n"
                "out torque = 1 mNm * k / mass * clamp(position, -1, 1)\n")
             .empty());
@@ -183,6 +189,8 @@ TEST_CASE("a step that is larger than a parameter's range is told, with a mend t
   CHECK_THAT(
       said("100 nNm in 90 nNm .. 110 nNm"),
       Contains("no word of k lies in its range: its step is 1.53e+04 nNm; " + mend.substr(2)));
+  CHECK_THAT(said("-1 nNm in -2 nNm .. 0 nNm"),
+             Contains("give it a value of -7.63e+04 nNm or less"));
   CHECK(said("76300 nNm in 0 .. 100000 nNm").empty());
   CHECK_THAT(said("1000001 nNm in 1000000 nNm .. 1000002 nNm"),
              Contains("no word of k lies in its range") &&

@@ -53,6 +53,8 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
   const double last = static_cast<double>(t.words.size()) - 1;
   if (!t.wraps && (first < 0 || end > last)) {
     fail("its index can leave the table");
+    // Where another decision is wrong, the law's index may leave it: both values are the table's.
+    f.error += t.values.width();
     return f;
   }
   if (s.op == EngineOp::lrp) {

@@ -222,9 +222,27 @@ class Bounds {
     return s.op == EngineOp::abs && !(s.x == s.y) && why.x.words.lo < 0 && why.x.words.hi >= 0;
   }
 
+  /// The largest error of each output over the parts of the cell, if this step is wrong, and each
+  /// whose margin there is above that in `margins`.
+  std::vector<double> over_parts(int step, const std::vector<double>& margins) const {
+    std::vector<double> error(law_.outputs.size(), 0);
+    for (const Leaf& l : leaves_) {
+      if (!l.facts.reachable) continue;
+      const CellFacts f = limited(
+          analyse(law_, target_, program_, l.cell, errors_, step, nullptr, false, &margins));
+      for (std::size_t o = 0; f.reachable && o < error.size(); ++o) {
+        error[o] = larger(error[o], f.output_error[o]);
+      }
+    }
+    return error;
+  }
+
   void strips(const Cell& whole, Bound* b) const {
     const CellFacts base = analyse(law_, target_, program_, whole, errors_, -1, &whole_, true);
     if (!base.reachable) return;
+    std::vector<Strip> harmless;
+    // The values of states and events are wrong as well.
+    const bool kept = !law_.states.empty() || !law_.events.empty();
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       if (base.margin[i] <= 0) {
         if (sharp(program_.steps[i], base.reasons[i])) {
@@ -245,19 +263,32 @@ class Bounds {
       if (s.condition >= 0 && law_.nodes[at(s.condition)].op == Op::less) {
         s.unit = law_.nodes[at(law_.nodes[at(s.condition)].arguments[0])].unit;
       }
-      double any = 0;
+      bool any = false;
+      std::vector<double> parts;
       for (std::size_t o = 0; o < base.output_error.size(); ++o) {
         // The significance test uses the unlimited outputs; the jump is the excess over the bound.
-        const double more = swapped.output_error[o] - base.output_error[o];
-        any = larger(any, more);
-        s.jump.push_back(more > 0 ? larger(0.0, most.output_error[o] - b->output[o]) : 0.0);
+        const bool raised = !(swapped.output_error[o] <= base.output_error[o]);
+        // An error of the whole cell that the swap does not raise may hide that of its parts.
+        if (!raised && parts.empty()) parts = over_parts(s.step, base.margin);
+        const double error = raised ? most.output_error[o] : parts[o];
+        const double excess = larger(0.0, error - b->output[o]);
+        s.jump.push_back(excess <= 1e-9 * error ? 0 : excess);  // the rounding of doubles
+        any = any || raised || !(s.jump.back() <= 0);
       }
       for (std::size_t k = 0; k < base.state_error.size(); ++k) {
         s.next.push_back(larger(0.0, swapped.state_error[k] - base.state_error[k]));
       }
-      // The values of states and events are wrong as well.
-      const bool kept = !law_.states.empty() || !law_.events.empty();
-      if (!(any <= 0) || kept) b->strips.push_back(s);
+      (any || kept ? b->strips : harmless).push_back(s);
+    }
+    if (harmless.empty()) return;
+    // One by one they do not matter; they must not do so together either.
+    std::vector<double> margins = base.margin;
+    for (const Strip& s : harmless) margins[at(s.step)] = -1;
+    const std::vector<double> together = over_parts(harmless.front().step, margins);
+    for (std::size_t o = 0; o < together.size(); ++o) {
+      if (together[o] <= b->output[o] * (1 + 1e-9)) continue;
+      b->strips.insert(b->strips.end(), harmless.begin(), harmless.end());
+      return;
     }
   }
 

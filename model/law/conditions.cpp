@@ -58,6 +58,7 @@ void BackEnd::compare(NodeId leaf, int mode) {
   s.y_error = y_error;
   s.condition = leaf;
   s.scale = scale;
+  flag_ = -1;  // the flag is no longer what an earlier condition left there
 }
 
 /// Whether the condition is one comparison, which can be joined to the flag by `or` or `and`.

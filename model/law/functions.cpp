@@ -216,10 +216,9 @@ Value BackEnd::function(NodeId id) {
   const std::string shape =
       fmt::format("{} {} {:.17g} {} {} {:.17g} {:.17g}", static_cast<int>(n.op), n.index, scale,
                   r.low, r.count, range.lo, range.hi);
-  const auto known_fraction = choice_.fractions.find(shape);
-  const int fraction = known_fraction != choice_.fractions.end()
-                           ? known_fraction->second
-                           : choice_.fractions.emplace(shape, value_fraction(r)).first->second;
+  const auto [sampled, is_new] = choice_.fractions.try_emplace(shape);
+  if (is_new) sampled->second = value_fraction(r);
+  const int fraction = sampled->second;
   // A table through points is stored once, like an array: its first reader chooses the scale.
   const std::string memory = fmt::format("points {}", n.index);
   const auto same = memory_scales_.find(memory);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "law/compile.hpp"
@@ -15,7 +16,9 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr std::size_t kMostConstants = 64, kMostWords = EngineMap::parameter_words;
+constexpr std::size_t kMostWords = EngineMap::parameter_words;
+constexpr std::size_t kMostConstants =
+    std::tuple_size_v<decltype(Image::data)> - std::size_t{Image::constant_base};
 
 std::string number(double value) {
   return value < 0 ? fmt::format("{:.17g} neg", -value) : fmt::format("{:.17g}", value);

@@ -57,6 +57,12 @@ const std::map<std::string, Sample> samples = {
      {"out torque = 0.1 Nm * sqrt(0.5 + abs(clamp(position, -1, 1)))"
       " / (1 + clamp(position, 0, 3)^2) * exp(-clamp(position, 0, 2))\n",
       24, 1e-3}},
+    {"a comparison of the condition before is made again after another",
+     {"let a = if position > 0.2 rad then 0.1 Nm else 0 Nm\n"
+      "let b = if velocity <= 1 rad/s or (position > 0.2 rad and tau_hat > 0.1 Nm) then 0.2 Nm "
+      "else 0 Nm\n"
+      "out torque = a + b\n",
+      12, 1e-5}},
     {"a logarithm of what runs, one of a parameter",
      {"param p = 1 in 0.01 .. 3\n"
       "out torque = 0.1 Nm * (log(p) + log(0.5 + clamp(position, 0, 2)))\n",

@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "compiled.hpp"
 #include "law/listing.hpp"
@@ -46,6 +48,40 @@ TEST_CASE("a whole number that is rounded down wrongly is wrong by one") {
   const Compiled c = compiled("out torque = 1 mNm * floor(clamp(tau_hat * 3 / (1 Nm), -20, 20))\n");
   REQUIRE(c.bound.strips.size() == 1);
   CHECK(c.bound.strips[0].jump[0] == Approx(1e-3).epsilon(0.01));
+}
+
+/// The columns of the strips on a line of the law.
+std::vector<int> columns(const std::string& law, int line) {
+  std::vector<int> found;
+  for (const Strip& s : compiled(law).bound.strips) {
+    if (s.place.line == line) found.push_back(s.place.column);
+  }
+  return found;
+}
+
+TEST_CASE("a comparison beside a larger error of the whole cell has its strip") {
+  // Next to (0, 0) the angle errs by more than the choice beside it in max.
+  const std::string law =
+      "out torque = 1 Nm * (0.243 * floor(3.694 * (min(clamp(0.02 s * velocity, -1, 1), "
+      "clamp(position, -1.561, 0.231)) + 0.177)) + max(\n"
+      "atan2(clamp(position - clamp(position, -2.916, 0.263), -1.25, 1.25), "
+      "clamp(position + position / 212.255, -1, 1)),\n"
+      "if 0.251 < position / 117.135 + clamp(0.02 s * velocity, -2, 2) then\n"
+      "clamp(position, -2.718, 2.845) else clamp(0.02 s * velocity, -2, 2)))\n";
+  CHECK(columns(law, 3).size() == 1);
+}
+
+TEST_CASE("an index that a wrong index moves out of its table has its strip") {
+  const std::string law =
+      "param tilt = 10 deg in -30 .. 45 deg\nparam hold = 100 mNm in 0 .. 800 mNm\n"
+      "array list = [1.296, -0.066, -0.204, -0.43, -0.262]\n"
+      "let part = max(list[4], list[2.427 * clamp(0.5 * tau_hat / (1 Nm), 0, 1)]) - "
+      "(if clamp(position, -0.829, 0.189) + 0.683 <= -0.905 then list[4] "
+      "else sum(i in 0 .. 2: list[i] * tilt))\n"
+      "out torque = 0.746 Nm * (list[3.895 * clamp(position / 287.025, 0, 1)] + "
+      "clamp(position, -0.152, 0.118) - 0.358 * floor(3.935 * (clamp(part, -3, 3) + 0.109))) / "
+      "(0.309 + abs(hold / (1 Nm)))\n";
+  CHECK(columns(law, 4).size() == 1);
 }
 
 TEST_CASE("an input is compared with a number in its own words") {

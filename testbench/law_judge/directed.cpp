@@ -230,6 +230,16 @@ void directions(std::vector<Directed>& all) {
   }
 }
 
+/// A comparison that was the flag once, and is needed again after another one.
+void flag_once(std::vector<Directed>& all) {
+  const Node held = number("0.2") < position();
+  const Node again = make(Kind::either, {make(Kind::less_equal, {velocity(), number("1")}),
+                                         make(Kind::both, {held, number("0.1") < tau_hat()})});
+  all.push_back(
+      {"a comparison of the choice before", of({}, choose(held, number("0.1"), number("0")) +
+                                                       choose(again, number("0.2"), number("0")))});
+}
+
 }  // namespace
 
 std::vector<Directed> tight_laws() {
@@ -249,6 +259,7 @@ std::vector<Directed> directed_laws() {
   renamed(all);
   rounded_down(all);
   directions(all);
+  flag_once(all);
   return all;
 }
 

@@ -39,7 +39,8 @@ class Analysis {
         swap_(swap),
         explain_(explain),
         margins_(margins),
-        spans_(spans != nullptr ? *spans : ranges(law, cell)) {}
+        own_spans_(spans != nullptr ? std::vector<Span>() : ranges(law, cell)),
+        spans_(spans != nullptr ? *spans : own_spans_) {}
   CellFacts run();
 
  private:
@@ -78,8 +79,9 @@ class Analysis {
   int swap_;
   bool explain_;
   const std::vector<double>* margins_;
-  Reason why_;  ///< of the current step
-  std::vector<Span> spans_;
+  Reason why_;                         ///< of the current step
+  const std::vector<Span> own_spans_;  ///< empty if the caller gave them
+  const std::vector<Span>& spans_;
   CellFacts facts_;
   int step_ = 0;
   Span flag_{0, 1};

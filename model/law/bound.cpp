@@ -45,6 +45,7 @@ class Bounds {
         program_(program),
         errors_(law.states.size() + law.lines.size(), 0),
         cell_(cell),
+        ranges_(law),
         whole_(spans != nullptr ? *spans : ranges(law, cell)) {}
 
   /// Computes the bound. `one_run`: for one run from the current states.
@@ -96,8 +97,8 @@ class Bounds {
   }
 
  private:
-  CellFacts facts(const Cell& c) const {
-    return limited(analyse(law_, target_, program_, c, errors_));
+  CellFacts facts(const Cell& c) {
+    return limited(analyse(law_, target_, program_, c, errors_, -1, &ranges_.over(c)));
   }
 
   CellFacts whole_facts(const Cell& c) const {
@@ -174,8 +175,8 @@ class Bounds {
       first->hi = middle;
       second->lo = middle;
       const double share = (middle - first->lo) / sides(whole)[s]->width();
-      narrow_by_sums(law_, &a.cell);
-      narrow_by_sums(law_, &b.cell);
+      ranges_.narrow_by_sums(&a.cell);
+      ranges_.narrow_by_sums(&b.cell);
       a.facts = facts(a.cell);
       b.facts = facts(b.cell);
       const double score = std::max(worst(a.facts), worst(b.facts)) +
@@ -197,13 +198,13 @@ class Bounds {
 
   /// For states whose error is not bounded, words in range do not imply a law in range: the law's
   /// own state must be proven to stay in its range.
-  void drifting(Bound* b) const {
+  void drifting(Bound* b) {
     for (std::size_t k = 0; k < law_.states.size(); ++k) {
       const State& s = law_.states[k];
       if (s.phase || b->unproven.size() > 0) continue;
       Span next{1, 0};
       for (const Leaf& l : leaves_) {
-        if (l.facts.reachable) next = hull(next, ranges(law_, l.cell)[at(s.next)]);
+        if (l.facts.reachable) next = hull(next, ranges_.over(l.cell)[at(s.next)]);
       }
       const double slack = 1e-9 * (s.range.upper - s.range.lower);
       if (next.lo < s.range.lower - slack || next.hi > s.range.upper + slack) {
@@ -224,12 +225,12 @@ class Bounds {
 
   /// The largest error of each output over the parts of the cell, if this step is wrong, and each
   /// whose margin there is above that in `margins`.
-  std::vector<double> over_parts(int step, const std::vector<double>& margins) const {
+  std::vector<double> over_parts(int step, const std::vector<double>& margins) {
     std::vector<double> error(law_.outputs.size(), 0);
     for (const Leaf& l : leaves_) {
       if (!l.facts.reachable) continue;
-      const CellFacts f = limited(
-          analyse(law_, target_, program_, l.cell, errors_, step, nullptr, false, &margins));
+      const CellFacts f = limited(analyse(law_, target_, program_, l.cell, errors_, step,
+                                          &ranges_.over(l.cell), false, &margins));
       for (std::size_t o = 0; f.reachable && o < error.size(); ++o) {
         error[o] = larger(error[o], f.output_error[o]);
       }
@@ -237,7 +238,7 @@ class Bounds {
     return error;
   }
 
-  void strips(const Cell& whole, Bound* b) const {
+  void strips(const Cell& whole, Bound* b) {
     const CellFacts base = analyse(law_, target_, program_, whole, errors_, -1, &whole_, true);
     if (!base.reachable) return;
     std::vector<Strip> harmless;
@@ -269,8 +270,9 @@ class Bounds {
         // The significance test uses the unlimited outputs; the jump is the excess over the bound.
         const bool raised = !(swapped.output_error[o] <= base.output_error[o]);
         // An error of the whole cell that the swap does not raise may hide that of its parts.
-        if (!raised && parts.empty()) parts = over_parts(s.step, base.margin);
-        const double error = raised ? most.output_error[o] : parts[o];
+        const bool hides = !raised && !(most.output_error[o] <= b->output[o]);
+        if (hides && parts.empty()) parts = over_parts(s.step, base.margin);
+        const double error = hides ? parts[o] : most.output_error[o];
         const double excess = larger(0.0, error - b->output[o]);
         s.jump.push_back(excess <= 1e-9 * error ? 0 : excess);  // the rounding of doubles
         any = any || raised || !(s.jump.back() <= 0);
@@ -297,6 +299,7 @@ class Bounds {
   const Program& program_;
   std::vector<double> errors_;
   const Cell cell_;
+  RangesOf ranges_;
   std::vector<Span> whole_;
   std::vector<Leaf> leaves_;
   bool bounded_ = true, limits_ = false;

@@ -213,9 +213,8 @@ Value BackEnd::function(NodeId id) {
   r.low = first(scale);
   r.count = count(scale);
   r.limit = 524287;
-  const std::string shape =
-      fmt::format("{} {} {:.17g} {} {} {:.17g} {:.17g}", static_cast<int>(n.op), n.index, scale,
-                  r.low, r.count, range.lo, range.hi);
+  const std::string shape = fmt::format("{} {} {:a} {} {} {:a} {:a}", static_cast<int>(n.op),
+                                        n.index, scale, r.low, r.count, range.lo, range.hi);
   const auto [sampled, is_new] = choice_.fractions.try_emplace(shape);
   if (is_new) sampled->second = value_fraction(r);
   const int fraction = sampled->second;
@@ -227,12 +226,12 @@ Value BackEnd::function(NodeId id) {
                       : chosen_scale(id, 1, fraction, span(id).size());
   if (points) memory_scales_[memory] = r.value_scale;
   if (-std::log2(r.value_scale) > fraction + 0.5) throw Unfit("a table's value has 20 bits", id);
-  const std::string key = fmt::format("{} {} {:.17g} {} {} {:.17g}", static_cast<int>(n.op),
-                                      n.index, scale, r.low, r.count, r.value_scale);
+  const std::string key = fmt::format("{} {} {:a} {} {} {:a}", static_cast<int>(n.op), n.index,
+                                      scale, r.low, r.count, r.value_scale);
   auto found = table_keys_.find(key);
   int index = found == table_keys_.end() ? -1 : found->second;
   if (index < 0) {
-    const std::string full = key + fmt::format(" {:.17g} {:.17g}", range.lo, range.hi);
+    const std::string full = key + fmt::format(" {:a} {:a}", range.lo, range.hi);
     auto known = choice_.made.find(full);
     if (known == choice_.made.end()) {
       TableUse t = make_table(r);

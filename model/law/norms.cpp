@@ -188,14 +188,4 @@ Cell with_sums(const Law& law, Cell cell) {
   return cell;
 }
 
-void narrow_by_sums(const Law& law, Cell* cell) {
-  if (cell->sums.empty()) return;
-  const std::vector<Span> spans = ranges(law, *cell);
-  for (const NodeId id : needed(law)) {
-    const Node& n = law.nodes[at(id)];
-    if (n.op == Op::input) cell->inputs[at(n.index)] = spans[at(id)];
-    if (n.op == Op::state) cell->states[at(n.index)] = spans[at(id)];
-  }
-}
-
 }  // namespace feltgate::law

@@ -4,6 +4,7 @@
 // Documentation: docs/law-compiler.md
 #include "law/ranges.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace feltgate::law {
@@ -102,17 +103,24 @@ class Body {
   Jet argument_;
 };
 
-class Ranges {
- public:
-  Ranges(const Law& law, const Cell& cell) : law_(law), cell_(cell), spans_(law.nodes.size()) {}
+bool same(const Span& a, const Span& b) { return a.lo == b.lo && a.hi == b.hi; }
 
-  std::vector<Span> all() {
-    spans_.assign(law_.nodes.size(), Span{1, 0});
-    const std::vector<NodeId> order = needed(law_);
-    for (const NodeId id : order) spans_[at(id)] = span(id);
-    if (cell_.sums.empty()) return spans_;
-    const std::vector<Span> limits = limits_by_sums(law_, cell_, spans_);
-    for (const NodeId id : order) {
+}  // namespace
+
+class RangesOf::Work {
+ public:
+  explicit Work(const Law& law)
+      : law_(law), order_(needed(law)), spans_(law.nodes.size()), last_(law.nodes.size()) {}
+
+  const std::vector<NodeId>& order() const { return order_; }
+
+  const std::vector<Span>& over(const Cell& cell) {
+    cell_ = &cell;
+    std::fill(spans_.begin(), spans_.end(), Span{1, 0});
+    for (const NodeId id : order_) spans_[at(id)] = span(id);
+    if (cell.sums.empty()) return spans_;
+    const std::vector<Span> limits = limits_by_sums(law_, cell, spans_);
+    for (const NodeId id : order_) {
       // Without a common part no value is in the cell; the analysis finds that by the sum.
       const Span own = span(id), both = both_of(own, limits[at(id)]);
       spans_[at(id)] = both.empty() ? own : both;
@@ -165,21 +173,56 @@ class Ranges {
     return r;
   }
 
+  /// The range of a function, from its last two arguments if one of them comes again: most cells
+  /// differ in what other nodes depend on.
+  template <typename F>
+  Span remembered(NodeId id, const Span& argument, F f) {
+    Remembered& m = last_[at(id)];
+    for (int i = 0; i < 2; ++i) {
+      if (m.known[i] && same(m.argument[i], argument)) return m.result[i];
+    }
+    const int i = m.next;
+    m.next = 1 - i;
+    m.argument[i] = argument;
+    m.result[i] = f();
+    m.known[i] = true;
+    return m.result[i];
+  }
+
   Span span(NodeId id) {
+    switch (node(id).op) {
+      case Op::sine:
+      case Op::cosine:
+      case Op::root:
+      case Op::reciprocal:
+      case Op::exponential:
+      case Op::logarithm:
+      case Op::arctangent:
+      case Op::lookup:
+      case Op::element: {
+        const Span argument = spans_[at(node(id).arguments[0])];
+        return remembered(id, argument, [&] { return computed(id); });
+      }
+      default:
+        return computed(id);
+    }
+  }
+
+  Span computed(NodeId id) {
     const Node& n = node(id);
     const auto arg = [&](int i) { return spans_[at(n.arguments[at(i)])]; };
     switch (n.op) {
       case Op::constant:
         return {n.value, n.value};
       case Op::parameter: {
-        const Span own = cell_.parameters[at(n.index)];
+        const Span own = cell_->parameters[at(n.index)];
         const NodeId derived = law_.parameters[at(n.index)].derived;
         return derived < 0 ? own : both_of(own, spans_[at(derived)]);
       }
       case Op::input:
-        return n.index < 0 ? whole_line() : cell_.inputs[at(n.index)];  // < 0: a table's variable
+        return n.index < 0 ? whole_line() : cell_->inputs[at(n.index)];  // < 0: a table's variable
       case Op::state:
-        return cell_.states[at(n.index)];
+        return cell_->states[at(n.index)];
       case Op::add: {
         Span r;
         const Span sum = arg(0) + arg(1);
@@ -193,7 +236,7 @@ class Ranges {
       }
       case Op::multiply:
         return n.arguments[0] == n.arguments[1] ? square(arg(0))
-                                                : product_range(law_, cell_, spans_, n);
+                                                : product_range(law_, *cell_, spans_, n);
       case Op::negate:
         return -arg(0);
       case Op::absolute:
@@ -243,12 +286,36 @@ class Ranges {
     return whole_line();
   }
 
+  struct Remembered {
+    Span argument[2], result[2];
+    bool known[2] = {false, false};
+    int next = 0;
+  };
+
   const Law& law_;
-  const Cell& cell_;
+  const std::vector<NodeId> order_;
+  const Cell* cell_ = nullptr;
   std::vector<Span> spans_;
+  std::vector<Remembered> last_;
 };
 
-}  // namespace
+RangesOf::RangesOf(const Law& law) : law_(law) {}
+RangesOf::~RangesOf() = default;
+
+const std::vector<Span>& RangesOf::over(const Cell& cell) {
+  if (!work_) work_ = std::make_unique<Work>(law_);
+  return work_->over(cell);
+}
+
+void RangesOf::narrow_by_sums(Cell* cell) {
+  if (cell->sums.empty()) return;
+  const std::vector<Span>& spans = over(*cell);
+  for (const NodeId id : work_->order()) {
+    const Node& n = law_.nodes[at(id)];
+    if (n.op == Op::input) cell->inputs[at(n.index)] = spans[at(id)];
+    if (n.op == Op::state) cell->states[at(n.index)] = spans[at(id)];
+  }
+}
 
 void narrow_difference(const Node& n, const Requirement& r, double* lower, double* upper) {
   if (n.op != Op::subtract) return;
@@ -284,7 +351,7 @@ Cell whole_cell(const Law& law, const Target& target) {
   return cell;
 }
 
-std::vector<Span> ranges(const Law& law, const Cell& cell) { return Ranges(law, cell).all(); }
+std::vector<Span> ranges(const Law& law, const Cell& cell) { return RangesOf(law).over(cell); }
 
 namespace {
 

@@ -5,6 +5,7 @@
 // and states. Documentation: docs/law-compiler.md
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -45,12 +46,28 @@ inline bool has_pieces(Op op) {
 /// in bodies of tables have an empty range.
 std::vector<Span> ranges(const Law& law, const Cell& cell);
 
+/// ranges() of one law over many cells: less work for each. The law must not change meanwhile.
+class RangesOf {
+ public:
+  explicit RangesOf(const Law& law);
+  ~RangesOf();
+  RangesOf(const RangesOf&) = delete;
+  RangesOf& operator=(const RangesOf&) = delete;
+  /// The ranges over the cell, valid until the next call.
+  const std::vector<Span>& over(const Cell& cell);
+  /// Narrows the cell's inputs and states to what its sums allow.
+  void narrow_by_sums(Cell* cell);
+
+ private:
+  class Work;
+  const Law& law_;
+  std::unique_ptr<Work> work_;  ///< made with the first cell
+};
+
 /// The sums of squares or amounts that a reciprocal is of, e.g. x^2 + y^2 of 1 / sqrt(x^2 + y^2).
 std::vector<NodeId> sums_of(const Law& law);
 /// The cell with these sums, over their whole ranges.
 Cell with_sums(const Law& law, Cell cell);
-/// Narrows the cell's inputs and states to what its sums allow.
-void narrow_by_sums(const Law& law, Cell* cell);
 
 /// What the cell's sums, and Law::known, say about every node's range. `spans`: the ranges without.
 std::vector<Span> limits_by_sums(const Law& law, const Cell& cell, const std::vector<Span>& spans);

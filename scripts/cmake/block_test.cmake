@@ -45,6 +45,17 @@ if(NOT TARGET feltgate_catch_main)
     PROPERTIES SKIP_PRECOMPILE_HEADERS ON)  # it says what Catch2's header is to be
 endif()
 
+if(FELTGATE_RTL AND NOT TARGET feltgate_lock_step)
+  # The headers of every block's test, read once.
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/lock_step.cpp" CONTENT "#include \"lock_step.hpp\"\n")
+  add_library(feltgate_lock_step OBJECT "${PROJECT_BINARY_DIR}/lock_step.cpp")
+  target_compile_options(feltgate_lock_step PRIVATE ${FELTGATE_WARNINGS} -O2)
+  target_include_directories(feltgate_lock_step PRIVATE "${FELTGATE_ROOT}/model")
+  target_link_libraries(feltgate_lock_step PRIVATE feltgate_catch_main feltgate_verilated)
+  target_precompile_headers(feltgate_lock_step PRIVATE
+    "${FELTGATE_ROOT}/testbench/common/catch.hpp" "${FELTGATE_ROOT}/testbench/common/lock_step.hpp")
+endif()
+
 # feltgate_rounding_package(<variable> <package> <mode>): the package with another constant ROUNDING.
 function(feltgate_rounding_package variable package mode)
   set(changed "${CMAKE_CURRENT_BINARY_DIR}/rounding_${mode}/feltgate_pkg.sv")
@@ -101,7 +112,7 @@ function(feltgate_block_test block)
     "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp" ${arg_TESTS})
   target_compile_definitions(${arg_NAME}_object PRIVATE ${arg_DEFINES})
   target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O2)
-  target_precompile_headers(${arg_NAME}_object REUSE_FROM feltgate_catch_main)
+  target_precompile_headers(${arg_NAME}_object REUSE_FROM feltgate_lock_step)
   feltgate_unity(${arg_NAME}_object)
   target_link_libraries(${arg_NAME}_object PUBLIC feltgate_catch_main ${arg_LIBRARIES})
   target_link_libraries(${arg_NAME}_object PRIVATE ${arg_NAME}_rtl)

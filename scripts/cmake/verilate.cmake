@@ -30,6 +30,13 @@ foreach(kind "" _coverage)
   target_link_libraries(${runtime} PUBLIC ZLIB::ZLIB Threads::Threads
     $<$<BOOL:${FELTGATE_ATOMIC_LIBRARY}>:${FELTGATE_ATOMIC_LIBRARY}>)
 endforeach()
+# Its headers take the compiler a second, most of the time of a small block: with hundreds of blocks they are read once.
+if(FELTGATE_TESTS)
+  # These two define macros before they include the headers.
+  set_source_files_properties(${VERILATOR_ROOT}/include/verilated.cpp
+    ${VERILATOR_ROOT}/include/verilated_fst_c.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  target_precompile_headers(feltgate_verilated PRIVATE <verilated.h> <verilated_fst_c.h>)
+endif()
 target_sources(feltgate_verilated_coverage PRIVATE ${VERILATOR_ROOT}/include/verilated_cov.cpp)
 set_target_properties(feltgate_verilated_coverage PROPERTIES EXCLUDE_FROM_ALL TRUE)
 
@@ -95,4 +102,7 @@ function(feltgate_verilate target top sources)
   target_include_directories(${target} SYSTEM PUBLIC "${directory}")
   target_compile_options(${target} PRIVATE -w ${optimised})
   target_link_libraries(${target} PUBLIC ${runtime})
+  if(FELTGATE_TESTS AND runtime STREQUAL "feltgate_verilated" AND NOT arg_FASTEST)
+    target_precompile_headers(${target} REUSE_FROM feltgate_verilated)
+  endif()
 endfunction()

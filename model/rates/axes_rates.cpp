@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "axes_loop/axes_run.hpp"
+#include "engines/axes_cores.hpp"
 #include "law_loop/scene_law.hpp"
 #include "rates/device_joints.hpp"
 #include "rates/sweep.hpp"

@@ -13,6 +13,7 @@
 
 #include "axes_loop/axes_run.hpp"
 #include "config/toml_reader.hpp"
+#include "engines/axes_cores.hpp"
 #include "files/output_file.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/scenario_check.hpp"

@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "engines/axes_cores.hpp"
 #include "files/output_file.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/scenario_check.hpp"

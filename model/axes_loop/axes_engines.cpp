@@ -8,18 +8,16 @@
 
 #include <stdexcept>
 
-#include "loop/engine_choice.hpp"
-
 namespace feltgate {
 
-AxesEngines choose_axes_engines(const std::string& engines) {
+EngineChoice choose_axes_engines(const std::string& engines) {
   const EngineChoice all = choose_engines(engines);
   if (all.rider_drives) {
     throw std::invalid_argument("--engine " + engines +
                                 ": the motors of several axes are driven by the core; add twin or "
                                 "rtl");
   }
-  AxesEngines c{all.lead == "twin" ? "twin" : "lockstep", {}, {}};
+  EngineChoice c{all.lead == "twin" ? "twin" : "lockstep", {}, false};
   for (const std::string& rider : all.riders) {
     if (rider == "float" && engines == "all") continue;
     if (rider == "float") {
@@ -27,7 +25,6 @@ AxesEngines choose_axes_engines(const std::string& engines) {
           "--engine float: beside several axes runs the law in double and quad; choose these");
     }
     c.riders.push_back(rider);
-    if (c.reference != "quad") c.reference = rider;
   }
   return c;
 }

@@ -8,22 +8,15 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "engines/axes_cores.hpp"
+#include "loop/engine_choice.hpp"
 
 namespace feltgate {
 
-/// The engines of a run: cores that lead, and the law in real arithmetic.
-struct AxesEngines {
-  std::string lead;                 ///< "twin" or "lockstep"
-  std::vector<std::string> riders;  ///< the law in "double" or "quad"
-  std::string reference;            ///< the most exact rider; empty: none
-};
-
 /// Like choose_engines(), but rtl includes its twin, and "all" has no float.
 /// Errors: std::invalid_argument that names the choices.
-AxesEngines choose_axes_engines(const std::string& engines);
+EngineChoice choose_axes_engines(const std::string& engines);
 
 /// Makes the cores of a design, of the kind `lead`, for a device with `axes` axes.
 /// Errors: std::invalid_argument for a design that does not exist or has another number of axes.

@@ -74,10 +74,7 @@ Work slow_small_signals(const std::string& design, double seconds) {
   Work work;
   work.name = "slow_small";
   work.inputs.clocks = clock(seconds);
-  const auto control = [&d](bool arm, int scene) {
-    return d.control_reset | 1u << d.control.host | (arm ? 1u : 0u) << d.control.arm |
-           static_cast<std::uint32_t>(scene) << d.control.scene;
-  };
+  const auto control = [&d](bool arm, int scene) { return control_word(d, scene, 0, arm); };
   const int damper = d.scene_number("damper"), setpoint = d.scene_number("setpoint");
   work.inputs.writes.push_back({0, d.find("self_test_pulse")->address, 0, 0});
   work.inputs.writes.push_back({0, d.control_address, control(true, damper), 0});

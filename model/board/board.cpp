@@ -28,15 +28,6 @@ plant::HandPhase phase(plant::HandPhase::Kind kind) {
   return p;
 }
 
-/// The part of a scenario from which the steps of the plant follow.
-Scenario scenario_of(const plant::Parameters& plant, const plant::Hand& hand) {
-  Scenario s;
-  s.name = "board";
-  s.hand = hand;
-  s.effects = plant.effects;
-  return s;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> BadLine::through(const std::vector<std::uint8_t>& bytes) {
@@ -110,10 +101,9 @@ Board::Board(std::unique_ptr<Core> core, const plant::Parameters& parameters,
 
 StepPlan Board::plan(const plant::Parameters& parameters, const plant::Hand& hand,
                      const DesignInfo& design) {
-  const Scenario s = scenario_of(parameters, hand);
-  const double clock_hz = static_cast<double>(design.clock_hz);
-  check_step(s, parameters, clock_hz);
-  return {s.step_clocks, longest_step_clocks(s, parameters, clock_hz), design.pwm_period};
+  const Scenario s = scene_of(parameters, hand);
+  check_step(s, parameters, static_cast<double>(design.clock_hz));
+  return {s, parameters, design};
 }
 
 void Board::receive(const std::vector<std::uint8_t>& bytes) {

@@ -92,7 +92,7 @@ std::unique_ptr<RealChain> make_real_chain(const std::string& design, const std:
   return makers_of(design).chain(kind);
 }
 
-void Engine::trace(const std::string&, Clock, Clock) {
+void AnyEngine::trace(const std::string&, Clock, Clock) {
   throw std::invalid_argument(
       fmt::format("--fst: the engine {} has no waveform; choose --engine rtl or all", name()));
 }
@@ -103,6 +103,13 @@ std::int64_t quantise_parameter(const ParameterInfo& info, double value) {
   throw std::invalid_argument(
       fmt::format("{} = {} {} does not fit its register; choose a value from {} to below {}",
                   info.name, value, info.unit, range.low, range.high + range.step));
+}
+
+std::uint32_t control_word(const DesignInfo& design, int scene, int mode, bool arm) {
+  const ControlBits& bits = design.control;
+  return design.control_reset | 1u << bits.host | (arm ? 1u : 0u) << bits.arm |
+         static_cast<std::uint32_t>(scene) << bits.scene |
+         static_cast<std::uint32_t>(mode) << bits.mode;
 }
 
 }  // namespace feltgate

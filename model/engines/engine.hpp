@@ -5,6 +5,7 @@
 // Documentation: docs/architecture.md
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,6 +18,8 @@
 #include "feltgate/parameter.hpp"
 
 namespace feltgate {
+
+constexpr std::size_t most_axes = 3;
 
 /// The integers of one tick, as shown by the core when its snapshot is valid.
 struct Snapshot {
@@ -82,26 +85,48 @@ struct GateClocks {
   std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
 };
 
-/// A core of one design, with encoder pins, panel and register writes as inputs.
-class Engine {
+/// What every engine has, whatever its number of axes.
+class AnyEngine {
  public:
-  virtual ~Engine() = default;
+  virtual ~AnyEngine() = default;
   virtual const char* name() const = 0;
   virtual const DesignInfo& design() const = 0;
+  virtual int axes() const { return 1; }
 
+  /// Queues a register write; one is executed per tick, in order. Axis n begins at n * axes_stride.
+  virtual void write(int address, std::uint32_t data) = 0;
+  /// Sets the stop pin from now() on.
+  virtual void stop(bool pressed) = 0;
+  /// Clocks since reset.
+  virtual Clock now() const = 0;
+
+  /// Writes a waveform of the clocks [from, to] of the next run (to < 0: to its end); call it
+  /// before reset(). Errors: std::invalid_argument for an engine without RTL.
+  virtual void trace(const std::string& path, Clock from, Clock to);
+
+  /// Lock-step engines: number of clocks in which an output differed, and the first difference.
+  virtual std::int64_t mismatches() const { return 0; }
+  virtual std::string first_mismatch() const { return {}; }
+  virtual Clock first_mismatch_clock() const { return 0; }
+};
+
+/// A core of one design, with encoder pins, panel and register writes as inputs.
+class Engine : public AnyEngine {
+ public:
   /// Power-up and reset; `seed` fills the state that reset does not define.
   virtual void reset(std::uint64_t seed, EncoderPins pins) = 0;
   /// Sets the panel's inputs from now() on.
   virtual void set_panel(const Panel& panel) = 0;
-  /// Queues a register write; one is executed per tick, in order.
-  virtual void write(int address, std::uint32_t data) = 0;
+  void stop(bool pressed) override {
+    Panel panel;
+    panel.stop = pressed;
+    set_panel(panel);
+  }
 
   /// Advances `clocks` clocks from now(). Pin events are in order, at absolute clocks; an event
   /// after the end is kept for the next call.
   virtual void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) = 0;
 
-  /// Clocks since reset.
-  virtual Clock now() const = 0;
   /// Snapshots that became valid during the last advance().
   virtual const std::vector<Snapshot>& snapshots() const = 0;
   virtual GateClocks gates() const = 0;
@@ -115,20 +140,11 @@ class Engine {
   /// Duty in force in the bridge, in clocks of the PWM period, and whether the gates are enabled.
   virtual int duty() const = 0;
   virtual bool gates_enabled() const = 0;
-
-  /// Writes a waveform of the clocks [from, to] of the next run (to < 0: to its end); call it
-  /// before reset(). Errors: std::invalid_argument for an engine without RTL.
-  virtual void trace(const std::string& path, Clock from, Clock to);
-
   /// Lock-step engines: time spent in one half ("rtl" or "twin"), s.
   virtual double busy_s(const std::string& half) const {
     (void)half;
     return 0;
   }
-  /// Lock-step engines: number of clocks in which an output differed, and the first difference.
-  virtual std::int64_t mismatches() const { return 0; }
-  virtual std::string first_mismatch() const { return {}; }
-  virtual Clock first_mismatch_clock() const { return 0; }
 };
 
 /// Makes an engine of a built-in design. Kinds: "twin"; "rtl" and "lockstep" if feltgate_rtl is
@@ -167,5 +183,7 @@ std::unique_ptr<Engine> make_rtl_engine(const std::string& design, const std::st
 /// Integer of a parameter for a value in its unit, rounded to nearest. Errors:
 /// std::invalid_argument with the range if it does not fit.
 std::int64_t quantise_parameter(const ParameterInfo& info, double value);
+/// The control word of a host that has control, with this scene, mode and request to arm.
+std::uint32_t control_word(const DesignInfo& design, int scene, int mode, bool arm);
 
 }  // namespace feltgate

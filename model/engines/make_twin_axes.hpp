@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "axes_cores.hpp"
 #include "feltgate/feltgate_axes.hpp"
@@ -24,20 +25,18 @@ class TwinAxes : public AxesCores {
 
   TwinAxes() : AxesCores(design_info<D>(), N) {}
 
-  void trace(const std::string& /*path*/, Clock /*from*/, Clock /*to*/) override {
-    throw std::invalid_argument(
-        "--fst: the engine twin has no waveform; choose --engine rtl or all");
-  }
+  const char* name() const override { return beside() ? "lockstep" : "twin"; }
 
   void reset(std::uint64_t seed, const Pins& pins) override {
-    pins_ = pins;
-    for (auto& edges : edges_) edges.clear();
     writes_.clear();
     now_ = mismatches_ = 0;
     first_mismatch_.clear();
     in_ = {};
     twin_ = std::make_unique<Twin>();
-    for (std::size_t n = 0; n < N; ++n) in_.axis[n].encoder = pins_[n];
+    for (std::size_t n = 0; n < N; ++n) {
+      events_[n].reset(pins[n]);
+      in_.axis[n].encoder = pins[n];
+    }
     reset_beside(seed);
   }
 
@@ -47,12 +46,8 @@ class TwinAxes : public AxesCores {
       in_.stop = stop_;
       Clock until = end;
       for (std::size_t n = 0; n < N; ++n) {
-        auto& edges = edges_[n];
-        for (; !edges.empty() && edges.front().clock <= now_; edges.pop_front()) {
-          pins_[n] = edges.front().pins;
-        }
-        in_.axis[n].encoder = pins_[n];
-        if (!edges.empty()) until = std::min(until, edges.front().clock);
+        in_.axis[n].encoder = events_[n].at(now_);
+        until = std::min(until, events_[n].next(end));
       }
       bool writes = false;
       if (!writes_.empty()) {
@@ -88,10 +83,8 @@ class TwinAxes : public AxesCores {
 
  private:
   void issue_write() {
-    in_.reg_addr = writes_.front().first;
-    in_.reg_wdata = writes_.front().second;
+    std::tie(in_.reg_addr, in_.reg_wdata) = writes_.pop();
     in_.reg_write = true;
-    writes_.pop_front();
     ++writes_done_;
   }
 

@@ -23,7 +23,7 @@ template <class N>
 class RealLaw : public LawRider {
  public:
   RealLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
-      : law_(law), count_rad_(design.count_rad), changes_(changes), evaluation_(law.law) {}
+      : law_(law), design_(design), changes_(changes), evaluation_(law.law) {}
   void change() override {
     for (const LawChange& c : changes_.at(next_++)) {
       evaluation_.set_parameter(c.parameter, rounded<N>(law_, c));
@@ -32,21 +32,38 @@ class RealLaw : public LawRider {
 
  private:
   void reset() override { evaluation_.reset(); }
-  double run(const Snapshot& s, const RealChain& chain) override {
-    const ChainOut& o = chain.out();
+  Torques run(const Snapshot* axes, const RealChain* chain) override {
     inputs_.clear();
     for (const law::Input& in : law_.law.inputs) {
-      inputs_.push_back(in.source == law::Source::position
-                            ? static_cast<N>(s.position) * static_cast<N>(count_rad_)
-                        : in.source == law::Source::velocity ? static_cast<N>(o.velocity_rad_s)
-                                                             : static_cast<N>(o.tau_hat_nm));
+      inputs_.push_back(value_of(in.source, axes[in.axis], chain));
     }
     evaluation_.run(inputs_);
-    return static_cast<double>(evaluation_.outputs().front());
+    Torques torques{};
+    for (std::size_t n = 0; n < law_.law.outputs.size(); ++n) {
+      torques[static_cast<std::size_t>(law_.law.outputs[n].axis)] =
+          static_cast<double>(evaluation_.outputs()[n]);
+    }
+    return torques;
+  }
+  N value_of(law::Source source, const Snapshot& s, const RealChain* chain) const {
+    const auto scaled = [](std::int64_t raw, Format f) {
+      return std::ldexp(static_cast<double>(raw), -f.fraction);
+    };
+    switch (source) {
+      case law::Source::position:
+        return static_cast<N>(s.position) * static_cast<N>(design_.count_rad);
+      case law::Source::velocity:
+        return static_cast<N>(chain != nullptr ? chain->out().velocity_rad_s
+                                               : scaled(s.velocity, design_.velocity));
+      case law::Source::tau_hat:
+        break;
+    }
+    return static_cast<N>(chain != nullptr ? chain->out().tau_hat_nm
+                                           : scaled(s.tau_hat, design_.torque));
   }
 
   const law::Compiled& law_;
-  double count_rad_;
+  const DesignInfo& design_;
   const LawChanges& changes_;
   std::size_t next_ = 0;
   law::Evaluation<N> evaluation_;
@@ -93,7 +110,8 @@ law::MachineInputs inputs_of(const Snapshot& s, std::int64_t velocity, std::int3
           0,          static_cast<std::int32_t>(s.tick)};
 }
 
-/// Runs the image: as compiled C++ if the law is a shipped one, otherwise in the interpreter.
+/// Runs the image of a law of one axis: as compiled C++ if the law is a shipped one, otherwise in
+/// the interpreter.
 class FixedLaw : public LawRider {
  public:
   FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
@@ -104,10 +122,11 @@ class FixedLaw : public LawRider {
 
  private:
   void reset() override { runner_->enter(); }
-  double run(const Snapshot& s, const RealChain& chain) override {
-    const ChainRaw& raw = *chain.raw();
-    const std::int32_t word = runner_->run(inputs_of(s, raw.velocity, raw.tau_hat)).outputs[0];
-    return std::ldexp(static_cast<double>(saturate(torque_, word)), -torque_.fraction);
+  Torques run(const Snapshot* axes, const RealChain* chain) override {
+    const ChainRaw& raw = *chain->raw();
+    const std::int32_t word =
+        runner_->run(inputs_of(axes[0], raw.velocity, raw.tau_hat)).outputs[0];
+    return {std::ldexp(static_cast<double>(saturate(torque_, word)), -torque_.fraction)};
   }
   static std::int64_t saturate(Format f, std::int32_t word) {
     const std::int64_t end = std::int64_t{1} << (f.width() - 1);

@@ -40,9 +40,16 @@ class CompiledSceneLaw : public SceneLaw {
   double bound_nm() const override {
     const auto position = [](const law::Input& in) { return in.source == law::Source::position; };
     const auto& inputs = law_.law.inputs;
-    const bool bounded = std::all_of(inputs.begin(), inputs.end(), position) &&
-                         law_.bound.states_bounded && law_.bound.strips.empty();
-    return bounded ? law_.bound.output.front() : std::numeric_limits<double>::infinity();
+    if (std::all_of(inputs.begin(), inputs.end(), position)) return bound_on_words_nm(0);
+    return std::numeric_limits<double>::infinity();
+  }
+  double bound_on_words_nm(std::size_t axis) const override {
+    const auto& outputs = law_.law.outputs;
+    for (std::size_t n = 0; n < outputs.size(); ++n) {
+      if (!law_.bound.states_bounded || !law_.bound.strips.empty()) break;
+      if (outputs[n].axis == static_cast<int>(axis)) return law_.bound.output[n];
+    }
+    return std::numeric_limits<double>::infinity();
   }
   Writes load() const override { return of_port(law::load_into_zeros(law_.image)); }
   bool has(const std::string& parameter) const override {
@@ -75,6 +82,9 @@ class CompiledSceneLaw : public SceneLaw {
     changes_.emplace_back();
     for (std::size_t n = 0; n < law_.law.parameters.size(); ++n) {
       if (values.count(law_.law.parameters[n].name) != 0) note(n);
+    }
+    if (told_value_) {
+      for (const auto& [name, value] : values) told_value_(name, parameters_.value(name));
     }
     return of_port(words);
   }
@@ -131,6 +141,30 @@ std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignIn
 }
 std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design) {
   return std::make_unique<CompiledSceneLaw>(std::move(law), design);
+}
+
+std::unique_ptr<SceneLaw> make_axes_law(const std::string& path, const DesignInfo& design,
+                                        int axes) {
+  return make_axes_law(law::compile_file(path, law::target_of(design)), path, design, axes);
+}
+std::unique_ptr<SceneLaw> make_axes_law(law::Compiled law, const std::string& path,
+                                        const DesignInfo& design, int axes) {
+  unsigned given = 0;
+  for (const law::Output& o : law.law.outputs) {
+    if (o.axis >= axes) {
+      throw std::invalid_argument(fmt::format(
+          "{}:{}: a torque for axis {}, and the device has {} axes; take a device with more", path,
+          o.place.line, o.axis, axes));
+    }
+    given |= 1U << o.axis;
+  }
+  if (given != (1U << axes) - 1U) {
+    throw std::invalid_argument(fmt::format(
+        "{}: not all of the device's {} axes get a torque; write out torque[{}] = 0 for "
+        "one that shall be free",
+        path, axes, axes - 1));
+  }
+  return make_scene_law(std::move(law), design);
 }
 
 }  // namespace feltgate

@@ -21,6 +21,13 @@ namespace feltgate {
 std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design);
 /// The same for a law of one axis that is already compiled for the design.
 std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design);
+/// The law of a file, for a design with `axes` axes. Errors: law::LawError, law::Refused;
+/// std::invalid_argument if it does not have exactly these axes.
+std::unique_ptr<SceneLaw> make_axes_law(const std::string& path, const DesignInfo& design,
+                                        int axes);
+/// The same for a law that is compiled for the design; `path` is used in messages.
+std::unique_ptr<SceneLaw> make_axes_law(law::Compiled law, const std::string& path,
+                                        const DesignInfo& design, int axes);
 
 /// A host's change of a parameter: its number, and the new value in SI.
 struct LawChange {

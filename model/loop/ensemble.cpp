@@ -18,13 +18,13 @@ namespace feltgate {
 
 Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
                    EncoderPins pins, const Waveform& waveform)
-    : choice_(choice),
-      lead_(make_engine(design, choice.lead)),
-      design_(&lead_->design()),
-      host_(design_->control_reset) {
+    : RunHost(make_engine(design, choice.lead)),
+      choice_(choice),
+      lead_(static_cast<Engine*>(&engine())),
+      host_(RunHost::design().control_reset) {
   const auto last_bit = [](Format f) { return std::ldexp(1.0, -f.fraction); };
-  unit_ = {last_bit(design_->velocity), last_bit(design_->torque), last_bit(design_->current),
-           last_bit(design_->voltage)};
+  const DesignInfo& d = RunHost::design();
+  unit_ = {last_bit(d.velocity), last_bit(d.torque), last_bit(d.current), last_bit(d.voltage)};
   if (!waveform.path.empty()) lead_->trace(waveform.path, waveform.from, waveform.to);
   lead_->reset(seed, pins);
   for (const std::string& kind : choice.riders) {
@@ -40,55 +40,18 @@ Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::u
   lead_figures_.compared = reference_ != nullptr && !choice.rider_drives;
 }
 
-void Ensemble::write(HostWrite w) {
-  w.clock = lead_->now();
-  if (log_ != nullptr) log_->push_back(w);
-  lead_->write(w.address, w.data);
+void Ensemble::write(const HostWrite& w) {
   pending_.push_back(w);
+  pending_.back().clock = lead_->now();
+  if (log_ != nullptr) log_->push_back(pending_.back());
+  RunHost::write(w);
 }
 
 void Ensemble::run_law(SceneLaw& law) {
   require_runs_of_law(choice_);
-  law_ = &law;
-  for (const auto& [address, data] : law.load()) write({0, address, data, 0});
+  load(law);
   for (Rider& r : riders_) r.law = law.rider(r.figures.name);
 }
-
-void Ensemble::set_parameters(const std::map<std::string, double>& values) {
-  std::map<std::string, double> of_law;
-  for (const auto& [name, value] : values) {
-    if (law_ != nullptr && law_->has(name)) {
-      of_law[name] = value;
-      continue;
-    }
-    const ParameterInfo* info = design().find(name);
-    if (info == nullptr) {
-      throw std::invalid_argument(design().unknown(name));
-    }
-    write({0, info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value)), value});
-  }
-  if (!of_law.empty()) feed_law(of_law);
-}
-
-void Ensemble::feed_law(const std::map<std::string, double>& values) {
-  for (const auto& [address, data] : law_->set(values)) write({0, address, data, 0});
-}
-
-void Ensemble::skip_self_test() {
-  if (design().find("self_test_pulse")->raw != 0) set_parameter("self_test_pulse", 0);
-}
-
-void Ensemble::set_control(int scene, int mode, bool arm) {
-  const ControlBits& bits = design().control;
-  std::uint32_t word = design().control_reset;
-  word |= 1u << bits.host;
-  if (arm) word |= 1u << bits.arm;
-  word |= static_cast<std::uint32_t>(scene) << bits.scene;
-  word |= static_cast<std::uint32_t>(mode) << bits.mode;
-  write({0, design().control_address, word, 0});
-}
-
-void Ensemble::command(std::uint32_t bits) { write({0, design().command_address, bits, 0}); }
 
 void Ensemble::ride(const Snapshot& s) {
   // Writes that the core has executed by now also apply to the riders' tick.
@@ -100,13 +63,13 @@ void Ensemble::ride(const Snapshot& s) {
     if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   }
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
-  const bool restart = host_.restart(s.armed, s.scene) || (renders_law(s) && s.law_restart);
+  const bool restart = host_.restart(s.armed, s.scene) || (s.law_restart && renders_law(s));
   if (riders_.empty() && passenger_ == nullptr && watch_ == nullptr) return;
   const ChainIn in{s.position, s.travel,           s.armed, s.scene, host_.mode(),
                    restart,    relief_of(s.limits)};
   watch_velocity(s.travel);
   if (passenger_ != nullptr) passenger_->tick(in);
-  const bool in_law = renders_law(s) && s.armed;
+  const bool in_law = RunHost::in_law(s);
   if (in_law && !law_entered_) {
     for (Rider& r : riders_) r.law->enter();
     if (watch_ != nullptr) watch_->enter();
@@ -114,7 +77,10 @@ void Ensemble::ride(const Snapshot& s) {
   law_entered_ = in_law;
   for (Rider& r : riders_) {
     r.watch.time([&] {
-      if (r.law != nullptr) r.chain->program(r.law->torque_nm(s));
+      if (r.law != nullptr) {
+        const LawRider::Torques* torque_nm = r.law->in_force(s);
+        r.chain->program(torque_nm == nullptr ? 0 : torque_nm->front());
+      }
       r.chain->tick(in);
       if (r.law != nullptr) follow_law(r, s);
     });
@@ -139,7 +105,7 @@ void Ensemble::ride(const Snapshot& s) {
 
 void Ensemble::follow_law(Rider& r, const Snapshot& s) const {
   for (std::int64_t n = law_changes_; n < s.law_changes; ++n) r.law->change();
-  r.law->follow(s, *r.chain);
+  r.law->follow(&s, r.chain.get());
 }
 
 EngineSignals Ensemble::of_core(const Snapshot& s) const {

@@ -16,7 +16,7 @@
 #include "engines/sampled_watch.hpp"
 #include "feltgate/while_armed.hpp"
 #include "loop/loop.hpp"
-#include "loop/scene_law.hpp"
+#include "loop/run_host.hpp"
 
 namespace feltgate {
 
@@ -27,35 +27,18 @@ struct Waveform {
 };
 
 /// A leading core, and chains in real arithmetic on its samples.
-class Ensemble {
+class Ensemble final : public RunHost {
  public:
   Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
            EncoderPins pins, const Waveform& waveform);
 
   Engine& lead() { return *lead_; }
   const Engine& lead_const() const { return *lead_; }
-  const DesignInfo& design() const { return *design_; }
 
-  /// Loads a law into the engine of laws and lets the riders run it. Call it once, before the first
-  /// advance(). The law must outlive this object.
+  /// Loads a law and lets the riders run it: RunHost::load().
   void run_law(SceneLaw& law);
   /// Sets an observer of the law that run_law() has loaded; nullptr: none.
   void watch_law(std::unique_ptr<LawWatch> watch) { watch_ = std::move(watch); }
-  /// Sets a parameter of the law or the design, in its unit, for every engine, with the same tick
-  /// in all. Errors: std::invalid_argument for an unknown name or a value that does not fit.
-  void set_parameter(const std::string& name, double value) { set_parameters({{name, value}}); }
-  /// The same for several; those of the law come into force together.
-  void set_parameters(const std::map<std::string, double>& values);
-  /// Sets parameters of the law only, with one commit; empty: commits the present values again.
-  void feed_law(const std::map<std::string, double>& values);
-  /// Switches off the self-test of a design that has it on from power-up, so that the scene begins
-  /// with arming, as recordings and scenes expect. The parameter `self_test_pulse` switches it on
-  /// again.
-  void skip_self_test();
-  /// Queues a control word: the host has control, with this scene, mode and request to arm.
-  void set_control(int scene, int mode, bool arm);
-  /// Queues a command word.
-  void command(std::uint32_t bits);
   /// Whether register writes wait for their ticks.
   bool writes_wait() const { return !pending_.empty(); }
   /// Appends every later write to `log`.
@@ -68,7 +51,6 @@ class Ensemble {
   }
   /// Adds a chain of the caller that gets the same samples and writes; nullptr: none.
   void carry(RealChain* passenger) { passenger_ = passenger; }
-  void set_panel(const Panel& panel) { lead_->set_panel(panel); }
 
   /// Advances the core, then the riders on each new snapshot; calls `each` with every snapshot.
   template <class Each>
@@ -93,9 +75,6 @@ class Ensemble {
     e.current_a = current_a(s);
     e.torque_nm = design().torque_constant_nm_a * e.current_a;
   }
-  /// Whether the torque is 0 because a mailbox of the law is too old; the RTL alone does not show
-  /// it.
-  bool stale(const Snapshot& s) const { return s.law_stale && s.armed && renders_law(s); }
   /// Fills a row: position, limits, faults and the signals of every engine in the tick of `s`.
   void fill(Row& row, const Snapshot& s) const;
   const EngineChoice& choice() const { return choice_; }
@@ -131,12 +110,9 @@ class Ensemble {
     double velocity_rad_s = 0, torque_nm = 0, current_a = 0, voltage_v = 0;
   };
 
-  bool renders_law(const Snapshot& s) const {
-    return law_ != nullptr && design().scene_number("law") == s.scene;
-  }
   EngineSignals of_core(const Snapshot& s) const;
   EngineSignals of_chain(const ChainOut& o) const;
-  void write(HostWrite w);
+  void write(const HostWrite& w) override;
   void ride(const Snapshot& s);
   void follow_law(Rider& r, const Snapshot& s) const;
   void watch_velocity(std::int16_t travel);
@@ -144,8 +120,7 @@ class Ensemble {
   void compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm, double current_a);
 
   EngineChoice choice_;
-  std::unique_ptr<Engine> lead_;
-  const DesignInfo* design_;
+  Engine* lead_;
   Units unit_;
   std::vector<Rider> riders_;
   const RealChain* reference_ = nullptr;
@@ -154,7 +129,6 @@ class Ensemble {
   bool covers_ = false;
   std::deque<std::int16_t> window_;  ///< travel at the last m1 ticks
   int largest_counts_ = 0;
-  SceneLaw* law_ = nullptr;
   std::unique_ptr<LawWatch> watch_;
   std::int64_t law_changes_ = 1;  ///< parameter sets that the riders know; loading is the first
   bool law_entered_ = false;

@@ -73,7 +73,6 @@ struct Felt {
   FeltEnergy energy;                            ///< only in a closed loop
   std::vector<FeltError> errors;                ///< of the core against quad; empty without quad
   std::map<std::string, Acted> limits, faults;  ///< by name; only those that acted
-  std::vector<Expected> expectations;
 };
 
 /// How long each bit of a word was set, tick by tick.
@@ -141,7 +140,7 @@ class FeltMeter {
   /// Mean of the hand's torque over the last complete felt_window_s, Nm; 0 before the first.
   double hand_nm() const { return window_hand_nm_; }
 
-  /// The summary; expectations and errors are left empty.
+  /// The summary; errors are left empty.
   Felt felt();
 
  private:

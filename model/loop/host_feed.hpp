@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "ensemble.hpp"
 #include "feed_clock.hpp"
+#include "run_host.hpp"
 #include "scenario.hpp"
 #include "tracker.hpp"
 
@@ -29,13 +29,13 @@ class HostFeed {
   /// The next clock at which act() has something to do.
   Clock next() const { return tracker_ ? std::min(feed_.next(), tracker_->next()) : feed_.next(); }
   /// Sends what is due at `now`; angle and position are those of `now`.
-  void act(Clock now, double angle_rad, double encoder_rad, Ensemble& core) {
-    if (tracker_) track(now, angle_rad, encoder_rad, core);
-    if (feed_.due(now)) core.feed_law({});
+  void act(Clock now, double angle_rad, double encoder_rad, RunHost& host) {
+    if (tracker_) track(now, angle_rad, encoder_rad, host);
+    if (feed_.due(now)) host.feed_law({});
   }
 
  private:
-  void track(Clock now, double angle_rad, double encoder_rad, Ensemble& core) {
+  void track(Clock now, double angle_rad, double encoder_rad, RunHost& host) {
     tracker_->sample(now, angle_rad, encoder_rad);
     const std::optional<TrackerSample> seen = tracker_->take(now);
     if (!seen) return;
@@ -43,7 +43,7 @@ class HostFeed {
     std::map<std::string, double> words{{t.mailbox, seen->angle_rad}};
     if (!t.encoder_mailbox.empty()) words[t.encoder_mailbox] = seen->encoder_rad;
     for (auto& [name, value] : words) value = law_->within(name, value);
-    core.feed_law(words);
+    host.feed_law(words);
   }
 
   const Scenario& scenario_;

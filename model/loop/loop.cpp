@@ -15,8 +15,6 @@
 #include "config/toml_reader.hpp"
 #include "loop/drag.hpp"
 #include "loop/ensemble.hpp"
-#include "loop/expectations.hpp"
-#include "loop/host_feed.hpp"
 #include "loop/rest.hpp"
 #include "loop/scenario_check.hpp"
 #include "loop/step_plan.hpp"
@@ -49,18 +47,16 @@ class ScenarioRun {
         plan_(plan(scenario, plant, core_.design(), choice_)),
         mean_(core_.design().pwm_period, plan_.phase()),
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
-        scene_(scene_number(core_.design(), scenario.scene)),
-        mode_(scenario.mode),
-        counter_(plant_.encoder().pins()),
-        feed_(scenario, options.law, core_.design().clock_hz) {
+        session_(scenario, core_, options),
+        counter_(plant_.encoder().pins()) {
     last_.theta_rad = plant_.observables().theta_rad;
-    if (scenario.rest_from_s) rest_.from_clock = clock_of(*scenario.rest_from_s);
-    if (scenario.drag_from_s) drag_.from_clock = clock_of(*scenario.drag_from_s);
+    if (scenario.rest_from_s) rest_.from_clock = session_.clock_of(*scenario.rest_from_s);
+    if (scenario.drag_from_s) drag_.from_clock = session_.clock_of(*scenario.drag_from_s);
   }
 
   RunResult run() {
     const DesignInfo& d = core_.design();
-    const Clock end = std::llround(s_.duration_s * static_cast<double>(d.clock_hz));
+    const Clock end = session_.end();
     if (options_.record != nullptr) {
       recorder_ = std::make_unique<traces::VectorWriter>(
           options_.record, "the record of scene " + s_.name,
@@ -75,38 +71,19 @@ class ScenarioRun {
       core_.note_writes(&options_.inputs->writes);
     }
     core_.skip_self_test();
-    core_.set_parameters(s_.parameters);
-    core_.set_control(scene_, mode_, false);
+    session_.begin();
     core_.lead().keep_gate_times(s_.switched);
-    std::size_t next_event = 0;
-    const auto event_clock = [this](std::size_t n) {
-      return n < s_.events.size() ? clock_of(s_.events[n].at_s) : std::numeric_limits<Clock>::max();
-    };
-    const Clock arm_at = clock_of(s_.arm_s);
-    Clock next_report = 0, event_at = event_clock(0);
     while (core_.lead().now() < end) {
       const Clock now = core_.lead().now();
-      if (!armed_ && !arm_done_ && now >= arm_at) request_arm();
-      while (now >= event_at) {
-        apply(s_.events[next_event++]);
-        event_at = event_clock(next_event);
-      }
-      if (now >= feed_.next()) {
-        feed_.act(now, plant_.observables().theta_rad, position_ * d.count_rad, core_);
-      }
+      session_.act(now, plant_.observables().theta_rad, position_ * d.count_rad,
+                   [&](const Event& e) { applied(e); });
       // A request takes effect by the end of its tick, and its consequences by the end of the next.
       if (core_.writes_wait()) plan_.stir(now, 2 * d.clocks_per_tick);
-      Clock corner = std::min({event_at, plant_.next_corner(), feed_.next()});
-      if (now < arm_at) corner = std::min(corner, arm_at);
-      step(plan_.end_of_step(now, corner, end) - now);
-      if (options_.progress && now >= next_report) {
-        options_.progress(static_cast<double>(now) / static_cast<double>(end));
-        next_report = now + d.clock_hz / 100;
-      }
+      step(plan_.end_of_step(now, std::min(session_.next(), plant_.next_corner()), end) - now);
+      session_.report(now);
     }
-    if (options_.progress) options_.progress(1.0);
     if (recorder_) recorder_->finish(end + 1);
-    return result(end);
+    return result();
   }
 
  private:
@@ -114,13 +91,7 @@ class ScenarioRun {
   static StepPlan plan(const Scenario& s, const plant::Parameters& plant, const DesignInfo& d,
                        const EngineChoice& choice) {
     if (s.step_given || s.switched || choice.rider_drives) return StepPlan(s.step_clocks);
-    return {s.step_clocks, longest_step_clocks(s, plant, static_cast<double>(d.clock_hz)),
-            d.pwm_period};
-  }
-
-  Clock clock_of(double seconds) const {
-    constexpr double never = 0x1p62;  // no sum with it overflows
-    return std::llround(std::min(seconds * static_cast<double>(core_.design().clock_hz), never));
+    return {s, plant, d};
   }
 
   void watch_states() {
@@ -132,29 +103,12 @@ class ScenarioRun {
     core_.watch_law(options_.law->watch(options_.law_states));
   }
 
-  void request_arm() {
-    armed_ = arm_done_ = true;
-    core_.set_control(scene_, mode_, true);
-  }
-
-  void apply(const Event& e) {
-    core_.set_parameters(e.set);
-    if (e.stop) {
-      if (options_.inputs != nullptr) {
-        throw std::invalid_argument("scene " + s_.name +
-                                    " uses the stop pin, which recorded inputs do not hold");
-      }
-      Panel panel;
-      panel.stop = *e.stop;
-      core_.set_panel(panel);
-      plan_.stir(core_.lead().now(), 2 * core_.design().clocks_per_tick);
+  void applied(const Event& e) {
+    if (e.stop && options_.inputs != nullptr) {
+      throw std::invalid_argument("scene " + s_.name +
+                                  " uses the stop pin, which recorded inputs do not hold");
     }
-    if (e.scene || e.mode || e.arm) {
-      if (e.scene) scene_ = scene_number(core_.design(), *e.scene);
-      if (e.mode) mode_ = *e.mode;
-      if (e.arm) armed_ = *e.arm;
-      core_.set_control(scene_, mode_, armed_);
-    }
+    if (e.stop) plan_.stir(core_.lead().now(), 2 * core_.design().clocks_per_tick);
     end_step();
     if (e.step_nm) {
       step_ = std::make_unique<StepRecord>(StepRecord{*e.step_nm, StepSamples(last_.tau_hat_nm),
@@ -225,7 +179,7 @@ class ScenarioRun {
   void tick(const Snapshot& s) {
     const plant::Observables& o = plant_.observables();
     Row& r = last_;
-    const Clock left = plant_.now() - (ticks_ + 1) * core_.design().clocks_per_tick;
+    const Clock left = plant_.now() - (session_.ticks() + 1) * core_.design().clocks_per_tick;
     const double back =
         left > 0 ? static_cast<double>(left) / static_cast<double>(last_clocks_) : 0.0;
     const auto then = [back](double now, double before) { return now - back * (now - before); };
@@ -236,10 +190,8 @@ class ScenarioRun {
     core_.signals(r, s);
     felt_.tick(r.tau_ref_nm, r.torque_nm, s.limits, s.faults);
     felt_.motor(r.motor_torque_nm, r.tau_ref_nm);
-    if (core_.stale(s) && stale_ticks_++ == 0) stale_from_ = ticks_;
     position_ = s.position;
     if (plant_.now() >= rest_.from_clock) rest_.add(theta_rad, r.tau_ref_nm);
-    faults_ |= s.faults;
     tau_ref_.add(r.tau_ref_nm);
     tau_hat_.add(r.tau_hat_nm);
     velocity_.add(r.velocity_rad_s);
@@ -248,32 +200,24 @@ class ScenarioRun {
       step_->tau_hat.add(r.tau_hat_nm);
       step_->torque.add(r.motor_torque_nm);
     }
-    if (options_.row && ticks_ % options_.row_every == 0) {
-      r.time_s = static_cast<double>(ticks_) / static_cast<double>(core_.design().tick_hz);
+    if (options_.row && session_.ticks() % options_.row_every == 0) {
+      r.time_s =
+          static_cast<double>(session_.ticks()) / static_cast<double>(core_.design().tick_hz);
       r.omega_rad_s = then(o.omega_rad_s, before_.omega_rad_s);
       r.hand_torque_nm = then(o.hand_torque_nm, before_.hand_torque_nm);
       r.hand_felt_nm = felt_.hand_nm();
       core_.fill(r, s);
       options_.row(r);
     }
-    ++ticks_;
+    session_.tick(s, s.faults);
   }
 
-  RunResult result(Clock clocks) {
+  RunResult result() {
     RunResult out;
-    const DesignInfo& d = core_.design();
-    out.design = d.name;
-    out.subject = s_.name;
-    out.clocks = clocks;
-    out.ticks = ticks_;
-    out.simulated_s = static_cast<double>(clocks) / static_cast<double>(d.clock_hz);
+    session_.tell(out);
     out.longest_step_clocks = longest_step_clocks_;
     out.plant_states = plant_.state_size();
     out.evaluations = plant_.evaluations();
-    out.lock_step = choice_.lead == "lockstep";
-    out.mismatches = core_.lead().mismatches();
-    out.first_mismatch = core_.lead().first_mismatch();
-    out.first_mismatch_clock = core_.lead().first_mismatch_clock();
     const traces::Statistics& p = counter_.result();
     out.position = {p.steps, p.illegal, p.reversals};
     out.largest_velocity_rad_s = core_.largest_velocity_rad_s();
@@ -281,9 +225,6 @@ class ScenarioRun {
     out.engines = core_.figures();
     out.felt = felt_.felt();
     out.felt.closed_loop = true;
-    const double tick_s = 1 / static_cast<double>(d.tick_hz);
-    out.law_stale = {static_cast<double>(stale_ticks_) * tick_s,
-                     static_cast<double>(stale_from_) * tick_s};
     end_step();
     for (EngineFigures& e : out.engines) {
       if (closes_loop(e.name)) e.steps = steps_;
@@ -291,13 +232,11 @@ class ScenarioRun {
     if (options_.law != nullptr) {
       for (const LawEvent& e : core_.lead().law_events()) {
         const auto [name, value] = options_.law->event(e);
-        out.events.push_back({e.tick / static_cast<double>(d.tick_hz), name, value});
+        out.events.push_back({e.tick / static_cast<double>(core_.design().tick_hz), name, value});
       }
     }
     fill_figures(out, steps_);
-    ExpectationsHeld held = hold_expectations(s_, out.design, out.figures);
-    out.felt.expectations = std::move(held.all);
-    out.broken = std::move(held.broken);
+    session_.hold(out);
     return out;
   }
 
@@ -308,8 +247,6 @@ class ScenarioRun {
 
   void fill_figures(RunResult& out, const std::vector<StepFigures>& steps) const {
     auto& f = out.figures;
-    f["mismatches"] = static_cast<double>(out.mismatches);
-    f["faults"] = faults_;
     f["tau_ref_min_nm"] = tau_ref_.low;
     f["tau_ref_max_nm"] = tau_ref_.high;
     f["tau_hat_min_nm"] = tau_hat_.low;
@@ -351,10 +288,9 @@ class ScenarioRun {
   StepPlan plan_;
   plant::PeriodMean mean_;
   FeltMeter felt_;
-  int scene_, mode_;
+  Session session_;
   traces::StepCounter counter_;
   std::unique_ptr<traces::VectorWriter> recorder_;
-  bool armed_ = false, arm_done_ = false;
   Clock last_clocks_ = 0;  ///< 0: none yet
   Clock longest_step_clocks_ = 0;
   double dt_s_ = 0;
@@ -364,12 +300,9 @@ class ScenarioRun {
   } before_;
   int duty_clocks_ = 0;  ///< duty of the bridge; duty_ is its share of a period
   double duty_ = 0;
-  std::int64_t ticks_ = 0, stale_ticks_ = 0, stale_from_ = 0;
-  int faults_ = 0;
   double absorbed_j_ = 0;
   SignalRange tau_ref_, tau_hat_, velocity_, theta_;
   std::int32_t position_ = 0;  ///< counts, from the core's last output
-  HostFeed feed_;
   Rest rest_;
   Drag drag_;
   Row last_;

@@ -19,13 +19,13 @@
 #include "felt.hpp"
 #include "figures.hpp"
 #include "scenario.hpp"
+#include "session.hpp"
 
 namespace feltgate {
 
 namespace bounds {
 class Coverage;
 }
-class SceneLaw;
 namespace plant {
 struct Observables;
 }
@@ -63,36 +63,16 @@ struct RunEvent {
 };
 
 /// Results of a run.
-struct RunResult {
-  std::string design, subject;  ///< subject: scene or trace
-  Clock clocks = 0;
-  std::int64_t ticks = 0;
-  std::int64_t mismatches = 0;
-  std::string first_mismatch;
-  Clock first_mismatch_clock = 0;
-  bool lock_step = false;
+struct RunResult : SessionResult {
   PositionFigures position;
   std::int32_t last_position = 0;     ///< counts, from an independent count of the pins; wraps
   double largest_velocity_rad_s = 0;  ///< N-method, before the low-pass; needs a rider
-  std::string reference;  ///< engine that the others are compared with: "quad", "double" or none
   std::vector<EngineFigures> engines;
   Felt felt;
-  Acted law_stale;               ///< armed, but no torque: a mailbox of the law was too old
-  std::vector<RunEvent> events;  ///< of the scene's law
-  std::map<std::string, double> figures;  ///< the figures that a scene file can bound
-  std::vector<std::string> broken;        ///< broken expectations and bounds, one line each
-  double simulated_s = 0;
+  std::vector<RunEvent> events;    ///< of the scene's law
   Clock longest_step_clocks = 0;   ///< of the plant
   std::size_t plant_states = 0;    ///< continuous states of the plant at the end
   plant::Evaluations evaluations;  ///< of the plant's effects
-};
-
-/// A register write of the host: the word for fixed point, the value for real arithmetic.
-struct HostWrite {
-  Clock clock = 0;  ///< when it was queued; one write is executed per tick
-  int address = 0;
-  std::uint32_t data = 0;
-  double value = 0;  ///< in the parameter's unit; 0 for control and command words
 };
 
 /// All inputs of the core during a run; enough to repeat it without the plant.
@@ -104,26 +84,18 @@ struct RunInputs {
 };
 
 /// Options of a run.
-struct RunOptions {
-  std::string design = "lever";
-  std::string engine = "all";  ///< comma list, see choose_engines()
-  SceneLaw* law = nullptr;     ///< run by the scene "law"; its parameters can be set by name
-  std::uint64_t seed = 1;
-  std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
-  Clock fst_from = 0, fst_to = -1;  ///< fst_to < 0: to the end
-  std::FILE* record = nullptr;      ///< gets the encoder's edges as a vector file; may be nullptr
+struct RunOptions : SessionOptions {
+  std::FILE* record = nullptr;  ///< gets the encoder's edges as a vector file; may be nullptr
   const bounds::Coverage* coverage = nullptr;  ///< ticks in which bounds are checked
   RealChain* passenger = nullptr;              ///< gets the samples and writes; not compared
   RunInputs* inputs = nullptr;  ///< filled if given; a scene that uses the stop pin then throws
   std::function<void(const Row&)> row;  ///< called for every row_every-th tick; may be empty
-  int row_every = 1;
   /// called after each run of the law with the time of its samples and its states in SI; may be
   /// empty. Errors: std::invalid_argument where the RTL leads alone: it does not show when a run
   /// begins.
   std::function<void(double at_s, const std::vector<double>& states)> law_states;
   /// called after each step of the plant, which took `clocks` clocks; may be empty
   std::function<void(Clock clocks, const plant::Observables&)> plant_step;
-  std::function<void(double done)> progress;  ///< called from time to time with 0..1; may be empty
 };
 
 /// Runs a scene. Errors: std::invalid_argument for a scene, parameter or engine that the design

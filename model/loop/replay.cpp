@@ -82,10 +82,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   core.advance(2 * d.clocks_per_tick, nullptr, nullptr, tick);
   out.clocks = core.lead().now();
   out.simulated_s = static_cast<double>(out.clocks) / static_cast<double>(d.clock_hz);
-  out.lock_step = choice.lead == "lockstep";
-  out.mismatches = core.lead().mismatches();
-  out.first_mismatch = core.lead().first_mismatch();
-  out.first_mismatch_clock = core.lead().first_mismatch_clock();
+  note_mismatches(out, core.lead());
   out.position = {counter.result().steps, counter.result().illegal, counter.result().reversals};
   out.last_position = static_cast<std::int32_t>(counter.result().position);
   out.largest_velocity_rad_s = core.largest_velocity_rad_s();

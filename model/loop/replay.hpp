@@ -11,18 +11,12 @@
 namespace feltgate {
 
 /// Options of a replay.
-struct ReplayOptions {
-  std::string design = "lever";
-  std::string engine = "all";
+struct ReplayOptions : EngineOptions {
   std::string scene = "spring_tension";  ///< scene that is rendered during the recording
   bool arm = true;
-  std::uint64_t seed = 1;
-  std::string fst;
-  Clock fst_from = 0, fst_to = -1;
   const bounds::Coverage* coverage = nullptr;  ///< ticks in which bounds are checked
   Clock most_clocks = 0;                       ///< stops there; 0: at the end
   std::function<void(const Row&)> row;         ///< called for every row_every-th tick
-  int row_every = 1;
   std::function<void(Clock done)> progress;
 };
 

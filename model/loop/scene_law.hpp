@@ -5,6 +5,7 @@
 // docs/laws.md
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -20,43 +21,42 @@
 
 namespace feltgate {
 
-/// A law's program beside a chain in real arithmetic: it runs when the engine's program runs, on
-/// the same samples, in the chain's numbers.
+/// A law's program in the numbers of a rider: it runs when the engine's program runs, on the same
+/// samples.
 class LawRider {
  public:
+  using Torques = std::array<double, most_axes>;
   virtual ~LawRider() = default;
   /// Sets the state after arming and entry into the scene.
   void enter() {
     reset();
-    torques_.clear();
+    runs_.clear();
   }
   /// The next set of host values comes into force.
   virtual void change() = 0;
-  /// The torque asked of the chain in the tick of `s`; call it before the chain computes the tick.
-  double torque_nm(const Snapshot& s) {
-    if (!s.law_known) return 0;
-    while (!torques_.empty() && static_cast<std::int32_t>(s.law_tick - torques_.front().tick) > 0) {
-      torques_.pop_front();
+  /// Torques, Nm, of the run that is in force in the tick of `s`, the snapshot of axis 0; nullptr
+  /// if not known.
+  const Torques* in_force(const Snapshot& s) {
+    if (!s.law_known) return nullptr;
+    while (!runs_.empty() && static_cast<std::int32_t>(s.law_tick - runs_.front().first) > 0) {
+      runs_.pop_front();
     }
-    return torques_.empty() || torques_.front().tick != s.law_tick ? 0 : torques_.front().nm;
+    return runs_.empty() || runs_.front().first != s.law_tick ? nullptr : &runs_.front().second;
   }
-  /// Call it after the chain has computed the tick; executes the run that began with the tick of
-  /// `s`, if any.
-  void follow(const Snapshot& s, const RealChain& chain) {
-    if (s.law_begins) torques_.push_back({s.tick, run(s, chain)});
+  /// Executes the run that began with the tick of these snapshots, one per axis, if any; call it
+  /// after in_force(). With a chain, which has computed the tick, the law reads its measurements in
+  /// place of the core's.
+  void follow(const Snapshot* axes, const RealChain* chain) {
+    if (axes[0].law_begins) runs_.emplace_back(axes[0].tick, run(axes, chain));
   }
 
  protected:
   virtual void reset() = 0;
-  /// One run on these samples; returns the torque in Nm.
-  virtual double run(const Snapshot& s, const RealChain& chain) = 0;
+  /// One run on these samples.
+  virtual Torques run(const Snapshot* axes, const RealChain* chain) = 0;
 
  private:
-  struct Torque {
-    std::uint32_t tick;  ///< tick of the run's samples
-    double nm;
-  };
-  std::deque<Torque> torques_;
+  std::deque<std::pair<std::uint32_t, Torques>> runs_;  ///< by the tick of their samples
 };
 
 /// Runs the words of a law once more beside the engine, for an observer.
@@ -71,7 +71,8 @@ class LawWatch {
   virtual void run(const Snapshot& s) = 0;
 };
 
-/// A law for one design: the host's writes (address of the register port, word) and the riders.
+/// A law for one design, of one axis or several: the host's writes (address of the register port,
+/// word) and the riders.
 class SceneLaw {
  public:
   using Writes = std::vector<std::pair<int, std::uint32_t>>;
@@ -82,6 +83,9 @@ class SceneLaw {
   /// Largest error of its torque against real arithmetic on the same tick's samples, Nm. Infinite
   /// for a law that uses more than the position, or that jumps.
   virtual double bound_nm() const = 0;
+  /// The same for an axis, on the words that the engine got. Infinite if its states are not
+  /// bounded, or if a comparison can have the other result.
+  virtual double bound_on_words_nm(std::size_t axis) const = 0;
   /// The writes that load it into an engine that is in its state after configuration.
   virtual Writes load() const = 0;
   virtual bool has(const std::string& parameter) const = 0;
@@ -106,6 +110,9 @@ class SceneLaw {
   virtual double period_s() const = 0;
   /// Name and value, in SI units, of an event of its program.
   virtual std::pair<std::string, double> event(const LawEvent& told) const = 0;
+  /// Gets every value that set() is given, as rounded to its word; empty: none.
+  using ToldValue = std::function<void(const std::string& parameter, double value)>;
+  void tell_values(ToldValue to) { told_value_ = std::move(to); }
   /// A rider; kinds as in make_real_chain(). It starts with the values before the first set(); each
   /// change() takes the next set.
   virtual std::unique_ptr<LawRider> rider(const std::string& kind) const = 0;
@@ -115,6 +122,9 @@ class SceneLaw {
   /// SI.
   using Told = std::function<void(double at_s, const std::vector<double>& states)>;
   virtual std::unique_ptr<LawWatch> watch(Told told) const = 0;
+
+ protected:
+  ToldValue told_value_;
 };
 
 }  // namespace feltgate

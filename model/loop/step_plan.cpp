@@ -14,6 +14,17 @@ StepPlan::StepPlan(Clock fine, Clock longest, Clock period)
   for (Clock n = 0; n < steps; ++n) ends_.push_back(fine_ + period * n / steps);
 }
 
+StepPlan::StepPlan(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design)
+    : StepPlan(s.step_clocks, longest_step_clocks(s, plant, static_cast<double>(design.clock_hz)),
+               design.pwm_period) {}
+
+Scenario scene_of(const plant::Parameters& plant, const plant::Hand& hand) {
+  Scenario s;
+  s.effects = plant.effects;
+  s.hand = hand;
+  return s;
+}
+
 int longest_step_clocks(const Scenario& s, const plant::Parameters& p, double clock_hz) {
   constexpr double calm = 0.1;  // share of the limit; the error is then below that of a count
   constexpr int longest = 250;

@@ -18,6 +18,10 @@ namespace feltgate {
 /// scenario.step_clocks if no longer one is possible.
 int longest_step_clocks(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);
 
+/// The part of a scene from which the steps of a plant in a hand follow; the effects are the
+/// plant's.
+Scenario scene_of(const plant::Parameters& plant, const plant::Hand& hand);
+
 /// Decides where each step ends. It depends only on time and on the scene, never on an engine, so
 /// all engines give the same run.
 class StepPlan {
@@ -27,6 +31,8 @@ class StepPlan {
   /// For a duty that holds for `period` clocks from each multiple of `period`: steps end `fine`
   /// clocks after the duty can change; between two such ends they are equal and at most `longest`.
   StepPlan(Clock fine, Clock longest, Clock period);
+  /// The same for a scene, on a design.
+  StepPlan(const Scenario& scenario, const plant::Parameters& plant, const DesignInfo& design);
 
   /// From `now` on, for `clocks` clocks, something may happen at any time: use steps of `fine`
   /// clocks.

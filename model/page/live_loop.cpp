@@ -24,14 +24,12 @@ constexpr plant::Impedance fingertip{0.01, 0.3, 135.0, 3000.0, 10.0};
 
 /// Steps short enough for the plant held by a hand.
 StepPlan plan_for(const plant::Parameters& plant, const DesignInfo& d) {
-  Scenario scenario;
-  scenario.effects = plant.effects;
   plant::HandPhase held, light;
   held.kind = light.kind = plant::HandPhase::Kind::kImpedance;
   light.impedance = fingertip;
-  scenario.hand.phases = {held, light};
-  return {scenario.step_clocks,
-          longest_step_clocks(scenario, plant, static_cast<double>(d.clock_hz)), d.pwm_period};
+  plant::Hand hand;
+  hand.phases = {held, light};
+  return {scene_of(plant, hand), plant, d};
 }
 
 /// Every word of a snapshot, in the order of the struct.
@@ -100,9 +98,7 @@ void LiveLoop::clear_faults() {
 }
 
 void LiveLoop::stop(bool pressed) {
-  Panel panel;
-  panel.stop = pressed;
-  core_.set_panel(panel);
+  core_.lead().stop(pressed);
   plan_.stir(core_.lead().now(), 2 * design().clocks_per_tick);
 }
 

@@ -68,7 +68,8 @@ py::dict acted_dict(const std::map<std::string, Acted>& all) {
   return out;
 }
 
-py::dict felt_dict(const Felt& f) {
+py::dict felt_dict(const RunResult& r) {
+  const Felt& f = r.felt;
   py::dict out;
   out["asked_nm"] = peak_dict(f.torque.asked);
   out["commanded_nm"] = peak_dict(f.torque.commanded);
@@ -82,7 +83,7 @@ py::dict felt_dict(const Felt& f) {
   out["limits"] = acted_dict(f.limits);
   out["faults"] = acted_dict(f.faults);
   py::list expectations;
-  for (const Expected& e : f.expectations) {
+  for (const Expected& e : r.expectations) {
     py::dict one;
     one["figure"] = e.figure;
     one["value"] = e.value;
@@ -117,7 +118,7 @@ py::dict result_dict(const RunResult& r) {
   py::dict engines;
   for (const EngineFigures& e : r.engines) engines[e.name.c_str()] = engine_dict(e, r);
   out["engines"] = engines;
-  out["felt"] = felt_dict(r.felt);
+  out["felt"] = felt_dict(r);
   out["figures"] = r.figures;
   out["broken"] = r.broken;
   py::dict bounds;

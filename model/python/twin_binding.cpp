@@ -23,7 +23,6 @@ class PyTwin {
     engine_->reset(1, traces::pins_at(0));
     engine_->keep_gate_times(false);
     count_ = 0;
-    panel_ = {};
     asked_ = false;
   }
   void set(const std::string& name, double value) {
@@ -33,23 +32,16 @@ class PyTwin {
   }
   /// The host's control word: what is rendered, and whether.
   void control(const std::string& scene, const std::string& mode, bool arm) {
-    const ControlBits& bits = design().control;
-    const auto number = static_cast<std::uint32_t>(scene_of(design(), scene));
-    const auto mode_bits = static_cast<std::uint32_t>(mode_of(mode));
+    const int number = scene_of(design(), scene), mode_bits = mode_of(mode);
     if (asked_ && arm && mode_bits != mode_) refuse("the mode");
     asked_ = arm;
     mode_ = mode_bits;
-    engine_->write(design().control_address, design().control_reset | 1u << bits.host |
-                                                 (arm ? 1u << bits.arm : 0u) |
-                                                 number << bits.scene | mode_bits << bits.mode);
+    engine_->write(design().control_address, control_word(design(), number, mode_bits, arm));
   }
   void clear_faults() {
     engine_->write(design().command_address, 1u << design().command.clear_faults);
   }
-  void stop(bool pressed) {
-    panel_.stop = pressed;
-    engine_->set_panel(panel_);
-  }
+  void stop(bool pressed) { engine_->stop(pressed); }
   std::int64_t count() const { return count_; }
 
   py::dict run(const py::array_t<std::int64_t, py::array::c_style>& counts) {
@@ -154,8 +146,7 @@ class PyTwin {
 
   std::unique_ptr<Engine> engine_;
   bool asked_ = false;  ///< to be armed
-  std::uint32_t mode_ = 0;
-  Panel panel_;
+  int mode_ = 0;
   std::int64_t count_ = 0;
   std::vector<EncoderEvent> edges_;
 };

@@ -11,9 +11,10 @@
 #include <utility>
 
 #include "axes_loop/axes_run.hpp"
+#include "engines/axes_cores.hpp"
+#include "law_loop/scene_law.hpp"
 #include "rates/device_joints.hpp"
 #include "rates/sweep.hpp"
-#include "rates/told_law.hpp"
 
 namespace feltgate::rates {
 
@@ -56,23 +57,24 @@ class AxesSweep : public Sweep {
   void run_law(law::Compiled law, RateRow row) override {
     AxesScene scene = scene_;
     scene.scenario = fitted(std::move(scene.scenario), law.image);
-    const std::unique_ptr<AxesLaw> loaded =
+    const std::unique_ptr<SceneLaw> loaded =
         make_axes_law(std::move(law), source_.path, design_, report_.axes);
     Continuous::Setting set = setting(scene.scenario);
     set.axes = static_cast<std::size_t>(report_.axes);
     set.slope = set.floor = last();
     set.inertia = [&](const Eigen::VectorXd& at) { return inertia_kg_m2(scene_.device, at); };
     Continuous continuous(continuous_law_, {}, set);
-    tell_all(continuous, loaded->host());
-    ToldAxesLaw told(*loaded,
-                     [&](const std::string& name, double value) { tell(continuous, name, value); });
+    tell_all(continuous, *loaded);
+    loaded->tell_values(
+        [&](const std::string& name, double value) { tell(continuous, name, value); });
     AxesRunOptions o;
     o.design = design_.name;
     o.engine = options_.lock_step ? "rtl" : "twin";
-    o.law = &told;
+    o.law = loaded.get();
     o.axes = [&](const std::vector<Row>& axes) { continuous.tick(axes); };
     o.progress = progress();
     const AxesResult result = run_axes(scene, o);
+    loaded->tell_values({});
     row.mismatches = result.mismatches;
     row.clocks_compared = result.lock_step ? result.clocks : 0;
     row.first_mismatch = result.first_mismatch;
@@ -114,7 +116,7 @@ class AxesSweep : public Sweep {
   }
 
   /// CPU time of the closed loop alone, without observers.
-  double cpu_s(const AxesScene& scene, AxesLaw& law) const {
+  double cpu_s(const AxesScene& scene, SceneLaw& law) const {
     AxesRunOptions o;
     o.design = design_.name;
     o.engine = "twin";

@@ -16,7 +16,6 @@
 #include "law_loop/scene_law.hpp"
 #include "loop/loop.hpp"
 #include "rates/sweep.hpp"
-#include "rates/told_law.hpp"
 #include "stability/experiments.hpp"
 
 namespace feltgate::rates {
@@ -89,20 +88,20 @@ class LeverSweep : public Sweep {
     Continuous continuous(
         continuous_law_,
         law == nullptr ? changes_of(of_law_, continuous_law_) : std::vector<Change>{}, set);
-    std::optional<ToldLaw> told;
     RunOptions o;
     o.design = design;
     o.engine = options_.lock_step ? "rtl,twin" : "twin";
     if (law != nullptr) {
       tell_all(continuous, *law);
-      told.emplace(*law,
-                   [&](const std::string& name, double value) { tell(continuous, name, value); });
-      o.law = &*told;
+      law->tell_values(
+          [&](const std::string& name, double value) { tell(continuous, name, value); });
+      o.law = law;
     }
     o.row_every = 1;
     o.row = [&](const Row& r) { continuous.tick(r); };
     o.progress = progress();
     const RunResult result = run_scenario(scene, plant_, o);
+    if (law != nullptr) law->tell_values({});
     row.mismatches = result.mismatches;
     row.clocks_compared = result.lock_step ? result.clocks : 0;
     row.first_mismatch = result.first_mismatch;

@@ -153,19 +153,6 @@ std::string built_design(const std::string& given) {
                   given, name, known ? " under a name of its own" : "", name));
 }
 
-std::string mismatch_path(const std::string& subject, const std::string& design) {
-  const char* build = std::getenv("FELTGATE_BUILD");
-  const fs::path folder = build != nullptr ? fs::path(build) / "mismatch" : fs::path("mismatch");
-  fs::create_directories(folder);
-  return (folder / (subject + "." + design + ".fst")).string();
-}
-
-void tell_mismatch(const std::string& first_mismatch, const std::string& path) {
-  fmt::print(stderr,
-             "first mismatch: {}\nwaveform: gtkwave {} {}/scripts/gtkwave/feltgate_core.gtkw\n",
-             first_mismatch, path, repository());
-}
-
 Progress::Progress(std::string label, bool quiet)
     : label_(std::move(label)), on_(!quiet && isatty(STDERR_FILENO) == 1), start_s_(now_s()) {}
 

@@ -70,13 +70,6 @@ CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value,
   return app->add_option(name, value)->group("")->transform(CLI::Validator(named, ""));
 }
 
-/// Path of the waveform around a mismatch: mismatch/ in the build folder, or in the current folder.
-std::string mismatch_path(const std::string& subject, const std::string& design);
-/// Prints where the waveform is and how to view it.
-void tell_mismatch(const std::string& first_mismatch, const std::string& path);
-/// Clocks shown before and after the first mismatch.
-constexpr long long mismatch_before = 200, mismatch_after = 20;
-
 /// Shows progress, rate and remaining time on a terminal; silent elsewhere.
 class Progress {
  public:

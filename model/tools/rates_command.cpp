@@ -13,6 +13,7 @@
 
 #include "axes_loop/axes_run.hpp"
 #include "config/toml_reader.hpp"
+#include "engines/axes_cores.hpp"
 #include "files/output_file.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/scenario_check.hpp"
@@ -84,9 +85,9 @@ Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Ou
   if (const AxesDesignMakers* made = made_for(*w.device)) {
     const DesignInfo design = made->info();
     const auto law = make_axes_law(w.law.path, design, axes_of(*w.device));
-    resolve_amounts(w.device->scenario, design, &law->host());
-    check_asked(s, design, &law->host());
-    if (w.device->plane) PlaneHost::check(*w.device->plane, path, law->host());
+    resolve_amounts(w.device->scenario, design, law.get());
+    check_asked(s, design, law.get());
+    if (w.device->plane) PlaneHost::check(*w.device->plane, path, *law);
   }
   for (const std::string& read : {path, w.device->device_path, w.law.path}) outputs.reads(read);
   return w;

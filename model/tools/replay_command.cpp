@@ -141,21 +141,15 @@ int replay(ReplayArguments& a) {
   if (json != nullptr) json->write(run_json(result, labels));
   if (!a.quiet) outputs.say(run_text(result, labels));
   outputs.commit();
-  if (result.mismatches > 0) {
-    // The replay is deterministic: it is repeated with the waveform on around the mismatch.
-    options.row = nullptr;
-    options.progress = nullptr;
-    files::OutputFile waveform("waveform", mismatch_path(name, a.design));
-    options.fst = waveform.named();
-    options.fst_from = result.first_mismatch_clock - mismatch_before;
-    options.fst_to = result.first_mismatch_clock + mismatch_after;
-    options.most_clocks = options.fst_to + 1;
-    const auto again = traces::open(a.trace.path, how);
-    run_replay(*again, name, options);
-    waveform.commit();
-    tell_mismatch(result.first_mismatch, waveform.path());
-  }
-  return result.mismatches == 0 && result.broken.empty() ? exit_ok : exit_failed;
+  show_mismatch(result, options, [&](const EngineOptions& same) {
+    ReplayOptions again;
+    static_cast<EngineOptions&>(again) = same;
+    again.scene = options.scene;
+    again.most_clocks = same.fst_to + 1;
+    const auto source_again = traces::open(a.trace.path, how);
+    run_replay(*source_again, name, again);
+  });
+  return result.as_expected() ? exit_ok : exit_failed;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "engines/axes_cores.hpp"
 #include "files/output_file.hpp"
 #include "law_loop/scene_law.hpp"
 #include "loop/scenario_check.hpp"
@@ -24,7 +25,7 @@ namespace feltgate {
 
 namespace {
 
-std::unique_ptr<AxesLaw> law_of(const AxesScene& scene, const DesignInfo& design) {
+std::unique_ptr<SceneLaw> law_of(const AxesScene& scene, const DesignInfo& design) {
   const Scenario& s = scene.scenario;
   if (s.law.empty()) {
     throw std::invalid_argument(
@@ -44,26 +45,9 @@ void write_row(std::FILE* to, const std::vector<double>& row) {
   std::fwrite(line.data(), 1, line.size(), to);
 }
 
-void show_mismatch(const AxesScene& scene, AxesRunOptions again, const AxesResult& result) {
-  files::OutputFile waveform("waveform", mismatch_path(result.subject, result.design));
-  again.fst = waveform.named();
-  again.fst_from = result.first_mismatch_clock - mismatch_before;
-  again.fst_to = result.first_mismatch_clock + mismatch_after;
-  again.row = nullptr;
-  again.progress = nullptr;
-  AxesScene shorter = scene;
-  shorter.scenario.duration_s = std::max(
-      1e-5, result.simulated_s * static_cast<double>(again.fst_to + 1 - result.homing_clocks) /
-                static_cast<double>(result.clocks));
-  shorter.scenario.expectations.clear();
-  run_axes(shorter, again);
-  waveform.commit();
-  tell_mismatch(result.first_mismatch, waveform.path());
-}
-
-int run_axes_scene(const AxesArguments& a) {
+int run_axes_scene(const std::string& path, const RunArguments& a) {
   AxesScene scene = read_axes_scene(
-      a.scene_path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
   if (a.columns) {
     fmt::print("{}\n", fmt::join(axes_columns(scene), "\n"));
     return exit_ok;
@@ -73,14 +57,14 @@ int run_axes_scene(const AxesArguments& a) {
     throw std::invalid_argument(
         fmt::format("{}: device {} has {} axes, and this program's design {} one; ./feltgate run "
                     "builds the device's own, or name it: --design {}_law",
-                    a.scene_path, device_of(scene), axes_of(scene), a.design, device_of(scene)));
+                    path, device_of(scene), axes_of(scene), a.design, device_of(scene)));
   }
   const DesignInfo design = made->info();
-  const std::unique_ptr<AxesLaw> law = law_of(scene, design);
-  resolve_amounts(scene.scenario, design, &law->host());
-  apply_settings(a.set, design, &law->host(), scene.scenario);
-  check_asked(scene.scenario, design, &law->host());
-  if (scene.plane) PlaneHost::check(*scene.plane, a.scene_path, law->host());
+  const std::unique_ptr<SceneLaw> law = law_of(scene, design);
+  resolve_amounts(scene.scenario, design, law.get());
+  apply_settings(a.set, design, law.get(), scene.scenario);
+  check_asked(scene.scenario, design, law.get());
+  if (scene.plane) PlaneHost::check(*scene.plane, path, *law);
   if (a.every > 0 && a.csv.empty()) {
     throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
   }
@@ -91,7 +75,7 @@ int run_axes_scene(const AxesArguments& a) {
   options.seed = a.seed;
   options.law = law.get();
   files::Outputs outputs;
-  for (const std::string& path : {a.scene_path, scene.device_path}) outputs.reads(path);
+  for (const std::string& read : {path, scene.device_path}) outputs.reads(read);
   files::OutputFile* json = outputs.open("--json", a.json);
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);
@@ -112,11 +96,16 @@ int run_axes_scene(const AxesArguments& a) {
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  if (result.mismatches > 0) {
-    options.fst.clear();
-    show_mismatch(scene, options, result);
-  }
-  return result.mismatches == 0 && result.broken.empty() ? exit_ok : exit_failed;
+  show_mismatch(result, options, [&](const EngineOptions& same) {
+    const std::unique_ptr<SceneLaw> from_start = law_of(scene, design);
+    AxesRunOptions again;
+    static_cast<EngineOptions&>(again) = same;
+    again.law = from_start.get();
+    AxesScene shorter = scene;
+    shorter.scenario = cut_after(scene.scenario, result, same.fst_to + 1 - result.homing_clocks);
+    run_axes(shorter, again);
+  });
+  return result.as_expected() ? exit_ok : exit_failed;
 }
 
 /// Linked is known: before main().

@@ -37,15 +37,6 @@ namespace fs = std::filesystem;
       "this program runs scenes of the core alone; ./feltgate run builds the one that runs laws");
 }
 
-struct RunArguments {
-  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record,
-                     events, states;
-  std::vector<std::string> set;
-  std::uint64_t seed = 1;
-  int every = 0;  ///< 0: sane_every()
-  bool quiet = false, columns = false;
-};
-
 }  // namespace
 
 void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
@@ -134,8 +125,7 @@ int run(const RunArguments& a) {
           "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
     }
     if (law_scenes().axes == nullptr) refuse_laws(scene_path + ": ");
-    return law_scenes().axes({scene_path, a.design, a.engine, a.json, a.csv, a.fst, a.set, a.seed,
-                              a.every, a.quiet, a.columns});
+    return law_scenes().axes(scene_path, a);
   }
   if (a.columns) {
     fmt::print("{}", columns_markdown());
@@ -233,7 +223,7 @@ int run(const RunArguments& a) {
     }
   }
   outputs.commit();
-  const bool ok = result.mismatches == 0 && result.broken.empty();
+  const bool ok = result.as_expected();
   if (!a.report.empty()) {
     const int status =
         run_script("report.py", {"--", a.report, json_path, csv_path}, outputs.text());
@@ -242,23 +232,13 @@ int run(const RunArguments& a) {
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  if (result.mismatches > 0) {
-    // The run is deterministic: it is repeated with the waveform on around the mismatch.
+  show_mismatch(result, options, [&](const EngineOptions& same) {
+    const std::unique_ptr<SceneLaw> from_start = law_of(scenario, design);
     RunOptions again;
-    again.design = a.design;
-    again.engine = a.engine;
-    again.seed = a.seed;
-    files::OutputFile waveform("waveform", mismatch_path(scenario.name, a.design));
-    again.fst = waveform.named();
-    again.fst_from = result.first_mismatch_clock - mismatch_before;
-    again.fst_to = result.first_mismatch_clock + mismatch_after;
-    scenario.duration_s *=
-        static_cast<double>(again.fst_to + 1) / static_cast<double>(result.clocks);
-    scenario.expectations.clear();
-    run_scenario(scenario, plant, again);
-    waveform.commit();
-    tell_mismatch(result.first_mismatch, waveform.path());
-  }
+    static_cast<EngineOptions&>(again) = same;
+    again.law = from_start.get();
+    run_scenario(cut_after(scenario, result, same.fst_to + 1), plant, again);
+  });
   return ok ? exit_ok : exit_failed;
 }
 

@@ -64,7 +64,8 @@ Json acted_json(const std::map<std::string, Acted>& all) {
   return j;
 }
 
-Json felt_json(const Felt& f) {
+Json felt_json(const RunResult& r) {
+  const Felt& f = r.felt;
   Json j;
   j["torque"] = {{"asked", peak_json(f.torque.asked)},
                  {"commanded", peak_json(f.torque.commanded)}};
@@ -87,7 +88,7 @@ Json felt_json(const Felt& f) {
   j["limits"] = acted_json(f.limits);
   j["faults"] = acted_json(f.faults);
   if (f.closed_loop) j["expectations"] = Json::array();
-  for (const Expected& x : f.expectations) {
+  for (const Expected& x : r.expectations) {
     Json e{{"figure", x.figure}, {"value", x.value}};
     if (std::isfinite(x.low)) e["low"] = x.low;
     if (std::isfinite(x.high)) e["high"] = x.high;
@@ -115,7 +116,7 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
                    {"reversals", r.position.reversals}};
   if (!r.reference.empty()) j["reference"] = r.reference;
   for (const EngineFigures& e : r.engines) j["engines"][e.name] = engine_json(e, r);
-  j["felt"] = felt_json(r.felt);
+  j["felt"] = felt_json(r);
   if (r.law_stale.seconds > 0) {
     j["law_stale"] = {{"seconds", r.law_stale.seconds}, {"first_s", r.law_stale.first_s}};
   }
@@ -129,7 +130,7 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
           {{"constant", c.key}, {"design", c.of_design}, {"plant", c.of_plant}});
     }
     j["figures"] = r.figures;
-    j["expectations"] = {{"checked", r.felt.expectations.size()}, {"broken", r.broken}};
+    j["expectations"] = {{"checked", r.expectations.size()}, {"broken", r.broken}};
   }
   return files::json_text(j);
 }

@@ -14,9 +14,10 @@
 
 namespace feltgate {
 
-/// Options of `feltgate run` that apply to a scene of several axes.
-struct AxesArguments {
-  std::string scene_path, design, engine, json, csv, fst;
+/// Options of `feltgate run`.
+struct RunArguments {
+  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record,
+                     events, states;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
   int every = 0;  ///< 0: sane_every()
@@ -28,8 +29,8 @@ struct AxesArguments {
 struct LawScenes {
   /// As make_scene_law().
   std::unique_ptr<SceneLaw> (*law)(const std::string& path, const DesignInfo& design) = nullptr;
-  /// Runs the scene and prints the result; returns the exit code.
-  int (*axes)(const AxesArguments& arguments) = nullptr;
+  /// Runs the scene of this file and prints the result; returns the exit code.
+  int (*axes)(const std::string& scene_path, const RunArguments& arguments) = nullptr;
 };
 /// The functions of this program.
 LawScenes& law_scenes();

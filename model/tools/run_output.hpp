@@ -4,6 +4,7 @@
 // Prints a run's figures as JSON and as text. Documentation: docs/json.md
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -48,6 +49,13 @@ std::string energy_lines(const FeltEnergy& energy);
 /// Warns that the law's torque was 0 because its mailbox was too old; empty if it never was.
 std::string stale_line(const Acted& stale);
 std::string expectation_lines(const std::vector<Expected>& all);
+
+/// If RTL and twin differed, repeats the run, which is deterministic, with a waveform of the clocks
+/// around the first mismatch, and prints where it is. `run` gets the options of the run with it.
+void show_mismatch(const SessionResult& result, EngineOptions options,
+                   const std::function<void(const EngineOptions& again)>& run);
+/// The scene of that run, ended after so many clocks, without expectations.
+Scenario cut_after(Scenario scenario, const SessionResult& result, Clock clocks);
 
 /// Applies each NAME=VALUE of --set to the scene's parameters; the value may have a unit
 /// (law/amount.hpp). `law` may be nullptr. Throws std::invalid_argument.

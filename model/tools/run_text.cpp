@@ -179,7 +179,7 @@ std::string felt_text(const RunResult& r) {
   }
   text += line("limits", acted_text(f.limits));
   text += line("faults", acted_text(f.faults));
-  if (f.closed_loop) text += expectation_lines(f.expectations);
+  if (f.closed_loop) text += expectation_lines(r.expectations);
   return text;
 }
 

@@ -115,8 +115,8 @@ file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
 # A first scene: nothing that it does not use. The RTL is a minute more, so it is left out where none
 # is asked for.
-set(run_sources csv.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
-list(TRANSFORM run_sources PREPEND "${FELTGATE_ROOT}/model/tools/")
+set(run_names csv.cpp mismatch.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
+list(TRANSFORM run_names PREPEND "${FELTGATE_ROOT}/model/tools/" OUTPUT_VARIABLE run_sources)
 set(run_libraries feltgate_command_line feltgate_loop feltgate_constants feltgate_files
   nlohmann_json::nlohmann_json fmt::fmt)
 add_library(feltgate_run_parts OBJECT ${run_sources})
@@ -141,7 +141,7 @@ if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_twin feltgate_run PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()
 
-list(REMOVE_ITEM tool_sources csv.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
+list(REMOVE_ITEM tool_sources ${run_names})
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
   feltgate_rtl feltgate_files feltgate_budget feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
   feltgate_command_line nlohmann_json::nlohmann_json)

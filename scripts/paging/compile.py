@@ -30,6 +30,7 @@ FILES = (
     "engines/engine.cpp",
     "loop/ensemble.cpp",
     "loop/engine_choice.cpp",
+    "loop/run_host.cpp",
     "loop/step_plan.cpp",
     "shape/rhombus.cpp",
     "stability/dominant_poles.cpp",

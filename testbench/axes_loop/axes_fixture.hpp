@@ -11,6 +11,8 @@
 
 #include "axes_loop/axes_run.hpp"
 #include "catch.hpp"
+#include "engines/axes_cores.hpp"
+#include "law_loop/scene_law.hpp"
 
 namespace feltgate::test {
 

@@ -152,11 +152,11 @@ TEST_CASE("local plane: what a scene cannot ask for") {
   scene.plane->sends_force = true;
   const auto law = make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/local_plane.law",
                                  find_axes_design("pantograph_law")->info(), 2);
-  CHECK_THROWS_WITH(PlaneHost::check(*scene.plane, "a.toml", law->host()),
+  CHECK_THROWS_WITH(PlaneHost::check(*scene.plane, "a.toml", *law),
                     "a.toml:18: law local_plane has no mailbox \"force_x\", which [plane] sends; "
                     "take the law sent_force");
   scene.plane->sends_force = false;
-  CHECK_NOTHROW(PlaneHost::check(*scene.plane, "a.toml", law->host()));
+  CHECK_NOTHROW(PlaneHost::check(*scene.plane, "a.toml", *law));
 }
 
 TEST_CASE("local plane: a world that cannot be is refused with its line") {

@@ -50,7 +50,7 @@ void Bench::arm(const std::string& scene, int mode) {
 void Bench::stop(bool pressed) {
   Panel panel;
   panel.stop = pressed;
-  ensemble_.set_panel(panel);
+  ensemble_.lead().set_panel(panel);
 }
 
 void Bench::move(Clock at, int by) {

@@ -126,10 +126,10 @@ TEST_CASE("a scene: energy, errors within their bounds, expectations by name") {
     CHECK(e.max_error_in_bounds <= e.bound);
     CHECK(e.bound < 1e-3);
   }
-  REQUIRE(r.felt.expectations.size() == 6);
-  for (std::size_t i = 0; i < 5; ++i) CHECK(r.felt.expectations[i].kept());
-  CHECK(!r.felt.expectations[5].kept());
-  CHECK(r.felt.expectations[5].figure == "tau_ref_min_nm");
+  REQUIRE(r.expectations.size() == 6);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(r.expectations[i].kept());
+  CHECK(!r.expectations[5].kept());
+  CHECK(r.expectations[5].figure == "tau_ref_min_nm");
   CHECK(r.broken.size() == 1);
 }
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The host of a run: it owns the engine, of one axis or several, and turns names and values into
+// register writes. Documentation: docs/architecture.md
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "../engines/engine.hpp"
+#include "scene_law.hpp"
+
+namespace feltgate {
+
+/// A register write of the host: the word for fixed point, the value for real arithmetic.
+struct HostWrite {
+  Clock clock = 0;  ///< when it was queued; one write is executed per tick
+  int address = 0;
+  std::uint32_t data = 0;
+  double value = 0;  ///< in the parameter's unit; 0 for control and command words
+};
+
+class RunHost {
+ public:
+  explicit RunHost(std::unique_ptr<AnyEngine> engine)
+      : engine_(std::move(engine)), design_(&engine_->design()) {}
+  virtual ~RunHost() = default;
+  RunHost(RunHost&&) = default;
+  RunHost& operator=(RunHost&&) = default;
+
+  AnyEngine& engine() { return *engine_; }
+  const DesignInfo& design() const { return *design_; }
+
+  /// Loads a law into the engine of laws. Call it once, before the first clock that matters. The
+  /// law must outlive this object.
+  void load(SceneLaw& law);
+  /// Sets a parameter of the law or the design, in its unit, in all axes and riders. Errors:
+  /// std::invalid_argument for an unknown name or a value that does not fit.
+  void set_parameter(const std::string& name, double value) { set_parameters({{name, value}}); }
+  /// The same for several; those of the law come into force together.
+  void set_parameters(const std::map<std::string, double>& values);
+  /// Sets parameters of the law only, with one commit; empty: commits the present values again.
+  void feed_law(const std::map<std::string, double>& values);
+  /// Switches off the self-test of a design that has it on from power-up, so that the scene begins
+  /// with arming, as recordings and scenes expect. The parameter `self_test_pulse` switches it on
+  /// again.
+  void skip_self_test();
+  /// Queues a control word: the host has control, with this scene, mode and request to arm.
+  void set_control(int scene, int mode, bool arm);
+  /// Queues a command word.
+  void command(std::uint32_t bits);
+
+  /// Whether the cores render the law of this run in the tick of `s`, of axis 0; and are armed.
+  bool renders_law(const Snapshot& s) const { return s.scene == law_scene_; }
+  bool in_law(const Snapshot& s) const { return s.armed && renders_law(s); }
+  /// Whether the torque is 0 because a mailbox of the law is too old; the RTL alone does not show
+  /// it.
+  bool stale(const Snapshot& s) const { return s.law_stale && in_law(s); }
+
+ protected:
+  /// Queues a write in every axis, or in the engine of laws.
+  virtual void write(const HostWrite& w);
+
+ private:
+  std::unique_ptr<AnyEngine> engine_;
+  const DesignInfo* design_;
+  SceneLaw* law_ = nullptr;
+  int law_scene_ = -1;  ///< -1: there is no law
+};
+
+}  // namespace feltgate

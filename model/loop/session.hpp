@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What every run of a scene has, of one axis or several: options, what its host does in time, and
+// results up to its expectations. Documentation: docs/architecture.md
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "felt.hpp"
+#include "host_feed.hpp"
+#include "run_host.hpp"
+#include "scenario.hpp"
+
+namespace feltgate {
+
+/// Options of every run, also of a replay.
+struct EngineOptions {
+  std::string design = "lever";
+  std::string engine = "all";  ///< comma list, see choose_engines()
+  std::uint64_t seed = 1;
+  std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
+  Clock fst_from = 0, fst_to = -1;  ///< counted from reset; fst_to < 0: to the end
+  int row_every = 1;                ///< a row of output for every row_every-th tick
+};
+
+/// Options of a scene's run.
+struct SessionOptions : EngineOptions {
+  SceneLaw* law = nullptr;  ///< run by the scene "law"; its parameters can be set by name
+  std::function<void(double done)> progress;  ///< called from time to time with 0..1; may be empty
+};
+
+/// Results of every run.
+struct SessionResult {
+  std::string design, subject;  ///< subject: scene or trace
+  Clock clocks = 0;             ///< without homing
+  std::int64_t ticks = 0;
+  bool lock_step = false;
+  std::int64_t mismatches = 0;
+  std::string first_mismatch;
+  Clock first_mismatch_clock = 0;  ///< counted from reset
+  std::string reference;  ///< engine that the others are compared with: "quad", "double" or none
+  double simulated_s = 0;
+  Acted law_stale;  ///< armed, but no torque: a mailbox of the law was too old
+  std::map<std::string, double> figures;  ///< the figures that a scene file can bound
+  std::vector<Expected> expectations;     ///< of the scene
+  std::vector<std::string> broken;        ///< broken expectations and bounds, one line each
+
+  bool as_expected() const { return mismatches == 0 && broken.empty(); }
+};
+
+/// Notes in which clocks an engine's halves differed.
+void note_mismatches(SessionResult& out, const AnyEngine& engine);
+
+/// A scene in time: arming, events, mailbox; ticks, faults; expectations. It knows no plant.
+class Session {
+ public:
+  /// All must outlive this object. Errors: those of scene_number().
+  Session(const Scenario& scenario, RunHost& host, const SessionOptions& options);
+
+  /// Queues the scene's parameters and its first control word, not armed.
+  void begin();
+  Clock clock_of(double seconds) const {
+    constexpr double never = 0x1p62;  // no sum with it overflows
+    return std::llround(std::min(seconds * static_cast<double>(host_.design().clock_hz), never));
+  }
+  Clock end() const { return end_; }
+  /// The next clock at which act() has something to do.
+  Clock next() const { return next_; }
+  /// Arms, applies events, sends mailboxes, all that is due at `now`; the lever's angle and its
+  /// position by the core's count are those of `now`. Calls `after` with each event that it
+  /// applied.
+  template <class After>
+  void act(Clock now, double angle_rad, double encoder_rad, After&& after) {
+    if (now < next_) return;
+    if (now >= arm_at_) arm();
+    while (now >= event_at()) {
+      apply(s_.events[event_]);
+      after(s_.events[event_++]);
+    }
+    if (now >= feed_.next()) feed_.act(now, angle_rad, encoder_rad, host_);
+    next_ = std::min({arm_at_, event_at(), feed_.next()});
+  }
+  /// Counts a tick, with the faults of all axes.
+  void tick(const Snapshot& axis_0, unsigned faults) {
+    if (host_.stale(axis_0) && stale_ticks_++ == 0) stale_from_ = ticks_;
+    faults_ |= faults;
+    ++ticks_;
+  }
+  /// Ticks so far.
+  std::int64_t ticks() const { return ticks_; }
+  /// Reports the progress, from time to time.
+  void report(Clock now) {
+    if (!options_.progress || now < next_report_) return;
+    options_.progress(static_cast<double>(now) / static_cast<double>(end_));
+    next_report_ = now + host_.design().clock_hz / 100;
+  }
+
+  /// Fills in everything but reference and expectations; the run adds its own figures.
+  void tell(SessionResult& out) const;
+  /// Compares the figures with what the scene expects of this design. Errors: config::ConfigError
+  /// for a figure that does not exist.
+  void hold(SessionResult& out) const;
+
+ private:
+  static constexpr Clock never = std::numeric_limits<Clock>::max();
+  Clock event_at() const {
+    return event_ < s_.events.size() ? clock_of(s_.events[event_].at_s) : never;
+  }
+  void arm();
+  void apply(const Event& e);
+  void control() { host_.set_control(scene_, mode_, armed_); }
+
+  const Scenario& s_;
+  RunHost& host_;
+  const SessionOptions& options_;
+  HostFeed feed_;
+  Clock end_, arm_at_, next_ = 0, next_report_ = 0;
+  std::size_t event_ = 0;  ///< the next one
+  int scene_, mode_;
+  bool armed_ = false;
+  std::int64_t ticks_ = 0, stale_ticks_ = 0, stale_from_ = 0;
+  unsigned faults_ = 0;
+};
+
+}  // namespace feltgate

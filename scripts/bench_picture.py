@@ -23,7 +23,6 @@ PURPOSE = {
     "twin_clock": "pins, without Verilator",
     "twin_event": "closed loops, recordings",
     "twin_tick": "exact signals, parameter studies",
-    "twin_batch": "Monte Carlo",
     "double": "the law without quantisation",
     "float": "what a microcontroller would do",
     "quad": "the reference",
@@ -31,8 +30,8 @@ PURPOSE = {
     "shifts": "a yardstick",
 }
 SENTENCE = (
-    "For the RTL's bits use twin_event (closed loop), twin_tick (signals) or twin_batch (many of "
-    "them);\nrtl checks that they are. For the law without quantisation use double. "
+    "For the RTL's bits use twin_event (closed loop) or twin_tick (signals);\n"
+    "rtl checks that they are. For the law without quantisation use double. "
     "The others check these."
 )
 

@@ -152,7 +152,7 @@ class Measurement {
           if (pass > 0 && !fast(e)) continue;
           Runner& runner = *runners_[i];
           runner.prepare(work);
-          const double s = cpu_seconds([&] { runner.run(work); }) / runner.lanes();
+          const double s = cpu_seconds([&] { runner.run(work); });
           if (spent[i].size() <= static_cast<std::size_t>(pass)) spent[i].push_back(0);
           spent[i][static_cast<std::size_t>(pass)] += s;
           if (e.name == "twin_event" && is_closed_loop(work)) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bench/batch_runner.hpp"
 #include "bench/pin_runner.hpp"
 #include "bench/shift_chain.hpp"
 #include "bench/systemc_numbers.hpp"
@@ -77,20 +76,6 @@ struct Shifts {
   }
 };
 
-struct Lanes {
-  using Design = Lever;
-  template <class Results>
-  static TickResult lane(const Results& b, std::size_t k) {
-    using L = Map::L;
-    return of_integers({b.velocity[k], b.tau_hat[k], b.tau_ref[k], b.current[k], b.voltage[k],
-                        b.duty[k],
-                        b.limit_torque[k] << L::torque | b.limit_ramp[k] << L::ramp |
-                            b.limit_current[k] << L::current | b.limit_voltage[k] << L::voltage |
-                            b.limit_duty[k] << L::duty | b.limit_velocity[k] << L::velocity |
-                            b.limit_tau_hat[k] << L::tau_hat});
-  }
-};
-
 template <class N>
 std::unique_ptr<Runner> laws(const char* name) {
   return std::make_unique<TickRunner<ControlChain<Lever, N>, Laws<N>>>(
@@ -103,9 +88,6 @@ struct Known {
 };
 
 std::unique_ptr<Runner> pins(const char* name) { return make_pin_runner(name); }
-std::unique_ptr<Runner> lanes(const char* name) {
-  return std::make_unique<BatchRunner<Lanes>>(name);
-}
 std::unique_ptr<Runner> shifts(const char* name) {
   return std::make_unique<TickRunner<ShiftChain, Shifts>>(name, Arithmetic::integer);
 }
@@ -115,7 +97,6 @@ constexpr Known known[] = {
     {"twin_clock", pins},
     {"twin_event", pins},
     {"twin_tick", laws<Fixed>},
-    {"twin_batch", lanes},
     {"double", laws<Real<double>>},
     {"float", laws<Real<float>>},
     {"quad", laws<Real<Quad>>},

@@ -41,8 +41,6 @@ class Runner {
   bool integer() const { return arithmetic_ == Arithmetic::integer; }
   /// Whether the engine simulates single clocks, so that clocks per second are defined.
   virtual bool has_clocks() const { return false; }
-  /// Number of simultaneous runs of the work: a batch has several lanes.
-  virtual int lanes() const { return 1; }
 
   /// Resets the engine; not timed.
   virtual void prepare(const Work& work) = 0;

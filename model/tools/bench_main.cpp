@@ -89,7 +89,6 @@ int main(int argc, char** argv) {
       "  twin_clock  the C++ twin, every pin in every clock\n"
       "  twin_event  the same from event to event\n"
       "  twin_tick   the twin's arithmetic alone, a tick at a time\n"
-      "  twin_batch  32 of them at once in vector instructions, time per chain\n"
       "  double, float, quad   the same laws in binary64, binary32 and binary128\n"
       "  sc_fixed    the same laws in SystemC's fixed point\n"
       "  shifts      the same chain written by hand in 64-bit integers\n"

@@ -65,8 +65,8 @@ TEST_CASE("all engines, their bits, their errors, their JSON") {
   const auto j = nlohmann::json::parse(json(r, works, circumstances()));
   CHECK(j.at("schema") == "feltgate-bench/1");
   CHECK(j.at("integer_engines_agree") == true);
-  for (const char* name : {"rtl", "twin_clock", "twin_event", "twin_tick", "twin_batch", "double",
-                           "float", "quad", "sc_fixed", "shifts"}) {
+  for (const char* name : {"rtl", "twin_clock", "twin_event", "twin_tick", "double", "float",
+                           "quad", "sc_fixed", "shifts"}) {
     INFO(name);
     REQUIRE(j.at("engines").contains(name));
     const auto& e = j["engines"][name];

@@ -251,26 +251,9 @@ TEST_CASE("ramp: a pulse reaches the largest limit that there is, and no other")
       law.begin(true, 0);
       law.pulse(sign, Fixed::from_raw<Law::kLimitKey>(limit));
       for (int k = 0; k < 3; ++k) law.move(Fixed::from_raw<Step::format.key()>(Step::max_raw()));
-      while (law.ramping()) law.move(Fixed::from_raw<Step::format.key()>(Step::max_raw()));
+      while (law.limit_ramp()) law.move(Fixed::from_raw<Step::format.key()>(Step::max_raw()));
       law.move(Fixed::from_raw<Step::format.key()>(0));
       REQUIRE(law.tau_ref().raw() == sign * limit);
-    }
-  }
-}
-
-TEST_CASE("ramp: one that is resumed elsewhere goes on as it would have") {
-  Law law;
-  law.begin(true, 3);
-  law.aim(Torque::from_raw(900), false);
-  for (int k = 0; k < 4; ++k) law.move(Fixed::from_raw<Step::format.key()>(100 * kWhole));
-  for (const int scene : {3, 4}) {
-    for (const bool ramping : {true, false}) {
-      Law other;
-      other.resume(3, ramping, law.reference());
-      REQUIRE(other.ramping() == ramping);
-      REQUIRE(other.tau_ref().raw() == 400);
-      other.begin(true, scene);
-      REQUIRE(other.ramping() == (ramping || scene != 3));
     }
   }
 }

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "feltgate/format.hpp"
 #include "feltgate/numbers.hpp"
@@ -29,11 +28,9 @@ struct LimiterLaw {
       *hit = true;
       return To{};
     }
-    *hit = beyond<N>(x, limit);
+    *hit = beyond(x, limit);
     // The common case; with a negative limit *hit is always true.
-    if constexpr (!std::is_same_v<N, FixedLanes>) {
-      if (!*hit) return quantise<N, To, Round::truncate, Overflow::wrap>(x);
-    }
+    if (!*hit) return quantise<N, To, Round::truncate, Overflow::wrap>(x);
     if (limit < Limit{}) limit = Limit{};
     if (x > limit) return quantise<N, To, Round::truncate, Overflow::wrap>(limit);
     if (x < -limit) return quantise<N, To, Round::truncate, Overflow::wrap>(-limit);

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 
 #include "feltgate/fixed.hpp"
 
@@ -56,10 +55,6 @@ struct Fixed {
     return scale_by_power_of_two<K>(x);
   }
 };
-
-/// The same numbers, for a loop over lanes (model/batch). The compiler makes vector instructions of
-/// it only where both sides of a condition are computed; a single chain is faster with branches.
-struct FixedLanes : Fixed {};
 
 /// Real arithmetic in T (double, __float128): every number is a T, and no law rounds.
 template <class T>
@@ -129,14 +124,9 @@ constexpr X negated(X x) {
 }
 
 /// Whether x lies outside [-limit, limit].
-template <class N, class X, class Limit>
+template <class X, class Limit>
 constexpr bool beyond(X x, Limit limit) {
-  if constexpr (std::is_same_v<N, FixedLanes>) {
-    const bool above = x > limit, below = x < -limit;
-    return above | below;
-  } else {
-    return x > limit || x < -limit;
-  }
+  return x > limit || x < -limit;
 }
 
 }  // namespace feltgate

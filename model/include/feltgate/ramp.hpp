@@ -100,16 +100,6 @@ class RampLaw {
   bool limit_ramp() const { return limit_ramp_; }
   bool limit_hold() const { return relief_.eased; }
 
-  /// State that lasts from tick to tick, other than the target; for callers that store it
-  /// elsewhere.
-  const Ramp& reference() const { return reference_; }
-  bool ramping() const { return ramping_; }
-  void resume(int scene, bool ramping, Ramp reference) {
-    scene_ = scene;
-    ramping_ = ramping;
-    reference_ = reference;
-  }
-
  private:
   /// One LSB of the reference.
   static Ramp least() {

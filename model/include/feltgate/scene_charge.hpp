@@ -40,7 +40,7 @@ struct SceneChargeLaw {
   /// Whether the lever is in the core: |distance| <= half_width. A half-width of 0 means no core.
   template <class Width>
   static bool near(Distance distance, Width half_width) {
-    return half_width > Width{} && !beyond<N>(distance, half_width);
+    return half_width > Width{} && !beyond(distance, half_width);
   }
   /// Torque outside the core, floored in fixed point; sgn(0) counts as +1. In real arithmetic the
   /// quotient is 1e30 at distance 0.

@@ -98,7 +98,7 @@ struct TorqueControlLaw {
   /// Whether tau_ref lies in the high-torque region; a tau_ref at the border does not.
   template <class X, class Border>
   static constexpr bool region_high(X tau_ref, Border border) {
-    return beyond<N>(tau_ref, border);
+    return beyond(tau_ref, border);
   }
 };
 

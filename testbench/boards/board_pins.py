@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""What the checks of the boards' pins share: their files, ports and tables, and a test whose mistakes
-are seeded into a copy one at a time.
+"""What the checks of the boards' pins share: their files, ports and tables, and the tests, whose
+mistakes are seeded into a copy one at a time.
 """
 
 import csv
 import re
-import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -43,19 +42,20 @@ def read_ports(text, board):
     return ports
 
 
-class PinsTest(unittest.TestCase):
-    """FILES are those of files_of(); `findings(texts)` says what is wrong, a line for each; MISTAKES
-    are (file, what stands in it once, what instead, words that a finding then has)."""
+class PinsTests:
+    """The tests of a board's TestCase. FILES are those of files_of(); `findings(texts)` says what is
+    wrong, a line for each; MISTAKES are (file, what stands in it once, what instead, words that a
+    finding then has)."""
 
     FILES, MISTAKES = {}, ()
 
     def texts(self):
         return {name: path.read_text(encoding="utf-8") for name, path in self.FILES.items()}
 
-    def check_the_board(self):
+    def test_board_files_agree(self):
         self.assertEqual(self.findings(self.texts()), [])
 
-    def check_the_mistakes(self):
+    def test_seeded_mistakes(self):
         for name, old, new, words in self.MISTAKES:
             with self.subTest(words):
                 texts = self.texts()

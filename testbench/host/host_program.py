@@ -3,15 +3,14 @@
 """What the tests of the host's programs share: a folder of their own in which they run, and how
 lines are compared whose numbers differ from run to run."""
 
-import sys
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
-
 
 
 def pattern_of(line):

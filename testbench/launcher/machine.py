@@ -7,10 +7,10 @@ Debian's own folders are moved into the scratch folder in the copy of the launch
 of the real machine is seen. Every stand-in notes its name and arguments in the log.
 """
 
-import sys
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))

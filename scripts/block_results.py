@@ -23,6 +23,7 @@ import os
 import re
 from pathlib import Path
 
+from command_line import Refused
 import outputs
 
 SCHEMA = "feltgate-results/1"
@@ -62,7 +63,7 @@ EARLIER = "*"
 BESIDE = ("dates", "machines", "sources")  # of a row: by key, no results
 
 
-class ResultsError(Exception):
+class ResultsError(Refused):
     """A file of results that is wrong; the message names it and says what."""
 
 

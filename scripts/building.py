@@ -11,11 +11,12 @@ import threading
 import time
 from pathlib import Path
 
+from command_line import Refused
 import interrupts
 from crew import Crew
 
 
-class BuildError(Exception):
+class BuildError(Refused):
     """The build failed; the message has its last lines and where the others are."""
 
 

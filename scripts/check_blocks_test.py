@@ -24,9 +24,7 @@ CORE = "files:\n" + "".join(f"      {line}\n" for line in LISTS.splitlines())
 
 class CheckBlocks(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.add_block("alpha", "testbench/alpha/alpha_test.cpp")
         self.add_block("scene_spring", "testbench/scene_all/scene_test.cpp")
         self.put("testbench/scene_all/scene_test.cpp", "SceneSpring twin;\n")

@@ -23,15 +23,11 @@ file or an argument is wrong or a test fails.
   feltgate coverage --list              which tests there are; builds nothing
 """
 
-import os
 import sys
-import tempfile
-from pathlib import Path
 
 import block_results
 import building
-import command_options
-import interrupts
+import command_line
 import outputs
 from covering import data, programs, report, waivers
 
@@ -40,66 +36,43 @@ CORE = "feltgate_core"
 
 
 def arguments(argv):
-    parser = command_options.parser("coverage", __doc__)
+    parser = command_line.parser("coverage", __doc__)
+    add = command_line
     parser.add_argument(
         "block", nargs="*", metavar="BLOCK", help="run the tests of these; default: all"
     )
-    parser.add_argument("--list", action="store_true", help="the tests of each block; runs nothing")
-    command_options.add_jobs(parser, "tests")
-    parser.add_argument(
-        "--limit",
-        type=int,
-        default=40,
-        metavar="N",
-        help="list so many of the points that are not reached; default 40",
-    )
-    command_options.add_json(parser)
-    parser.add_argument(
-        "--keep",
-        type=Path,
-        metavar="DIR",
-        help="keep Verilator's data and the logs in this new folder",
-    )
-    parser.add_argument("--no-build", action="store_true", help="take the programs as they are")
-    parser.add_argument(
-        "--update",
-        action="store_true",
-        help="put the results of these blocks into docs/verification/coverage.json, where all meet "
-        "the targets",
+    add.add_flags(parser, list="the tests of each block; runs nothing")
+    add.add_jobs(parser, "tests")
+    add.add_number(parser, "--limit", 40, "list so many of the points that are not reached")
+    add.add_json(parser)
+    add.add_keep(parser, "Verilator's data and the logs")
+    file = "docs/verification/coverage.json"
+    add.add_flags(
+        parser,
+        no_build="take the programs as they are",
+        update=f"put the results of these blocks into {file}, where all meet the targets",
     )
     options = parser.parse_args(argv)
     outputs.check(parser, json=options.json)
-    if (
-        options.keep
-        and options.keep.exists()
-        and (not options.keep.is_dir() or any(options.keep.iterdir()))
-    ):
-        parser.error(f"argument --keep: {options.keep} is not an empty folder; name a new one")
-    if options.jobs < 1:
-        parser.error("argument --jobs: at least 1")
-    if options.limit < 0:
-        parser.error("argument --limit: at least 0")
+    command_line.check_keep(parser, options.keep)
     return options
 
 
 def chosen(everything, blocks):
     """The programs of these blocks, or all; ProgramError where a block has none."""
-    there = list(dict.fromkeys(program.block for program in everything))
-    unknown = [block for block in blocks if block not in there]
-    if unknown:
-        raise programs.ProgramError(
-            f"no test of {', '.join(unknown)}; there are those of {', '.join(there)}"
-        )
-    return [program for program in everything if not blocks or program.block in blocks]
+
+    def unknown(words):
+        there = ", ".join(dict.fromkeys(program.block for program in everything))
+        return programs.ProgramError(f"no test of {words}; there are those of {there}")
+
+    return command_line.chosen(everything, blocks, lambda program: (program.block,), unknown)
 
 
 def measure(options, root, build, folder):
     """Builds and runs the tests; what they reached, as a report."""
     found = chosen(programs.read(build), options.block)
     if not options.no_build:
-        building.make(
-            "coverage", build, [f"{program.test}_cover" for program in found], options.jobs
-        )
+        building.make("coverage", build, [f"{p.test}_cover" for p in found], options.jobs)
     runs = programs.run(root, found, folder, options.jobs)
     seconds = {}
     for run in runs:
@@ -146,33 +119,20 @@ def conclude(options, root, result):
     return 0 if good else 1
 
 
+def run(options):
+    """The exit code."""
+    root, build = command_line.root().resolve(), command_line.build_folder()
+    if options.list:
+        for program in chosen(programs.read(build), options.block):
+            print(f"{program.block:18}{program.test}")
+        return 0
+    with outputs.kept_or_temporary(options.keep, "coverage") as folder:
+        return conclude(options, root, measure(options, root, build, folder))
+
+
 def main(argv=None):
-    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[1]).resolve()
-    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build")
     options = arguments(argv)
-    interrupts.end_on_signals()
-    try:
-        if options.list:
-            for program in chosen(programs.read(build), options.block):
-                print(f"{program.block:18}{program.test}")
-            return 0
-        if options.keep:
-            options.keep.mkdir(parents=True, exist_ok=True)
-            return conclude(options, root, measure(options, root, build, options.keep.resolve()))
-        with tempfile.TemporaryDirectory(prefix="feltgate-coverage-") as folder:
-            return conclude(options, root, measure(options, root, build, Path(folder)))
-    except (
-        programs.ProgramError,
-        data.DataError,
-        waivers.WaiverError,
-        building.BuildError,
-        block_results.ResultsError,
-        OSError,
-    ) as error:
-        print(f"coverage: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("coverage", error)
+    return command_line.ended("coverage", lambda: run(options))
 
 
 if __name__ == "__main__":

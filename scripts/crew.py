@@ -13,6 +13,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
 import interrupts
+from reporting.progress import Steps
 
 
 class Crew:
@@ -96,6 +97,16 @@ class Crew:
                 pool.shutdown(wait=False, cancel_futures=True)
                 self.end()
                 raise
+
+    def counted(self, name, function, items, jobs, done):
+        """The same with a line of progress; done(item, result, progress) returns what was done."""
+        items = list(items)
+        with Steps(name, len(items)) as progress:
+
+            def step(item, result):
+                progress.step(done(item, result, progress))
+
+            self.each(function, items, jobs, step)
 
     def end(self):
         """Ends all that is running, politely at first."""

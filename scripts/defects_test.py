@@ -33,9 +33,7 @@ SOURCES = (Path("rtl/child.sv"), Path("rtl/top.sv"))
 
 class Defects(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.file = self.root / "defects.diff"
         self.defects = {}
         (self.root / "rtl").mkdir()

@@ -8,7 +8,6 @@ last. The exit code is 1 if there was a mismatch or a broken expectation; these 
 Documentation: docs/figures.md
 """
 
-import argparse
 import contextlib
 import json
 import os
@@ -19,7 +18,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import building
-import command_options
+import command_line
 import interrupts
 import outputs
 from outputs import write_whole
@@ -186,44 +185,32 @@ def run_all(demo, jobs, folder, arguments):
 
 
 def arguments_of(argv):
-    parser = command_options.parser(
+    parser = command_line.parser(
         "demo",
         "Every object in closed loop, every recording whole, through RTL and twin in\n"
         "lock-step; one HTML report. About 17 minutes on two cores.",
         EPILOG,
     )
-    parser.add_argument(
-        "--traces", metavar="DIR", help="recordings; default: FELTGATE_TRACES, ../shared/traces"
-    )
-    parser.add_argument(
-        "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: demo in build"
-    )
-    parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
-    parser.add_argument("--all", action="store_true", help="scenes that are left out for time, too")
-    parser.add_argument("--jobs", type=int, metavar="N", help="runs at a time; default: all cores")
-    parser.add_argument(
-        "--no-figures", action="store_true", help="leave out the runs that only the figures need"
-    )
-    command_options.add_only_arguments(parser)
+    what = "recordings; default: FELTGATE_TRACES, ../shared/traces"
+    parser.add_argument("--traces", metavar="DIR", help=what)
+    command_line.add_folder(parser, "default: demo in build")
+    command_line.add_flags(parser, all="scenes that are left out for time, too")
+    what = "runs at a time; default: all cores"
+    parser.add_argument("--jobs", type=command_line.whole(1), metavar="N", help=what)
+    command_line.add_flags(parser, no_figures="leave out the runs that only the figures need")
+    command_line.add_only_arguments(parser)
     arguments = parser.parse_args(argv)
     outputs.check_folder(parser, "-o", arguments.out)
     if arguments.traces and not Path(arguments.traces).is_dir():
         parser.error(f"--traces {arguments.traces}: no such folder")
-    if arguments.jobs is not None and arguments.jobs < 1:
-        parser.error("--jobs: at least 1")
     return arguments
 
 
-def main(argv=None):
-    arguments = arguments_of(argv)
-    if arguments.only_arguments:
-        return 0
+def run(arguments):
+    """The exit code."""
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
-    interrupts.end_on_signals()
-    folders = contextlib.ExitStack()
-    try:
-        folders.enter_context(outputs.new_folder(folder))
+    with outputs.new_folder(folder):
         found, unreadable, where = find_recordings(arguments.traces)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
@@ -248,13 +235,6 @@ def main(argv=None):
         demo = run_all(demo, jobs, folder, arguments)
         demo = replace(demo, took_s=time.monotonic() - began)
         path = write(folder, demo)
-    except (OSError, building.BuildError) as error:
-        print(f"demo: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("demo", error)
-    finally:
-        folders.close()
     for line in demo.unreadable:
         print(f"demo: could not read {line}", file=sys.stderr)
     for line in demo.wrong:
@@ -265,6 +245,13 @@ def main(argv=None):
     )
     print(path)
     return 1 if demo.wrong else 0
+
+
+def main(argv=None):
+    arguments = arguments_of(argv)
+    if arguments.only_arguments:
+        return 0
+    return command_line.ended("demo", lambda: run(arguments))
 
 
 if __name__ == "__main__":

@@ -13,8 +13,7 @@ import os
 import sys
 from pathlib import Path
 
-import command_options
-import interrupts
+import command_line
 from exploring import chunks, engines, explore_page, front, merge, meter, presets, routes, space
 from exploring import plan as plans
 
@@ -48,20 +47,11 @@ def help_of(verb):
     }
 
 
-def add_output(parser, default):
-    parser.add_argument("-o", "--output", dest="out", type=Path, metavar="DIR", help=default)
-    parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
-
-
-def root():
-    return Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
-
-
 def find_space(name):
-    spaces = root() / "vectors/spaces"
+    spaces = command_line.root() / "vectors/spaces"
     if "/" not in name and (spaces / f"{name}.toml").is_file():
         return spaces / f"{name}.toml"
-    scene = root() / "vectors/scenes" / f"{Path(name).stem}.toml"
+    scene = command_line.root() / "vectors/scenes" / f"{Path(name).stem}.toml"
     if scene.is_file() and (name == scene.stem or Path(name).resolve() == scene.resolve()):
         raise plans.PlanError(
             f"{name} is a scene, and explore takes a space of design points; what its rate costs a "
@@ -76,8 +66,7 @@ def find_space(name):
 
 
 def default_folder(name):
-    build = Path(os.environ.get("FELTGATE_BUILD", root() / "build"))
-    return build / "explore" / Path(name).stem
+    return command_line.build_folder() / "explore" / Path(name).stem
 
 
 def add_engine(parser):
@@ -89,7 +78,7 @@ def add_engine(parser):
 
 
 def parser_of_verbs():
-    parser = command_options.parser("explore", __doc__.splitlines()[0], EXAMPLES)
+    parser = command_line.parser("explore", __doc__.splitlines()[0], EXAMPLES)
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="SPACE.toml | VERB")
     everything = verbs.add_parser(
         "all", help="SPACE.toml alone: all of the below, one after another"
@@ -99,7 +88,7 @@ def parser_of_verbs():
     )
     for one in (everything, make):
         one.add_argument("space", metavar="SPACE", help="a file, or a name in vectors/spaces")
-        add_output(one, "default: explore/ in build")
+        command_line.add_folder(one, "default: explore/ in build")
     everything.add_argument("--no-route", action="store_true", help="leave out place and route")
     run = verbs.add_parser("run", help="evaluate a plan, or one chunk of it", **help_of("run"))
     run.add_argument("--chunk", metavar="I/N", help="only part I of N; default: all, in parallel")
@@ -117,7 +106,7 @@ def parser_of_verbs():
     ):
         one = verbs.add_parser(name, help=what, **help_of(name))
         one.add_argument("folder", type=Path, metavar="DIR | TABLE.csv")
-        add_output(one, "default: DIR, or explore/ in build")
+        command_line.add_folder(one, "default: DIR, or explore/ in build")
     for one in (everything, run, route):
         add_engine(one)
     verbs.add_parser("point", help="evaluate one design point", add_help=False)
@@ -125,7 +114,7 @@ def parser_of_verbs():
 
 
 def sources_of(plan):
-    return plans.sources_digest(root(), {point["base"] for point in plan.points})
+    return plans.sources_digest(command_line.root(), {point["base"] for point in plan.points})
 
 
 def execute(options, parts, finished):
@@ -173,7 +162,7 @@ def run_chunk(plan, text):
 
 
 def make_plan(options):
-    found = space.read_space(root(), find_space(options.space))
+    found = space.read_space(command_line.root(), find_space(options.space))
     plan = plans.make(found, options.out or default_folder(options.space))
     print(
         f"explore: {len(plan.points)} points of {len(plan.groups())} structures in {plan.folder}",
@@ -193,12 +182,12 @@ def report_mismatches(rows):
 def act_all(options):
     plan = make_plan(options)
     run_all(plan, options)
-    print(merge.merge(plan, root()))
+    print(merge.merge(plan, command_line.root()))
     if not options.no_route:
         route_all(plan, options)
-        merge.merge(plan, root())
+        merge.merge(plan, command_line.root())
     rows = merge.read(plan.folder)
-    print(explore_page.write(plan, rows, root()))
+    print(explore_page.write(plan, rows, command_line.root()))
     return report_mismatches(rows)
 
 
@@ -210,7 +199,7 @@ def merged(options):
     else:
         table = options.folder
         rows = merge.read_table(table)
-        found = space.read_space(root(), table.with_suffix(".toml"))
+        found = space.read_space(command_line.root(), table.with_suffix(".toml"))
         plan = plans.Plan(default_folder(table.stem), found.name, found.description, (), "")
     if options.out:
         plan = dataclasses.replace(plan, folder=options.out)
@@ -225,11 +214,11 @@ def show(options):
     """page, picture and presets: what is made of the merged figures."""
     plan, rows = merged(options)
     if options.verb == "page":
-        paths = [explore_page.write(plan, rows, root())]
+        paths = [explore_page.write(plan, rows, command_line.root())]
     elif options.verb == "picture":
         paths = [importlib.import_module("exploring.explore_picture").write(plan, rows)]
     else:
-        paths = presets.write(plan, rows, root())
+        paths = presets.write(plan, rows, command_line.root())
     print("\n".join(map(str, paths)))
 
 
@@ -252,31 +241,21 @@ def act(options):
     else:
         if options.verb == "route":
             route_all(plan, options)
-        print(merge.merge(plan, root()))
+        print(merge.merge(plan, command_line.root()))
         return report_mismatches(merge.read(plan.folder))
     return 0
 
 
 def main():
     words = sys.argv[1:]
-    interrupts.end_on_signals()
     if words[:1] == ["point"]:
-        try:
-            return importlib.import_module("exploring.point").main(words[1:])
-        except KeyboardInterrupt as error:
-            return interrupts.tell("explore", error)
+        point = importlib.import_module("exploring.point")
+        return command_line.ended("explore", lambda: point.main(words[1:]))
     if words and words[0] not in VERBS and not words[0].startswith("-"):
         words.insert(0, "all")
     options = parser_of_verbs().parse_args(words)
-    try:
-        return act(options)
-    except (space.SpaceError, plans.PlanError, chunks.ChunkError, engines.EngineError) as error:
-        print(f"explore: {error}", file=sys.stderr)
-    except (chunks.Orphaned, OSError) as error:
-        print(f"explore: {error}", file=sys.stderr)
-    except KeyboardInterrupt as error:
-        return interrupts.tell("explore", error, "; the same command goes on from here")
-    return 2
+    hint = "; the same command goes on from here"
+    return command_line.ended("explore", lambda: act(options), chunks.Orphaned, hint=hint)
 
 
 if __name__ == "__main__":

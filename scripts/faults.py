@@ -45,11 +45,9 @@ import datetime
 import json
 import os
 import sys
-from pathlib import Path
 
 import block_results
-import command_options
-import interrupts
+import command_line
 import outputs
 from faulting import campaign, results
 from reporting.progress import Steps
@@ -63,72 +61,33 @@ CASE = (
 
 
 def arguments(argv):
-    parser = command_options.parser("faults", __doc__)
-    parser.add_argument(
-        "--flips", type=int, default=2, metavar="N", help="flips of each bit; default: 2"
-    )
-    parser.add_argument(
-        "--doubles",
-        type=int,
-        default=600,
-        metavar="N",
-        help="flips of two bits at once; default: 600",
-    )
-    parser.add_argument(
-        "--pins",
-        type=int,
-        default=2000,
-        metavar="N",
-        help="faults at pins and register port; default: 2000",
-    )
-    parser.add_argument(
-        "--only", default="", metavar="NAME", help="flips of registers with this in their name only"
-    )
-    parser.add_argument(
-        "--seed", type=int, default=1, metavar="N", help="of all that is drawn; default: 1"
-    )
-    command_options.add_jobs(parser, "programs")
-    parser.add_argument(
-        "--clean", action="store_true", help="device time without a fault instead: false alarms"
-    )
-    parser.add_argument(
-        "--long", action="store_true", help="with --clean: 24 hours, two or three of CPU time"
-    )
-    parser.add_argument("--replay", type=Path, metavar="FILE", help="the listed cases instead")
-    parser.add_argument(
-        "--lines",
-        type=Path,
-        nargs="+",
-        metavar="FILE",
-        help="tell of the lines that --save kept; runs nothing",
-    )
-    parser.add_argument("--save", type=Path, metavar="FILE", help="a line of JSON for each fault")
-    command_options.add_json(parser)
-    parser.add_argument(
-        "--markdown", action="store_true", help="the table as it stands in docs/verification.md"
-    )
-    parser.add_argument(
-        "--picture", type=Path, metavar="FILE", help="what the hand would feel, as SVG or PNG"
-    )
-    parser.add_argument(
-        "--update",
-        action="store_true",
-        help=f"put the results into {block_results.FOLDER}/faults.json",
-    )
-    options = parser.parse_args(argv)
-    outputs.check(
+    parser = command_line.parser("faults", __doc__)
+    add = command_line
+    add.add_number(parser, "--flips", 2, "flips of each bit")
+    add.add_number(parser, "--doubles", 600, "flips of two bits at once")
+    add.add_number(parser, "--pins", 2000, "faults at pins and register port")
+    what = "flips of registers with this in their name only"
+    parser.add_argument("--only", default="", metavar="NAME", help=what)
+    add.add_number(parser, "--seed", 1, "of all that is drawn")
+    add.add_jobs(parser, "programs")
+    add.add_flags(
         parser,
-        [options.replay, *(options.lines or ())],
-        json=options.json,
-        save=options.save,
-        picture=options.picture,
+        clean="device time without a fault instead: false alarms",
+        long="with --clean: 24 hours, two or three of CPU time",
     )
+    add.add_path(parser, "--replay", what="the listed cases instead")
+    what = "tell of the lines that --save kept; runs nothing"
+    add.add_path(parser, "--lines", nargs="+", what=what)
+    add.add_path(parser, "--save", what="a line of JSON for each fault")
+    add.add_json(parser)
+    add.add_flags(parser, markdown="the table as it stands in docs/verification.md")
+    add.add_path(parser, "--picture", what="what the hand would feel, as SVG or PNG")
+    add.add_flags(parser, update=f"put the results into {block_results.FOLDER}/faults.json")
+    options = parser.parse_args(argv)
+    written = {name: getattr(options, name) for name in ("json", "save", "picture")}
+    outputs.check(parser, [options.replay, *(options.lines or ())], **written)
     if options.picture and options.picture.suffix not in (".svg", ".png"):
         parser.error("argument --picture: the name of a file that ends in .svg or .png")
-    if options.jobs < 1:
-        parser.error("argument --jobs: at least 1")
-    if min(options.flips, options.doubles, options.pins) < 0:
-        parser.error("--flips, --doubles and --pins: 0 or more")
     if options.long and not options.clean:
         parser.error("--long goes with --clean")
     if sum(map(bool, (options.clean, options.replay, options.lines))) > 1:
@@ -142,7 +101,7 @@ def arguments(argv):
     return options
 
 
-def run(build, arguments_, jobs, total):
+def lines_of(build, arguments_, jobs, total):
     """All lines of feltgate_faults; `total` is about how many, None where nobody knows."""
     program = build / "feltgate_faults"
     if not program.exists():
@@ -165,7 +124,7 @@ def run(build, arguments_, jobs, total):
 def clean(options, build):
     """Device time without a fault; the exit code."""
     seconds = DAY_S if options.long else CLEAN_S
-    lines = run(build, ["--clean", seconds, "--seed", options.seed], options.jobs, 1)
+    lines = lines_of(build, ["--clean", seconds, "--seed", options.seed], options.jobs, 1)
     parts = [line for line in lines if "clean_s" in line]
     if len(parts) != options.jobs:
         raise campaign.CampaignError(
@@ -197,7 +156,7 @@ def clean(options, build):
 def replay(options, build):
     """The listed cases again; the exit code."""
     cases = campaign.read(options.replay)
-    lines = run(build, ["--replay", options.replay.resolve()], 1, len(cases))
+    lines = lines_of(build, ["--replay", options.replay.resolve()], 1, len(cases))
 
     def key(fault):
         return tuple(str(fault.get(name)) for name in CASE)
@@ -258,61 +217,43 @@ def report(options, root, faults, seconds):
     return 0 if all(good for *_, good in kept) else 1
 
 
+def injected(options, build):
+    """(faults, seconds of CPU time) of a campaign."""
+    asked = {name: getattr(options, name) for name in ("flips", "doubles", "pins", "seed")}
+    asked |= {"resets": options.pins // 10} | ({"only": options.only} if options.only else {})
+    # Near enough for a percentage; how many registers have a name nobody knows before.
+    total = 5100 * options.flips + options.doubles + options.pins
+    words = [word for name, value in asked.items() for word in (f"--{name}", value)]
+    before = os.times()
+    lines = lines_of(build, words, options.jobs, None if options.only else total)
+    spent = [after - was for after, was in zip(os.times(), before)]
+    broken = [line["mismatches"] for line in lines if line.get("mismatches")]
+    if broken:
+        raise campaign.CampaignError(
+            f"RTL and twin differed in {sum(broken)} ticks without any fault"
+        )
+    return [line for line in lines if "class" in line], spent[2] + spent[3]
+
+
+def run(options):
+    """The exit code."""
+    root, build = command_line.root(), command_line.build_folder()
+    if options.clean:
+        return clean(options, build)
+    if options.replay:
+        return replay(options, build)
+    if options.lines:
+        faults, seconds = [f for path in options.lines for f in campaign.read(path)], 0
+    else:
+        faults, seconds = injected(options, build)
+    if not faults:
+        raise campaign.CampaignError("no fault was asked for; --flips, --doubles or --pins above 0")
+    return report(options, root, faults, seconds)
+
+
 def main(argv=None):
-    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[1])
-    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build").resolve()
     options = arguments(argv)
-    interrupts.end_on_signals()
-    try:
-        if options.clean:
-            return clean(options, build)
-        if options.replay:
-            return replay(options, build)
-        seconds = 0
-        if options.lines:
-            faults = [fault for path in options.lines for fault in campaign.read(path)]
-        else:
-            asked = [
-                "--flips",
-                options.flips,
-                "--doubles",
-                options.doubles,
-                "--pins",
-                options.pins,
-                "--resets",
-                options.pins // 10,
-                "--seed",
-                options.seed,
-                *(["--only", options.only] if options.only else []),
-            ]
-            # Near enough for a percentage; how many registers have a name nobody knows before.
-            total = 5100 * options.flips + options.doubles + options.pins
-            total = None if options.only else total
-            before = os.times()
-            lines = run(build, asked, options.jobs, total)
-            after = os.times()
-            seconds = (
-                after.children_user
-                + after.children_system
-                - before.children_user
-                - before.children_system
-            )
-            broken = [line["mismatches"] for line in lines if line.get("mismatches")]
-            if broken:
-                raise campaign.CampaignError(
-                    f"RTL and twin differed in {sum(broken)} ticks without any fault"
-                )
-            faults = [line for line in lines if "class" in line]
-        if not faults:
-            raise campaign.CampaignError(
-                "no fault was asked for; --flips, --doubles or --pins above 0"
-            )
-        return report(options, root, faults, seconds)
-    except (campaign.CampaignError, block_results.ResultsError, OSError) as error:
-        print(f"faults: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("faults", error)
+    return command_line.ended("faults", lambda: run(options))
 
 
 if __name__ == "__main__":

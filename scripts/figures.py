@@ -8,14 +8,10 @@ results. Writes figures.html (pictures inside), figures.json, and each picture a
 Documentation: docs/figures.md
 """
 
-import argparse
-import contextlib
 import json
 import sys
-from pathlib import Path
 
-import command_options
-import interrupts
+import command_line
 import outputs
 from outputs import write_whole
 from reporting import all_figures, page, run_section, runs
@@ -78,44 +74,40 @@ def write(folder, drawn, found):
     return path
 
 
-def main():
-    parser = command_options.parser(
+def arguments():
+    parser = command_line.parser(
         "figures",
         "Redraws the figures of the Haptic Lever paper from runs of the RTL.",
         EPILOG,
     )
-    parser.add_argument(
-        "-o", "--output", dest="out", type=Path, metavar="DIR", help="default: figures in build"
-    )
-    parser.add_argument("--out", dest="out", type=Path, help=argparse.SUPPRESS)  # its old name
-    parser.add_argument(
-        "--design", choices=DESIGNS, metavar="DESIGN", help="only lever or only paper; default: both"
-    )
+    command_line.add_folder(parser, "default: figures in build")
+    what = "only lever or only paper; default: both"
+    parser.add_argument("--design", choices=DESIGNS, metavar="DESIGN", help=what)
     arguments = parser.parse_args()
     outputs.check_folder(parser, "-o", arguments.out)
+    return arguments
+
+
+def run(arguments):
+    """The exit code."""
     folder = (arguments.out or runs.build_folder() / "figures").resolve()
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)
-    interrupts.end_on_signals()
-    folders = contextlib.ExitStack()
-    try:
-        folders.enter_context(outputs.new_folder(folder))
+    with outputs.new_folder(folder):
         with Progress(jobs) as progress:
             found = runs.run_all(jobs, folder / "data", progress)
         drawn = all_figures.draw(found, designs, png=True)
         path = write(folder, drawn, found)
-    except OSError as error:
-        print(f"figures: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("figures", error)
-    finally:
-        folders.close()
     wrong = faults(found)
     for line in wrong:
         print(f"figures: {line}", file=sys.stderr)
     print(path)
     return 1 if wrong else 0
+
+
+def main():
+    given = arguments()
+    return command_line.ended("figures", lambda: run(given))
 
 
 if __name__ == "__main__":

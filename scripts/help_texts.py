@@ -45,18 +45,12 @@ def commands(build):
     own = {
         # Not by the launcher: that prints the text which this compares.
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
-        "faults": [PYTHON, "-B", ROOT / "scripts/faults.py"],
-        "prove": [PYTHON, "-B", ROOT / "scripts/prove.py"],
-        "mutate": [PYTHON, "-B", ROOT / "scripts/mutate.py"],
-        "coverage": [PYTHON, "-B", ROOT / "scripts/coverage.py"],
-        "page": [PYTHON, "-B", ROOT / "scripts/page.py"],
-        "product": [PYTHON, "-B", ROOT / "scripts/product.py"],
         "generate": [build / "feltgate_generate", ROOT],
-        "bench": [build / "feltgate_bench"],
-        "extremes": [build / "feltgate_extremes"],
-        "host": [build / "feltgate_host"],
-        "board": [build / "feltgate_board"],
     }
+    scripts = ("faults", "prove", "mutate", "coverage", "page", "product")
+    own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
+    programs = ("bench", "extremes", "host", "board")
+    own |= {name: [build / f"feltgate_{name}"] for name in programs}
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
     found["mutate--twin"] = [*own["mutate"], "--twin"]
     for verb in host_verbs():

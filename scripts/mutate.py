@@ -25,82 +25,30 @@ argument is wrong.
 """
 
 import json
-import os
 import sys
-from pathlib import Path
 
 import block_results
 import building
-import command_options
-import interrupts
+import command_line
 import outputs
-from mutating import netlist, rtl, rtl_table
-from seeding.patches import DefectError
+from mutating import rtl, rtl_table
+from mutating.options import mutants_parser, parsed
 
 SCHEMA = "feltgate-mutate/1"
 REQUIRED = 0.99
 
 
 def arguments(argv):
-    parser = command_options.parser("mutate", __doc__)
-    parser.add_argument(
-        "name", nargs="*", metavar="BLOCK", help="a block, one of its tests, or BLOCK.TEST; default: all"
-    )
-    parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
-    parser.add_argument(
-        "--show", type=int, metavar="N", help="one mutant of one test, for a person"
-    )
-    parser.add_argument(
-        "--count", type=int, default=0, metavar="N", help="mutants of each test; default: all"
-    )
-    parser.add_argument(
-        "--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1"
-    )
-    parser.add_argument(
-        "--require",
-        type=float,
-        default=REQUIRED,
-        metavar="SHARE",
-        help=f"to be killed, of those not equivalent; default: {REQUIRED}",
-    )
-    parser.add_argument(
-        "--survivors", action="store_true", help="list also what survives for a known reason"
-    )
-    parser.add_argument(
-        "--proof-seconds",
-        type=int,
-        default=20,
-        metavar="S",
-        help="for the proof that a survivor is equivalent, 0: none; default: 20",
-    )
-    parser.add_argument(
-        "--again",
-        type=Path,
-        metavar="RESULTS",
-        help="only those that survived in these results of --json and are not listed",
-    )
-    command_options.add_jobs(parser, "programs")
-    parser.add_argument("--no-build", action="store_true", help="run the programs that are there")
-    command_options.add_json(parser)
-    parser.add_argument(
-        "--update",
-        action="store_true",
-        help=f"put the results of these blocks into {block_results.FOLDER}/mutants.json",
-    )
-    parser.add_argument(
-        "--twin", action="store_true", help="mutants of the C++ twin; its options: --twin --help"
-    )
-    command_options.add_only_arguments(parser)
-    options = parser.parse_args(argv)
-    command_options.refuse_beside(parser, options, "list", "update", "json", "again", "show")
-    command_options.refuse_beside(parser, options, "show", "update", "json", "again")
-    outputs.check(parser, [options.again], json=options.json)
-    if options.jobs < 1:
-        parser.error("argument --jobs: at least 1")
-    if not 0 <= options.require <= 1:
-        parser.error("argument --require: a share is from 0 to 1")
-    if min(options.count, options.proof_seconds) < 0:
-        parser.error("--count and --proof-seconds: 0 or more")
+    parser = mutants_parser("mutate", __doc__, "BLOCK", "a block, one of its tests, or BLOCK.TEST", 0)
+    command_line.add_number(parser, "--show", None, "one mutant of one test, for a person")
+    what = "for the proof that a survivor is equivalent, 0: none"
+    command_line.add_number(parser, "--proof-seconds", 20, what)
+    what = f"put the results of these blocks into {block_results.FOLDER}/mutants.json"
+    twin = "mutants of the C++ twin; its options: --twin --help"
+    command_line.add_flags(parser, update=what, twin=twin)
+    options = parsed(parser, argv, REQUIRED)
+    command_line.refuse_beside(parser, options, "list", "show")
+    command_line.refuse_beside(parser, options, "show", "update", "json", "again")
     if options.again and options.count:
         parser.error("--again tries what survived; leave --count away")
     if options.update and (options.count or not options.proof_seconds):
@@ -114,16 +62,12 @@ def chosen(found, wanted):
         raise rtl.MutateError(
             "the build folder knows no mutants: it was configured without tests, or without yosys"
         )
-    unknown = [w for w in wanted if not any(w in t.names() for t in found)]
-    if unknown:
+
+    def unknown(words):
         names = ", ".join(dict.fromkeys(t.block for t in found))
-        raise rtl.MutateError(f"no block {', '.join(unknown)} with mutants; there are {names}")
-    return [t for t in found if not wanted or any(w in t.names() for w in wanted)]
+        return rtl.MutateError(f"no block {words} with mutants; there are {names}")
 
-
-def say(text):
-    """A line about the work, for a person."""
-    print(f"mutate: {text}", file=sys.stderr, flush=True)
+    return command_line.chosen(found, wanted, rtl.Test.names, unknown)
 
 
 def update(root, rows):
@@ -143,9 +87,7 @@ def report(options, root, rows):
     print(rtl_table.table(rows))
     bad = [row.test.name for row in rows if row.share() < options.require]
     tried = sum(row.tried() for row in rows)
-    killed, relevant = sum(row.dead() for row in rows), sum(
-        row.relevant() for row in rows
-    )
+    killed, relevant = sum(map(rtl.Row.dead, rows)), sum(map(rtl.Row.relevant, rows))
     print(
         f"{tried} mutants in {len(rows)} tests, {killed} of {relevant} not equivalent ones killed "
         f"({100 * killed / max(1, relevant):.1f} %); "
@@ -193,60 +135,40 @@ def check_whole(everything, tests):
             )
 
 
+def run(options):
+    """The exit code."""
+    results = earlier(options.again) if options.again else None
+    if options.only_arguments:
+        return 0
+    root, build = command_line.root(), command_line.build_folder()
+    everything = rtl.tests(build)
+    tests = chosen(everything, options.name)
+    if options.update:
+        check_whole(everything, tests)
+    if options.list:
+        for test in tests:
+            print(f"{test.name}: rtl/{test.block}.sv, {test.program.name}")
+        return 0
+    if not options.no_build:
+        building.make("mutate", build, [test.program.name for test in tests], options.jobs)
+    for test in tests:
+        test.read()
+    if options.show is not None:
+        if len(tests) != 1:
+            raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
+        rtl.show(tests[0], options.show, root, options.proof_seconds)
+        return 0
+    return report(options, root, rtl.run(tests, root, options, results))
+
+
 def main(argv=None):
     argv = sys.argv[1:] if argv is None else argv
     if "--twin" in argv:
         from mutating import twin
 
         return twin.main([word for word in argv if word != "--twin"])
-    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[1])
-    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build").resolve()
     options = arguments(argv)
-    interrupts.end_on_signals()
-    try:
-        results = earlier(options.again) if options.again else None
-        if options.only_arguments:
-            return 0
-        everything = rtl.tests(build)
-        tests = chosen(everything, options.name)
-        if options.update:
-            check_whole(everything, tests)
-        if options.list:
-            for test in tests:
-                print(f"{test.name}: rtl/{test.block}.sv, {test.program.name}")
-            return 0
-        if not options.no_build:
-            building.make("mutate", build, [test.program.name for test in tests], options.jobs)
-        for test in tests:
-            test.read()
-        if options.show is not None:
-            if len(tests) != 1:
-                raise rtl.MutateError(f"--show takes one test: {', '.join(t.name for t in tests)}")
-            rtl.show(tests[0], options.show, root, options.proof_seconds)
-            return 0
-        rows = rtl.run(
-            tests,
-            root,
-            options.count,
-            options.seed,
-            options.jobs,
-            options.proof_seconds,
-            say,
-            results,
-        )
-        return report(options, root, rows)
-    except (
-        rtl.MutateError,
-        netlist.NetlistError,
-        building.BuildError,
-        block_results.ResultsError,
-        DefectError,
-        OSError,
-    ) as error:
-        print(f"mutate: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("mutate", error)
+    return command_line.ended("mutate", lambda: run(options))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import json
 import os
 import stat
 import sys
+import tempfile
 from pathlib import Path
 
 STDOUT = "-"
@@ -92,6 +93,17 @@ def new_folder(path):
         for one in (*sorted(inside, reverse=True), *made):
             with contextlib.suppress(OSError):
                 one.rmdir()
+
+
+@contextlib.contextmanager
+def kept_or_temporary(folder, command):
+    """The folder of --keep, made where it is not there; without one a temporary folder."""
+    if folder:
+        folder.mkdir(parents=True, exist_ok=True)
+        yield folder.resolve()
+        return
+    with tempfile.TemporaryDirectory(prefix=f"feltgate-{command}-") as temporary:
+        yield Path(temporary)
 
 
 def write_json(path, value):

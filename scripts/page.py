@@ -16,7 +16,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-import command_options
+import command_line
 import interrupts
 import outputs
 from paging.compile import CompileError, compile_core
@@ -38,29 +38,20 @@ COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
 
 
-class PageError(Exception):
+class PageError(command_line.Refused):
     """The page cannot be made; the message is for the user."""
 
 
 def arguments_of(argv):
-    parser = command_options.parser("page", __doc__.splitlines()[0], EPILOG)
-    parser.add_argument(
-        "--design",
-        action="append",
-        metavar="DESIGN",
-        help="a design of rtl/designs that the page shall have besides, first; may be repeated",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        default=Path("page.html"),
-        help="default page.html",
-    )
-    parser.add_argument("--update", action="store_true", help=f"write {COMMITTED}")
-    parser.add_argument(
-        "--check", action="store_true", help=f"compare {COMMITTED} with this tree; compiles nothing"
+    parser = command_line.parser("page", __doc__.splitlines()[0], EPILOG)
+    what = "a design of rtl/designs that the page shall have besides, first; may be repeated"
+    parser.add_argument("--design", action="append", metavar="DESIGN", help=what)
+    output = {"default": Path("page.html"), "what": "default page.html"}
+    command_line.add_path(parser, "-o", "--output", **output)
+    command_line.add_flags(
+        parser,
+        update=f"write {COMMITTED}",
+        check=f"compare {COMMITTED} with this tree; compiles nothing",
     )
     options = parser.parse_args(argv)
     outputs.check(parser, output=options.output)
@@ -165,29 +156,27 @@ def page_of(root, designs):
     return assembled(root, numbers, script, wasm)
 
 
-def main(argv=None):
-    options = arguments_of(argv)
-    root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
-    interrupts.end_on_signals()
-    try:
-        if options.check:
-            why = stale(root)
-            if why:
-                mend = "run feltgate page --update"
-                print(f"page: {COMMITTED} is stale: {why}; {mend}", file=sys.stderr)
-                return 1
-            print(f"{COMMITTED} is of this tree", file=sys.stderr)
-            return 0
-        target = root / COMMITTED if options.update else options.output
-        text = page_of(root, checked_designs(root, options.design))
-        outputs.write_whole(target, text)
-    except interrupts.Interrupted as error:
-        return interrupts.tell("page", error)
-    except (PageError, CompileError, OSError) as error:
-        print(f"page: {error}", file=sys.stderr)
-        return 2
+def run(options):
+    """The exit code."""
+    root = command_line.root()
+    if options.check:
+        why = stale(root)
+        if why:
+            mend = "run feltgate page --update"
+            print(f"page: {COMMITTED} is stale: {why}; {mend}", file=sys.stderr)
+            return 1
+        print(f"{COMMITTED} is of this tree", file=sys.stderr)
+        return 0
+    target = root / COMMITTED if options.update else options.output
+    text = page_of(root, checked_designs(root, options.design))
+    outputs.write_whole(target, text)
     print(f"wrote {target}, {len(text) / 1e6:.1f} MB; open it in a browser", file=sys.stderr)
     return 0
+
+
+def main(argv=None):
+    options = arguments_of(argv)
+    return command_line.ended("page", lambda: run(options), CompileError)
 
 
 if __name__ == "__main__":

@@ -6,20 +6,18 @@
 Documentation: docs/product.md, docs/boards/de0_nano.md
 """
 
-import os
 import re
 import sys
 import tempfile
 from pathlib import Path
 
-import command_options
+import command_line
 import design_package
-import interrupts
 import outputs
 import product_board
 import rtl_sources
 import synth_measure
-from synth_tools import ToolError, Tools, version
+from synth_tools import Tools, version
 
 EPILOG = """examples:
   feltgate product verilog                                feltgate.v: design lever, with read-back
@@ -42,23 +40,15 @@ ATTRIBUTES = (
 
 
 def arguments_of(argv):
-    parser = command_options.parser("product", __doc__.splitlines()[0], EPILOG)
+    parser = command_line.parser("product", __doc__.splitlines()[0], EPILOG)
     parser.add_argument("kind", choices=("verilog", "board"), help="what to write")
-    parser.add_argument(
-        "--design", default="lever", help="a name in rtl/designs, or a file; default lever"
+    what = "a name in rtl/designs, or a file; default lever"
+    parser.add_argument("--design", default="lever", help=what)
+    command_line.add_flags(
+        parser, no_read_back="leave out what a host reads: snapshot RAM and read path"
     )
-    parser.add_argument(
-        "--no-read-back",
-        action="store_true",
-        help="leave out what a host reads: snapshot RAM and read path",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        help="default feltgate.v; of a board a folder, default de0_nano_DESIGN",
-    )
+    what = "default feltgate.v; of a board a folder, default de0_nano_DESIGN"
+    command_line.add_path(parser, "-o", "--output", what=what)
     options = parser.parse_args(argv)
     if options.kind == "board":
         if options.no_read_back:
@@ -129,25 +119,22 @@ def verilog(root, options, folder):
     return head + text.partition("*/\n")[2]
 
 
-def main(argv=None):
-    options = arguments_of(argv)
-    root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
-    interrupts.end_on_signals()
-    try:
-        with tempfile.TemporaryDirectory(prefix="feltgate-product-") as folder:
-            if options.kind == "board":
-                made = product_board.write(root, options.design, options.output, Path(folder))
-                print(f"wrote {made}: cd {made}; quartus_sh -t build.tcl", file=sys.stderr)
-                return 0
-            text = verilog(root, options, Path(folder))
-        outputs.write_whole(options.output, text)
-    except interrupts.Interrupted as error:
-        return interrupts.tell("product", error)
-    except (ToolError, OSError) as error:
-        print(f"product: {error}", file=sys.stderr)
-        return 2
+def run(options):
+    """The exit code."""
+    root = command_line.root()
+    with tempfile.TemporaryDirectory(prefix="feltgate-product-") as folder:
+        if options.kind == "board":
+            made = product_board.write(root, options.design, options.output, Path(folder))
+            print(f"wrote {made}: cd {made}; quartus_sh -t build.tcl", file=sys.stderr)
+            return 0
+        outputs.write_whole(options.output, verilog(root, options, Path(folder)))
     print(f"wrote {options.output}", file=sys.stderr)
     return 0
+
+
+def main(argv=None):
+    options = arguments_of(argv)
+    return command_line.ended("product", lambda: run(options))
 
 
 if __name__ == "__main__":

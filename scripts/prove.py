@@ -23,86 +23,48 @@ an argument is wrong.
   feltgate prove --list                  properties, defects and covers; runs nothing
 """
 
-import os
 import sys
-import tempfile
-from pathlib import Path
 
-import command_options
-import interrupts
+import command_line
 import outputs
 from proving import catalog, page, record, tasks, unproven
 from proving.tools import Broken, Tools
-from reporting.progress import Steps
-from seeding.patches import DefectError
 
 SCHEMA = "feltgate-prove/1"
 
 
 def arguments(argv):
-    parser = command_options.parser("prove", __doc__)
+    parser = command_line.parser("prove", __doc__)
+    add = command_line
     parser.add_argument(
         "proof", nargs="*", metavar="BLOCK[.NAME]", help="a block or one proof; default: all"
     )
-    parser.add_argument(
-        "--list",
-        action="store_true",
-        help="what there is, and which ports are in no property; runs nothing",
+    add.add_flags(
+        parser,
+        list="what there is, and which ports are in no property; runs nothing",
+        fast="only what every test run looks after: short proofs, on their first design",
+        changed=f"not those whose inputs are on record as proven, in {record.FILE}",
+        record="enter the inputs of proofs that were good into that record",
     )
-    parser.add_argument(
-        "--fast",
-        action="store_true",
-        help="only what every test run looks after: short proofs, on their first design",
+    what = "only N defects of each proof, spread evenly; 0: base, induction and covers only"
+    add.add_number(parser, "--defects", None, what)
+    add.add_jobs(parser, "runs")
+    add.add_json(parser)
+    add.add_keep(parser, "SMT2, logs and VCD")
+    add.add_flags(
+        parser,
+        update="write the table of docs/proofs.md: of all blocks, or of those named here",
+        check_page="only look whether that table is of the proofs as they are",
     )
-    parser.add_argument(
-        "--changed",
-        action="store_true",
-        help=f"not those whose inputs are on record as proven, in {record.FILE}",
-    )
-    parser.add_argument(
-        "--record",
-        action="store_true",
-        help="enter the inputs of proofs that were good into that record",
-    )
-    parser.add_argument(
-        "--defects",
-        type=int,
-        metavar="N",
-        help="only N defects of each proof, spread evenly; 0: base, induction and covers only",
-    )
-    command_options.add_jobs(parser, "runs")
-    command_options.add_json(parser)
-    parser.add_argument(
-        "--keep", type=Path, metavar="DIR", help="keep SMT2, logs and VCD in this new folder"
-    )
-    parser.add_argument(
-        "--update",
-        action="store_true",
-        help="write the table of docs/proofs.md: of all blocks, or of those named here",
-    )
-    parser.add_argument(
-        "--check-page",
-        action="store_true",
-        help="only look whether that table is of the proofs as they are",
-    )
-    command_options.add_only_arguments(parser)
+    add.add_only_arguments(parser)
     options = parser.parse_args(argv)
     run_only = ("changed", "record", "defects", "keep", "json", "update")
-    command_options.refuse_beside(parser, options, "list", *run_only)
-    command_options.refuse_beside(parser, options, "check_page", "list", "fast", *run_only)
+    command_line.refuse_beside(parser, options, "list", *run_only)
+    command_line.refuse_beside(parser, options, "check_page", "list", "fast", *run_only)
     if options.check_page and options.proof:
         parser.error("--check-page looks at the whole table: name no proof")
     outputs.check(parser, json=options.json)
-    if (
-        options.keep
-        and options.keep.exists()
-        and (not options.keep.is_dir() or any(options.keep.iterdir()))
-    ):
-        parser.error(f"argument --keep: {options.keep} is not an empty folder; name a new one")
-    if options.jobs < 1:
-        parser.error("argument --jobs: at least 1")
-    if options.defects is not None and options.defects < 0:
-        parser.error("argument --defects: 0 or more")
+    command_line.check_keep(parser, options.keep)
     limited = options.fast or options.changed or options.defects is not None
     partly = any("." in name for name in options.proof) or limited
     if options.update and partly:
@@ -112,11 +74,12 @@ def arguments(argv):
 
 def chosen(proofs, wanted, fast):
     """The proofs of these names, or all; CatalogError where there is none."""
-    unknown = [w for w in wanted if not any(w in (p.block, p.key) for p in proofs)]
-    if unknown:
+
+    def unknown(words):
         names = ", ".join(dict.fromkeys(p.block for p in proofs))
-        raise catalog.CatalogError(f"no proof of {', '.join(unknown)}; there are those of {names}")
-    found = [p for p in proofs if not wanted or p.block in wanted or p.key in wanted]
+        return catalog.CatalogError(f"no proof of {words}; there are those of {names}")
+
+    found = command_line.chosen(proofs, wanted, lambda p: (p.block, p.key), unknown)
     return [p for p in found if p.fast] if fast else found
 
 
@@ -143,7 +106,7 @@ def print_open(blocks):
         print(f"{block}: in no property: {why}")
 
 
-def run(options, root, proofs, folder):
+def prove(options, root, proofs, folder):
     """Runs all tasks; returns the rows of the table."""
     tools = Tools(folder)
     if options.changed:
@@ -153,14 +116,13 @@ def run(options, root, proofs, folder):
         proofs = [proof for proof in proofs if proof not in known]
     todo = tasks.plan(proofs, options.defects, options.fast)
     rows = tasks.rows(proofs, options.fast)
-    with Steps("prove", len(todo)) as progress:
 
-        def done(task, result):
-            for complaint in tasks.enter(rows, task, result):
-                progress.say(complaint)
-            progress.step(f"{task.proof.key} {task.what}")
+    def done(task, result, progress):
+        for complaint in tasks.enter(rows, task, result):
+            progress.say(complaint)
+        return f"{task.proof.key} {task.what}"
 
-        tools.crew.each(lambda task: task.run(tools, root), todo, options.jobs, done)
+    tools.crew.counted("prove", lambda task: task.run(tools, root), todo, options.jobs, done)
     return rows, tools.versions()
 
 
@@ -186,34 +148,28 @@ def report(options, root, rows, versions):
     return 1 if bad else 0
 
 
+def run(options):
+    """The exit code."""
+    root = command_line.root()
+    everything = catalog.read(root)
+    if options.check_page and not options.only_arguments:
+        return page.check(root, everything)
+    proofs = chosen(everything, options.proof, options.fast)
+    if options.only_arguments:
+        return 0
+    if options.list:
+        print_list(root, proofs)
+        if not options.proof and not options.fast:
+            print_open(catalog.open_ports(root, proofs))
+        return 0
+    with outputs.kept_or_temporary(options.keep, "prove") as folder:
+        rows, versions = prove(options, root, proofs, folder)
+    return report(options, root, rows, versions)
+
+
 def main(argv=None):
-    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[1])
     options = arguments(argv)
-    interrupts.end_on_signals()
-    try:
-        everything = catalog.read(root)
-        if options.check_page and not options.only_arguments:
-            return page.check(root, everything)
-        proofs = chosen(everything, options.proof, options.fast)
-        if options.only_arguments:
-            return 0
-        if options.list:
-            print_list(root, proofs)
-            if not options.proof and not options.fast:
-                print_open(catalog.open_ports(root, proofs))
-            return 0
-        if options.keep:
-            options.keep.mkdir(parents=True, exist_ok=True)
-            rows, versions = run(options, root, proofs, options.keep.resolve())
-        else:
-            with tempfile.TemporaryDirectory(prefix="feltgate-prove-") as temporary:
-                rows, versions = run(options, root, proofs, Path(temporary))
-        return report(options, root, rows, versions)
-    except (catalog.CatalogError, Broken, DefectError, OSError) as error:
-        print(f"prove: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("prove", error)
+    return command_line.ended("prove", lambda: run(options), Broken)
 
 
 if __name__ == "__main__":

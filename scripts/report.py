@@ -14,7 +14,7 @@ import json
 import sys
 from pathlib import Path
 
-import interrupts
+import command_line
 from outputs import write_whole
 from reporting import card, headline, page, run_pictures, run_section
 from reporting.runs import read_csv
@@ -71,20 +71,17 @@ def main():
     parser.add_argument("json", metavar="JSON", help="what --json wrote")
     parser.add_argument("csv", metavar="CSV", nargs="*", help="what --csv wrote")
     arguments = parser.parse_args()
-    interrupts.end_on_signals()
-    try:
+
+    def work():
         summary = read_summary(arguments.json)
         text = report(summary, [read_csv(path, MOST_ROWS) for path in arguments.csv])
         arguments.folder.mkdir(parents=True, exist_ok=True)
         path = arguments.folder / "report.html"
         write_whole(path, text)
-    except (OSError, ValueError) as error:
-        print(f"report: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("report", error)
-    print(path)
-    return 0
+        print(path)
+        return 0
+
+    return command_line.ended("report", work, ValueError)
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import interrupts
+import command_line
 
 ROOT = Path(__file__).resolve().parents[1]
 DRIVER = ROOT / "testbench/bench/rtl_speed.cpp"
@@ -38,7 +38,7 @@ VERILATE = ["--cc", "--trace-fst", "-O3", "--x-initial", "unique", "--x-assign",
 PAD_BYTES = 1 << 16  # between two objects at most: more than the code of a core has of cache
 
 
-class SpeedError(Exception):
+class SpeedError(command_line.Refused):
     """What cannot be built or run, with what the tool said."""
 
 
@@ -180,25 +180,19 @@ def main():
     parser.add_argument("old", metavar="OLD", help="folder or revision")
     parser.add_argument("new", metavar="NEW", nargs="?", default=str(ROOT), help="default: this tree")
     parser.add_argument("--design", default="lever", help="default: lever")
-    parser.add_argument("--links", type=int, default=8, help="programs linked; default: 8")
-    parser.add_argument("--clocks", type=int, default=1000000, help="of each core in a round")
-    parser.add_argument("--rounds", type=int, default=5, help="of each program; default: 5")
-    parser.add_argument("--verbose", action="store_true", help="a line for each link")
+    add = command_line
+    add.add_number(parser, "--links", 8, "programs linked", least=1)
+    add.add_number(parser, "--clocks", 1000000, "of each core in a round", least=1)
+    add.add_number(parser, "--rounds", 5, "of each program", least=1)
+    add.add_flags(parser, verbose="a line for each link")
     options = parser.parse_args()
-    if min(options.links, options.clocks, options.rounds) < 1:
-        parser.error("--links, --clocks and --rounds are at least 1")
-    interrupts.end_on_signals()
-    try:
-        with tempfile.TemporaryDirectory(prefix="rtl_speed.") as work:
-            measure(options, Path(work))
-    except SpeedError as error:
-        print(f"rtl_speed: {error}", file=sys.stderr)
-        return 2
-    return 0
+
+    def work():
+        with tempfile.TemporaryDirectory(prefix="rtl_speed.") as folder:
+            measure(options, Path(folder))
+
+    return command_line.ended("rtl_speed", work)
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt as interrupt:
-        sys.exit(interrupts.tell("rtl_speed", interrupt))
+    sys.exit(main())

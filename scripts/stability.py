@@ -11,7 +11,7 @@ import json
 import sys
 from pathlib import Path
 
-import interrupts
+import command_line
 from reporting import stability_plots
 
 
@@ -20,14 +20,14 @@ def main(argv=None):
     parser.add_argument("study", type=Path)
     parser.add_argument("folder", type=Path)
     arguments = parser.parse_args(argv)
-    interrupts.end_on_signals()
-    study = json.loads(arguments.study.read_text(encoding="utf-8"))
-    for picture in stability_plots.pictures(study, png=True):
-        print(arguments.folder / picture.write(arguments.folder)[0])
+
+    def work():
+        study = json.loads(arguments.study.read_text(encoding="utf-8"))
+        for picture in stability_plots.pictures(study, png=True):
+            print(arguments.folder / picture.write(arguments.folder)[0])
+
+    return command_line.ended("stability", work)
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except KeyboardInterrupt as interrupt:
-        sys.exit(interrupts.tell("stability", interrupt))
+    sys.exit(main())

@@ -19,7 +19,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-import command_options
+import command_line
 import interrupts
 import outputs
 import synth_board
@@ -32,40 +32,27 @@ SCHEMA = "feltgate-synth/1"
 
 
 def arguments():
-    parser = command_options.parser("synth", __doc__)
-    parser.add_argument(
-        "--design",
-        action="append",
-        metavar="DESIGN",
-        help="a design point; default: lever, paper; with --board lever, or a file of your own",
+    parser = command_line.parser("synth", __doc__)
+    add = {"action": "append"}
+    what = "a design point; default: lever, paper; with --board lever, or a file of your own"
+    parser.add_argument("--design", metavar="DESIGN", help=what, **add)
+    parser.add_argument("--block", metavar="BLOCK", help="a block, or 'core'; default: all", **add)
+    what = (
+        "the core of a design that builds only what these scenes need, instead of the blocks; "
+        "may be repeated, one row for each"
     )
-    parser.add_argument(
-        "--block", action="append", metavar="BLOCK", help="a block, or 'core'; default: all"
-    )
-    parser.add_argument(
-        "--for",
-        action="append",
-        dest="scenes",
-        metavar="SCENE[,SCENE...]",
-        help="the core of a design that builds only what these scenes need, instead of the blocks; "
-        "may be repeated, one row for each",
-    )
-    parser.add_argument(
-        "--board",
-        choices=synth_board.BOARDS,
-        help="the whole of a board instead of the blocks; docs/boards",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        help="the bitstream of --board ulx3s; default ulx3s.bit",
-    )
+    parser.add_argument("--for", dest="scenes", metavar="SCENE[,SCENE...]", help=what, **add)
+    what = "the whole of a board instead of the blocks; docs/boards"
+    parser.add_argument("--board", choices=synth_board.BOARDS, help=what)
+    what = "the bitstream of --board ulx3s; default ulx3s.bit"
+    command_line.add_path(parser, "-o", "--output", what=what)
     parser.add_argument("--seeds", metavar="N[,N...]", default="1,2,3", help="of nextpnr; default 1,2,3")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures here")
-    parser.add_argument("--update", action="store_true", help="write budget and documentation")
-    parser.add_argument("--no-route", action="store_true", help="area only, without nextpnr")
+    command_line.add_path(parser, "--json", what="write the figures here")
+    command_line.add_flags(
+        parser,
+        update="write budget and documentation",
+        no_route="area only, without nextpnr",
+    )
     options = parser.parse_args()
     outputs.check(parser, json=options.json, output=options.output)
     if options.board and (options.block or options.scenes or len(options.design or []) > 1):
@@ -151,15 +138,19 @@ def main_scene_sets(options, root):
         result = {"schema": SCHEMA, "tools": tools, "scene_sets": measured}
         outputs.write_json(options.json, result)
     if options.update:
-        path = root / "scripts/synth_budget.toml"
-        budget = synth_budget.read(path)
-        synth_budget.write(path, synth_budget.merge_scene_sets(budget, measured, tools))
-        synth_report.write_page(root / "docs/synthesis.md", synth_budget.read(path))
-        print("synth: wrote scripts/synth_budget.toml and docs/synthesis.md")
+        update(root, synth_budget.merge_scene_sets, measured, tools)
     return 0
 
 
-def run(options, root):
+def update(root, merge, measured, tools):
+    """Budget and documentation, with what was measured."""
+    path = root / "scripts/synth_budget.toml"
+    synth_budget.write(path, merge(synth_budget.read(path), measured, tools))
+    synth_report.write_page(root / "docs/synthesis.md", synth_budget.read(path))
+    print("synth: wrote scripts/synth_budget.toml and docs/synthesis.md")
+
+
+def measure(options, root):
     designs = options.design or ["lever", "paper"]
     check_designs(root, designs)
     rows = chosen(root, options.block)
@@ -187,39 +178,34 @@ def run(options, root):
     return measured, used
 
 
-def main():
-    options = arguments()
-    interrupts.end_on_signals()
-    root = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[1]))
-    try:
-        if options.scenes:
-            return main_scene_sets(options, root)
-        fine = True
-        if options.board:
-            measured, tools, fine = synth_board.run(options, root, progress)
-        else:
-            measured, tools = run(options, root)
-    except (ToolError, ValueError) as error:
-        print(f"synth: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("synth", error)
+def run(options):
+    """The exit code."""
+    root = command_line.root()
+    if options.scenes:
+        return main_scene_sets(options, root)
+    fine = True
+    if options.board:
+        measured, tools, fine = synth_board.run(options, root, progress)
+    else:
+        measured, tools = measure(options, root)
     if options.json:
         result = {"schema": SCHEMA, "tools": tools, "designs": measured}
         outputs.write_json(options.json, result)
-    path = root / "scripts/synth_budget.toml"
-    budget = synth_budget.read(path)
     if options.update:
-        synth_budget.write(path, synth_budget.merge(budget, measured, tools))
-        synth_report.write_page(root / "docs/synthesis.md", synth_budget.read(path))
-        print("synth: wrote scripts/synth_budget.toml and docs/synthesis.md")
+        update(root, synth_budget.merge, measured, tools)
         return 0
+    budget = synth_budget.read(root / "scripts/synth_budget.toml")
     if options.board:  # one's own design has no budget
         measured = synth_budget.known(budget, measured)
     grown = synth_budget.compare(budget, measured, tools)
     if any(measured.values()):
         print("\n".join(grown) if grown else "synth: within the budget")
     return 0 if fine and not grown else 1
+
+
+def main():
+    options = arguments()
+    return command_line.ended("synth", lambda: run(options), ValueError)
 
 
 if __name__ == "__main__":

@@ -14,13 +14,14 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from command_line import Refused
 import interrupts
 
 DEVICE = ("--85k", "--package", "CABGA381", "--speed", "6")
 TARGET_MHZ = 200
 
 
-class ToolError(Exception):
+class ToolError(Refused):
     """A tool that is missing or has failed; the message is for the user."""
 
 

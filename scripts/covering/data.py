@@ -10,6 +10,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from command_line import Refused
+
 LINE = re.compile(r"^C '(.*)' (\d+)$")
 PAGES = {"line": "line", "branch": "branch", "toggle": "toggle", "user": "cover"}
 KINDS = tuple(PAGES.values())
@@ -17,7 +19,7 @@ NEEDED = {"toggle": 2}  # a bit must come back, or rise in two models; of all el
 POINTS = "_cover"  # testbench/coverage/BLOCK_cover.sv has the cover points of BLOCK
 
 
-class DataError(Exception):
+class DataError(Refused):
     """A file that is no coverage data."""
 
 

@@ -8,16 +8,16 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+from command_line import Refused
 import interrupts
 from crew import Crew
-from reporting.progress import Steps
 
 from . import data
 
 LIST = "coverage/programs.txt"
 
 
-class ProgramError(Exception):
+class ProgramError(Refused):
     """A program that cannot be built, fails, or leaves no data."""
 
 
@@ -83,11 +83,10 @@ def run_one(root, program, folder, crew):
 def run(root, programs, folder, jobs):
     """The runs of all, in the order of the programs."""
     crew, runs = Crew(), {}
-    with Steps("coverage", len(programs)) as progress:
 
-        def note(program, found):
-            runs[program.test] = found
-            progress.step(program.test)
+    def note(program, found, _):
+        runs[program.test] = found
+        return program.test
 
-        crew.each(lambda program: run_one(root, program, folder, crew), programs, jobs, note)
+    crew.counted("coverage", lambda p: run_one(root, p, folder, crew), programs, jobs, note)
     return [runs[program.test] for program in programs]

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 
 from .data import KINDS
 
+from command_line import Refused
+
 FILE = "testbench/coverage/waivers.toml"
 MOST = 10
 KEYS = {"block", "kind", "points", "most", "reason"}
 
 
-class WaiverError(Exception):
+class WaiverError(Refused):
     """A waiver that cannot be used; the message says which and why."""
 
 

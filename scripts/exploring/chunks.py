@@ -12,6 +12,7 @@ import os
 import socket
 from pathlib import Path
 
+from command_line import Refused
 from exploring import space
 
 FOLDER = "chunks"
@@ -19,11 +20,11 @@ WORK = "work"
 EVALUATOR = "FELTGATE_EXPLORE_POINT"  # tests put their own module here
 
 
-class ChunkError(Exception):
+class ChunkError(Refused):
     """An evaluation that failed, or chunks that do not make a whole."""
 
 
-class Orphaned(Exception):
+class Orphaned(Refused):
     """The process that started this one is gone."""
 
 

@@ -5,10 +5,23 @@
 Documentation: docs/explore.md
 """
 
+import json
 import re
 
 from exploring import space
-from exploring.point import ALTERNATIVES, toml_value, with_test_off
+
+# Of two such keys a design has one: setting one takes the other out.
+ALTERNATIVES = (("velocity.n", "velocity.gain"), ("control.kp", "control.kp_1_kg_m2"))
+
+
+def toml_value(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, list):
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
+    return repr(value)
 
 
 def header(lines, section):
@@ -52,7 +65,8 @@ def design_text(root, point):
     """Text of the design file that a point stands for."""
     text = space.design_path(root, point["base"]).read_text(encoding="utf-8")
     lines = text.rstrip("\n").split("\n")
-    changes = point["set"] if header(lines, "self_test") is None else with_test_off(point["set"])
-    for key, value in changes.items():
+    # Its self-test is off unless it is set: the pulse is made for the base's tick.
+    off = {} if header(lines, "self_test") is None else {"self_test.mode": "off"}
+    for key, value in (off | point["set"]).items():
         put(lines, key, value)
     return "\n".join(lines) + "\n"

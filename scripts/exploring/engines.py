@@ -14,6 +14,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from command_line import Refused
 import interrupts
 
 SCRIPT = Path(__file__).resolve().parents[1] / "explore.py"
@@ -22,7 +23,7 @@ POLL_S = 0.05
 CONNECT_S = 10
 
 
-class EngineError(Exception):
+class EngineError(Refused):
     """A part that failed, with what it said."""
 
 

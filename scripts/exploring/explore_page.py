@@ -13,7 +13,7 @@ from reporting import page
 
 from exploring import design_text, front, presets, space
 from exploring import plan as plans
-from exploring.point import toml_value
+from exploring.design_text import toml_value
 
 NAME = "explore.html"
 HERE = Path(__file__).resolve().parent

@@ -14,6 +14,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from command_line import Refused
 from exploring import space
 
 SCHEMA = "feltgate-explore-plan/1"
@@ -26,7 +27,7 @@ EVALUATOR = "scripts/exploring/point*.py"
 GENERATED = "/generated/"
 
 
-class PlanError(Exception):
+class PlanError(Refused):
     """A folder without a plan, or with another one."""
 
 

@@ -23,60 +23,18 @@ import interrupts  # noqa: E402
 import outputs  # noqa: E402
 import synth_measure  # noqa: E402
 import synth_tools  # noqa: E402
+from exploring.design_text import design_text  # noqa: E402
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 SEEDS = (1, 2, 3)
-# Of two such keys a design has one: setting one takes the other out.
-ALTERNATIVES = (("velocity.n", "velocity.gain"), ("control.kp", "control.kp_1_kg_m2"))
 LIBRARIES = ("explore", "plant_files", "plant", "config", "verilated")
 OPTIMISE = "-O1"  # measured: -O2 costs as much compiling as it saves running
-
-
 BOUNDED = ("torque_nm", "tau_ref_nm", "tau_hat_nm", "velocity_rad_s")
 
 
 class PointError(Exception):
     """A point that could not be evaluated; the message is for the user."""
-
-
-def toml_value(value):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, str):
-        return json.dumps(value)
-    if isinstance(value, list):
-        return "[" + ", ".join(toml_value(v) for v in value) + "]"
-    return repr(value)
-
-
-def with_test_off(overrides):
-    """The self-test of a point is off unless it is set: its pulse is made for the base's tick."""
-    return {"self_test.mode": "off", **overrides}
-
-
-def design_text(base, overrides):
-    """The design file of BASE (a name in rtl/designs or a path) with keys changed; None removes."""
-    path = Path(base) if str(base).endswith(".toml") else ROOT / f"rtl/designs/{base}.toml"
-    table = tomllib.loads(path.read_text(encoding="utf-8"))
-    if "self_test" in table:
-        overrides = with_test_off(overrides)
-    for pair in ALTERNATIVES:
-        for key, other in (pair, pair[::-1]):
-            if overrides.get(key) is not None:
-                section, name = other.split(".")
-                table.get(section, {}).pop(name, None)
-    for key, value in overrides.items():
-        section, name = key.split(".", 1)
-        if value is None:
-            table.get(section, {}).pop(name, None)
-        else:
-            table.setdefault(section, {})[name] = value
-    lines = [f"{k} = {toml_value(v)}" for k, v in table.items() if not isinstance(v, dict)]
-    for section, keys in table.items():
-        if isinstance(keys, dict):
-            lines += ["", f"[{section}]", *(f"{k} = {toml_value(v)}" for k, v in keys.items())]
-    return "\n".join(lines) + "\n"
 
 
 def run(command, **options):
@@ -310,7 +268,7 @@ def evaluate_design(text, workdir, route=False, area=True):
 
 def evaluate(point, workdir, route=False):
     """What is measured at {"base": NAME, "set": {"section.key": value}}."""
-    return evaluate_design(design_text(point["base"], point.get("set", {})), workdir, route)
+    return evaluate_design(design_text(ROOT, point), workdir, route)
 
 
 SCHEMA = "feltgate-point/1"

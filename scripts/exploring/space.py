@@ -15,6 +15,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from command_line import Refused
+
 # Keys that a design may leave out, with what it then means.
 OPTIONAL = {
     "velocity.gain": None,
@@ -27,7 +29,7 @@ CARRIED = ("velocity.cutoff_rad_s", "observer.cutoff_rad_s")
 MAX_POINTS = 100_000
 
 
-class SpaceError(Exception):
+class SpaceError(Refused):
     """A space file that cannot be used: 'file:line: what; mend'."""
 
 

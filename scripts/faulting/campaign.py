@@ -8,11 +8,12 @@ import tempfile
 import threading
 from pathlib import Path
 
+from command_line import Refused
 import interrupts
 from crew import Crew
 
 
-class CampaignError(Exception):
+class CampaignError(Refused):
     """What went wrong, and what to do."""
 
 

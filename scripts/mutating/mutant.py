@@ -4,6 +4,8 @@
 
 from pathlib import Path
 
+from command_line import Refused
+
 MODES = {
     "inv": "inverted",
     "const0": "stuck at 0",
@@ -13,7 +15,7 @@ MODES = {
 }
 
 
-class MutateError(Exception):
+class MutateError(Refused):
     """What is missing or wrong, for the user."""
 
 

@@ -16,6 +16,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from command_line import Refused
 from crew import Crew
 from seeding.block import Head
 
@@ -28,7 +29,7 @@ FLAT = ["flatten", "opt -full", "memory_collect", "opt_clean -purge"]
 LAYERED = ["opt -full", "opt_clean -purge"]
 
 
-class NetlistError(Exception):
+class NetlistError(Refused):
     """Yosys is missing or has failed; the message says what to do."""
 
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import interrupts
+from command_line import say
 from crew import Crew
-from reporting.progress import Steps
 
 from . import equivalence
 from .mutant import MutateError, pin, place, says, where
@@ -224,12 +224,12 @@ def run_program(crew, test, number, limit_s):
     return (CRASHES if status < 0 or "fatal error condition" in text else KILLED), seconds, text
 
 
-def chosen(test, count, seed):
-    if count <= 0 or count >= len(test.mutants):
-        return test.mutants
-    return sorted(
-        random.Random(f"{seed}/{test.name}").sample(test.mutants, count), key=lambda m: m["number"]
-    )
+def chosen(of, options):
+    """So many mutants of a test or header, or all; the same ones for one seed."""
+    if not 0 < options.count < len(of.mutants):
+        return of.mutants
+    some = random.Random(f"{options.seed}/{of.name}").sample(range(len(of.mutants)), options.count)
+    return [of.mutants[n] for n in sorted(some)]
 
 
 def check_earlier(found):
@@ -268,11 +268,12 @@ def take_over(row, results):
     return [m for m in alive if m not in known]
 
 
-def run(wanted, root, count, seed, jobs, proof_seconds, say, results=None):
+def run(wanted, root, options, results=None):
     """The rows of these tests; with the results of an earlier run of what survived in it."""
+    jobs = options.jobs
     rows = [Row(test, Listed(root, test.block)) for test in wanted]
     if results is None:
-        todo = [(row, mutant) for row in rows for mutant in chosen(row.test, count, seed)]
+        todo = [(row, mutant) for row in rows for mutant in chosen(row.test, options)]
     else:
         todo = [(row, mutant) for row in rows for mutant in take_over(row, results)]
     crew, limits = Crew(), {}
@@ -289,23 +290,22 @@ def run(wanted, root, count, seed, jobs, proof_seconds, say, results=None):
         row.seconds += seconds
 
     crew.each(first, rows, jobs, limit)
-    with Steps("mutate", len(todo)) as progress:
 
-        def fate(item):
-            row, mutant = item
-            return run_program(crew, row.test, mutant["number"], limits[row.test.name])
+    def fate(item):
+        row, mutant = item
+        return run_program(crew, row.test, mutant["number"], limits[row.test.name])
 
-        def note(item, found):
-            row, mutant = item
-            row.fates[mutant["number"]] = found[0]
-            row.seconds += found[1]
-            progress.step(f"{row.test.name} {mutant['number']}")
+    def note(item, found, _):
+        row, mutant = item
+        row.fates[mutant["number"]] = found[0]
+        row.seconds += found[1]
+        return f"{row.test.name} {mutant['number']}"
 
-        crew.each(fate, todo, jobs, note)
-    if proof_seconds:
-        say(f"{sum(map(unproven, rows))} survive; proving which are equivalent")
+    crew.counted("mutate", fate, todo, jobs, note)
+    if options.proof_seconds:
+        say("mutate", f"{sum(map(unproven, rows))} survive; proving which are equivalent")
         with tempfile.TemporaryDirectory(prefix="feltgate-mutate-") as work:
-            prove(rows, crew, Path(work), jobs, proof_seconds)
+            prove(rows, crew, Path(work), jobs, options.proof_seconds)
     return rows
 
 
@@ -316,32 +316,31 @@ def unproven(row):
 
 def prove(rows, crew, work, jobs, limit_s):
     """Enters the verdict on each survivor in its row."""
-    with Steps("mutate", sum(map(unproven, rows))) as progress:
-        todo = []
+    todo = []
 
-        def join(row):
-            alive = [
-                m
-                for m in row.test.mutants
-                if row.fates.get(m["number"]) == SURVIVES and m["number"] not in row.proofs
-            ]
-            if not alive:
-                return []
-            design = row.test.joined(alive, work / row.test.name, crew)
-            return [(row, mutant, design) for mutant in alive]
+    def join(row):
+        alive = [
+            m
+            for m in row.test.mutants
+            if row.fates.get(m["number"]) == SURVIVES and m["number"] not in row.proofs
+        ]
+        if not alive:
+            return []
+        design = row.test.joined(alive, work / row.test.name, crew)
+        return [(row, mutant, design) for mutant in alive]
 
-        def verdict(item):
-            _, mutant, design = item
-            return design.prove(mutant, limit_s)
+    def verdict(item):
+        _, mutant, design = item
+        return design.prove(mutant, limit_s)
 
-        def note(item, found):
-            row, mutant, _ = item
-            row.proofs[mutant["number"]] = found[:2]
-            row.seconds += found[2]
-            progress.step(f"{row.test.name} {mutant['number']} {found[0]}")
+    def note(item, found, _):
+        row, mutant, _ = item
+        row.proofs[mutant["number"]] = found[:2]
+        row.seconds += found[2]
+        return f"{row.test.name} {mutant['number']} {found[0]}"
 
-        crew.each(join, rows, jobs, lambda _, found: todo.extend(found))
-        crew.each(verdict, todo, jobs, note)
+    crew.each(join, rows, jobs, lambda _, found: todo.extend(found))
+    crew.counted("mutate", verdict, todo, jobs, note)
 
 
 def show(test, number, root, proof_seconds):

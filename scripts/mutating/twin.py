@@ -22,22 +22,19 @@ file or an argument is wrong.
 """
 
 import json
-import os
-import random
 import re
 import shutil
-import sys
 import time
 import zlib
-from pathlib import Path
 
-import block_results
 import building
-import command_options
-import interrupts
+import command_line
 import outputs
+from command_line import say
 
 from . import twin_parser, twin_programs, twin_results, twin_runs, twin_source
+from .options import mutants_parser, parsed
+from .rtl import chosen
 from .twin_results import TwinError
 
 REQUIRED = 0.95
@@ -60,11 +57,8 @@ def parse(catalogue, root, names, dropped, language):
 def folder_of(build, names):
     """One for each set of headers: what others have made must not come between."""
     some = "-".join(names[:3])
-    more = (
-        ""
-        if len(names) < 4
-        else f"-{len(names) - 3}-more-{zlib.crc32(' '.join(names).encode()):08x}"
-    )
+    more = f"-{len(names) - 3}-more-{zlib.crc32(' '.join(names).encode()):08x}"
+    more = more if len(names) > 3 else ""
     return build / "mutants/twin" / (some + more)
 
 
@@ -100,20 +94,18 @@ def refused(headers, folder, output):
         }
         here = [m for m in header.mutants if m.number in numbers]
         for kinds in (("arguments",), ("constant",), ("arithmetic", "rounding"), None):
-            chosen = [m for m in here if (kinds is None or m.kind in kinds)]
-            if chosen:
-                bad |= {(m.header, m.name) for m in chosen}
+            some = [m for m in here if kinds is None or m.kind in kinds]
+            if some:
+                bad |= {(m.header, m.name) for m in some}
                 break
     return bad
 
 
-def make(catalogue, root, build, names, folder, language, jobs, built, say):
+def make(catalogue, root, build, names, folder, language, options):
     """(headers, programs); what does not compile is dropped."""
     targets = list(dict.fromkeys(t for name in names for t in catalogue.tests[name]))
-    if not built:
-        building.make(
-            "mutate", build, targets, jobs
-        )  # objects and libraries as they are serve the mutated ones
+    if not options.no_build:  # objects and libraries as they are serve the mutated ones
+        building.make("mutate", build, targets, options.jobs)
     # Known from the last time; a mutant that is no longer there drops nothing.
     memory = folder.parent / "not_compiled.json"
     known = json.loads(memory.read_text(encoding="utf-8")) if memory.exists() else {}
@@ -122,37 +114,26 @@ def make(catalogue, root, build, names, folder, language, jobs, built, say):
         headers = parse(catalogue, root, names, dropped, language)
         write_headers(headers, folder)
         count = sum(len(h.mutants) for h in headers)
-        say(
-            f"compiling {count} mutants of {len(headers)} headers"
-            + (f", attempt {attempt + 1}" if attempt else "")
-        )
-        maker = twin_programs.Maker(build, root, folder, names, max(count, 1), jobs)
+        again = f", attempt {attempt + 1}" if attempt else ""
+        say("mutate", f"compiling {count} mutants of {len(headers)} headers{again}")
+        maker = twin_programs.Maker(build, root, folder, names, max(count, 1), options.jobs)
         try:
             programs = maker.make(targets)
-            outputs.write_whole(
-                memory, json.dumps(known | {n: sorted(d) for n, d in dropped.items()})
-            )
+            found = known | {name: sorted(mutants) for name, mutants in dropped.items()}
+            outputs.write_whole(memory, json.dumps(found))
             return headers, programs, dropped
         except twin_programs.BuildError as error:
             bad = refused(headers, folder, error.output)
             if not bad:
-                raise TwinError(f"{error}\n{error.output[-4000:]}") from None
+                raise TwinError(f"{error.args[0]}\n{error.output[-4000:]}") from None
             for name, mutant in bad:
                 dropped.setdefault(name, set()).add(mutant)
     raise TwinError("the mutated headers do not compile, whatever is dropped")
 
 
-def choose(header, count, seed):
-    """So many of its mutants, or all; the same ones for one seed."""
-    if count <= 0 or len(header.mutants) <= count:
-        return header.mutants
-    return sorted(
-        random.Random(f"{seed}/{header.name}").sample(header.mutants, count), key=lambda m: m.number
-    )
-
-
-def run(options, root, build):
+def run(options):
     """The exit code."""
+    root, build = command_line.root(), command_line.build_folder()
     catalogue = twin_results.read_catalogue(root)
     names = options.name or list(catalogue.tests)
     unknown = [n for n in names if n not in catalogue.tests]
@@ -175,23 +156,19 @@ def run(options, root, build):
                 print(f"  {mutant.line}: {mutant.name}")
         return 0
     start = time.monotonic()
-
-    def say(text):
-        print(f"mutate: {text}", file=sys.stderr, flush=True)
-
     folder = folder_of(build, names)
-    headers, programs, dropped = make(
-        catalogue, root, build, names, folder, language, options.jobs, options.no_build, say
-    )
+    made = make(catalogue, root, build, names, folder, language, options)
+    headers, programs, dropped = made
     runs = twin_runs.Runs(folder, options.jobs)
     cases = runs.survey(programs)
     say(
+        "mutate",
         f"{len(cases)} test cases, {sum(c.seconds for c in cases):.0f} s of CPU; "
-        f"{time.monotonic() - start:.0f} s so far"
+        f"{time.monotonic() - start:.0f} s so far",
     )
-    chosen = [m for h in headers for m in choose(h, options.count, options.seed)]
+    tried = [m for h in headers for m in chosen(h, options)]
     if options.again:
-        chosen = [
+        tried = [
             m
             for h in headers
             for m in h.mutants
@@ -201,7 +178,7 @@ def run(options, root, build):
     own = {
         h.name: [c for c in cases if c.program.target in catalogue.tests[h.name]] for h in headers
     }
-    verdicts = runs.verdicts([(m, own[m.header]) for m in chosen])
+    verdicts = runs.verdicts([(m, own[m.header]) for m in tried])
     rows = [
         twin_results.Row(
             h.name, len(h.mutants), [v for v in verdicts if v.mutant.header == h.name], catalogue
@@ -226,83 +203,15 @@ def run(options, root, build):
 
 
 def arguments(argv):
-    parser = command_options.parser("mutate --twin", __doc__)
-    parser.add_argument("name", nargs="*", metavar="HEADER", help="without .hpp; default: all")
-    parser.add_argument("--list", action="store_true", help="what there is; runs nothing")
-    parser.add_argument(
-        "--count",
-        type=int,
-        default=SHARE,
-        metavar="N",
-        help=f"mutants of each header, 0: all; default: {SHARE}",
-    )
-    parser.add_argument(
-        "--seed", type=int, default=1, help="which ones, where --count leaves some out; default: 1"
-    )
-    parser.add_argument(
-        "--require",
-        type=float,
-        default=REQUIRED,
-        metavar="SHARE",
-        help=f"to be killed, of those not equivalent; default: {REQUIRED}",
-    )
-    parser.add_argument(
-        "--again",
-        type=Path,
-        metavar="RESULTS",
-        help="only those that survived in these results of --json and are not listed",
-    )
-    parser.add_argument(
-        "--survivors", action="store_true", help="list also what survives for a known reason"
-    )
-    command_options.add_jobs(parser, "programs")
-    parser.add_argument(
-        "--no-build", action="store_true", help="the test programs are built; look no further"
-    )
-    command_options.add_json(parser)
-    parser.add_argument(
-        "--update",
-        action="store_true",
-        help=f"put the results of these headers into {twin_results.RESULTS}, their sums where "
-        "docs/blocks.md has them",
-    )
-    command_options.add_only_arguments(parser)
-    options = parser.parse_args(argv)
-    command_options.refuse_beside(parser, options, "list", "update", "json", "again")
-    outputs.check(parser, [options.again], json=options.json)
-    if options.jobs < 1:
-        parser.error("argument --jobs: at least 1")
-    if not 0 <= options.require <= 1:
-        parser.error("argument --require: a share is from 0 to 1")
-    if options.count < 0:
-        parser.error("argument --count: 0 or more")
+    parser = mutants_parser("mutate --twin", __doc__, "HEADER", "without .hpp", SHARE)
+    what = f"put the results of these headers into {twin_results.RESULTS}, their sums where "
+    command_line.add_flags(parser, update=what + "docs/blocks.md has them")
+    options = parsed(parser, argv, REQUIRED)
     if options.update and options.again:
         parser.error("--update takes a run without --again")
     return options
 
 
-def main(argv=None):
+def main(argv):
     options = arguments(argv)
-    root = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
-    build = Path(os.environ.get("FELTGATE_BUILD") or root / "build").resolve()
-    interrupts.end_on_signals()
-    try:
-        return run(options, root, build)
-    except twin_programs.BuildError as error:
-        print(f"mutate: {error}\n{error.output}".strip(), file=sys.stderr)
-        return 2
-    except (
-        TwinError,
-        twin_parser.SourceError,
-        building.BuildError,
-        block_results.ResultsError,
-        OSError,
-    ) as error:
-        print(f"mutate: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt as error:
-        return interrupts.tell("mutate", error)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    return command_line.ended("mutate", lambda: run(options))

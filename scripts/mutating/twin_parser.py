@@ -7,8 +7,10 @@ import re
 import sys
 from pathlib import Path
 
+from command_line import Refused
 
-class SourceError(Exception):
+
+class SourceError(Refused):
     """A header that is not understood."""
 
 

@@ -12,18 +12,22 @@ import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from command_line import Refused
 import interrupts
 from crew import Crew
 
 HEADERS = "model/include/feltgate"
 
 
-class BuildError(Exception):
+class BuildError(Refused):
     """A program that cannot be made; what a compiler said, where it did."""
 
     def __init__(self, text, output=""):
         super().__init__(text)
         self.output = output
+
+    def __str__(self):
+        return f"{self.args[0]}\n{self.output}".strip()
 
 
 @dataclass

@@ -8,6 +8,7 @@ import json
 import tomllib
 from dataclasses import dataclass, field
 
+from command_line import Refused
 import block_results
 import outputs
 from reporting.columns import aligned
@@ -21,7 +22,7 @@ SURVIVOR_KEYS = {"header", "kind", "why", "mutants"}
 DEAD = ("killed", "hangs", "crashes")
 
 
-class TwinError(Exception):
+class TwinError(Refused):
     """A header or a catalogue that cannot be used."""
 
 

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 
 import interrupts
 from crew import Crew
-from reporting.progress import Steps
 
 from .twin_programs import BuildError, list_cases
 
@@ -84,22 +83,18 @@ class Runs:
             case.reached = {int(words[0]) for words in lines if len(words) == 1}
             case.exact = {int(words[0]) for words in lines if len(words) == 2}
 
-        with Steps("mutate", len(cases)) as progress:
-            self.crew.each(
-                one, enumerate(cases), self.jobs, lambda item, _: progress.step(item[1].name)
-            )
+        self.crew.counted("mutate", one, enumerate(cases), self.jobs, lambda n, *_: n[1].name)
         return sorted(cases, key=lambda case: case.seconds)
 
     def verdicts(self, work):
         """Of work = [(mutant, the cases that may find it)], by number."""
         found = []
-        with Steps("mutate", len(work)) as progress:
 
-            def note(item, verdict):
-                found.append(verdict)
-                progress.step(f"{item[0].header} {verdict.how}")
+        def note(item, verdict, _):
+            found.append(verdict)
+            return f"{item[0].header} {verdict.how}"
 
-            self.crew.each(lambda item: self.try_mutant(*item), work, self.jobs, note)
+        self.crew.counted("mutate", lambda item: self.try_mutant(*item), work, self.jobs, note)
         return sorted(found, key=lambda verdict: verdict.mutant.number)
 
     def try_mutant(self, mutant, cases):

@@ -7,6 +7,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from command_line import Refused
 import rtl_sources
 from seeding import patches
 
@@ -20,7 +21,7 @@ INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
 SHARED = "testbench/prove"  # what wrappers of several blocks include
 
 
-class CatalogError(Exception):
+class CatalogError(Refused):
     """A proof that is described wrongly; the message names the file and what to change."""
 
 

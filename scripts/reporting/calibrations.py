@@ -81,9 +81,6 @@ def open_picture(run, title, name, plant_name, png):
 def figure_7(runs, png=False):
     found = PaperFigure(
         7,
-        "open-loop calibration",
-        "torque measured with a dynamometer and torque seen by the observer are straight lines "
-        "over voltages from 1.5 to 5.5 V, with slopes 0.072 and 0.051, “close enough”.",
         [
             ("paper", "design paper, 24 V winding"),
             ("paper_48v", "design paper, 48 V winding"),
@@ -102,25 +99,12 @@ def figure_7(runs, png=False):
         found.pictures.append(picture)
         measured[key], offset[key] = fit
         observed[key], exact[key] = seen[0], quad[0]
-    found.add("measured_slope_nm_v", "slope of the motor's torque, Nm/V", "0.072", **measured)
-    found.add("ideal_slope_nm_v", "the same, Kt/R of the plant", "", **ideal)
-    found.add("measured_offset_nm", "its offset, Nm: brushes and dead time", "", **offset)
-    found.add("observed_slope_nm_v", "slope of the observed torque, RTL, Nm/V", "0.051", **observed)
-    found.add("observed_slope_quad_nm_v", "the same, quad reference", "", **exact)
-    ratio = {key: measured[key] / observed[key] for key in measured}
-    found.add("slope_ratio", "measured / observed", f"{0.072 / 0.051:.2f}", **ratio)
-    found.notes = [
-        "At a blocked shaft the observer sees the current that was asked for, not the one that "
-        "flows: in direct voltage mode its slope is the nominal torque constant times 1 A/V, "
-        "0.0605 Nm/V in design paper, whatever the motor does.",
-        "No single motor gives both published slopes. 0.072 is the 24 V winding (Kt/R = "
-        "0.0302/0.42 ohm); the observer then shows 0.0605. 0.051 is the published Kt over 1.186 "
-        "ohm, near the 48 V winding with the true current; but then the measured slope is the "
-        "same.",
-        "In design lever the observer's constants are the motor's own, so both lines are parallel; "
-        "the space between them is what brushes and dead time take, which nothing gives back in "
-        "this mode.",
-    ]
+    found.add("measured_slope_nm_v", measured)
+    found.add("ideal_slope_nm_v", ideal)
+    found.add("measured_offset_nm", offset)
+    found.add("observed_slope_nm_v", observed)
+    found.add("observed_slope_quad_nm_v", exact)
+    found.add("slope_ratio", {key: measured[key] / observed[key] for key in measured})
     return found
 
 
@@ -177,13 +161,8 @@ def border_picture(runs, keys, png):
 
 
 def figure_10(runs, png=False):
-    found = PaperFigure(
-        10,
-        "closed-loop calibration",
-        "with Kv = 1 the error, measured less observed torque, is negative below a reference of "
-        "0.15 Nm and positive above; therefore Kv = 1.25 below and 0.95 above.",
-        [("unit", "paper, Kv = 1"), ("paper", "paper, Kv 1.25/0.95"), ("lever", "lever")],
-    )
+    columns = [("unit", "paper, Kv = 1"), ("paper", "paper, Kv 1.25/0.95"), ("lever", "lever")]
+    found = PaperFigure(10, columns)
     titles, data = dict(found.columns), {}
     for key, job in closed_jobs().items():
         if job.name in runs:
@@ -197,25 +176,12 @@ def figure_10(runs, png=False):
         for key, (references, motor, seen, *_) in data.items():
             at = int(np.argmin(np.abs(references - reference)))
             errors[key] = 100 * (motor[at] - seen[at]) / reference
-        found.add(
-            f"error_at_{reference}_nm_pct",
-            f"error at {reference} Nm, % of the reference",
-            f"{sign} (Kv = 1)",
-            **errors,
-        )
+        key = f"error_at_{reference}_nm_pct"
+        found.add(key, errors, "error_at_nm_pct", (reference, sign))
     crossing = {k: measure.zero_crossing(d[0], d[1] - d[2]) for k, d in data.items() if k == "unit"}
-    found.add(
-        "error_sign_change_nm", "reference where the error changes sign, Nm", "0.15", **crossing
-    )
+    found.add("error_sign_change_nm", crossing)
     largest = {k: 1e3 * np.abs(d[2] - d[3]).max() for k, d in data.items()}
-    found.add(
-        "observed_less_quad_mnm", "observed torque, RTL less quad, largest, mNm", "", **largest
-    )
-    found.notes = [
-        "The error has the published signs with Kv = 1. The observer settles on the reference "
-        "exactly, because at a blocked shaft it sees its own command; the error is the motor's "
-        "alone, and no feedback of this observer can take it away. That is what Kv is for.",
-    ]
+    found.add("observed_less_quad_mnm", largest)
     if "paper" in data:
         found.notes.append(border_note(found, data["paper"]))
     if "lever" in data:
@@ -239,9 +205,9 @@ def border_note(found, data):
     before = law["kv_low"] * current[below]
     after = law["kv_high"] * current[above] * reference[below] / reference[above]
     fall = 1e3 * measure.slope(command, motor)[0] * (after - before)
-    found.add("border_voltage_before_v", "voltage at 0.15 Nm, Kv = 1.25, V", "", paper=before)
-    found.add("border_voltage_after_v", "voltage just above 0.15 Nm, Kv = 0.95, V", "", paper=after)
-    found.add("border_torque_fall_mnm", "change of torque there, mNm", "", paper=fall)
+    found.add("border_voltage_before_v", {"paper": before})
+    found.add("border_voltage_after_v", {"paper": after})
+    found.add("border_torque_fall_mnm", {"paper": fall})
     return (
         f"The border is a defect: as the reference rises through 0.15 Nm the command falls from "
         f"{before:.2f} V to {after:.2f} V, and the motor's torque by {-fall:.0f} mNm, while the "

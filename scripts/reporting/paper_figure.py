@@ -4,9 +4,13 @@
 notes on what cannot be the same. Documentation: docs/figures.md
 """
 
+import tomllib
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from reporting import page
+
+WORDS = tomllib.loads(Path(__file__).with_name("figures.toml").read_text(encoding="utf-8"))
 
 
 @dataclass
@@ -19,18 +23,22 @@ class Row:
     values: dict = field(default_factory=dict)  # column: number
 
 
-@dataclass
 class PaperFigure:
-    number: int
-    title: str
-    said: str
-    columns: list
-    rows: list = field(default_factory=list)
-    pictures: list = field(default_factory=list)
-    notes: list = field(default_factory=list)
+    """`columns` are (key, title); words and notes are those of figures.toml."""
 
-    def add(self, key, what, published="", **values):
-        """One row; columns are named by keyword, and None means that there is no such value."""
+    def __init__(self, number, columns):
+        self.number, self.columns = number, columns
+        self.words = WORDS[str(number)]
+        self.title, self.said = self.words["title"], self.words["said"]
+        self.notes = list(self.words["notes"])
+        self.rows, self.pictures = [], []
+
+    def add(self, key, values, words=None, filled=("", "")):
+        """One row: {column: number}, of which None is no value; in the words of another key, where
+        one is given, with these filled in."""
+        said = self.words["rows"].get(words or key, "")
+        what, published = (WORDS["rows"][key], said) if isinstance(said, str) else said
+        what, published = what.format(filled[0]), published.format(filled[1])
         present = {k: float(v) for k, v in values.items() if v is not None}
         self.rows.append(Row(key, what, published, present))
 

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import interrupts
 import numpy as np
+from crew import Crew
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 SCENES = ROOT / "vectors" / "scenes"
@@ -171,38 +172,7 @@ def scene_job(scene, design_name="lever", plant=None, sets=(), variant="", every
     return Job(name, tuple(arguments), float(scene_file(scene)["duration_s"]), every)
 
 
-class Children:
-    """Programs under way; once they are ended, no further one starts."""
-
-    def __init__(self):
-        self.lock, self.running, self.ended = threading.Lock(), set(), False
-
-    def start(self, command):
-        """The program started, or None when all are to end."""
-        with self.lock:
-            if self.ended:
-                return None
-            child = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-            )
-            self.running.add(child)
-            return child
-
-    def end(self):
-        with self.lock:
-            self.ended = True
-            for child in self.running:
-                child.terminate()
-
-    def gone(self, child):
-        with self.lock:
-            self.running.discard(child)
-
-
-def start(job, folder, children):
+def start(job, folder, crew):
     """Runs one job to its end; never raises for what the program does."""
     json_path, csv_path = folder / f"{job.name}.json", folder / f"{job.name}.csv"
     for path in (json_path, csv_path):
@@ -211,23 +181,24 @@ def start(job, folder, children):
     command = [str(program(job.design)), *job.arguments, *engines, "--quiet"]
     command += ["--json", str(json_path), "--csv", str(csv_path), "--every", str(job.every)]
     began = time.monotonic()
-    child = children.start(command)
-    if child is None:
+    quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
+    try:
+        done = crew.run(command, stderr=subprocess.PIPE, **quiet)
+    except interrupts.Interrupted:
         return Run(job, -1, "interrupted")
-    stderr = child.communicate()[1].decode(errors="replace").strip()
-    children.gone(child)
+    stderr = done.stderr.decode(errors="replace").strip()
     complaint = stderr.splitlines()[-1].removeprefix("feltgate: ") if stderr else ""
-    if interrupts.ending_signal(child.returncode):
-        complaint = interrupts.how_it_ended(child.returncode)
-    run = Run(job, child.returncode, complaint)
+    if interrupts.ending_signal(done.returncode):
+        complaint = interrupts.how_it_ended(done.returncode)
+    run = Run(job, done.returncode, complaint)
     run.took_s, run.csv_path = time.monotonic() - began, csv_path
-    if child.returncode in (0, 1) and json_path.exists() and csv_path.exists():
+    if done.returncode in (0, 1) and json_path.exists() and csv_path.exists():
         try:
             run.summary = json.loads(json_path.read_text(encoding="utf-8"))
         except ValueError as error:
             run.complaint = f"{json_path}: {error}"
     elif not run.complaint:
-        run.complaint = f"feltgate {interrupts.how_it_ended(child.returncode)} and wrote no result"
+        run.complaint = f"feltgate {interrupts.how_it_ended(done.returncode)} and wrote no result"
     return run
 
 
@@ -268,12 +239,12 @@ def run_all(jobs, folder, progress, workers=None, *, first=(), ready=None, ended
         for design in {"", *(job.design for job in jobs)}:
             program(design)  # complain once, not once per job
     order = sorted(jobs, key=lambda job: (job.name not in first, -job.seconds))
-    children, runs, queue = Children(), {}, Queue(order, ready or (lambda job: True))
+    crew, runs, queue = Crew(), {}, Queue(order, ready or (lambda job: True))
 
     def work():
         while (job := queue.next()) is not None:
             progress.begin(job)
-            run = start(job, folder, children)
+            run = start(job, folder, crew)
             progress.end(job, run)
             runs[job.name] = run
             if ended:
@@ -286,6 +257,6 @@ def run_all(jobs, folder, progress, workers=None, *, first=(), ready=None, ended
                 done.result()
         except BaseException:
             queue.clear()
-            children.end()
+            crew.end()
             raise
     return {job.name: runs.get(job.name) or Run(job, -1, "interrupted") for job in jobs}

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reporting import objects, plots, run_section
-from reporting.paper_figure import PaperFigure
+from reporting.paper_figure import WORDS, PaperFigure
 from reporting.runs import ROOT, Job, read_toml, scene_job
 
 MOTIONS = ROOT / "vectors" / "figures"
@@ -83,110 +83,19 @@ def picture(number, run, v, mirrored, caption, png):
 
 
 @dataclass(frozen=True)
-class Motion:
-    """The paper's own motion, as far as its words go; the rest of the scene file is ours."""
-
-    start: str
-    begins: str
-    end: str
-    caption: str
-
-
-@dataclass(frozen=True)
 class Spec:
+    """A figure of a virtual object, as figures.toml has it."""
+
     number: int
     scene: str
-    title: str
-    said: str
-    fill: object
-    mirrored: bool = False
-    motion: Motion | None = None  # where the shipped scene has another
+    mirrored: bool
+    motion: str  # of the paper's own motion, "" where the shipped scene has it
 
 
-SPECS = (
-    Spec(
-        14,
-        "membrane",
-        "virtual membrane",
-        "between 0.7 and 0.5 rad the torque is constant, −0.5 Nm; outside it is 0.",
-        objects.membrane,
-        True,
-    ),
-    Spec(
-        16,
-        "spring_compression",
-        "compression spring",
-        "touched at 0.5 rad, fully compressed at 0, where the force is greatest; a small vibration "
-        "in the zoom, perhaps from the experimental setup.",
-        objects.spring_compression,
-        motion=Motion(
-            "about 3",
-            "1",
-            "0",
-            "From about 3 rad after 1 s to 0, as in the paper. It gives no speed; 3 rad/s are "
-            "ours. Until 0.6 s the lever is carried to its start, disarmed.",
-        ),
-    ),
-    Spec(
-        17,
-        "spring_tension",
-        "tension spring",
-        "pulled from 0 to about 3 rad; the torque reaches its limit of 0.5 Nm at 1 rad; a small "
-        "vibration, not perceptible.",
-        objects.spring_tension,
-        motion=Motion(
-            "0",
-            "",
-            "about 3",
-            "From 0 to about 3 rad, as in the paper. It gives no time; 2.5 rad/s are ours.",
-        ),
-    ),
-    Spec(
-        19,
-        "damper",
-        "viscous damper",
-        "moved fast from 0 to about 0.1 rad; the torque rises to 0.13 Nm in proportion to the "
-        "velocity.",
-        objects.damper,
-        motion=Motion(
-            "0",
-            "0.6",
-            "about 0.1",
-            "At rest to 0.6 s, then fast to 0.1 rad with 0.13 Nm at most, as in the paper. It "
-            "gives neither damping nor speed; with our 0.03 Nm s/rad this takes 42.5 ms.",
-        ),
-    ),
-    Spec(
-        21,
-        "charge_attract",
-        "attracting charges",
-        "from 4.5 rad towards 0 the torque grows “exponentially in a positive direction”.",
-        objects.attract,
-        True,
-        Motion(
-            "4.5",
-            "",
-            "0",
-            "From 4.5 rad to 0 at a constant speed, as in the paper; 4.5 rad/s are ours. Until "
-            "0.65 s the lever is carried to its start, disarmed.",
-        ),
-    ),
-    Spec(
-        22,
-        "charge_repel",
-        "repelling charges",
-        "from −0.5 Nm at 0 rad the torque decreases “exponentially in magnitude” as the lever "
-        "moves away; vibrations small enough for the classroom.",
-        objects.repel,
-        True,
-        Motion(
-            "0",
-            "about 1.2",
-            "",
-            "At 0 rad until 1.2 s, then outward, as in the paper. It gives neither speed nor end: "
-            "4.5 rad/s to 4.5 rad are ours, and so is arming at 0.4 s.",
-        ),
-    ),
+SPECS = tuple(
+    Spec(int(number), words["scene"], words.get("mirrored", False), words.get("motion", ""))
+    for number, words in WORDS.items()
+    if "scene" in words
 )
 
 
@@ -231,24 +140,23 @@ def views_of(spec, runs, designs):
 
 def figure(spec, runs, designs, png=False):
     columns = [(d, d) for d in designs] + [(f"{d}_motion", f"{d}, its motion") for d in designs]
-    found = PaperFigure(spec.number, spec.title, spec.said, columns)
+    found = PaperFigure(spec.number, columns)
     there = views_of(spec, runs, designs)
     for run, v in there:
         ours = "Our own motion." if spec.motion else ""
-        caption = spec.motion.caption if v.of_motion else ours
+        caption = spec.motion if v.of_motion else ours
         if leader(run) == "twin":
             caption += " Computed by the RTL's bit-exact twin."
         found.pictures.append(picture(spec.number, run, v, spec.mirrored, caption, png))
     views = [v for _, v in there]
     if spec.motion:
-        objects.motion(found, views, spec.motion)
-    spec.fill(found, views)
-    for name, key in (("tau_hat_nm", "observed torque"), ("torque_nm", "commanded torque")):
+        objects.motion(found, views)
+    getattr(objects, spec.scene)(found, views)
+    for name in ("tau_hat_nm", "torque_nm"):
         errors = {
             v.column: 1e6 * e["max_error"]
             for r, v in there
             if (e := r.summary["engines"].get(leader(r), {}).get(name))
         }
-        stem = name.removesuffix("_nm")
-        found.add(f"{stem}_max_error_unm", f"{key}, core less quad, largest, µNm", "", **errors)
+        found.add(f"{name.removesuffix('_nm')}_max_error_unm", errors)
     return found

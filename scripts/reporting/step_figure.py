@@ -47,9 +47,6 @@ def picture(run, scene, design_name, png):
 def figure_11(runs, designs, png=False):
     found = PaperFigure(
         11,
-        "torque steps of 0.1, 0.2 and 0.3 Nm",
-        "the response settles in “approximately 10 ms” in every experiment; a small vibration is "
-        "put down to the cord by which the torque was measured.",
         [
             (f"{d}_{s}", f"{d}, {'cord' if s.endswith('cord') else 'locked'}")
             for d in designs
@@ -66,45 +63,14 @@ def figure_11(runs, designs, png=False):
             found.pictures.append(picture(run, scene, design_name, png))
             steps[key] = steps_of(run.summary)
             spikes[key] = 1e3 * spike(run, scene)
-    about = (
-        ("tau_hat_settling_ms", "observed torque settles (2 %)", "about 10"),
-        ("torque_settling_ms", "motor torque settles (2 %)", ""),
-        ("final_error_pct", "final error of the motor torque, %", ""),
-        ("tau_hat_final_error_pct", "final error of the observed torque, %", ""),
-    )
-    for key, what, published in about:
-        unit = ", ms" if key.endswith("_ms") else ""
+    kinds = ("tau_hat_settling_ms", "torque_settling_ms", "final_error_pct")
+    for key in (*kinds, "tau_hat_final_error_pct"):
+        stem, unit = key.rsplit("_", 1)
         for i, (_, _, event) in enumerate(measure.steps("torque_step")):
-            values = {
-                run: found_steps[i].get(key)
-                for run, found_steps in steps.items()
-                if i < len(found_steps)
-            }
+            there = {run: of[i].get(key) for run, of in steps.items() if i < len(of)}
             goal = event["step_nm"]
-            found.add(
-                f"{key.rsplit('_', 1)[0]}_at_{goal}_nm_{key.rsplit('_', 1)[1]}",
-                f"{what} at {goal} Nm{unit}",
-                published,
-                **values,
-            )
-    found.add(
-        "observed_spike_mnm",
-        "observed torque off its closed form, largest, mNm",
-        "“small vibration”",
-        **spikes,
-    )
-    found.notes = [
-        "Shaft locked means that no count ever changes. The observer of design paper then sees "
-        "nothing but its own command: its settling time, ln(50)/391.68 rad/s = 9.99 ms, is the "
-        "controller's, and says nothing about the motor. Of the motor's torque 78 % come at once "
-        "and the rest with the observer.",
-        "In design lever the motor's torque does not wait for the observer, which only displays: "
-        "it settles as fast as filter, PWM and winding allow.",
-        "The cord has 30 Nm/rad and 0.1 Nms/rad to ground. The lever now moves by single counts; "
-        "each is a pulse of the estimated velocity, and in design paper, where the observer's "
-        "inertia is four times the true one, a spike of the observed torque: a plausible origin of "
-        "the small vibration. The paper's own cord on its 11 mm pulley would be 75 times softer.",
-    ]
+            found.add(f"{stem}_at_{goal}_nm_{unit}", there, key, (goal, ""))
+    found.add("observed_spike_mnm", spikes)
     return found
 
 

@@ -10,12 +10,14 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from command_line import Refused
+
 ROOT = Path(__file__).resolve().parents[2]
 NONE = "none"
 DIFF_BEGINS = r"(--- |\+\+\+ |@@ |diff |index )"
 
 
-class DefectError(Exception):
+class DefectError(Refused):
     """The message names the patch and what to change."""
 
 

@@ -14,6 +14,7 @@
 #include "feltgate/generated/lever_law.hpp"
 #include "lock_step.hpp"
 #include "machine_programs.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -121,10 +122,7 @@ struct Adapter {
     rtl.position_i = words(&Axis::position);
     rtl.velocity_i = words(&Axis::velocity);
     rtl.tau_hat_i = words(&Axis::tau_hat);
-    rtl.reg_addr_i = in.port.reg_addr;
-    rtl.reg_wdata_i = in.port.reg_wdata;
-    rtl.reg_write_i = in.port.reg_write;
-    rtl.reg_read_i = in.port.reg_read;
+    FELTGATE_DRIVE(rtl, in.port, reg_addr, reg_wdata, reg_write, reg_read);
   }
   template <class Check>
   static void compare(Check& check, const Vaxes_engine& rtl, const Twin::Out& out) {
@@ -135,10 +133,7 @@ struct Adapter {
     };
     check("torque of axis 0", torque(0), std::int64_t{out.torque[0]});
     check("torque of axis 1", torque(1), std::int64_t{out.torque[1]});
-    check("late", rtl.late_o, out.late);
-    check("restart", rtl.restart_o, out.restart);
-    check("unchecked", rtl.unchecked_o, out.unchecked);
-    check("unfit", rtl.unfit_o, out.unfit);
+    FELTGATE_COMPARE(check, rtl, out, late, restart, unchecked, unfit);
     check("reg_busy", rtl.reg_busy_o, out.port.reg_busy);
     if (out.port.rdata_known) check("reg_rdata", rtl.reg_rdata_o, out.port.reg_rdata);
     check("event_valid", rtl.event_valid_o, out.port.event_valid);

@@ -13,6 +13,7 @@
 #include "catch.hpp"
 #include "lock_step.hpp"
 #include "port_core.hpp"
+#include "ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -24,31 +25,13 @@ constexpr std::uint32_t kHost = 1U << Lever::C::control_host, kArm = 1U << Lever
 
 struct Adapter {
   static void drive(Vaxi_lite_port& rtl, const Twin::In& in) {
-    rtl.awvalid_i = in.awvalid;
-    rtl.awaddr_i = in.awaddr;
-    rtl.wvalid_i = in.wvalid;
-    rtl.wdata_i = in.wdata;
-    rtl.wstrb_i = in.wstrb;
-    rtl.bready_i = in.bready;
-    rtl.arvalid_i = in.arvalid;
-    rtl.araddr_i = in.araddr;
-    rtl.rready_i = in.rready;
-    rtl.reg_rdata_i = in.reg_rdata;
-    rtl.reg_busy_i = in.reg_busy;
+    FELTGATE_DRIVE(rtl, in, awvalid, awaddr, wvalid, wdata, wstrb, bready, arvalid, araddr, rready,
+                   reg_rdata, reg_busy);
   }
   template <class Check>
   static void compare(Check& check, const Vaxi_lite_port& rtl, const Twin::Out& out) {
-    check("awready", rtl.awready_o, out.awready);
-    check("wready", rtl.wready_o, out.wready);
-    check("arready", rtl.arready_o, out.arready);
-    check("bvalid", rtl.bvalid_o, out.bvalid);
-    check("bresp", rtl.bresp_o, out.bresp);
-    check("rvalid", rtl.rvalid_o, out.rvalid);
-    check("rresp", rtl.rresp_o, out.rresp);
-    check("rdata", rtl.rdata_o, out.rdata);
-    check("reg_addr", rtl.reg_addr_o, out.reg_addr);
-    check("reg_wdata", rtl.reg_wdata_o, out.reg_wdata);
-    check("reg_write", rtl.reg_write_o, out.reg_write);
+    FELTGATE_COMPARE(check, rtl, out, awready, wready, arready, bvalid, bresp, rvalid, rresp, rdata,
+                     reg_addr, reg_wdata, reg_write);
   }
 };
 using Bench = LockStep<Vaxi_lite_port, Twin, Adapter>;

@@ -18,6 +18,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
 from board_process import need_terminals  # noqa: E402
 from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
+from testing import ran  # noqa: E402
 
 SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 
@@ -25,16 +26,9 @@ SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 class Board:
     """feltgate board in a process of its own."""
 
-    def __init__(self, folder, *words, program="feltgate_board"):
+    def __init__(self, test, *words, program="feltgate_board"):
         need_terminals()
-        self.process = subprocess.Popen(
-            [BUILD / program, *map(str, words)],
-            env=os.environ | {"FELTGATE_ROOT": str(ROOT)},
-            cwd=folder,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
+        self.process = test.start_program(program, *words, stderr=subprocess.STDOUT)
         self.port = self.process.stdout.readline().strip()
 
     def end(self):
@@ -47,9 +41,8 @@ class Board:
         return self
 
     def __exit__(self, *_):
-        if self.process.poll() is None:
-            self.process.kill()
-            self.process.wait()
+        self.process.kill()
+        self.process.wait()
         self.process.stdout.close()
 
 
@@ -71,7 +64,7 @@ class BoardTest(ProgramTest):
 class Verbs(BoardTest):
     def test_a_session(self):
         (self.folder / "lever").symlink_to("/dev/pts/of-a-board-that-was-killed")
-        with Board(self.folder, "--hand", "swing", "--link", "lever") as board:
+        with Board(self, "--hand", "swing", "--link", "lever") as board:
             self.assertRegex(board.port, r"^lever -> /dev/pts/\d+$")
             port = self.folder / "lever"
             self.assertIn("SIMULATED", self.host(port, "info"))
@@ -99,9 +92,8 @@ class Verbs(BoardTest):
         python = next((path for path in places if path.exists()), None)
         if python is None:
             self.skipTest("no pyserial; ./feltgate test fetches it")
-        with Board(self.folder, "--hand", "swing") as board:
-            done = subprocess.run([python, ROOT / "docs/examples/link.py", board.port],
-                                  capture_output=True, text=True, check=False)  # fmt: skip
+        with Board(self, "--hand", "swing") as board:
+            done = ran(python, ROOT / "docs/examples/link.py", board.port)
             self.assertEqual(done.returncode, 0, done.stderr)
             crc = re.search(r"CRC 0x(\w+)", self.host(board.port, "info"))[1]
             self.assertIn(f"design {crc}, 1000000 ticks/s", done.stdout)
@@ -111,7 +103,7 @@ class Verbs(BoardTest):
         noise = random.Random(5)
         volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)
         typed = "".join(f"{SLOPE * (v - DEAD) + noise.gauss(0, 0.002):.4f}\n" for v in volts)
-        with Board(self.folder, "--hand", "locked") as board:
+        with Board(self, "--hand", "locked") as board:
             self.patient(board.port)
             said = self.host(
                 board.port, "calibrate", "--points", ",".join(map(str, volts)), "--json", "c.json",
@@ -137,7 +129,7 @@ class Verbs(BoardTest):
             self.assertEqual(self.value(board.port, "control.mode"), 0)
 
     def test_identify_finds_the_motor(self):
-        with Board(self.folder) as board:
+        with Board(self) as board:
             said = self.host(board.port, "identify", status=2)
             self.assertIn("say so with --free", said)
             self.patient(board.port)
@@ -169,7 +161,7 @@ class Verbs(BoardTest):
 
 class Lines(BoardTest):
     def test_a_bad_line_costs_repetitions_and_nothing_else(self):
-        with Board(self.folder, "--bad-line", 0.003, "--seed", 4, "--hand", "swing") as board:
+        with Board(self, "--bad-line", 0.003, "--seed", 4, "--hand", "swing") as board:
             for k in range(8):
                 self.host(board.port, "set", f"torque_limit={0.1 + k / 100}")
                 self.assertAlmostEqual(
@@ -180,7 +172,7 @@ class Lines(BoardTest):
             self.assertGreater(self.value(board.port, "frames_bad"), 0)
 
     def test_garbage_and_half_frames_change_nothing(self):
-        with Board(self.folder) as board:
+        with Board(self) as board:
             before = self.value(board.port, "torque_limit")
             noise = random.Random(2)
             line = os.open(board.port, os.O_RDWR | os.O_NOCTTY)
@@ -194,13 +186,10 @@ class Lines(BoardTest):
             self.assertGreater(self.value(board.port, "frames_bad"), 40)
 
     def test_unplugged_in_mid_capture(self):
-        with Board(self.folder, "--hand", "swing") as board:
+        with Board(self, "--hand", "swing") as board:
             for _ in range(3):
-                words = [BUILD / "feltgate_host", board.port, "capture", "--trigger",
-                         "velocity>1000", "--csv", "never.csv"]  # fmt: skip
-                waits = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                         env=os.environ | {"FELTGATE_ROOT": str(ROOT)},
-                                         cwd=self.folder)  # fmt: skip
+                words = ("capture", "--trigger", "velocity>1000", "--csv", "never.csv")
+                waits = self.start_program("feltgate_host", board.port, *words)
                 time.sleep(0.4)
                 waits.kill()
                 waits.communicate()
@@ -208,10 +197,9 @@ class Lines(BoardTest):
             self.host(board.port, "capture", "--trigger", "velocity>1", "--csv", "c.csv")
 
     def test_a_host_that_vanishes_leaves_no_motor_armed(self):
-        with Board(self.folder) as board:
-            words = [BUILD / "feltgate_host", board.port, "arm", "spring_tension", "--hold"]
-            holds = subprocess.Popen(words, stdout=subprocess.PIPE,
-                                     env=os.environ | {"FELTGATE_ROOT": str(ROOT)})  # fmt: skip
+        with Board(self) as board:
+            words = ("arm", "spring_tension", "--hold")
+            holds = self.start_program("feltgate_host", board.port, *words)
             holds.stdout.readline()
             time.sleep(0.3)
             holds.kill()
@@ -221,11 +209,9 @@ class Lines(BoardTest):
             self.assertIn("fault watchdog", self.host(board.port, "info", status=1))
 
     def test_two_hosts_at_once(self):
-        with Board(self.folder) as board:
+        with Board(self) as board:
             self.patient(board.port)
-            words = [BUILD / "feltgate_host", board.port, "arm", "free", "--hold"]
-            first = subprocess.Popen(words, stdout=subprocess.PIPE,
-                                     env=os.environ | {"FELTGATE_ROOT": str(ROOT)})  # fmt: skip
+            first = self.start_program("feltgate_host", board.port, "arm", "free", "--hold")
             first.stdout.readline()
             said = self.host(board.port, "info", status=2)
             self.assertIn("in use", said)
@@ -237,7 +223,7 @@ class Lines(BoardTest):
 
 class Recordings(BoardTest):
     def record(self, *words, program="feltgate_board", path="day.board"):
-        with Board(self.folder, "--record", path, *words, program=program) as board:
+        with Board(self, "--record", path, *words, program=program) as board:
             self.host(board.port, "set", "torque_limit=0.1")
             if "--rtl" not in words:  # which takes its time
                 self.patient(board.port)

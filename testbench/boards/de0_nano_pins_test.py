@@ -9,43 +9,14 @@ second half breaks a copy in every one of these ways and wants to see it found.
 Documentation: docs/boards/de0_nano.md
 """
 
-import csv
-import re
 import shlex
 import unittest
 from collections import Counter
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-BOARD = ROOT / "rtl/boards/de0_nano"
-FILES = {
-    "qsf": BOARD / "de0_nano.qsf",
-    "sv": BOARD / "de0_nano.sv",
-    "pins": BOARD / "pins.csv",
-    "doc": ROOT / "docs/boards/de0_nano.md",
-}
+from board_pins import PinsTests, files_of, read_pins, read_ports
+
 IO_STANDARD = "3.3-V LVTTL"
 GLOBALS = {"FAMILY": "Cyclone IV E", "DEVICE": "EP4CE22F17C6", "TOP_LEVEL_ENTITY": "de0_nano"}
-
-
-def read_pins(text):
-    """Rows of pins.csv by FPGA pin."""
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    return {row["pin"]: row for row in csv.DictReader(lines)}
-
-
-def read_ports(text):
-    """Port bits of the top module, such as KEY[1], with their direction."""
-    text = re.sub(r"//.*|/\*.*?\*/", "", text)
-    header = re.search(r"module\s+de0_nano\b.*?\)\s*\((.*?)\)\s*;", text, re.S).group(1)
-    ports = {}
-    for port in header.split(","):
-        direction, _, msb, name = re.fullmatch(
-            r"\s*(input|output)\s+logic\s*(\[(\d+):0\])?\s*(\w+)\s*", port
-        ).groups()
-        bits = [name] if msb is None else [f"{name}[{i}]" for i in range(int(msb) + 1)]
-        ports.update((bit, direction) for bit in bits)
-    return ports
 
 
 def read_qsf(text):
@@ -64,7 +35,7 @@ def read_qsf(text):
 
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
-    pins, ports = read_pins(texts["pins"]), read_ports(texts["sv"])
+    pins, ports = read_pins(texts["pins"], "pin"), read_ports(texts["sv"], "de0_nano")
     locations, standards, settings = read_qsf(texts["qsf"])
     found = []
 
@@ -118,84 +89,39 @@ def findings(texts):
     return found
 
 
-def committed():
-    return {name: path.read_text(encoding="utf-8") for name, path in FILES.items()}
+STANDARD_OF = 'set_instance_assignment -name IO_STANDARD "3.3-V LVTTL" -to ESTOP\n'
+ENC_A = "set_location_assignment PIN_A5 -to ENC_A\n"
 
 
-class Committed(unittest.TestCase):
-    def test_board_files_agree(self):
-        self.assertEqual(findings(committed()), [])
+class De0Nano(PinsTests, unittest.TestCase):
+    FILES = files_of("de0_nano", "qsf")
+    MISTAKES = (
+        ("qsf", ENC_A, "", "port ENC_A has no pin"),
+        ("qsf", ENC_A, ENC_A + ENC_A.replace("A5", "A6"), "ENC_A has 2 pins"),
+        ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_C9 -to GATE_A_LO", "pin C9 is used 2 times"),
+        ("qsf", "PIN_D9 -to", "PIN_Z99 -to", "pin Z99 is not in pins.csv"),
+        ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_D9 -to GATE_C_LO", "GATE_C_LO is no port"),
+        ("qsf", STANDARD_OF, "", "ESTOP has IO standard None"),
+        ("qsf", '"3.3-V LVTTL" -to KEY[1]', '"2.5-V LVTTL" -to KEY[1]',
+         "KEY[1] has IO standard 2.5-V LVTTL"),
+        ("qsf", "PIN_D9 -to", "PIN_A8 -to", "pin A8 is input only"),
+        ("qsf", "PIN_J15 -to KEY[0]", "PIN_A2 -to KEY[0]", "the board has it on J15"),
+        ("qsf", "PIN_D9 -to", "PIN_L3 -to", "use a header pin"),
+        ("sv", "output logic       GATE_B_LO\n", "output logic GATE_B_LO,\n  input logic NEW\n",
+         "port NEW has no"),
+        ("sv", "[3:0] SW,", "[4:0] SW,", "port SW[4] has no pin"),
+        ("qsf", "EP4CE22F17C6", "EP4CE10F17C8", "DEVICE is not"),
+        ("doc", "GPIO_0[9] | D5 | JP1 pin 14", "GPIO_0[9] | D5 | JP1 pin 15", "doc: no row"),
+    )
+    findings = staticmethod(findings)
 
     def test_the_parsers_saw_the_whole_files(self):
-        texts = committed()
-        ports = read_ports(texts["sv"])
-        self.assertEqual(len(read_pins(texts["pins"])), 87)
+        texts = self.texts()
+        ports = read_ports(texts["sv"], "de0_nano")
+        self.assertEqual(len(read_pins(texts["pins"], "pin")), 87)
         self.assertEqual(len(ports), 26)
         self.assertEqual(sum(d == "output" for d in ports.values()), 13)
         self.assertEqual(len(read_qsf(texts["qsf"])[0]), texts["qsf"].count("PIN_"))
-
-
-class SeededMistakes(unittest.TestCase):
-    """Each breaks one file in one way; the named words must then stand in a finding."""
-
-    def expect(self, name, old, new, words):
-        texts = committed()
-        self.assertEqual(texts[name].count(old), 1, f"{old!r} must stand once in {FILES[name]}")
-        texts[name] = texts[name].replace(old, new)
-        found = findings(texts)
-        self.assertTrue(any(words in line for line in found), found)
-
-    def test_port_without_pin(self):
-        self.expect(
-            "qsf", "set_location_assignment PIN_A5 -to ENC_A\n", "", "port ENC_A has no pin"
-        )
-
-    def test_port_with_two_pins(self):
-        line = "set_location_assignment PIN_A5 -to ENC_A\n"
-        self.expect("qsf", line, line + line.replace("A5", "A6"), "ENC_A has 2 pins")
-
-    def test_pin_used_twice(self):
-        self.expect("qsf", "PIN_D9 -to GATE_A_LO", "PIN_C9 -to GATE_A_LO", "pin C9 is used 2 times")
-
-    def test_unknown_pin(self):
-        self.expect("qsf", "PIN_D9 -to", "PIN_Z99 -to", "pin Z99 is not in pins.csv")
-
-    def test_unknown_port(self):
-        self.expect("qsf", "PIN_D9 -to GATE_A_LO", "PIN_D9 -to GATE_C_LO", "GATE_C_LO is no port")
-
-    def test_missing_io_standard(self):
-        line = f'set_instance_assignment -name IO_STANDARD "{IO_STANDARD}" -to ESTOP\n'
-        self.expect("qsf", line, "", "ESTOP has IO standard None")
-
-    def test_wrong_io_standard(self):
-        line = f'"{IO_STANDARD}" -to KEY[1]'
-        self.expect("qsf", line, line.replace("3.3", "2.5"), "KEY[1] has IO standard 2.5-V LVTTL")
-
-    def test_output_on_input_only_pin(self):
-        self.expect("qsf", "PIN_D9 -to", "PIN_A8 -to", "pin A8 is input only")
-
-    def test_board_signal_on_foreign_pin(self):
-        self.expect("qsf", "PIN_J15 -to KEY[0]", "PIN_A2 -to KEY[0]", "the board has it on J15")
-
-    def test_gate_on_a_lamp(self):
-        self.expect("qsf", "PIN_D9 -to", "PIN_L3 -to", "use a header pin")
-
-    def test_new_port_in_the_top_level(self):
-        old = "output logic       GATE_B_LO\n"
-        self.expect(
-            "sv", old, "output logic       GATE_B_LO,\n  input logic NEW\n", "port NEW has no"
-        )
-
-    def test_wider_port_in_the_top_level(self):
-        self.expect("sv", "[3:0] SW,", "[4:0] SW,", "port SW[4] has no pin")
-
-    def test_other_device(self):
-        self.expect("qsf", "EP4CE22F17C6", "EP4CE10F17C8", "DEVICE is not")
-
-    def test_stale_wiring_page(self):
-        self.expect(
-            "doc", "GPIO_0[9] | D5 | JP1 pin 14", "GPIO_0[9] | D5 | JP1 pin 15", "doc: no row"
-        )
 
 
 if __name__ == "__main__":

@@ -7,18 +7,15 @@ at 1 kHz.
 Documentation: docs/devices/bowed_string.md
 """
 
-import os
-import subprocess
 import sys
-import tempfile
 import unittest
-import wave
 from pathlib import Path
 
 import numpy as np
 
-ROOT, BUILD = Path(os.environ["FELTGATE_ROOT"]), Path(os.environ["FELTGATE_BUILD"])
-SCRIPT = ROOT / "scripts/bowed_string_sound.py"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from playing import Player  # noqa: E402
+from testing import BUILD, ROOT, ran, text_of  # noqa: E402
 
 
 def pitch_hz(samples, rate):
@@ -31,34 +28,22 @@ def pitch_hz(samples, rate):
     return rate / peaks[0] if peaks else 0.0
 
 
-class BowedStringSound(unittest.TestCase):
+class BowedStringSound(Player):
+    SCRIPT = "bowed_string_sound.py"
+
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.states, self.out = self.folder / "states.csv", self.folder / "string.wav"
+        super().setUp()
+        self.states = self.folder / "states.csv"
 
     def run_scene(self, scene, *more, status=0, program="feltgate_lever_law", design="lever_law",
                   engine="twin"):
-        ran = subprocess.run(
-            [BUILD / program, "run", scene, "--design", design, "--quiet", "--engine", engine,
-             "--states", self.states, *more],
-            capture_output=True, text=True, check=False, cwd=ROOT)
-        self.assertEqual(ran.returncode, status, ran.stderr)
-        return ran.stderr
+        words = (scene, "--design", design, "--engine", engine, "--states", self.states, *more)
+        done = ran(BUILD / program, "run", *words, "--quiet", cwd=ROOT)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stderr
 
     def play(self, status=0):
-        ran = subprocess.run([sys.executable, str(SCRIPT), str(self.states), "-o", str(self.out)],
-                             capture_output=True, text=True, check=False)
-        self.assertEqual(ran.returncode, status, ran.stderr)
-        if status != 0:
-            self.assertFalse(self.out.exists())
-            self.assertEqual(ran.stderr.count("\n"), 1)
-            return ran.stderr
-        with wave.open(str(self.out)) as sound:
-            self.rate = sound.getframerate()
-            data = sound.readframes(sound.getnframes())
-        return np.frombuffer(data, "<i2") / 32767
+        return self.samples(self.states, status)
 
     def test_the_string_at_40_khz(self):
         self.run_scene("bowed_string")
@@ -73,14 +58,13 @@ class BowedStringSound(unittest.TestCase):
         self.assertAlmostEqual(times[-1] - times[-2], 25e-6, delta=1e-9)
 
     def test_the_same_law_at_1_khz(self):
-        law = (ROOT / "rtl/laws/bowed_string.law").read_text(encoding="utf-8")
+        law = text_of("rtl/laws/bowed_string.law")
         slow = law.replace("rate = 40 kHz", "rate = 1 kHz")
         self.assertNotEqual(law, slow)
-        (self.folder / "slow.law").write_text(slow, encoding="utf-8")
-        scene = (ROOT / "vectors/scenes/bowed_string.toml").read_text(encoding="utf-8")
+        self.put("slow.law", slow)
+        scene = text_of("vectors/scenes/bowed_string.toml")
         scene = scene[: scene.index("[[expect]]")].replace('"bowed_string"', '"slow.law"')
-        (self.folder / "slow.toml").write_text(scene, encoding="utf-8")
-        self.run_scene(self.folder / "slow.toml")
+        self.run_scene(self.put("slow.toml", scene))
         samples = self.play()
         self.assertEqual(self.rate, 40000)
         changes = np.flatnonzero(np.diff(samples[400:8000]))

@@ -8,13 +8,13 @@ import json
 import math
 import re
 import shlex
-import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
 from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
+from testing import ran  # noqa: E402
 
 PAGE = ROOT / "docs/calibration.md"
 COUNT = 2 * math.pi / 4096
@@ -53,10 +53,7 @@ class VerbTest(ProgramTest):
 
     def builds(self, design):
         """The generator accepts it."""
-        done = subprocess.run(
-            [BUILD / "feltgate_generate", ROOT, "--design", design, "--output", self.folder],
-            capture_output=True, text=True, check=False,
-        )  # fmt: skip
+        done = ran(BUILD / "feltgate_generate", ROOT, "--design", design, "-o", self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
 
 

@@ -4,17 +4,15 @@
 """The parts of `feltgate coverage` that need no simulation: data, waivers, the change of
 Verilator's code, verdicts."""
 
-import contextlib
-import io
 import json
 import os
 import sys
-import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, Scratch, called  # noqa: E402
 import block_results  # noqa: E402
 import coverage  # noqa: E402
 from covering import data, instrument, programs, report, waivers  # noqa: E402
@@ -27,20 +25,7 @@ def entry(page, name, count, line=3, where="TOP.b", file="rtl/b.sv"):
     return "C '" + "".join(f"\x01{k}\x02{v}" for k, v in pairs.items()) + f"' {count}\n"
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def put(self, name, text):
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-        return path
-
-
-class Data(Folder):
+class Data(Scratch):
     def read(self, *entries):
         return data.read(Path("/r"), self.put("a.dat", HEAD + "".join(entries)))
 
@@ -75,7 +60,7 @@ class Data(Folder):
                 data.read(Path("/r"), self.put("a.dat", text))
 
 
-class Waivers(Folder):
+class Waivers(Scratch):
     GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "most": 1,
             "reason": "its bit is never set, by the format"}
 
@@ -175,36 +160,28 @@ class Instrument(unittest.TestCase):
                 instrument.changed(self.FILES | {file: self.FILES[file].replace(old, new)}, "Vb")
 
 
-class Command(Folder):
+class Command(Scratch):
     """With a stand-in for the tests, which writes what it is told."""
 
     def setUp(self):
         super().setUp()
         self.put(waivers.FILE, "")
-        for name in ("FELTGATE_ROOT", "FELTGATE_BUILD"):
-            self.addCleanup(os.environ.__setitem__, name, os.environ.get(name, ""))
-            os.environ[name] = str(self.folder)
+        places = dict.fromkeys(("FELTGATE_ROOT", "FELTGATE_BUILD"), str(self.folder))
+        self.enterContext(mock.patch.dict(os.environ, places))
         self.put("build.ninja", "")
         self.program_is("exit 0")
 
     def program_is(self, *lines):
-        path = self.put("b_cover", "\n".join(["#!/bin/sh", *lines, ""]))
-        path.chmod(0o755)
+        path = self.put_program("b_cover", "\n".join(lines))
         self.put(programs.LIST, f"b b {path}\n")
 
     def counting(self, count):
         self.put("data",
-                 (HEAD + entry("line", "block", count)).replace("/r/", f"{self.folder.resolve()}/"))
+                 (HEAD + entry("line", "block", count)).replace("/r/", f"{self.folder}/"))
         self.program_is(f'cp "{self.folder}/data" "$FELTGATE_COVERAGE"')
 
     def status(self, *words):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                status = coverage.main(["--no-build", *words])
-            except SystemExit as end:
-                status = end.code
-        return status, out.getvalue(), err.getvalue()
+        return called(coverage.main, "--no-build", *words)
 
     def test_all_is_reached(self):
         self.counting(1)

@@ -3,13 +3,12 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Every file of cover points fits its block: the signals it names are there. Builds nothing."""
 
-import subprocess
 import sys
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, ran  # noqa: E402
 import rtl_sources  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
@@ -24,7 +23,7 @@ def complaints(points, design):
     package = ROOT / f"rtl/generated/{design}/feltgate_pkg.sv"
     command = ["verilator", "--lint-only", "--coverage", "-Wall", *QUIET, "--top-module", block,
                FOLDER / "coverage.vlt", package, *(ROOT / "rtl" / name for name in names), points]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = ran(*command)
     return done.stderr if done.returncode else ""
 
 

@@ -3,7 +3,7 @@
 """How each command line of the pages is run by commands_test.py: the first rule that matches."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -11,15 +11,18 @@ class Rule:
     """WHOLE: as it stands, in the sandbox with its short scenes. MORE: with more words, which make
     it shorter. PARSED: a Python script's options are read, then it ends. LAUNCHER: the same for
     the launcher's own subcommand. NAMED: programs that may not be here; the files, scripts and
-    CMake options that the line names must be there. BY: the test named in `more` runs it."""
+    CMake options that the line names must be there. BY: the test named in `more` runs it; the
+    name may hold what the pattern's group found."""
 
     pattern: str
     how: str
     more: str = ""
     status: tuple = (0,)
 
-    def matches(self, words):
-        return re.match(rf"(?:\./)?(?:{self.pattern})(?:\s|$)", words) is not None
+    def of(self, words):
+        """The rule for these words, or None where the pattern is another's."""
+        found = re.match(rf"(?:\./)?(?:{self.pattern})(?:\s|$)", words)
+        return found and replace(self, more=found.expand(self.more))
 
 
 RULES = (
@@ -27,7 +30,7 @@ RULES = (
     Rule(r"feltgate \w+ --help", "WHOLE"),
     # 2: what the page says of this line is that it is refused.
     Rule(r"feltgate run torque_step --set voltage_gain=0\.6", "WHOLE", status=(2,)),
-    # The launcher gives these a design with an engine.
+    # The launcher gives this one a design with an engine too.
     Rule(
         r"feltgate run (?:detent|my_scene\.toml --set amplitude\S*)",
         "BY",
@@ -42,25 +45,18 @@ RULES = (
     Rule(r"feltgate run (?:pantograph_floor|hidden_shapes).*", "BY", "axes_run_test"),
     Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),
     Rule(r"feltgate run coupled_levers.*", "BY", "coupled_levers_test"),
-    Rule(r"feltgate run turn_switch", "BY", "scene.turn_switch.lever_law"),
-    Rule(r"feltgate run moved_detents", "BY", "scene.moved_detents.lever_law"),
-    Rule(r"feltgate run collision", "BY", "scene.collision.lever_law"),
-    Rule(r"feltgate run flywheel", "BY", "scene.flywheel.lever_law"),
-    Rule(r"feltgate run pendulum", "BY", "scene.pendulum.lever_law"),
-    Rule(r"feltgate run graded_membrane", "BY", "scene.graded_membrane.lever_law"),
-    Rule(r"feltgate run end_stops_thrown", "BY", "scene.end_stops_thrown.lever_law"),
-    Rule(r"feltgate run end_stops", "BY", "scene.end_stops.lever_law"),
-    Rule(r"feltgate run scroll_wheel", "BY", "scene.scroll_wheel.lever_law"),
     Rule(r"feltgate shape .*--table", "BY", "shape.command"),
-    Rule(r"feltgate run ceiling(?!_)", "BY", "scene.ceiling.lever_law"),
-    Rule(r"feltgate run drums", "BY", "scene.drums.lever_law"),
     Rule(r"feltgate run material_stone --set dynamic=0\.4", "BY", "tracked_test"),
-    Rule(r"feltgate run material_fields", "BY", "scene.material_fields.lever_law"),
-    Rule(r"feltgate run material_stick_slip", "BY", "scene.material_stick_slip.lever_law"),
-    Rule(r"feltgate run material_stone", "BY", "scene.material_stone.lever_law"),
     Rule(r"feltgate run (?:bowed_string|slow\.toml).*--states", "BY", "bowed_string.sound"),
-    Rule(r"feltgate run bowed_string", "BY", "scene.bowed_string.lever_law"),
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
+    # Scenes of a law, which the launcher gives a design with an engine.
+    Rule(
+        r"feltgate run (bowed_string|ceiling|collision|drums|end_stops|end_stops_thrown|flywheel"
+        r"|graded_membrane|material_(?:fields|stick_slip|stone)|moved_detents|pendulum"
+        r"|scroll_wheel|turn_switch)",
+        "BY",
+        r"scene.\1.lever_law",
+    ),
     Rule(r"feltgate (?:run|replay|import|budget|design|law|shape|texture)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
@@ -143,7 +139,7 @@ BUILT_ON_DEMAND |= {
 
 
 def rule_of(words):
-    return next((rule for rule in RULES if rule.matches(words)), None)
+    return next(filter(None, (rule.of(words) for rule in RULES)), None)
 
 
 def filled(words):

@@ -10,6 +10,7 @@
 #include "catch.hpp"
 #include "encoder_monitor_twin.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -20,22 +21,11 @@ using Twin = EncoderMonitor;
 
 struct Adapter {
   static void drive(Vencoder_monitor& rtl, const Twin::In& in) {
-    rtl.wave_i = in.wave;
-    rtl.tick_count_i = in.tick_count;
-    rtl.levels_i = in.levels;
-    rtl.index_wrong_i = in.index_wrong;
-    rtl.count_i = in.count;
-    rtl.zero_i = in.zero;
-    rtl.step_i = in.step;
-    rtl.set_zero_i = in.set_zero;
+    FELTGATE_DRIVE(rtl, in, wave, tick_count, levels, index_wrong, count, zero, step, set_zero);
   }
   template <class Check>
   static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {
-    check("moved", rtl.moved_o, out.moved);
-    check("chatters", rtl.chatters_o, out.chatters);
-    check("trip", rtl.trip_o, out.trip);
-    check("index_trip", rtl.index_trip_o, out.index_trip);
-    check("flip_trip", rtl.flip_trip_o, out.flip_trip);
+    FELTGATE_COMPARE(check, rtl, out, moved, chatters, trip, index_trip, flip_trip);
   }
 };
 using Bench = LockStep<Vencoder_monitor, Twin, Adapter>;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "feltgate/engine.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -24,11 +25,7 @@ struct EngineAdapter {
   using Out = typename Twin::Out;
 
   static void drive(Vengine& rtl, const In& in) {
-    rtl.armed_i = in.armed;
-    rtl.enter_i = in.enter;
-    rtl.locked_i = in.locked;
-    rtl.tick_i = in.tick;
-    rtl.tick_count_i = in.tick_count;
+    FELTGATE_DRIVE(rtl, in, armed, enter, locked, tick, tick_count);
     set(rtl.position_i, in.position);
     set(rtl.velocity_i, in.velocity);
     set(rtl.tau_hat_i, in.tau_hat);
@@ -43,12 +40,7 @@ struct EngineAdapter {
     for (int n = 0; n < Axes; ++n) {
       check("torque", torque(rtl.torque_o, n), out.torque[static_cast<std::size_t>(n)]);
     }
-    check("fresh", rtl.fresh_o, out.fresh);
-    check("late", rtl.late_o, out.late);
-    check("changed", rtl.changed_o, out.changed);
-    check("crc_done", rtl.crc_done_o, out.crc_done);
-    check("crc_good", rtl.crc_good_o, out.crc_good);
-    check("event_valid", rtl.event_valid_o, out.event_valid);
+    FELTGATE_COMPARE(check, rtl, out, fresh, late, changed, crc_done, crc_good, event_valid);
     if (out.event_valid) {
       check("event_number", rtl.event_number_o, out.event_number);
       check("event_value", static_cast<std::int32_t>(rtl.event_value_o), out.event_value);

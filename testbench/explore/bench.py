@@ -5,18 +5,13 @@
 Documentation: docs/explore.md
 """
 
-import os
-import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, SCRIPTS, Scratch, environment, ran  # noqa: E402, F401
+
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
-SCRIPT = ROOT / "scripts/explore.py"
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "scripts"))
 sys.path.insert(0, str(HERE))
 
 # 24 points of 4 structures.
@@ -41,36 +36,22 @@ formats.observer_fraction = [30, 32]
 """
 
 
-class Bench(unittest.TestCase):
+class Bench(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
+        super().setUp()
         self.log = self.folder / "log"
         self.space = self.folder / "space.toml"
         self.space.write_text(SPACE, encoding="utf-8")
 
     def environment(self, **more):
-        kept = {k: v for k, v in os.environ.items() if not k.startswith(("FELTGATE_", "FAKE_"))}
-        return kept | {
-            "FELTGATE_EXPLORE_POINT": "fake_point",
-            "PYTHONPATH": str(HERE),
-            "FAKE_POINT_LOG": str(self.log),
-            **more,
-        }
+        ours = {"PYTHONPATH": str(HERE), "FAKE_POINT_LOG": str(self.log)}
+        return environment("FAKE_", FELTGATE_EXPLORE_POINT="fake_point", **ours | more)
 
     def command(self, *words):
-        return [sys.executable, "-B", str(SCRIPT), *map(str, words)]
+        return [sys.executable, "-B", str(SCRIPTS / "explore.py"), *map(str, words)]
 
     def explore(self, *words, **environment):
-        return subprocess.run(
-            self.command(*words),
-            env=self.environment(**environment),
-            capture_output=True,
-            text=True,
-            timeout=120,
-            check=False,
-        )
+        return ran(*self.command(*words), env=self.environment(**environment), timeout=120)
 
     def good(self, *words, **environment):
         """Runs and expects success; what it printed."""

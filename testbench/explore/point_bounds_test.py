@@ -12,6 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 from exploring import point  # noqa: E402
+from exploring.design_text import design_text  # noqa: E402
 
 TABLE = ROOT / "vectors/spaces/trade.csv"
 BASE = "lever"
@@ -33,7 +34,7 @@ class Bounds(unittest.TestCase):
     def check(self, row, folder):
         """The bounds of a row's design; the row's errors must keep them."""
         design = Path(folder) / "point.toml"
-        design.write_text(point.design_text(BASE, changes(row)), encoding="utf-8")
+        design.write_text(design_text(ROOT, {"base": BASE, "set": changes(row)}), encoding="utf-8")
         result = {key: value(text) for key, text in row.items()}
         found = point.bounds(design, result)
         self.assertEqual(found["bound_without"], [], row["id"])

@@ -6,8 +6,10 @@ import json
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-from exploring import point  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+from exploring.design_text import design_text  # noqa: E402
 
 changes = {key: json.loads(value) for key, value in (w.split("=", 1) for w in sys.argv[3:])}
-Path(sys.argv[1]).write_text(point.design_text(sys.argv[2], changes), encoding="utf-8")
+text = design_text(ROOT, {"base": sys.argv[2], "set": changes})
+Path(sys.argv[1]).write_text(text, encoding="utf-8")

@@ -4,7 +4,6 @@
 
 import sys
 import tempfile
-import tomllib
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -12,6 +11,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 from exploring import point  # noqa: E402
+from exploring.design_text import design_text  # noqa: E402
 from seeding import patches  # noqa: E402
 
 COARSE = {
@@ -29,23 +29,6 @@ COARSE = {
 }
 
 
-class DesignText(unittest.TestCase):
-    def test_without_changes_the_design_is_the_base_without_its_self_test(self):
-        base = tomllib.loads((ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8"))
-        base["self_test"]["mode"] = "off"
-        self.assertEqual(tomllib.loads(point.design_text("lever", {})), base)
-
-    def test_changes_go_in_and_alternatives_out(self):
-        table = tomllib.loads(point.design_text("lever", COARSE))
-        self.assertEqual(table["fabric"]["multipliers"], "parallel")
-        self.assertEqual(table["velocity"]["gain"], "exact")
-        self.assertNotIn("n", table["velocity"])
-        self.assertEqual(table["formats"]["torque"], [1, 4, 10])
-        self.assertNotIn(
-            "kp", tomllib.loads(point.design_text("lever", {"control.kp": None}))["control"]
-        )
-
-
 class Evaluation(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -53,7 +36,7 @@ class Evaluation(unittest.TestCase):
         cls.addClassCleanup(cls.folder.cleanup)
 
     def evaluate(self, changes, **options):
-        text = point.design_text("lever", changes)
+        text = design_text(ROOT, {"base": "lever", "set": changes})
         return point.evaluate_design(text, self.folder.name, area=False, **options)
 
     def structures(self):

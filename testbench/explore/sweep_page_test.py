@@ -51,6 +51,7 @@ class DesignFiles(unittest.TestCase):
     def parsed(self, **keys):
         changed = {key.replace("__", "."): value for key, value in keys.items()}
         text = design_text.design_text(ROOT, {"base": "lever", "set": changed})
+        self.assertIn('mode = "off"', text)  # of the self-test
         return space.flattened(tomllib.loads(text))
 
     def test_only_what_is_set_changes(self):

@@ -8,15 +8,14 @@ Documentation: docs/explore.md
 
 import csv
 import os
-import subprocess
 import tomllib
 import unittest
-from pathlib import Path
 
 from bench import ROOT
+from testing import BUILD, ran
+
 from exploring import merge, point, presets, space
 
-BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
 WHOLE = "FELTGATE_WHOLE" in os.environ  # every preset evaluated, not the first
 TABLE = ROOT / "vectors/spaces/trade.csv"
 
@@ -54,12 +53,7 @@ class Presets(unittest.TestCase):
 
     def test_stable_and_for_use(self):
         for name in presets.NAMES:
-            done = subprocess.run(
-                [BUILD / "feltgate", "design", name, "--plant", "p24"],
-                capture_output=True,
-                text=True,
-                check=False,
-            )
+            done = ran(BUILD / "feltgate", "design", name, "--plant", "p24")
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_tabled(self):

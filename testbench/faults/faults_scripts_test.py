@@ -3,20 +3,17 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The parts of `feltgate faults` that need no campaign: table, verdict, blocks, options."""
 
-import contextlib
-import io
 import json
 import os
 import sys
-import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
-sys.path.insert(0, str(ROOT / "scripts"))
-sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import Scratch, called  # noqa: E402
 import faults  # noqa: E402
-from faulting import campaign, results  # noqa: E402
+from faulting import results  # noqa: E402
 
 
 def state(register, kind="masked", safety=True, peak=0.0):
@@ -86,30 +83,23 @@ class Results(unittest.TestCase):
         self.assertEqual(len(text.splitlines()), 3)
 
 
-class Command(unittest.TestCase):
+class Command(Scratch):
     def run_main(self, *words):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                code = faults.main([str(w) for w in words])
-            except SystemExit as ended:
-                code = ended.code
-        return code, out.getvalue(), err.getvalue()
+        return called(faults.main, *words)
 
     def test_lines_of_an_earlier_run(self):
-        with tempfile.TemporaryDirectory() as folder:
-            lines, found = Path(folder, "l.jsonl"), Path(folder, "f.json")
-            lines.write_text("".join(json.dumps(f) + "\n"
-                                     for f in [state("a"), pin("detected"), {"mismatches": 0}]))
-            code, out, _ = self.run_main("--lines", lines, "--json", found)
-            self.assertEqual(code, 0)
-            self.assertIn("0 of 2, 0 (< 78 %)", out)
-            written = json.loads(found.read_text())
-            self.assertEqual((written["schema"], written["faults"]), (faults.SCHEMA, 2))
-            lines.write_text(json.dumps(state("a", "unsafe")) + "\n")
-            code, out, _ = self.run_main("--lines", lines)
-            self.assertEqual(code, 1)
-            self.assertIn("NOT KEPT", out)
+        several = [state("a"), pin("detected"), {"mismatches": 0}]
+        lines = self.put("l.jsonl", "".join(json.dumps(f) + "\n" for f in several))
+        found = self.folder / "f.json"
+        code, out, _ = self.run_main("--lines", lines, "--json", found)
+        self.assertEqual(code, 0)
+        self.assertIn("0 of 2, 0 (< 78 %)", out)
+        written = json.loads(found.read_text())
+        self.assertEqual((written["schema"], written["faults"]), (faults.SCHEMA, 2))
+        self.put("l.jsonl", json.dumps(state("a", "unsafe")) + "\n")
+        code, out, _ = self.run_main("--lines", lines)
+        self.assertEqual(code, 1)
+        self.assertIn("NOT KEPT", out)
 
     def test_refusals(self):
         for words, what in ((("--long",), "--clean"), (("--jobs", "0"), "at least 1"),
@@ -130,16 +120,9 @@ class Command(unittest.TestCase):
 
     def says(self, script):
         """A stand-in for feltgate_faults in a build folder."""
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        program = Path(scratch.name, "feltgate_faults")
-        program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
-        program.chmod(0o755)
-        before = os.environ.get("FELTGATE_BUILD")
-        os.environ["FELTGATE_BUILD"] = scratch.name
-        self.addCleanup(os.environ.update if before else os.environ.pop,
-                        *([{"FELTGATE_BUILD": before}] if before else ["FELTGATE_BUILD"]))
-        return Path(scratch.name)
+        self.put_program("feltgate_faults", script)
+        self.enterContext(mock.patch.dict(os.environ, FELTGATE_BUILD=str(self.folder)))
+        return self.folder
 
     def test_a_program_that_fails_is_told(self):
         for script, said in (("echo oh >&2; exit 3", "ended with status 3: oh"),

@@ -15,6 +15,7 @@
 #include "feltgate/generated/lever_law.hpp"
 #include "feltgate/generated/pantograph_law.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -77,10 +78,7 @@ struct AxesAdapter {
 #undef FELTGATE_OF_AXIS
     }
     const CoreOut& first = out.axis[0];
-    check("tick_count", rtl.tick_count_o, first.tick_count);
-    check("snapshot_valid", rtl.snapshot_valid_o, first.snapshot_valid);
-    check("word_valid", rtl.word_valid_o, first.word_valid);
-    check("word_slot", rtl.word_slot_o, first.word_slot);
+    FELTGATE_COMPARE(check, rtl, first, tick_count, snapshot_valid, word_valid, word_slot);
     check("reg_busy", rtl.reg_busy_o, out.reg_busy);
     if (out.rdata_known) check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
     check("event_valid", rtl.event_valid_o, out.event_valid);

@@ -11,6 +11,7 @@
 #include "engines/rtl_ports.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "random.hpp"
 
 #ifndef FELTGATE_DESIGN
@@ -46,18 +47,8 @@ struct CoreAdapter {
     check("gate_a_lo", rtl.gate_a_lo_o, (out.gates >> 1) & 1u);
     check("gate_b_hi", rtl.gate_b_hi_o, (out.gates >> 2) & 1u);
     check("gate_b_lo", rtl.gate_b_lo_o, (out.gates >> 3) & 1u);
-    check("gates_enable", rtl.gates_enable_o, out.gates_enable);
-    check("scene", rtl.scene_o, out.scene);
-    check("limits", rtl.limits_o, out.limits);
-    check("faults", rtl.faults_o, out.faults);
-    check("first_fault", rtl.first_fault_o, out.first_fault);
-    check("armed", rtl.armed_o, out.armed);
-    check("snapshot_valid", rtl.snapshot_valid_o, out.snapshot_valid);
-    check("reg_busy", rtl.reg_busy_o, out.reg_busy);
-    check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
-    check("word_valid", rtl.word_valid_o, out.word_valid);
-    check("word_slot", rtl.word_slot_o, out.word_slot);
-    check("word_data", rtl.word_data_o, out.word_data);
+    FELTGATE_COMPARE(check, rtl, out, gates_enable, scene, limits, faults, first_fault, armed,
+                     snapshot_valid, reg_busy, reg_rdata, word_valid, word_slot, word_data);
   }
 };
 

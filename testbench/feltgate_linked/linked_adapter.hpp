@@ -10,6 +10,7 @@
 #include "encoder_phase.hpp"
 #include "feltgate_linked_twin.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #ifdef LAW
 #include "feltgate/generated/lever_law.hpp"
 #else
@@ -30,13 +31,7 @@ struct LinkedAdapter {
     rtl.enc_a_i = in.encoder.a;
     rtl.enc_b_i = in.encoder.b;
     rtl.enc_z_i = in.encoder.z;
-    rtl.arm_i = in.arm;
-    rtl.stop_i = in.stop;
-    rtl.set_zero_i = in.set_zero;
-    rtl.clear_faults_i = in.clear_faults;
-    rtl.scene_i = in.scene;
-    rtl.uart_rx_i = in.uart_rx;
-    rtl.inputs_i = in.inputs;
+    FELTGATE_DRIVE(rtl, in, arm, stop, set_zero, clear_faults, scene, uart_rx, inputs);
   }
   static void at_edge(Vfeltgate_linked& rtl) { rtl.stop_i = 0; }
   template <class Check>
@@ -47,13 +42,8 @@ struct LinkedAdapter {
     check("gate_b_hi", rtl.gate_b_hi_o, (out.core.gates >> 2) & 1u);
     check("gate_b_lo", rtl.gate_b_lo_o, (out.core.gates >> 3) & 1u);
     check("position", static_cast<std::int32_t>(rtl.position_o), out.core.position);
-    check("limits", rtl.limits_o, out.core.limits);
-    check("faults", rtl.faults_o, out.core.faults);
-    check("first_fault", rtl.first_fault_o, out.core.first_fault);
-    check("scene", rtl.scene_o, out.core.scene);
-    check("armed", rtl.armed_o, out.core.armed);
-    check("gates_enable", rtl.gates_enable_o, out.core.gates_enable);
-    check("snapshot_valid", rtl.snapshot_valid_o, out.core.snapshot_valid);
+    FELTGATE_COMPARE(check, rtl, out.core, limits, faults, first_fault, scene, armed, gates_enable,
+                     snapshot_valid);
   }
 };
 using Bench = LockStep<Vfeltgate_linked, Twin, LinkedAdapter>;

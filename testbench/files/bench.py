@@ -5,11 +5,11 @@
 import os
 import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, Scratch  # noqa: E402
+
 PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
 os.environ["FELTGATE_PYTHON"] = sys.executable
 SCENE = """title = "A lever at rest"
@@ -24,15 +24,13 @@ start_rad = 0.0
 """
 
 
-class Bench(unittest.TestCase):
+class Bench(Scratch):
     """A scratch folder that is the working folder, with short.toml (2 ms) and long.toml."""
 
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name).resolve()
-        self.path("short.toml").write_text(SCENE.format(seconds=0.002))
-        self.path("long.toml").write_text(SCENE.format(seconds=10_000.0))
+        super().setUp()
+        self.put("short.toml", SCENE.format(seconds=0.002))
+        self.put("long.toml", SCENE.format(seconds=10_000.0))
         self.given = {"short.toml", "long.toml"}
 
     def path(self, name):

@@ -15,8 +15,8 @@ import time
 import unittest
 
 from bench import ROOT, Bench
+from testing import SCRIPTS, ran
 
-sys.path.insert(0, str(ROOT / "scripts"))
 import crew  # noqa: E402
 import interrupts  # noqa: E402
 import outputs  # noqa: E402
@@ -262,19 +262,13 @@ class Outputs(Bench):
         script = ROOT / "scripts/faults.py"
         command = [sys.executable, "-B", script, "--lines", self.path("lines"), "--json"]
         for name in ("-", "/dev/stdout"):
-            done = subprocess.run([*command, name], capture_output=True, text=True, check=False)
+            done = ran(*command, name)
             self.assertEqual(json.loads(done.stdout)["faults"], 1)
             self.assertIn("unsafe, of all faults that a core can see: 0 of 1", done.stderr)
 
     def refused(self, script, *words, said):
         with self.subTest(script, words=words):
-            done = subprocess.run(
-                [sys.executable, "-B", ROOT / "scripts" / script, *words],
-                cwd=self.folder,
-                capture_output=True,
-                text=True,
-                check=False,
-            )
+            done = ran(sys.executable, "-B", SCRIPTS / script, *words, cwd=self.folder)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(said, done.stderr)
 

@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include "hold_timer_twin.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -21,12 +22,7 @@ using Twin = HoldTimer;
 
 struct Adapter {
   static void drive(Vhold_timer& rtl, const Twin::In& in) {
-    rtl.armed_i = in.armed;
-    rtl.wave_i = in.wave;
-    rtl.tick_count_i = in.tick_count;
-    rtl.param_i = in.param;
-    rtl.moved_i = in.moved;
-    rtl.beyond_i = in.beyond;
+    FELTGATE_DRIVE(rtl, in, armed, wave, tick_count, param, moved, beyond);
   }
   template <class Check>
   static void compare(Check& check, const Vhold_timer& rtl, const Twin::Out& out) {

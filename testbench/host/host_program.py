@@ -6,12 +6,11 @@ lines are compared whose numbers differ from run to run."""
 import os
 import re
 import subprocess
-import tempfile
-import unittest
+import sys
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
 
 
 def pattern_of(line):
@@ -27,29 +26,16 @@ def patterns_of(text):
     return [p for n, p in enumerate(patterns) if n == 0 or p != patterns[n - 1]]
 
 
-class ProgramTest(unittest.TestCase):
+class ProgramTest(Scratch):
     """A test with a folder of its own."""
-
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
 
     def environment(self):
         return os.environ | {"FELTGATE_ROOT": str(ROOT)}
 
     def run_program(self, program, *words, status=0, typed=""):
         """What it says, stdout first, when it ends with this status."""
-        done = subprocess.run(
-            [BUILD / program, *map(str, words)],
-            env=self.environment(),
-            cwd=self.folder,
-            input=typed,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
+        options = {"env": self.environment(), "cwd": self.folder, "timeout": 120}
+        done = ran(BUILD / program, *words, input=typed, **options)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr
 

@@ -18,6 +18,7 @@ import unittest
 
 from board_process import BoardProcess
 from host_program import BUILD, ROOT, ProgramTest, patterns_of
+from testing import ran
 
 PAGE = ROOT / "docs/host.md"
 # The picture needs Debian's matplotlib.
@@ -54,13 +55,10 @@ class Session(VerbTest):
                     words = shlex.split(line)
                     self.assertEqual(words[:3], ["./feltgate", "host", "/dev/ttyUSB0"])
                     with self.subTest(line):
-                        done = subprocess.run(
-                            self.command(board.port, *words[3:]),
+                        done = ran(
+                            *self.command(board.port, *words[3:]),
                             env=self.environment(),
                             cwd=self.folder,
-                            capture_output=True,
-                            text=True,
-                            check=False,
                             timeout=60,
                         )
                         said = done.stderr + done.stdout

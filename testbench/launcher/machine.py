@@ -10,11 +10,12 @@ of the real machine is seen. Every stand-in notes its name and arguments in the 
 import os
 import shutil
 import subprocess
-import tempfile
-import unittest
+import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, Scratch, ran  # noqa: E402
+
 # What Debian has before anything is installed.
 ESSENTIAL = """bash cat chmod cmp cp cut dirname env false flock grep head ln ls mkdir mv nproc
 readlink rm sed sh sort tail tr true uname""".split()
@@ -82,11 +83,9 @@ echo "program ${0##*/} $*"
 """
 
 
-class Machine(unittest.TestCase):
+class Machine(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
+        super().setUp()
         self.bin = self.folder / "usr/bin"
         self.repository = self.folder / "feltgate"
         for folder in (self.bin, self.folder / "archive", self.folder / "var/lib/dpkg"):
@@ -135,8 +134,8 @@ class Machine(unittest.TestCase):
 
     def start(self, *words, **environment):
         """./feltgate WORDS..., with neither terminal nor CI; what came of it."""
-        return subprocess.run(
-            [self.bin / "bash", self.repository / "feltgate", *words],
+        return ran(
+            *(self.bin / "bash", self.repository / "feltgate", *words),
             env={
                 "PATH": str(self.bin),
                 "HOME": str(self.folder),
@@ -145,9 +144,6 @@ class Machine(unittest.TestCase):
                 **environment,
             },
             stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
         )
 
     def log(self):

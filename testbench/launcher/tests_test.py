@@ -4,13 +4,13 @@
 
 import json
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import Scratch, script  # noqa: E402
+
 MADE = ("product", "tests/a_test", "tests/b.vvp", "all", "libx.a")
 # Name: (command, labels, REQUIRED_FILES); %s is the build folder.
 TESTS = {
@@ -23,11 +23,9 @@ TESTS = {
 UNKNOWN = {"stray": (["python3", "t.py"], ["unit"], [])}
 
 
-class Selection(unittest.TestCase):
+class Selection(Scratch):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name).resolve()
+        super().setUp()
         self.build = self.folder / "build"
         (self.build / "tests").mkdir(parents=True)
         self.folder.joinpath("bin").mkdir()
@@ -35,10 +33,8 @@ class Selection(unittest.TestCase):
         self.configure(TESTS)
 
     def standin(self, name, says):
-        (self.folder / f"{name}.txt").write_text(says + "\n", encoding="utf-8")
-        path = self.folder / "bin" / name
-        path.write_text(f'#!/bin/sh\ncat "{self.folder}/{name}.txt"\n', encoding="utf-8")
-        path.chmod(0o755)
+        self.put(f"{name}.txt", says + "\n")
+        self.put_program(f"bin/{name}", f'cat "{self.folder}/{name}.txt"')
 
     def configure(self, tests):
         """What CMake writes, and what CTest says of it; CTest is silent about commands."""
@@ -60,13 +56,8 @@ class Selection(unittest.TestCase):
         self.standin("ctest", json.dumps({"tests": entries}))
 
     def say(self, *words):
-        return subprocess.run(
-            [sys.executable, "-B", ROOT / "scripts/tests.py", *words, "--build", self.build],
-            env=os.environ | {"PATH": f"{self.folder}/bin:{os.environ['PATH']}"},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        path = {"PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
+        return script("tests.py", *words, "--build", self.build, env=os.environ | path)
 
     def targets(self, *names):
         self.configure({name: (TESTS | UNKNOWN)[name] for name in names})

@@ -6,7 +6,6 @@ that mean the same are called the same, old spellings are still understood, sche
 """
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -14,7 +13,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, environment, ran  # noqa: E402
+
 HELP = ROOT / "docs/commands"
 PROGRAMS = Path(sys.argv.pop()) if len(sys.argv) > 1 else None
 
@@ -92,16 +93,8 @@ class ProgramTest(unittest.TestCase):
     def run_it(self, *words, program="feltgate"):
         if words[0] == "extremes":
             program, words = "feltgate_extremes", words[1:]
-        command = [str(PROGRAMS / program), *map(str, words)]
-        kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
-        return subprocess.run(
-            command,
-            env=kept | {"FELTGATE_ROOT": str(ROOT), "FELTGATE_PYTHON": sys.executable},
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        ours = environment(FELTGATE_ROOT=str(ROOT), FELTGATE_PYTHON=sys.executable)
+        return ran(PROGRAMS / program, *words, env=ours, stdin=subprocess.DEVNULL)
 
     def test_old_spellings_do_what_the_new_ones_do(self):
         trace = ROOT / "vectors/traces/membrane.vec"

@@ -3,34 +3,21 @@
 """What the tests of the commands that write a law share: a folder in which they run, a refusal."""
 
 import os
-import subprocess
-import tempfile
-import unittest
+import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import BUILD, ROOT, Scratch, ran  # noqa: E402, F401
 
 
-class LawMaking(unittest.TestCase):
+class LawMaking(Scratch):
     """In a scratch folder; a test of `feltgate COMMAND`."""
 
     COMMAND = ""
 
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = Path(scratch.name)
-
     def run_it(self, *words):
         """The program with these words."""
-        return subprocess.run(
-            [PROGRAM, *map(str, words)],
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        return ran(BUILD / "feltgate", *words, cwd=self.folder)
 
     def refused(self, said, *words):
         """One line with what is wrong and what to do, and no file."""

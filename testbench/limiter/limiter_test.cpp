@@ -13,6 +13,7 @@
 #include "catch.hpp"
 #include "limiter_twin.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "unreset.hpp"
 
 using namespace feltgate;
@@ -30,10 +31,7 @@ using Rtl = Unreset<Vlimiter>;
 
 struct Adapter {
   static void drive(Rtl& rtl, const Twin::In& in) {
-    rtl.valid_i = in.valid;
-    rtl.torque_i = in.torque;
-    rtl.voltage_i = in.voltage;
-    rtl.duty_i = in.duty;
+    FELTGATE_DRIVE(rtl, in, valid, torque, voltage, duty);
     // The width of the port is the design's: 32 or 64 bits of a word.
     using Port = std::remove_reference_t<decltype(rtl.ahead_i)>;
     rtl.ahead_i = port_bits<kWide, Port>(in.ahead);

@@ -16,6 +16,7 @@
 #include "catch.hpp"
 #include "feltgate/link_capture.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -33,13 +34,7 @@ constexpr std::uint32_t kTrigger = 1u << LinkMap::B::capture_control_trigger;
 
 struct CaptureAdapter {
   static void drive(Vlink_capture& rtl, const CaptureTwin::In& in) {
-    rtl.word_valid_i = in.word_valid;
-    rtl.word_slot_i = in.word_slot;
-    rtl.word_data_i = in.word_data;
-    rtl.addr_i = in.addr;
-    rtl.wdata_i = in.wdata;
-    rtl.write_i = in.write;
-    rtl.event_valid_i = in.event_valid;
+    FELTGATE_DRIVE(rtl, in, word_valid, word_slot, word_data, addr, wdata, write, event_valid);
     rtl.event_number_i = static_cast<std::uint16_t>(in.event_number);
   }
   template <class Check>

@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #ifdef LAW
 #include "feltgate/generated/lever_law.hpp"
 #else
@@ -31,30 +32,13 @@ struct Twin : LinkPort<Design> {
 
 struct Adapter {
   static void drive(Vlink_port& rtl, const Twin::In& in) {
-    rtl.valid_i = in.request.valid;
-    rtl.write_i = in.request.write;
-    rtl.sequence_i = in.request.sequence;
-    rtl.address_i = in.request.address;
-    rtl.data_i = in.request.data;
-    rtl.good_i = in.good;
-    rtl.bad_i = in.bad;
-    rtl.clear_faults_i = in.clear_faults;
-    rtl.inputs_i = in.inputs;
-    rtl.tick_i = in.tick;
-    rtl.reg_busy_i = in.reg_busy;
-    rtl.reg_rdata_i = in.reg_rdata;
-    rtl.rdata_i = in.rdata;
-    rtl.ready_i = in.ready;
+    FELTGATE_DRIVE(rtl, in.request, valid, write, sequence, address, data);
+    FELTGATE_DRIVE(rtl, in, good, bad, clear_faults, inputs, tick, reg_busy, reg_rdata, rdata,
+                   ready);
   }
   template <class Check>
   static void compare(Check& check, const Vlink_port& rtl, const Twin::Out& out) {
-    check("taken", rtl.taken_o, out.taken);
-    check("reg_addr", rtl.reg_addr_o, out.reg_addr);
-    check("reg_wdata", rtl.reg_wdata_o, out.reg_wdata);
-    check("reg_write", rtl.reg_write_o, out.reg_write);
-    check("addr", rtl.addr_o, out.addr);
-    check("wdata", rtl.wdata_o, out.wdata);
-    check("write", rtl.write_o, out.write);
+    FELTGATE_COMPARE(check, rtl, out, taken, reg_addr, reg_wdata, reg_write, addr, wdata, write);
     check("valid", rtl.valid_o, out.reply.valid);
     check("byte", rtl.byte_o, out.reply.byte);
     check("last", rtl.last_o, out.reply.last);

@@ -13,6 +13,7 @@
 #include "../feltgate_linked/frames.hpp"
 #include "catch.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -31,18 +32,11 @@ WireReader reader_of_page() {
 
 struct Adapter {
   static void drive(Vlink_receiver& rtl, const Twin::In& in) {
-    rtl.byte_i = in.byte;
-    rtl.valid_i = in.valid;
-    rtl.error_i = in.error;
-    rtl.taken_i = in.taken;
+    FELTGATE_DRIVE(rtl, in, byte, valid, error, taken);
   }
   template <class Check>
   static void compare(Check& check, const Vlink_receiver& rtl, const Twin::Out& out) {
-    check("valid", rtl.valid_o, out.request.valid);
-    check("write", rtl.write_o, out.request.write);
-    check("sequence", rtl.sequence_o, out.request.sequence);
-    check("address", rtl.address_o, out.request.address);
-    check("data", rtl.data_o, out.request.data);
+    FELTGATE_COMPARE(check, rtl, out.request, valid, write, sequence, address, data);
     check("good", rtl.good_o, out.good);
     check("bad", rtl.bad_o, out.bad);
   }

@@ -13,6 +13,7 @@
 #include "catch.hpp"
 #include "feltgate/link_stream.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -24,20 +25,11 @@ using A = LinkMap::A;
 
 struct Adapter {
   static void drive(Vlink_stream& rtl, const Twin::In& in) {
-    rtl.word_valid_i = in.word_valid;
-    rtl.word_slot_i = in.word_slot;
-    rtl.word_data_i = in.word_data;
-    rtl.addr_i = in.addr;
-    rtl.wdata_i = in.wdata;
-    rtl.write_i = in.write;
-    rtl.ready_i = in.ready;
+    FELTGATE_DRIVE(rtl, in, word_valid, word_slot, word_data, addr, wdata, write, ready);
   }
   template <class Check>
   static void compare(Check& check, const Vlink_stream& rtl, const Twin::Out& out) {
-    check("rdata", rtl.rdata_o, out.rdata);
-    check("valid", rtl.valid_o, out.valid);
-    check("byte", rtl.byte_o, out.byte);
-    check("last", rtl.last_o, out.last);
+    FELTGATE_COMPARE(check, rtl, out, rdata, valid, byte, last);
   }
 };
 using Bench = LockStep<Vlink_stream, Twin, Adapter>;

@@ -13,6 +13,7 @@
 #include "../feltgate_linked/frames.hpp"
 #include "catch.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -33,10 +34,7 @@ struct Adapter {
   }
   template <class Check>
   static void compare(Check& check, const Vlink_transmitter& rtl, const Twin::Out& out) {
-    check("reply_ready", rtl.reply_ready_o, out.reply_ready);
-    check("stream_ready", rtl.stream_ready_o, out.stream_ready);
-    check("valid", rtl.valid_o, out.valid);
-    check("byte", rtl.byte_o, out.byte);
+    FELTGATE_COMPARE(check, rtl, out, reply_ready, stream_ready, valid, byte);
   }
 };
 using Bench = LockStep<Vlink_transmitter, Twin, Adapter>;

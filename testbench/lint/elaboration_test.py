@@ -10,13 +10,14 @@ elaboration_test.py VERILATOR VENV: VENV has pyslang or is not there.
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, ran  # noqa: E402
+
 RTL = ROOT / "rtl"
 VERILATOR, VENV = sys.argv.pop(1), Path(sys.argv.pop(1))
 PACKAGE = RTL / "generated/lever/feltgate_pkg.sv"
@@ -92,9 +93,7 @@ class Elaboration(unittest.TestCase):
             files = [*packages, *rtl_of(top)]
             for name, command in front_ends(TOPS[top], files).items():
                 with self.subTest(f"{top} by {name}"):
-                    done = subprocess.run(
-                        command, capture_output=True, text=True, check=False, cwd=folder
-                    )
+                    done = ran(*command, cwd=folder)
                     check(done.returncode, done.stdout + done.stderr)
 
     def texts(self, constant=None, value=None):

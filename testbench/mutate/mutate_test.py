@@ -14,8 +14,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import Scratch, called  # noqa: E402
 import mutate  # noqa: E402
 from crew import Crew  # noqa: E402
 from mutating import equivalence, netlist, rtl, rtl_table  # noqa: E402
@@ -79,9 +79,7 @@ class Commands(unittest.TestCase):
 class Netlist(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.root = Path(cls.temporary.name)
+        cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (cls.root / "rtl").mkdir()
         (cls.root / "rtl/counter.sv").write_text(COUNTER, encoding="utf-8")
         cls.folder = cls.root / "with a blank"
@@ -184,9 +182,7 @@ class OfItsOwn(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        root = Path(cls.temporary.name)
+        root = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (root / "rtl").mkdir()
         for name, text in (("counter", COUNTER), ("pair", PAIR)):
             (root / f"rtl/{name}.sv").write_text(text, encoding="utf-8")
@@ -218,22 +214,18 @@ class OfItsOwn(unittest.TestCase):
         self.assertEqual(found, [equivalence.EQUIVALENT, equivalence.DIFFERENT])
 
 
-class Reasons(unittest.TestCase):
+class Reasons(Scratch):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.root = Path(self.temporary.name)
-        for folder in ("rtl", "testbench/b"):
-            (self.root / folder).mkdir(parents=True)
-        (self.root / "rtl/b.sv").write_text("one\n  assign w = a + 1;\n", encoding="utf-8")
+        super().setUp()
+        self.put("rtl/b.sv", "one\n  assign w = a + 1;\n")
         self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")}) | {"number": 1}
 
     def listed(self, text):
-        (self.root / "testbench/b/mutants.toml").write_text(text, encoding="utf-8")
-        return rtl.Listed(self.root, "b")
+        self.put("testbench/b/mutants.toml", text)
+        return rtl.Listed(self.folder, "b")
 
     def test_where(self):
-        self.assertEqual(rtl.where(self.root, self.mutant),
+        self.assertEqual(rtl.where(self.folder, self.mutant),
                          ["rtl/b.sv:1: one", "rtl/b.sv:2: assign w = a + 1;"])
 
     def test_every_key_must_fit(self):
@@ -255,7 +247,7 @@ class Reasons(unittest.TestCase):
                 self.listed(text)
 
     def test_figures(self):
-        test = rtl.Test("b", "b", self.root, self.root / "b_mutants", 1, 100,
+        test = rtl.Test("b", "b", self.folder, self.folder / "b_mutants", 1, 100,
                         [self.mutant | {"number": n} for n in range(1, 6)])
         gap = '[[survivor]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n'
         row = rtl.Row(test, self.listed(gap))
@@ -275,53 +267,41 @@ class Reasons(unittest.TestCase):
         self.assertEqual(output.getvalue(), "")
 
     def test_an_unproven_survivor_counts_against_the_test(self):
-        test = rtl.Test("b", "b", self.root, self.root / "b_mutants", 1, 100, [self.mutant])
+        test = rtl.Test("b", "b", self.folder, self.folder / "b_mutants", 1, 100, [self.mutant])
         row = rtl.Row(test, self.listed(""), {1: rtl.SURVIVES}, {1: (equivalence.UNKNOWN, "")})
         self.assertEqual((row.share(), len(row.survivors())), (0.0, 1))
 
 
-class Programs(unittest.TestCase):
+class Programs(Scratch):
     """Stands in for a test program: a script that looks at FELTGATE_MUTANT."""
 
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.build = Path(self.temporary.name)
-        folder = self.build / "testbench/b/b_mutants.netlist"
-        folder.mkdir(parents=True)
-        (folder / "test.json").write_text('{"test": "b", "block": "b"}', encoding="utf-8")
-        mutant = netlist.parse(LINE, {})
-        mutants = [mutant | {"number": n} for n in range(1, 5)]
-        (folder / "mutants.json").write_text(
-            json.dumps({"block": "b", "seed": 1, "own": False, "database": 9, "mutants": mutants}),
-            encoding="utf-8")
-        self.program = self.build / "testbench/b/b_mutants"
+        super().setUp()
+        folder = "testbench/b/b_mutants.netlist"
+        self.put(f"{folder}/test.json", '{"test": "b", "block": "b"}')
+        mutants = [netlist.parse(LINE, {}) | {"number": n} for n in range(1, 5)]
+        found = {"block": "b", "seed": 1, "own": False, "database": 9, "mutants": mutants}
+        self.put(f"{folder}/mutants.json", json.dumps(found))
         self.say("case $FELTGATE_MUTANT in 0|4) exit 0;; 3) kill -SEGV $$;; "
                  "*) echo mismatch at clock 3; exit 1;; esac")
 
     def say(self, script):
-        self.program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
-        self.program.chmod(0o755)
+        self.program = self.put_program("testbench/b/b_mutants", script)
 
     def call(self, *arguments):
-        os.environ["FELTGATE_BUILD"] = str(self.build)
-        with (
-            contextlib.redirect_stdout(io.StringIO()) as out,
-            contextlib.redirect_stderr(io.StringIO()) as err,
-        ):
-            code = mutate.main(["--no-build", "--proof-seconds", "0", *arguments])
-        return code, out.getvalue(), err.getvalue()
+        os.environ["FELTGATE_BUILD"] = str(self.folder)
+        return called(mutate.main, "--no-build", "--proof-seconds", "0", *arguments)
 
     def test_fates(self):
-        code, out, _ = self.call("--json", str(self.build / "out.json"))
+        code, out, _ = self.call("--json", str(self.folder / "out.json"))
         self.assertEqual(code, 1)
         self.assertIn("3 of 4 not equivalent ones killed (75.0 %); 1 tests below 99 %: b", out)
         self.assertIn("b 4: bit 3 of", out)
-        (entry,) = json.loads((self.build / "out.json").read_text())["tests"]
+        (entry,) = json.loads((self.folder / "out.json").read_text())["tests"]
         self.assertEqual((entry["killed"], entry["crashes"]), (3, 1))
 
     def test_what_survived_again(self):
-        results = self.build / "out.json"
+        results = self.folder / "out.json"
         self.call("--json", str(results))
         self.assertIn("3 of 4 not", self.call("--again", str(results))[1])
         # Only the survivor is tried: a program that kills nothing else now changes nothing else.
@@ -331,7 +311,7 @@ class Programs(unittest.TestCase):
         self.assertIn("4 of 4 not equivalent ones killed (100.0 %)", out)
 
     def test_results_of_other_mutants_are_refused(self):
-        results = self.build / "out.json"
+        results = self.folder / "out.json"
         self.call("--json", str(results))
         found = json.loads(results.read_text())
         for change, says in (({"tests": []}, "no run of all mutants of b as they are now"),
@@ -359,7 +339,7 @@ class Programs(unittest.TestCase):
     def test_what_is_unknown(self):
         self.assertIn("no block c with mutants; there are b", self.call("c")[2])
         self.assertEqual([self.call(*w)[0] for w in (["c"], ["--show", "9"])], [2, 2])
-        self.build = self.build / "none"  # the file is looked at before the build folder
+        self.folder = self.folder / "none"  # the file is looked at before the build folder
         self.assertIn("/nonexist: no results of", self.call("--again", "/nonexist")[2])
 
     def test_options_that_mean_nothing(self):
@@ -368,19 +348,17 @@ class Programs(unittest.TestCase):
                       ["--list", "--update"], ["--update", "--proof-seconds", "0"],
                       ["--show", "1", "--json", "x"],
                       ["--again", str(Path(__file__)), "--count", "2"], ["--list", "--show", "0"]):
-            with self.subTest(words), self.assertRaises(SystemExit) as ended, \
-                    contextlib.redirect_stderr(io.StringIO()):
-                mutate.arguments(words)
-            self.assertEqual(ended.exception.code, 2)
+            with self.subTest(words):
+                self.assertEqual(called(mutate.arguments, *words)[0], 2)
 
     def test_a_test_may_have_the_name_of_its_block(self):
-        one, other = (rtl.Test(name, "b", self.build, self.program) for name in ("b", "b_paper"))
+        one, other = (rtl.Test(name, "b", self.folder, self.program) for name in ("b", "b_paper"))
         for words, found in (([], [one, other]), (["b"], [one, other]), (["b.b"], [one]),
                              (["b_paper"], [other])):
             self.assertEqual(mutate.chosen([one, other], words), found)
 
     def test_a_row_of_the_table_is_of_all_tests_of_the_block(self):
-        one, other = (rtl.Test(name, "b", self.build, self.program) for name in ("b", "b_paper"))
+        one, other = (rtl.Test(name, "b", self.folder, self.program) for name in ("b", "b_paper"))
         mutate.check_whole([one, other], [one, other])
         with self.assertRaisesRegex(rtl.MutateError, "b_paper is left out"):
             mutate.check_whole([one, other], [one])

@@ -16,6 +16,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[2])
@@ -215,9 +216,11 @@ class Verdicts(unittest.TestCase):
     def test_the_choice_is_the_seeds(self):
         mutants = [twin_places.Mutant(n, "h", 1, "k", str(n)) for n in range(50)]
         one = type("H", (), {"name": "h", "mutants": mutants})
-        self.assertEqual(twin.choose(one, 9, 1), twin.choose(one, 9, 1))
-        self.assertNotEqual(twin.choose(one, 9, 1), twin.choose(one, 9, 2))
-        self.assertEqual(twin.choose(one, 0, 1), mutants)
+        all_of_them, some, others = (
+            twin.chosen(one, SimpleNamespace(count=c, seed=s)) for c, s in ((0, 1), (9, 1), (9, 2)))
+        self.assertEqual(some, twin.chosen(one, SimpleNamespace(count=9, seed=1)))
+        self.assertNotEqual(some, others)
+        self.assertEqual(all_of_them, mutants)
 
     def test_a_compiler_drops_what_its_message_is_about(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -11,12 +11,11 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, Scratch  # noqa: E402
 from seeding import patches  # noqa: E402
 
 VENV = Path(sys.argv.pop(1))
@@ -47,12 +46,7 @@ def broken(folder, patch):
     (VENV / "bin/fusesoc").exists() or os.environ.get("CI"),
     "no FuseSoC, cocotb and LiteX; ./feltgate test fetches them",
 )
-class Neighbours(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Neighbours(Scratch):
     def need(self, program):
         if not shutil.which(program):
             if os.environ.get("CI"):

@@ -4,6 +4,7 @@
 
 import os
 import shutil
+import sys
 import time
 import unittest
 from pathlib import Path
@@ -39,6 +40,16 @@ def browser():
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     return webdriver.Chrome(service=Service(DRIVER), options=options)
+
+
+def main(pictures, speed=None):
+    """What the words after the test's name ask for: --pictures FOLDER, --speed, or the tests."""
+    if "--pictures" in sys.argv:
+        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
+    elif speed and "--speed" in sys.argv:
+        speed()
+    else:
+        unittest.main()
 
 
 @unittest.skipUnless(webdriver and DRIVER or os.environ.get("CI"), "no selenium or chromedriver")

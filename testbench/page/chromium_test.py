@@ -9,12 +9,9 @@ Documentation: docs/page.md
 """
 
 import os
-import sys
 import time
-import unittest
-from pathlib import Path
 
-from browsing import ROOT, ActionChains, By, Keys, PageTest, opened
+from browsing import ROOT, ActionChains, By, Keys, PageTest, main, opened
 
 WHOLE = "FELTGATE_WHOLE" in os.environ  # every scene and law, not a share of them
 
@@ -353,9 +350,4 @@ def pictures(folder):
 
 
 if __name__ == "__main__":
-    if "--speed" in sys.argv:
-        measure()
-    elif "--pictures" in sys.argv:
-        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
-    else:
-        unittest.main()
+    main(pictures, measure)

@@ -9,12 +9,9 @@ Documentation: docs/page.md
 
 import cmath
 import math
-import sys
 import time
-import unittest
-from pathlib import Path
 
-from browsing import ActionChains, By, Keys, PageTest, opened
+from browsing import ActionChains, By, Keys, PageTest, main, opened
 
 PERIOD_S = 1 / 196
 TURN = "Object.assign(document.getElementById(arguments[0]), {value: arguments[1]}).oninput()"
@@ -211,9 +208,4 @@ def speed():
 
 
 if __name__ == "__main__":
-    if "--pictures" in sys.argv:
-        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
-    elif "--speed" in sys.argv:
-        speed()
-    else:
-        unittest.main()
+    main(pictures, speed)

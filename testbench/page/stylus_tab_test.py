@@ -8,12 +8,9 @@ Documentation: docs/page.md
 """
 
 import math
-import sys
 import time
-import unittest
-from pathlib import Path
 
-from browsing import ActionChains, By, Keys, PageTest, opened
+from browsing import ActionChains, By, Keys, PageTest, main, opened
 
 HAND_N_M = 135
 COUNT_M = 15.4e-6
@@ -202,7 +199,4 @@ def pictures(folder):
 
 
 if __name__ == "__main__":
-    if "--pictures" in sys.argv:
-        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
-    else:
-        unittest.main()
+    main(pictures)

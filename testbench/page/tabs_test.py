@@ -10,13 +10,10 @@ Documentation: docs/page.md
 import csv
 import io
 import math
-import sys
 import time
-import unittest
-from pathlib import Path
 from urllib.parse import unquote
 
-from browsing import ActionChains, By, Keys, PageTest, opened
+from browsing import ActionChains, By, Keys, PageTest, main, opened
 
 
 class Pantograph(PageTest):
@@ -324,7 +321,4 @@ def pictures(folder):
 
 
 if __name__ == "__main__":
-    if "--pictures" in sys.argv:
-        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
-    else:
-        unittest.main()
+    main(pictures)

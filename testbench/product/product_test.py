@@ -11,13 +11,13 @@ product_test.py VENV: the folder into which scripts/build.sh has fetched pyslang
 import os
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, Scratch, ran, script  # noqa: E402
+
 VENV = Path(sys.argv.pop(1))
 SLANG = """
 import sys
@@ -31,22 +31,11 @@ sys.exit(0 if fine and slang.parseAllSources() and slang.runFullCompilation(True
 
 
 @unittest.skipUnless(shutil.which("yosys") or os.environ.get("CI"), "no yosys")
-class Product(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
+class Product(Scratch):
     def product(self, *words):
         program = Path(os.environ["FELTGATE_BUILD"], "feltgate")
-        return subprocess.run(
-            [sys.executable, "-B", ROOT / "scripts/product.py", *words],
-            cwd=self.folder,
-            env=os.environ | {"FELTGATE_PROGRAM": str(program)},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        env = os.environ | {"FELTGATE_PROGRAM": str(program)}
+        return script("product.py", *words, cwd=self.folder, env=env)
 
     def written(self, *words):
         done = self.product("verilog", *words)
@@ -56,7 +45,7 @@ class Product(unittest.TestCase):
         if (VENV / "bin/python").exists():
             readers.append([VENV / "bin/python", "-c", SLANG, path])
         for command in readers:
-            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            done = ran(*command)
             self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         return path.read_text()
 
@@ -109,7 +98,7 @@ class Product(unittest.TestCase):
         self.assertNotIn("..", "".join(named))
         # All that Quartus is told to read is in the folder, and it elaborates.
         command = ["iverilog", "-g2012", "-t", "null", "-s", "de0_nano", *(made / n for n in named)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        done = ran(*command)
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         for name in ("de0_nano.qpf", "de0_nano.sdc", "build.tcl"):
             self.assertTrue((made / name).is_file())

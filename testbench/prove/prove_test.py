@@ -3,17 +3,15 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The parts of `feltgate prove` that need no solver: the catalogue, options, traces, verdicts."""
 
-import contextlib
-import io
 import os
 import shutil
 import sys
-import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, Scratch, called  # noqa: E402
 import prove  # noqa: E402
 import rtl_sources  # noqa: E402
 from proving import catalog, page, record, tasks, tools, trace, unproven  # noqa: E402
@@ -40,67 +38,60 @@ endmodule
 """
 
 
-class Catalogue(unittest.TestCase):
+class Catalogue(Scratch):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = Path(self.folder.name)
-        self.write("testbench/b/proofs/proofs.toml", TOML)
-        self.write("testbench/b/proofs/p.sv", WRAPPER)
-        self.write("testbench/b/defects.diff", "== d\nIt breaks.\n")
-        self.write("rtl/b.sv", RTL)
-
-    def write(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        super().setUp()
+        self.put("testbench/b/proofs/proofs.toml", TOML)
+        self.put("testbench/b/proofs/p.sv", WRAPPER)
+        self.put("testbench/b/defects.diff", "== d\nIt breaks.\n")
+        self.put("rtl/b.sv", RTL)
 
     def refused(self, *said):
         with self.assertRaises(catalog.CatalogError) as error:
-            catalog.read(self.root)
+            catalog.read(self.folder)
         for words in said:
             self.assertIn(words, str(error.exception))
 
     def test_a_good_one(self):
-        (proof,) = catalog.read(self.root)
+        (proof,) = catalog.read(self.folder)
         self.assertEqual((proof.key, proof.top, proof.depth), ("b.p", "p_proof", 2))
-        self.assertEqual(catalog.open_ports(self.root, [proof]), {"b": []})
+        self.assertEqual(catalog.open_ports(self.folder, [proof]), {"b": []})
 
     def test_a_port_of_a_block_inside(self):
-        self.write("rtl/c.sv", RTL.replace("module b", "module c"))
+        self.put("rtl/c.sv", RTL.replace("module b", "module c"))
         toml = "testbench/b/proofs/proofs.toml"
-        self.write(toml, TOML.replace("y_o", "y_o c.x_i"))
-        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)),
+        self.put(toml, TOML.replace("y_o", "y_o c.x_i"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
                          {"b": [], "c": ["y_o"]})
         for port, said in (("c.q_o", "no port q_o"), ("d.x_i", "no block d")):
-            self.write(toml, TOML.replace("y_o", f"y_o {port}"))
+            self.put(toml, TOML.replace("y_o", f"y_o {port}"))
             with self.assertRaisesRegex(catalog.CatalogError, said):
-                catalog.open_ports(self.root, catalog.read(self.root))
+                catalog.open_ports(self.folder, catalog.read(self.folder))
 
     def test_a_block_of_a_folder_that_no_property_names(self):
-        self.write("rtl/link/n.sv", RTL.replace("module b", "module n"))
-        self.write("rtl/feltgate_checks.sv", RTL.replace("module b", "module feltgate_checks"))
-        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)),
+        self.put("rtl/link/n.sv", RTL.replace("module b", "module n"))
+        self.put("rtl/feltgate_checks.sv", RTL.replace("module b", "module feltgate_checks"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
                          {"b": [], "n": ["x_i", "y_o"]})
 
     def test_a_port_in_no_property(self):
-        self.write("rtl/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
-        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)), {"b": ["z_i"]})
+        self.put("rtl/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": ["z_i"]})
 
     def test_a_block_of_the_link_without_a_proof(self):
-        self.write("rtl/link/e.sv", RTL.replace("module b", "module e"))
-        self.write("rtl/boards/f.sv", RTL.replace("module b", "module f"))
-        self.assertEqual(catalog.open_ports(self.root, catalog.read(self.root)),
+        self.put("rtl/link/e.sv", RTL.replace("module b", "module e"))
+        self.put("rtl/boards/f.sv", RTL.replace("module b", "module f"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
                          {"b": [], "e": ["x_i", "y_o"]})
 
     def test_a_port_that_is_none(self):
-        self.write("rtl/b.sv", RTL.replace("x_i", "u_i"))
+        self.put("rtl/b.sv", RTL.replace("x_i", "u_i"))
         with self.assertRaises(catalog.CatalogError):
-            catalog.open_ports(self.root, catalog.read(self.root))
+            catalog.open_ports(self.folder, catalog.read(self.folder))
 
     def test_defects_beside_the_proof_come_first(self):
-        self.write("testbench/b/proofs/defects.diff", "== d\nIt breaks.\n")
-        (proof,) = catalog.read(self.root)
+        self.put("testbench/b/proofs/defects.diff", "== d\nIt breaks.\n")
+        (proof,) = catalog.read(self.folder)
         self.assertEqual(proof.properties[0].defect.parent.parent.name, "proofs")
 
     def test_what_is_wrong(self):
@@ -113,32 +104,32 @@ class Catalogue(unittest.TestCase):
             ("depth = 2", "depth = 2\nspeed = 1", "unknown key speed"),
         ):
             with self.subTest(said):
-                self.write("testbench/b/proofs/proofs.toml", TOML.replace(old, new))
+                self.put("testbench/b/proofs/proofs.toml", TOML.replace(old, new))
                 self.refused("testbench/b/proofs/proofs.toml", said)
 
     def test_what_a_wrapper_includes(self):
         wrapper = "module p_proof;\n  `include \"own.svh\"\nendmodule\n"
-        self.write("testbench/b/proofs/p.sv", wrapper)
+        self.put("testbench/b/proofs/p.sv", wrapper)
         self.refused("p.sv", "no own.svh beside it or in testbench/prove")
-        self.write("testbench/prove/shared.svh",
+        self.put("testbench/prove/shared.svh",
                    "always_comb begin a: assert (1); c: cover (1); end\n")
-        self.write("testbench/b/proofs/own.svh", "`include \"shared.svh\"\n")
-        (proof,) = catalog.read(self.root)
-        text = catalog.wrapper_text(self.root, proof.wrapper)
+        self.put("testbench/b/proofs/own.svh", "`include \"shared.svh\"\n")
+        (proof,) = catalog.read(self.folder)
+        text = catalog.wrapper_text(self.folder, proof.wrapper)
         self.assertIn("a: assert (1)", text)
         self.assertNotIn("include", text)
 
     def test_an_assertion_that_nothing_is_said_of(self):
-        self.write("testbench/b/proofs/p.sv",
+        self.put("testbench/b/proofs/p.sv",
                    WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
         self.refused("p.sv asserts b")
-        self.write("testbench/b/proofs/p.sv",
+        self.put("testbench/b/proofs/p.sv",
                    WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
-        self.assertEqual(len(catalog.read(self.root)), 1)
+        self.assertEqual(len(catalog.read(self.folder)), 1)
 
     def test_without_a_cover(self):
-        self.write("testbench/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
-        self.write("testbench/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
+        self.put("testbench/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
+        self.put("testbench/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
         self.refused("no cover")
 
 
@@ -229,32 +220,29 @@ class Reading(unittest.TestCase):
                          f"{head}endmodule\n`default_nettype wire\n")
 
 
-class Recorded(unittest.TestCase):
+class Recorded(Scratch):
     """What is on record as proven is what the proof reads, and nothing else."""
 
     VERSIONS = {"yosys": "1", "z3": "2"}
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        super().setUp()
         for name in ("rtl", "testbench/limiter", "testbench/prove"):
-            shutil.copytree(ROOT / name, self.root / name)
-        (self.root / "docs/verification").mkdir(parents=True)
+            shutil.copytree(ROOT / name, self.folder / name)
+        (self.folder / "docs/verification").mkdir(parents=True)
         rows = tasks.rows(self.proofs(), True)
-        record.write(self.root, rows, self.VERSIONS)
+        record.write(self.folder, rows, self.VERSIONS)
 
     def proofs(self):
-        return [p for p in catalog.read(self.root) if p.block == "limiter"]
+        return [p for p in catalog.read(self.folder) if p.block == "limiter"]
 
     def known(self, versions=None):
-        return record.known(self.root, self.proofs(), versions or self.VERSIONS, True)
+        return record.known(self.folder, self.proofs(), versions or self.VERSIONS, True)
 
     def change(self, name, old, new):
-        path = self.root / name
-        text = path.read_text(encoding="utf-8")
+        text = (self.folder / name).read_text(encoding="utf-8")
         self.assertIn(old, text)
-        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+        self.put(name, text.replace(old, new, 1))
 
     def test_the_same_inputs_are_known(self):
         self.assertEqual(self.known(), self.proofs())
@@ -262,7 +250,7 @@ class Recorded(unittest.TestCase):
         self.assertEqual(self.known(), self.proofs())
 
     def test_a_change_of_any_input_is_seen(self):
-        wrapper = self.proofs()[0].wrapper.relative_to(self.root)
+        wrapper = self.proofs()[0].wrapper.relative_to(self.folder)
         for name, old, new in (
             ("rtl/limiter.sv", "endmodule", "logic more;\nendmodule"),
             ("rtl/generated/lever/feltgate_pkg.sv", "ROUNDING = 0", "ROUNDING = 1"),
@@ -270,16 +258,16 @@ class Recorded(unittest.TestCase):
             ("testbench/limiter/proofs/proofs.toml", "depth = ", "depth = 1"),
         ):
             with self.subTest(name):
-                before = (self.root / name).read_text(encoding="utf-8")
+                before = (self.folder / name).read_text(encoding="utf-8")
                 self.change(name, old, new)
                 self.assertLess(len(self.known()), len(self.proofs()))
-                (self.root / name).write_text(before, encoding="utf-8")
+                self.put(name, before)
         self.assertEqual(self.known({**self.VERSIONS, "z3": "3"}), [])
 
     def test_a_broken_record_is_refused_with_the_mend(self):
         for text in ("", "{", "[]", '{"schema": "another", "inputs": {}}', '{"inputs": {}}'):
             with self.subTest(text):
-                (self.root / record.FILE).write_text(text, encoding="utf-8")
+                self.put(record.FILE, text)
                 with self.assertRaisesRegex(catalog.CatalogError, "proven.json.*--record"):
                     self.known()
 
@@ -294,15 +282,9 @@ class Recorded(unittest.TestCase):
         self.assertEqual(fast - {n.split()[0] for n in record.read(ROOT)}, set())
 
 
-class Command(unittest.TestCase):
+class Command(Scratch):
     def status(self, *words):
-        out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                status = prove.main(list(words))
-            except SystemExit as end:
-                status = end.code
-        return status, out.getvalue(), err.getvalue()
+        return called(prove.main, *words)
 
     def test_the_list_names_every_property(self):
         status, out, _ = self.status("--list")
@@ -326,18 +308,14 @@ class Command(unittest.TestCase):
         self.assertEqual(self.status("--only-arguments", "nothing")[0], 2)
 
     def test_what_is_in_a_folder_is_kept(self):
-        with tempfile.TemporaryDirectory() as folder:
-            mine = Path(folder, "mine.txt")
-            mine.write_text("mine", encoding="utf-8")
-            status, _, err = self.status("--keep", folder, "limiter")
-            self.assertEqual(status, 2)
-            self.assertIn("is not an empty folder", err)
-            self.assertEqual(mine.read_text(encoding="utf-8"), "mine")
+        mine = self.put("mine.txt", "mine")
+        status, _, err = self.status("--keep", self.folder, "limiter")
+        self.assertEqual(status, 2)
+        self.assertIn("is not an empty folder", err)
+        self.assertEqual(mine.read_text(encoding="utf-8"), "mine")
 
     def test_without_a_solver(self):
-        path = os.environ["PATH"]
-        self.addCleanup(os.environ.__setitem__, "PATH", path)
-        os.environ["PATH"] = "/nowhere"
+        self.enterContext(mock.patch.dict(os.environ, PATH="/nowhere"))
         status, _, err = self.status("limiter")
         self.assertEqual(status, 2)
         self.assertIn("no Yosys", err)

@@ -9,24 +9,18 @@
 
 #include "feltgate/pwm.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
 struct PwmAdapter {
   static void drive(Vpwm& rtl, const Pwm::In& in) {
-    rtl.clear_i = in.clear;
-    rtl.enable_i = in.enable;
-    rtl.mode_i = in.mode;
-    rtl.polarity_i = in.polarity;
+    FELTGATE_DRIVE(rtl, in, clear, enable, mode, polarity);
     rtl.duty_i = port_bits<13, std::uint16_t>(in.duty);
   }
   template <class Check>
   static void compare(Check& check, const Vpwm& rtl, const Pwm::Out& out) {
-    check("gate_a_hi", rtl.gate_a_hi_o, out.gate_a_hi);
-    check("gate_a_lo", rtl.gate_a_lo_o, out.gate_a_lo);
-    check("gate_b_hi", rtl.gate_b_hi_o, out.gate_b_hi);
-    check("gate_b_lo", rtl.gate_b_lo_o, out.gate_b_lo);
-    check("period_start", rtl.period_start_o, out.period_start);
+    FELTGATE_COMPARE(check, rtl, out, gate_a_hi, gate_a_lo, gate_b_hi, gate_b_lo, period_start);
     check("duty_active", sign_extend<13>(rtl.duty_active_o), out.duty_active);
   }
 };

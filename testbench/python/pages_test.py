@@ -6,7 +6,6 @@ import contextlib
 import io
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -15,7 +14,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "host"))
 from board_process import BoardProcess  # noqa: E402
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, ran  # noqa: E402
+
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NOTEBOOK = ROOT / "docs/fixed_against_float.ipynb"
 
@@ -50,8 +51,7 @@ class Pages(unittest.TestCase):
         self.run_blocks("docs/python.md")
 
     def test_notebook(self):
-        done = subprocess.run([sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check"],
-                              capture_output=True, text=True, check=False)
+        done = ran(sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check")
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_a_notebook_that_breaks_is_noticed(self):
@@ -59,8 +59,7 @@ class Pages(unittest.TestCase):
         broken = Path("broken.ipynb")
         broken.write_text(text.replace("assert wide < narrow", "assert wide > narrow"))
         self.assertNotEqual(broken.read_text(), text)
-        done = subprocess.run([sys.executable, ROOT / "scripts/notebook.py", broken, "--check"],
-                              capture_output=True, text=True, check=False)
+        done = ran(sys.executable, ROOT / "scripts/notebook.py", broken, "--check")
         self.assertEqual(done.returncode, 1)
         self.assertIn("AssertionError", done.stderr)
 

@@ -8,34 +8,21 @@
 
 #include "feltgate/quad_decoder.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
 struct QuadDecoderAdapter {
   static void drive(Vquad_decoder& rtl, const QuadDecoder::In& in) {
-    rtl.a_i = in.a;
-    rtl.b_i = in.b;
-    rtl.z_i = in.z;
-    rtl.filter_i = in.filter;
-    rtl.polarity_i = in.polarity;
-    rtl.set_zero_i = in.set_zero;
-    rtl.clear_error_i = in.clear_error;
+    FELTGATE_DRIVE(rtl, in, a, b, z, filter, polarity, set_zero, clear_error);
   }
   template <class Check>
   static void compare(Check& check, const Vquad_decoder& rtl, const QuadDecoder::Out& out) {
     check("position", rtl.position_o, out.position);
     check("travel", rtl.travel_o, out.travel);
     check("step", sign_extend<2>(rtl.step_o), out.step);
-    check("levels", rtl.levels_o, out.levels);
-    check("count", rtl.count_o, out.count);
-    check("zero", rtl.zero_o, out.zero);
-    check("error", rtl.error_o, out.error);
-    check("illegal", rtl.illegal_o, out.illegal);
-    check("error_count", rtl.error_count_o, out.error_count);
-    check("rejected_count", rtl.rejected_count_o, out.rejected_count);
-    check("index_position", rtl.index_position_o, out.index_position);
-    check("index_wrong", rtl.index_wrong_o, out.index_wrong);
-    check("index_seen", rtl.index_seen_o, out.index_seen);
+    FELTGATE_COMPARE(check, rtl, out, levels, count, zero, error, illegal, error_count,
+                     rejected_count, index_position, index_wrong, index_seen);
   }
 };
 

@@ -6,16 +6,15 @@ is told in a line, with exit code 2, and nothing is written."""
 import csv
 import json
 import os
-import subprocess
 import sys
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-PROGRAM = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_lever_law"
-OF_DEVICE = Path(os.environ["FELTGATE_BUILD"]) / "feltgate_two_levers_law"
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
+
+PROGRAM, OF_DEVICE = BUILD / "feltgate_lever_law", BUILD / "feltgate_two_levers_law"
 SCENE = """title = "Short"
 about = "A wall for some milliseconds."
 duration_s = 0.03
@@ -51,27 +50,17 @@ high = 0.01
 NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 5\n", "")
 
 
-class Rates(unittest.TestCase):
+class Rates(Scratch):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        (self.folder / "short.toml").write_text(SCENE, encoding="utf-8")
-        (self.folder / "levers.toml").write_text(LEVERS, encoding="utf-8")
-        lawless = LEVERS.replace('law = "coupled_levers"\n', "")
-        (self.folder / "lawless.toml").write_text(lawless, encoding="utf-8")
-        (self.folder / "free.toml").write_text(NO_TORQUE, encoding="utf-8")
+        super().setUp()
+        self.put("short.toml", SCENE)
+        self.put("levers.toml", LEVERS)
+        self.put("lawless.toml", LEVERS.replace('law = "coupled_levers"\n', ""))
+        self.put("free.toml", NO_TORQUE)
 
     def call(self, *words, program=PROGRAM):
         environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
-        return subprocess.run(
-            [program, "rates", *words],
-            cwd=self.folder,
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        return ran(program, "rates", *words, cwd=self.folder, env=environment)
 
     def test_gates_are_those_of_the_budget(self):
         budget = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))

@@ -12,6 +12,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/registers.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -22,36 +23,14 @@ constexpr std::uint16_t kCommand = Lever::C::command;
 
 struct RegistersAdapter {
   static void drive(Vregisters& rtl, const Twin::In& in) {
-    rtl.tick_i = in.tick;
-    rtl.reg_addr_i = in.reg_addr;
-    rtl.reg_wdata_i = in.reg_wdata;
-    rtl.reg_write_i = in.reg_write;
-    rtl.armed_i = in.armed;
-    rtl.set_zero_i = in.set_zero;
-    rtl.slot_fetch_i = in.slot_fetch;
-    rtl.scene_slot_fetch_i = in.scene_slot_fetch;
-    rtl.scene_i = in.scene;
-    rtl.region_high_i = in.region_high;
-    rtl.eased_i = in.eased;
-    rtl.testing_i = in.testing;
-    rtl.snap_slot_i = in.snap_slot;
-    rtl.snap_valid_i = in.snap_valid;
-    rtl.snap_data_i = in.snap_data;
+    FELTGATE_DRIVE(rtl, in, tick, reg_addr, reg_wdata, reg_write, armed, set_zero, slot_fetch,
+                   scene_slot_fetch, scene, region_high, eased, testing, snap_slot, snap_valid,
+                   snap_data);
   }
   template <class Check>
   static void compare(Check& check, const Vregisters& rtl, const Twin::Out& out) {
-    check("reg_rdata", rtl.reg_rdata_o, out.reg_rdata);
-    check("reg_busy", rtl.reg_busy_o, out.reg_busy);
-    check("param", rtl.param_o, out.param);
-    check("word_error", rtl.word_error_o, out.word_error);
-    check("control", rtl.control_o, out.control);
-    check("set_zero", rtl.set_zero_o, out.set_zero);
-    check("clear_faults", rtl.clear_faults_o, out.clear_faults);
-    check("kick", rtl.kick_o, out.kick);
-    check("disarm", rtl.disarm_o, out.disarm);
-    check("stop", rtl.stop_o, out.stop);
-    check("restart", rtl.restart_o, out.restart);
-    check("refused", rtl.refused_o, out.refused);
+    FELTGATE_COMPARE(check, rtl, out, reg_rdata, reg_busy, param, word_error, control, set_zero,
+                     clear_faults, kick, disarm, stop, restart, refused);
   }
 };
 using RegistersBench = LockStep<Vregisters, Twin, RegistersAdapter>;

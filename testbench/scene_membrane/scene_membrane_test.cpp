@@ -9,6 +9,7 @@
 
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
+#include "ports.hpp"
 #include "scene_membrane_twin.hpp"
 
 using namespace feltgate;
@@ -23,11 +24,7 @@ struct Block : BlockOf<Vscene_membrane, SceneMembrane<Design>> {
     return {wave.scene == S::membrane, bus.face_gap < 0, bus.face_gap == 0, bus.wave, bus.param};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
-    rtl.select_i = in.select;
-    rtl.gap_negative_i = in.gap_negative;
-    rtl.gap_zero_i = in.gap_zero;
-    rtl.wave_i = in.wave;
-    rtl.param_i = in.param;
+    FELTGATE_DRIVE(rtl, in, select, gap_negative, gap_zero, wave, param);
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {

@@ -8,6 +8,7 @@
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_spring.hpp"
+#include "ports.hpp"
 #include "scene_spring_twin.hpp"
 
 using namespace feltgate;
@@ -23,10 +24,7 @@ struct Block : BlockOf<Vscene_spring, SceneSpring<Design>> {
             bus.wave, bus.product};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
-    rtl.tension_i = in.tension;
-    rtl.compression_i = in.compression;
-    rtl.behind_i = in.behind;
-    rtl.wave_i = in.wave;
+    FELTGATE_DRIVE(rtl, in, tension, compression, behind, wave);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
   }
   template <class Check>

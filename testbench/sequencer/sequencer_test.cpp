@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "sequencer_twin.hpp"
 
 using namespace feltgate::test;
@@ -20,11 +21,7 @@ struct Adapter {
   static void drive(Vsequencer&, const Twin::In&) {}
   template <class Check>
   static void compare(Check& check, const Vsequencer& rtl, const Twin::Out& out) {
-    check("tick", rtl.tick_o, out.tick);
-    check("slot_fetch", rtl.slot_fetch_o, out.slot_fetch);
-    check("scene_slot_fetch", rtl.scene_slot_fetch_o, out.scene_slot_fetch);
-    check("wave", rtl.wave_o, out.wave);
-    check("tick_count", rtl.tick_count_o, out.tick_count);
+    FELTGATE_COMPARE(check, rtl, out, tick, slot_fetch, scene_slot_fetch, wave, tick_count);
   }
 };
 using Bench = LockStep<Vsequencer, Twin, Adapter>;

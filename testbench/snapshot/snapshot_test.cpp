@@ -10,6 +10,7 @@
 
 #include "catch.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "snapshot_twin.hpp"
 
 using namespace feltgate;
@@ -23,15 +24,8 @@ using Twin = Snapshot<READ_BACK != 0>;
 struct Adapter {
   static void drive(Vsnapshot& rtl, const Twin::In& in) {
     rtl.slot_fetch_i = static_cast<std::uint8_t>(in.slot_fetch);
-    rtl.wave_i = in.wave;
-    rtl.status_i = in.status;
-    rtl.faults_i = in.faults;
-    rtl.position_i = in.position;
-    rtl.tick_count_i = in.tick_count;
-    rtl.index_position_i = in.index_position;
-    rtl.error_count_i = in.error_count;
-    rtl.rejected_count_i = in.rejected_count;
-    rtl.operand_i = in.operand;
+    FELTGATE_DRIVE(rtl, in, wave, status, faults, position, tick_count, index_position, error_count,
+                   rejected_count, operand);
   }
   template <class Check>
   static void compare(Check& check, const Vsnapshot& rtl, const Twin::Out& out) {

@@ -12,6 +12,7 @@
 
 #include "bus.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -26,23 +27,11 @@ struct SupervisorAdapter {
   static constexpr int kProductBits = Design::product_bits;
 
   static void drive(Vsupervisor& rtl, const Twin::In& in) {
-    rtl.tick_i = in.tick;
-    rtl.period_start_i = in.period_start;
-    rtl.host_i = in.host;
-    rtl.host_arm_i = in.host_arm;
-    rtl.arm_i = in.arm;
-    rtl.disarm_i = in.disarm;
-    rtl.stop_i = in.stop;
-    rtl.clear_faults_i = in.clear_faults;
-    rtl.kick_i = in.kick;
-    rtl.encoder_error_i = in.encoder_error;
+    FELTGATE_DRIVE(rtl, in, tick, period_start, host, host_arm, arm, disarm, stop, clear_faults,
+                   kick, encoder_error);
     rtl.velocity_i = static_cast<std::uint32_t>(in.velocity);
     rtl.current_ref_i = port_bits<kCurrentBits>(in.current_ref);
-    rtl.wave_i = in.wave;
-    rtl.trips_i = in.trips;
-    rtl.axis_silent_i = in.axis_silent;
-    rtl.axis_blocked_i = in.axis_blocked;
-    rtl.param_i = in.param;
+    FELTGATE_DRIVE(rtl, in, wave, trips, axis_silent, axis_blocked, param);
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
   }
   static void at_edge(Vsupervisor& rtl) { rtl.stop_i = 0; }  // the pulse ends before the edge
@@ -50,11 +39,7 @@ struct SupervisorAdapter {
   static void compare(Check& check, const Vsupervisor& rtl, const Twin::Out& out) {
     check("current_estimate", sign_extend<kEstimateBits>(rtl.current_estimate_o),
           std::int64_t{out.current_estimate});
-    check("armed", rtl.armed_o, out.armed);
-    check("gates_enable", rtl.gates_enable_o, out.gates_enable);
-    check("unkicked", rtl.unkicked_o, out.unkicked);
-    check("faults", rtl.faults_o, out.faults);
-    check("first_fault", rtl.first_fault_o, out.first_fault);
+    FELTGATE_COMPARE(check, rtl, out, armed, gates_enable, unkicked, faults, first_fault);
   }
 };
 using SupervisorBench = LockStep<Vsupervisor, Twin, SupervisorAdapter>;

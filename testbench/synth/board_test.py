@@ -10,14 +10,13 @@ Documentation: docs/boards/ulx3s.md
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
+from testing import ROOT, ran  # noqa: E402
 import synth_board  # noqa: E402
 import synth_budget  # noqa: E402
 
@@ -72,9 +71,7 @@ class StandIns(unittest.TestCase):
             command = [sys.executable, "-B", ROOT / "scripts/synth.py", *words, "--json", figures]
             if "ulx3s" in words:
                 command += ["-o", output]
-            done = subprocess.run(
-                command, env=environment, capture_output=True, text=True, check=False
-            )
+            done = ran(*command, env=environment)
             written = output.read_text(encoding="utf-8") if output.exists() else ""
             there = json.loads(figures.read_text(encoding="utf-8")) if figures.exists() else None
             return done, written, there
@@ -156,10 +153,7 @@ class Bitstream(unittest.TestCase):
             command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", "ulx3s"]
             environment = os.environ | {"FELTGATE_VENV": str(VENV)}
             environment.pop("FELTGATE_BUILD", None)
-            done = subprocess.run(
-                [*command, "--seeds", SEEDS, "-o", Path(folder, "u.bit")],
-                env=environment, capture_output=True, text=True, check=False,
-            )
+            done = ran(*command, "--seeds", SEEDS, "-o", Path(folder, "u.bit"), env=environment)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             count = SEEDS.count(",") + 1
             said = f"of {count} seeds, the design's clock 50 MHz: timing closes"

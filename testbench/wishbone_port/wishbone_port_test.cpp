@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include "lock_step.hpp"
 #include "port_core.hpp"
+#include "ports.hpp"
 #include "wishbone_port_twin.hpp"
 
 using namespace feltgate;
@@ -23,24 +24,11 @@ constexpr std::uint32_t kHost = 1U << Lever::C::control_host, kArm = 1U << Lever
 
 struct Adapter {
   static void drive(Vwishbone_port& rtl, const Twin::In& in) {
-    rtl.cyc_i = in.cyc;
-    rtl.stb_i = in.stb;
-    rtl.we_i = in.we;
-    rtl.adr_i = in.adr;
-    rtl.sel_i = in.sel;
-    rtl.dat_i = in.dat;
-    rtl.reg_rdata_i = in.reg_rdata;
-    rtl.reg_busy_i = in.reg_busy;
+    FELTGATE_DRIVE(rtl, in, cyc, stb, we, adr, sel, dat, reg_rdata, reg_busy);
   }
   template <class Check>
   static void compare(Check& check, const Vwishbone_port& rtl, const Twin::Out& out) {
-    check("dat", rtl.dat_o, out.dat);
-    check("ack", rtl.ack_o, out.ack);
-    check("err", rtl.err_o, out.err);
-    check("stall", rtl.stall_o, out.stall);
-    check("reg_addr", rtl.reg_addr_o, out.reg_addr);
-    check("reg_wdata", rtl.reg_wdata_o, out.reg_wdata);
-    check("reg_write", rtl.reg_write_o, out.reg_write);
+    FELTGATE_COMPARE(check, rtl, out, dat, ack, err, stall, reg_addr, reg_wdata, reg_write);
   }
 };
 using Bench = LockStep<Vwishbone_port, Twin, Adapter>;

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What the tests in Python share: where things are, programs run to their end, a command's main()
+called here, and a folder of a test's own. It puts scripts/ on the path.
+"""
+
+import contextlib
+import io
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("FELTGATE_BUILD") or ROOT / "build")
+SCRIPTS = ROOT / "scripts"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(SCRIPTS))
+
+
+def text_of(path):
+    """Of a file of the repository."""
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+def ran(*command, **options):
+    """What came of a program: its status, and what it said as text."""
+    options = {"capture_output": True, "text": True, "check": False} | options
+    return subprocess.run([str(word) for word in command], **options)
+
+
+def script(name, *words, **options):
+    """The same of scripts/NAME."""
+    return ran(sys.executable, "-B", SCRIPTS / name, *words, **options)
+
+
+def called(main, *words):
+    """(status, stdout, stderr) of main(words) of a command."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            status = main([str(word) for word in words])
+        except SystemExit as ended:
+            status = ended.code
+    return status, out.getvalue(), err.getvalue()
+
+
+def environment(*prefixes, **more):
+    """Ours without the variables of the project and those of these prefixes, and with more."""
+    without = ("FELTGATE_", *prefixes)
+    return {k: v for k, v in os.environ.items() if not k.startswith(without)} | more
+
+
+class Scratch(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
+
+    def put(self, name, text):
+        """The path of a file of this text, below the folder."""
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def put_program(self, name, text):
+        """The same, to be run; without a first line of its own a shell script."""
+        path = self.put(name, text if text.startswith("#!") else f"#!/bin/sh\n{text}\n")
+        path.chmod(0o755)
+        return path

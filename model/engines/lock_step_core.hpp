@@ -57,9 +57,9 @@ class OutputLog {
   }
   bool holds(std::size_t clock, const CoreOut& out) const {
     std::int64_t difference = 0;
-#define FELTGATE_COMPARE(name) difference |= std::int64_t{name##_[clock]} ^ std::int64_t{out.name};
-    FELTGATE_EACH_OUTPUT(FELTGATE_COMPARE)
-#undef FELTGATE_COMPARE
+#define FELTGATE_DIFFER(name) difference |= std::int64_t{name##_[clock]} ^ std::int64_t{out.name};
+    FELTGATE_EACH_OUTPUT(FELTGATE_DIFFER)
+#undef FELTGATE_DIFFER
     return difference == 0;
   }
   CoreOut at(std::size_t clock) const {

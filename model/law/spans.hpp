@@ -84,6 +84,12 @@ inline Span exact_product(const Span& a, const Span& b, bool same) {
   return {std::min({p, q, r, s}), std::max({p, q, r, s})};
 }
 
+/// The truth of a < b: 1, 0, or both.
+inline Span truth_of_less(const Span& a, const Span& b) {
+  if (a.hi < b.lo) return {1, 1};
+  if (a.lo >= b.hi) return {0, 0};
+  return {0, 1};
+}
 inline Span least(const Span& a, const Span& b) {
   return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
 }

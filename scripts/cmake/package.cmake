@@ -34,7 +34,7 @@ if(FELTGATE_SIM)
     install(DIRECTORY "${FELTGATE_ROOT}/model/${room}/"
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/feltgate/${room}" COMPONENT feltgate_${component}
       FILES_MATCHING PATTERN "*.hpp"
-      PATTERN "ensemble.hpp" EXCLUDE PATTERN "host_feed.hpp" EXCLUDE PATTERN "feed_clock.hpp" EXCLUDE
+      PATTERN "ensemble.hpp" EXCLUDE
       PATTERN "scenario_bounds.hpp" EXCLUDE
       PATTERN "make_engines.hpp" EXCLUDE PATTERN "lock_step_engine.hpp" EXCLUDE
       PATTERN "lock_step_core.hpp" EXCLUDE PATTERN "make_axes_cores.hpp" EXCLUDE

@@ -93,7 +93,7 @@ class AxesRun : plant::AxesDevice<Plant> {
       }
       loop.run(until, [this](const Plant& p) {
         work_.follow(p.seen().hand_work_j);
-        session_.report(p.now());
+        session_.report_progress(p.now());
       });
     }
     // The cores still have to run the clocks of the last step.
@@ -226,7 +226,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   AxesResult result() {
     AxesResult out;
-    session_.tell(out);
+    session_.fill_result(out);
     out.device = plant_.parameters().name;
     out.law = options_.law->name();
     out.homing_clocks = homed_;
@@ -239,7 +239,7 @@ class AxesRun : plant::AxesDevice<Plant> {
           {felt.torque, felt.limits, felt.faults, errors_[n], options_.law->bound_on_words_nm(n)});
     }
     fill_figures(out);
-    session_.hold(out);
+    session_.check_expectations(out);
     tell_beyond_bounds(&out);
     return out;
   }

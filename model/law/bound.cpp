@@ -270,7 +270,8 @@ class Bounds {
         // The significance test uses the unlimited outputs; the jump is the excess over the bound.
         const bool raised = !(swapped.output_error[o] <= base.output_error[o]);
         // An error of the whole cell that the swap does not raise may hide that of its parts.
-        const bool hides = !raised && !(most.output_error[o] <= b->output[o]);
+        const bool within = most.reachable && most.output_error[o] <= b->output[o];
+        const bool hides = !raised && !within;
         if (hides && parts.empty()) parts = over_parts(s.step, base.margin);
         const double error = hides ? parts[o] : most.output_error[o];
         const double excess = larger(0.0, error - b->output[o]);

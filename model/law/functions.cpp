@@ -14,21 +14,12 @@ namespace {
 
 constexpr int most_table_words = EngineMap::table_words;
 
-JetFunction function_of(const Law& law, const Node& n) {
-  switch (n.op) {
-    case Op::root:
-      return [](const Span& x) { return root(Jet{x, {1, 1}, {0, 0}}); };
-    case Op::reciprocal:
-      return [](const Span& x) { return inverse(Jet{x, {1, 1}, {0, 0}}); };
-    case Op::exponential:
-      return [](const Span& x) { return exponential(Jet{x, {1, 1}, {0, 0}}); };
-    case Op::logarithm:
-      return [](const Span& x) { return logarithm(Jet{x, {1, 1}, {0, 0}}); };
-    default: {
-      const Table& t = law.tables[at(n.index)];
-      return [&law, &t](const Span& x) { return table_jet(law, t, x); };
-    }
+JetFunction jet_of(const Law& law, const Node& n) {
+  if (has_pieces(n.op)) {
+    return [op = n.op](const Span& x) { return function_of(op, Jet{x, {1, 1}, {0, 0}}); };
   }
+  const Table& t = law.tables[at(n.index)];
+  return [&law, &t](const Span& x) { return table_jet(law, t, x); };
 }
 
 }  // namespace
@@ -206,7 +197,7 @@ Value BackEnd::function(NodeId id) {
   v = limited(align_for_table(v, scale, argument), n, id);
   v = align(v, scale, argument);
   TableRequest r;
-  r.function = function_of(law_, n);
+  r.function = jet_of(law_, n);
   if (points) range = {table->domain.lower, table->domain.upper};
   r.domain = range;
   r.argument_scale = scale;

@@ -98,22 +98,9 @@ class RangesOf::Work {
   }
 
   Span span(NodeId id) {
-    switch (node(id).op) {
-      case Op::sine:
-      case Op::cosine:
-      case Op::root:
-      case Op::reciprocal:
-      case Op::exponential:
-      case Op::logarithm:
-      case Op::arctangent:
-      case Op::lookup:
-      case Op::element: {
-        const Span argument = spans_[at(node(id).arguments[0])];
-        return remembered(id, argument, [&] { return computed(id); });
-      }
-      default:
-        return computed(id);
-    }
+    const Node& n = node(id);
+    if (!is_function(n.op) && n.op != Op::lookup && n.op != Op::element) return computed(id);
+    return remembered(id, spans_[at(n.arguments[0])], [&] { return computed(id); });
   }
 
   Span computed(NodeId id) {
@@ -170,19 +157,13 @@ class RangesOf::Work {
       case Op::select:
         return arg(0).lo > 0 ? arg(1) : arg(0).hi <= 0 ? arg(2) : hull(arg(1), arg(2));
       case Op::sine:
-        return sine(arg(0));
       case Op::cosine:
-        return cosine(arg(0));
       case Op::root:
-        return root(arg(0));
       case Op::reciprocal:
-        return inverse(arg(0));
       case Op::exponential:
-        return exponential(arg(0));
       case Op::logarithm:
-        return logarithm(arg(0));
       case Op::arctangent:
-        return arctangent(arg(0));
+        return function_of(n.op, arg(0));
       case Op::lookup:
         return lookup(n, arg(0));
       case Op::element:

@@ -42,6 +42,31 @@ inline bool has_pieces(Op op) {
   return op == Op::root || op == Op::reciprocal || op == Op::exponential || op == Op::logarithm;
 }
 
+/// Whether the node is a function of one number, which function_of() computes.
+inline bool is_function(Op op) {
+  return has_pieces(op) || op == Op::sine || op == Op::cosine || op == Op::arctangent;
+}
+/// Its value over a span or a jet.
+template <typename T>
+T function_of(Op op, const T& x) {
+  switch (op) {
+    case Op::sine:
+      return sine(x);
+    case Op::cosine:
+      return cosine(x);
+    case Op::root:
+      return root(x);
+    case Op::reciprocal:
+      return inverse(x);
+    case Op::exponential:
+      return exponential(x);
+    case Op::logarithm:
+      return logarithm(x);
+    default:
+      return arctangent(x);
+  }
+}
+
 /// The range of every node over the cell; a truth value has a part of [0, 1]. Nodes that occur only
 /// in bodies of tables have an empty range.
 std::vector<Span> ranges(const Law& law, const Cell& cell);

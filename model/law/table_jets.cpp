@@ -63,19 +63,13 @@ class Body {
         return {hull(arg(1).v, arg(2).v), whole_line(), whole_line()};
       }
       case Op::sine:
-        return sine(arg(0));
       case Op::cosine:
-        return cosine(arg(0));
       case Op::root:
-        return root(arg(0));
       case Op::reciprocal:
-        return inverse(arg(0));
       case Op::exponential:
-        return exponential(arg(0));
       case Op::logarithm:
-        return logarithm(arg(0));
       case Op::arctangent:
-        return arctangent(arg(0));
+        return function_of(n.op, arg(0));
       case Op::lookup: {
         const Table& t = law_.tables[at(n.index)];
         Jet a = arg(0);

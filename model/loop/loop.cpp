@@ -80,7 +80,7 @@ class ScenarioRun {
       // A request takes effect by the end of its tick, and its consequences by the end of the next.
       if (core_.writes_wait()) plan_.stir(now, 2 * d.clocks_per_tick);
       step(plan_.end_of_step(now, std::min(session_.next(), plant_.next_corner()), end) - now);
-      session_.report(now);
+      session_.report_progress(now);
     }
     if (recorder_) recorder_->finish(end + 1);
     return result();
@@ -214,7 +214,7 @@ class ScenarioRun {
 
   RunResult result() {
     RunResult out;
-    session_.tell(out);
+    session_.fill_result(out);
     out.longest_step_clocks = longest_step_clocks_;
     out.plant_states = plant_.state_size();
     out.evaluations = plant_.evaluations();
@@ -236,7 +236,7 @@ class ScenarioRun {
       }
     }
     fill_figures(out, steps_);
-    session_.hold(out);
+    session_.check_expectations(out);
     return out;
   }
 

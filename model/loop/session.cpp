@@ -51,7 +51,7 @@ void Session::apply(const Event& e) {
   control();
 }
 
-void Session::tell(SessionResult& out) const {
+void Session::fill_result(SessionResult& out) const {
   if (options_.progress) options_.progress(1.0);
   const DesignInfo& d = host_.design();
   out.design = d.name;
@@ -67,7 +67,7 @@ void Session::tell(SessionResult& out) const {
   out.figures["faults"] = faults_;
 }
 
-void Session::hold(SessionResult& out) const {
+void Session::check_expectations(SessionResult& out) const {
   for (const Expectation& x : s_.expectations) {
     if (x.design && *x.design != out.design) continue;
     const auto it = out.figures.find(x.figure);

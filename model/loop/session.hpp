@@ -96,17 +96,17 @@ class Session {
   /// Ticks so far.
   std::int64_t ticks() const { return ticks_; }
   /// Reports the progress, from time to time.
-  void report(Clock now) {
+  void report_progress(Clock now) {
     if (!options_.progress || now < next_report_) return;
     options_.progress(static_cast<double>(now) / static_cast<double>(end_));
     next_report_ = now + host_.design().clock_hz / 100;
   }
 
   /// Fills in everything but reference and expectations; the run adds its own figures.
-  void tell(SessionResult& out) const;
+  void fill_result(SessionResult& out) const;
   /// Compares the figures with what the scene expects of this design. Errors: config::ConfigError
   /// for a figure that does not exist.
-  void hold(SessionResult& out) const;
+  void check_expectations(SessionResult& out) const;
 
  private:
   static constexpr Clock never = std::numeric_limits<Clock>::max();

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 from outputs import write_whole
-from reporting import plots
+from reports import plots
 
 # What a user takes each engine for, and where its label stands.
 PURPOSE = {

@@ -260,10 +260,10 @@ class CheckBlocks(unittest.TestCase):
         self.assertEqual(found, ["model/long.cpp: 401 lines, more than 400; split it"])
 
     def test_formatting(self):
-        self.put("model/tools/a.cpp", "// fine\nstd::snprintf(s, 9, \"%f\", x);\n")
-        self.put("model/tools/b.hpp", "auto s = std::to_string(x);\n")
+        self.put("model/apps/commands/a.cpp", "// fine\nstd::snprintf(s, 9, \"%f\", x);\n")
+        self.put("model/apps/commands/b.hpp", "auto s = std::to_string(x);\n")
         self.put("model/include/feltgate/c.hpp", "auto s = std::to_string(3);\n")
-        self.expect("model/tools/a.cpp:2: snprintf", "model/tools/b.hpp:1: to_string")
+        self.expect("model/apps/commands/a.cpp:2: snprintf", "model/apps/commands/b.hpp:1: to_string")
         self.assertNotIn("c.hpp", "".join(check_blocks.check(self.root)))
 
     def test_empty_tree(self):

@@ -29,7 +29,7 @@ import block_results
 import building
 import command_line
 import outputs
-from covering import data, programs, report, waivers
+from rtl_coverage import data, programs, report, waivers
 
 SCHEMA = "feltgate-coverage/1"
 CORE = "feltgate_core"

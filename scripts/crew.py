@@ -13,7 +13,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
 import interrupts
-from reporting.progress import Steps
+from reports.progress import Steps
 
 
 class Crew:

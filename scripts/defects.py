@@ -24,7 +24,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from seeding import block, headers, patches
+from seeded_defects import block, headers, patches
 
 
 def main():

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from seeding import block, headers, patches
+from seeded_defects import block, headers, patches
 
 TOP = """module top #(
     parameter int Width = 8  // bits, (even)

@@ -22,9 +22,9 @@ import command_line
 import interrupts
 import outputs
 from outputs import write_whole
-from reporting import all_figures, demo_page, recordings, run_section, runs, stability_section
-from reporting.growing import Growing
-from reporting.progress import Progress, clock_text
+from reports import all_figures, demo_page, recordings, run_section, runs, stability_section
+from reports.growing import Growing
+from reports.progress import Progress, clock_text
 
 SCHEMA = "feltgate-demo/1"
 EPILOG = """\

@@ -14,8 +14,8 @@ import sys
 from pathlib import Path
 
 import command_line
-from exploring import chunks, engines, explore_page, front, merge, meter, presets, routes, space
-from exploring import plan as plans
+from exploration import chunks, engines, explore_page, front, merge, meter, presets, routes, space
+from exploration import plan as plans
 
 VERBS = ("plan", "run", "merge", "route", "page", "picture", "presets", "point")
 EXAMPLES = """examples:
@@ -216,7 +216,7 @@ def show(options):
     if options.verb == "page":
         paths = [explore_page.write(plan, rows, command_line.root())]
     elif options.verb == "picture":
-        paths = [importlib.import_module("exploring.explore_picture").write(plan, rows)]
+        paths = [importlib.import_module("exploration.explore_picture").write(plan, rows)]
     else:
         paths = presets.write(plan, rows, command_line.root())
     print("\n".join(map(str, paths)))
@@ -249,7 +249,7 @@ def act(options):
 def main():
     words = sys.argv[1:]
     if words[:1] == ["point"]:
-        point = importlib.import_module("exploring.point")
+        point = importlib.import_module("exploration.point")
         return command_line.ended("explore", lambda: point.main(words[1:]))
     if words and words[0] not in VERBS and not words[0].startswith("-"):
         words.insert(0, "all")

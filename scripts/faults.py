@@ -49,8 +49,8 @@ import sys
 import block_results
 import command_line
 import outputs
-from faulting import campaign, results
-from reporting.progress import Steps
+from fault_campaign import campaign, results
+from reports.progress import Steps
 
 SCHEMA = "feltgate-faults/1"
 CLEAN_S, DAY_S = 600, 86400
@@ -202,7 +202,7 @@ def report(options, root, faults, seconds):
         }
         outputs.write_json(options.json, result)
     if options.picture:
-        from faulting import picture  # matplotlib only where it is asked for
+        from fault_campaign import picture  # matplotlib only where it is asked for
 
         outputs.write_whole(options.picture, picture.draw(faults, options.picture.suffix[1:]))
     if options.update:

@@ -14,8 +14,8 @@ import sys
 import command_line
 import outputs
 from outputs import write_whole
-from reporting import all_figures, page, run_section, runs
-from reporting.progress import Progress
+from reports import all_figures, page, run_section, runs
+from reports.progress import Progress
 
 SCHEMA = "feltgate-figures/1"
 EPILOG = """\

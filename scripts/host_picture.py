@@ -16,7 +16,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 from outputs import write_whole
-from reporting import plots
+from reports import plots
 
 UNITS = {"_rad_s": "rad/s", "_rad": "rad", "_nm": "Nm", "_a": "A", "_v": "V", "_s": "s"}
 BITS = ("status", "faults", "encoder")  # words of bits: no curve

@@ -13,8 +13,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from mutating import netlist
-from seeding.patches import ROOT, DefectError
+from mutation import netlist
+from seeded_defects.patches import ROOT, DefectError
 
 
 def main():

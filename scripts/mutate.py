@@ -31,8 +31,8 @@ import block_results
 import building
 import command_line
 import outputs
-from mutating import rtl, rtl_table
-from mutating.options import mutants_parser, parsed
+from mutation import rtl, rtl_table
+from mutation.options import mutants_parser, parsed
 
 SCHEMA = "feltgate-mutate/1"
 REQUIRED = 0.99
@@ -164,7 +164,7 @@ def run(options):
 def main(argv=None):
     argv = sys.argv[1:] if argv is None else argv
     if "--twin" in argv:
-        from mutating import twin
+        from mutation import twin
 
         return twin.main([word for word in argv if word != "--twin"])
     options = arguments(argv)

@@ -19,8 +19,8 @@ from pathlib import Path
 import command_line
 import interrupts
 import outputs
-from paging.compile import CompileError, compile_core
-from reporting.progress import Steps
+from web_page.compile import CompileError, compile_core
+from reports.progress import Steps
 
 EPILOG = """examples:
   feltgate page                           page.html: lever, paper and fast; open it in a browser
@@ -77,7 +77,7 @@ def version_of(root):
 def stamp_of(root):
     """Hash of what the page says and how it calls the core; the core's bits have their own."""
     digest = hashlib.sha256()
-    paths = sorted((root / "scripts/paging").glob("*.*")) + sorted((root / "model/page").glob("*"))
+    paths = sorted((root / "scripts/web_page").glob("*.*")) + sorted((root / "model/apps/page").glob("*"))
     for path in paths:
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()[:16]
@@ -101,7 +101,7 @@ def laws_of(root):
 
 
 def assembled(root, numbers, script, wasm):
-    folder = root / "scripts/paging"
+    folder = root / "scripts/web_page"
     read = lambda name: (folder / name).read_text(encoding="utf-8")  # noqa: E731
     parts = {
         "page.css": read("page.css"),
@@ -123,7 +123,7 @@ def stale(root):
     page = path.read_text(encoding="utf-8")
     found = STAMP.search(page)
     if not found or found[1] != stamp_of(root):
-        return "scripts/paging or model/page has changed since"
+        return "scripts/web_page or model/apps/page has changed since"
     if json.loads(unpacked(page, "numbers")) != numbers_of(root, DESIGNS):
         return "the core's bits, or a scene, have changed since"
     return ""

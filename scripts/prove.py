@@ -27,8 +27,8 @@ import sys
 
 import command_line
 import outputs
-from proving import catalog, page, record, tasks, unproven
-from proving.tools import Broken, Tools
+from proofs import catalog, page, record, tasks, unproven
+from proofs.tools import Broken, Tools
 
 SCHEMA = "feltgate-prove/1"
 

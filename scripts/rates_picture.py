@@ -18,7 +18,7 @@ from pathlib import Path
 
 import interrupts
 from outputs import write_whole
-from reporting import plots
+from reports import plots
 
 COLOURS = ["#0072b2", "#b23a00", "#008a64", "#7d4bb5", "#b04a8b", "#8a6d00", "#1d2329", "#5c6670"]
 MARKS = "os^DvP<"

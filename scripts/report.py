@@ -16,8 +16,8 @@ from pathlib import Path
 
 import command_line
 from outputs import write_whole
-from reporting import card, headline, page, run_pictures, run_section
-from reporting.runs import read_csv
+from reports import card, headline, page, run_pictures, run_section
+from reports.runs import read_csv
 
 SCHEMA = "feltgate-run/1"
 MOST_ROWS = 60_000  # a picture shows no more

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 import command_line
-from reporting import stability_plots
+from reports import stability_plots
 
 
 def main(argv=None):

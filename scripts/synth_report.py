@@ -3,7 +3,7 @@
 """Tables of `feltgate synth`: on the terminal, and the generated part of docs/synthesis.md."""
 
 import synth_measure
-from reporting.columns import aligned
+from reports.columns import aligned
 
 BEGIN = "<!-- written by feltgate synth --update: do not edit from here -->"
 END = "<!-- end of what feltgate synth wrote -->"

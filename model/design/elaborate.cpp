@@ -9,10 +9,10 @@
 #include <cmath>
 #include <map>
 
-#include "config/nearest.hpp"
-#include "config/toml_reader.hpp"
 #include "design/design.hpp"
 #include "design/parameter_values.hpp"
+#include "files/toml/nearest.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

@@ -8,7 +8,7 @@
 
 #include <set>
 
-#include "config/toml_reader.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

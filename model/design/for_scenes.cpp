@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "config/toml_reader.hpp"
 #include "design/text_edit.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

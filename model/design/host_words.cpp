@@ -11,8 +11,8 @@
 #include <set>
 #include <sstream>
 
-#include "config/toml_reader.hpp"
 #include "design/generate.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

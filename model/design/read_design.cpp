@@ -8,10 +8,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "config/toml_reader.hpp"
 #include "design/design.hpp"
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/map.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

@@ -8,8 +8,8 @@
 
 #include <set>
 
-#include "config/nearest.hpp"
-#include "config/toml_reader.hpp"
+#include "files/toml/nearest.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

@@ -10,9 +10,9 @@
 #include <cctype>
 #include <set>
 
-#include "config/nearest.hpp"
-#include "config/toml_reader.hpp"
 #include "design/schedule_check.hpp"
+#include "files/toml/nearest.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-#include "config/toml_reader.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

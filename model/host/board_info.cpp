@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "config/toml_reader.hpp"
 #include "design/generate.hpp"
 #include "feltgate/generated/link.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::host {
 

@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "config/nearest.hpp"
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
+#include "files/toml/nearest.hpp"
 
 namespace feltgate::host {
 

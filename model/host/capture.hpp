@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "feltgate/generated/link.hpp"
-#include "host/device.hpp"
+#include "host/host_device.hpp"
 #include "host/law_engine.hpp"
 
 namespace feltgate::host {

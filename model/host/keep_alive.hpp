@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "host/device.hpp"
+#include "host/host_device.hpp"
 
 namespace feltgate::host {
 

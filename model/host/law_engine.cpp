@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "config/nearest.hpp"
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
+#include "files/toml/nearest.hpp"
 #include "law/amount.hpp"
 
 namespace feltgate::host {

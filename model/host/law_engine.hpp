@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/device.hpp"
+#include "host/host_device.hpp"
 #include "law/image.hpp"
 #include "law/load.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "traces/phase.hpp"
+#include "sim/traces/phase.hpp"
 
 namespace feltgate::host {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "feltgate/encoder_source.hpp"
-#include "host/device.hpp"
+#include "host/host_device.hpp"
 
 namespace feltgate::host {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config/nearest.hpp"
+#include "files/toml/nearest.hpp"
 #include "law/amount.hpp"
 
 namespace feltgate::host {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "law/cpp.hpp"
-#include "law/finish.hpp"
+#include "law/derive.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "law/compile.hpp"
-#include "law/finish.hpp"
+#include "law/derive.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/machine.hpp"
+#include "law/engine/machine.hpp"
 #include "law/image.hpp"
 #include "law/load.hpp"
 

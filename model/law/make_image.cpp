@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "law/compile.hpp"
-#include "law/finish.hpp"
+#include "law/derive.hpp"
 #include "law/verdict.hpp"
 
 namespace feltgate::law {

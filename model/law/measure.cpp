@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
-#include "engine/machine.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
+#include "law/engine/machine.hpp"
 #include "law/evaluate.hpp"
 #include "law/formula.hpp"
 #include "law/load.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "feltgate/engine_ops.hpp"
-#include "law/finish.hpp"
+#include "law/derive.hpp"
 #include "law/ranges.hpp"
 
 namespace feltgate::law {

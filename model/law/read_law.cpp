@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "law/bytes.hpp"
+#include "law/derive.hpp"
 #include "law/evaluate.hpp"
-#include "law/finish.hpp"
 #include "law/lowering.hpp"
 
 namespace feltgate::law {

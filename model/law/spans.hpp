@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Intervals of double, rounded outward after every operation as in model/bounds, with the functions
-// of the law language and with derivatives up to the second. Documentation: docs/law-compiler.md
+// Intervals of double, rounded outward after every operation as in model/studies/bounds, with the
+// functions of the law language and with derivatives up to the second. Documentation:
+// docs/law-compiler.md
 #pragma once
 
 #include <algorithm>

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <map>
 
+#include "law/derive.hpp"
 #include "law/diagnostics.hpp"
-#include "law/finish.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {

@@ -4,7 +4,7 @@
 # feltgate_board: a simulated board with the twin; feltgate_board_rtl also has the Verilated RTL. docs/board.md
 include_guard(GLOBAL)
 
-feltgate_library(feltgate_board_parts board EXCEPT "/rtl_cores" feltgate_engines feltgate_loop)
+feltgate_library(feltgate_board_parts host/board EXCEPT "/rtl_cores" feltgate_engines feltgate_loop)
 set(board_designs ${FELTGATE_DESIGNS} lever_law)  # also the preset with an engine
 set(registrations "")
 foreach(design IN LISTS board_designs)
@@ -21,9 +21,9 @@ set(type ${FELTGATE_TYPE_lever})
 file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_linked.f" linked_sources REGEX "^[^/]")
 list(TRANSFORM linked_sources PREPEND "${FELTGATE_ROOT}/rtl/")
 feltgate_verilate(board_lever board_pins
-  "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv;${linked_sources};${FELTGATE_ROOT}/model/board/board_pins.sv"
+  "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv;${linked_sources};${FELTGATE_ROOT}/model/host/board/board_pins.sv"
   CLASS Vboard_lever FASTEST)
-set(rtl_sources "${FELTGATE_ROOT}/model/board/rtl_cores.cpp"
+set(rtl_sources "${FELTGATE_ROOT}/model/host/board/rtl_cores.cpp"
   "${PROJECT_BINARY_DIR}/engines/lever_board_rtl.cpp")
 feltgate_for_design(design_board_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/lever_board_rtl.cpp")
 

@@ -9,7 +9,7 @@ include_guard(GLOBAL)
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 
 set(FELTGATE_DEFECTS "${FELTGATE_ROOT}/scripts/defects.py")
-file(GLOB FELTGATE_SEEDING CONFIGURE_DEPENDS "${FELTGATE_ROOT}/scripts/seeding/*.py")
+file(GLOB FELTGATE_SEEDING CONFIGURE_DEPENDS "${FELTGATE_ROOT}/scripts/seeded_defects/*.py")
 list(APPEND FELTGATE_SEEDING "${FELTGATE_DEFECTS}")
 set(FELTGATE_EXPECT_FAILURE "${CMAKE_CURRENT_LIST_DIR}/expect_failure.cmake")
 set(FELTGATE_EXPECT_QUIET "${CMAKE_CURRENT_LIST_DIR}/expect_quiet.cmake")

@@ -38,13 +38,13 @@ endfunction()
 # What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
 set(FELTGATE_ENGINE_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
 # The registry alone, for what leaves the choice of the designs to the program.
-add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/engines/engine.cpp"
-  "${FELTGATE_ROOT}/model/engines/axes_cores.cpp")
+add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/sim/engines/engine.cpp"
+  "${FELTGATE_ROOT}/model/sim/engines/axes_cores.cpp")
 target_compile_options(feltgate_registry PRIVATE ${FELTGATE_WARNINGS})
 target_link_libraries(feltgate_registry PUBLIC feltgate_model PRIVATE fmt::fmt)
 feltgate_export(registry)
 
-add_library(feltgate_engines STATIC "${FELTGATE_ROOT}/model/engines/built_in_designs.cpp")
+add_library(feltgate_engines STATIC "${FELTGATE_ROOT}/model/sim/engines/built_in_designs.cpp")
 set(FELTGATE_DESIGNS "")
 set(registrations "")
 foreach(path IN LISTS designs)

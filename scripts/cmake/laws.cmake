@@ -4,7 +4,7 @@
 # Laws as C++, made during the build. docs/law-compiler.md
 include_guard(GLOBAL)
 
-add_executable(feltgate_laws "${FELTGATE_ROOT}/model/tools/laws_main.cpp")
+add_executable(feltgate_laws "${FELTGATE_ROOT}/model/apps/commands/laws_main.cpp")
 target_compile_options(feltgate_laws PRIVATE ${FELTGATE_WARNINGS})
 target_link_libraries(feltgate_laws PRIVATE feltgate_law fmt::fmt)
 
@@ -29,4 +29,4 @@ endfunction()
 file(GLOB laws CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/laws/*.law")
 feltgate_law_headers(feltgate_shipped_headers shipped ${laws})
 # What runs a law: the shipped ones compiled, others interpreted.
-feltgate_library(feltgate_shipped_laws laws feltgate_shipped_headers)
+feltgate_library(feltgate_shipped_laws law/laws feltgate_shipped_headers)

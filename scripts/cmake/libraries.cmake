@@ -27,12 +27,12 @@ if(NOT fmt_FOUND)
 endif()
 find_path(FELTGATE_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
 
-# In the source tree a room of headers is model/<room>; its users write feltgate/<room>/x.hpp.
+# In the source tree a room of headers is model/sim/<room>; its users write feltgate/<room>/x.hpp.
 set(FELTGATE_ROOMS engines loop plant reference systemc traces)
 set(FELTGATE_STAGED_INCLUDE "${PROJECT_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${FELTGATE_STAGED_INCLUDE}/feltgate")
 foreach(room IN LISTS FELTGATE_ROOMS)
-  file(CREATE_LINK "${FELTGATE_ROOT}/model/${room}" "${FELTGATE_STAGED_INCLUDE}/feltgate/${room}"
+  file(CREATE_LINK "${FELTGATE_ROOT}/model/sim/${room}" "${FELTGATE_STAGED_INCLUDE}/feltgate/${room}"
     SYMBOLIC)
 endforeach()
 
@@ -74,14 +74,14 @@ function(feltgate_export name)
 endfunction()
 
 # Strict reading of TOML files and what needs it.
-feltgate_sim_library(config config)
+feltgate_sim_library(config files/toml)
 target_include_directories(feltgate_config SYSTEM PUBLIC
   "$<BUILD_INTERFACE:${FELTGATE_TOML_INCLUDE_DIR}>")
 # Output files that are whole or not there.
 feltgate_sim_library(files files)
 feltgate_sim_library(design design feltgate_config)
 
-feltgate_sim_library(bounds bounds feltgate_design Boost::headers)
+feltgate_sim_library(bounds studies/bounds feltgate_design Boost::headers)
 
 # Amounts with units are of use without laws.
 feltgate_sim_library(units law ONLY "/(amount|units)\\.cpp$")
@@ -94,36 +94,36 @@ find_package(Threads REQUIRED)
 feltgate_library(feltgate_hostlink host feltgate_design feltgate_law Boost::headers Threads::Threads)
 
 # The plant itself reads no file; plant_files reads plants and hands.
-feltgate_sim_library(plant plant EXCEPT "_file\\.cpp$")
-feltgate_sim_library(plant_files plant ONLY "_file\\.cpp$"
+feltgate_sim_library(plant sim/plant EXCEPT "_file\\.cpp$")
+feltgate_sim_library(plant_files sim/plant ONLY "_file\\.cpp$"
   feltgate_plant feltgate_traces feltgate_config)
-# scripts/exploring/point.py links what it needs of it, without feltgate_traces.
+# scripts/exploration/point.py links what it needs of it, without feltgate_traces.
 set_target_properties(feltgate_plant_files PROPERTIES UNITY_BUILD OFF)
 # Devices with several axes: docs/pantograph.md, docs/gimbal.md
 foreach(device "linkage;pantograph" "gimbal;gimbal")
   list(GET device 0 name)
   list(GET device 1 folder)
-  feltgate_sim_library(${name} plant/${folder} EXCEPT "_file\\.cpp$" feltgate_plant)
-  feltgate_sim_library(${name}_files plant/${folder} ONLY "_file\\.cpp$"
+  feltgate_sim_library(${name} sim/plant/${folder} EXCEPT "_file\\.cpp$" feltgate_plant)
+  feltgate_sim_library(${name}_files sim/plant/${folder} ONLY "_file\\.cpp$"
     feltgate_${name} feltgate_plant_files)
 endforeach()
 
 if(FELTGATE_SIGROK)
   find_package(LibArchive REQUIRED)
-  feltgate_sim_library(traces traces)
+  feltgate_sim_library(traces sim/traces)
   target_link_libraries(feltgate_traces PRIVATE LibArchive::LibArchive)
   target_compile_definitions(feltgate_traces PRIVATE FELTGATE_SIGROK)
 else()
-  feltgate_sim_library(traces traces EXCEPT "/sigrok")
+  feltgate_sim_library(traces sim/traces EXCEPT "/sigrok")
 endif()
 
 include(engines)
-feltgate_sim_library(loop loop
+feltgate_sim_library(loop sim/loop
   feltgate_registry feltgate_plant_files feltgate_traces feltgate_bounds feltgate_units)
 # Laws in a loop: the engine's image, and the law in real numbers beside it.
-feltgate_library(feltgate_law_loop law_loop feltgate_law feltgate_shipped_laws feltgate_loop)
+feltgate_library(feltgate_law_loop sim/law_loop feltgate_law feltgate_shipped_laws feltgate_loop)
 # Devices of several axes with their laws, in one loop.
-feltgate_library(feltgate_axes_loop axes_loop feltgate_law_loop feltgate_linkage_files
+feltgate_library(feltgate_axes_loop sim/axes_loop feltgate_law_loop feltgate_linkage_files
   feltgate_gimbal_files)
 # A closed loop hands scalars from step to step; packed in pairs they would wait for the store.
 foreach(target feltgate_plant feltgate_linkage feltgate_gimbal feltgate_loop feltgate_axes_loop)

@@ -31,7 +31,7 @@ if(FELTGATE_SIM)
     if(room STREQUAL systemc)
       set(component systemc)
     endif()
-    install(DIRECTORY "${FELTGATE_ROOT}/model/${room}/"
+    install(DIRECTORY "${FELTGATE_ROOT}/model/sim/${room}/"
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/feltgate/${room}" COMPONENT feltgate_${component}
       FILES_MATCHING PATTERN "*.hpp"
       PATTERN "ensemble.hpp" EXCLUDE

@@ -25,7 +25,7 @@ string(REGEX REPLACE "\ndescription = [^\n]*" "\ndescription = \"lever in shorte
 file(CONFIGURE OUTPUT "${narrow}" CONTENT "${text}" @ONLY)
 
 if(NOT TARGET feltgate_generate)
-  add_executable(feltgate_generate "${FELTGATE_ROOT}/model/tools/generate_main.cpp")
+  add_executable(feltgate_generate "${FELTGATE_ROOT}/model/apps/commands/generate_main.cpp")
   target_link_libraries(feltgate_generate PRIVATE feltgate_design fmt::fmt)
 endif()
 set(extra_names "")
@@ -55,8 +55,8 @@ foreach(path IN LISTS FELTGATE_EXTRA_DESIGNS ITEMS "${narrow}")
 endforeach()
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/designs/extra_designs.inc" CONTENT "${extra_names}")
 
-file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/python/*.cpp")
-set(host "${FELTGATE_ROOT}/model/python/host_binding.cpp")
+file(GLOB sources CONFIGURE_DEPENDS "${FELTGATE_ROOT}/model/apps/python/*.cpp")
+set(host "${FELTGATE_ROOT}/model/apps/python/host_binding.cpp")
 list(REMOVE_ITEM sources "${host}")
 # Loops over ticks are in the libraries; what binds them is optimised as far as that compiles fast.
 pybind11_add_module(feltgate_python MODULE NO_EXTRAS ${sources})
@@ -69,7 +69,7 @@ target_link_libraries(feltgate_python PRIVATE feltgate_engines feltgate_loop fmt
 
 # Designs beyond lever and paper, loaded when one is used.
 pybind11_add_module(feltgate_python_designs MODULE NO_EXTRAS
-  "${FELTGATE_ROOT}/model/python/designs/module.cpp" ${extra_sources})
+  "${FELTGATE_ROOT}/model/apps/python/designs/module.cpp" ${extra_sources})
 set_target_properties(feltgate_python_designs PROPERTIES OUTPUT_NAME _designs)
 target_compile_options(feltgate_python_designs PRIVATE ${FELTGATE_ENGINE_OPTIONS})
 target_include_directories(feltgate_python_designs PRIVATE "${PROJECT_BINARY_DIR}/designs")
@@ -103,7 +103,7 @@ if(FELTGATE_PYTHON)
 endif()
 
 install(TARGETS feltgate_python feltgate_python_designs feltgate_python_host LIBRARY DESTINATION feltgate COMPONENT python EXCLUDE_FROM_ALL)
-install(DIRECTORY "${FELTGATE_ROOT}/model/python/feltgate" DESTINATION . COMPONENT python EXCLUDE_FROM_ALL
+install(DIRECTORY "${FELTGATE_ROOT}/model/apps/python/feltgate" DESTINATION . COMPONENT python EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # The folders keep their places, so that FELTGATE_ROOT may name a repository instead.
 foreach(folder vectors/plants vectors/scenes vectors/traces rtl/designs rtl/laws)

@@ -25,7 +25,7 @@ function(feltgate_core_of design top sources)
   set(${sources} ${FELTGATE_${files}_SOURCES} PARENT_SCOPE)
 endfunction()
 
-add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/engines/rtl_engines.cpp")
+add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/sim/engines/rtl_engines.cpp")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
   feltgate_core_of(${design} top sources)

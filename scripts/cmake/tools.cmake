@@ -10,8 +10,8 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 
 # What the programs with commands share. CLI11 is headers: a program's words are read once, so that
 # -O1 does.
-add_library(feltgate_command_line STATIC "${FELTGATE_ROOT}/model/tools/checks.cpp"
-  "${FELTGATE_ROOT}/model/tools/commands.cpp" "${FELTGATE_ROOT}/model/tools/command_line.cpp")
+add_library(feltgate_command_line STATIC "${FELTGATE_ROOT}/model/apps/commands/checks.cpp"
+  "${FELTGATE_ROOT}/model/apps/commands/commands.cpp" "${FELTGATE_ROOT}/model/apps/commands/command_line.cpp")
 target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_command_line PRIVATE
   FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}" FELTGATE_VERSION="${PROJECT_VERSION}")
@@ -22,7 +22,7 @@ target_precompile_headers(feltgate_command_line PRIVATE <CLI/CLI.hpp> <fmt/forma
 
 # feltgate_program(<name> <sources> [libraries...])
 function(feltgate_program name sources)
-  list(TRANSFORM sources PREPEND "${FELTGATE_ROOT}/model/tools/")
+  list(TRANSFORM sources PREPEND "${FELTGATE_ROOT}/model/apps/commands/")
   add_executable(${name} ${sources})
   target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS} -O1)
   target_compile_definitions(${name} PRIVATE
@@ -31,27 +31,27 @@ function(feltgate_program name sources)
   feltgate_unity(${name})
 endfunction()
 
-# What the programs of design points share; scripts/exploring/point.py compiles the rest.
-feltgate_library(feltgate_explore explore feltgate_plant_files nlohmann_json::nlohmann_json)
+# What the programs of design points share; scripts/exploration/point.py compiles the rest.
+feltgate_library(feltgate_explore studies/explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget budget feltgate_engines feltgate_loop)
+feltgate_library(feltgate_budget studies/budget feltgate_engines feltgate_loop)
 target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
   feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
   target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
 endforeach()
-feltgate_library(feltgate_trim trim feltgate_engines feltgate_loop)
+feltgate_library(feltgate_trim studies/trim feltgate_engines feltgate_loop)
 
 # Where the constants of design and plant differ.
-feltgate_library(feltgate_constants stability ONLY "/constants\\.cpp$" feltgate_plant_files feltgate_design)
+feltgate_library(feltgate_constants studies/stability ONLY "/constants\\.cpp$" feltgate_plant_files feltgate_design)
 # Eigen's own warnings are not ours: its headers are system headers.
-feltgate_library(feltgate_stability stability EXCEPT "/constants\\.cpp$"
+feltgate_library(feltgate_stability studies/stability EXCEPT "/constants\\.cpp$"
   feltgate_constants feltgate_engines Eigen3::Eigen)
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 
 # Scenes at several rates.
-feltgate_library(feltgate_rates rates feltgate_stability feltgate_loop feltgate_law_loop
+feltgate_library(feltgate_rates studies/rates feltgate_stability feltgate_loop feltgate_law_loop
   feltgate_axes_loop)
 target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_rates PRIVATE
@@ -69,7 +69,7 @@ set_target_properties(feltgate_calibrate PROPERTIES UNITY_BUILD OFF)
 target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
-feltgate_library(feltgate_page page EXCEPT "_api" feltgate_engines feltgate_loop feltgate_design feltgate_law_loop
+feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_engines feltgate_loop feltgate_design feltgate_law_loop
   feltgate_axes_loop feltgate_shape)
 # Presets of several axes, for `feltgate rates` of all scenes.
 set(FELTGATE_AXES_PRESETS "")
@@ -97,26 +97,26 @@ foreach(design fast lever_law ${FELTGATE_AXES_PRESETS})
 endforeach()
 set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
-  "${FELTGATE_ROOT}/model/page/data_main.cpp" ${page_twins})
+  "${FELTGATE_ROOT}/model/apps/page/data_main.cpp" ${page_twins})
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})
 target_compile_definitions(feltgate_page_data PRIVATE FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
 target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nlohmann_json fmt::fmt)
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
-feltgate_library(feltgate_shape shape feltgate_law Boost::headers)
+feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)
 # Height fields from images.
 find_package(PNG REQUIRED)
-feltgate_library(feltgate_texture texture feltgate_shape PNG::PNG)
+feltgate_library(feltgate_texture studies/texture feltgate_shape PNG::PNG)
 
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
-file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
-  "${FELTGATE_ROOT}/model/tools/*.cpp")
+file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
+  "${FELTGATE_ROOT}/model/apps/commands/*.cpp")
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
 # A first scene: nothing that it does not use. The RTL is a minute more, so it is left out where none
 # is asked for.
 set(run_names csv.cpp mismatch.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
-list(TRANSFORM run_names PREPEND "${FELTGATE_ROOT}/model/tools/" OUTPUT_VARIABLE run_sources)
+list(TRANSFORM run_names PREPEND "${FELTGATE_ROOT}/model/apps/commands/" OUTPUT_VARIABLE run_sources)
 set(run_libraries feltgate_command_line feltgate_loop feltgate_constants feltgate_files
   nlohmann_json::nlohmann_json fmt::fmt)
 add_library(feltgate_run_parts OBJECT ${run_sources})
@@ -130,11 +130,11 @@ feltgate_program(feltgate_twin run_main.cpp ${run_libraries})
 feltgate_program(feltgate_run run_main.cpp ${run_libraries} core_lever)
 foreach(program feltgate_twin feltgate_run)
   target_sources(${program} PRIVATE $<TARGET_OBJECTS:feltgate_run_parts> $<TARGET_OBJECTS:design_lever>
-    "${FELTGATE_ROOT}/model/engines/built_in_designs.cpp")
+    "${FELTGATE_ROOT}/model/sim/engines/built_in_designs.cpp")
   target_include_directories(${program} PRIVATE "${PROJECT_BINARY_DIR}/engines/lever_alone")
 endforeach()
 target_sources(feltgate_run PRIVATE $<TARGET_OBJECTS:rtl_lever>
-  "${FELTGATE_ROOT}/model/engines/rtl_engines.cpp")
+  "${FELTGATE_ROOT}/model/sim/engines/rtl_engines.cpp")
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/engines/lever_alone/designs.inc"
   CONTENT "FELTGATE_DESIGN(lever)\n")
 if(NOT FELTGATE_TESTS)
@@ -155,14 +155,14 @@ add_dependencies(feltgate
   feltgate_generate feltgate_point_bounds feltgate_explore feltgate_verilated)
 
 # The host of a board; it needs no simulation, so it is built by itself.
-file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/tools"
-  "${FELTGATE_ROOT}/model/tools/host/*.cpp")
+file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
+  "${FELTGATE_ROOT}/model/apps/commands/host/*.cpp")
 feltgate_program(feltgate_host
   "host_main.cpp;${host_sources}"
   feltgate_command_line feltgate_files feltgate_engines feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json)
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
-feltgate_library(feltgate_bench_parts bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
+feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench bench_main.cpp
   feltgate_command_line feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json)

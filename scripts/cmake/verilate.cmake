@@ -7,7 +7,7 @@ include_guard(GLOBAL)
 # Slots, clocks, addresses and bits, equal in all designs; a block's sources need it beside a package.
 set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/feltgate_map_pkg.sv")
 set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
-set(FELTGATE_INSTRUMENT "${FELTGATE_ROOT}/scripts/covering/instrument.py")
+set(FELTGATE_INSTRUMENT "${FELTGATE_ROOT}/scripts/rtl_coverage/instrument.py")
 
 find_package(verilator REQUIRED HINTS $ENV{VERILATOR_ROOT} /usr/share/verilator)
 find_package(ZLIB REQUIRED)

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "axes_loop/axes_run.hpp"
 #include "catch.hpp"
-#include "engines/axes_cores.hpp"
-#include "law_loop/scene_law.hpp"
+#include "sim/axes_loop/axes_run.hpp"
+#include "sim/engines/axes_cores.hpp"
+#include "sim/law_loop/scene_law.hpp"
 
 namespace feltgate::test {
 

@@ -10,8 +10,8 @@
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "feltgate/largest.hpp"
+#include "files/toml/toml_reader.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

@@ -10,9 +10,9 @@
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "feltgate/largest.hpp"
-#include "plant/gimbal/gimbal_mechanics.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/plant/gimbal/gimbal_mechanics.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

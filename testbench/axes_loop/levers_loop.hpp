@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "plant/parameters.hpp"
+#include "sim/plant/parameters.hpp"
 
 namespace feltgate::test {
 

@@ -13,7 +13,7 @@
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
+#include "files/toml/toml_reader.hpp"
 #include "wall_loop.hpp"
 
 using namespace feltgate;

@@ -11,10 +11,10 @@
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "feltgate/random.hpp"
-#include "texture/image.hpp"
-#include "texture/texture_law.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "studies/texture/image.hpp"
+#include "studies/texture/texture_law.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

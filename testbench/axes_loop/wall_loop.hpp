@@ -10,8 +10,8 @@
 #include <array>
 #include <cmath>
 
-#include "plant/pantograph/linkage_dynamics.hpp"
-#include "plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/linkage_dynamics.hpp"
+#include "sim/plant/pantograph/pantograph_parameters.hpp"
 
 namespace feltgate::test {
 

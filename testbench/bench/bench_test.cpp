@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/report.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "studies/bench/report.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 //
 // The chain written by hand in shifts against the laws in `fixed`: every result of every tick of a
 // random life. Documentation: docs/bench.md
-#include "bench/shift_chain.hpp"
+#include "studies/bench/shift_chain.hpp"
 #include "catch.hpp"
 #include "chain_life.hpp"
 

@@ -9,11 +9,11 @@
 #include <fstream>
 #include <memory>
 
-#include "board/board.hpp"
 #include "catch.hpp"
 #include "feltgate/crc32.hpp"
 #include "feltgate/generated/link.hpp"
-#include "plant/plant_file.hpp"
+#include "host/board/board.hpp"
+#include "sim/plant/plant_file.hpp"
 
 using namespace feltgate;
 using namespace feltgate::board;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "budget/budget.hpp"
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/velocity_n.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "studies/budget/budget.hpp"
 
 namespace feltgate::bounds {
 

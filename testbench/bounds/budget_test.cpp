@@ -3,7 +3,7 @@
 //
 // The error budget: its whole is the chain in fixed point, each row stays below what is proven of
 // its source, and the whole below the sum of these. Documentation: docs/error-bounds.md
-#include "budget/budget.hpp"
+#include "studies/budget/budget.hpp"
 
 #include <algorithm>
 

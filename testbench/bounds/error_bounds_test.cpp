@@ -3,7 +3,7 @@
 //
 // The bounds of a design: closed forms where there are some, how they move with a design, what is
 // promised to hold without saturation. Documentation: docs/error-bounds.md
-#include "bounds/error_bounds.hpp"
+#include "studies/bounds/error_bounds.hpp"
 
 #include <cmath>
 

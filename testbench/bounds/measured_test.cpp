@@ -8,9 +8,9 @@
 #include <cmath>
 #include <functional>
 
-#include "budget/budget.hpp"
 #include "catch.hpp"
 #include "random.hpp"
+#include "studies/budget/budget.hpp"
 
 namespace feltgate::bounds {
 

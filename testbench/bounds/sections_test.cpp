@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Peak gains of the sections against plain sums in 113 bits. Documentation: docs/error-bounds.md
-#include "bounds/sections.hpp"
+#include "studies/bounds/sections.hpp"
 
-#include "bounds/interval.hpp"
 #include "catch.hpp"
 #include "feltgate/quad.hpp"
+#include "studies/bounds/interval.hpp"
 
 namespace feltgate::bounds {
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/machine.hpp"
 #include "feltgate/largest.hpp"
 #include "law/compile.hpp"
+#include "law/engine/machine.hpp"
 #include "law/host_machine.hpp"
 #include "law/load.hpp"
 #include "law/read_law.hpp"

@@ -12,8 +12,8 @@
 #include "feltgate/random.hpp"
 #include "host/calibrate/open_loop.hpp"
 #include "host/identify/recording.hpp"
-#include "plant/plant.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/plant/plant.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::test {
 

@@ -9,8 +9,8 @@
 
 #include "bench.hpp"
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "design/text_edit.hpp"
+#include "files/toml/toml_reader.hpp"
 #include "host/calibrate/design_changes.hpp"
 #include "host/calibrate/report.hpp"
 

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "random.hpp"
-#include "reference/control_chain.hpp"
+#include "sim/reference/control_chain.hpp"
 
 namespace feltgate::test {
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "engines/rtl_model.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
+#include "sim/engines/rtl_model.hpp"
 
 namespace feltgate::test {
 

@@ -3,7 +3,7 @@
 //
 // Letters beyond ASCII in a TOML file: welcome in strings and comments, refused elsewhere.
 // Documentation: docs/testing.md
-#include "config/toml_text.hpp"
+#include "files/toml/toml_text.hpp"
 
 #include "catch.hpp"
 

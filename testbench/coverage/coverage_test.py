@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 from testing import ROOT, Scratch, called  # noqa: E402
 import block_results  # noqa: E402
 import coverage  # noqa: E402
-from covering import data, instrument, programs, report, waivers  # noqa: E402
+from rtl_coverage import data, instrument, programs, report, waivers  # noqa: E402
 
 HEAD = "# SystemC::Coverage-3\n"
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "design/generate.hpp"
+#include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {
 

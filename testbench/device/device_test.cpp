@@ -11,10 +11,10 @@
 #include <string>
 
 #include "catch.hpp"
-#include "engines/make_device.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "random.hpp"
+#include "sim/engines/make_device.hpp"
 
 using namespace feltgate;
 using feltgate::test::Random;

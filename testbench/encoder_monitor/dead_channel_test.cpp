@@ -9,10 +9,10 @@
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/largest.hpp"
-#include "plant/plant_file.hpp"
-#include "plant/pushing_hand.hpp"
 #include "pressed_lever.hpp"
 #include "random.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "sim/plant/pushing_hand.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

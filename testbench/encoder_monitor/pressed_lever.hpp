@@ -16,8 +16,8 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"
-#include "plant/drive.hpp"
-#include "plant/plant.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/plant.hpp"
 
 namespace feltgate::test {
 

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "catch.hpp"
-#include "engine/machine.hpp"
 #include "engine_device.hpp"
+#include "law/engine/machine.hpp"
 #include "random_programs.hpp"
 
 using namespace feltgate;

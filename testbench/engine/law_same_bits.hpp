@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include "catch.hpp"
-#include "engine/machine.hpp"
 #include "engine_device.hpp"
 #include "law/compile.hpp"
+#include "law/engine/machine.hpp"
 #include "law/load.hpp"
 
 namespace feltgate::test {

@@ -10,14 +10,14 @@
 
 #include "../feltgate_core/core_stimulus.hpp"
 #include "catch.hpp"
-#include "engines/engine.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/while_armed.hpp"
 #include "mismatch.hpp"
-#include "reference/real_chain.hpp"
+#include "sim/engines/engine.hpp"
+#include "sim/reference/real_chain.hpp"
 
 namespace {
 

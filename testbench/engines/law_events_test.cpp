@@ -11,9 +11,9 @@
 
 #include "Vcore_lever_law.h"
 #include "catch.hpp"
-#include "engines/lock_step_engine.hpp"
 #include "feltgate/generated/lever_law.hpp"
-#include "law_loop/scene_law.hpp"
+#include "sim/engines/lock_step_engine.hpp"
+#include "sim/law_loop/scene_law.hpp"
 
 namespace feltgate {
 namespace {

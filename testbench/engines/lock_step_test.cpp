@@ -4,7 +4,7 @@
 // The program's lock-step, in which the RTL follows in stretches, against RTL and twin compared
 // clock by clock: the same mismatches, the first in the same clock. With FELTGATE_BROKEN the RTL
 // has a seeded defect, which both must see. Documentation: docs/architecture.md
-#include "engines/lock_step_engine.hpp"
+#include "sim/engines/lock_step_engine.hpp"
 
 #include <array>
 #include <memory>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "engines/engine.hpp"
+#include "sim/engines/engine.hpp"
 
 using namespace feltgate;
 

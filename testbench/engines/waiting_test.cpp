@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "engines/engine.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
+#include "sim/engines/engine.hpp"
 
 namespace {
 

@@ -15,9 +15,9 @@
 
 #include "Vcore_lever.h"
 #include "catch.hpp"
-#include "engines/engine.hpp"
-#include "engines/rtl_core.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "sim/engines/engine.hpp"
+#include "sim/engines/rtl_core.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A stand-in for exploring.point: figures from the point's own text, at once.
+"""A stand-in for exploration.point: figures from the point's own text, at once.
 
 FAKE_POINT_DELAY_S slows a point down; FAKE_POINT_LOG takes a line per evaluation;
 FAKE_POINT_FAIL, a point's id, makes that one fail. Documentation: docs/explore.md
@@ -9,7 +9,7 @@ FAKE_POINT_FAIL, a point's id, makes that one fail. Documentation: docs/explore.
 import os
 import time
 
-from exploring import space
+from exploration import space
 
 
 def evaluate(point, workdir, route=False):

@@ -11,8 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from exploring import point  # noqa: E402
-from exploring.design_text import design_text  # noqa: E402
+from exploration import point  # noqa: E402
+from exploration.design_text import design_text  # noqa: E402
 
 TABLE = ROOT / "vectors/spaces/trade.csv"
 BASE = "lever"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from exploring.design_text import design_text  # noqa: E402
+from exploration.design_text import design_text  # noqa: E402
 
 changes = {key: json.loads(value) for key, value in (w.split("=", 1) for w in sys.argv[3:])}
 text = design_text(ROOT, {"base": sys.argv[2], "set": changes})

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""exploring.point: a coarse design from its text to its figures, a seeded defect, what is kept."""
+"""exploration.point: a coarse design from its text to its figures, a seeded defect, what is kept."""
 
 import sys
 import tempfile
@@ -10,9 +10,9 @@ from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from exploring import point  # noqa: E402
-from exploring.design_text import design_text  # noqa: E402
-from seeding import patches  # noqa: E402
+from exploration import point  # noqa: E402
+from exploration.design_text import design_text  # noqa: E402
+from seeded_defects import patches  # noqa: E402
 
 COARSE = {
     "clock.tick_hz": 10000,

@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 
 from bench import ROOT, Bench
-from exploring import design_text, explore_page, front, presets, space
+from exploration import design_text, explore_page, front, presets, space
 
 
 def row(name, error, area, delay, **keys):

@@ -14,7 +14,7 @@ import unittest
 from bench import ROOT
 from testing import BUILD, ran
 
-from exploring import merge, point, presets, space
+from exploration import merge, point, presets, space
 
 WHOLE = "FELTGATE_WHOLE" in os.environ  # every preset evaluated, not the first
 TABLE = ROOT / "vectors/spaces/trade.csv"

@@ -9,8 +9,8 @@ Documentation: docs/explore.md
 import unittest
 
 from bench import ROOT, SPACE, Bench
-from exploring import plan as plans
-from exploring import space
+from exploration import plan as plans
+from exploration import space
 
 
 class Reading(Bench):

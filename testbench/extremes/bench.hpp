@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "extremes/case.hpp"
-#include "loop/ensemble.hpp"
+#include "sim/loop/ensemble.hpp"
 
 namespace feltgate::extremes {
 

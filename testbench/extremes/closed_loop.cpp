@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "plant/plant_file.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::extremes {
 

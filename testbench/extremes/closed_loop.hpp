@@ -8,7 +8,7 @@
 #include <string>
 
 #include "extremes/bench.hpp"
-#include "loop/loop.hpp"
+#include "sim/loop/loop.hpp"
 
 namespace feltgate::extremes {
 

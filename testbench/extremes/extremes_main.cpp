@@ -11,10 +11,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "config/nearest.hpp"
+#include "apps/commands/commands.hpp"
 #include "extremes/table.hpp"
 #include "files/output_file.hpp"
-#include "tools/commands.hpp"
+#include "files/toml/nearest.hpp"
 
 namespace feltgate {
 

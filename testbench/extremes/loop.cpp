@@ -11,9 +11,9 @@
 #include "extremes/table.hpp"
 #include "extremes/wide_design.hpp"
 #include "feltgate/largest.hpp"
-#include "stability/bit_loop.hpp"
-#include "stability/linear_loop.hpp"
-#include "stability/loop_poles.hpp"
+#include "studies/stability/bit_loop.hpp"
+#include "studies/stability/linear_loop.hpp"
+#include "studies/stability/loop_poles.hpp"
 
 namespace feltgate::extremes {
 

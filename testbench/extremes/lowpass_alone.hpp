@@ -11,8 +11,8 @@
 
 #include <cstdint>
 
-#include "engines/rtl_model.hpp"
 #include "feltgate/lowpass.hpp"
+#include "sim/engines/rtl_model.hpp"
 
 namespace feltgate::extremes {
 

@@ -5,8 +5,8 @@
 // Documentation: docs/testing.md
 #include <Vpaper_with_defects.h>
 
-#include "engines/make_engines.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "sim/engines/make_engines.hpp"
 
 namespace feltgate {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Vextremes_wide.h>
 
-#include "engines/make_engines.hpp"
+#include "sim/engines/make_engines.hpp"
 #include "wide.hpp"
 
 namespace feltgate::extremes {

@@ -14,7 +14,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
-#include "traces/open.hpp"
+#include "sim/traces/open.hpp"
 
 namespace feltgate::faults {
 

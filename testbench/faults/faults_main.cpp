@@ -11,10 +11,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/commands.hpp"
 #include "faults/clean.hpp"
 #include "faults/record.hpp"
 #include "faults/world.hpp"
-#include "tools/commands.hpp"
 
 namespace feltgate {
 

@@ -13,7 +13,7 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 from testing import Scratch, called  # noqa: E402
 import faults  # noqa: E402
-from faulting import results  # noqa: E402
+from fault_campaign import results  # noqa: E402
 
 
 def state(register, kind="masked", safety=True, peak=0.0):

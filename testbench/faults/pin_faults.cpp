@@ -16,8 +16,8 @@
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
-#include "plant/pushing_hand.hpp"
 #include "random.hpp"
+#include "sim/plant/pushing_hand.hpp"
 
 namespace feltgate::faults {
 

@@ -15,10 +15,10 @@
 
 #include <flops.hpp>
 
-#include "engines/rtl_ports.hpp"
 #include "faults/outcome.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "sim/engines/rtl_ports.hpp"
 
 void Vfaults___024root___eval_settle(Vfaults___024root* vlSelf);
 

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engines/engine.hpp"
 #include "feltgate/generated/lever.hpp"
-#include "plant/drive.hpp"
-#include "plant/plant_file.hpp"
-#include "plant/pushing_hand.hpp"
+#include "sim/engines/engine.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "sim/plant/pushing_hand.hpp"
 
 namespace feltgate::faults {
 

@@ -12,7 +12,7 @@
 
 #include "faults/outcome.hpp"
 #include "feltgate/core_ports.hpp"
-#include "plant/plant.hpp"
+#include "sim/plant/plant.hpp"
 
 namespace feltgate::faults {
 

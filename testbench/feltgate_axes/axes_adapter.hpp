@@ -10,12 +10,12 @@
 #include <string>
 #include <type_traits>
 
-#include "engines/rtl_axes_ports.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "feltgate/generated/pantograph_law.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
+#include "sim/engines/rtl_axes_ports.hpp"
 
 namespace feltgate::test {
 

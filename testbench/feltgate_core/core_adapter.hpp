@@ -8,11 +8,11 @@
 #include <cstdint>
 
 #include "Vfeltgate_core.h"
-#include "engines/rtl_ports.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
 #include "random.hpp"
+#include "sim/engines/rtl_ports.hpp"
 
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever

@@ -6,10 +6,10 @@
 // comparison from edge to edge cannot do this. Documentation: docs/blocks/supervisor.md
 #include "Vfeltgate_core.h"
 #include "catch.hpp"
-#include "engines/lock_step_core.hpp"
-#include "engines/rtl_model.hpp"
-#include "engines/rtl_ports.hpp"
 #include "feltgate/feltgate_core.hpp"
+#include "sim/engines/lock_step_core.hpp"
+#include "sim/engines/rtl_model.hpp"
+#include "sim/engines/rtl_ports.hpp"
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"

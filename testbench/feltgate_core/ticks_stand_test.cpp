@@ -10,9 +10,9 @@
 #include "Vfeltgate_core.h"
 #include "Vfeltgate_core___024root.h"
 #include "catch.hpp"
-#include "engines/rtl_model.hpp"
-#include "engines/rtl_ports.hpp"
 #include "feltgate/generated/causes.hpp"
+#include "sim/engines/rtl_model.hpp"
+#include "sim/engines/rtl_ports.hpp"
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"

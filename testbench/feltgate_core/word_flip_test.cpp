@@ -10,10 +10,10 @@
 #include <memory>
 
 #include "catch.hpp"
-#include "engines/rtl_ports.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
+#include "sim/engines/rtl_ports.hpp"
 
 using feltgate::CoreIn;
 using feltgate::CoreOut;

@@ -6,11 +6,11 @@
 // Documentation: docs/fixed-point.md
 #include <string>
 
-#include "bench/systemc_numbers.hpp"
 #include "catch.hpp"
 #include "chain_life.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
+#include "studies/bench/systemc_numbers.hpp"
 
 namespace {
 

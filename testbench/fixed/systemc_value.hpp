@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "bench/systemc_numbers.hpp"
 #include "feltgate/fixed.hpp"
+#include "studies/bench/systemc_numbers.hpp"
 
 namespace feltgate::test {
 

@@ -10,22 +10,22 @@
 #include <memory>
 #include <stdexcept>
 
-#include "config/toml_reader.hpp"
 #include "design/generate.hpp"
 #include "design/host_words.hpp"
 #include "design/schedule.hpp"
 #include "faulty_reader.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "law/derive.hpp"
 #include "law/evaluate.hpp"
-#include "law/finish.hpp"
 #include "law/read_law.hpp"
-#include "loop/scenario_check.hpp"
-#include "plant/gimbal/gimbal_file.hpp"
-#include "plant/hand_file.hpp"
-#include "plant/pantograph/pantograph_file.hpp"
-#include "plant/plant_file.hpp"
-#include "plant/plant_table.hpp"
-#include "traces/open.hpp"
-#include "traces/place.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/plant/gimbal/gimbal_file.hpp"
+#include "sim/plant/hand_file.hpp"
+#include "sim/plant/pantograph/pantograph_file.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "sim/plant/plant_table.hpp"
+#include "sim/traces/open.hpp"
+#include "sim/traces/place.hpp"
 
 namespace feltgate::fuzz {
 

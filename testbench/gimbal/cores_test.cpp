@@ -10,7 +10,7 @@
 #include "feltgate/generated/lever_law.hpp"
 #include "feltgate/largest.hpp"
 #include "gimbal_fixture.hpp"
-#include "plant/drive.hpp"
+#include "sim/plant/drive.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "../plant/plant_fixture.hpp"
-#include "plant/gimbal/gimbal.hpp"
-#include "plant/gimbal/gimbal_file.hpp"
+#include "sim/plant/gimbal/gimbal.hpp"
+#include "sim/plant/gimbal/gimbal_file.hpp"
 
 namespace feltgate::plant {
 

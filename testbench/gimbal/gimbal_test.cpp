@@ -6,10 +6,10 @@
 #include <fstream>
 
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
 #include "feltgate/largest.hpp"
+#include "files/toml/toml_reader.hpp"
 #include "gimbal_fixture.hpp"
-#include "plant/sampled_law.hpp"
+#include "sim/plant/sampled_law.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "engines/rtl_ports.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "lock_step.hpp"
+#include "sim/engines/rtl_ports.hpp"
 
 namespace feltgate::test {
 

@@ -11,9 +11,9 @@
 #include "feltgate/device.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "host/capture.hpp"
-#include "host/device.hpp"
+#include "host/host_device.hpp"
 #include "host/position_encoder.hpp"
-#include "traces/phase.hpp"
+#include "sim/traces/phase.hpp"
 
 namespace {
 

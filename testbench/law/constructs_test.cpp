@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "law/finish.hpp"
+#include "law/derive.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "catch.hpp"
-#include "law/finish.hpp"
+#include "law/derive.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;

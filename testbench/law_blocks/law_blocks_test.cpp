@@ -12,12 +12,12 @@
 #include <cstdlib>
 #include <map>
 
-#include "engine/machine.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/scene_charge.hpp"
 #include "feltgate/scene_wall.hpp"
 #include "law/compile.hpp"
+#include "law/engine/machine.hpp"
 #include "law/load.hpp"
 
 namespace feltgate::law {

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "compiled.hpp"
-#include "engine/machine.hpp"
+#include "law/engine/machine.hpp"
 #include "law/measure.hpp"
 
 namespace feltgate::law {

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/machine.hpp"
 #include "law/compile.hpp"
+#include "law/engine/machine.hpp"
 #include "law/load.hpp"
 
 namespace feltgate::law {

@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "engines/rtl_ports.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "law/compile.hpp"
 #include "law/load.hpp"
 #include "lock_step.hpp"
+#include "sim/engines/rtl_ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

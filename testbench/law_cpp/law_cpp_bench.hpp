@@ -8,9 +8,9 @@
 #include <map>
 #include <string>
 
-#include "engine/law_runner.hpp"
 #include "feltgate/random.hpp"
 #include "law/compile.hpp"
+#include "law/engine/law_runner.hpp"
 #include "law/load.hpp"
 #include "laws/shipped.hpp"
 

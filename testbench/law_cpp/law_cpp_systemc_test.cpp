@@ -3,11 +3,11 @@
 //
 // The C++ of laws in SystemC's fixed point: every word of `fixed`. Documentation:
 // docs/law-compiler.md
-#include "bench/systemc_numbers.hpp"
 #include "catch.hpp"
 #include "law_cpp_bench.hpp"
 #include "laws/constructs.hpp"
 #include "mismatch.hpp"
+#include "studies/bench/systemc_numbers.hpp"
 
 namespace feltgate::test {
 namespace {

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/machine.hpp"
 #include "feltgate/random.hpp"
+#include "law/engine/machine.hpp"
 #include "law/load.hpp"
 #include "strips.hpp"
 

@@ -3,11 +3,11 @@
 //
 // Runs some of the random laws on the RTL: its words must equal the words of the interpreter, which
 // the judge compares with the laws.
-#include "engine/machine.hpp"
 #include "engine_device.hpp"
 #include "generate.hpp"
 #include "law/compile.hpp"
 #include "law/diagnostics.hpp"
+#include "law/engine/machine.hpp"
 #include "law/load.hpp"
 #include "strips.hpp"
 

@@ -8,10 +8,10 @@
 #include <fstream>
 
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
-#include "loop/loop.hpp"
-#include "loop/scenario_check.hpp"
-#include "plant/plant_file.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/loop/loop.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 //
 // Columns of a run: fixed beside float and double, nothing where there is none, and the table of
 // the documentation. Documentation: docs/json.md
-#include "loop/columns.hpp"
+#include "sim/loop/columns.hpp"
 #include "feltgate/largest.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // The figures of a run for the hand (felt torque and energy): closed forms first, then a scene.
 // Documentation: docs/json.md
-#include "loop/felt.hpp"
+#include "sim/loop/felt.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -11,11 +11,11 @@
 
 #include "catch.hpp"
 #include "design/design.hpp"
-#include "engines/engine.hpp"
-#include "loop/bounded.hpp"
-#include "loop/figures.hpp"
-#include "loop/speed_jumps.hpp"
 #include "loop_fixture.hpp"
+#include "sim/engines/engine.hpp"
+#include "sim/loop/bounded.hpp"
+#include "sim/loop/figures.hpp"
+#include "sim/loop/speed_jumps.hpp"
 
 namespace {
 

@@ -10,9 +10,9 @@
 
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
-#include "law_loop/scene_law.hpp"
-#include "loop/engine_choice.hpp"
 #include "loop_fixture.hpp"
+#include "sim/law_loop/scene_law.hpp"
+#include "sim/loop/engine_choice.hpp"
 
 namespace {
 

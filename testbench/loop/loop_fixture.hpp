@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "loop/loop.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/loop/loop.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate {
 

@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 #include "feltgate/axes_ports.hpp"
-#include "loop/session.hpp"
+#include "sim/loop/session.hpp"
 
 namespace {
 

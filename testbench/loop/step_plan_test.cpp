@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The ends of the plant's steps; long steps do not change the results. Documentation: docs/plant.md
-#include "loop/step_plan.hpp"
+#include "sim/loop/step_plan.hpp"
 
 #include <cmath>
 
 #include "catch.hpp"
 #include "loop_fixture.hpp"
-#include "plant/plant.hpp"
+#include "sim/plant/plant.hpp"
 
 namespace {
 

@@ -9,11 +9,11 @@
 #include <cstdio>
 
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
-#include "law_loop/scene_law.hpp"
-#include "loop/event_lines.hpp"
-#include "loop/tracker.hpp"
+#include "files/toml/toml_reader.hpp"
 #include "loop_fixture.hpp"
+#include "sim/law_loop/scene_law.hpp"
+#include "sim/loop/event_lines.hpp"
+#include "sim/loop/tracker.hpp"
 
 namespace {
 

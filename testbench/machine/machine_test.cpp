@@ -3,7 +3,7 @@
 //
 // The engine's instructions against plain 128-bit arithmetic, and hand-written programs in the
 // interpreter against their laws in double. Documentation: docs/blocks/engine.md
-#include "engine/machine.hpp"
+#include "law/engine/machine.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 from testing import Scratch, called  # noqa: E402
 import mutate  # noqa: E402
 from crew import Crew  # noqa: E402
-from mutating import equivalence, netlist, rtl, rtl_table  # noqa: E402
+from mutation import equivalence, netlist, rtl, rtl_table  # noqa: E402
 
 # dead_q stays 0, so that what it adds is no matter; spare is what a mutant of the word must change.
 COUNTER = """module counter (

@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(os.environ["FELTGATE_ROOT"])
 BUILD, OPTIONS = sys.argv[1], sys.argv[2:]
 sys.path.insert(0, str(ROOT / "scripts"))
-from mutating import twin, twin_parser  # noqa: E402
+from mutation import twin, twin_parser  # noqa: E402
 
 
 def has_parser():

@@ -25,8 +25,8 @@ if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
     VENV = Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "scripts"))
 import block_results  # noqa: E402
-from mutating import twin, twin_parser, twin_places, twin_programs, twin_results  # noqa: E402
-from mutating import twin_runs, twin_source  # noqa: E402
+from mutation import twin, twin_parser, twin_places, twin_programs, twin_results  # noqa: E402
+from mutation import twin_runs, twin_source  # noqa: E402
 
 try:
     LANGUAGE = twin_parser.cpp_language(VENV)

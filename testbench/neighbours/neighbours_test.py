@@ -16,7 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 from testing import ROOT, Scratch  # noqa: E402
-from seeding import patches  # noqa: E402
+from seeded_defects import patches  # noqa: E402
 
 VENV = Path(sys.argv.pop(1))
 EXAMPLES = ROOT / "docs/examples"

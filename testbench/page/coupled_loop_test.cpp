@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "apps/page/coupled_loop.hpp"
 #include "catch.hpp"
-#include "engines/engine.hpp"
 #include "law/compile.hpp"
-#include "page/coupled_loop.hpp"
+#include "sim/engines/engine.hpp"
 
 namespace feltgate::page {
 namespace {

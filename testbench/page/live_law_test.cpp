@@ -8,11 +8,11 @@
 #include <sstream>
 #include <string>
 
+#include "apps/page/live_loop.hpp"
+#include "apps/page/user_law.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
-#include "page/live_loop.hpp"
-#include "page/user_law.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::page {
 namespace {

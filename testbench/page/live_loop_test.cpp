@@ -3,16 +3,16 @@
 //
 // The loop behind the page: a hand that is led, a host's wall, broken wires, recorded inputs, and
 // designs of users. Documentation: docs/page.md
-#include "page/live_loop.hpp"
+#include "apps/page/live_loop.hpp"
 
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "apps/page/own_design.hpp"
+#include "apps/page/recorded_inputs.hpp"
 #include "catch.hpp"
-#include "page/own_design.hpp"
-#include "page/recorded_inputs.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::page {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <string>
 
+#include "apps/page/pen_loop.hpp"
 #include "catch.hpp"
-#include "engines/engine.hpp"
 #include "feltgate/design_info.hpp"
 #include "law/compile.hpp"
-#include "page/pen_loop.hpp"
-#include "shape/shape_law.hpp"
+#include "sim/engines/engine.hpp"
+#include "studies/shape/shape_law.hpp"
 
 namespace feltgate::page {
 namespace {

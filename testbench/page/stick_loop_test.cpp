@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "apps/page/stick_loop.hpp"
 #include "catch.hpp"
-#include "engines/engine.hpp"
 #include "law/compile.hpp"
-#include "page/stick_loop.hpp"
+#include "sim/engines/engine.hpp"
 
 namespace feltgate::page {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/page/string_loop.hpp"
 #include "catch.hpp"
-#include "engines/engine.hpp"
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
-#include "page/string_loop.hpp"
+#include "sim/engines/engine.hpp"
 
 namespace feltgate::page {
 namespace {

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <string>
 
-#include "axes_loop/axes_scene.hpp"
+#include "apps/page/stylus_loop.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "law/compile.hpp"
-#include "page/stylus_loop.hpp"
+#include "sim/axes_loop/axes_scene.hpp"
 
 namespace feltgate::page {
 namespace {

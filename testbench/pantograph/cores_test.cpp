@@ -10,10 +10,10 @@
 #include "feltgate/largest.hpp"
 #include "image_axes.hpp"
 #include "law_axes.hpp"
-#include "loop/axes_twin.hpp"
 #include "pantograph_fixture.hpp"
-#include "plant/drive.hpp"
-#include "plant/pantograph/two_axis_loop.hpp"
+#include "sim/loop/axes_twin.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/pantograph/two_axis_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "engine/machine.hpp"
 #include "law/compile.hpp"
+#include "law/engine/machine.hpp"
 #include "law/load.hpp"
-#include "loop/axes_twin.hpp"
+#include "sim/loop/axes_twin.hpp"
 
 namespace feltgate::test {
 

@@ -3,9 +3,9 @@
 //
 // Files of linkages: their values and their error messages. docs/pantograph.md
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
+#include "files/toml/toml_reader.hpp"
 #include "pantograph_fixture.hpp"
-#include "plant/plant_table.hpp"
+#include "sim/plant/plant_table.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "../plant/plant_fixture.hpp"
-#include "plant/pantograph/pantograph.hpp"
-#include "plant/pantograph/pantograph_file.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
+#include "sim/plant/pantograph/pantograph_file.hpp"
 
 namespace feltgate::plant {
 

@@ -5,8 +5,8 @@
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/pwm.hpp"
-#include "plant/period_mean.hpp"
 #include "plant_fixture.hpp"
+#include "sim/plant/period_mean.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "catch.hpp"
-#include "plant/hand_file.hpp"
-#include "plant/plant_table.hpp"
 #include "plant_fixture.hpp"
+#include "sim/plant/hand_file.hpp"
+#include "sim/plant/plant_table.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "plant/plant.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/plant/plant.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::plant {
 

@@ -9,8 +9,8 @@
 
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
-#include "plant/period_mean.hpp"
 #include "plant_fixture.hpp"
+#include "sim/plant/period_mean.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -3,7 +3,7 @@
 //
 // The largest stiffness of a plant for its step, and the errors that end a run that cannot be
 // simulated. docs/plant.md
-#include "plant/stiffness.hpp"
+#include "sim/plant/stiffness.hpp"
 #include "feltgate/largest.hpp"
 
 #include <complex>

@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 from testing import ROOT, Scratch, called  # noqa: E402
 import prove  # noqa: E402
 import rtl_sources  # noqa: E402
-from proving import catalog, page, record, tasks, tools, trace, unproven  # noqa: E402
+from proofs import catalog, page, record, tasks, tools, trace, unproven  # noqa: E402
 
 TOML = """
 [[proof]]

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "levers_loop.hpp"
-#include "plant/plant_file.hpp"
-#include "rates/device_joints.hpp"
-#include "rates/margin.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/rates/device_joints.hpp"
+#include "studies/rates/margin.hpp"
 #include "wall_loop.hpp"
 
 using namespace feltgate;

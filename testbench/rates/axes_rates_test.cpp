@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "rates/rates.hpp"
+#include "studies/rates/rates.hpp"
 
 using namespace feltgate;
 using namespace feltgate::rates;

@@ -68,7 +68,7 @@ class Rates(Scratch):
         sets = {name: row["lut4_equivalents"] for name, row in rows.items()}
         page = (ROOT / "docs/rates.md").read_text(encoding="utf-8")
         engine = budget["figures"]["lever"]["axes_engine"]["lut4_equivalents"]
-        files = (ROOT / "model/rates").glob("*.cpp")
+        files = (ROOT / "model/studies/rates").glob("*.cpp")
         source = "".join(path.read_text(encoding="utf-8") for path in files)
         for text, name in (
             ("{} LUT4 eq, both charges", "charge_attract, charge_repel"),

@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Margins against the borders of the stability study and against 2 b / T.
-#include "rates/margin.hpp"
+#include "studies/rates/margin.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "plant/plant_file.hpp"
-#include "stability/mass_loop.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/mass_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::rates;

@@ -2,14 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Errors of scenes at several rates against closed forms.
-#include "rates/rates.hpp"
+#include "studies/rates/rates.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "config/toml_reader.hpp"
-#include "engines/engine.hpp"
-#include "plant/plant_file.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/engines/engine.hpp"
+#include "sim/plant/plant_file.hpp"
 
 using namespace feltgate;
 using namespace feltgate::rates;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Laws at other rates: by the divider, and held for several runs.
-#include "rates/slow_law.hpp"
+#include "studies/rates/slow_law.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

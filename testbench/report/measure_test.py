@@ -7,7 +7,7 @@ import unittest
 
 import bench  # noqa: F401, isort: skip (puts scripts/ on the path)
 import numpy as np
-from reporting import measure, page, plots
+from reports import measure, page, plots
 
 
 class Laws(unittest.TestCase):

@@ -16,7 +16,7 @@ from unittest import mock
 from bench import SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
 import numpy as np
 from markup import Markup
-from reporting import (
+from reports import (
     axes_card,
     card,
     demo_page,
@@ -30,8 +30,8 @@ from reporting import (
     sentences,
     time_chart,
 )
-from reporting.growing import Growing
-from reporting.runs import Job, Run, read_csv
+from reports.growing import Growing
+from reports.runs import Job, Run, read_csv
 
 HOSTILE = '"><img src=x onerror=alert(1)></script><script>alert(2)</script><!--<script>'
 
@@ -132,7 +132,7 @@ class Cards(Recorded):
         self.assertRegex(pushes["hand"], r"^M-12 0H-\d")  # against it
 
     def test_arrows_of_page_and_script_are_alike(self):
-        script = (SCRIPTS / "reporting" / "lever.js").read_text()
+        script = (SCRIPTS / "reports" / "lever.js").read_text()
         self.assertIn(f"const ARROW = {lever.ARROW};", script)
         self.assertEqual(lever.arrow(0.5, 0.5), "M12 0H76.0M67.0 -6L76.0 0L67.0 6")
         self.assertEqual(lever.arrow(-9.0, 0.5), lever.arrow(-0.7, 0.5))

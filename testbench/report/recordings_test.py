@@ -7,8 +7,8 @@ import unittest
 import zipfile
 
 from bench import Bench  # isort: skip (puts scripts/ on the path)
-from reporting import recordings
-from reporting.runs import Run
+from reports import recordings
+from reports.runs import Run
 
 METADATA = "[global]\nsigrok version=0.5\n[device 1]\nsamplerate={}\ntotal probes=4\nunitsize=1\n"
 

@@ -20,7 +20,7 @@ import numpy as np
 from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
 import demo
 from markup import Markup, width_px
-from reporting import glossary, plots, run_pictures
+from reports import glossary, plots, run_pictures
 
 
 class Report(Bench):

@@ -12,8 +12,8 @@ from unittest import mock
 
 from bench import Bench  # isort: skip (puts scripts/ on the path)
 from building import Beside, BuildError
-from reporting import runs
-from reporting.progress import Progress
+from reports import runs
+from reports.progress import Progress
 
 
 class Csv(Bench):

@@ -10,7 +10,7 @@ from pathlib import Path
 from unittest import mock
 
 import bench  # noqa: F401, isort: skip (puts scripts/ on the path)
-from reporting import stability_plots, stability_section
+from reports import stability_plots, stability_section
 
 
 def border(rate, damping, stiffness, bits):

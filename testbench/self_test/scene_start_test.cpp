@@ -9,9 +9,9 @@
 #include <string>
 
 #include "catch.hpp"
-#include "loop/loop.hpp"
 #include "mismatch.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/loop/loop.hpp"
+#include "sim/plant/plant_file.hpp"
 
 using namespace feltgate;
 

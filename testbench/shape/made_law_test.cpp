@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The exit code of commands that make a law. Documentation: docs/devices/shapes.md
-#include "tools/made_law.hpp"
+#include "apps/commands/made_law.hpp"
 
 #include "catch.hpp"
 

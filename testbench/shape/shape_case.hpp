@@ -8,8 +8,8 @@
 
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
-#include "shape/felt.hpp"
-#include "shape/shape_law.hpp"
+#include "studies/shape/pen_force.hpp"
+#include "studies/shape/shape_law.hpp"
 
 namespace feltgate::shape {
 

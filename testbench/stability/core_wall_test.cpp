@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "loop/loop.hpp"
-#include "plant/plant_file.hpp"
-#include "stability/bit_loop.hpp"
+#include "sim/loop/loop.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/bit_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::stability;

@@ -3,15 +3,15 @@
 //
 // A design for a plant: which constants differ, the design that has the plant's, its checks.
 // Documentation: docs/designs.md
-#include "stability/for_plant.hpp"
+#include "studies/stability/for_plant.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "catch.hpp"
-#include "config/toml_reader.hpp"
-#include "plant/plant_file.hpp"
-#include "stability/loop_poles.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/loop_poles.hpp"
 
 namespace {
 

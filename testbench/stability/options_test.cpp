@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "plant/plant_file.hpp"
-#include "stability/study.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/study.hpp"
 
 using namespace feltgate;
 using namespace feltgate::stability;

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "../design/design_fixture.hpp"
-#include "plant/plant_file.hpp"
-#include "stability/loop_poles.hpp"
-#include "stability/winding.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/loop_poles.hpp"
+#include "studies/stability/winding.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;

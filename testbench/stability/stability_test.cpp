@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "plant/plant_file.hpp"
-#include "stability/report.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/report.hpp"
 
 using namespace feltgate;
 using namespace feltgate::stability;

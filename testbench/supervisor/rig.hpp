@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "feltgate/device.hpp"
-#include "plant/drive.hpp"
-#include "plant/plant.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/plant.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::test {
 

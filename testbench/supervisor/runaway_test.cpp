@@ -17,12 +17,12 @@
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
-#include "loop/loop.hpp"
-#include "loop/replay.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
 #include "rig.hpp"
-#include "traces/open.hpp"
+#include "sim/loop/loop.hpp"
+#include "sim/loop/replay.hpp"
+#include "sim/traces/open.hpp"
 #include "watchers.hpp"
 
 namespace {

@@ -9,8 +9,8 @@
 
 #include "bus.hpp"
 #include "catch.hpp"
-#include "engines/rtl_model.hpp"
 #include "mismatch.hpp"
+#include "sim/engines/rtl_model.hpp"
 
 using namespace feltgate::test;
 using feltgate::Fault;

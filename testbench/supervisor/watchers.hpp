@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "catch.hpp"
-#include "loop/loop.hpp"
 #include "rig.hpp"
+#include "sim/loop/loop.hpp"
 
 namespace feltgate::test {
 

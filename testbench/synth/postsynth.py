@@ -17,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 import synth_board  # noqa: E402
 import synth_measure  # noqa: E402
-from seeding import patches  # noqa: E402
+from seeded_defects import patches  # noqa: E402
 from synth_tools import ToolError, Tools  # noqa: E402
 
 CLOCKS = ("clk_i", "rst_ni", "clk_25mhz")

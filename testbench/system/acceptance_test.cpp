@@ -8,8 +8,8 @@
 #include <string>
 
 #include "catch.hpp"
-#include "loop/loop.hpp"
-#include "plant/plant_file.hpp"
+#include "sim/loop/loop.hpp"
+#include "sim/plant/plant_file.hpp"
 
 namespace {
 

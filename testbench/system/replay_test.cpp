@@ -13,11 +13,11 @@
 #include <utility>
 
 #include "catch.hpp"
-#include "loop/replay.hpp"
 #include "mismatch.hpp"
-#include "traces/open.hpp"
-#include "traces/statistics.hpp"
-#include "traces/synthetic.hpp"
+#include "sim/loop/replay.hpp"
+#include "sim/traces/open.hpp"
+#include "sim/traces/statistics.hpp"
+#include "sim/traces/synthetic.hpp"
 
 namespace {
 

@@ -10,10 +10,10 @@
 #include <set>
 
 #include "catch.hpp"
-#include "engines/fnv1a.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
+#include "sim/engines/fnv1a.hpp"
 
 namespace feltgate::test {
 

@@ -16,11 +16,11 @@
 #include <systemc>
 
 #include "feltgate/generated/lever.hpp"
-#include "plant/drive.hpp"
-#include "plant/plant_file.hpp"
-#include "plant/pushing_hand.hpp"
-#include "systemc/motor_module.hpp"
-#include "systemc/twin_module.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "sim/plant/pushing_hand.hpp"
+#include "sim/systemc/motor_module.hpp"
+#include "sim/systemc/twin_module.hpp"
 
 using namespace feltgate;
 

@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 #include "law/read_law.hpp"
-#include "shape/felt.hpp"
+#include "studies/shape/pen_force.hpp"
 #include "texture_case.hpp"
 
 using namespace feltgate;

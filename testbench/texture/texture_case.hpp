@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "law/compile.hpp"
-#include "texture/felt.hpp"
-#include "texture/texture_law.hpp"
+#include "studies/texture/texture_force.hpp"
+#include "studies/texture/texture_law.hpp"
 
 namespace feltgate::texture {
 

@@ -5,8 +5,8 @@
 // TraceError or a clean read for any damage at all. Documentation: docs/traces.md
 #include "catch.hpp"
 #include "recording_files.hpp"
-#include "traces/place.hpp"
-#include "traces/vector_file.hpp"
+#include "sim/traces/place.hpp"
+#include "sim/traces/vector_file.hpp"
 
 using namespace feltgate;
 using namespace feltgate::traces;

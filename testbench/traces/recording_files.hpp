@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "traces/open.hpp"
+#include "sim/traces/open.hpp"
 
 namespace feltgate::traces::test {
 

@@ -12,7 +12,7 @@
 
 #include "catch.hpp"
 #include "recording_files.hpp"
-#include "traces/statistics.hpp"
+#include "sim/traces/statistics.hpp"
 
 using namespace feltgate;
 using namespace feltgate::traces;

@@ -9,9 +9,9 @@
 
 #include "catch.hpp"
 #include "recording_files.hpp"
-#include "traces/compose.hpp"
-#include "traces/phase.hpp"
-#include "traces/statistics.hpp"
+#include "sim/traces/compose.hpp"
+#include "sim/traces/phase.hpp"
+#include "sim/traces/statistics.hpp"
 
 using namespace feltgate;
 using namespace feltgate::traces;

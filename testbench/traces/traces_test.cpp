@@ -8,10 +8,10 @@
 #include "catch.hpp"
 #include "files/output_file.hpp"
 #include "recording_files.hpp"
-#include "traces/place.hpp"
-#include "traces/statistics.hpp"
-#include "traces/text.hpp"
-#include "traces/vector_file.hpp"
+#include "sim/traces/place.hpp"
+#include "sim/traces/statistics.hpp"
+#include "sim/traces/text.hpp"
+#include "sim/traces/vector_file.hpp"
 
 using namespace feltgate;
 using namespace feltgate::traces;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "axes_loop/axes_run.hpp"
-#include "shape/rhombus.hpp"
+#include "sim/axes_loop/axes_run.hpp"
+#include "studies/shape/rhombus.hpp"
 
 namespace feltgate::test {
 

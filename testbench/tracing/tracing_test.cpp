@@ -55,7 +55,7 @@ Confusion lives(const Guesser& guesser, Traces& traces, const Cues& cues, const 
 }
 
 std::string paging_script(const std::string& name) {
-  std::ifstream in(FELTGATE_SOURCE_DIR "/scripts/paging/" + name);
+  std::ifstream in(FELTGATE_SOURCE_DIR "/scripts/web_page/" + name);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -8,9 +8,9 @@
 #include "Vmembrane_only.h"
 #include "catch.hpp"
 #include "core_stimulus.hpp"
-#include "engines/make_engines.hpp"
 #include "membrane_only.hpp"
 #include "mismatch.hpp"
+#include "sim/engines/make_engines.hpp"
 
 using namespace feltgate;
 using D = MembraneOnly;

@@ -3,7 +3,7 @@
 //
 // Trim: off means not computed, the trimmed set holds on motions nobody searched on, a set that is
 // too loose is refused. Documentation: docs/trim.md
-#include "trim/trim.hpp"
+#include "studies/trim/trim.hpp"
 #include "feltgate/largest.hpp"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 #include <fstream>
 
 #include "catch.hpp"
-#include "plant/plant_file.hpp"
-#include "trim/motions.hpp"
-#include "trim/scene_file.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/trim/motions.hpp"
+#include "studies/trim/scene_file.hpp"
 
 using namespace feltgate;
 

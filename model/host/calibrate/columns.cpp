@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "host/calibrate/regression.hpp"
-#include "traces/text.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::host {
 

@@ -3,7 +3,7 @@
 //
 // Mutants that are compiled once and chosen at run time: `a + b` of a header becomes
 // feltgate_mutant::plus<17>(a, b), which is a - b in mutant 17. Constants stay as they are.
-// Written into headers by scripts/mutating/twin_source.py. Documentation: docs/verification.md
+// Written into headers by scripts/mutation/twin_source.py. Documentation: docs/verification.md
 #pragma once
 
 #include <type_traits>

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate bench, a program of its own because it links SystemC. Documentation: docs/bench.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "feltgate/largest.hpp"
+#include "files/output_file.hpp"
+#include "studies/bench/report.hpp"
+#include "studies/bench/work_bounds.hpp"
+
+namespace {
+
+using namespace feltgate;
+
+struct Arguments {
+  std::string json;
+  std::vector<std::string> engines = bench::runner_names();
+  std::vector<std::string> scenes;
+  int repetitions = 0;
+  bool quick = false, quiet = false;
+};
+
+/// The largest bounds over all works.
+bench::ErrorLimits bounds_of(const std::vector<bench::Work>& works) {
+  const auto e = elaborate(design::read_design(repository() + "/rtl/designs/lever.toml"),
+                           design::read_registers(repository() + "/rtl/registers.toml"));
+  bench::ErrorLimits worst;
+  for (const bench::Work& work : works) {
+    const bounds::ErrorBounds b = bench::work_bounds(e, work);
+    worst.velocity_rad_s = larger(worst.velocity_rad_s, b.velocity_rad_s.against_reference);
+    worst.tau_hat_nm = larger(worst.tau_hat_nm, b.tau_hat_nm.against_reference);
+    worst.torque_nm = larger(worst.torque_nm, b.torque_nm.against_reference);
+  }
+  return worst;
+}
+
+int run(const Arguments& a) {
+  std::vector<std::string> scenes = a.scenes;
+  if (scenes.empty()) {
+    scenes = a.quick ? std::vector<std::string>{"torque_step_cord"}
+                     : std::vector<std::string>{"torque_step_cord", "damper", "wall"};
+  }
+  // The output is opened before the run: an unwritable name must not waste the run.
+  files::Outputs outputs;
+  files::OutputFile* json = outputs.open("--json", a.json);
+  std::vector<std::unique_ptr<bench::Runner>> runners;
+  for (const std::string& name : a.engines) runners.push_back(bench::make_runner(name));
+
+  std::vector<bench::Scene> closed_loops;
+  std::vector<bench::Work> works;
+  for (const std::string& name : scenes) {
+    closed_loops.push_back(bench::read_scene(repository(), name));
+    works.push_back(bench::record_scene(closed_loops.back(), "lever"));
+  }
+  works.push_back(bench::slow_small_signals("lever", a.quick ? 0.05 : 0.3));
+
+  bench::Options options;
+  options.laws = repository() + "/rtl/laws";
+  options.repetitions = a.repetitions > 0 ? a.repetitions : a.quick ? 1 : 3;
+  Progress progress("bench", a.quiet);
+  options.progress = [&progress](double done) { progress.update(done); };
+  bench::Result result = bench::measure(runners, works, closed_loops, options);
+  result.bounds = bounds_of(works);
+  const bench::Circumstances c = bench::circumstances();
+  if (json != nullptr) json->write(bench::json(result, works, c));
+  if (!a.quiet) outputs.say(bench::text(result, works, c));
+  outputs.commit();
+  if (result.divergence.empty()) return exit_ok;
+  fmt::print(stderr, "feltgate: integer engines differ: {}\n", result.divergence);
+  return exit_failed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"feltgate bench: the same scenes through every engine, time against error"};
+  app.name("feltgate bench");
+  app.footer(
+      "Scenes run once in closed loop; what reached the core is recorded and then given to every\n"
+      "engine. Errors are against 113 bits on the same counts. Times are CPU time, in interleaved\n"
+      "repetitions: median and ends. Engines:\n"
+      "  rtl         the Verilated RTL, every pin in every clock\n"
+      "  twin_clock  the C++ twin, every pin in every clock\n"
+      "  twin_event  the same from event to event\n"
+      "  twin_tick   the twin's arithmetic alone, a tick at a time\n"
+      "  double, float, quad   the same laws in binary64, binary32 and binary128\n"
+      "  sc_fixed    the same laws in SystemC's fixed point\n"
+      "  shifts      the same chain written by hand in 64-bit integers\n"
+      "Examples:\n"
+      "  feltgate bench                        a few minutes\n"
+      "  feltgate bench --quick                half a minute; rougher\n"
+      "  feltgate bench --json bench.json      for programs; docs/bench.md has the keys\n"
+      "  feltgate bench --engine rtl,twin_event --scene membrane\n"
+      "A missed goal is printed and is no error. Exit code: 0 the integer engines agree, 1 they "
+      "do\n"
+      "not, 2 unusable input.");
+  Arguments a;
+  app.add_option("--json", a.json, "figures as JSON, schema feltgate-bench/1")->type_name("FILE");
+  app.add_option("--engine", a.engines, "only these; errors need quad")
+      ->type_name("ENGINES")
+      ->delimiter(',');
+  old_spelling(&app, "--engines", a.engines, CLI::Validator())->delimiter(',');
+  app.add_option("--scene", a.scenes,
+                 "names in vectors/scenes instead of torque_step_cord, damper, wall")
+      ->type_name("SCENES")
+      ->delimiter(',');
+  old_spelling(&app, "--scenes", a.scenes, CLI::Validator())->delimiter(',');
+  app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
+      ->check(checks::whole(1, 1000));
+  app.add_flag("--quick", a.quick, "one short scene");
+  app.add_flag("--quiet", a.quiet, "print nothing");
+  int exit_code = exit_ok;
+  app.callback([&] { exit_code = run(a); });
+  return run_command_line(app, argc, argv, exit_code);
+}

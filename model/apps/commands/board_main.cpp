@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate board: a board without hardware. Documentation: docs/board.md
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "design/design.hpp"
+#include "files/output_file.hpp"
+#include "host/board/serve.hpp"
+#include "sim/engines/engine.hpp"
+#include "sim/plant/plant_file.hpp"
+
+namespace {
+
+using namespace feltgate;
+using namespace feltgate::board;
+
+std::atomic<bool> ended{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+extern "C" void note_end(int) { ended = true; }
+
+struct Arguments {
+  Setup setup;
+  bool rtl = false, twin = false, unpaced = false;
+  std::string link, record, replay;
+  double for_s = 0;
+};
+
+std::unique_ptr<Board> make_board(const Setup& setup, const std::string& kind) {
+  BoardOptions options;
+  options.baud = setup.baud;
+  auto core = make_core(setup.design, kind, options);
+  return std::make_unique<Board>(std::move(core),
+                                 plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
+                                 hand_named(setup.hand, repository() + "/vectors/scenes"), setup);
+}
+
+std::string pace_text(const Board& board, const Pace& p) {
+  return fmt::format(
+      "{}: simulated {:.2f} s in {:.2f} s, {:.2f} x real time where it need not wait{}",
+      board.core().kind(), p.simulated_s, p.wall_s, p.factor(),
+      p.real_time() ? "" : "; slower than real time here");
+}
+
+std::string outcome_text(const Outcome& o) {
+  return fmt::format("{} ticks {:016x}, sent {} bytes {:016x}", o.ticks, o.tick_sum, o.bytes,
+                     o.byte_sum);
+}
+
+void say(const std::string& text) {
+  std::fputs((text + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
+int run_replay(const Arguments& a, const std::string& kind) {
+  const Recording recording = read_recording(a.replay);
+  auto board = make_board(recording.setup, kind);
+  Progress progress("replay " + a.replay, false);
+  const Pace pace = board::replay(
+      *board, recording, [] { return !ended; }, [&](double done) { progress.update(done); });
+  progress.finish();
+  if (ended) return exit_signal + SIGINT;
+  const Outcome outcome = board->outcome();
+  say(outcome_text(outcome));
+  say(pace_text(*board, pace));
+  if (outcome == recording.outcome) {
+    say("identical to the recording");
+    return exit_ok;
+  }
+  say("DIFFERS from the recording: " + outcome_text(recording.outcome));
+  return exit_failed;
+}
+
+int run_board(const Arguments& a, const std::string& kind) {
+  auto board = make_board(a.setup, kind);
+  files::Outputs outputs;
+  files::OutputFile* record = outputs.open("--record", a.record);
+  std::optional<RecordingWriter> writer;
+  if (record != nullptr) writer.emplace(record->handle(), a.setup);
+  PseudoTerminal terminal(a.link);
+  say(a.link.empty() ? terminal.name() : a.link + " -> " + terminal.name());
+  const bool tty = isatty(STDERR_FILENO) == 1;
+  ServeOptions o;
+  o.for_s = a.for_s;
+  o.paced = !a.unpaced;
+  if (writer) o.record = &*writer;
+  o.go_on = [] { return !ended; };
+  if (tty) {
+    o.tell = [&](const Pace& p) {
+      std::fputs(
+          fmt::format("\r\033[K{} SIMULATED, {:.1f} s, {}, {}", board->core().kind(), p.simulated_s,
+                      p.real_time() ? "in real time"
+                                    : fmt::format("{:.3g} x real time", p.simulated_s / p.wall_s),
+                      terminal.connected() ? "host connected" : "no host")
+              .c_str(),
+          stderr);
+      std::fflush(stderr);
+    };
+  }
+  const Pace pace = serve(*board, terminal, o);
+  if (tty) std::fputs("\r\033[K", stderr);
+  say(outcome_text(board->outcome()));
+  say(pace_text(*board, pace));
+  if (writer) writer->finish(board->outcome());
+  outputs.commit();
+  return exit_ok;
+}
+
+int run(const Arguments& a) {
+  if (a.rtl && a.twin) throw std::invalid_argument("--rtl and --twin: give one of them");
+  if (!a.replay.empty() && !(a.record.empty() && a.link.empty())) {
+    throw std::invalid_argument(
+        "--replay has no line and records nothing; leave --record and "
+        "--link out");
+  }
+  struct sigaction end {};
+  end.sa_handler = note_end;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &end, nullptr);
+  const std::string kind = a.rtl ? "rtl" : "twin";
+  return a.replay.empty() ? run_board(a, kind) : run_replay(a, kind);
+}
+
+/// A board is a core with a link: of a device with several axes there is none.
+void require_one_axis(const std::string& design) {
+  const std::filesystem::path file =
+      std::filesystem::path(repository()) / "rtl/designs" / (design + ".toml");
+  if (!std::filesystem::exists(file)) return;
+  const int axes = design::read_design(file.string()).axes;
+  if (axes == 1) return;
+  throw std::invalid_argument(
+      fmt::format("--design {}: has {} axes, and a board has one; choose "
+                  "one of {}",
+                  design, axes, fmt::join(design_names(), ", ")));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"feltgate board: a board without hardware, behind a pseudo-terminal"};
+  app.name("feltgate board");
+  app.footer(
+      "Prints the name of a terminal; behind it are the UART's pins, link, core, bridge, motor,\n"
+      "lever and hand. A host cannot tell it from a board, except by the bit `simulated` of its\n"
+      "features.\n"
+      "  feltgate board                              then, in another window,\n"
+      "  feltgate host /dev/pts/7 info               with the name that was printed\n"
+      "  feltgate board --link /tmp/lever --hand swing --scene wall --arm\n"
+      "  feltgate board --rtl                        the RTL by Verilator, slower than real time\n"
+      "  feltgate board --record day.board           and again:  feltgate board --replay "
+      "day.board\n"
+      "  feltgate board --for 5 --unpaced            how fast it can go\n"
+      "Ctrl-C ends it. Exit code: 0 all well, 1 a replay differs, 2 unusable input.\n"
+      "docs/board.md teaches.");
+  Arguments a;
+  app.add_flag("--twin", a.twin, "the bit-exact twin; the default");
+  app.add_flag("--rtl", a.rtl,
+               "the RTL of core and link, compiled by Verilator; of the design lever, at 1 Mbaud");
+  app.add_option("--design", a.setup.design, "design that was built in, by its name in rtl/designs")
+      ->capture_default_str()
+      ->type_name("DESIGN");
+  app.add_option("--plant", a.setup.plant, "motor and lever: a name in vectors/plants or a path")
+      ->capture_default_str()
+      ->type_name("PLANT");
+  app.add_option(
+         "--hand", a.setup.hand,
+         "who holds the lever: free, locked, hold, swing, or a scene file whose [hand] it is")
+      ->capture_default_str()
+      ->type_name("HAND");
+  app.add_option("--scene", a.setup.scene, "what the panel's switches choose")
+      ->capture_default_str()
+      ->type_name("SCENE");
+  app.add_flag("--arm", a.setup.arm, "the panel's arm switch goes on after 10 ms");
+  app.add_option("--baud", a.setup.baud, "bits per second on the wire")
+      ->capture_default_str()
+      ->type_name("BAUD")
+      ->check(checks::whole(9600, 3'000'000));
+  app.add_option("--bad-line", a.setup.bad_line,
+                 "share of bytes that the line loses, doubles or turns a bit of, each way")
+      ->type_name("SHARE")
+      ->check(checks::number(0, 1, ""));
+  app.add_option("--seed", a.setup.seed, "of the bad line")
+      ->type_name("SEED")
+      ->capture_default_str()
+      ->check(checks::seed());
+  app.add_option("--link", a.link, "a symbolic link to the terminal while the board runs")
+      ->type_name("NAME");
+  app.add_option("--for", a.for_s, "end after so much simulated time; else Ctrl-C ends it")
+      ->type_name("SECONDS")
+      ->transform(checks::seconds());
+  app.add_flag("--unpaced", a.unpaced, "do not wait for the clock on the wall");
+  app.add_option("--record", a.record, "write all that came, with its clock, to this file")
+      ->type_name("FILE");
+  app.add_option("--replay", a.replay,
+                 "run a recording again, without a terminal: the ticks must be the same")
+      ->type_name("FILE");
+  int exit_code = exit_ok;
+  app.callback([&] {
+    if (a.replay.empty() && !has_design(a.setup.design)) {
+      require_one_axis(a.setup.design);
+      a.setup.design = built_design(a.setup.design);
+    }
+    exit_code = run(a);
+  });
+  return run_command_line(app, argc, argv, exit_code);
+}

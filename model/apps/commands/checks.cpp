@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Validators of the command line. They check the text itself, before a conversion can wrap a
+// number. Documentation: README.md
+#include "apps/commands/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "law/amount.hpp"
+
+namespace feltgate::checks {
+
+namespace {
+
+/// Converts the whole text to a number; false if it is not a number.
+template <class Number>
+bool parse(const std::string& text, Number* value) {
+  const char* end = text.data() + text.size();
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  const auto [stopped, error] = std::from_chars(begin, end, *value);
+  return error == std::errc() && stopped == end && begin != end;
+}
+
+bool has_unit(const std::string& text) {
+  try {
+    return !law::read_amount(text, "").unit.empty();
+  } catch (const std::invalid_argument&) {
+    return false;  // no number at all
+  }
+}
+
+/// `kind` and `range` form the message; the help shows only the range. A number with another unit
+/// is converted to `unit`.
+template <class Number>
+CLI::Validator accepts(const std::string& kind, const std::string& range,
+                       std::function<bool(Number)> good, const std::string& unit = "") {
+  const auto check = [kind, range, good, unit](std::string& text) {
+    const std::string given = text;
+    if (!unit.empty() && has_unit(text)) {
+      try {
+        text = fmt::format("{:.17g}", law::amount_in(text, unit));
+      } catch (const std::invalid_argument& error) {
+        return std::string(error.what());
+      }
+    }
+    Number value{};
+    if (parse(text, &value) && good(value)) return std::string();
+    return fmt::format("{} is not a {} {}", given, kind, range);
+  };
+  return CLI::Validator(check, range);
+}
+
+std::string with_unit(const std::string& range, const std::string& unit) {
+  return unit.empty() ? range : range + " " + unit;
+}
+
+}  // namespace
+
+CLI::Validator number(double min, double max, const std::string& unit) {
+  return accepts<double>(
+      "number", with_unit(fmt::format("from {:g} to {:.12g}", min, max), unit),
+      [min, max](double v) { return v >= min && v <= max; }, unit);
+}
+
+CLI::Validator positive(double max, const std::string& unit) {
+  return accepts<double>(
+      "number", with_unit(fmt::format("above 0, to {:.12g}", max), unit),
+      [max](double v) { return v > 0 && v <= max; }, unit);
+}
+
+CLI::Validator whole(std::int64_t min, std::int64_t max) {
+  return accepts<std::int64_t>("whole number", fmt::format("from {} to {}", min, max),
+                               [min, max](std::int64_t v) { return v >= min && v <= max; });
+}
+
+CLI::Validator seed() {
+  auto check = accepts<std::uint64_t>("whole number", "from 0 to 18446744073709551615",
+                                      [](std::uint64_t) { return true; });
+  return check.description("");
+}
+
+CLI::Validator seconds() { return positive(100'000, "s"); }
+
+}  // namespace feltgate::checks

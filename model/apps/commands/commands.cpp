@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Shared functions of the subcommands: paths of files, progress. Documentation: README.md
+#include "apps/commands/commands.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+#include "design/design.hpp"
+#include "files/program.hpp"
+#include "files/toml/nearest.hpp"
+#include "sim/engines/axes_cores.hpp"
+#include "sim/engines/engine.hpp"
+
+namespace fs = std::filesystem;
+
+namespace feltgate {
+
+namespace {
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool is_path(const std::string& name) {
+  return name.find('/') != std::string::npos || fs::path(name).extension() == ".toml";
+}
+
+void refuse_folder(const std::string& name, const std::string& names) {
+  std::error_code ignored;
+  if (fs::is_directory(name, ignored)) {
+    throw std::invalid_argument(
+        fmt::format("{}: is a folder; give a file in it, or a name in {}", name, names));
+  }
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Names of the TOML files in a folder of the repository.
+std::set<std::string> names_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / folder)) {
+    if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+  }
+  return names;
+}
+
+/// The mend for a path that does not exist.
+std::string near_path(const std::string& path, const std::string& folder) {
+  const std::set<std::string> names = names_in(folder);
+  const std::string name = config::nearest(fs::path(path).stem().string(), names);
+  return name.empty() ? "check the path"
+                      : fmt::format("did you mean {}, which is in {}?", name, folder);
+}
+
+/// The command that starts one of the scripts.
+std::vector<std::string> script_words(const std::string& name,
+                                      const std::vector<std::string>& words) {
+  const char* python = std::getenv("FELTGATE_PYTHON");
+  std::vector<std::string> all{python != nullptr ? python : "python3",
+                               (fs::path(repository()) / "scripts" / name).string()};
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+}  // namespace
+
+int run_script(const std::string& name, const std::vector<std::string>& words, std::FILE* out) {
+  std::fflush(out);
+  return files::run_program(script_words(name, words), fileno(out));
+}
+
+std::string repository() {
+  const char* root = std::getenv("FELTGATE_ROOT");
+  return root != nullptr ? root : FELTGATE_SOURCE_DIR;
+}
+
+std::string find_file(const std::string& name, const std::string& folder) {
+  if (is_path(name)) {
+    std::error_code error;
+    const fs::file_status status = fs::status(name, error);
+    refuse_folder(name, folder);
+    if (!fs::exists(status)) {
+      throw std::invalid_argument(
+          fmt::format("{}: there is no such file; {}", name, near_path(name, folder)));
+    }
+    return name;
+  }
+  const fs::path path = fs::path(repository()) / folder / (name + ".toml");
+  if (fs::exists(path)) return path.string();
+  const std::set<std::string> names = names_in(folder);
+  throw std::invalid_argument(
+      fmt::format("\"{}\" is not in {}; {}choose one of {}, or give the path of a file", name,
+                  folder, config::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+std::string find_law(const std::string& name) {
+  const bool path_like = name.find_first_not_of('.') == std::string::npos || is_path(name);
+  if (path_like) refuse_folder(name, "rtl/laws");
+  if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
+  const fs::path folder = fs::path(repository()) / "rtl/laws", path = folder / (name + ".law");
+  if (fs::exists(path)) return path.string();
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".law") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  throw std::invalid_argument(
+      fmt::format("\"{}\" is not in rtl/laws; {}choose one of {}, or give the path of a file", name,
+                  config::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+design::Elaborated elaborated_design(const std::string& name) {
+  return design::elaborate(design::read_design(find_file(name, "rtl/designs")),
+                           design::read_registers(repository() + "/rtl/registers.toml"));
+}
+
+std::string built_design(const std::string& given) {
+  const std::vector<std::string> built = design_names();
+  if (std::find(built.begin(), built.end(), given) != built.end()) return given;
+  const std::set<std::string> names = names_in("rtl/designs");
+  if (!is_path(given)) {
+    if (find_axes_design(given) != nullptr) return given;
+    if (names.count(given) > 0) {
+      (void)design_named(given);  // a preset: this program has it, or that says how it is built
+      return given;
+    }
+    throw std::invalid_argument(fmt::format("design \"{}\" is unknown; {}choose one of {}", given,
+                                            config::did_you_mean(given, names),
+                                            fmt::join(names, ", ")));
+  }
+  const std::string file = find_file(given, "rtl/designs");
+  const std::string name = design::read_design(file).name;
+  const fs::path ours = fs::path(repository()) / "rtl/designs" / (name + ".toml");
+  const bool known = std::find(built.begin(), built.end(), name) != built.end();
+  if (known && text_of(file) == text_of(ours)) return name;
+  throw std::invalid_argument(
+      fmt::format("{}: a design runs once it is built in; copy it to rtl/designs/{}.toml{}, run "
+                  "`./feltgate generate`, then give --design {}",
+                  given, name, known ? " under a name of its own" : "", name));
+}
+
+Progress::Progress(std::string label, bool quiet)
+    : label_(std::move(label)), on_(!quiet && isatty(STDERR_FILENO) == 1), start_s_(now_s()) {}
+
+Progress::~Progress() { finish(); }
+
+void Progress::finish() {
+  if (on_ && last_s_ > 0) std::fputs("\r\033[K", stderr);
+  on_ = false;
+}
+
+void Progress::update(double done) {
+  const double now = now_s();
+  if (!on_ || now - last_s_ < 0.1) return;
+  last_s_ = now;
+  const double spent = now - start_s_;
+  const double left = done > 0 ? spent * (1 - done) / done : 0;
+  std::fputs(fmt::format("\r\033[K{}: {:3.0f} %, {:.0f} s left", label_, 100 * done, left).c_str(),
+             stderr);
+  std::fflush(stderr);
+}
+
+void add_scripts(CLI::App& app, int* exit_code) {
+  const struct {
+    const char* name;
+    const char* about;
+  } scripts[] = {{"demo", "the main job: every scene and recording, one HTML report"},
+                 {"figures", "the paper's figures redrawn from the RTL"},
+                 {"explore", "sweeps over designs, their Pareto front as a page"},
+                 {"synth", "area and speed of the RTL on ECP5 and Cyclone IV E"}};
+  for (const auto& s : scripts) {
+    CLI::App* sub = app.add_subcommand(s.name, s.about);
+    sub->set_help_flag();  // the script's own --help is the one to read
+    sub->prefix_command();
+    const std::string script = std::string(s.name) + ".py";
+    sub->callback([sub, script, exit_code] {
+      setenv("FELTGATE_PROGRAM", fs::read_symlink("/proc/self/exe").c_str(), 1);
+      setenv("FELTGATE_ROOT", repository().c_str(), 1);
+      *exit_code = exit_unusable;  // unless this process becomes the script
+      files::become_program(script_words(script, sub->remaining()));
+    });
+  }
+}
+
+}  // namespace feltgate

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate_generate ROOT [--check]: writes everything that follows from rtl/registers.toml and
+// rtl/designs/*.toml; with --check it only compares and fails on a stale file. With --design FILE
+// --output DIR it writes what follows from one design, anywhere. Documentation: docs/designs.md
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <system_error>
+
+#include "design/engine_map.hpp"
+#include "design/generate.hpp"
+#include "design/host_words.hpp"
+#include "design/schedule.hpp"
+#include "files/toml/toml_reader.hpp"
+
+namespace fs = std::filesystem;
+using feltgate::config::ConfigError;
+
+namespace {
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw ConfigError(
+      fmt::format("{}: cannot be written ({}); give a folder in which files can be made",
+                  path.string(), reason));
+}
+
+/// Writes `text` if the file differs; in check mode only reports. Returns whether it was stale.
+bool update(const fs::path& path, const std::string& text, bool check_only) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string old{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (in && old == text) return false;
+  if (check_only) {
+    std::cerr << path.string() << ": stale; run `feltgate generate` and commit the result\n";
+    return true;
+  }
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) refuse(path.parent_path(), error.message());
+  std::ofstream out(path, std::ios::binary);
+  out << text << std::flush;
+  if (!out) refuse(path, std::generic_category().message(errno));
+  std::cout << "wrote " << path.string() << "\n";
+  return true;
+}
+
+/// Writes the files of a design for hosts and other tools. Returns whether a file was stale.
+bool update_host_files(const fs::path& folder, const feltgate::design::Elaborated& e,
+                       bool check_only) {
+  bool stale = update(folder / "feltgate.h", c_header(e), check_only);
+  stale |= update(folder / "feltgate.rdl", system_rdl(e), check_only);
+  stale |= update(folder / "csr.csv", csr_csv(e), check_only);
+  return stale;
+}
+
+}  // namespace
+
+constexpr const char* usage =
+    "usage: feltgate generate [--check]\n"
+    "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
+    "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
+    "packages in\n"
+    "rtl/generated, beside each the register map as C header, SystemRDL and CSV, the C++ headers\n"
+    "in model/include/feltgate/generated, and docs/registers.md.\n"
+    "--check only compares; exit code 1 when a file is stale.\n"
+    "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
+    "DIR/parameters.mem,\n"
+    "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
+    "a line per parameter: name, address, integer, exact value; and the register map for hosts:\n"
+    "DIR/feltgate.h (C), DIR/feltgate.rdl (SystemRDL), DIR/csr.csv (as of LiteX). --allow-coarse "
+    "lets a resolution "
+    "pass that\n"
+    "is coarser than a design for use must have; what cannot work is refused all the same.\n"
+    "  feltgate generate                                        after a change in rtl/designs\n"
+    "  feltgate generate --design my_design.toml -o out          one design anywhere\n"
+    "Exit code: 0 fine, 1 a file is stale, 2 a design or option that cannot be used.\n";
+
+struct Options {
+  fs::path root, design, output;
+  bool check_only = false, allow_coarse = false, help = false;
+};
+
+/// Reads the arguments; false if they are invalid.
+bool parse(int argc, char** argv, Options* o) {
+  if (argc < 2) return false;
+  o->root = argv[1];
+  for (int i = 2; i < argc; ++i) {
+    const std::string option = argv[i];
+    if (option == "--help" || option == "-h") {
+      o->help = true;
+    } else if (option == "--check") {
+      o->check_only = true;
+    } else if (option == "--allow-coarse") {
+      o->allow_coarse = true;
+    } else if ((option == "--design" || option == "--output" || option == "-o") && i + 1 < argc) {
+      (option == "--design" ? o->design : o->output) = argv[++i];
+    } else {
+      return false;
+    }
+  }
+  return o->help ||
+         (o->design.empty() == o->output.empty() && !(o->check_only && !o->design.empty()) &&
+          !(o->allow_coarse && o->design.empty()));
+}
+
+feltgate::design::Schedule read_schedule(const Options& o,
+                                         const feltgate::design::RegisterMap& registers) {
+  return feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
+}
+
+feltgate::design::EngineDescription read_engine(const Options& o) {
+  return feltgate::design::read_engine((o.root / "rtl/engine/engine.toml").string());
+}
+
+/// What the link's users must know of the engine.
+void add_engine(const Options& o, feltgate::design::RegisterMap* registers) {
+  for (const feltgate::design::Cause& c : read_engine(o).constants) {
+    if (c.name == "port_first") {
+      registers->link_constants.push_back(
+          {"engine", c.number,
+           "first address of the engine's words, where features.engine is set"});
+    }
+  }
+}
+
+void generate_one(const Options& o, const feltgate::design::RegisterMap& registers) {
+  auto design = feltgate::design::read_design(o.design.string());
+  design.allow_coarse = o.allow_coarse;
+  const auto e = elaborate(design, registers);
+  check_tick(e.design, read_schedule(o, registers));
+  update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
+  update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
+  update(o.output / "parameters.mem", memory_text(e), false);
+  update(o.output / "values.txt", values_text(e), false);
+  update_host_files(o.output, e, false);
+}
+
+/// Whether a file was stale.
+bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
+  const auto schedule = read_schedule(o, registers);
+  const fs::path headers = o.root / "model/include/feltgate/generated";
+  bool stale = update(o.root / "rtl/generated/feltgate_map_pkg.sv",
+                      map_package(registers, schedule), o.check_only);
+  stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
+  stale |=
+      update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);
+  stale |= update(headers / "link.hpp", link_header(registers), o.check_only);
+  const auto engine = read_engine(o);
+  stale |=
+      update(o.root / "rtl/generated/feltgate_engine_pkg.sv", engine_package(engine), o.check_only);
+  stale |= update(headers / "engine.hpp", engine_header(engine), o.check_only);
+  stale |= update(o.root / "docs/engine-isa.md", engine_page(engine), o.check_only);
+  stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
+  stale |= update(o.root / "docs/schedule.md", schedule_page(registers, schedule), o.check_only);
+  stale |=
+      update(o.root / "docs/images/tick.json", timing_diagram(registers, schedule), o.check_only);
+  stale |= update(headers / "reader.hpp", reader_header(registers), o.check_only);
+  for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
+    if (entry.path().extension() != ".toml") continue;
+    const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
+    check_tick(e.design, schedule);
+    const std::string& name = e.design.name;
+    stale |= update(o.root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
+                    o.check_only);
+    stale |=
+        update(o.root / "rtl/generated" / name / "parameters.mem", memory_text(e), o.check_only);
+    stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
+    stale |= update_host_files(o.root / "rtl/generated" / name, e, o.check_only);
+    if (name == "lever")
+      stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
+  }
+  return stale;
+}
+
+int main(int argc, char** argv) {
+  Options o;
+  if (!parse(argc, argv, &o)) {
+    std::cerr << usage;
+    return 2;
+  }
+  if (o.help) {
+    std::cout << usage;
+    return 0;
+  }
+  try {
+    auto registers = feltgate::design::read_registers((o.root / "rtl/registers.toml").string());
+    add_engine(o, &registers);
+    if (!o.design.empty()) {
+      generate_one(o, registers);
+      return 0;
+    }
+    return generate_all(o, registers) && o.check_only ? 1 : 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 2;
+  }
+}

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate host PORT calibrate. Documentation: docs/calibration.md
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "apps/commands/host/bench_design.hpp"
+#include "apps/commands/host/bench_motor.hpp"
+#include "apps/commands/host/typed.hpp"
+#include "apps/commands/host/verbs.hpp"
+#include "files/json_text.hpp"
+#include "files/output_file.hpp"
+#include "host/calibrate/report.hpp"
+#include "law/amount.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+struct CalibrateArguments {
+  std::string from, write, json, save;
+  bool closed = false;
+  std::vector<double> points;
+  double arm_m = 0, torque_constant = 0, gain = 1, confidence = 0.95, hold_s = 3;
+};
+
+constexpr double kSettle_s = 0.1;
+constexpr int kTicks = 20;     ///< read for a mean of tau_hat
+constexpr double kStill = 16;  ///< counts that a blocked lever may give
+
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+/// "0.065" or "65mNm", "5.9N" with the arm of the pulley.
+double torque_typed(const std::string& text, double arm_m) {
+  try {
+    const std::string unit = law::read_amount(text, "0.065, which is Nm, or 5.9N").unit;
+    if (unit.empty() || unit.back() != 'N') return law::amount_in(text, "Nm");
+    if (!(arm_m > 0)) throw MeasurementError("forces need the arm of the pulley: --arm 0.011 (m)");
+    return law::amount_in(text, "N") * arm_m;
+  } catch (const MeasurementError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw MeasurementError(error.what());
+  }
+}
+
+/// Measures point by point: commands a torque, takes the mean of tau_hat, reads the typed gauge
+/// value, removes the command.
+class Procedure {
+ public:
+  Procedure(Device& device, const CalibrateArguments& a)
+      : a_(a),
+        motor_(device, a.closed ? Mode::closed_loop : Mode::direct_voltage),
+        command_(a.closed ? "setpoint_torque" : "voltage_setpoint"),
+        unit_(a.closed ? "Nm" : "V") {}
+
+  std::vector<Reading> run() {
+    say(fmt::format(
+        "Block the shaft and set the gauge to zero. Each of {} values stands for {:g} s at most,\n"
+        "then the motor is off and you may still type. Ctrl-C ends it. Type the reading in Nm, or\n"
+        "with its unit as 5.9N; nothing but Enter skips a value, 'again' repeats it.\n",
+        a_.points.size(), a_.hold_s));
+    if (a_.closed) set_gains();
+    std::vector<Reading> readings;
+    for (std::size_t k = 0; k < a_.points.size() && !Interruptible::interrupted(); ++k) {
+      say(fmt::format("{}/{}: {:g} {} ", k + 1, a_.points.size(), a_.points[k], unit_));
+      Reading r = powered(a_.points[k]);
+      const auto answer = this->answer();
+      motor_.set(command_, 0);
+      motor_.disarm();
+      if (answer && isatty(STDIN_FILENO) == 0) say(*answer + "\n");
+      const auto line = answer ? answer : unpowered();
+      if (!line) break;
+      if (*line == "again") {
+        --k;
+      } else if (!line->empty()) {
+        try {
+          r.torque_nm = torque_typed(*line, a_.arm_m);
+          readings.push_back(r);
+        } catch (const MeasurementError& e) {
+          say(fmt::format("{}\n", e.what()));
+          --k;
+        }
+      }
+    }
+    return readings;
+  }
+
+ private:
+  void set_gains() {
+    if (motor_.device().design().design.emf_in_law()) return;
+    motor_.set("voltage_gain", a_.gain);
+    motor_.set("voltage_gain_high", a_.gain);
+  }
+
+  /// Commands the value and returns the observer's estimate.
+  Reading powered(double value) {
+    Device& device = motor_.device();
+    motor_.set(command_, 0);
+    motor_.arm(a_.closed ? "setpoint" : "free");
+    const Quantity& position = device.quantities().find("position");
+    const Quantity& tau_hat = device.quantities().find("tau_hat");
+    const Tick before = device.tick();
+    motor_.set(command_, value);
+    began_ = HostClock::now();
+    motor_.wait(kSettle_s);
+    Reading r;
+    r.command = value;
+    double sum = 0;
+    for (int k = 0; k < kTicks; ++k) {
+      motor_.poll();
+      sum += device.tick().value(tau_hat);
+    }
+    r.tau_hat_nm = sum / kTicks;
+    const double moved =
+        static_cast<std::int32_t>(device.tick().word(position) - before.word(position));
+    say(fmt::format("(observer {:.4f} Nm{}) gauge: ", *r.tau_hat_nm,
+                    std::abs(moved) > kStill
+                        ? fmt::format(", the lever moved by {:g} counts: block it better", moved)
+                        : ""));
+    return r;
+  }
+
+  /// The reading, if it is typed while the motor may still push.
+  std::optional<std::string> answer() {
+    const Deadline end = began_ + std::chrono::duration_cast<HostClock::duration>(
+                                      std::chrono::duration<double>(a_.hold_s));
+    return typed_line(
+        "a reading", [end] { return HostClock::now() < end && !Interruptible::interrupted(); },
+        [this] { motor_.poll(); });
+  }
+  static std::optional<std::string> unpowered() {
+    say("(motor off) ");
+    return typed_line(
+        "a reading", [] { return !Interruptible::interrupted(); }, [] {});
+  }
+
+  const CalibrateArguments& a_;
+  BenchMotor motor_;
+  std::string command_, unit_;
+  Deadline began_{};
+};
+
+std::string readings_csv(const std::vector<Reading>& readings, bool closed) {
+  std::string text = fmt::format("{},torque_nm,tau_hat_nm\n", closed ? "tau_ref_nm" : "voltage_v");
+  for (const Reading& r : readings) {
+    text += fmt::format("{},{},{}\n", r.command, r.torque_nm,
+                        r.tau_hat_nm ? fmt::format("{}", *r.tau_hat_nm) : "");
+  }
+  return text;
+}
+
+int calibrate(Session& session, CalibrateArguments a) {
+  if (!a.from.empty() && !a.save.empty()) {
+    throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
+  }
+  const BenchDesign known(session, a.from.empty() ? "calibrate" : "");
+  if (a.points.empty()) {
+    a.points = a.closed ? std::vector<double>{0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}
+                        : std::vector<double>{1.5, 2.5, 3.5, 4.5, 5.5};
+  }
+  files::Outputs outputs;
+  if (!a.from.empty() && a.from != "-") outputs.reads(a.from);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* write = outputs.open("--write", a.write);
+  files::Outputs saved;  // whatever becomes of the fit
+  files::OutputFile* save = saved.open("--save", a.save);
+  std::vector<Reading> readings;
+  if (a.from.empty()) {
+    const Interruptible interruptible;
+    say(simulated_banner(session.board()));
+    readings = Procedure(session.device(), a).run();
+    if (save != nullptr) save->write(readings_csv(readings, a.closed));
+    saved.commit();
+    if (Interruptible::interrupted()) return exit_signal + 2;
+    say("\n");
+  } else {
+    const ColumnTable table = ColumnTable::of_file(a.from);
+    readings = a.closed ? closed_loop_readings(table, a.arm_m) : open_loop_readings(table, a.arm_m);
+  }
+  const design::Elaborated& e = known.design();
+  const bool given = a.torque_constant > 0;
+  const double kt = given ? a.torque_constant : e.design.torque_constant_nm_a;
+  std::vector<Change> changes;
+  std::vector<std::string> warnings;
+  nlohmann::ordered_json result;
+  std::string text;
+  if (a.closed) {
+    const ClosedLoop closed = fit_closed_loop(readings, e, a.gain, a.confidence);
+    text = report_text(closed, e);
+    result = report_json(closed);
+    changes = changes_of(closed, e, &warnings);
+  } else {
+    const OpenLoop open = fit_open_loop(readings, kt, a.confidence);
+    text = report_text(open, e);
+    result = report_json(open);
+    changes = changes_of(open, e, kt, given, &warnings);
+  }
+  for (const std::string& w : warnings) text += "note: " + w + "\n";
+  result["changes"] = report_json(changes);
+  outputs.say(text + known.write(changes, write, a.write));
+  if (json != nullptr) json->write(files::json_text(result));
+  outputs.commit();
+  return exit_ok;
+}
+
+}  // namespace
+
+Run add_calibrate(CLI::App& sub) {
+  auto a = std::make_shared<CalibrateArguments>();
+  sub.footer(
+      "The paper's two calibrations against a blocked shaft and a gauge, step by step: open loop\n"
+      "gives R and the dead voltage, closed loop the voltage gains (or R and dead voltage again).\n"
+      "  feltgate host /dev/ttyUSB0 calibrate --arm 0.011 --write mine.toml\n"
+      "  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv\n"
+      "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
+      "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
+      "and\n"
+      "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
+      "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
+      "do not say it, 3 the link broke down.");
+  sub.add_flag("--closed", a->closed, "the closed-loop calibration");
+  sub.add_option("--from", a->from, "readings of this file instead of a board; - is the input")
+      ->type_name("FILE");
+  sub.add_option("--points", a->points,
+                 "voltages (V) or torques (Nm) to take; default: those of the paper")
+      ->delimiter(',')
+      ->check(checks::number(-24, 24, ""));
+  sub.add_option("--arm", a->arm_m, "of the pulley, for readings in N")
+      ->type_name("M")
+      ->transform(checks::positive(10, "m"));
+  sub.add_option("--torque-constant", a->torque_constant,
+                 "Kt that turns the slope into R; default: the design's")
+      ->type_name("NM/A")
+      ->transform(checks::positive(100, "Nm/A"));
+  sub.add_option("--gain", a->gain, "both voltage gains during --closed, of a law in regions")
+      ->type_name("KV")
+      ->capture_default_str()
+      ->check(checks::positive(10, ""));
+  sub.add_option("--hold", a->hold_s, "longest time that a value stands")
+      ->type_name("SECONDS")
+      ->capture_default_str()
+      ->transform(checks::positive(30, "s"));
+  sub.add_option("--confidence", a->confidence, "of the intervals")
+      ->type_name("SHARE")
+      ->capture_default_str()
+      ->check(checks::number(0.5, 0.9999, ""));
+  sub.add_option("--save", a->save, "write the readings as CSV")->type_name("FILE");
+  sub.add_option("--write", a->write, "write the design file with what was found")
+      ->type_name("FILE");
+  sub.add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
+  return [a](Session& session) { return calibrate(session, *a); };
+}
+
+}  // namespace feltgate::host

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate host PORT record. Documentation: docs/host.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "apps/commands/commands.hpp"
+#include "apps/commands/host/live.hpp"
+#include "apps/commands/host/streaming.hpp"
+#include "apps/commands/host/verbs.hpp"
+#include "files/output_file.hpp"
+#include "host/position_encoder.hpp"
+#include "sim/traces/vector_file.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+struct RecordArguments : StreamArguments {
+  std::string csv, vector;
+};
+
+int record(Session& session, RecordArguments a) {
+  if (a.csv.empty() && a.vector.empty()) {
+    throw std::invalid_argument("record: nothing to write; give --csv FILE, --vector FILE or both");
+  }
+  Device& device = session.device();
+  files::Outputs outputs;
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* vector = outputs.open("--vector", a.vector);
+  const Quantity& position = device.quantities().find("position");
+  if (std::find(a.names.begin(), a.names.end(), "position") == a.names.end()) {
+    a.names.emplace_back("position");
+  }
+  const std::uint32_t fastest =
+      device.shortest_period(stream_mask(device, a), session.options.baud);
+  const double asked = a.every_s > 0 ? std::round(a.every_s * device.board().tick_hz()) : fastest;
+  const auto period = static_cast<std::uint32_t>(std::clamp(asked, 1.0, 4e9));
+  if (period < fastest) {
+    throw std::invalid_argument(fmt::format(
+        "--every {:g}: the wire carries these words every {:.3g} s at most; leave words out",
+        a.every_s, fastest / device.board().tick_hz()));
+  }
+  const std::vector<const Quantity*> columns = stream_columns(device, a);
+  if (csv != nullptr) csv->write(csv_head(columns));
+  std::vector<PositionAt> positions;
+  std::uint64_t rows = 0, lost = 0;
+  double seconds = 0;
+  const std::uint32_t dropped_before = device.stream_dropped();
+  Progress progress("record", false);
+  follow_stream(device, a, period, [&](const Tick& tick) {
+    ++rows;
+    lost += tick.lost;
+    seconds = tick.time_s;
+    if (csv != nullptr) csv->write(csv_row(columns, tick));
+    if (vector != nullptr) {
+      positions.push_back({std::llround(tick.time_s * device.board().tick_hz()),
+                           static_cast<std::int32_t>(tick.word(position))});
+    }
+    if (a.seconds > 0) progress.update(std::min(1.0, seconds / a.seconds));
+  });
+  progress.finish();
+  if (rows == 0) throw LinkLost(session.options.port + ": no tick of the stream came");
+  // The counter of the frames also counts frames that the board dropped.
+  const std::uint64_t dropped = device.stream_dropped() - dropped_before;
+  std::string text = simulated_banner(device.board());
+  if (vector != nullptr) {
+    PositionEncoder encoder(device.design().design, positions);
+    traces::write_vector(vector->handle(), a.vector, device.design().design.name,
+                         device.board().clock_hz, encoder);
+    text += fmt::format("{}: A and B whose position at every {}th tick is the recorded one\n",
+                        a.vector, period);
+  }
+  text +=
+      fmt::format("{} ticks in {:.3f} s, every {}th; {} lost on the way, {} dropped by the board\n",
+                  rows, seconds, period, lost - std::min(lost, dropped), dropped);
+  outputs.say(text + link_troubles(session.link().counts()));
+  outputs.commit();
+  return exit_ok;
+}
+
+}  // namespace
+
+Run add_record(CLI::App& sub) {
+  auto a = std::make_shared<RecordArguments>();
+  a->names = {"position", "angle", "velocity", "tau_ref", "status", "faults"};
+  sub.footer(
+      "  feltgate host /dev/ttyUSB0 record --for 10 --csv moved.csv\n"
+      "  feltgate host /dev/ttyUSB0 record position --for 10 --vector moved.vec\n"
+      "  feltgate replay moved.vec                              the same motion through every "
+      "engine\n"
+      "  feltgate replay moved.csv --count-column position\n"
+      "The wire carries no pins and not every tick. The trace of --vector has edges spread evenly\n"
+      "between recorded positions, no index, no glitches and no illegal steps; for every tick "
+      "exactly\n"
+      "as the core saw it: capture --vector.\n"
+      "Exit code: 0 recorded, 1 a fault ended an armed motor, 2 unusable input or port, 3 the link "
+      "broke down.");
+  add_stream_options(sub, *a);
+  sub.get_option("--every")->default_str("as the wire allows");
+  sub.add_option("--csv", a->csv, "a row for each tick that came, time in seconds")
+      ->type_name("FILE");
+  sub.add_option("--vector", a->vector, "encoder trace for replay")->type_name("FILE");
+  return [a](Session& session) { return record(session, *a); };
+}
+
+}  // namespace feltgate::host

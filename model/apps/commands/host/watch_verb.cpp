@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate host PORT watch. Documentation: docs/host.md
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "apps/commands/commands.hpp"
+#include "apps/commands/host/live.hpp"
+#include "apps/commands/host/streaming.hpp"
+#include "apps/commands/host/verbs.hpp"
+
+namespace feltgate::host {
+
+namespace {
+
+struct WatchArguments : StreamArguments {
+  bool teleplot = false;
+};
+
+int watch(Session& session, const WatchArguments& a) {
+  Device& device = session.device();
+  const std::uint32_t fastest =
+      device.shortest_period(stream_mask(device, a), session.options.baud);
+  const double asked = std::round(a.every_s * device.board().tick_hz());
+  const auto period = static_cast<std::uint32_t>(std::clamp(asked, 1.0, 4e9));
+  if (period < fastest) {
+    throw std::invalid_argument(
+        fmt::format("--every {:g}: the wire carries these words every {:.3g} s at most; leave "
+                    "words out, or use capture, which sees every tick",
+                    a.every_s, fastest / device.board().tick_hz()));
+  }
+  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+  const Live::Form form = a.teleplot ? Live::Form::teleplot
+                          : terminal ? Live::Form::terminal
+                                     : Live::Form::lines;
+  std::fputs(simulated_banner(device.board()).c_str(), a.teleplot ? stderr : stdout);
+  Live live(device, stream_columns(device, a), form);
+  follow_stream(device, a, period, [&live](const Tick& tick) { live.show(tick); });
+  live.finish();
+  std::fputs(link_troubles(session.link().counts()).c_str(), stderr);
+  return exit_ok;
+}
+
+}  // namespace
+
+Run add_watch(CLI::App& sub) {
+  auto a = std::make_shared<WatchArguments>();
+  a->names = {"angle", "velocity", "tau_ref", "tau_hat", "current_ref", "voltage"};
+  a->every_s = 0.1;
+  sub.footer(
+      "  feltgate host /dev/ttyUSB0 watch                      until Ctrl-C\n"
+      "  feltgate host /dev/ttyUSB0 watch angle tau_ref --arm wall --for 10\n"
+      "  feltgate host /dev/ttyUSB0 watch --teleplot --every 0.01 | nc -u -w1 127.0.0.1 47269\n"
+      "On a terminal a sparkline each, else a line for each tick. A motor that the host has armed "
+      "is\n"
+      "kept alive meanwhile and disarmed at the end; one that the panel has armed is only "
+      "watched.\n"
+      "Exit code: 0 ended, 1 a fault ended an armed motor, 2 unusable input or port, 3 the link "
+      "broke down.");
+  add_stream_options(sub, *a);
+  sub.add_flag("--teleplot", a->teleplot, "lines '>name:milliseconds:value§unit' for Teleplot");
+  return [a](Session& session) { return watch(session, *a); };
+}
+
+}  // namespace feltgate::host

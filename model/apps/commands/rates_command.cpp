@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate rates. Documentation: docs/rates.md
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "apps/commands/run_output.hpp"
+#include "files/output_file.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/axes_loop/axes_run.hpp"
+#include "sim/engines/axes_cores.hpp"
+#include "sim/law_loop/scene_law.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/rates/rates.hpp"
+
+namespace feltgate {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RatesArguments {
+  std::vector<std::string> scenes;
+  std::string plant, json, csv, picture;
+  std::vector<double> rates;
+  bool lock_step = false, quiet = false;
+};
+
+/// A scene with everything that its measurement needs.
+struct Wanted {
+  std::string name;
+  Scenario scene;  ///< of one lever
+  plant::Parameters plant;
+  std::optional<AxesScene> device;  ///< or of a device with several axes
+  rates::LawSource law;
+};
+
+/// The scene's law (its path starts at the scene's folder), or the law for its block.
+rates::LawSource law_of(const Scenario& s) {
+  if (const rates::BlockLaw* block = rates::block_law(s.scene)) {
+    if (block->file.empty()) return {"the law for " + block->scene, block->text};
+    return {find_law(block->file), ""};
+  }
+  if (s.law.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "{}:{}: scene \"law\" runs a law; name one: law = \"detent\"", s.path, s.scene_line));
+  }
+  return {law_file(s), ""};
+}
+
+/// The design of the device; this program may lack it.
+const AxesDesignMakers* made_for(const AxesScene& scene) {
+  return find_axes_design(rates::axes_design(scene));
+}
+
+/// A scene that names a device.
+Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Outputs& outputs) {
+  if (!a.plant.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "--plant is for scenes of one lever, and {} names a device; leave it out", path));
+  }
+  Wanted w;
+  w.device = read_axes_scene(
+      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  const Scenario& s = w.device->scenario;
+  w.name = s.name;
+  if (s.law.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}:{}: a device of several axes needs a law; name one: law = \"pantograph\"",
+                    s.path, s.scene_line));
+  }
+  rates::require_one_law(s);
+  w.law = {law_file(s), ""};
+  // If the design is missing, measure() reports it.
+  if (const AxesDesignMakers* made = made_for(*w.device)) {
+    const DesignInfo design = made->info();
+    const auto law = make_axes_law(w.law.path, design, axes_of(*w.device));
+    resolve_amounts(w.device->scenario, design, law.get());
+    check_asked(s, design, law.get());
+    if (w.device->plane) PlaneHost::check(*w.device->plane, path, *law);
+  }
+  for (const std::string& read : {path, w.device->device_path, w.law.path}) outputs.reads(read);
+  return w;
+}
+
+Wanted wanted(const std::string& name, const RatesArguments& a, files::Outputs& outputs) {
+  const std::string path = find_file(name, "vectors/scenes");
+  if (names_device(path)) return wanted_device(path, a, outputs);
+  Wanted w;
+  w.scene = read_scenario(path);
+  w.name = w.scene.name;
+  if (!a.plant.empty()) w.scene.plant = a.plant;
+  rates::require_one_law(w.scene);
+  w.law = law_of(w.scene);
+  const std::string plant_path = find_file(w.scene.plant, "vectors/plants");
+  w.plant = plant::read_plant_file(plant_path);
+  resolve_effects(w.scene, w.plant.effects);
+  if (w.scene.scene != "law") resolve_amounts(w.scene, design_named(rates::block_design));
+  if (has_amounts(w.scene)) {
+    const DesignInfo& design = design_named(rates::law_design);
+    resolve_amounts(w.scene, design, make_scene_law(w.law.path, design).get());
+  }
+  if (w.scene.scene != "law") check_scenario(w.scene, w.plant, design_named(rates::block_design));
+  outputs.reads(path);
+  outputs.reads(plant_path);
+  if (w.law.text.empty()) outputs.reads(w.law.path);
+  for (const auto& phase : w.scene.hand.phases) outputs.reads(phase.trace.file);
+  return w;
+}
+
+rates::Report measured(const Wanted& w, const rates::Options& options) {
+  if (w.device) {
+    // If the design is missing, measure() reports it.
+    const char* other = rates::law_design;
+    const std::string design = made_for(*w.device) ? rates::axes_design(*w.device) : other;
+    return rates::measure(*w.device, w.law, elaborated_design(design), options);
+  }
+  return rates::measure(w.scene, w.law, w.plant, elaborated_design(rates::law_design), options);
+}
+
+/// All scenes of vectors/scenes that render a law; the others are reported.
+std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / "vectors/scenes")) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  std::vector<Wanted> all;
+  for (const std::string& name : names) {
+    try {
+      all.push_back(wanted(name, a, outputs));
+    } catch (const std::exception& error) {
+      if (!a.quiet) fmt::print(stderr, "left out: {}\n", error.what());
+    }
+  }
+  return all;
+}
+
+int run(const RatesArguments& a) {
+  files::Outputs outputs;
+  std::vector<Wanted> scenes;
+  for (const std::string& name : a.scenes) scenes.push_back(wanted(name, a, outputs));
+  const bool all = a.scenes.empty();
+  if (all) scenes = all_scenes(a, outputs);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* picture = outputs.open("--output", a.picture);
+  if (picture != nullptr) (void)picture->named();  // not stdout: told before the work
+  rates::Options options;
+  if (!a.rates.empty()) options.rates_hz = a.rates;
+  options.lock_step = a.lock_step;
+  std::vector<rates::Report> reports;
+  std::int64_t mismatches = 0;
+  for (const Wanted& w : scenes) {
+    Progress progress("rates of " + w.name, a.quiet);
+    options.progress = [&progress](double done) { progress.update(done); };
+    try {
+      reports.push_back(measured(w, options));
+    } catch (const std::exception& error) {
+      if (!all) throw;  // one that was asked for
+      if (!a.quiet) fmt::print(stderr, "left out: {}\n", error.what());
+      continue;
+    }
+    progress.finish();
+    if (!a.quiet) outputs.say((reports.size() > 1 ? "\n" : "") + report_text(reports.back()));
+    for (const rates::RateRow& row : reports.back().rows) {
+      mismatches += row.mismatches;
+      if (row.mismatches == 0) continue;
+      fmt::print(stderr, "{} at {}: RTL and twin differ: {}\n", w.name,
+                 rates::rate_text(row.rate_hz), row.first_mismatch);
+    }
+  }
+  const std::string text = rates::reports_json(reports);
+  if (json != nullptr) json->write(text);
+  if (csv != nullptr) csv->write(rates::reports_csv(reports));
+  if (picture != nullptr) {
+    // The picture is drawn from a temporary file.
+    const std::string data =
+        (fs::temp_directory_path() / fmt::format("feltgate_rates_{}.json", getpid())).string();
+    files::OutputFile numbers("--output", data);
+    numbers.write(text);
+    numbers.commit();
+    const int status = run_script("rates_picture.py", {data, picture->named()}, outputs.text());
+    fs::remove(data);
+    if (status != 0) return status < exit_signal ? exit_unusable : status;
+  }
+  outputs.commit();
+  return mismatches == 0 ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_rates(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<RatesArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "rates", "what a slower torque costs: error, stability, clocks and time of a scene by rate");
+  sub->footer(
+      "The scene's torque is renewed only so often and held in between, by the engine in the\n"
+      "core's own bits: a law of the same name stands for the core's block, which is the last\n"
+      "row. Error is against the law in double at the device's true angles and speeds in\n"
+      "every tick; 'counts alone' is what encoder and velocity estimate leave of it at any\n"
+      "rate. Margin: the largest stable stiffness by eigenvalues over the scene's; below 1\n"
+      "the lever, or the device with nobody at it, swings by itself. Of several axes the\n"
+      "swing of the torques in the last quarter and the scene's expectations that are kept\n"
+      "stand beside it. Time: of the twin, against the last row. Without SCENE all of\n"
+      "vectors/scenes, in about ten minutes.\n"
+      "  feltgate rates wall\n"
+      "  feltgate rates detent --rate 200,2000,20000\n"
+      "  feltgate rates coupled_levers                 a device with several axes\n"
+      "  feltgate rates wall -o wall.svg --json wall.json --csv wall.csv\n"
+      "  feltgate rates -o all.svg                     every scene, one picture\n"
+      "Exit code: 0 measured, 1 RTL and twin differed (--lock-step), 2 unusable input.\n"
+      "docs/rates.md explains every column.");
+  sub->add_option("scene", a->scenes, "scenes: names in vectors/scenes or paths; default: all")
+      ->type_name("SCENE");
+  sub->add_option("--rate", a->rates,
+                  "rates in Hz; default 144,490,1000,10000,40000,100000; the fastest is added")
+      ->delimiter(',')
+      ->transform(checks::number(1, 1e6, "Hz"));
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
+      ->type_name("PLANT");
+  sub->add_flag("--lock-step", a->lock_step,
+                "the RTL beside the twin, every output compared: about 20 times slower");
+  sub->add_option("-o,--output", a->picture, "error and margin over the rate as a picture, SVG")
+      ->type_name("FILE");
+  sub->add_option("--json", a->json, "the figures as JSON (docs/rates.md)")->type_name("FILE");
+  sub->add_option("--csv", a->csv, "the figures as a table, a row for each rate of each scene")
+      ->type_name("FILE");
+  sub->add_flag("--quiet", a->quiet, "print nothing");
+  sub->callback([a, exit_code] { *exit_code = run(*a); });
+}
+
+}  // namespace feltgate

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate replay and feltgate import. Documentation: docs/traces.md, docs/json.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "apps/commands/csv.hpp"
+#include "apps/commands/run_output.hpp"
+#include "files/output_file.hpp"
+#include "sim/loop/bounded.hpp"
+#include "sim/traces/open.hpp"
+#include "sim/traces/vector_file.hpp"
+
+namespace feltgate {
+
+namespace {
+
+/// Options that say how to read a recording; replay and import share them.
+struct TraceArguments {
+  std::string path, probes, scale, format;
+  traces::Options options;
+  bool no_jitter = false;
+
+  traces::Options read() {
+    if (!probes.empty()) options.probes = traces::split_names(probes);
+    if (!scale.empty()) options.scale = traces::parse_scale(scale);
+    if (!format.empty()) options.format = traces::parse_format(format);
+    options.jitter = !no_jitter;
+    return options;
+  }
+  void add_to(CLI::App* sub) {
+    sub->add_option("trace", path, "recording: .sr, VCD, CSV, or a vector of this project")
+        ->required()
+        ->type_name("TRACE");
+    sub->add_option("--probes", probes, "names of the signals A,B[,Z]; default: guessed")
+        ->type_name("NAMES");
+    sub->add_option("--step", options.step, "name of the STEP signal; with --dir")
+        ->type_name("NAME");
+    sub->add_option("--dir", options.dir, "name of the DIR signal")->type_name("NAME");
+    sub->add_option("--time-column", options.time_column, "column with the time")
+        ->type_name("NAME");
+    sub->add_option("--count-column", options.count_column, "column with counts or an angle")
+        ->type_name("NAME");
+    sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians")
+        ->type_name("SCALE");
+    sub->add_option("--sample-hz", options.sample_hz,
+                    "rate of the capture, where the file does not say it")
+        ->type_name("HZ")
+        ->transform(checks::positive(1e12, "Hz"));
+    sub->add_option("--format", format,
+                    "sigrok, vcd, saleae, levels, columns or vector; default: by content")
+        ->type_name("FORMAT");
+    sub->add_flag("--no-jitter", no_jitter,
+                  "edges at the start of their sample instead of a seeded place inside");
+    sub->add_option("--seed", options.seed, "of that place")
+        ->capture_default_str()
+        ->check(checks::seed());
+  }
+};
+
+struct ReplayArguments {
+  TraceArguments trace;
+  std::string design = "lever", engine = "all", scene = "spring_tension", json, csv, fst;
+  double seconds = 0;
+  int every = 0;  ///< 0: sane_every()
+  bool quiet = false;
+};
+
+std::string probe_text(const traces::Options& o) {
+  if (!o.step.empty()) return o.step + "," + o.dir;
+  std::string text;
+  for (const std::string& p : o.probes) text += (text.empty() ? "" : ",") + p;
+  return text;
+}
+
+int replay(ReplayArguments& a) {
+  if (a.every > 0 && a.csv.empty()) {
+    throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
+  }
+  if (a.scene == "law") {
+    throw std::invalid_argument(
+        "--scene law: a replay loads no program; choose another scene, or use feltgate run");
+  }
+  traces::Options how = a.trace.read();
+  how.clock_hz = design_named(a.design).clock_hz;
+  const auto source = traces::open(a.trace.path, how);
+  const std::string name = std::filesystem::path(a.trace.path).filename().string();
+
+  ReplayOptions options;
+  options.design = a.design;
+  options.engine = a.engine;
+  options.scene = a.scene;
+  options.seed = how.seed;
+  if (a.seconds > 0) {
+    const double clocks = a.seconds * static_cast<double>(how.clock_hz);
+    options.most_clocks = std::max<Clock>(1, std::llround(clocks));
+  }
+  files::Outputs outputs;
+  outputs.reads(a.trace.path);
+  outputs.reads(find_file(a.design, "rtl/designs"));
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* fst = outputs.open("--fst", a.fst);
+  if (fst != nullptr) options.fst = fst->named();
+  // A first pass over the file finds its length.
+  Clock length = 0;
+  if (options.most_clocks > 0) {
+    length = options.most_clocks;
+  } else {
+    const auto first_pass = traces::open(a.trace.path, how);
+    while (first_pass->next()) {
+    }
+    length = first_pass->length();
+  }
+  const design::Elaborated elaborated = elaborated_design(a.design);
+  std::optional<CsvWriter> rows;
+  if (csv != nullptr) {
+    rows.emplace(csv->handle(), row_columns(false, choose_engines(a.engine).names()));
+    const Clock ticks = length * elaborated.design.tick_hz / how.clock_hz;
+    options.row_every = a.every > 0 ? a.every : sane_every(ticks);
+    options.row = [&rows](const Row& r) { rows->add(r); };
+    if (!a.quiet) fmt::print(stderr, "{}\n", rows->forecast(ticks, options.row_every));
+  }
+  Progress progress(name, a.quiet);
+  options.progress = [&progress, length](Clock done) {
+    progress.update(length > 0 ? static_cast<double>(done) / static_cast<double>(length) : 1.0);
+  };
+  const RunResult result = replay_within_bounds(elaborated, *source, name, options);
+  const RunLabels labels{"trace", "", probe_text(how)};
+  if (json != nullptr) json->write(run_json(result, labels));
+  if (!a.quiet) outputs.say(run_text(result, labels));
+  outputs.commit();
+  show_mismatch(result, options, [&](const EngineOptions& same) {
+    ReplayOptions again;
+    static_cast<EngineOptions&>(again) = same;
+    again.scene = options.scene;
+    again.most_clocks = same.fst_to + 1;
+    const auto source_again = traces::open(a.trace.path, how);
+    run_replay(*source_again, name, again);
+  });
+  return result.as_expected() ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<ReplayArguments>();
+  CLI::App* sub =
+      app.add_subcommand("replay", "open loop on an encoder recording, through every engine");
+  sub->footer(
+      "  feltgate replay hand.sr --probes XA,XB\n"
+      "  feltgate replay axis.sr --step 5 --dir 6\n"
+      "  feltgate replay log.csv --time-column t --count-column theta --scale 2048/2pi\n"
+      "  feltgate replay hand.sr --engine twin,double,float --csv hand.csv    fixed beside float\n"
+      "Exit code: 0 no mismatch and no error above its bound, 1 one, 2 the recording or an option "
+      "cannot be used.");
+  a->trace.add_to(sub);
+  sub->add_option("--design", a->design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
+  sub->add_option("--scene", a->scene, "torque law that the core renders meanwhile")
+      ->type_name("SCENE")
+      ->capture_default_str();
+  sub->add_option("--duration", a->seconds, "stop after so much of it; default: its end")
+      ->type_name("SECONDS")
+      ->transform(checks::seconds());
+  old_spelling(sub, "--seconds", a->seconds, checks::seconds());
+  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
+  sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
+      ->type_name("FILE");
+  sub->add_option("--every", a->every, every_help)
+      ->check(checks::whole(1, 1'000'000'000))
+      ->type_name("TICKS");
+  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --duration)")
+      ->type_name("FILE");
+  sub->add_flag("--quiet", a->quiet, "print only what went wrong");
+  sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
+    *exit_code = replay(*a);
+  });
+}
+
+void add_import(CLI::App& app, int* exit_code) {
+  struct Arguments {
+    TraceArguments trace;
+    std::string out, place, design = "lever";
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* sub =
+      app.add_subcommand("import", "convert an encoder recording to this project's vector format");
+  a->trace.add_to(sub);
+  sub->footer(
+      "  feltgate import hand.sr hand.vec --probes XA,XB\n"
+      "  feltgate import log.csv --count-column theta --scale 2048/2pi -o hand.vec\n"
+      "Exit code: 0 written, 2 the recording or an option cannot be used.");
+  sub->add_option("out", a->place, "vector file to write")->type_name("FILE");
+  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE");
+  sub->add_option("--design", a->design, "design whose clock stamps the edges")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->callback([a, exit_code] {
+    if (!a->out.empty() && !a->place.empty()) {
+      throw std::invalid_argument("import: two files to write; leave out one of " + a->place +
+                                  " and -o " + a->out);
+    }
+    if (a->out.empty()) a->out = a->place;
+    if (a->out.empty()) {
+      throw std::invalid_argument("import: the FILE to write is missing; feltgate import --help");
+    }
+    a->design = built_design(a->design);
+    traces::Options how = a->trace.read();
+    how.clock_hz = design_named(a->design).clock_hz;
+    const auto source = traces::open(a->trace.path, how);
+    files::Outputs outputs;
+    outputs.reads(a->trace.path);
+    files::OutputFile* out = outputs.open("--output", a->out);
+    traces::write_vector(out->handle(), a->out, a->design, how.clock_hz, *source);
+    outputs.commit();
+    outputs.say(
+        fmt::format("wrote {}, {:.6g} s\n", a->out,
+                    static_cast<double>(source->length()) / static_cast<double>(how.clock_hz)));
+    *exit_code = exit_ok;
+  });
+}
+
+}  // namespace feltgate

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate run of a scene whose device has several axes. Documentation: docs/devices.md
+#include "apps/commands/run_axes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+
+#include "apps/commands/commands.hpp"
+#include "apps/commands/csv.hpp"
+#include "apps/commands/run_laws.hpp"
+#include "apps/commands/run_output.hpp"
+#include "files/output_file.hpp"
+#include "sim/engines/axes_cores.hpp"
+#include "sim/law_loop/scene_law.hpp"
+#include "sim/loop/scenario_check.hpp"
+
+namespace feltgate {
+
+namespace {
+
+std::unique_ptr<SceneLaw> law_of(const AxesScene& scene, const DesignInfo& design) {
+  const Scenario& s = scene.scenario;
+  if (s.law.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}:{}: a device of several axes needs a law; name one of rtl/laws that has a "
+                    "torque for each of {}'s {}: law = \"NAME\"",
+                    s.path, s.scene_line, device_of(scene), axes_of(scene)));
+  }
+  return make_axes_law(law_file(s), design, axes_of(scene));
+}
+
+void write_row(std::FILE* to, const std::vector<double>& row) {
+  fmt::memory_buffer line;
+  for (const double value : row) {
+    fmt::format_to(std::back_inserter(line), line.size() > 0 ? ",{:.9g}" : "{:.9g}", value);
+  }
+  line.push_back('\n');
+  std::fwrite(line.data(), 1, line.size(), to);
+}
+
+int run_axes_scene(const std::string& path, const RunArguments& a) {
+  AxesScene scene = read_axes_scene(
+      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  if (a.columns) {
+    fmt::print("{}\n", fmt::join(axes_columns(scene), "\n"));
+    return exit_ok;
+  }
+  const AxesDesignMakers* made = find_axes_design(a.design);
+  if (made == nullptr) {
+    throw std::invalid_argument(
+        fmt::format("{}: device {} has {} axes, and this program's design {} one; ./feltgate run "
+                    "builds the device's own, or name it: --design {}_law",
+                    path, device_of(scene), axes_of(scene), a.design, device_of(scene)));
+  }
+  const DesignInfo design = made->info();
+  const std::unique_ptr<SceneLaw> law = law_of(scene, design);
+  resolve_amounts(scene.scenario, design, law.get());
+  apply_settings(a.set, design, law.get(), scene.scenario);
+  check_asked(scene.scenario, design, law.get());
+  if (scene.plane) PlaneHost::check(*scene.plane, path, *law);
+  if (a.every > 0 && a.csv.empty()) {
+    throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
+  }
+
+  AxesRunOptions options;
+  options.design = a.design;
+  options.engine = a.engine;
+  options.seed = a.seed;
+  options.law = law.get();
+  files::Outputs outputs;
+  for (const std::string& read : {path, scene.device_path}) outputs.reads(read);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* fst = outputs.open("--fst", a.fst);
+  if (fst != nullptr) options.fst = fst->named();
+  if (csv != nullptr) {
+    const auto ticks =
+        static_cast<std::int64_t>(scene.scenario.duration_s * static_cast<double>(design.tick_hz));
+    options.row_every = a.every > 0 ? a.every : sane_every(ticks);
+    fmt::print(csv->handle(), "{}\n", fmt::join(axes_columns(scene), ","));
+    options.row = [csv](const std::vector<double>& row) { write_row(csv->handle(), row); };
+  }
+  Progress progress(scene.scenario.name + " on " + a.design, a.quiet);
+  options.progress = [&progress](double done) { progress.update(done); };
+  const AxesResult result = run_axes(scene, options);
+  if (json != nullptr) json->write(axes_json(result));
+  if (!a.quiet) outputs.say(axes_text(result));
+  outputs.commit();
+  if (a.quiet) {
+    for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
+  }
+  show_mismatch(result, options, [&](const EngineOptions& same) {
+    const std::unique_ptr<SceneLaw> from_start = law_of(scene, design);
+    AxesRunOptions again;
+    static_cast<EngineOptions&>(again) = same;
+    again.law = from_start.get();
+    AxesScene shorter = scene;
+    shorter.scenario = cut_after(scene.scenario, result, same.fst_to + 1 - result.homing_clocks);
+    run_axes(shorter, again);
+  });
+  return result.as_expected() ? exit_ok : exit_failed;
+}
+
+/// Linked is known: before main().
+[[maybe_unused]] const bool known = [] {
+  law_scenes() = {make_scene_law, run_axes_scene};
+  return true;
+}();
+
+}  // namespace
+
+}  // namespace feltgate

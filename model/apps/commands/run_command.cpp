@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate run. Documentation: docs/scenes.md, docs/json.md
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "apps/commands/csv.hpp"
+#include "apps/commands/run_laws.hpp"
+#include "apps/commands/run_output.hpp"
+#include "files/output_file.hpp"
+#include "sim/loop/bounded.hpp"
+#include "sim/loop/event_lines.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/loop/speed_jumps.hpp"
+#include "sim/plant/plant_file.hpp"
+
+namespace feltgate {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_laws(const std::string& at) {
+  throw std::invalid_argument(
+      at +
+      "this program runs scenes of the core alone; ./feltgate run builds the one that runs laws");
+}
+
+}  // namespace
+
+void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
+                    const SceneLaw* law, Scenario& scenario) {
+  std::set<std::string> given;
+  for (const std::string& item : set) {
+    const auto at = item.find('=');
+    if (at == std::string::npos || at == 0) {
+      throw std::invalid_argument("--set " + item +
+                                  " is not NAME=VALUE; write for example --set voltage_gain=1");
+    }
+    const std::string name = item.substr(0, at);
+    if (!given.insert(name).second) {
+      throw std::invalid_argument("--set " + item + ": " + name +
+                                  " is given twice; leave one of them out");
+    }
+    try {
+      // For an unknown name, check_asked() lists the known ones.
+      scenario.parameters[name] = parameter_in(name, item.substr(at + 1), design, law).value_or(0);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("--set {}: {}", item, error.what()));
+    }
+    scenario.parameter_lines.erase(name);  // an error in it is none of the file
+  }
+}
+
+LawScenes& law_scenes() {
+  static LawScenes all;
+  return all;
+}
+
+std::string law_file(const Scenario& s) {
+  const bool path = s.law.find('/') != std::string::npos || fs::path(s.law).extension() == ".law";
+  if (path) return (fs::path(s.path).parent_path() / s.law).string();
+  try {
+    return find_law(s.law);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}:{}: {}", s.path, s.law_line, error.what()));
+  }
+}
+
+namespace {
+
+/// The law of the scene; nullptr if it has none.
+std::unique_ptr<SceneLaw> law_of(const Scenario& s, const DesignInfo& design) {
+  const bool renders = scenes_used(s).count("law") != 0;
+  if (s.law.empty() && !renders) return nullptr;
+  const std::string at = fmt::format("{}:{}: ", s.path, s.law.empty() ? s.scene_line : s.law_line);
+  if (s.law.empty()) {
+    throw std::invalid_argument(at + "scene \"law\" runs a law; name one: law = \"detent\"");
+  }
+  if (!renders) {
+    throw std::invalid_argument(at + "no scene renders the law; write scene = \"law\"");
+  }
+  if (design.scene_number("law") < 0) {
+    throw std::invalid_argument(fmt::format(
+        "{}design {} has no engine for a law; use --design lever_law", at, design.name));
+  }
+  if (law_scenes().law == nullptr) refuse_laws(at);
+  return law_scenes().law(law_file(s), design);
+}
+
+/// A row for each run of the law.
+void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& options) {
+  to.write(fmt::format("time_s,{}\n", fmt::join(law.states(), ",")));
+  options.law_states = [&to](double at_s, const std::vector<double>& states) {
+    to.write(fmt::format("{:.9g},{:.9g}\n", at_s, fmt::join(states, ",")));
+  };
+}
+
+int run(const RunArguments& a) {
+  if (a.columns && a.scene.empty()) {
+    fmt::print("{}", columns_markdown());
+    return exit_ok;
+  }
+  if (a.scene.empty()) throw std::invalid_argument("run: SCENE is missing; feltgate run --help");
+  const std::string scene_path = find_file(a.scene, "vectors/scenes");
+  if (names_device(scene_path)) {
+    for (const auto& [option, value] : {std::pair{"--plant", a.plant},
+                                        {"--report", a.report},
+                                        {"--record", a.record},
+                                        {"--events", a.events},
+                                        {"--states", a.states}}) {
+      if (value.empty()) continue;
+      throw std::invalid_argument(fmt::format(
+          "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
+    }
+    if (law_scenes().axes == nullptr) refuse_laws(scene_path + ": ");
+    return law_scenes().axes(scene_path, a);
+  }
+  if (a.columns) {
+    fmt::print("{}", columns_markdown());
+    return exit_ok;
+  }
+  Scenario scenario = read_scenario(scene_path);
+  if (!a.plant.empty()) scenario.plant = a.plant;
+  const std::string plant_path = find_file(scenario.plant, "vectors/plants");
+  const plant::Parameters plant = plant::read_plant_file(plant_path);
+  resolve_effects(scenario, plant.effects);
+  const DesignInfo& design = design_named(a.design);
+  const std::unique_ptr<SceneLaw> law = law_of(scenario, design);
+  resolve_amounts(scenario, design, law.get());
+  apply_settings(a.set, design, law.get(), scenario);
+  check_scenario(scenario, plant, design, law.get());
+
+  if (a.every > 0 && a.csv.empty() && a.report.empty()) {
+    throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
+  }
+  RunOptions options;
+  options.design = a.design;
+  options.engine = a.engine;
+  options.seed = a.seed;
+  options.law = law.get();
+  // Outputs are opened before the run: an unwritable name must not waste the run.
+  files::Outputs outputs;
+  outputs.reads(scene_path);
+  outputs.reads(plant_path);
+  for (const auto& phase : scenario.hand.phases) outputs.reads(phase.trace.file);
+  outputs.reads(find_file(a.design, "rtl/designs"));
+  outputs.folder("--report", a.report, "report.html");
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* csv = outputs.open("--csv", a.csv);
+  files::OutputFile* fst = outputs.open("--fst", a.fst);
+  files::OutputFile* record = outputs.open("--record", a.record);
+  files::OutputFile* events = outputs.open("--events", a.events);
+  files::OutputFile* states = outputs.open("--states", a.states);
+  if (law == nullptr && (events != nullptr || states != nullptr)) {
+    throw std::invalid_argument(fmt::format(
+        "{}:{}: {}, and the scene runs none; name one: law = \"drums\"", scene_path,
+        scenario.scene_line,
+        events != nullptr ? "--events writes what a law tells" : "--states writes those of a law"));
+  }
+  if (states != nullptr) write_states(*states, *law, options);
+  if (fst != nullptr) options.fst = fst->named();
+  if (record != nullptr) options.record = record->handle();
+  const design::Elaborated elaborated = elaborated_design(a.design);
+  const std::vector<Column> columns = row_columns(true, choose_engines(a.engine).names());
+  std::vector<CsvWriter> writers;
+  if (csv != nullptr) writers.emplace_back(csv->handle(), columns);
+  // The report reads files, so outputs to stdout or a device are also written to a file for it.
+  std::string json_path = a.json, csv_path = a.csv;
+  if (!a.report.empty()) {
+    const std::string begin = a.report + "/" + scenario.name;
+    if (json == nullptr || json->in_place()) json_path = begin + ".json";
+    if (csv == nullptr || csv->in_place()) {
+      csv_path = begin + ".csv";
+      writers.emplace_back(outputs.open("--report", csv_path)->handle(), columns);
+    }
+  }
+  files::OutputFile* report_json =
+      json_path == a.json ? nullptr : outputs.open("--report", json_path);
+  if (!writers.empty()) {
+    const auto ticks = static_cast<std::int64_t>(scenario.duration_s *
+                                                 static_cast<double>(elaborated.design.tick_hz));
+    options.row_every = a.every > 0 ? a.every : sane_every(ticks);
+    if (!a.quiet) fmt::print(stderr, "{}\n", writers[0].forecast(ticks, options.row_every));
+    options.row = [&writers](const Row& r) {
+      for (CsvWriter& writer : writers) writer.add(r);
+    };
+  }
+  Progress progress(scenario.name + " on " + a.design, a.quiet);
+  options.progress = [&progress](double done) { progress.update(done); };
+  const RunResult result = run_within_bounds(elaborated, scenario, plant, options);
+  RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
+  labels.differing = stability::differing_constants(elaborated.design, plant, scenario.effects);
+  labels.plant_as_named = scenario.plant;
+  labels.speed_jumps = speed_jumps(scenario, plant);
+  const auto arms = [](const Event& e) { return e.arm.value_or(false); };
+  if (scenario.arm_s >= scenario.duration_s &&
+      std::none_of(scenario.events.begin(), scenario.events.end(), arms)) {
+    labels.never_armed_s = scenario.arm_s;
+  }
+  for (files::OutputFile* file : {json, report_json}) {
+    if (file != nullptr) file->write(run_json(result, labels));
+  }
+  if (events != nullptr) events->write(event_lines(result.events, law->period_s()));
+  if (!a.quiet) {
+    outputs.say(run_text(result, labels));
+    if (law != nullptr) {
+      outputs.say(fmt::format("law {}: {}\n", law->name(),
+                              law->compiled()
+                                  ? "compiled into this program"
+                                  : "not compiled into this program, the interpreter runs it"));
+    }
+  }
+  outputs.commit();
+  const bool ok = result.as_expected();
+  if (!a.report.empty()) {
+    const int status =
+        run_script("report.py", {"--", a.report, json_path, csv_path}, outputs.text());
+    if (status != 0) return status < exit_signal ? exit_unusable : status;
+  }
+  if (a.quiet) {
+    for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
+  }
+  show_mismatch(result, options, [&](const EngineOptions& same) {
+    const std::unique_ptr<SceneLaw> from_start = law_of(scenario, design);
+    RunOptions again;
+    static_cast<EngineOptions&>(again) = same;
+    again.law = from_start.get();
+    run_scenario(cut_after(scenario, result, same.fst_to + 1), plant, again);
+  });
+  return ok ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<RunArguments>();
+  CLI::App* sub =
+      app.add_subcommand("run", "one scene in closed loop: core, motor, lever and hand");
+  sub->footer(
+      "SCENE is a name in vectors/scenes or the path of a scene file (docs/scenes.md).\n"
+      "  feltgate run membrane                      RTL and twin in lock-step, float, double, "
+      "quad\n"
+      "  feltgate run torque_step --design paper --report out\n"
+      "  feltgate run damper --engine twin,double,float --csv damper.csv    fixed beside float\n"
+      "  feltgate run detent                        a scene with a law of its own (docs/laws.md)\n"
+      "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
+      "its\n"
+      "proven bound, 1 otherwise, 2 unusable input.");
+  sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
+  sub->add_option("--design", a->design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
+      ->type_name("PLANT");
+  sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
+  sub->add_option(
+         "--set", a->set,
+         "parameter to set before arming, in its unit or with one: wall_stiffness=0.1Nm/deg; may "
+         "be repeated")
+      ->type_name("NAME=VALUE");
+  sub->add_option("--seed", a->seed, "of the RTL's state before reset")
+      ->capture_default_str()
+      ->check(checks::seed());
+  sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV")
+      ->type_name("DIR");
+  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
+  sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
+      ->type_name("FILE");
+  sub->add_option("--every", a->every, every_help)
+      ->check(checks::whole(1, 1'000'000'000))
+      ->type_name("TICKS");
+  sub->add_flag("--columns", a->columns,
+                "print the CSV columns of SCENE, of one lever without, and end");
+  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)")
+      ->type_name("FILE");
+  sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")
+      ->type_name("FILE");
+  sub->add_option("--events", a->events,
+                  "events of the scene's law as lines for Pure Data (docs/devices/drums.md)")
+      ->type_name("FILE");
+  sub->add_option("--states", a->states,
+                  "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)")
+      ->type_name("FILE");
+  sub->add_flag("--quiet", a->quiet, "print only what went wrong");
+  sub->callback([a, exit_code] {
+    a->design = built_design(a->design);
+    *exit_code = run(*a);
+  });
+}
+
+}  // namespace feltgate

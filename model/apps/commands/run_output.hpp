@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Prints a run's figures as JSON and as text. Documentation: docs/json.md
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/loop/loop.hpp"
+#include "studies/stability/constants.hpp"
+
+namespace feltgate {
+
+/// Help texts of options that run and replay share.
+constexpr const char* engine_help =
+    "rtl, twin, float (binary32), double (binary64), quad (binary128), several with commas between "
+    "them, or all: RTL and twin in lock-step, the others beside";
+constexpr const char* every_help =
+    "CSV: only every n-th tick; default: the first of 1, 2, 5, 10, 20, ... that leaves at most "
+    "100000 rows";
+
+/// Texts and values that are printed in addition to the figures.
+struct RunLabels {
+  std::string subject_key;  ///< "scene" or "trace"
+  std::string plant, probes;
+  int step_clocks = 0;                              ///< step of the plant
+  std::vector<std::string> effects_off = {};        ///< disabled effects of the plant
+  std::vector<stability::Constant> differing = {};  ///< constants in which design and plant differ
+  std::string plant_as_named = {};                  ///< the user's name of the plant, for the mend
+  std::vector<std::string> speed_jumps = {};        ///< speed jumps of the hand, a sentence each
+  double never_armed_s = 0;                         ///< arm_s if the scene ends before it; 0: none
+};
+
+/// The JSON object, pretty-printed.
+std::string run_json(const RunResult& result, const RunLabels& labels);
+
+/// The same as text for a terminal: what ran, the engines if there are several, what was felt.
+std::string run_text(const RunResult& result, const RunLabels& labels);
+
+/// The last part of that text: what was felt.
+std::string felt_text(const RunResult& result);
+
+// Parts of it.
+std::string acted_text(const std::map<std::string, Acted>& all);
+std::string energy_lines(const FeltEnergy& energy);
+/// Warns that the law's torque was 0 because its mailbox was too old; empty if it never was.
+std::string stale_line(const Acted& stale);
+std::string expectation_lines(const std::vector<Expected>& all);
+
+/// If RTL and twin differed, repeats the run, which is deterministic, with a waveform of the clocks
+/// around the first mismatch, and prints where it is. `run` gets the options of the run with it.
+void show_mismatch(const SessionResult& result, EngineOptions options,
+                   const std::function<void(const EngineOptions& again)>& run);
+/// The scene of that run, ended after so many clocks, without expectations.
+Scenario cut_after(Scenario scenario, const SessionResult& result, Clock clocks);
+
+/// Applies each NAME=VALUE of --set to the scene's parameters; the value may have a unit
+/// (law/amount.hpp). `law` may be nullptr. Throws std::invalid_argument.
+void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
+                    const SceneLaw* law, Scenario& scenario);
+/// The path of the law that a scene names; a relative path starts at the scene's folder.
+std::string law_file(const Scenario& scenario);
+
+}  // namespace feltgate

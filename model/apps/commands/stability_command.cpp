@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate stability. Documentation: docs/stability.md
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "files/output_file.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/stability/report.hpp"
+
+namespace feltgate {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StabilityArguments {
+  std::string design = "lever", linear = "linear", plant = "p24", json, plot;
+  std::vector<double> rates, damping;
+  bool no_bits = false, no_experiments = false;
+};
+
+/// Exit code: 1 when the chain's bits and the eigenvalues differ by more than 5 % for a swing that
+/// spans enough counts for the comparison.
+int verdict(const stability::Study& study, const files::Outputs& outputs) {
+  constexpr double enough_counts = 8, tolerance = 0.05;
+  int off = 0;
+  for (const auto& p : study.borders) {
+    if (p.exact.stiffness_nm_rad == 0 || p.swing_counts < enough_counts) continue;
+    const double ratio = p.bits_nm_rad / p.exact.stiffness_nm_rad;
+    if (ratio > 1 - tolerance && ratio < 1 + tolerance) continue;
+    outputs.say(
+        fmt::format("bits and eigenvalues differ by more than 5 %: {:g} Hz, B = {:g} Nm s/rad\n",
+                    p.rate_hz, p.damping_nm_s_rad));
+    ++off;
+  }
+  return off == 0 ? exit_ok : exit_failed;
+}
+
+/// The border is that of a wall on a design; how far a scene's own torque is from it, `rates` says.
+void refuse_scene(const std::string& name) {
+  const fs::path path(name), scenes = fs::path(repository()) / "vectors/scenes";
+  const fs::path scene = scenes / (path.stem().string() + ".toml");
+  std::error_code error;
+  const bool is_design = fs::exists(fs::path(repository()) / "rtl/designs" / (name + ".toml"));
+  if (is_design || !fs::exists(scene)) return;
+  const bool is_file = path.has_parent_path() || path.extension() == ".toml";
+  if (is_file && !fs::equivalent(path, scene, error)) return;
+  throw std::invalid_argument(
+      fmt::format("{0} is a scene, and stability takes a design, whose walls it looks at; the "
+                  "margin of a one-lever "
+                  "scene's own torque, by the same eigenvalues, is in: ./feltgate rates {0}",
+                  path.stem().string()));
+}
+
+int run(const StabilityArguments& a) {
+  const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
+  const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")), registers);
+  const auto linear = plant::read_plant_file(find_file(a.linear, "vectors/plants"));
+  const auto full = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
+  files::Outputs outputs;
+  outputs.reads(find_file(a.design, "rtl/designs"));
+  outputs.reads(find_file(a.linear, "vectors/plants"));
+  outputs.reads(find_file(a.plant, "vectors/plants"));
+  outputs.folder("--plot", a.plot);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  // The pictures are drawn from a file.
+  std::string json_path = a.json;
+  if (!a.plot.empty() && (json == nullptr || json->in_place())) {
+    json_path = a.plot + "/stability.json";
+  }
+  files::OutputFile* plot_json = json_path == a.json ? nullptr : outputs.open("--plot", json_path);
+  stability::StudyOptions options;
+  if (!a.rates.empty()) options.rates_hz = a.rates;
+  if (!a.damping.empty()) options.damping_nm_s_rad = a.damping;
+  options.bits = !a.no_bits;
+  options.experiments = !a.no_experiments;
+  Progress progress("stability of " + e.design.name, false);
+  options.progress = [&progress](double done) { progress.update(done); };
+  const auto study = run_study(e, linear, full, options);
+  outputs.say(stability::study_text(study));
+  for (files::OutputFile* file : {json, plot_json}) {
+    if (file != nullptr) file->write(stability::study_json(study));
+  }
+  outputs.commit();
+  if (!a.plot.empty()) {
+    const int status = run_script("stability.py", {"--", json_path, a.plot}, outputs.text());
+    if (status != 0) return status < exit_signal ? exit_unusable : status;
+  }
+  return options.bits ? verdict(study, outputs) : exit_ok;
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<StabilityArguments>();
+  CLI::App* sub = app.add_subcommand(
+      "stability", "how stiff a wall may be before it shakes, by damping and scene rate");
+  sub->footer(
+      "The border of a wall's stiffness three ways: by bisection on the chain's own bits around a\n"
+      "linear plant, by the eigenvalues of the loop, and by (b+B)/(T/2+td). Between two updates "
+      "of\n"
+      "the scene its torque is held: a host reads, computes and writes the setpoint; at the tick\n"
+      "rate it is the core's own wall. Then counts, friction and noise in the full plant.\n"
+      "  feltgate stability lever                          all of it, about 40 s\n"
+      "  feltgate stability lever --plot out               with pictures in out/\n"
+      "  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments\n"
+      "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing spans 8 counts),\n"
+      "1 otherwise, 2 unusable input. docs/stability.md explains every column.");
+  sub->add_option("design", a->design, "design that was built in, by its name in rtl/designs")
+      ->capture_default_str()
+      ->type_name("DESIGN");
+  sub->add_option("--linear-plant", a->linear,
+                  "plant of the borders, in vectors/plants or a path: without friction, dead "
+                  "voltage and dead time")
+      ->type_name("PLANT")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant of counts, friction and noise")
+      ->type_name("PLANT")
+      ->capture_default_str();
+  sub->add_option("--rate", a->rates, "scene rates in Hz; default 144,490,1000,40000,1000000")
+      ->delimiter(',')
+      ->transform(checks::number(1, 1e6, "Hz"));
+  sub->add_option("--damping", a->damping,
+                  "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02")
+      ->delimiter(',')
+      ->transform(checks::number(0, 1, "Nm s/rad"));
+  sub->add_flag("--no-bits", a->no_bits,
+                "without the chain's bits: 6 s; with --no-experiments 0.3 s");
+  sub->add_flag("--no-experiments", a->no_experiments, "borders only");
+  sub->add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
+  sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder")
+      ->type_name("DIR");
+  sub->callback([a, exit_code] {
+    refuse_scene(a->design);
+    a->design = built_design(a->design);
+    *exit_code = run(*a);
+  });
+}
+
+}  // namespace feltgate

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// feltgate trim. Documentation: docs/trim.md
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
+#include "feltgate/largest.hpp"
+#include "files/json_text.hpp"
+#include "files/output_file.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "studies/trim/scene_file.hpp"
+#include "studies/trim/trim.hpp"
+
+namespace feltgate {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct TrimArguments {
+  std::string scene, plant, output, json, tolerance = "1%";
+  double window_ms = 1e3 * felt_window_s, duration_s = 0;
+  bool quiet = false;
+  trim::Options options;
+};
+
+/// "1%" or "0.01".
+double share_of(const std::string& text) {
+  std::size_t end = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  const std::string unit = text.substr(end);
+  if (unit == "%") value /= 100;
+  if (end == 0 || !(unit.empty() || unit == "%") || !(value > 0 && value <= 1)) {
+    throw std::invalid_argument("--tolerance " + text +
+                                " is no share in (0, 1]; write for example 1% or 0.01");
+  }
+  return value;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[20];
+  std::strftime(text, sizeof text, "%Y-%m-%d", std::localtime(&now));
+  return text;
+}
+
+std::vector<std::string> off(const Scenario& scene, const trim::Model& model) {
+  Scenario s = scene;
+  s.effects = model.effects;
+  s.switched = model.gates;
+  return effects_off(s);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& w : words) text += (text.empty() ? "" : " ") + w;
+  return text.empty() ? "none" : text;
+}
+
+double cost(const trim::Felt& felt) { return felt.cpu_s / felt.simulated_s; }
+
+/// peak/rms in percent.
+std::string loss_text(const trim::Loss& l) {
+  return fmt::format("{:7.2f} {:6.2f}", 100 * l.peak, 100 * l.rms);
+}
+
+std::string difference_text(const trim::Difference& d) {
+  return loss_text(d.torque) + " " + loss_text(d.position) + " " + loss_text(d.force);
+}
+
+std::string verdict(const trim::PartReport& p) {
+  if (p.put_back) return "put back by the final check";
+  if (p.dropped) return fmt::format("off; all so far {:.2f} %", 100 * p.so_far);
+  if (p.so_far > 0) return fmt::format("stays; the set would be {:.2f} % off", 100 * p.so_far);
+  return "stays";
+}
+
+std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+  std::ostringstream s;
+  for (const std::string& b : r.trimmed_run.broken) s << "trimmed, not as expected: " << b << "\n";
+  s << "scene " << scene.name << ", design " << a.options.design << ", plant " << scene.plant
+    << "\n"
+    << fmt::format("tolerance {:.3g} % of peak and of rms, means over {:.3g} ms\n",
+                   100 * a.options.tolerance, a.window_ms)
+    << "full model: " << joined(trim::parts_of(scene, r.full))
+    << fmt::format(", {} clocks a step: {:.3g} s of CPU time per simulated second\n\n",
+                   r.full.step_clocks, cost(r.full_run))
+    << "left out                torque %      position %         force %     saves\n"
+    << "alone                 peak    rms     peak    rms     peak    rms   of time\n";
+  for (const trim::PartReport& p : r.parts) {
+    s << fmt::format("{:<18}", p.name.c_str()) << difference_text(p.alone)
+      << fmt::format("  {:6.1f} %  ", 100 * p.saves) << verdict(p) << "\n";
+  }
+  s << "\neffects off: " << joined(off(scene, r.trimmed)) << "\n"
+    << fmt::format("step: {} clocks\n", r.trimmed.step_clocks) << "own motion        "
+    << difference_text(r.own) << "\n";
+  for (const trim::UnseenReport& u : r.unseen) {
+    s << (u.searched ? "searched too      " : "unseen motion     ") << difference_text(u.difference)
+      << fmt::format("  way x{:.2f}, speed x{:.2f}, seed {}\n", u.amplitude, u.speed,
+                     static_cast<unsigned long long>(u.seed));
+  }
+  s << fmt::format(
+      "states of the plant {} -> {}; CPU per simulated second {:.3g} -> {:.3g} s, {:.3g} times\n",
+      r.full_run.states, r.trimmed_run.states, cost(r.full_run), cost(r.trimmed_run),
+      cost(r.full_run) / cost(r.trimmed_run));
+  if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
+  s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
+  return s.str();
+}
+
+Json difference_json(const trim::Difference& d) {
+  const auto loss = [](const trim::Loss& l) { return Json{{"peak", l.peak}, {"rms", l.rms}}; };
+  return {{"torque", loss(d.torque)}, {"position", loss(d.position)}, {"force", loss(d.force)}};
+}
+
+Json model_json(const Scenario& scene, const trim::Model& model, const trim::Felt& felt) {
+  return {{"effects_off", off(scene, model)},
+          {"step_clocks", model.step_clocks},
+          {"plant_states", felt.states},
+          {"cpu_s_per_s", cost(felt)}};
+}
+
+std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+  Json j{{"schema", "feltgate-trim/1"},
+         {"version", FELTGATE_VERSION},
+         {"date", today()},
+         {"scene", scene.name},
+         {"design", a.options.design},
+         {"plant", scene.plant},
+         {"tolerance", a.options.tolerance},
+         {"window_s", a.options.window_s},
+         {"full", model_json(scene, r.full, r.full_run)},
+         {"trimmed", model_json(scene, r.trimmed, r.trimmed_run)},
+         {"own_motion", difference_json(r.own)},
+         {"parts", Json::array()},
+         {"unseen", Json::array()},
+         {"expectations_broken", r.trimmed_run.broken},
+         {"runs", r.runs},
+         {"search_cpu_s", r.cpu_s}};
+  for (const trim::PartReport& p : r.parts) {
+    j["parts"].push_back({{"name", p.name},
+                          {"alone", difference_json(p.alone)},
+                          {"saves", p.saves},
+                          {"off", p.dropped},
+                          {"put_back", p.put_back}});
+  }
+  for (const trim::UnseenReport& u : r.unseen) {
+    j["unseen"].push_back({{"seed", u.seed},
+                           {"amplitude", u.amplitude},
+                           {"speed", u.speed},
+                           {"searched", u.searched},
+                           {"difference", difference_json(u.difference)}});
+  }
+  return files::json_text(j);
+}
+
+std::string comment_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+  std::ostringstream s;
+  double worst = r.own.worst();
+  for (const trim::UnseenReport& u : r.unseen) worst = larger(worst, u.difference.worst());
+  s << "Written on " << today() << " by: feltgate trim " << scene.name << " --design "
+    << a.options.design << " --tolerance " << a.tolerance << "\n"
+    << "effects off: " << joined(off(scene, r.trimmed)) << "\n"
+    << fmt::format(
+           "Within {:.3g} % of the full model on its own motion and on {} others, {:.3g} times "
+           "faster.",
+           100 * worst, r.unseen.size(), cost(r.full_run) / cost(r.trimmed_run));
+  return s.str();
+}
+
+int run_trim(TrimArguments& a) {
+  a.options.tolerance = share_of(a.tolerance);
+  a.options.window_s = 1e-3 * a.window_ms;
+  Scenario scene = read_scenario(find_file(a.scene, "vectors/scenes"));
+  require_no_law(scene, "trim");
+  resolve_amounts(scene, design_named(a.options.design));
+  if (!a.plant.empty()) scene.plant = a.plant;
+  constexpr double fewest_windows = 10;  // fewer say nothing of a scene
+  if (a.duration_s > 0 && a.duration_s < fewest_windows * a.options.window_s) {
+    throw std::invalid_argument(fmt::format(
+        "--duration {:g}: is shorter than {:g} windows of {:g} ms; give at least {:g} s",
+        a.duration_s, fewest_windows, a.window_ms, fewest_windows * a.options.window_s));
+  }
+  if (a.duration_s > scene.duration_s) {
+    throw std::invalid_argument(
+        fmt::format("--duration {:g}: the scene is over after {:g} s; give less", a.duration_s,
+                    scene.duration_s));
+  }
+  if (a.duration_s > 0 && a.duration_s < scene.duration_s) {
+    scene.duration_s = a.duration_s;
+    scene.expectations.clear();
+  }
+  const std::string plant_path = find_file(scene.plant, "vectors/plants");
+  const plant::Parameters plant = plant::read_plant_file(plant_path);
+  files::Outputs outputs;
+  outputs.reads(scene.path);
+  outputs.reads(plant_path);
+  for (const auto& phase : scene.hand.phases) outputs.reads(phase.trace.file);
+  outputs.reads(find_file(a.options.design, "rtl/designs"));
+  files::OutputFile* output = outputs.open("--output", a.output);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  Progress progress("trim " + scene.name + " on " + a.options.design, a.quiet);
+  a.options.progress = [&progress](double done) { progress.update(done); };
+  const trim::Report report = trim::trim(scene, plant, a.options);
+  progress.finish();
+
+  if (json != nullptr) json->write(json_of(report, scene, a));
+  if (!a.quiet) outputs.say(text_of(report, scene, a));
+  const bool found = report.holds && report.smaller() && report.trimmed_run.broken.empty();
+  if (output != nullptr) {
+    if (found) {
+      output->write(trim::scene_text(scene, report.trimmed, comment_of(report, scene, a)));
+    } else {
+      output->discard();
+    }
+  }
+  outputs.commit();
+  return found ? exit_ok : exit_failed;
+}
+
+}  // namespace
+
+void add_trim(CLI::App& app, int* exit_code) {
+  auto a = std::make_shared<TrimArguments>();
+  a->options.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CLI::App* sub = app.add_subcommand(
+      "trim", "which effects of the plant a scene needs: the least model within a tolerance");
+  sub->footer(
+      "SCENE is a name in vectors/scenes or the path of a scene file. The full model has every "
+      "effect and\nswitching gates. Torque, position and force at the hand, as means over 1 ms, "
+      "are "
+      "kept within the\ntolerance on the scene's own motion and on others (docs/trim.md).\n"
+      "  feltgate trim membrane                           one percent\n"
+      "  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml\n"
+      "Exit code: 0 a smaller model was found, 1 nothing can be left out or an expectation is "
+      "broken,\n2 unusable input.");
+  sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
+  sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  sub->add_option("--design", a->options.design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
+  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
+      ->type_name("PLANT");
+  sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run")
+      ->type_name("FILE");
+  sub->add_option("--json", a->json, "the figures as JSON")->type_name("FILE");
+  sub->add_option("--duration", a->duration_s, "of the scene; default: its own")
+      ->type_name("SECONDS")
+      ->transform(checks::seconds());
+  sub->add_option("--window", a->window_ms, "length of the means, ms")
+      ->capture_default_str()
+      ->transform(checks::number(0.01, 1000, "ms"));
+  sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
+      ->capture_default_str()
+      ->check(checks::whole(1, 5));
+  sub->add_option("--unseen", a->options.unseen, "motions of the final check")
+      ->capture_default_str()
+      ->check(checks::whole(1, 100));
+  sub->add_option("--seed", a->options.seed, "of these motions")
+      ->capture_default_str()
+      ->check(checks::seed());
+  sub->add_option("--jobs", a->options.threads, "runs at a time")
+      ->capture_default_str()
+      ->check(checks::whole(1, 64));
+  old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
+  sub->add_flag("--quiet", a->quiet, "print nothing");
+  sub->callback([a, exit_code] {
+    a->options.design = built_design(a->options.design);
+    *exit_code = run_trim(*a);
+  });
+}
+
+}  // namespace feltgate

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The closed loop of a simulated board. Documentation: docs/board.md
+#include "host/board/board.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include "sim/loop/scenario.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/plant/drive.hpp"
+
+namespace feltgate::board {
+
+namespace {
+
+constexpr double kArmAfter_s = 0.01;  ///< when the panel's switch arms, after power-up
+
+plant::HandPhase phase(plant::HandPhase::Kind kind) {
+  plant::HandPhase p;
+  p.kind = kind;
+  return p;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> BadLine::through(const std::vector<std::uint8_t>& bytes) {
+  if (share_ <= 0) return bytes;
+  std::vector<std::uint8_t> out;
+  for (const std::uint8_t byte : bytes) {
+    if (random_.uniform() >= share_) {
+      out.push_back(byte);
+      continue;
+    }
+    switch (random_.below(3)) {
+      case 0:
+        break;
+      case 1:
+        out.push_back(static_cast<std::uint8_t>(byte ^ (1U << random_.below(8))));
+        break;
+      default:
+        out.insert(out.end(), 2, byte);
+    }
+  }
+  return out;
+}
+
+plant::Hand hand_named(const std::string& name, const std::string& scenes_folder) {
+  using Kind = plant::HandPhase::Kind;
+  plant::Hand hand;
+  if (name == "free") return hand;
+  if (name == "locked") {
+    hand.phases = {phase(Kind::kLocked)};
+    return hand;
+  }
+  if (name == "hold" || name == "swing") {
+    hand.phases = {phase(Kind::kImpedance)};
+    if (name == "swing") {
+      constexpr double day_s = 1e5, quarter_rad = 1.5707963267948966;
+      plant::Segment s;
+      s.kind = plant::Segment::Kind::kSine;
+      s.duration_s = day_s;
+      s.amplitude = 0.5;
+      s.frequency_hz = 1;
+      s.phase_rad = -quarter_rad;  // starts at rest
+      hand.phases[0].profile = {s};
+      hand.phases[0].duration_s = day_s;
+    }
+    return hand;
+  }
+  namespace fs = std::filesystem;
+  const bool path = name.find('/') != std::string::npos || fs::path(name).extension() == ".toml";
+  const fs::path file = path ? fs::path(name) : fs::path(scenes_folder) / (name + ".toml");
+  if (!fs::exists(file)) {
+    throw std::invalid_argument(
+        fmt::format("--hand {}: is neither free, locked, hold or swing nor a scene file; the "
+                    "scenes are in {}",
+                    name, scenes_folder));
+  }
+  return read_scenario(file.string()).hand;
+}
+
+Board::Board(std::unique_ptr<Core> core, const plant::Parameters& parameters,
+             const plant::Hand& hand, const Setup& setup)
+    : core_(std::move(core)),
+      plant_(parameters, parameters.effects, plant::drive_of(core_->design()), hand),
+      plan_(plan(parameters, hand, core_->design())),
+      to_board_(setup.bad_line, setup.seed),
+      from_board_(setup.bad_line, setup.seed + 1),
+      arm_at_(std::llround(kArmAfter_s * static_cast<double>(core_->design().clock_hz))),
+      arm_(setup.arm) {
+  in_.encoder = plant_.encoder().pins();
+  in_.scene = static_cast<std::uint8_t>(scene_number(core_->design(), setup.scene));
+}
+
+StepPlan Board::plan(const plant::Parameters& parameters, const plant::Hand& hand,
+                     const DesignInfo& design) {
+  const Scenario s = scene_of(parameters, hand);
+  check_step(s, parameters, static_cast<double>(design.clock_hz));
+  return {s, parameters, design};
+}
+
+void Board::receive(const std::vector<std::uint8_t>& bytes) {
+  for (const std::uint8_t byte : to_board_.through(bytes)) core_->send(byte);
+}
+
+void Board::run_to(Clock clock) {
+  while (now_ < clock) {
+    if (arm_ && now_ >= arm_at_) in_.arm = true;
+    Clock corner = plant_.next_corner();
+    if (arm_ && now_ < arm_at_) corner = std::min(corner, arm_at_);
+    step(plan_.end_of_step(now_, corner, std::numeric_limits<Clock>::max()) - now_);
+  }
+}
+
+// As in the loop of scenes: the core's last bridge state drives the motor in this step, and the
+// core gets each edge in its clock.
+void Board::step(Clock clocks) {
+  if (core_->duty() != duty_clocks_) {
+    duty_clocks_ = core_->duty();
+    duty_ = static_cast<double>(duty_clocks_) / core_->design().pwm_period;
+  }
+  plant_.advance(plant::Bridge::averaged(duty_, core_->gates_enabled()), clocks);
+  const Clock end = now_ + clocks;
+  for (const EncoderEvent& e : plant_.events()) {
+    const Clock at = std::clamp(e.clock, now_, end);
+    if (at > now_) core_->run(in_, at - now_);
+    now_ = at;
+    in_.encoder = e.pins;
+  }
+  if (end > now_) core_->run(in_, end - now_);
+  now_ = end;
+}
+
+std::vector<std::uint8_t> Board::take_sent() {
+  auto bytes = core_->take_received();
+  bytes_ += static_cast<std::int64_t>(bytes.size());
+  for (const std::uint8_t b : bytes) byte_sum_.add_at_once(b);
+  return from_board_.through(bytes);
+}
+
+Outcome Board::outcome() const {
+  return {now_, core_->ticks().ticks(), core_->ticks().value(), bytes_, byte_sum_.value()};
+}
+
+}  // namespace feltgate::board

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A board without hardware: core and link, bridge, motor, lever and hand in closed loop. Its
+// interface is bytes in and bytes out. Documentation: docs/board.md
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "feltgate/random.hpp"
+#include "host/board/core.hpp"
+#include "host/board/recording.hpp"
+#include "sim/engines/fnv1a.hpp"
+#include "sim/loop/step_plan.hpp"
+#include "sim/plant/plant.hpp"
+
+namespace feltgate::board {
+
+/// A line that damages bytes with a given probability: one is lost, has a bit inverted, or is
+/// doubled.
+class BadLine {
+ public:
+  BadLine(double share, std::uint64_t seed) : share_(share), random_(seed) {}
+  std::vector<std::uint8_t> through(const std::vector<std::uint8_t>& bytes);
+
+ private:
+  double share_;
+  SplitMix64 random_;
+};
+
+/// What holds the lever: "free", "locked", "hold" (a hand that holds it where it is), "swing" (a
+/// hand that swings it by 0.5 rad at 1 Hz), or the [hand] of a scene file, given by name or path.
+/// Errors: std::invalid_argument or config::ConfigError.
+plant::Hand hand_named(const std::string& name, const std::string& scenes_folder);
+
+/// The simulated board; clock by clock for the core, step by step for the plant.
+class Board {
+ public:
+  /// Power-up at clock 0. Errors: those of check_step() if the plant is too stiff.
+  Board(std::unique_ptr<Core> core, const plant::Parameters& plant, const plant::Hand& hand,
+        const Setup& setup);
+
+  /// Bytes for the rx pin, from the present clock on.
+  void receive(const std::vector<std::uint8_t>& bytes);
+  /// Runs to this clock, or slightly beyond, to the end of a plant step.
+  void run_to(Clock clock);
+  Clock now() const { return now_; }
+  /// The bytes that the tx pin has sent since the last call.
+  std::vector<std::uint8_t> take_sent();
+
+  const Core& core() const { return *core_; }
+  const plant::Observables& plant() const { return plant_.observables(); }
+  Outcome outcome() const;
+
+ private:
+  static StepPlan plan(const plant::Parameters& plant, const plant::Hand& hand,
+                       const DesignInfo& design);
+  void step(Clock clocks);
+
+  std::unique_ptr<Core> core_;
+  plant::Plant plant_;
+  StepPlan plan_;
+  BoardIn in_;
+  BadLine to_board_, from_board_;
+  Clock now_ = 0, arm_at_ = 0;
+  bool arm_ = false;
+  int duty_clocks_ = 0;
+  double duty_ = 0;
+  std::int64_t bytes_ = 0;
+  Fnv1a byte_sum_;
+};
+
+}  // namespace feltgate::board

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Runs a board behind a pseudo-terminal in step with the wall clock, or feeds it from a recording.
+// Documentation: docs/board.md
+#pragma once
+
+#include <functional>
+
+#include "host/board/board.hpp"
+#include "host/board/pseudo_terminal.hpp"
+
+namespace feltgate::board {
+
+/// Speed of a run.
+struct Pace {
+  double simulated_s = 0, wall_s = 0;
+  double busy_s = 0;    ///< processor time spent in the simulation
+  double behind_s = 0;  ///< simulated time that was too late and was given up
+  /// Simulated seconds per busy second.
+  double factor() const { return busy_s > 0 ? simulated_s / busy_s : 0; }
+  /// Whether it kept up, except for 1 %.
+  bool real_time() const { return behind_s <= 0.01 * simulated_s; }
+};
+
+/// Options of serve().
+struct ServeOptions {
+  double for_s = 0;  ///< simulated; 0: until `go_on` returns false
+  bool paced = true;
+  RecordingWriter* record = nullptr;
+  std::function<bool()> go_on;
+  std::function<void(const Pace&)> tell;  ///< called about once per second; may be empty
+};
+
+/// Runs the board behind the terminal until `for_s` has passed or `go_on` returns false.
+Pace serve(Board& board, PseudoTerminal& terminal, const ServeOptions& options);
+
+/// Feeds the same bytes at the same clocks, at full speed. `go_on` = false ends it early.
+Pace replay(Board& board, const Recording& recording, const std::function<bool()>& go_on,
+            const std::function<void(double done)>& progress);
+
+}  // namespace feltgate::board

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A host that knows a world. It sends the plane of the world that is nearest to the pen, or the
+// force at the pen; each is computed from a pose that is old on arrival. Documentation:
+// docs/devices/local_plane.md
+#pragma once
+
+#include <array>
+#include <deque>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "feltgate/encoder_source.hpp"
+#include "feltgate/random.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/loop/scene_law.hpp"
+#include "sim/plant/rotation.hpp"
+
+namespace feltgate {
+
+/// [plane] of a scene file. With two axes z is always 0.
+struct PlaneHostSettings {
+  enum class World {
+    kFloor,  ///< through `centre_m`; normal +y for two axes, +z for three
+    kDisc,   ///< felt from outside, like all that follow
+    kSphere,
+    kCube,  ///< its faces are perpendicular to the axes
+  };
+  int axes = 2;
+  bool sends_force = false;  ///< sends the force instead of the plane: one word per axis
+  World world = World::kFloor;
+  plant::Vec3 centre_m;
+  double radius_m = 0;                                       ///< for a cube: half its edge
+  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;  ///< of the material
+  double rate_hz = 1000;
+  double latency_s = 0;  ///< shortest time from a pose to its plane in the mailbox
+  double jitter_s = 0;   ///< largest additional time, uniformly distributed
+  double lost = 0;       ///< share of the planes that are lost
+  std::uint64_t seed = 1;
+  int line = 0;  ///< line in the file
+};
+
+/// Reads [plane] for a device with `axes` axes. Errors: config::ConfigError.
+PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
+
+/// A plane: one of its points, and its normal of length 1, which points out of the material.
+struct Plane {
+  plant::Vec3 point_m, normal;
+};
+
+/// The plane that touches the world at the point nearest to the pen.
+Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
+/// Force of the spring behind a plane, N.
+plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
+
+/// The host in a run: takes poses, sends updates late, counts the lost ones.
+class PlaneHost {
+ public:
+  PlaneHost(const PlaneHostSettings& settings, std::int64_t clock_hz);
+
+  /// Errors: config::ConfigError with the scene's path, if the law lacks a mailbox.
+  static void check(const PlaneHostSettings& settings, const std::string& path,
+                    const SceneLaw& law);
+
+  /// The next clock at which act() has something to do.
+  Clock next() const;
+  /// Takes the pose and delivers updates due at `now`; `counted_m` is the pen's position by the
+  /// cores' counts. Returns the words that arrive.
+  std::map<std::string, double> act(Clock now, plant::Vec3 counted_m);
+
+  /// The plane that arrived last, if any.
+  std::optional<Plane> plane() const {
+    return now_ ? std::optional<Plane>(now_->plane) : std::nullopt;
+  }
+
+  static std::vector<std::string> names(int axes);
+  /// Appends the values of names(): the normal in force; its angle from the world's normal at the
+  /// pen (signed as a turn about z if there are two axes); the age of the pose behind it; the
+  /// change of the spring's force by an update, in the first row after it, else 0.
+  void add(Clock now, plant::Vec3 pen_m, std::vector<double>& row);
+  void add_figures(std::map<std::string, double>& figures) const;
+
+ private:
+  struct Update {
+    Clock sampled = 0, at = 0;
+    Plane plane;
+    plant::Vec3 pen_m;
+  };
+  Clock clock_of(std::int64_t sample) const;
+  std::map<std::string, double> words(const Update& u) const;
+
+  PlaneHostSettings settings_;
+  double clock_hz_;
+  SplitMix64 random_;
+  std::int64_t samples_ = 0, lost_ = 0, arrived_ = 0;
+  Clock next_sample_ = 0;
+  std::deque<Update> under_way_;  ///< in order of arrival
+  std::optional<Update> now_, before_;
+};
+
+}  // namespace feltgate

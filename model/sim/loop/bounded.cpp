@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Runs whose errors are compared with their bounds. Documentation: docs/error-bounds.md
+#include "sim/loop/bounded.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/loop/scenario_bounds.hpp"
+
+namespace feltgate {
+
+namespace {
+
+void hold(RunResult& r, const bounds::ErrorBounds& b) {
+  for (const EngineFigures& e : r.engines) {
+    if (!is_core(e)) continue;
+    const FeltError errors[] = {
+        {"velocity_rad_s", e.velocity_rad_s.max(), e.covered_velocity_rad_s.max(),
+         b.velocity_rad_s.against_reference},
+        {"tau_hat_nm", e.tau_hat_nm.max(), e.covered_tau_hat_nm.max(),
+         b.tau_hat_nm.against_reference},
+        {"torque_nm", e.torque_nm.max(), e.covered_torque_nm.max(), b.torque_nm.against_reference}};
+    r.felt.errors.assign(std::begin(errors), std::end(errors));  // RTL and twin are equal
+    for (const FeltError& x : errors) {
+      if (x.max_error_in_bounds <= x.bound) continue;
+      r.broken.push_back(fmt::format("{}: {} is off by {:.4g}, above its proven bound {:.4g}",
+                                     e.name, x.signal, x.max_error_in_bounds, x.bound));
+    }
+  }
+}
+
+bool comparable(const EngineChoice& choice) {
+  return choice.reference() == "quad" && !choice.rider_drives;
+}
+
+// The strictest bound decides before the run which ticks count; the bound itself follows from the
+// motion of the run.
+template <class Options, class Run, class BoundsUpTo>
+RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsUpTo&& up_to) {
+  if (!comparable(choose_engines(options.engine))) return run();
+  const bounds::Coverage coverage(up_to(hardly_any_rad_s), bounds::chain_numbers(e));
+  options.coverage = &coverage;
+  RunResult r = run();
+  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)));
+  return r;
+}
+
+}  // namespace
+
+bool is_core(const EngineFigures& e) { return e.compared && (e.name == "rtl" || e.name == "twin"); }
+
+RunResult run_within_bounds(const design::Elaborated& e, const Scenario& scenario,
+                            const plant::Parameters& plant, RunOptions options) {
+  return held(
+      e, options, [&] { return run_scenario(scenario, plant, options); },
+      [&](double velocity_rad_s) {
+        return scenario_bounds(e, scenario, velocity_rad_s, options.law).worst();
+      });
+}
+
+RunResult replay_within_bounds(const design::Elaborated& e, EncoderSource& source,
+                               const std::string& subject, ReplayOptions options) {
+  return held(
+      e, options, [&] { return run_replay(source, subject, options); },
+      [&](double velocity_rad_s) {
+        RunBounds bounds(e, velocity_rad_s);
+        bounds.render(options.scene, 0);
+        return bounds.worst();
+      });
+}
+
+}  // namespace feltgate

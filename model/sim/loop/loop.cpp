@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The closed loop of core, plant and host. Documentation: docs/architecture.md
+#include "sim/loop/loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "files/toml/toml_reader.hpp"
+#include "sim/loop/drag.hpp"
+#include "sim/loop/ensemble.hpp"
+#include "sim/loop/rest.hpp"
+#include "sim/loop/scenario_check.hpp"
+#include "sim/loop/step_plan.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/period_mean.hpp"
+#include "sim/plant/plant.hpp"
+#include "sim/traces/statistics.hpp"
+#include "sim/traces/vector_file.hpp"
+
+namespace feltgate {
+
+namespace {
+
+/// The torques from one step of the reference to the next event.
+struct StepRecord {
+  double tau_ref_nm;
+  StepSamples tau_hat, torque;
+};
+
+class ScenarioRun {
+ public:
+  ScenarioRun(const Scenario& scenario, const plant::Parameters& plant, const RunOptions& options)
+      : s_(scenario),
+        options_(options),
+        choice_(choose_engines(options.engine)),
+        plant_(plant, scenario.effects, plant::drive_of(design_named(options.design)),
+               scenario.hand),
+        core_(options.design, choice_, options.seed, plant_.encoder().pins(),
+              Waveform{options.fst, options.fst_from, options.fst_to}),
+        plan_(plan(scenario, plant, core_.design(), choice_)),
+        mean_(core_.design().pwm_period, plan_.phase()),
+        felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
+        session_(scenario, core_, options),
+        counter_(plant_.encoder().pins()) {
+    last_.theta_rad = plant_.observables().theta_rad;
+    if (scenario.rest_from_s) rest_.from_clock = session_.clock_of(*scenario.rest_from_s);
+    if (scenario.drag_from_s) drag_.from_clock = session_.clock_of(*scenario.drag_from_s);
+  }
+
+  RunResult run() {
+    const DesignInfo& d = core_.design();
+    const Clock end = session_.end();
+    if (options_.record != nullptr) {
+      recorder_ = std::make_unique<traces::VectorWriter>(
+          options_.record, "the record of scene " + s_.name,
+          traces::VectorHeader{d.name, d.clock_hz, {"A", "B", "Z"}}, plant_.encoder().pins());
+    }
+    core_.cover(options_.coverage);
+    if (options_.law != nullptr) core_.run_law(*options_.law);
+    if (options_.law_states) watch_states();
+    core_.carry(options_.passenger);
+    if (options_.inputs != nullptr) {
+      *options_.inputs = {end, plant_.encoder().pins(), {}, {}};
+      core_.note_writes(&options_.inputs->writes);
+    }
+    core_.skip_self_test();
+    session_.begin();
+    core_.lead().keep_gate_times(s_.switched);
+    while (core_.lead().now() < end) {
+      const Clock now = core_.lead().now();
+      session_.act(now, plant_.observables().theta_rad, position_ * d.count_rad,
+                   [&](const Event& e) { applied(e); });
+      // A request takes effect by the end of its tick, and its consequences by the end of the next.
+      if (core_.writes_wait()) plan_.stir(now, 2 * d.clocks_per_tick);
+      step(plan_.end_of_step(now, std::min(session_.next(), plant_.next_corner()), end) - now);
+      session_.report_progress(now);
+    }
+    if (recorder_) recorder_->finish(end + 1);
+    return result();
+  }
+
+ private:
+  /// Gates and chains in real arithmetic can change within a PWM period; they need equal steps.
+  static StepPlan plan(const Scenario& s, const plant::Parameters& plant, const DesignInfo& d,
+                       const EngineChoice& choice) {
+    if (s.step_given || s.switched || choice.rider_drives) return StepPlan(s.step_clocks);
+    return {s, plant, d};
+  }
+
+  void watch_states() {
+    if (choice_.lead == "rtl") {
+      throw std::invalid_argument(
+          "the RTL alone does not show when a law runs; for its states add the twin: --engine all");
+    }
+    if (options_.law == nullptr) throw std::invalid_argument("the scene has no law with states");
+    core_.watch_law(options_.law->watch(options_.law_states));
+  }
+
+  void applied(const Event& e) {
+    if (e.stop && options_.inputs != nullptr) {
+      throw std::invalid_argument("scene " + s_.name +
+                                  " uses the stop pin, which recorded inputs do not hold");
+    }
+    if (e.stop) plan_.stir(core_.lead().now(), 2 * core_.design().clocks_per_tick);
+    end_step();
+    if (e.step_nm) {
+      step_ = std::make_unique<StepRecord>(StepRecord{*e.step_nm, StepSamples(last_.tau_hat_nm),
+                                                      StepSamples(last_.motor_torque_nm)});
+    }
+  }
+
+  /// Ends a torque step; only its figures are kept.
+  void end_step() {
+    if (!step_) return;
+    const double tick_s = 1.0 / static_cast<double>(core_.design().tick_hz), to = step_->tau_ref_nm;
+    steps_.push_back({to, step_->tau_hat.response(tick_s, to), step_->torque.response(tick_s, to)});
+    step_.reset();
+  }
+
+  plant::Bridge bridge(Clock clocks) {
+    const Engine& lead = core_.lead_const();
+    if (choice_.rider_drives) {
+      const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
+      return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
+    }
+    if (s_.switched) {
+      const GateClocks gates = lead.gates();
+      const double n = static_cast<double>(std::max<Clock>(clocks, 1));  // 0 before the first step
+      return plant::Bridge::gates(
+          static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
+          static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);
+    }
+    if (lead.duty() != duty_clocks_) {
+      duty_clocks_ = lead.duty();
+      duty_ = static_cast<double>(duty_clocks_) / core_.design().pwm_period;
+    }
+    return plant::Bridge::averaged(duty_, lead.gates_enabled());
+  }
+
+  // The bridge state of the last interval drives the motor in this one, so no edge depends on its
+  // own future.
+  void step(Clock clocks) {
+    const plant::Observables& o = plant_.observables();
+    before_ = {o.theta_rad, o.omega_rad_s, o.hand_torque_nm, mean_.mean()};
+    plant_.advance(bridge(last_clocks_), clocks);
+    if (clocks != last_clocks_) {
+      longest_step_clocks_ = std::max(longest_step_clocks_, clocks);
+      dt_s_ = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
+    }
+    last_clocks_ = clocks;
+    if (options_.plant_step) options_.plant_step(clocks, o);
+    mean_.add(clocks, o.motor_torque_mean_nm);
+    felt_.step(dt_s_, o.hand_torque_nm, o.omega_rad_s);
+    if (plant_.now() > drag_.from_clock) {
+      drag_.step(dt_s_, o.hand_torque_nm, before_.omega_rad_s, o.omega_rad_s);
+    }
+    const auto& events = plant_.events();
+    if (options_.inputs != nullptr) {
+      auto& edges = options_.inputs->edges;
+      edges.insert(edges.end(), events.begin(), events.end());
+    }
+    for (const EncoderEvent& e : events) {
+      counter_.add(e);
+      if (recorder_) recorder_->add(e);
+    }
+    core_.advance(clocks, events.data(), events.data() + events.size(),
+                  [this](const Snapshot& s) { tick(s); });
+  }
+
+  /// One tick of the core. A plant step may last several ticks; between its ends the signals are
+  /// treated as straight lines.
+  void tick(const Snapshot& s) {
+    const plant::Observables& o = plant_.observables();
+    Row& r = last_;
+    const Clock left = plant_.now() - (session_.ticks() + 1) * core_.design().clocks_per_tick;
+    const double back =
+        left > 0 ? static_cast<double>(left) / static_cast<double>(last_clocks_) : 0.0;
+    const auto then = [back](double now, double before) { return now - back * (now - before); };
+    const double theta_rad = then(o.theta_rad, before_.theta_rad);
+    absorbed_j_ -= r.tau_ref_nm * (theta_rad - r.theta_rad);
+    r.theta_rad = theta_rad;
+    r.motor_torque_nm = left > 0 ? before_.motor_mean_nm : mean_.mean();
+    core_.signals(r, s);
+    felt_.tick(r.tau_ref_nm, r.torque_nm, s.limits, s.faults);
+    felt_.motor(r.motor_torque_nm, r.tau_ref_nm);
+    position_ = s.position;
+    if (plant_.now() >= rest_.from_clock) rest_.add(theta_rad, r.tau_ref_nm);
+    tau_ref_.add(r.tau_ref_nm);
+    tau_hat_.add(r.tau_hat_nm);
+    velocity_.add(r.velocity_rad_s);
+    theta_.add(r.theta_rad);
+    if (step_) {
+      step_->tau_hat.add(r.tau_hat_nm);
+      step_->torque.add(r.motor_torque_nm);
+    }
+    if (options_.row && session_.ticks() % options_.row_every == 0) {
+      r.time_s =
+          static_cast<double>(session_.ticks()) / static_cast<double>(core_.design().tick_hz);
+      r.omega_rad_s = then(o.omega_rad_s, before_.omega_rad_s);
+      r.hand_torque_nm = then(o.hand_torque_nm, before_.hand_torque_nm);
+      r.hand_felt_nm = felt_.hand_nm();
+      core_.fill(r, s);
+      options_.row(r);
+    }
+    session_.tick(s, s.faults);
+  }
+
+  RunResult result() {
+    RunResult out;
+    session_.fill_result(out);
+    out.longest_step_clocks = longest_step_clocks_;
+    out.plant_states = plant_.state_size();
+    out.evaluations = plant_.evaluations();
+    const traces::Statistics& p = counter_.result();
+    out.position = {p.steps, p.illegal, p.reversals};
+    out.largest_velocity_rad_s = core_.largest_velocity_rad_s();
+    out.reference = choice_.reference();
+    out.engines = core_.figures();
+    out.felt = felt_.felt();
+    out.felt.closed_loop = true;
+    end_step();
+    for (EngineFigures& e : out.engines) {
+      if (closes_loop(e.name)) e.steps = steps_;
+    }
+    if (options_.law != nullptr) {
+      for (const LawEvent& e : core_.lead().law_events()) {
+        const auto [name, value] = options_.law->event(e);
+        out.events.push_back({e.tick / static_cast<double>(core_.design().tick_hz), name, value});
+      }
+    }
+    fill_figures(out, steps_);
+    session_.check_expectations(out);
+    return out;
+  }
+
+  /// Whether this engine's duty drove the motor; only its torques are responses to the steps.
+  bool closes_loop(const std::string& engine) const {
+    return choice_.rider_drives ? engine == choice_.riders[0] : engine == "rtl" || engine == "twin";
+  }
+
+  void fill_figures(RunResult& out, const std::vector<StepFigures>& steps) const {
+    auto& f = out.figures;
+    f["tau_ref_min_nm"] = tau_ref_.low;
+    f["tau_ref_max_nm"] = tau_ref_.high;
+    f["tau_hat_min_nm"] = tau_hat_.low;
+    f["tau_hat_max_nm"] = tau_hat_.high;
+    f["velocity_min_rad_s"] = velocity_.low;
+    f["velocity_max_rad_s"] = velocity_.high;
+    f["theta_min_rad"] = theta_.low;
+    f["theta_max_rad"] = theta_.high;
+    f["theta_end_rad"] = last_.theta_rad;
+    f["tau_ref_end_nm"] = last_.tau_ref_nm;
+    f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
+    f["energy_absorbed_j"] = absorbed_j_;
+    if (s_.rest_from_s) rest_.tell(f);
+    if (s_.drag_from_s) drag_.tell(f);
+    std::map<std::string, int> told;
+    for (const RunEvent& e : out.events) {
+      const int n = told[e.name]++;
+      f[fmt::format("event.{}.{}", e.name, n)] = e.value;
+      f[fmt::format("event_s.{}.{}", e.name, n)] = e.at_s;
+    }
+    if (options_.law != nullptr) f["events"] = static_cast<double>(out.events.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const std::string n = fmt::format(".{}", i);
+      f["tau_hat_settling_ms" + n] = steps[i].tau_hat.settling_ms;
+      f["tau_hat_final_nm" + n] = steps[i].tau_hat.final_value_nm;
+      f["tau_hat_final_error_nm" + n] = steps[i].tau_hat.final_value_nm - steps[i].tau_ref_nm;
+      f["torque_settling_ms" + n] = steps[i].torque.settling_ms;
+      f["torque_final_nm" + n] = steps[i].torque.final_value_nm;
+      f["overshoot_pct" + n] = steps[i].torque.overshoot_pct;
+      f["final_error_pct" + n] = steps[i].torque.final_error_pct;
+    }
+  }
+
+  const Scenario& s_;
+  const RunOptions& options_;
+  EngineChoice choice_;
+  plant::Plant plant_;
+  Ensemble core_;
+  StepPlan plan_;
+  plant::PeriodMean mean_;
+  FeltMeter felt_;
+  Session session_;
+  traces::StepCounter counter_;
+  std::unique_ptr<traces::VectorWriter> recorder_;
+  Clock last_clocks_ = 0;  ///< 0: none yet
+  Clock longest_step_clocks_ = 0;
+  double dt_s_ = 0;
+  /// The plant's outputs at the start of its last step.
+  struct {
+    double theta_rad = 0, omega_rad_s = 0, hand_torque_nm = 0, motor_mean_nm = 0;
+  } before_;
+  int duty_clocks_ = 0;  ///< duty of the bridge; duty_ is its share of a period
+  double duty_ = 0;
+  double absorbed_j_ = 0;
+  SignalRange tau_ref_, tau_hat_, velocity_, theta_;
+  std::int32_t position_ = 0;  ///< counts, from the core's last output
+  Rest rest_;
+  Drag drag_;
+  Row last_;
+  std::unique_ptr<StepRecord> step_;  ///< the step in progress
+  std::vector<StepFigures> steps_;
+};
+
+}  // namespace
+
+RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
+                       const RunOptions& options) {
+  check_scenario(scenario, plant, design_named(options.design), options.law);
+  try {
+    return ScenarioRun(scenario, plant, options).run();
+  } catch (const plant::MotionError& error) {
+    throw config::ConfigError(scenario.path.empty() ? error.what()
+                                                    : scenario.path + ": " + error.what());
+  }
+}
+
+}  // namespace feltgate

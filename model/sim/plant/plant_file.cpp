@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Reader of vectors/plants/NAME.toml. Documentation: docs/plant.md
+#include "sim/plant/plant_file.hpp"
+#include "sim/plant/plant_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace feltgate::plant {
+namespace {
+
+// With offsets and 4-sigma jitter below one count, the edges keep their order on the circle.
+constexpr config::Range kEdgeOffset{-0.25, 0.25};
+constexpr config::Range kLineJitter{0.0, 0.05};
+
+LeverParameters read_lever(config::TomlReader table) {
+  LeverParameters lever;
+  lever.inertia_kg_m2 = table.number("inertia_kg_m2", config::kPositive);
+  lever.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  lever.radius_m = table.number("radius_m", config::kPositive);
+  table.finish();
+  return lever;
+}
+
+EndStops read_end_stops(config::TomlReader table) {
+  EndStops stops;
+  stops.low_rad = table.number("low_rad", {-1e3, 1e3});
+  stops.high_rad = table.number("high_rad", {-1e3, 1e3});
+  stops.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
+  stops.restitution = table.number("restitution", {0.0, 1.0});
+  if (stops.high_rad <= stops.low_rad) {
+    table.fail("high_rad", "\"high_rad\" is not above \"low_rad\"",
+               "leave the lever a way: raise it");
+  }
+  table.finish();
+  return stops;
+}
+
+// Reads the flags; without a base every flag is required.
+Effects read_flags(config::TomlReader table, const Effects* base) {
+  Effects effects = base != nullptr ? *base : Effects{};
+  for (const EffectName& e : effect_names) {
+    // The dynamics of a hand belong to scenes, so a plant file may omit them.
+    const bool optional = base != nullptr || e.flag == &Effects::hand_dynamics;
+    effects.*e.flag = optional ? table.flag_or(e.name, effects.*e.flag) : table.flag(e.name);
+  }
+  table.finish();
+  return effects;
+}
+
+JointParameters read_joint(config::TomlReader table) {
+  JointParameters j;
+  j.rotor_inertia_kg_m2 = table.number("rotor_inertia_kg_m2", config::kPositive);
+  j.drum_inertia_kg_m2 = table.number("drum_inertia_kg_m2", config::kNotNegative);
+  j.pulley_radius_m = table.number("pulley_radius_m", config::kPositive);
+  j.drum_radius_m = table.number("drum_radius_m", config::kPositive);
+  j.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  j.encoder_on_motor = table.choice("encoder", {"joint", "motor"}) == 1;
+  table.finish();
+  return j;
+}
+
+MotorParameters read_motor(config::TomlReader table) {
+  MotorParameters motor;
+  motor.torque_constant_nm_a = table.number("torque_constant_nm_a", config::kPositive);
+  motor.back_emf_constant_v_s_rad = table.number("back_emf_constant_v_s_rad", config::kPositive);
+  motor.resistance_ohm = table.number("resistance_ohm", config::kPositive);
+  motor.inductance_h = table.number("inductance_h", config::kPositive);
+  motor.dead_voltage_v = table.number("dead_voltage_v", config::kNotNegative);
+  table.finish();
+  return motor;
+}
+
+LugreParameters read_lugre(config::TomlReader table) {
+  LugreParameters lugre;
+  lugre.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
+  lugre.damping_nm_s_rad = table.number("damping_nm_s_rad", config::kNotNegative);
+  lugre.viscous_nm_s_rad = table.number("viscous_nm_s_rad", config::kNotNegative);
+  lugre.coulomb_nm = table.number("coulomb_nm", config::kPositive);
+  lugre.static_nm = table.number("static_nm", config::kPositive);
+  lugre.stribeck_rad_s = table.number("stribeck_rad_s", config::kPositive);
+  if (lugre.static_nm < lugre.coulomb_nm) {
+    table.fail("static_nm", "\"static_nm\" is less than \"coulomb_nm\"",
+               "breaking away takes at least the sliding torque: raise it");
+  }
+  table.finish();
+  return lugre;
+}
+
+SupplyParameters read_supply(config::TomlReader table) {
+  SupplyParameters supply;
+  supply.voltage_v = table.number("voltage_v", config::kPositive);
+  supply.current_limit_a = table.number("current_limit_a", config::kPositive);
+  supply.bus_capacitance_f = table.number("bus_capacitance_f", config::kPositive);
+  supply.diode_drop_v = table.number("diode_drop_v", config::kNotNegative);
+  table.finish();
+  return supply;
+}
+
+EncoderParameters read_encoder(config::TomlReader table) {
+  EncoderParameters encoder;
+  encoder.lines = static_cast<int>(table.integer("lines", 1, 1 << 20));
+  const auto offsets = table.numbers("edge_offset_counts", kEdgeOffset);
+  if (offsets.size() != encoder.edge_offset_counts.size()) {
+    table.fail("edge_offset_counts", "\"edge_offset_counts\" does not hold four numbers",
+               "write one for each edge of a cycle");
+  }
+  std::copy(offsets.begin(), offsets.end(), encoder.edge_offset_counts.begin());
+  encoder.line_jitter_counts_rms = table.number("line_jitter_counts_rms", kLineJitter);
+  encoder.seed = static_cast<std::uint64_t>(
+      table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  table.finish();
+  return encoder;
+}
+
+Effects read_all_effects(config::TomlReader table) { return read_flags(std::move(table), nullptr); }
+
+}  // namespace
+
+void read_axes(config::TomlReader& root, AxesParameters& p) {
+  p.joint = read_joint(root.section("joint"));
+  p.motor = read_motor(root.section("motor"));
+  p.lugre = read_lugre(root.section("lugre"));
+  p.supply = read_supply(root.section("supply"));
+  p.encoder = read_encoder(root.section("encoder"));
+  p.effects = read_all_effects(root.section("effects"));
+}
+
+Effects read_effects(config::TomlReader table, const Effects& base) {
+  return read_flags(std::move(table), &base);
+}
+
+Parameters read_plant(const toml::table& root, const std::string& file) {
+  config::TomlReader reader(root, file, "the file");
+  Parameters parameters;
+  parameters.name = reader.text("name");
+  parameters.motor = read_motor(reader.section("motor"));
+  config::TomlReader lever = reader.section("lever");
+  parameters.place = fmt::format("{}:{}", file, lever.line("inertia_kg_m2"));
+  parameters.lever = read_lever(std::move(lever));
+  parameters.lugre = read_lugre(reader.section("lugre"));
+  parameters.supply = read_supply(reader.section("supply"));
+  parameters.encoder = read_encoder(reader.section("encoder"));
+  if (reader.has("end_stops")) parameters.end_stops = read_end_stops(reader.section("end_stops"));
+  parameters.effects = read_all_effects(reader.section("effects"));
+  reader.finish();
+  return parameters;
+}
+
+Parameters read_plant_file(const std::string& path) {
+  return read_plant(config::parse_toml_file(path), path);
+}
+
+}  // namespace feltgate::plant

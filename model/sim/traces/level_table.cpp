@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Tables of levels: rows that are samples, and rows that are changes. Documentation: docs/traces.md
+#include "sim/traces/level_table.hpp"
+
+#include <algorithm>
+
+#include "sim/traces/error.hpp"
+
+namespace feltgate::traces {
+namespace {
+
+constexpr std::size_t kRowsAhead = 64;
+
+}  // namespace
+
+LevelTable::LevelTable(const std::filesystem::path& path, const Options& options)
+    : table_(path), sample_hz_(options.sample_hz) {
+  const std::size_t time = table_.use_time(options.time_column);
+  for (std::size_t i = 0; i < table_.columns().size(); ++i) {
+    if (i == time) continue;
+    names_.push_back(table_.columns()[i]);
+    columns_.push_back(i);
+  }
+}
+
+std::optional<LevelTable::Row> LevelTable::read() {
+  if (!table_.read()) return std::nullopt;
+  Row row{table_.time(), 0};
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    const std::string_view text = table_.field(chosen_[i]);
+    bool high = text == "1";
+    if (!high && text != "0") {
+      const std::optional<double> value = parse_real(text);
+      high = value && *value == 1.0;
+      if (!high && !(value && *value == 0.0)) {
+        table_.fail("level " + shown(text) + " of " + shown(table_.columns()[chosen_[i]]) +
+                        " is not 0 or 1",
+                    "give levels, or name a count column");
+      }
+    }
+    if (high) row.levels |= 1U << i;
+  }
+  return row;
+}
+
+// A row that repeats all values of the row before was written by a sampler, not by an edge.
+void LevelTable::find_width() {
+  std::string before;
+  bool repeats = false;
+  std::int64_t smallest = 0;
+  while (ahead_.size() < kRowsAhead) {
+    const std::optional<Row> row = read();
+    if (!row) break;
+    const std::string values = table_.values();
+    if (!ahead_.empty()) {
+      const std::int64_t gap = row->time - ahead_.back().time;
+      if (gap > 0 && (smallest == 0 || gap < smallest)) smallest = gap;
+      repeats = repeats || values == before;
+    }
+    before = values;
+    ahead_.push_back(*row);
+  }
+  if (sample_hz_ > 0) {
+    width_ = Table::kTimeBase.den / sample_hz_;
+  } else if (repeats) {
+    width_ = smallest;
+  }
+}
+
+std::uint32_t LevelTable::start(const std::vector<std::size_t>& chosen) {
+  for (const std::size_t channel : chosen) chosen_.push_back(columns_.at(channel));
+  find_width();
+  if (ahead_.empty()) table_.fail("the table has no rows", "record something");
+  levels_ = ahead_.front().levels;
+  ahead_.pop_front();
+  return levels_;
+}
+
+std::optional<Change> LevelTable::next() {
+  for (;;) {
+    std::optional<Row> row;
+    if (ahead_.empty()) {
+      row = read();
+    } else {
+      row = ahead_.front();
+      ahead_.pop_front();
+    }
+    if (!row) return std::nullopt;
+    if (row->levels == levels_) continue;
+    levels_ = row->levels;
+    return Change{row->time, row->time + width_, levels_};
+  }
+}
+
+}  // namespace feltgate::traces

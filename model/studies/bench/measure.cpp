@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The benchmark. Documentation: docs/bench.md
+#include "studies/bench/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "studies/bench/cpu_time.hpp"
+#include "studies/bench/law_speed.hpp"
+
+namespace feltgate::bench {
+
+namespace {
+
+/// FNV-1a, a word at a time.
+void add_to_hash(std::uint64_t* hash, const RawTick& raw) {
+  for (const std::int64_t v : raw) {
+    *hash = (*hash ^ static_cast<std::uint64_t>(v)) * 0x100000001b3u;
+  }
+}
+
+Spread scaled_inverse(const Spread& s, double numerator) {
+  return {numerator / s.median, numerator / s.high, numerator / s.low};
+}
+
+/// Median of the ratios of samples that were taken side by side: a busy machine slows both. Where
+/// one side ran more passes, each repetition's median counts.
+Spread ratio(const EngineResult& a, const EngineResult& b, int repetitions) {
+  const auto n = static_cast<std::size_t>(repetitions);
+  std::vector<double> ratios;
+  if (a.samples.size() == b.samples.size()) {
+    for (std::size_t i = 0; i < a.samples.size(); ++i) {
+      ratios.push_back(a.samples[i] / b.samples[i]);
+    }
+    return spread(std::move(ratios));
+  }
+  const auto of_repetition = [n](const EngineResult& e, std::size_t k) {
+    const auto passes = static_cast<std::ptrdiff_t>(e.samples.size() / n);
+    const auto first = e.samples.begin() + static_cast<std::ptrdiff_t>(k) * passes;
+    return spread({first, first + passes}).median;
+  };
+  for (std::size_t k = 0; k < n; ++k) ratios.push_back(of_repetition(a, k) / of_repetition(b, k));
+  return spread(std::move(ratios));
+}
+
+class Measurement {
+ public:
+  Measurement(const std::vector<std::unique_ptr<Runner>>& runners, const std::vector<Work>& works,
+              const std::vector<Scene>& closed_loops, const Options& options)
+      : runners_(runners), works_(works), closed_loops_(closed_loops), options_(options) {}
+
+  Result run() {
+    for (const auto& runner : runners_) {
+      EngineResult e;
+      e.name = runner->name();
+      e.integer = runner->integer();
+      e.hash = 0xcbf29ce484222325u;
+      result_.engines.push_back(e);
+    }
+    for (const Work& work : works_) {
+      result_.simulated_s += work.simulated_s;
+      result_.ticks += work.ticks.size();
+      inspect(work);
+    }
+    estimate_length();
+    if (!options_.laws.empty()) laws_ = std::make_unique<LawBench>(options_.laws);
+    for (int k = 0; k < options_.repetitions; ++k) repeat();
+    conclude();
+    return std::move(result_);
+  }
+
+ private:
+  /// Errors of every engine against quad, and every integer engine against the first one.
+  void inspect(const Work& work) {
+    std::vector<TickResult> exact;
+    std::vector<RawTick> integers;
+    std::string integers_of;
+    exact.reserve(work.ticks.size());
+    for (const auto& runner : runners_) {
+      if (runner->name() == "quad") {
+        runner->inspect(work, [&exact](const TickResult& r) { exact.push_back(r); });
+      }
+    }
+    for (std::size_t i = 0; i < runners_.size(); ++i) {
+      Runner& runner = *runners_[i];
+      EngineResult& e = result_.engines[i];
+      if (e.name == "quad") continue;
+      const bool first = e.integer && integers_of.empty();
+      if (first) integers_of = e.name;
+      std::size_t tick = 0;
+      inspect_s_[e.name] += cpu_seconds([&] {
+        runner.inspect(work, [&](const TickResult& r) {
+          if (tick < exact.size()) {
+            e.compared = true;
+            e.velocity_rad_s.add(r.velocity_rad_s - exact[tick].velocity_rad_s);
+            e.tau_hat_nm.add(r.tau_hat_nm - exact[tick].tau_hat_nm);
+            e.torque_nm.add(r.torque_nm - exact[tick].torque_nm);
+          }
+          if (e.integer) add_to_hash(&e.hash, r.raw);
+          if (first) integers.push_back(r.raw);
+          if (e.integer && !first) compare(work, tick, integers_of, integers, e.name, r.raw);
+          ++tick;
+        });
+      });
+      if (e.integer && tick != integers.size() && result_.divergence.empty()) {
+        result_.divergence = fmt::format("{}: {} shows {} ticks, {} {}", work.name, e.name, tick,
+                                         integers_of, integers.size());
+      }
+    }
+  }
+
+  void compare(const Work& work, std::size_t tick, const std::string& a,
+               const std::vector<RawTick>& expected, const std::string& b, const RawTick& raw) {
+    if (!result_.divergence.empty() || tick >= expected.size() || expected[tick] == raw) return;
+    for (std::size_t s = 0; s < raw_signals; ++s) {
+      if (expected[tick][s] == raw[s]) continue;
+      result_.divergence = fmt::format("{}, tick {}, {}: {} {}, {} {}", work.name, tick,
+                                       raw_names[s], a, expected[tick][s], b, raw[s]);
+      return;
+    }
+  }
+
+  bool fast(const EngineResult& e) const {
+    return e.name != "quad" && inspect_s_.at(e.name) < 0.3e-6 * static_cast<double>(result_.ticks);
+  }
+
+  void estimate_length() {
+    inspect_s_["quad"] = 0.5e-6 * static_cast<double>(result_.ticks);
+    for (const EngineResult& e : result_.engines) {
+      total_s_ += inspect_s_.at(e.name) * (fast(e) ? options_.passes : 1);
+    }
+    for (const Scene& s : closed_loops_) total_s_ += 0.1 * s.scenario.duration_s;
+    total_s_ *= options_.repetitions;
+  }
+
+  void tell(double spent_s) {
+    done_s_ += spent_s;
+    if (options_.progress) options_.progress(std::min(1.0, done_s_ / total_s_));
+  }
+
+  void repeat() {
+    std::vector<std::vector<double>> spent(runners_.size());
+    std::vector<double> twin_s(static_cast<std::size_t>(options_.passes));  // in the closed loops
+    for (const Work& work : works_) {
+      for (int pass = 0; pass < options_.passes; ++pass) {
+        for (std::size_t i = 0; i < runners_.size(); ++i) {
+          const EngineResult& e = result_.engines[i];
+          if (pass > 0 && !fast(e)) continue;
+          Runner& runner = *runners_[i];
+          runner.prepare(work);
+          const double s = cpu_seconds([&] { runner.run(work); });
+          if (spent[i].size() <= static_cast<std::size_t>(pass)) spent[i].push_back(0);
+          spent[i][static_cast<std::size_t>(pass)] += s;
+          if (e.name == "twin_event" && is_closed_loop(work)) {
+            twin_s[static_cast<std::size_t>(pass)] += s;
+          }
+          tell(inspect_s_.at(e.name) * work.simulated_s / result_.simulated_s);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < runners_.size(); ++i) {
+      for (const double s : spent[i]) {
+        result_.engines[i].samples.push_back(1e9 * s / static_cast<double>(result_.ticks));
+      }
+    }
+    if (laws_ != nullptr) laws_->repeat();
+    double loops_s = 0, simulated_s = 0;
+    for (const Scene& scene : closed_loops_) {
+      RunOptions options;
+      options.engine = "twin";
+      const double s = cpu_seconds([&] { run_scenario(scene.scenario, scene.plant, options); });
+      loop_samples_[scene.scenario.name].push_back(scene.scenario.duration_s / s);
+      loops_s += s;
+      simulated_s += scene.scenario.duration_s;
+      tell(0.1 * scene.scenario.duration_s);
+    }
+    if (loops_s <= 0) return;
+    loop_total_.push_back(simulated_s / loops_s);
+    twin_s.erase(std::remove(twin_s.begin(), twin_s.end(), 0.0), twin_s.end());
+    if (!twin_s.empty()) loop_over_twin_.push_back(loops_s / spread(twin_s).median);
+  }
+
+  bool is_closed_loop(const Work& work) const {
+    return std::any_of(closed_loops_.begin(), closed_loops_.end(),
+                       [&work](const Scene& s) { return s.scenario.name == work.name; });
+  }
+
+  void conclude() {
+    const double tick_ns = 1e9 * result_.simulated_s / static_cast<double>(result_.ticks);
+    for (std::size_t i = 0; i < runners_.size(); ++i) {
+      EngineResult& e = result_.engines[i];
+      e.ns_per_tick = spread(e.samples);
+      e.speed = scaled_inverse(e.ns_per_tick, tick_ns);
+      if (runners_[i]->has_clocks()) {
+        double clocks = 0;
+        for (const Work& w : works_) clocks += static_cast<double>(w.inputs.clocks);
+        e.clocks_per_s =
+            scaled_inverse(e.ns_per_tick, 1e9 * clocks / static_cast<double>(result_.ticks));
+        e.updates_per_s = scaled_inverse(e.ns_per_tick, 1e9);
+      }
+    }
+    for (const Scene& s : closed_loops_) {
+      result_.loops.push_back(
+          {s.scenario.name, s.scenario.duration_s, spread(loop_samples_[s.scenario.name])});
+    }
+    conclude_laws();
+    const EngineResult* rtl = result_.find("rtl");
+    const EngineResult* event = result_.find("twin_event");
+    const EngineResult* tick = result_.find("twin_tick");
+    const EngineResult* shifts = result_.find("shifts");
+    auto& goals = result_.goals;
+    if (event != nullptr && rtl != nullptr) {
+      goals.push_back({"event_over_rtl", "twin_event, times as fast as rtl", 80, false,
+                       ratio(*rtl, *event, options_.repetitions)});
+    }
+    if (event != nullptr) {
+      goals.push_back(
+          {"event_over_real_time", "twin_event, times real time", 40, false, event->speed});
+    }
+    if (tick != nullptr && shifts != nullptr) {
+      goals.push_back({"fixed_over_shifts", "fixed (twin_tick), time over hand-written shifts",
+                       1.15, true, ratio(*tick, *shifts, options_.repetitions)});
+    }
+    if (!loop_total_.empty()) {
+      goals.push_back({"closed_loop_over_real_time",
+                       "closed loop with motor, friction and hand, times real time", 10, false,
+                       spread(loop_total_)});
+    }
+    if (!loop_over_twin_.empty()) {
+      goals.push_back({"closed_loop_over_twin", "closed loop, time over the twin_event in it", 2.5,
+                       true, spread(loop_over_twin_)});
+    }
+    if (rtl != nullptr) {
+      goals.push_back({"rtl_clocks_per_s",
+                       "rtl, million clocks per second",
+                       20,
+                       false,
+                       {rtl->clocks_per_s->median / 1e6, rtl->clocks_per_s->low / 1e6,
+                        rtl->clocks_per_s->high / 1e6}});
+    }
+  }
+
+  /// Of a law's instruction, all laws run once: its time over the tick of the same repetition.
+  void conclude_laws() {
+    if (laws_ == nullptr) return;
+    const auto n = static_cast<std::size_t>(options_.repetitions);
+    std::vector<double> ns(n);
+    double instructions = 0;
+    for (const LawSamples& s : laws_->samples()) {
+      result_.laws.push_back(
+          {s.name, s.instructions, spread(s.compiled), spread(s.real), spread(s.interpreted)});
+      instructions += s.instructions;
+      for (std::size_t k = 0; k < n; ++k) ns[k] += s.compiled[k];
+    }
+    const EngineResult* tick = result_.find("twin_tick");
+    if (tick == nullptr) return;
+    const std::size_t passes = tick->samples.size() / n;
+    std::vector<double> ratios;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto first = tick->samples.begin() + static_cast<std::ptrdiff_t>(k * passes);
+      const double ticks_ns = spread({first, first + static_cast<std::ptrdiff_t>(passes)}).median;
+      ratios.push_back(ns[k] / instructions / ticks_ns);
+    }
+    result_.goals.push_back({"law_instruction_over_tick",
+                             "an instruction of a law in C++, time over twin_tick", 0.1, true,
+                             spread(ratios)});
+  }
+
+  std::unique_ptr<LawBench> laws_;
+  const std::vector<std::unique_ptr<Runner>>& runners_;
+  const std::vector<Work>& works_;
+  const std::vector<Scene>& closed_loops_;
+  const Options& options_;
+  Result result_;
+  std::map<std::string, double> inspect_s_;
+  std::map<std::string, std::vector<double>> loop_samples_;
+  std::vector<double> loop_total_, loop_over_twin_;
+  double total_s_ = 0, done_s_ = 0;
+};
+
+}  // namespace
+
+Spread spread(std::vector<double> samples) {
+  std::sort(samples.begin(), samples.end());
+  const std::size_t n = samples.size();
+  return {0.5 * (samples[(n - 1) / 2] + samples[n / 2]), samples.front(), samples.back()};
+}
+
+const EngineResult* Result::find(const std::string& name) const {
+  for (const EngineResult& e : engines) {
+    if (e.name == name) return &e;
+  }
+  return nullptr;
+}
+
+Result measure(const std::vector<std::unique_ptr<Runner>>& runners, const std::vector<Work>& works,
+               const std::vector<Scene>& closed_loops, const Options& options) {
+  return Measurement(runners, works, closed_loops, options).run();
+}
+
+}  // namespace feltgate::bench

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The engines of the benchmark. Documentation: docs/bench.md
+#include "studies/bench/runner.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "feltgate/generated/lever.hpp"
+#include "sim/reference/chain.hpp"
+#include "sim/reference/control_chain.hpp"
+#include "studies/bench/pin_runner.hpp"
+#include "studies/bench/shift_chain.hpp"
+#include "studies/bench/systemc_numbers.hpp"
+#include "studies/bench/tick_runner.hpp"
+
+namespace feltgate::bench {
+
+namespace {
+
+double si(std::int64_t raw, Format f) { return std::ldexp(static_cast<double>(raw), -f.fraction); }
+
+double torque_constant() {
+  for (const ParameterInfo& p : Lever::parameters) {
+    if (p.address == Lever::A::torque_constant) return p.si;
+  }
+  throw std::logic_error("the design has no torque constant");
+}
+
+TickResult of_integers(const RawTick& raw) {
+  TickResult r;
+  r.raw = raw;
+  r.velocity_rad_s = si(raw[0], Lever::f.velocity);
+  r.tau_hat_nm = si(raw[1], Lever::f.torque);
+  r.torque_nm = torque_constant() * si(raw[3], Lever::f.current);
+  return r;
+}
+
+/// The laws in policy N.
+template <class N>
+struct Laws {
+  using Chain = ControlChain<Lever, N>;
+  static void write(Chain& chain, const Work::TickWrite& w) {
+    if constexpr (N::is_fixed) {
+      chain.words().set_raw(w.address, w.data);
+    } else {
+      chain.words().set_value(w.address, static_cast<typename Words<Lever, N>::Stored>(w.value));
+    }
+  }
+  static TickResult show(const Chain& c) {
+    if constexpr (N::is_fixed) {
+      return of_integers({N::raw(c.velocity()), N::raw(c.tau_hat()), N::raw(c.tau_ref()),
+                          N::raw(c.control().current), N::raw(c.control().voltage),
+                          N::raw(c.control().duty), c.limits()});
+    } else {
+      TickResult r;
+      r.velocity_rad_s = static_cast<double>(c.velocity());
+      r.tau_hat_nm = static_cast<double>(c.tau_hat());
+      r.torque_nm = torque_constant() * static_cast<double>(c.control().current);
+      return r;
+    }
+  }
+};
+
+struct Shifts {
+  static void write(ShiftChain& chain, const Work::TickWrite& w) {
+    chain.set_word(w.address, w.data);
+  }
+  static TickResult show(const ShiftChain& c) {
+    const auto bit = [](bool holds, int n) { return std::int64_t{holds ? 1 : 0} << n; };
+    return of_integers({c.velocity, c.tau_hat, c.tau_ref, c.current, c.voltage, c.duty,
+                        bit(c.limit_torque, 0) | bit(c.limit_ramp, 1) | bit(c.limit_current, 2) |
+                            bit(c.limit_voltage, 3) | bit(c.limit_duty, 4) |
+                            bit(c.velocity_saturated, 5) | bit(c.tau_hat_saturated, 6)});
+  }
+};
+
+template <class N>
+std::unique_ptr<Runner> laws(const char* name) {
+  return std::make_unique<TickRunner<ControlChain<Lever, N>, Laws<N>>>(
+      name, N::is_fixed ? Arithmetic::integer : Arithmetic::real);
+}
+
+struct Known {
+  const char* name;
+  std::unique_ptr<Runner> (*make)(const char* name);
+};
+
+std::unique_ptr<Runner> pins(const char* name) { return make_pin_runner(name); }
+std::unique_ptr<Runner> shifts(const char* name) {
+  return std::make_unique<TickRunner<ShiftChain, Shifts>>(name, Arithmetic::integer);
+}
+
+constexpr Known known[] = {
+    {"rtl", pins},
+    {"twin_clock", pins},
+    {"twin_event", pins},
+    {"twin_tick", laws<Fixed>},
+    {"double", laws<Real<double>>},
+    {"float", laws<Real<float>>},
+    {"quad", laws<Real<Quad>>},
+    {"sc_fixed", laws<SystemC>},
+    {"shifts", shifts},
+};
+
+}  // namespace
+
+std::vector<std::string> runner_names() {
+  std::vector<std::string> names;
+  for (const Known& k : known) names.emplace_back(k.name);
+  return names;
+}
+
+std::unique_ptr<Runner> make_runner(const std::string& name) {
+  std::string list;
+  for (const Known& k : known) {
+    if (name == k.name) return k.make(k.name);
+    list += (list.empty() ? "" : ", ") + std::string(k.name);
+  }
+  throw std::invalid_argument("engine \"" + name + "\" is unknown; choose among " + list);
+}
+
+}  // namespace feltgate::bench

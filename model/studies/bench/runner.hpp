@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The benchmark's interface to an engine: it runs a work as fast as possible, or shows every tick.
+// Documentation: docs/bench.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "studies/bench/work.hpp"
+
+namespace feltgate::bench {
+
+/// Number of raw results of a tick of an integer engine, in the order of `raw_names`.
+constexpr std::size_t raw_signals = 7;
+using RawTick = std::array<std::int64_t, raw_signals>;
+constexpr std::array<const char*, raw_signals> raw_names = {
+    "velocity", "tau_hat", "tau_ref", "current_ref", "voltage", "duty", "limits"};
+
+/// One tick of any engine.
+struct TickResult {
+  double velocity_rad_s = 0, tau_hat_nm = 0;
+  double torque_nm = 0;  ///< commanded: nominal torque constant times current reference
+  RawTick raw{};         ///< of integer engines
+};
+using Inspector = std::function<void(const TickResult&)>;
+
+enum class Arithmetic { integer, real };
+
+class Runner {
+ public:
+  Runner(std::string name, Arithmetic arithmetic)
+      : name_(std::move(name)), arithmetic_(arithmetic) {}
+  virtual ~Runner() = default;
+  const std::string& name() const { return name_; }
+  bool integer() const { return arithmetic_ == Arithmetic::integer; }
+  /// Whether the engine simulates single clocks, so that clocks per second are defined.
+  virtual bool has_clocks() const { return false; }
+
+  /// Resets the engine; not timed.
+  virtual void prepare(const Work& work) = 0;
+  /// Runs the whole work after prepare(); timed.
+  virtual void run(const Work& work) = 0;
+  /// Runs the whole work again, slowly, and calls `each` with every tick.
+  virtual void inspect(const Work& work, const Inspector& each) = 0;
+
+ private:
+  std::string name_;
+  Arithmetic arithmetic_;
+};
+
+/// Every engine of the benchmark, in the order of its table.
+std::vector<std::string> runner_names();
+/// Makes a runner by name. Throws std::invalid_argument with the known names for an unknown one.
+std::unique_ptr<Runner> make_runner(const std::string& name);
+
+}  // namespace feltgate::bench

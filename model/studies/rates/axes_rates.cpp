@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A device with several axes at several rates. Documentation: docs/rates.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/axes_loop/axes_run.hpp"
+#include "sim/engines/axes_cores.hpp"
+#include "sim/law_loop/scene_law.hpp"
+#include "studies/rates/device_joints.hpp"
+#include "studies/rates/sweep.hpp"
+
+namespace feltgate::rates {
+
+namespace {
+
+DesignInfo design_of(const AxesScene& scene) {
+  const std::string name = axes_design(scene);
+  if (const AxesDesignMakers* made = find_axes_design(name)) return made->info();
+  throw std::invalid_argument(
+      fmt::format("{}: design {} is not in this program; start it as `./feltgate rates`, which "
+                  "builds one that has it",
+                  scene.scenario.path, name));
+}
+
+class AxesSweep : public Sweep {
+ public:
+  AxesSweep(const AxesScene& scene, const LawSource& source, const design::Elaborated& e,
+            const Options& options)
+      : Sweep(source, design_of(scene), e, options), scene_(scene) {}
+
+  Report run() {
+    law::Compiled fast = fastest(source_, target_);
+    report_.scene = scene_.scenario.name;
+    report_.title = scene_.scenario.title;
+    report_.law = fast.law.name;
+    report_.plant = device_of(scene_);
+    report_.axes = axes_of(scene_);
+    report_.simulated_s = scene_.scenario.duration_s;
+    sweep(std::move(fast), 0);
+    if (keeps_time(source_)) {
+      report_.notes.emplace_back(
+          "no margin: the law's springs and masses are states, not its slope");
+    } else {
+      margins();
+    }
+    return report_;
+  }
+
+ private:
+  void run_law(law::Compiled law, RateRow row) override {
+    AxesScene scene = scene_;
+    scene.scenario = fitted(std::move(scene.scenario), law.image);
+    const std::unique_ptr<SceneLaw> loaded =
+        make_axes_law(std::move(law), source_.path, design_, report_.axes);
+    Continuous::Setting set = setting(scene.scenario);
+    set.axes = static_cast<std::size_t>(report_.axes);
+    set.slope = set.floor = last();
+    set.inertia = [&](const Eigen::VectorXd& at) { return inertia_kg_m2(scene_.device, at); };
+    Continuous continuous(continuous_law_, {}, set);
+    tell_all(continuous, *loaded);
+    loaded->tell_values(
+        [&](const std::string& name, double value) { tell(continuous, name, value); });
+    AxesRunOptions o;
+    o.design = design_.name;
+    o.engine = options_.lock_step ? "rtl" : "twin";
+    o.law = loaded.get();
+    o.axes = [&](const std::vector<Row>& axes) { continuous.tick(axes); };
+    o.progress = progress();
+    const AxesResult result = run_axes(scene, o);
+    loaded->tell_values({});
+    row.mismatches = result.mismatches;
+    row.clocks_compared = result.lock_step ? result.clocks : 0;
+    row.first_mismatch = result.first_mismatch;
+    for (std::size_t n = 0; n < result.axes.size(); ++n) {
+      row.swing_nm =
+          std::max(row.swing_nm, result.figures.at(fmt::format("tau_ref_nm.{}.swing", n)));
+      if (!row.fault.empty()) continue;
+      row.fault = first_fault(result.axes[n].faults);
+      if (!row.fault.empty()) row.fault = fmt::format("axis {}, {}", n, row.fault);
+    }
+    row.expected = static_cast<int>(result.expectations.size());
+    for (const Expected& x : result.expectations) {
+      if (x.kept()) continue;
+      row.broken.push_back(fmt::format("{} = {:.4g}, expected {}", x.figure, x.value, x.wanted()));
+    }
+    row.cpu_s_per_s = cpu_s(scene, *loaded) / result.simulated_s;
+    add(std::move(row), continuous, set);
+  }
+
+  /// Around the steepest place; what a host holds there stays as it is.
+  void margins() {
+    if (report_.slope.coupled) {
+      report_.notes.emplace_back(
+          "in places the law's axes drive each other and no direction is stiff: no part of the "
+          "margin");
+    }
+    if (report_.slope.at_rad.size() == 0) {
+      report_.notes.emplace_back("no margin: the motion met the law nowhere stiff or damped");
+      return;
+    }
+    const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
+    const stability::AxesLoopModel model =
+        stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, report_.slope.at_rad));
+    report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
+    for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
+    if (report_.rows.back().margin.of == Margin::Of::damping) {
+      report_.notes.emplace_back("the margin is that of the law's damping: it is nowhere stiff");
+    }
+  }
+
+  /// CPU time of the closed loop alone, without observers.
+  double cpu_s(const AxesScene& scene, SceneLaw& law) const {
+    AxesRunOptions o;
+    o.design = design_.name;
+    o.engine = "twin";
+    o.law = &law;
+    const std::clock_t begin = std::clock();
+    run_axes(scene, o);
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  }
+
+  const AxesScene& scene_;
+};
+
+}  // namespace
+
+std::string axes_design(const AxesScene& scene) { return device_of(scene) + "_law"; }
+
+Report measure(const AxesScene& scene, const LawSource& source, const design::Elaborated& e,
+               const Options& options) {
+  return AxesSweep(scene, source, e, options).run();
+}
+
+}  // namespace feltgate::rates

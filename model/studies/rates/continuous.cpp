@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/rates.md
+#include "studies/rates/continuous.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "feltgate/generated/causes.hpp"
+#include "feltgate/largest.hpp"
+
+namespace feltgate::rates {
+
+namespace {
+
+constexpr double rounding_nm_rad = 1e-6;  ///< no more than that is no stiffness
+constexpr int look_every = 20;            ///< runs between two looks at the slope
+constexpr double speed_step_rad_s = 1e-3, observed_step_nm = 1e-4;
+/// Causes for which the torque is not that of the law.
+constexpr int left_out =
+    static_cast<int>(limit::ramp | limit::gates_closed | limit::hold | limit::chatter);
+
+}  // namespace
+
+std::vector<Change> changes_of(const Scenario& scene, const law::Law& law) {
+  std::vector<Change> all;
+  const auto add = [&](double at_s, const std::map<std::string, double>& set) {
+    for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+      const law::Parameter& p = law.parameters[i];
+      const auto it = p.derived < 0 ? set.find(p.name) : set.end();
+      if (it != set.end()) all.push_back({at_s, i, it->second * p.to_si});
+    }
+  };
+  add(0, scene.parameters);
+  for (const Event& e : scene.events) add(e.at_s, e.set);
+  return all;
+}
+
+Continuous::Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting)
+    : law_(law),
+      changes_(std::move(changes)),
+      setting_(setting),
+      true_(law),
+      sampled_(law),
+      seen_(setting.axes),
+      counted_(setting.axes),
+      axes_(setting.axes) {
+  for (const law::Output& o : law.outputs) axes_.at(static_cast<std::size_t>(o.axis)).driven = true;
+  for (const law::Input& in : law.inputs) {
+    observes_ = observes_ || in.source == law::Source::tau_hat;
+  }
+}
+
+double Continuous::mean_error_nm(std::size_t axis) const {
+  const Axis& a = axes_[axis];
+  return a.error.count() == 0 ? 0 : a.sum_nm / static_cast<double>(a.error.count());
+}
+
+void Continuous::set(std::size_t parameter, double si) {
+  true_.set_parameter(parameter, si);
+  sampled_.set_parameter(parameter, si);
+}
+
+double Continuous::limited(double nm) const {
+  return std::clamp(nm, -setting_.limit_nm, setting_.limit_nm);
+}
+
+void Continuous::run(law::Evaluation<double>& law, const std::vector<Sample>& samples,
+                     double Axis::*to_nm) {
+  inputs_.clear();
+  for (const law::Input& in : law_.inputs) {
+    const Sample& s = samples[static_cast<std::size_t>(in.axis)];
+    inputs_.push_back(in.source == law::Source::position   ? s.position_rad
+                      : in.source == law::Source::velocity ? s.velocity_rad_s
+                                                           : s.tau_hat_nm);
+  }
+  law.run(inputs_);
+  for (std::size_t i = 0; i < law_.outputs.size(); ++i) {
+    axes_[static_cast<std::size_t>(law_.outputs[i].axis)].*to_nm = limited(law.outputs()[i]);
+  }
+}
+
+Eigen::VectorXd Continuous::probe(const std::vector<Sample>& samples) {
+  law::Evaluation<double> copy = true_;
+  run(copy, samples, &Axis::ideal_nm);
+  Eigen::VectorXd nm(static_cast<Eigen::Index>(axes_.size()));
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    nm[static_cast<Eigen::Index>(n)] = axes_[n].driven ? axes_[n].ideal_nm : 0;
+  }
+  return nm;
+}
+
+Eigen::MatrixXd Continuous::fall(double Sample::*input, double step) {
+  const auto axes = static_cast<Eigen::Index>(axes_.size());
+  Eigen::MatrixXd out(axes, axes);
+  std::vector<Sample> at = seen_;
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    const double middle = at[n].*input;
+    at[n].*input = middle - step;
+    const Eigen::VectorXd before = probe(at);
+    at[n].*input = middle + step;
+    out.col(static_cast<Eigen::Index>(n)) = before - probe(at);
+    at[n].*input = middle;
+  }
+  return out;
+}
+
+// A slope is equal over a count and over a sixteenth of it; a difference that does not shrink with
+// the distance is a jump.
+bool Continuous::smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow) {
+  bool all_smooth = true;
+  for (Eigen::Index n = 0; n < wide.cols(); ++n) {
+    const double all = wide.col(n).cwiseAbs().maxCoeff();
+    const double part = narrow.col(n).cwiseAbs().maxCoeff();
+    const double off = (wide.col(n) - 16 * narrow.col(n)).cwiseAbs().maxCoeff();
+    if (off <= 0.05 * all + 1e-9 * setting_.limit_nm) continue;
+    all_smooth = false;
+    if (part > 0.5 * all) slope_.jump_nm = std::max(slope_.jump_nm, part);
+  }
+  return all_smooth;
+}
+
+void Continuous::look() {
+  const double h = setting_.count_rad / 2;
+  const Eigen::MatrixXd wide = fall(&Sample::position_rad, h);
+  if (!smooth(wide, fall(&Sample::position_rad, h / 16))) return;
+  const Eigen::MatrixXd stiffness = wide / (2 * h);
+  const Eigen::MatrixXd damping =
+      fall(&Sample::velocity_rad_s, speed_step_rad_s) / (2 * speed_step_rad_s);
+  Eigen::VectorXd at_rad(wide.cols());
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    at_rad[static_cast<Eigen::Index>(n)] = seen_[n].position_rad + axes_[n].zero_rad;
+  }
+  const Eigen::MatrixXd per_torque = setting_.inertia
+                                         ? setting_.inertia(at_rad).inverse().eval()
+                                         : Eigen::MatrixXd::Identity(wide.rows(), wide.cols());
+  const auto largest = [](const Eigen::MatrixXd& m) { return m.eigenvalues().real().maxCoeff(); };
+  const double steep = largest(per_torque * stiffness);
+  const bool stiff = largest(stiffness) > rounding_nm_rad || slope_.stiffness_nm_rad > 0;
+  if (largest(stiffness) <= rounding_nm_rad && wide.cols() > 1) {
+    slope_.coupled = slope_.coupled || (stiffness - stiffness.transpose()).norm() > rounding_nm_rad;
+  }
+  const double compared = stiff ? steep : largest(per_torque * damping);
+  // A stiff place ends the search for places that only damp.
+  if (stiff && slope_.stiffness_nm_rad <= 0) steepest_ = steepest_nm_ = 0;
+  // Of places that are as steep, the one with the most torque: there the law is not about to end.
+  const double here_nm = probe(seen_).cwiseAbs().maxCoeff();
+  const bool steeper = compared > (stiff ? 1.001 : 1.0) * steepest_;
+  const bool as_steep = stiff && compared > 0.999 * steepest_ && here_nm > steepest_nm_;
+  if (compared <= 0 || (!steeper && !as_steep)) return;
+  slope_.stiffness_nm_rad = stiff ? largest(stiffness) : 0;
+  slope_.damping_nm_s_rad = largest(damping);
+  slope_.stiffness = stiffness;
+  slope_.damping = damping;
+  slope_.observed = Eigen::MatrixXd::Zero(wide.rows(), wide.cols());
+  if (observes_) {
+    slope_.observed = -fall(&Sample::tau_hat_nm, observed_step_nm) / (2 * observed_step_nm);
+  }
+  slope_.at_rad = at_rad;
+  steepest_ = std::max(compared, steepest_);
+  steepest_nm_ = here_nm;
+}
+
+void Continuous::place(const Row* rows) {
+  if (placed_) return;
+  placed_ = true;
+  const double q = setting_.count_rad;
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    // The core counts from where it was reset. An encoder's zero is anywhere: a count is taken for
+    // the middle of its angles.
+    const Row& r = rows[n];
+    axes_[n].zero_rad = std::floor(r.theta_rad / q) * q - r.position_rad + q / 2;
+  }
+}
+
+void Continuous::tick(const Row* rows) {
+  place(rows);
+  for (; next_ < changes_.size() && changes_[next_].at_s <= rows[0].time_s; ++next_) {
+    set(changes_[next_].parameter, changes_[next_].si);
+  }
+  // The engine runs its law by the first axis.
+  if ((rows[0].limits & static_cast<int>(limit::gates_closed)) != 0) {
+    true_.reset();
+    sampled_.reset();
+    ticks_ = 0;
+    return;
+  }
+  if (ticks_++ % setting_.every == 0) {
+    for (std::size_t n = 0; n < axes_.size(); ++n) {
+      const Row& r = rows[n];
+      seen_[n] = {r.theta_rad - axes_[n].zero_rad, r.omega_rad_s, r.tau_hat_nm};
+      counted_[n] = {r.position_rad, r.velocity_rad_s, r.tau_hat_nm};
+    }
+    if (setting_.slope && runs_++ % look_every == 0) look();
+    if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
+    run(true_, seen_, &Axis::ideal_nm);
+  }
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    Axis& a = axes_[n];
+    if (!a.driven || rows[0].law_stale || (rows[n].limits & left_out) != 0) continue;
+    const double off_nm = rows[n].tau_ref_nm - a.ideal_nm;
+    a.error.add(off_nm);
+    a.sum_nm += off_nm;
+    error_.add(off_nm);
+    largest_nm_ = larger(largest_nm_, std::fabs(a.ideal_nm));
+    if (setting_.floor) floor_.add(a.of_counts_nm - a.ideal_nm);
+  }
+}
+
+}  // namespace feltgate::rates

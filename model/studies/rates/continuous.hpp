@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Evaluates a law beside a run, without rate, counts and rounding: it gives the ideal torques and
+// the error of the core's torques. Documentation: docs/rates.md
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "law/evaluate.hpp"
+#include "sim/loop/columns.hpp"
+#include "sim/loop/figures.hpp"
+#include "sim/loop/scenario.hpp"
+
+namespace feltgate::rates {
+
+/// Slopes of the torques at the steepest place of the law that the motion reached; with several
+/// axes, along the direction of the largest change.
+struct Slope {
+  double stiffness_nm_rad = 0;  ///< at the steepest place that is not a jump
+  double damping_nm_s_rad = 0;  ///< at that place; the largest one if no place is stiff
+  double jump_nm = 0;           ///< largest step of a torque at one position
+  /// Somewhere the torque of one axis depends on another's angle but not vice versa, and no
+  /// direction is stiff: the axes drive each other.
+  bool coupled = false;
+  /// Matrices at that place, with a row per torque and a column per axis: decrease of torque per
+  /// angle and per speed, torque per tau_hat; and the device's angles. Empty if the law has neither
+  /// stiffness nor damping.
+  Eigen::MatrixXd stiffness, damping, observed;
+  Eigen::VectorXd at_rad;
+};
+
+/// A change of a law's parameter: time and new value.
+struct Change {
+  double at_s = 0;
+  std::size_t parameter = 0;
+  double si = 0;
+};
+
+/// The changes of a scene that runs this law, in order of time; changes before the run are at 0 s.
+std::vector<Change> changes_of(const Scenario& scene, const law::Law& law);
+
+/// The evaluation for a device with one or several axes; a row holds the loop's values of an axis
+/// in a tick.
+class Continuous {
+ public:
+  struct Setting {
+    std::size_t axes = 1;
+    double count_rad = 0;
+    double limit_nm = 0;  ///< of the torque reference of each axis
+    int every = 1;        ///< ticks between two runs: 1, except for laws whose states count runs
+    bool slope = false;   ///< search the steepest place
+    /// Inertia of several axes at these angles, kg m^2: the steepest place is the one with the
+    /// fastest oscillation.
+    std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> inertia;
+    bool floor = false;  ///< also run the law from the counts
+  };
+  /// The law must outlive this.
+  Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting);
+
+  /// Call this for each tick of the core, with a row per axis.
+  void tick(const std::vector<Row>& axes) { tick(axes.data()); }
+  void tick(const Row& row) { tick(&row); }
+  /// Notes that the host has set a parameter, from the next tick on.
+  void set(std::size_t parameter, double si);
+
+  /// Torque reference minus the law's torque at the device's true angles and speeds, Nm, of all
+  /// axes. Excluded are ticks in which a motor is disarmed, its torque ramps, the core reduces a
+  /// torque that is held too long, or a mailbox of the law is too old.
+  const ErrorFigure& error() const { return error_; }
+  const ErrorFigure& error(std::size_t axis) const { return axes_[axis].error; }
+  double mean_error_nm(std::size_t axis = 0) const;
+  /// The same error for the law in double in every tick, computed from the counts and the velocity
+  /// of the core: no rate can reduce it.
+  const ErrorFigure& floor() const { return floor_; }
+  const Slope& slope() const { return slope_; }
+  double largest_nm() const { return largest_nm_; }  ///< largest limited torque of any axis
+
+ private:
+  /// Inputs of a law for one axis.
+  struct Sample {
+    double position_rad = 0, velocity_rad_s = 0, tau_hat_nm = 0;
+  };
+  struct Axis {
+    bool driven = false;  ///< the law has a torque for it
+    double zero_rad = 0;  ///< the true angle at which the core's position is 0
+    double ideal_nm = 0, of_counts_nm = 0, sum_nm = 0;
+    ErrorFigure error;
+  };
+  void tick(const Row* rows);
+  void place(const Row* rows);
+  void run(law::Evaluation<double>& law, const std::vector<Sample>& samples, double Axis::*to_nm);
+  double limited(double nm) const;
+  /// Torques at `samples`, computed by a copy of the law that does not change this run.
+  Eigen::VectorXd probe(const std::vector<Sample>& samples);
+  /// Decrease of the torques over one input of each axis, from `step` below to `step` above.
+  Eigen::MatrixXd fall(double Sample::*input, double step);
+  /// Whether the decrease over a count (`wide`) and over a sixteenth of it (`narrow`) belongs to a
+  /// slope; notes jumps.
+  bool smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow);
+  void look();
+
+  const law::Law& law_;
+  std::vector<Change> changes_;
+  Setting setting_;
+  law::Evaluation<double> true_, sampled_;
+  std::vector<double> inputs_;
+  std::vector<Sample> seen_, counted_;
+  std::vector<Axis> axes_;
+  std::size_t next_ = 0;
+  std::int64_t ticks_ = 0, runs_ = 0;
+  bool placed_ = false;
+  double largest_nm_ = 0;
+  double steepest_ = 0, steepest_nm_ = 0;  ///< measure of steepness, and the torque there
+  bool observes_ = false;                  ///< the law reads tau_hat
+  ErrorFigure error_, floor_;
+  Slope slope_;
+};
+
+}  // namespace feltgate::rates

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Documentation: docs/rates.md
+#include "studies/rates/device_joints.hpp"
+
+#include <cmath>
+
+#include "sim/plant/pantograph/linkage_dynamics.hpp"
+
+namespace feltgate::rates {
+
+namespace {
+
+plant::Parameters joint_of(const plant::AxesParameters& p) {
+  const double ratio = p.joint.ratio();
+  plant::Parameters out;
+  out.motor = p.motor;
+  out.motor.torque_constant_nm_a *= ratio;
+  out.motor.back_emf_constant_v_s_rad *= ratio;
+  out.lever.viscous_nm_s_rad = p.joint.viscous_nm_s_rad;
+  out.lugre.viscous_nm_s_rad = ratio * ratio * p.lugre.viscous_nm_s_rad;
+  out.supply = p.supply;
+  out.encoder = p.encoder;
+  out.encoder.lines = static_cast<int>(std::lround(p.encoder.lines * p.joint.encoder_ratio()));
+  return out;
+}
+plant::Parameters joint_of(const plant::LeverSetParameters& p) {
+  plant::Parameters out = p.lever;
+  out.encoder = p.encoder;
+  return out;
+}
+
+Eigen::MatrixXd inertia(const plant::PantographParameters& p, const Eigen::VectorXd& angle) {
+  const plant::LinkageDynamics dynamics(p.linkage, p.bodies);
+  const plant::JointMatrix m = dynamics.mass(dynamics.linkage().pose({angle[0], angle[1]}));
+  return Eigen::Matrix2d{{m.m11, m.m15}, {m.m15, m.m55}};
+}
+Eigen::MatrixXd inertia(const plant::GimbalParameters& p, const Eigen::VectorXd& angle) {
+  const plant::GimbalMechanics mechanics(p.bodies, p.stops);
+  const auto m = mechanics.mass(plant::gimbal_pose({angle[0], angle[1], angle[2]}));
+  Eigen::Matrix3d out;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const plant::Vec3& row = m.rows[static_cast<std::size_t>(i)];
+    out.row(i) << row.x, row.y, row.z;
+  }
+  return out;
+}
+Eigen::MatrixXd inertia(const plant::LeverSetParameters& p, const Eigen::VectorXd& angle) {
+  return p.lever.lever.inertia_kg_m2 * Eigen::MatrixXd::Identity(angle.size(), angle.size());
+}
+
+}  // namespace
+
+plant::Parameters joint_of(const DeviceSetup& device, plant::Effects on) {
+  plant::Parameters out = std::visit([](const auto& d) { return joint_of(d.parameters); }, device);
+  out.effects = on;
+  out.effects.viscous = true;
+  return out;
+}
+
+Eigen::MatrixXd inertia_kg_m2(const DeviceSetup& device, const Eigen::VectorXd& angle_rad) {
+  return std::visit([&](const auto& d) { return inertia(d.parameters, angle_rad); }, device);
+}
+
+}  // namespace feltgate::rates

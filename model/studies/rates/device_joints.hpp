@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Converts the drives of a device's joints to the form of the linear loop of several axes.
+// Documentation: docs/rates.md
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "sim/axes_loop/axes_scene.hpp"
+
+namespace feltgate::rates {
+
+/// Motor, encoder and friction of each joint, converted as if the motor turned with the joint, with
+/// viscous friction and the effects `on`. The inertia is 0 if it depends on the place.
+plant::Parameters joint_of(const DeviceSetup& device, plant::Effects on);
+
+/// Inertia matrix of all joints at these angles, kg m^2.
+Eigen::MatrixXd inertia_kg_m2(const DeviceSetup& device, const Eigen::VectorXd& angle_rad);
+
+}  // namespace feltgate::rates

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Computes the stability margin of a scene's law at a rate. Documentation: docs/rates.md
+#pragma once
+
+#include "studies/rates/continuous.hpp"
+#include "studies/stability/axes_linear_loop.hpp"
+#include "studies/stability/linear_loop.hpp"
+
+namespace feltgate::rates {
+
+struct Margin {
+  enum class Of { stiffness, damping, none } of = Of::none;
+  double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping
+  double ratio = 0;   ///< border divided by the law's value; at 1 the loop oscillates for ever
+};
+
+/// Computes the margin by the eigenvalues of the linear loop: it scales the stiffness at the law's
+/// damping, or the damping if the law is stiff nowhere. There is no margin if the law has neither,
+/// or only a jump. `delay_ticks`: ticks from the samples of a run to the first tick with its
+/// torque, at most `scene_ticks`.
+Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
+              int delay_ticks);
+
+/// The same for several axes: it scales the whole matrix of the stiffness, or of the damping.
+Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,
+              int delay_ticks);
+
+}  // namespace feltgate::rates

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Common parts of the measurement at several rates, for one lever and for a device with several
+// axes. Documentation: docs/rates.md
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/loop/felt.hpp"
+#include "studies/rates/rates.hpp"
+
+namespace feltgate::rates {
+
+/// Runs one law at all rates, by the virtual run_law().
+class Sweep {
+ public:
+  virtual ~Sweep() = default;
+
+ protected:
+  /// `design` is the device's design; `e` must outlive this object.
+  Sweep(LawSource source, DesignInfo design, const design::Elaborated& e, const Options& options);
+
+  /// Runs the law at the slower rates, the slowest first, and then at its fastest; `more` runs
+  /// follow. Rates for which the law cannot be compiled become notes.
+  void sweep(law::Compiled fast, std::size_t more);
+  virtual void run_law(law::Compiled law, RateRow row) = 0;
+
+  /// Whether the current row is the last one.
+  bool last() const { return report_.rows.size() + 1 == all_; }
+  Continuous::Setting setting(const Scenario& scene) const;
+  /// A loop's progress as a share of all rows.
+  std::function<void(double)> progress() const;
+  /// Passes a value that the host has set to the continuous law, also the values set at load.
+  void tell(Continuous& continuous, const std::string& name, double value) const;
+  void tell_all(Continuous& continuous, const SceneLaw& law) const;
+  /// Ticks from the samples of a run to the first tick with its torque.
+  int delay_of(const RateRow& row) const;
+  /// Notes the ticks without torque, which are not compared.
+  void note_stale(const Acted& stale);
+  void note_once(const std::string& note);
+  /// Adds the figures of a run to the report.
+  void add(RateRow row, const Continuous& continuous, const Continuous::Setting& setting);
+
+  LawSource source_;
+  DesignInfo design_;
+  const design::Elaborated& e_;
+  const Options& options_;
+  law::Target target_;
+  law::Law continuous_law_;
+  int every_ = 1;
+  Report report_;
+
+ private:
+  void leave_out(int ticks, const std::string& reason);
+  RateRow row_of(const law::Compiled& law, int ticks) const;
+
+  std::size_t all_ = 0;
+};
+
+/// Fits the scene's values to an image. At another rate the LSB of a parameter may differ, so its
+/// range may end up to one LSB earlier; values beyond that end are moved to it.
+Scenario fitted(Scenario scene, const law::Image& image);
+
+/// The earliest of the faults, with its time; empty if there is none.
+std::string first_fault(const std::map<std::string, Acted>& faults);
+
+}  // namespace feltgate::rates

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The chain in its own bits, or in double, around the plant and a wall, tick by tick: the same
+// order of events as in the linear loop, with a host that may compute the wall instead of the core.
+// Documentation: docs/stability.md
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "design/design.hpp"
+#include "sim/plant/plant.hpp"
+#include "sim/reference/real_chain.hpp"
+#include "studies/stability/linear_loop.hpp"
+#include "studies/stability/swing_meter.hpp"
+
+namespace feltgate::stability {
+
+struct BitLoopSetting {
+  std::string chain = "fixed";  ///< kind of make_real_chain()
+  Wall wall;
+  plant::Parameters plant;
+  plant::Hand hand;
+  /// Nothing in the voltage law but gains: dead voltage 0, one region, limits as far as words go.
+  bool linear = true;
+};
+
+/// The loop; the wall's face is at 0 rad and the wall extends above it.
+class BitLoop {
+ public:
+  /// `design` must be built in. Throws std::invalid_argument for a value that does not fit its
+  /// word.
+  BitLoop(const design::Elaborated& design, const BitLoopSetting& setting);
+
+  void tick();
+
+  std::int64_t ticks() const { return k_; }
+  double theta_rad() const { return plant_.observables().theta_rad; }
+  double omega_rad_s() const { return plant_.observables().omega_rad_s; }
+  double motor_torque_nm() const { return plant_.observables().motor_torque_mean_nm; }
+  double tau_ref_nm() const { return chain_->out().tau_ref_nm; }
+  std::int32_t position() const { return position_; }
+
+  /// A host's wall: torque from the position and velocity that the host has read, rad and rad/s.
+  /// The default is the law of the core's wall. Only with scene_ticks > 1.
+  using HostLaw = std::function<double(double theta_rad, double omega_rad_s)>;
+  void set_host(HostLaw law) { host_ = std::move(law); }
+
+ private:
+  int address(const char* name) const { return design_.word(name).parameter.address; }
+
+  const design::Elaborated& design_;
+  Wall wall_;
+  std::unique_ptr<RealChain> chain_;
+  plant::Plant plant_;
+  HostLaw host_;
+  double count_rad_;
+  int pwm_ticks_, pwm_clocks_, clocks_per_tick_, setpoint_address_;
+  double duty_new_ = 0, duty_ = 0, host_torque_ = 0;
+  std::int32_t position_ = 0;
+  ChainIn in_;
+  std::int64_t k_ = 0;
+};
+
+/// The hand's press while a border is measured, and the size of the swing around its depth.
+constexpr double press_nm = 0.45;
+double swing_rad(double stiffness_nm_rad);
+
+/// A hand presses with a constant torque; the lever starts off its resting depth and swings.
+Growth swing(const design::Elaborated& design, const plant::Parameters& plant, const Wall& wall,
+             const std::string& chain, double expected_rad_s);
+
+/// Largest stiffness whose swing does not grow, by bisection to 0.5 %, around `near`.
+/// NaN where no border was found within a factor 2 of it.
+double measured_border(const design::Elaborated& design, const plant::Parameters& plant,
+                       double damping_nm_s_rad, int scene_ticks, const Border& near);
+
+}  // namespace feltgate::stability

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Constants of a design beside a plant's. Documentation: docs/designs.md
+#include "studies/stability/constants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace feltgate::stability {
+
+using design::Design;
+using plant::Effects;
+using plant::Parameters;
+
+std::vector<Constant> shared_constants(const Design& d, const Parameters& p, const Effects& on) {
+  const bool model = d.voltage_law == "motor_model";
+  std::vector<Constant> all{
+      {"torque constant", "Nm/A", "observer.torque_constant_nm_a", d.torque_constant_nm_a,
+       p.motor.torque_constant_nm_a},
+      {"resistance", "ohm", "motor.resistance_ohm", d.resistance_ohm, p.motor.resistance_ohm},
+      {"inertia", "kg m^2", "observer.inertia_kg_m2", d.inertia_kg_m2, p.lever.inertia_kg_m2},
+      {"encoder lines", "", "encoder.lines", static_cast<double>(d.lines),
+       static_cast<double>(p.encoder.lines)},
+      {"supply voltage", "V", "pwm.supply_v", d.supply_v, p.supply.voltage_v}};
+  if (on.back_emf) {
+    all.push_back({"back-EMF constant", "V s/rad", "motor.emf_constant_v_s_rad",
+                   d.emf_constant_v_s_rad, p.motor.back_emf_constant_v_s_rad});
+  }
+  if (on.dead_voltage && model) {
+    all.push_back(
+        {"dead voltage", "V", "voltage.dead_voltage_v", d.dead_voltage_v, p.motor.dead_voltage_v});
+  }
+  if (on.dead_time && d.compensate_dead_time) {
+    all.push_back({"diode drop", "V", "pwm.diode_drop_v", d.diode_drop_v, p.supply.diode_drop_v});
+  }
+  return all;
+}
+
+double Constant::excess() const {
+  if (of_design == of_plant) return 0;
+  return of_design == 0 ? std::numeric_limits<double>::infinity() : of_plant / of_design - 1;
+}
+
+std::vector<Constant> differing_constants(const Design& d, const Parameters& p,
+                                          const Effects& effects) {
+  std::vector<Constant> found = shared_constants(d, p, effects);
+  const auto close = [](const Constant& c) { return std::abs(c.excess()) <= noticeable; };
+  found.erase(std::remove_if(found.begin(), found.end(), close), found.end());
+  return found;
+}
+
+}  // namespace feltgate::stability

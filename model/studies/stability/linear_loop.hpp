@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The loop of core, motor and a wall without quantisation: every state of every tick, the window of
+// the velocity estimator included, and the eigenvalues of its monodromy matrix. Derivation:
+// docs/stability.md
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "design/design.hpp"
+#include "sim/plant/parameters.hpp"
+#include "studies/stability/dominant_poles.hpp"
+
+namespace feltgate::stability {
+
+/// A wall and how often its torque is computed anew; the torque is held in between.
+struct Wall {
+  double stiffness_nm_rad = 0;
+  double damping_nm_s_rad = 0;
+  int scene_ticks = 1;  ///< 1: the core's own wall; else a host reads, computes and writes
+  /// From the samples to the first tick in which their torque acts, at most scene_ticks; -1: none
+  /// in the core, host_ticks with a host.
+  int delay_ticks = -1;
+};
+
+/// Ticks from the one whose snapshot a host reads to the first in which its torque acts: one for
+/// the register write, which is carried out with the end of the next tick.
+constexpr int host_ticks = 2;
+
+/// Constants of the loop, from a design with its quantised words and a linear plant.
+struct LinearLoop {
+  /// States of the motor with its lever, and its input.
+  enum : Eigen::Index { kCurrent, kSpeed, kAngle, kVoltage };
+  double tick_s = 0;
+  int m1 = 0;
+  /// Change of the states over a tick: the transition matrix minus identity, which keeps the digits
+  /// of slow poles.
+  Eigen::Matrix4d change;
+  double raw_rad_s_rad = 0;  ///< raw velocity per radian of travel in m1 ticks
+  double velocity_a1 = 0, observer_a1 = 0;
+  double torque_constant = 0, inertia_gain = 0, torque_gain = 0, observer_gain = 0;
+  double emf_constant = 0;
+  double applied = 0;           ///< plant volts per commanded volt
+  double damping_nm_s_rad = 0;  ///< of the lever
+};
+
+/// Makes the loop. Of the plant's effects it uses inductance, back-EMF and viscous friction.
+LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters& plant);
+
+/// The same with a voltage gain, PWM periods, and the values for the closed-form expressions.
+struct LoopModel : LinearLoop {
+  int pwm_ticks = 0;
+  double voltage_gain = 0;
+  Eigen::Matrix<double, 3, 4>
+      plant;  ///< (current, speed, angle) after a tick, from those and volts
+  double inertia_kg_m2 = 0;
+  double torque_per_volt = 0;         ///< Kt/R of the plant, Nm/V
+  double motor_damping_nm_s_rad = 0;  ///< Kt*Ke/R of the plant
+  double compensated = 0;             ///< share of it that the voltage law takes away at rest
+  double electrical_s = 0;            ///< L/R
+  double velocity_delay_s = 0;        ///< window/2 + 1/cut-off
+  double velocity_moment_s2 = 0;  ///< half the second moment of the estimator's impulse response
+};
+
+/// The change of all currents, speeds, angles and voltages over one tick in which these are held,
+/// by the exact exponential; `per_torque`: inverse of the inertia of all axes.
+Eigen::MatrixXd plant_change(const plant::Parameters& plant, double damping_nm_s_rad,
+                             const Eigen::MatrixXd& per_torque, double tick_s);
+
+/// Ticks of a torque's period that are repeated so that poles stand apart, about 1 ms: up to 500 Hz
+/// no turn is lost by that.
+int apart_ticks(const LoopModel& model, int period_ticks);
+
+/// Of two voltage gains, the low one.
+LoopModel make_model(const design::Elaborated& e, const plant::Parameters& plant);
+
+/// Poles nearest to growth, the fastest growing first; those of a conjugate pair with imag >= 0.
+std::vector<Pole> poles(const LoopModel& model, const Wall& wall);
+
+/// The monodromy matrix itself, over the least number of ticks after which the loop repeats; its
+/// size is the number of states, m1 + 10.
+Eigen::MatrixXd monodromy(const LoopModel& model, const Wall& wall, int* ticks);
+
+/// Largest stable stiffness with this damping, and the frequency at which the loop then swings.
+struct Border {
+  double stiffness_nm_rad = 0;  ///< 0: no stiffness is stable
+  double rad_s = 0;
+};
+Border border(const LoopModel& model, double damping_nm_s_rad, int scene_ticks);
+
+/// (b + B) / (T/2 + t_d): what is left of damping over half a scene period and the actuator.
+double closed_form(const LoopModel& model, double damping_nm_s_rad, int scene_ticks);
+/// The same with the next order of the velocity estimator: it acts as a delay longer by
+/// (B - b_emf) * m2 / J.
+double closed_form_with_estimator(const LoopModel& model, double damping_nm_s_rad, int scene_ticks);
+/// t_d: winding, half a PWM period, and what a host costs.
+double actuator_delay_s(const LoopModel& model, int scene_ticks);
+
+/// Impedance of the armed lever without a scene at a frequency, as a stiffness: |torque / angle|,
+/// Nm/rad. Back-EMF compensation and observer are in it, the winding's lag is not.
+double free_impedance_nm_rad(const LoopModel& model, double rad_s);
+
+}  // namespace feltgate::stability

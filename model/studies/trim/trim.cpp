@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Greedy removal of plant effects. Documentation: docs/trim.md
+#include "studies/trim/trim.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "feltgate/largest.hpp"
+#include "studies/trim/motions.hpp"
+
+namespace feltgate::trim {
+
+namespace {
+
+constexpr const char* gates = "gates";
+// Whole ticks from 50 on: there the twin needs no single clocks.
+constexpr int steps_clocks[] = {250, 200, 150, 100, 50, 25, 10, 5, 2};
+constexpr int averaged_step_clocks = 50;
+
+struct Job {
+  const Motion* motion;
+  Model model;
+};
+
+/// Runs models on motions, several at a time, and counts what that costs.
+class Runner {
+ public:
+  Runner(const Options& options, int expected_full_runs)
+      : options_(options), expected_(expected_full_runs) {}
+
+  std::vector<Felt> run(const std::vector<Job>& jobs) {
+    std::vector<Felt> felt(jobs.size());
+    std::atomic<std::size_t> next{0};
+    std::exception_ptr failure;
+    const auto work = [&] {
+      for (std::size_t i = next++; i < jobs.size(); i = next++) {
+        try {
+          felt[i] = feel(jobs[i].motion->scene, jobs[i].motion->plant, options_.design,
+                         jobs[i].model, options_.window_s);
+        } catch (...) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          failure = std::current_exception();
+          return;
+        }
+        note(jobs[i], felt[i]);
+      }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 1; t < options_.threads; ++t) threads.emplace_back(work);
+    work();
+    for (std::thread& t : threads) t.join();
+    if (failure) std::rethrow_exception(failure);
+    return felt;
+  }
+  Felt run(const Motion& motion, const Model& model) { return run({{&motion, model}}).front(); }
+
+  int runs = 0;
+  double cpu_s = 0;
+
+ private:
+  // Models in fine steps take nearly all of the time, so they alone are the progress.
+  void note(const Job& job, const Felt& felt) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++runs;
+    cpu_s += felt.cpu_s;
+    if (job.model.step_clocks < averaged_step_clocks) ++full_runs_;
+    if (!options_.progress) return;
+    const double done = static_cast<double>(full_runs_) / expected_;
+    options_.progress(done < 1 ? done : 0.99);
+  }
+
+  const Options& options_;
+  int expected_;
+  int full_runs_ = 0;
+  std::mutex mutex_;
+};
+
+bool has_mass(const Scenario& scene) {
+  const auto& phases = scene.hand.phases;
+  return std::any_of(phases.begin(), phases.end(), [](const plant::HandPhase& p) {
+    return p.kind == plant::HandPhase::Kind::kImpedance;
+  });
+}
+
+bool equal(const Model& a, const Model& b) {
+  return a.gates == b.gates && a.step_clocks == b.step_clocks &&
+         std::all_of(
+             std::begin(plant::effect_names), std::end(plant::effect_names),
+             [&](const plant::EffectName& e) { return a.effects.*e.flag == b.effects.*e.flag; });
+}
+
+/// One motion, its full model's run, and how far a model is from it.
+struct Reference {
+  Motion motion;
+  Felt full;
+};
+
+class Search {
+ public:
+  Search(const Scenario& scene, const plant::Parameters& plant, const Options& options)
+      : scene_(scene),
+        plant_(plant),
+        options_(options),
+        runner_(options, 1 + options.unseen),
+        own_{{scene, plant}, {}} {
+    out_.full = out_.trimmed = full_model(scene, plant, options.full_step_clocks);
+  }
+
+  Report run() {
+    own_.full = out_.full_run = runner_.run(own_.motion, out_.full);
+    drop_gates();
+    drop_effects();
+    coarsen();
+    final_check();
+    out_.trimmed_run = runner_.run(own_.motion, out_.trimmed);
+    out_.own = compare(own_.full, out_.trimmed_run);
+    out_.runs = runner_.runs;
+    out_.cpu_s = runner_.cpu_s;
+    return out_;
+  }
+
+ private:
+  bool fits(double loss) const { return loss <= options_.share * options_.tolerance; }
+
+  void drop_gates() {
+    Model averaged = out_.trimmed;
+    set_part(averaged, gates, false);
+    averaged.step_clocks = averaged_step_clocks;
+    const Felt felt = runner_.run(own_.motion, averaged);
+    PartReport part;
+    part.name = gates;
+    part.alone = compare(own_.full, felt);
+    part.so_far = part.alone.worst();
+    part.saves = 1 - felt.cpu_s / own_.full.cpu_s;
+    part.dropped = fits(part.so_far);
+    if (part.dropped) {
+      out_.trimmed = averaged;
+      sum_ = part.so_far;
+    }
+    out_.parts.push_back(part);
+  }
+
+  // Each effect alone, twice, since these runs are short and their time is asked for.
+  std::vector<PartReport> leave_out_each() {
+    std::vector<std::string> names = parts_of(scene_, out_.trimmed);
+    names.erase(std::remove(names.begin(), names.end(), gates), names.end());
+    std::vector<Job> jobs;
+    const int times = out_.trimmed.gates ? 1 : 2;
+    for (int k = 0; k < times; ++k) {
+      jobs.push_back({&own_.motion, out_.trimmed});
+      for (const std::string& name : names) {
+        jobs.push_back({&own_.motion, out_.trimmed});
+        set_part(jobs.back().model, name, false);
+      }
+    }
+    const std::vector<Felt> felt = runner_.run(jobs);
+    const std::size_t stride = names.size() + 1;
+    const auto cpu_s = [&](std::size_t i) {
+      return std::min(felt[i].cpu_s, felt[i + stride * static_cast<std::size_t>(times - 1)].cpu_s);
+    };
+    std::vector<PartReport> parts(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      parts[i].name = names[i];
+      parts[i].alone = compare(felt[0], felt[i + 1]);
+      parts[i].saves = 1 - cpu_s(i + 1) / cpu_s(0);
+    }
+    return parts;
+  }
+
+  void drop_effects() {
+    std::vector<PartReport> parts = leave_out_each();
+    const auto worth = [](const PartReport& p) {
+      return std::max(p.saves, 0.01) / (p.alone.worst() + 1e-6);
+    };
+    std::stable_sort(parts.begin(), parts.end(),
+                     [&](const PartReport& a, const PartReport& b) { return worth(a) > worth(b); });
+    for (PartReport& part : parts) {
+      // Twice the tolerance alone: no other part could be counted on to make up for it.
+      if (part.alone.worst() <= 2 * options_.tolerance) {
+        Model without = out_.trimmed;
+        set_part(without, part.name, false);
+        // Errors that cancel on this motion need not on another: the sum of all alone counts too.
+        part.so_far = larger(sum_ + part.alone.worst(),
+                             compare(own_.full, runner_.run(own_.motion, without)).worst());
+        part.dropped = fits(part.so_far);
+        if (part.dropped) {
+          out_.trimmed = without;
+          sum_ += part.alone.worst();
+        }
+      }
+      out_.parts.push_back(part);
+    }
+  }
+
+  void coarsen() {
+    for (const int step : steps_clocks) {
+      if (step <= out_.trimmed.step_clocks) return;
+      Model coarse = out_.trimmed;
+      coarse.step_clocks = step;
+      const double loss = compare(own_.full, runner_.run(own_.motion, coarse)).worst();
+      if (!fits(loss)) continue;
+      out_.trimmed = coarse;
+      out_.step_loss = loss;
+      return;
+    }
+  }
+
+  // Fresh motions each time; those of earlier rounds stay.
+  void final_check() {
+    std::vector<Reference> motions;
+    constexpr int rounds = 3;
+    for (int round = 0; round < rounds && !out_.holds; ++round) {
+      add_motions(motions);
+      out_.holds = holds(motions);
+      while (!out_.holds) {
+        for (UnseenReport& u : out_.unseen) u.searched = true;
+        if (!put_one_back(motions)) break;
+        if (holds(motions)) break;
+      }
+    }
+    if (out_.holds) return;
+    out_.trimmed = out_.full;
+    for (PartReport& p : out_.parts) p.put_back |= p.dropped;
+    for (PartReport& p : out_.parts) p.dropped = false;
+    out_.holds = holds(motions);
+  }
+
+  void add_motions(std::vector<Reference>& motions) {
+    const std::size_t first = motions.size();
+    for (int k = 0; k < options_.unseen; ++k) {
+      UnseenReport u;
+      u.seed = options_.seed + motions.size();
+      Motion m = perturbed(scene_, plant_, u.seed);
+      u.amplitude = m.amplitude;
+      u.speed = m.speed;
+      out_.unseen.push_back(u);
+      motions.push_back({std::move(m), {}});
+    }
+    std::vector<Job> jobs;
+    for (std::size_t i = first; i < motions.size(); ++i) {
+      jobs.push_back({&motions[i].motion, out_.full});
+    }
+    std::vector<Felt> felt = runner_.run(jobs);
+    for (std::size_t i = first; i < motions.size(); ++i)
+      motions[i].full = std::move(felt[i - first]);
+  }
+
+  std::vector<Difference> differences(const std::vector<Reference>& motions, const Model& model) {
+    std::vector<Job> jobs;
+    for (const Reference& r : motions) jobs.push_back({&r.motion, model});
+    const std::vector<Felt> felt = runner_.run(jobs);
+    std::vector<Difference> all;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      all.push_back(compare(motions[i].full, felt[i]));
+    }
+    return all;
+  }
+
+  bool holds(const std::vector<Reference>& motions) {
+    const std::vector<Difference> all = differences(motions, out_.trimmed);
+    bool ok = true;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      out_.unseen[i].difference = all[i];
+      ok &= fits(all[i].worst());
+    }
+    return ok;
+  }
+
+  /// A step back: a model with one more part, or with a finer step (then without a part).
+  struct Return {
+    Model model;
+    PartReport* part;
+  };
+
+  // The cheap ones first: the step, the effects, and only then the gates.
+  std::vector<Return> returns() {
+    std::vector<Return> all;
+    const auto finer = std::find_if(std::begin(steps_clocks), std::end(steps_clocks),
+                                    [this](int step) { return step < out_.trimmed.step_clocks; });
+    if (finer != std::end(steps_clocks) && *finer >= options_.full_step_clocks) {
+      all.push_back({out_.trimmed, nullptr});
+      all.back().model.step_clocks = *finer;
+    }
+    for (auto part = out_.parts.rbegin(); part != out_.parts.rend(); ++part) {
+      if (!part->dropped) continue;
+      all.push_back({out_.trimmed, &*part});
+      set_part(all.back().model, part->name, true);
+      if (part->name == gates) all.back().model.step_clocks = options_.full_step_clocks;
+    }
+    return all;
+  }
+
+  /// The first return with which the check holds; if none does, the one that mends most. False when
+  /// everything is back.
+  bool put_one_back(const std::vector<Reference>& motions) {
+    std::optional<Return> best;
+    double least = 1e300;
+    for (const Return& r : returns()) {
+      double worst = 0;
+      for (const Difference& d : differences(motions, r.model)) worst = larger(worst, d.worst());
+      // The gates cost ten times what all else does: they must mend clearly more.
+      const bool gates_back = r.part != nullptr && r.part->name == gates;
+      if (worst >= (gates_back && best ? 0.5 : 1.0) * least) continue;
+      least = worst;
+      best = r;
+      if (fits(worst)) break;
+    }
+    if (!best) return false;
+    out_.trimmed = best->model;
+    if (best->part != nullptr) {
+      best->part->dropped = false;
+      best->part->put_back = true;
+    }
+    return true;
+  }
+
+  const Scenario& scene_;
+  const plant::Parameters& plant_;
+  const Options& options_;
+  Runner runner_;
+  Reference own_;
+  double sum_ = 0;  ///< sum of the single losses of the removed parts
+  Report out_;
+};
+
+}  // namespace
+
+bool Report::smaller() const { return !equal(full, trimmed); }
+
+Model full_model(Scenario scene, const plant::Parameters& plant, int step_clocks) {
+  plant::Effects everything = plant.effects;
+  for (const plant::EffectName& e : plant::effect_names) {
+    if (e.flag != &plant::Effects::viscous) everything.*e.flag = true;
+  }
+  resolve_effects(scene, everything);
+  return {scene.effects, true, step_clocks};
+}
+
+std::vector<std::string> parts_of(const Scenario& scene, const Model& model) {
+  std::vector<std::string> parts;
+  if (model.gates) parts.emplace_back(gates);
+  for (const plant::EffectName& e : plant::effect_names) {
+    // Gates that switch contain their dead time.
+    if (e.flag == &plant::Effects::dead_time && model.gates) continue;
+    if (e.flag == &plant::Effects::hand_dynamics && !has_mass(scene)) continue;
+    if (model.effects.*e.flag) parts.emplace_back(e.name);
+  }
+  return parts;
+}
+
+void set_part(Model& model, const std::string& part, bool on) {
+  if (part == gates) model.gates = on;
+  for (const plant::EffectName& e : plant::effect_names) {
+    if (part == e.name) model.effects.*e.flag = on;
+  }
+}
+
+std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Parameters& plant,
+                                       const Model& full, const Model& model,
+                                       const Options& options,
+                                       const std::vector<std::uint64_t>& seeds) {
+  Runner runner(options, static_cast<int>(seeds.size()));
+  std::vector<Motion> motions;
+  for (const std::uint64_t seed : seeds) motions.push_back(perturbed(scene, plant, seed));
+  std::vector<Job> jobs;
+  for (const Motion& m : motions) {
+    jobs.push_back({&m, full});
+    jobs.push_back({&m, model});
+  }
+  const std::vector<Felt> felt = runner.run(jobs);
+  std::vector<UnseenReport> all;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    all.push_back({seeds[i], motions[i].amplitude, motions[i].speed,
+                   compare(felt[2 * i], felt[2 * i + 1]), false});
+  }
+  return all;
+}
+
+Report trim(const Scenario& scene, const plant::Parameters& plant, const Options& options) {
+  return Search(scene, plant, options).run();
+}
+}  // namespace feltgate::trim

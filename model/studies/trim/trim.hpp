@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Finds the smallest model of a scene's plant that a hand cannot distinguish from the full one.
+// Documentation: docs/trim.md
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "studies/trim/felt_difference.hpp"
+
+namespace feltgate::trim {
+
+struct Options {
+  std::string design = "lever";
+  double tolerance = 0.01;  ///< of the full model's peak and of its rms, in (0, 1]
+  /// Share of the tolerance that search and final check use, as other motions may lose more.
+  double share = 0.75;
+  double window_s = 1e-3;    ///< length of the means that are compared
+  int full_step_clocks = 5;  ///< of the full model
+  int unseen = 4;            ///< motions of the final check, 1 or more
+  std::uint64_t seed = 1;    ///< of these motions
+  int threads = 2;
+  std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
+};
+
+/// A removable part of the model: "gates" or the name of an effect.
+struct PartReport {
+  std::string name;
+  Difference alone;  ///< difference when only this part is removed (see trim())
+  double saves = 0;  ///< saved share of the CPU time of the model with the part
+  /// Worst loss of the set after this removal, or the sum of all single losses if larger; 0 if not
+  /// tried.
+  double so_far = 0;
+  bool dropped = false;
+  bool put_back = false;  ///< removed by the search, restored by the final check
+};
+
+/// A motion of the final check.
+struct UnseenReport {
+  std::uint64_t seed = 0;
+  double amplitude = 1, speed = 1;
+  Difference difference;
+  bool searched =
+      false;  ///< an effect was restored because of it, so it no longer counts as unseen
+};
+
+struct Report {
+  Model full, trimmed;
+  std::vector<PartReport> parts;  ///< in the order in which they were tried
+  Difference own;                 ///< of the trimmed model on the scene's own motion
+  std::vector<UnseenReport> unseen;
+  Felt full_run, trimmed_run;  ///< on the scene's own motion
+  double step_loss = 0;        ///< worst loss of the set in the coarsest step, on the own motion
+  int runs = 0;
+  double cpu_s = 0;    ///< of all runs together
+  bool holds = false;  ///< the trimmed model is within the tolerance on all motions
+  bool smaller() const;
+};
+
+/// The full model of the scene: gates, and every effect that the scene does not switch off. Of the
+/// two frictions, `viscous` is used only if scene or plant has it. Reads the scene's file.
+Model full_model(Scenario scene, const plant::Parameters& plant, int step_clocks);
+
+/// Parts of `model` that are computed for this scene.
+std::vector<std::string> parts_of(const Scenario& scene, const Model& model);
+void set_part(Model& model, const std::string& part, bool on);
+
+/// Losses of `model` on motions made with these seeds, one report per motion.
+std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Parameters& plant,
+                                       const Model& full, const Model& model,
+                                       const Options& options,
+                                       const std::vector<std::uint64_t>& seeds);
+
+/// Greedy removal. First the gates; then every effect alone, out of the model that is left; then,
+/// the most time saved per loss first, each is left out for good when the set stays within the
+/// share of the tolerance on the scene's own motion; then the coarsest step that does. The set is
+/// checked on unseen motions against the same; while that fails, a finer step, an effect or the
+/// gates are put back: the first with which it holds, or what mends most. Then the check is
+/// repeated on fresh motions. Throws as run_scenario does.
+Report trim(const Scenario& scene, const plant::Parameters& plant, const Options& options);
+
+}  // namespace feltgate::trim

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""A point as a design file: the base's text, with the lines changed that the point sets.
+
+Documentation: docs/explore.md
+"""
+
+import json
+import re
+
+from exploration import space
+
+# Of two such keys a design has one: setting one takes the other out.
+ALTERNATIVES = (("velocity.n", "velocity.gain"), ("control.kp", "control.kp_1_kg_m2"))
+
+
+def toml_value(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, list):
+        return "[" + ", ".join(toml_value(v) for v in value) + "]"
+    return repr(value)
+
+
+def header(lines, section):
+    """Index of the line [section], None where there is none."""
+    found = [i for i, line in enumerate(lines) if re.match(rf"\[{re.escape(section)}\]", line)]
+    return found[0] if found else None
+
+
+def key_line(lines, section, key):
+    """Index of the line of a key, None where the section has none."""
+    start = header(lines, section)
+    if start is None:
+        return None
+    for i in range(start + 1, len(lines)):
+        if lines[i].startswith("["):
+            return None
+        if re.match(rf"{re.escape(key)}\s*=", lines[i]):
+            return i
+    return None
+
+
+def put(lines, full_key, value):
+    section, key = full_key.rsplit(".", 1)
+    text = f"{key} = {toml_value(value)}"
+    at = key_line(lines, section, key)
+    for pair in ALTERNATIVES:
+        if at is None and full_key in pair:
+            other = pair[pair[0] == full_key]
+            at = key_line(lines, section, other.rsplit(".", 1)[1])
+    if at is not None:
+        lines[at] = text  # a comment on the old value would be wrong
+        return
+    start = header(lines, section)
+    if start is None:
+        lines += ["", f"[{section}]", text]
+    else:
+        lines.insert(start + 1, text)
+
+
+def design_text(root, point):
+    """Text of the design file that a point stands for."""
+    text = space.design_path(root, point["base"]).read_text(encoding="utf-8")
+    lines = text.rstrip("\n").split("\n")
+    # Its self-test is off unless it is set: the pulse is made for the base's tick.
+    off = {} if header(lines, "self_test") is None else {"self_test.mode": "off"}
+    for key, value in (off | point["set"]).items():
+        put(lines, key, value)
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The proofs to make: testbench/BLOCK/proofs/proofs.toml, one table per proof."""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from command_line import Refused
+import rtl_sources
+from seeded_defects import patches
+
+from . import unproven
+
+KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "assumes", "show",
+        "sources", "defines", "cut", "abstract", "fast", "property", "cover"}
+ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
+COVER = re.compile(r"\b(\w+):\s*cover\b")
+INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
+SHARED = "testbench/prove"  # what wrappers of several blocks include
+
+
+class CatalogError(Refused):
+    """A proof that is described wrongly; the message names the file and what to change."""
+
+
+@dataclass(frozen=True)
+class Property:
+    name: str
+    says: str
+    defect: Path  # FILE/NAME of the patch that must break it
+    ports: tuple
+    from_any: object  # the defect shows too late after a reset: true, from any state that meets the rest;
+    # "next", from any that met the rest up to the clock before; "alone", from any state, where the assertion
+    # is inductive without the rest
+
+
+@dataclass(frozen=True)
+class Proof:
+    """One wrapper around a block: testbench/BLOCK/proofs/NAME.sv, module NAME_proof."""
+
+    block: str
+    name: str
+    title: str
+    depth: int  # of the induction at most, and of the base
+    cover_depth: int
+    defect_depth: int
+    designs: tuple
+    assumes: tuple
+    show: tuple  # signals printed for a failed step
+    sources: tuple  # modules beside those that the wrapper instantiates
+    defines: tuple
+    cut: tuple  # blocks of which only the ports are read: their outputs may be anything
+    abstract: tuple  # selections of cells whose outputs may be anything
+    fast: bool  # a test of every run
+    properties: tuple
+    covers: dict  # name: what it shows
+    wrapper: Path
+
+    @property
+    def key(self):
+        return f"{self.block}.{self.name}"
+
+    @property
+    def top(self):
+        return f"{self.name}_proof"
+
+
+def wrapper_text(root, path):
+    """A wrapper as Yosys reads it: its includes stand beside it or in testbench/prove."""
+    def included(match):
+        for folder in (path.parent, root / SHARED):
+            if (folder / match[1]).is_file():
+                return wrapper_text(root, folder / match[1])
+        raise CatalogError(f"{path.relative_to(root)}: no {match[1]} beside it or in {SHARED}")
+
+    return INCLUDE.sub(included, path.read_text(encoding="utf-8"))
+
+
+def defect_path(root, block, name):
+    """NAME is a patch of the block's proofs, of its test, or BLOCK/NAME of another's test."""
+    where, _, stem = name.rpartition("/")
+    own = root / f"testbench/{block}/proofs/defects.diff"
+    if name in patches.names(own):
+        return own / name
+    return root / f"testbench/{where or block}/defects.diff" / stem
+
+
+def read_proof(root, block, path, table):
+    def wrong(what):
+        return CatalogError(f"{path.relative_to(root)}: {what}")
+
+    unknown = table.keys() - KEYS
+    if unknown:
+        raise wrong(f"unknown key {', '.join(sorted(unknown))}; there are {', '.join(sorted(KEYS))}")
+    for key in ("name", "title", "depth", "property"):
+        if key not in table:
+            raise wrong(f"a proof without '{key}'")
+    name = table["name"]
+    wrapper = path.with_name(f"{name}.sv")
+    if not wrapper.is_file():
+        raise wrong(f"'{name}' has no {wrapper.name} beside it")
+    text = rtl_sources.code_only(wrapper_text(root, wrapper))
+    properties = []
+    for label, entry in table["property"].items():
+        if label not in ASSERTION.findall(text):
+            raise wrong(f"{wrapper.name} has no assertion '{label}'")
+        for key in ("says", "defect", "ports"):
+            if key not in entry:
+                raise wrong(f"property '{label}' without '{key}'")
+        defect = defect_path(root, block, entry["defect"])
+        if defect.name not in patches.names(defect.parent):
+            raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
+        properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
+                                   entry.get("from_any", False)))
+    unsaid = [
+        name
+        for name in ASSERTION.findall(text)
+        if name not in table["property"] and not name.startswith("inside_")
+    ]
+    if unsaid:
+        raise wrong(
+            f"{wrapper.name} asserts {', '.join(unsaid)}: no property here; say what it means, or "
+            "name it inside_..."
+        )
+    covers = table.get("cover", {})
+    if set(covers) != set(COVER.findall(text)):
+        raise wrong(f"{wrapper.name} has the covers {', '.join(COVER.findall(text)) or 'none'}")
+    if not covers:
+        raise wrong(f"'{name}' has no cover: nothing shows that its assumptions can be met")
+    return Proof(
+        block=block,
+        name=name,
+        title=table["title"],
+        depth=table["depth"],
+        cover_depth=table.get("cover_depth", 20),
+        defect_depth=table.get("defect_depth", 20),
+        designs=tuple(table.get("designs", ["lever"])),
+        assumes=tuple(table.get("assumes", [])),
+        show=tuple(table.get("show", [])),
+        sources=tuple(table.get("sources", [])),
+        defines=tuple(table.get("defines", [])),
+        cut=tuple(table.get("cut", [])),
+        abstract=tuple(table.get("abstract", [])),
+        fast=table.get("fast", False),
+        properties=tuple(properties),
+        covers=covers,
+        wrapper=wrapper,
+    )
+
+
+def read(root):
+    """All proofs, block by block in the order of their names."""
+    proofs = []
+    for path in sorted(root.glob("testbench/*/proofs/proofs.toml")):
+        block = path.parents[1].name
+        try:
+            tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        except tomllib.TOMLDecodeError as error:
+            raise CatalogError(f"{path.relative_to(root)}: {error}") from error
+        proofs += [read_proof(root, block, path, table) for table in tables.get("proof", [])]
+    return proofs
+
+
+def ports(root, block):
+    """Names of a block's ports."""
+    path = root / "rtl" / rtl_sources.module_files(root)[block]
+    text = rtl_sources.code_only(path.read_text(encoding="utf-8"))
+    header = text[: text.index(");")]
+    return re.findall(r"^\s*(?:input|output)\b[^,;]*?\b(\w+)\s*(?:,|$)", header, re.M)
+
+
+def open_ports(root, proofs):
+    """{block: its ports that no property names}, without the blocks of unproven.BLOCKS; clock and
+    reset are in all. A property names a port of a block inside as BLOCK.PORT."""
+    named = {}
+    for proof in proofs:
+        for entry in proof.properties:
+            for name in entry.ports:
+                block, _, port = name.rpartition(".")
+                named.setdefault(block or proof.block, set()).add(port)
+    found = {}
+    files = rtl_sources.module_files(root)
+    for block in sorted(files.keys() - (unproven.BLOCKS.keys() - named.keys())):
+        there = set(ports(root, block))
+        strange = named.pop(block, set())
+        found[block] = sorted(there - strange - {"clk_i", "rst_ni"})
+        strange -= there
+        if strange:
+            raise CatalogError(f"{block}: rtl/{files[block]} has no port {', '.join(sorted(strange))}")
+    if named:
+        raise CatalogError(f"no block {', '.join(sorted(named))} in rtl/")
+    return found

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Which inputs were proven: docs/verification/proven.json, so that they are not proven every time.
+
+  {"schema": "feltgate-proven/1", "tools": {...}, "inputs": {"ramp.steps lever": "16 hex digits"}}
+
+The digits are a hash of everything that decides base, induction and covers: the sources as the
+proof reads them, without comments, its depths and cuts, the programs' versions, and the scripts
+that run them.
+"""
+
+import hashlib
+import json
+import tempfile
+from pathlib import Path
+
+import outputs
+from seeded_defects.patches import code_only
+
+from . import catalog, tasks, tools
+
+SCHEMA = "feltgate-proven/1"
+FILE = "docs/verification/proven.json"
+
+
+def name(proof, design):
+    return f"{proof.key} {design}"
+
+
+def digest(root, proof, design, versions):
+    """16 hex digits of what decides the proof on a design."""
+    found = hashlib.sha256()
+    fields = (proof.top, proof.depth, proof.cover_depth, proof.defines, proof.cut, proof.abstract)
+    found.update(repr((fields, design, sorted(versions.items()))).encode())
+    for script in (tools, tasks):
+        found.update(Path(script.__file__).read_bytes())
+    with tempfile.TemporaryDirectory(prefix="feltgate-prove-") as folder:
+        for source in tools.copy_sources(root, proof, design, None, Path(folder)):
+            text = Path(folder, source).read_text(encoding="utf-8")
+            found.update(f"\n{source}: {' '.join(code_only(text))}".encode())
+        found.update(Path(folder, "parameters.mem").read_bytes())
+    return found.hexdigest()[:16]
+
+
+def read(root):
+    """{proof and design: digits}; nothing where there is no record. CatalogError for a broken one."""
+    path = Path(root, FILE)
+    if not path.is_file():
+        return {}
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if found["schema"] != SCHEMA:
+            raise ValueError(f"its schema is {found['schema']}, not {SCHEMA}")
+        return dict(found["inputs"])
+    except (ValueError, KeyError, TypeError) as error:
+        raise catalog.CatalogError(
+            f"{FILE}: is no record of proofs ({error}); take that of git, or remove it and run "
+            "./feltgate prove --fast --record"
+        ) from error
+
+
+def known(root, proofs, versions, first_only):
+    """The proofs of which all inputs are on record."""
+    inputs = read(root)
+    return [
+        proof
+        for proof in proofs
+        if all(
+            inputs.get(name(proof, design)) == digest(root, proof, design, versions)
+            for design in tasks.designs(proof, first_only)
+        )
+    ]
+
+
+def write(root, rows, versions):
+    """Enters the inputs of these rows, all of them good, beside those that the record has."""
+    inputs = read(root)
+    for row in rows:
+        inputs[name(row.proof, row.design)] = digest(root, row.proof, row.design, versions)
+    ordered = dict(sorted(inputs.items()))
+    outputs.write_json(Path(root, FILE), {"schema": SCHEMA, "tools": versions, "inputs": ordered})

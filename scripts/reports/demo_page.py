@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The page of the main job: what a hand feels, three numbers, tables of all runs, the paper's
+figures, each run's pictures.
+
+Documentation: docs/figures.md
+"""
+
+import os
+import platform
+import time
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from reports import axes_card, card, demo_tables, headline, page, recordings, run_pictures
+from reports import run_section, stability_section
+from reports.progress import clock_text
+from reports.runs import ENGINE_DESIGN
+
+
+# What every reader has felt before.
+CARDS = ("membrane-lever", "spring_compression-lever", "wall-lever", "detent-lever_law")
+STEPS = "torque_step-lever"
+
+
+@dataclass
+class Drawn:
+    """What was drawn of a run; a process of its own does that."""
+
+    pictures: list
+    card: str = ""
+    strip: str = ""
+
+
+def draw(run):
+    """A run's pictures, and what else the page shows of it."""
+    name, summary = run.job.name, run.summary
+    if run.of_axes:
+        return Drawn([], axes_card.html(f"card-{name}", summary, run.csv))
+    drawn = Drawn(run_pictures.pictures(name, summary, run.csv))
+    if name in CARDS or run.design == ENGINE_DESIGN:
+        drawn.card = card.html(f"card-{name}", summary, run.csv)
+    if run.job.recording is not None and run_section.room(summary) != "line":
+        drawn.strip = run_pictures.strip(run.csv)
+    return drawn
+
+
+@dataclass
+class Demo:
+    """Everything that the page and demo.json tell. Names are those of jobs."""
+
+    runs: dict
+    scenes: list
+    replays: list
+    drawn: dict = field(default_factory=dict)
+    devices: list = field(default_factory=list)  # of several axes
+    figures: list = field(default_factory=list)
+    stability: dict | None = None
+    wrong: list = field(default_factory=list)
+    unreadable: list = field(default_factory=list)
+    where: Path = None
+    own: bool = False
+    took_s: float = 0.0
+    so_far: str = ""  # of a page that is written while the runs go on
+
+    @property
+    def shown(self):
+        """Runs that have a place on the page."""
+        return self.scenes + self.devices + self.replays
+
+    def part(self, ended, drawn, **more):
+        """The same of some runs, which have ended and are drawn."""
+        lists = {
+            kind: [name for name in getattr(self, kind) if name in drawn]
+            for kind in ("scenes", "devices", "replays")
+        }
+        return replace(self, runs=ended, drawn=drawn, **lists, **more)
+
+    @property
+    def clocks(self):
+        return sum(run.compared_clocks for run in self.runs.values())
+
+    @property
+    def compared(self):
+        """Runs of RTL and twin; the paper's long motions are the twin's alone."""
+        return [run for run in self.runs.values() if run.compared_clocks]
+
+    @property
+    def simulated_s(self):
+        return round(sum(run.summary["simulated_s"] for run in self.compared), 6)
+
+    @property
+    def mismatches(self):
+        return sum(run.mismatches for run in self.runs.values())
+
+
+def contents(demo):
+    links = [page.link("scenes", "scenes")]
+    links += [page.link("axes", "several axes")] if demo.devices else []
+    links += [page.link("recordings", "recordings")]
+    links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
+    if demo.stability:
+        links.append(page.link("stability", "walls"))
+    links.append(page.link("runs", "each run"))
+    return f"<p>{' · '.join(links)}</p>"
+
+
+def headlines(demo):
+    """Clocks and mismatches of all runs, the largest error of any, the settling of a step."""
+    there = [run.summary for run in demo.runs.values() if run.ran and not run.of_axes]
+    found = [headline.compared(demo.clocks, demo.mismatches), headline.error(there)]
+    run = demo.runs.get(STEPS)
+    if run is not None and run.ran and run_section.steps_of(run.summary):
+        found.append(headline.settling(run.summary, run_section.steps_of(run.summary)))
+    return headline.html(found)
+
+
+def cards(demo):
+    found = [demo.drawn[name].card for name in CARDS if name in demo.drawn]
+    if not any(found):
+        return ""
+    text = page.paragraph(
+        "A hand moves the lever; the core reads its encoder and tells the motor how hard to push "
+        "back. The drawings move by the numbers of these runs: core, motor, lever and hand are "
+        "simulated, clock by clock."
+    )
+    return page.section("felt", "What a hand feels", text + "".join(found))
+
+
+def devices(demo):
+    """A card for each device that is a law, beside the one that everybody has seen already."""
+    names = [n for n in demo.scenes + demo.devices if n not in CARDS and n in demo.drawn]
+    found = [demo.drawn[name].card for name in names]
+    if not any(found):
+        return ""
+    text = page.paragraph(
+        "Each is a file of a few lines, compiled for the engine beside the core and loaded by the "
+        "host: no HDL was written for any of them."
+    )
+    return page.section("devices", "Devices as files", text + "".join(found))
+
+
+def recordings_text(demo):
+    if demo.own:
+        text = (
+            "No public recordings were found, so these are the project's own, from its simulated "
+        )
+        return page.paragraph(text + "bench.") + page.paragraph(recordings.SOURCES, soft=True)
+    return page.paragraph(
+        f"Read from {demo.where}, whole. A slow capture meets a 50 MHz clock: each edge falls at a "
+        "seeded random clock inside its sample. “As known”: steps, illegal steps and reversals are "
+        "what a plain counting program finds. The core renders the damper, so that motion makes "
+        "torque; nothing feels it, for a recording cannot give way."
+    )
+
+
+def many(count, what):
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
+def tables(demo):
+    """All runs; each table is folded, and its title says what came out."""
+    scenes = [demo.runs[name] for name in demo.scenes]
+    replays = [demo.runs[name] for name in demo.replays]
+    broken = sum(len(r.summary.get("expectations", {}).get("broken", [])) for r in scenes)
+    steps = sum(r.summary["position"]["steps"] for r in replays if r.ran)
+    text = page.paragraph(
+        "Each scene in closed loop with a modelled motor, lever and hand; each recording of a real "
+        "encoder whole. Errors are against the same chain in 113-bit arithmetic on the same "
+        "sampled counts; speed is simulated seconds per second spent in an engine. Everything is "
+        "simulation: nothing ran on a board."
+    )
+    text += contents(demo)
+    text += page.folded(
+        "scenes",
+        f"Scenes: {many(len(scenes), 'run')} in closed loop, {mismatches(scenes)}, "
+        f"{many(broken, 'expectation')} broken",
+        demo_tables.scenes(demo),
+    )
+    if demo.devices:
+        axes = [demo.runs[name] for name in demo.devices]
+        text += page.folded(
+            "axes",
+            f"Devices of several axes: {many(len(axes), 'run')} in closed loop, {mismatches(axes)}",
+            demo_tables.axes(demo),
+        )
+    text += page.folded("steps", "Torque steps: how fast each settles", demo_tables.steps(demo))
+    read = recordings_text(demo) + demo_tables.replays(demo)
+    if demo.unreadable:
+        read += page.paragraph("Could not be read:") + page.bullets(demo.unreadable)
+    text += page.folded(
+        "recordings",
+        f"Encoder recordings: {len(replays)} in open loop, {many(steps, 'step')}, "
+        f"{mismatches(replays)}",
+        read,
+    )
+    text += page.folded(
+        "errors", "Errors: velocity and torque of every run", demo_tables.all_errors(demo)
+    )
+    text += page.folded("speed", "Speed of every engine in every run", demo_tables.speeds(demo))
+    return text
+
+
+def mismatches(there):
+    count = sum(run.mismatches for run in there)
+    return "1 mismatch" if count == 1 else f"{count:,} mismatches"
+
+
+def runs_section(demo):
+    parts, lines = [], []
+    for name in demo.scenes + demo.replays:
+        run = demo.runs[name]
+        if not run.ran:
+            continue
+        title = f"{run_section.subject(run.summary)}, design {run.design}"
+        if run.job.recording is not None:
+            title = run.job.recording.title
+        if run_section.room(run.summary) == "line":
+            lines.append((name, f"{title}: {run_section.in_a_line(run.summary)}"))
+            continue
+        text = run_section.inside(run.summary, demo.drawn[name].pictures)
+        parts.append(page.folded(name, title, text))
+    parts += [page.line(name, text) for name, text in lines]
+    return page.section("runs", "Each run", "\n".join(parts))
+
+
+def document(demo):
+    good = (
+        f"0 mismatches between RTL and twin in {demo.clocks:,} clocks "
+        f"({demo.simulated_s:.1f} s of device time, {len(demo.compared)} runs)"
+    )
+    version = next((r.summary.get("version", "") for r in demo.runs.values() if r.ran), "")
+    body = "<h1>feltgate demo</h1>"
+    body += page.paragraph(
+        "A DSP core that lets a hand feel things that are not there, tried in simulation: its "
+        "SystemVerilog runs beside its bit-exact C++ twin, every output compared in every clock."
+    )
+    if demo.so_far:
+        body += page.paragraph(demo.so_far)
+    if demo.wrong or not demo.so_far:
+        body += page.verdict(demo.wrong, good)
+    body += headlines(demo) + cards(demo)
+    body += devices(demo)
+    body += page.section("tables", "All runs", tables(demo))
+    if demo.figures:
+        body += page.section(
+            "figures",
+            "The paper's figures, redrawn from RTL",
+            page.paragraph(
+                "Broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
+                "point, dashed black the ideal, green the modelled motor. Design paper has the "
+                "published numbers, lever those of the motor that is really there."
+            ),
+        )
+        body += "".join(figure.html() for figure in demo.figures)
+    if demo.stability:
+        body += stability_section.html(demo.stability)
+    body += runs_section(demo)
+    body += page.paragraph(
+        f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "
+        f"({platform.machine()}), {clock_text(demo.took_s)} minutes",
+        soft=True,
+    )
+    return page.document("feltgate demo", body)

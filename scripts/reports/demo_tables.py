@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The tables of the demo's page, each narrow enough for 1200 pixels.
+
+Documentation: docs/figures.md
+"""
+
+from reports import page, recordings, run_section
+from reports.headline import FIXED
+
+SIGNALS = (
+    ("velocity, µrad/s", "velocity_rad_s"),
+    ("observed torque, µNm", "tau_hat_nm"),
+    ("commanded torque, µNm", "torque_nm"),
+)
+NOT_RUN = page.Cell('<span class="bad">did not run</span>')
+
+
+def fixed(summary):
+    """Figures of the first engine in fixed point."""
+    engines = summary["engines"]
+    return next((engines[name] for name in FIXED if name in engines), {})
+
+
+def micro(value):
+    return page.number(None if value is None else 1e6 * value)
+
+
+def errors(summary, key, kinds=("max_error", "rms_error", "bound")):
+    found = fixed(summary).get(key, {})
+    return [micro(found.get(kind)) for kind in kinds]
+
+
+def peaks(summary):
+    """Largest torque that the scene asked for, and that the motor gave."""
+    torque = summary.get("felt", {}).get("torque", {})
+    return [page.number(torque.get(kind, {}).get("peak_nm")) for kind in ("asked", "motor")]
+
+
+def ran(demo, names):
+    return [demo.runs[name] for name in names if demo.runs[name].ran]
+
+
+def title(run):
+    return run.job.recording.title if run.job.recording else run.summary["scene"]
+
+
+def scenes(demo):
+    head = [
+        *("scene", "design", "device time, s", "mismatches", "expectations broken"),
+        *("largest torque asked for, Nm", "felt, Nm"),
+        *("largest error of the commanded torque, µNm", "its bound", "saturated ticks"),
+    ]
+    rows = []
+    for name in demo.scenes:
+        run = demo.runs[name]
+        if not run.ran:
+            rows.append([name, NOT_RUN])
+            continue
+        s = run.summary
+        expectations = s.get("expectations", {"checked": 0, "broken": []})
+        broken = page.good_or_bad(len(expectations["broken"]))
+        saturated = fixed(s).get("saturations")
+        rows.append(
+            [
+                page.link(name, s["scene"]),
+                s["design"],
+                page.number(s["simulated_s"]),
+                page.good_or_bad(run.mismatches),
+                page.Cell(f"{broken} of {expectations['checked']}"),
+                *peaks(s),
+                *errors(s, "torque_nm", ("max_error_in_bounds", "bound")),
+                "–" if saturated is None else f"{saturated:,}",
+            ]
+        )
+    return page.table(head, rows)
+
+
+def axes(demo):
+    """Runs of devices of several axes: a row for each axis."""
+    head = [
+        *("scene", "design", "device time, s", "mismatches", "expectations broken", "axis"),
+        *("largest torque asked for, Nm", "felt, Nm"),
+        *("largest error of the engine's torque, µNm", "its bound"),
+    ]
+    rows = []
+    for name in demo.devices:
+        run = demo.runs[name]
+        if not run.ran:
+            rows.append([name, NOT_RUN])
+            continue
+        s = run.summary
+        broken = page.good_or_bad(len(s["expectations"]["broken"]))
+        for number, axis in enumerate(s["axes"]):
+            rows.append(
+                [
+                    page.link(f"card-{name}", s["scene"]),
+                    s["design"],
+                    page.number(s["simulated_s"]),
+                    page.good_or_bad(run.mismatches),
+                    page.Cell(f"{broken} of {s['expectations']['checked']}"),
+                    str(number),
+                    *(page.number(axis[f"{kind}_peak_nm"]) for kind in ("asked", "motor")),
+                    *(micro(axis["law_nm"].get(kind)) for kind in ("max_error", "bound")),
+                ]
+            )
+    return page.table(head, rows)
+
+
+def steps(demo):
+    head = ["scene", "design"] + [title for title, _ in run_section.STEP_KEYS]
+    rows = []
+    for run in ran(demo, demo.scenes):
+        if run.summary["scene"].startswith("calibration"):  # in figures 7 and 10
+            continue
+        for step in run_section.steps_of(run.summary):
+            numbers = [page.number(step.get(key)) for _, key in run_section.STEP_KEYS]
+            rows.append([run.summary["scene"], run.summary["design"], *numbers])
+    return page.table(head, rows)
+
+
+def as_known(run):
+    if not run.job.recording.expected:
+        return "no table"
+    wrong = bool(recordings.faults(run))
+    return page.Cell(
+        f'<span class="{"bad" if wrong else "good"}">{"differs" if wrong else "yes"}</span>'
+    )
+
+
+def replays(demo):
+    head = [
+        *("recording", "position over time", "device time, s", "steps", "illegal", "reversals"),
+        *("as known", "mismatches", "largest error of the velocity, µrad/s", "its bound"),
+    ]
+    rows = []
+    for name in demo.replays:
+        run = demo.runs[name]
+        if not run.ran:
+            rows.append([run.job.recording.title, page.Cell('<span class="bad">not read</span>')])
+            continue
+        s, p = run.summary, run.summary["position"]
+        drawn = demo.drawn.get(name)
+        rows.append(
+            [
+                page.link(name, run.job.recording.title),
+                page.Cell(drawn.strip if drawn else ""),
+                page.number(s["simulated_s"]),
+                *(f"{p[key]:,}" for key in ("steps", "illegal", "reversals")),
+                as_known(run),
+                page.good_or_bad(run.mismatches),
+                *errors(s, "velocity_rad_s", ("max_error_in_bounds", "bound")),
+            ]
+        )
+    return page.table(head, rows, words=(0,))
+
+
+def all_errors(demo):
+    """Every run's errors against the reference."""
+    head = ["run", "design"]
+    for words, _ in SIGNALS:
+        head += [f"{words}, largest", "rms", "bound"]
+    rows = [
+        [title(run), run.design, *(e for _, key in SIGNALS for e in errors(run.summary, key))]
+        for run in ran(demo, demo.scenes + demo.replays)
+    ]
+    return page.table(head, rows, words=(0,))
+
+
+def speeds(demo):
+    """Simulated seconds per second of every run and engine."""
+    there = ran(demo, demo.scenes + demo.replays)
+    engines = [
+        name
+        for name in run_section.ENGINES
+        if any(name in run.summary["engines"] for run in there)
+    ]
+    rows = [
+        [title(run), run.design]
+        + [page.number(run.summary["engines"].get(name, {}).get("speed")) for name in engines]
+        for run in there
+    ]
+    names = [run_section.ENGINE_NAMES.get(name, name) for name in engines]
+    return page.table(["run", "design", *(f"{name}, s/s" for name in names)], rows, words=(0,))

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""A self-contained HTML page: no network, readable on a phone, in the dark and in print."""
+
+import json
+from html import escape
+from pathlib import Path
+
+from reports import glossary
+
+HERE = Path(__file__).resolve().parent
+
+# Folded parts open themselves: for print, and when a link leads into them.
+SCRIPT = """
+function unfold(){document.querySelectorAll('details').forEach(d=>d.open=true)}
+addEventListener('beforeprint',unfold);
+function follow(){const t=location.hash&&document.getElementById(location.hash.slice(1));
+if(!t)return;let d=t.querySelector('details')||t.closest('details');
+for(;d;d=d.parentElement.closest('details'))d.open=true;t.scrollIntoView()}
+addEventListener('hashchange',follow);addEventListener('load',follow);
+"""
+
+
+def document(title, body):
+    """The whole file. What only some pages need comes with those that have it."""
+    style = (HERE / "page.css").read_text(encoding="utf-8")
+    script = SCRIPT
+    if 'class="moving"' in body:
+        script += (HERE / "lever.js").read_text(encoding="utf-8")
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        f"<title>{escape(title)}</title><style>{style}</style></head>\n<body>\n{body}\n"
+        f"{glossary.section(body)}<script>{script}</script></body></html>\n"
+    )
+
+
+def embedded(value):
+    """JSON for a script element: no text in it can end the element."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def paragraph(text, soft=False):
+    return f'<p{" class=soft" if soft else ""}>{glossary.marked(text)}</p>'
+
+
+def bullets(texts, mark=glossary.marked):
+    items = "".join(f"<li>{mark(text)}</li>" for text in texts)
+    return f"<ul>{items}</ul>" if texts else ""
+
+
+class Cell(str):
+    """Markup that is already safe."""
+
+
+def good_or_bad(count):
+    """A count that should be 0."""
+    return Cell(f'<span class="{"good" if count == 0 else "bad"}">{count:,}</span>')
+
+
+def breakable(text):
+    """Text of a narrow column: a file's long name may go on in the next line after a _."""
+    return escape(text).replace("_", "_<wbr>")
+
+
+def link(target, text):
+    return Cell(f'<a href="#{escape(target, quote=True)}">{breakable(text)}</a>')
+
+
+def table(head, rows, words=()):
+    """`words` are the columns (numbers) that hold text and may wrap. Empty rows: nothing.
+
+    Terms in the head tell their meaning.
+    """
+    if not rows:
+        return ""
+
+    def cells(row, tag):
+        for i, value in enumerate(row):
+            text = glossary.marked if tag == "th" else breakable if i in words else escape
+            inner = value if isinstance(value, Cell) else text(str(value))
+            yield f"<{tag}{' class=words' if i in words else ''}>{inner}</{tag}>"
+
+    lines = ["<tr>" + "".join(cells(head, "th")) + "</tr>"]
+    full = [[*row, *[""] * (len(head) - len(row))] for row in rows]
+    lines += ["<tr>" + "".join(cells(row, "td")) + "</tr>" for row in full]
+    return '<div class="scroll"><table>\n' + "\n".join(lines) + "\n</table></div>"
+
+
+def verdict(faults, good_text):
+    """The banner: green with `good_text`, or red with the list of what is wrong."""
+    if not faults:
+        return f'<div class="verdict good">{escape(good_text)}</div>'
+    head = "1 thing is wrong" if len(faults) == 1 else f"{len(faults)} things are wrong"
+    return f'<div class="verdict bad">{head}{bullets(faults, escape)}</div>'
+
+
+def pictures(drawn):
+    """Pictures side by side where there is room, one below the other on a phone."""
+    items = []
+    for picture in drawn:
+        caption = f"<figcaption>{escape(picture.caption)}</figcaption>" if picture.caption else ""
+        alternative = escape(picture.caption or picture.name, quote=True)
+        image = f'<img src="{picture.data_uri()}" alt="{alternative}">'
+        items.append(f"<figure>{image}{caption}</figure>")
+    return '<div class="pictures">' + "\n".join(items) + "</div>" if items else ""
+
+
+def fold(summary, inside):
+    """Closed until it is asked for, without JavaScript too; nothing where there is nothing."""
+    return f"<details><summary>{escape(summary)}</summary>{inside}</details>" if inside else ""
+
+
+def folded(anchor, summary, inside):
+    """The same, as a place that a link leads to."""
+    return f'<section id="{escape(anchor, quote=True)}">{fold(summary, inside)}</section>'
+
+
+def line(anchor, text):
+    """What needs no more room than a line, as a place that a link leads to."""
+    return f'<p class="line" id="{escape(anchor, quote=True)}">{escape(text)}</p>'
+
+
+def section(anchor, title, inside):
+    return f'<section id="{escape(anchor, quote=True)}"><h2>{escape(title)}</h2>{inside}</section>'
+
+
+def number(value, digits=3):
+    """Three significant digits, thousands parted, no exponent for what a reader meets here."""
+    if value is None:
+        return "–"
+    if value == 0:
+        return "0"
+    size = abs(value)
+    if size >= 1000:
+        text = f"{size:,.0f}"
+    elif size < 1e-6:
+        return "≈ 0"
+    elif size < 1e-4:  # where 'g' would turn to an exponent
+        text = f"{size:.8f}".rstrip("0")
+    else:
+        text = f"{size:#.{digits}g}".rstrip(".")
+    return "−" + text if value < 0 else text

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Pictures of one run, for report.py and demo.py. Documentation: docs/figures.md"""
+
+import numpy as np
+
+from reports import plots
+from reports.run_section import ENGINE_NAMES, closed_loop, room
+from reports.runs import design
+
+QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
+FELT_S = 1e-3  # as in model/sim/loop/felt.hpp
+
+
+def lsb(design_name, signal):
+    """Unit of the last place of a signal of a design, in its SI unit."""
+    try:
+        return 2.0 ** -design(design_name)["formats"][signal][2]
+    except (OSError, KeyError):
+        return {"velocity": 2.0**-21, "torque": 2.0**-16, "current": 2.0**-16}[signal]
+
+
+def time_axis(t):
+    """(times, label) in ms for what is short."""
+    return (1e3 * t, "time, ms") if t[-1] <= 0.1 else (t, "time, s")
+
+
+def mark_faults(axes, time, faults):
+    """Shades the time in which a fault was latched."""
+    if not np.any(faults):
+        return
+    since, colour = time[np.argmax(faults > 0)], plots.COLOURS["fault"]
+    for axis in axes:
+        axis.axvspan(since, time[-1], color=colour, alpha=0.08)
+    where = ("data", "axes fraction")
+    axes[0].annotate("fault latched", (since, 0.9), xycoords=where, color=colour, fontsize=8)
+
+
+def lead(summary):
+    """The engine whose signals have no name before them: the one that drives the motor."""
+    name = next(iter(summary["engines"]), "rtl")
+    return ENGINE_NAMES.get(name, name)
+
+
+def exact(summary, csv, signal):
+    """Values of the engine that the others are compared with; None where there is none."""
+    return csv.get(f"{summary.get('reference')}_{signal}")
+
+
+def draw_exact(axes, time, summary, csv, signal):
+    values = exact(summary, csv, signal)
+    if values is not None:
+        plots.draw(axes, time, values, "quad", f"{summary['reference']} reference", **QUAD)
+
+
+def motion_picture(name, summary, csv):
+    time, label = time_axis(csv["time_s"])
+    figure, (position, velocity) = plots.stacked("Motion", [1.5, 1.5])
+    plots.draw(position, time, csv["position_rad"], "rtl", lead(summary))
+    if closed_loop(summary):
+        plots.draw(position, time, csv["theta_rad"], "ideal", "lever of the plant")
+        plots.draw(velocity, time, csv["omega_rad_s"], "ideal", "lever of the plant")
+    plots.draw(velocity, time, csv["velocity_rad_s"], "rtl", lead(summary))
+    draw_exact(velocity, time, summary, csv, "velocity_rad_s")
+    position.set_ylabel("position, rad")
+    velocity.set_ylabel("velocity, rad/s")
+    velocity.set_xlabel(label)
+    plots.at_least(position, 0.005)
+    plots.at_least(velocity, 0.05)
+    plots.legend(position)
+    plots.legend(velocity)
+    mark_faults([position, velocity], time, csv["faults"])
+    return plots.finish(figure, f"{name}-motion")
+
+
+def torque_picture(name, summary, csv):
+    time, label = time_axis(csv["time_s"])
+    figure, (command, observed) = plots.stacked("Torque", [1.5, 1.5])
+    plots.draw(command, time, csv["tau_ref_nm"], "reference", "asked for by the scene")
+    plots.draw(command, time, csv["torque_nm"], "rtl", f"commanded, {lead(summary)}")
+    draw_exact(command, time, summary, csv, "torque_nm")
+    if closed_loop(summary):
+        plots.draw(command, time, csv["motor_torque_nm"], "motor")
+    plots.draw(observed, time, csv["tau_hat_nm"], "rtl", f"observed, {lead(summary)}")
+    draw_exact(observed, time, summary, csv, "tau_hat_nm")
+    command.set_ylabel("torque, Nm")
+    observed.set_ylabel("observed, Nm")
+    observed.set_xlabel(label)
+    for axes in (command, observed):
+        plots.at_least(axes, 0.01)
+        plots.legend(axes)
+    mark_faults([command, observed], time, csv["faults"])
+    return plots.finish(figure, f"{name}-torque")
+
+
+DIFFERENCES = (  # signal of the formats, column, unit, name
+    ("velocity", "velocity_rad_s", "rad/s", "velocity"),
+    ("torque", "tau_hat_nm", "Nm", "observed\ntorque"),
+    ("current", "current_a", "A", "current"),
+)
+
+
+def differs(summary, csv):
+    """Whether there is anything to compare with, and it says something."""
+    found = [exact(summary, csv, column) for _, column, *_ in DIFFERENCES]
+    return any(values is not None and np.any(values) for values in found)
+
+
+def difference_picture(name, summary, csv):
+    """Lead, and binary32 where it ran, minus the reference on the same counts, in last places."""
+    time, label = time_axis(csv["time_s"])
+    title = f"{lead(summary)} minus {summary['reference']} reference, in units of the last place"
+    figure, axes = plots.stacked(title, [0.9] * 3)
+    for axis, (signal, column, si, words) in zip(axes, DIFFERENCES, strict=True):
+        unit, reference = lsb(summary["design"], signal), exact(summary, csv, column)
+        single = csv.get(f"float_{column}")
+        ours = {"linewidth": 0.7, "color": "#2f7fb8"}
+        plots.draw(axis, time, (csv[column] - reference) / unit, "rtl", lead(summary), **ours)
+        if single is not None:
+            error = (single - reference) / unit
+            plots.draw(axis, time, error, "paper", "float", linewidth=0.6, linestyle="-")
+        axis.set_ylabel(words)
+        plots.at_least(axis, 2.0)
+        place = f"1 = 2^{round(np.log2(unit))} {si}"
+        axis.set_title(place, loc="left", fontsize=7.5, color="#5a6570")
+    if "float_velocity_rad_s" in csv:
+        plots.legend(axes[0])
+    axes[-1].set_xlabel(label)
+    return plots.finish(figure, f"{name}-difference")
+
+
+def felt_rows(csv):
+    """(position, hand's torque, torque asked for) of each FELT_S of a run: a hand does not feel
+    apart what is shorter. Rows that lie further apart are taken as they are."""
+    window = np.floor(csv["time_s"] / FELT_S + 1e-6)
+    first = np.flatnonzero(np.diff(window, prepend=-1.0))  # row of each window
+    rows = np.diff(first, append=len(window))
+    if rows.max() < 2:
+        return csv["theta_rad"], csv["hand_felt_nm"], csv["tau_ref_nm"]
+    position, asked = (
+        (np.add.reduceat(csv[c], first) / rows)[:-1] for c in ("theta_rad", "tau_ref_nm")
+    )
+    return position, csv["hand_felt_nm"][first[1:]], asked
+
+
+def loop_picture(name, csv):
+    """What the hand feels over where it is: a spring is a line, friction and damping an area."""
+    figure, (axes,) = plots.stacked("What the hand meets", [2.9])
+    position, hand, asked = felt_rows(csv)
+    plots.draw(axes, position, hand, "hand", "hand on the lever, means over 1 ms")
+    plots.draw(axes, position, -asked, "ideal", "against the torque reference")
+    axes.set_xlabel("position, rad")
+    axes.set_ylabel("torque, Nm")
+    plots.legend(axes)
+    return plots.finish(figure, f"{name}-loop")
+
+
+def strip(csv, width=180, height=26):
+    """Position over time in one line of a table, as SVG."""
+    x, y = plots.thinned(csv["time_s"], csv["position_rad"], 90)
+    low, high = float(y.min()), float(y.max())
+    x = width * (x - x[0]) / max(x[-1] - x[0], 1e-9)
+    y = 1 + (height - 2) * (high - y) / max(high - low, 1e-9)
+    path = "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(x, y, strict=True))
+    return (
+        f'<svg class="strip" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+        f'aria-hidden="true"><path class="angle" d="M{path}"/></svg>'
+    )
+
+
+def pictures(name, summary, csv):
+    """As many as the run has to show: of a recording of few steps none."""
+    if room(summary) == "line":
+        return []
+    drawn = [motion_picture(name, summary, csv)]
+    if room(summary) == "picture":
+        return drawn
+    if any(np.any(csv[column]) for column in ("tau_ref_nm", "tau_hat_nm", "current_a")):
+        drawn.append(torque_picture(name, summary, csv))
+    if closed_loop(summary) and np.ptp(csv["theta_rad"]) > 0.02:
+        drawn.append(loop_picture(name, csv))
+    if differs(summary, csv):
+        drawn.append(difference_picture(name, summary, csv))
+    return drawn

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The words and tables of a page about one run. Documentation: docs/figures.md"""
+
+from reports import felt_section, page
+
+ENGINES = ("rtl", "twin", "float", "double", "quad")
+ENGINE_NAMES = {"rtl": "RTL"}
+# A recording of few steps has nothing to look at: below these, a line, and one picture.
+LINE_STEPS, PICTURE_STEPS = 20, 1000
+
+
+def closed_loop(summary):
+    return "scene" in summary
+
+
+def room(summary):
+    """How much a run shows: "line", "picture" or "whole"; a recording by its steps."""
+    steps = summary["position"]["steps"]
+    if closed_loop(summary) or steps >= PICTURE_STEPS:
+        return "whole"
+    return "picture" if steps >= LINE_STEPS else "line"
+
+
+def subject(summary):
+    return summary.get("scene") or summary.get("trace") or "run"
+
+
+def facts(summary):
+    """What ran, as a list of lines."""
+    kind = "scene" if closed_loop(summary) else "recording"
+    lines = [f"{kind} {subject(summary)} on design {summary['design']}"]
+    if "plant" in summary:
+        lines[0] += f", plant {summary['plant']}"
+    if summary.get("probes"):
+        probes = summary["probes"]
+        lines.append(f"probes: {probes if isinstance(probes, str) else ', '.join(probes)}")
+    lines.append(
+        f"{page.number(summary['simulated_s'])} s of device time: {summary['clocks']:,} clocks, "
+        f"{summary['ticks']:,} ticks"
+    )
+    p = summary["position"]
+    lines.append(
+        f"encoder: {p['steps']:,} steps, {p['illegal']:,} illegal, {p['reversals']:,} reversals"
+    )
+    return lines + felt_section.lines(summary)
+
+
+def error_cells(engine, key, scale):
+    """Largest and rms error, in units of 1/scale."""
+    errors = engine.get(key, {})
+    return [
+        page.number(scale * errors[kind]) if kind in errors else "–"
+        for kind in ("max_error", "rms_error")
+    ]
+
+
+def engine_table(summary):
+    head = [
+        "engine",
+        "velocity, largest error, µrad/s",
+        "rms error",
+        "observed torque, largest error, µNm",
+        "rms error",
+        "commanded torque, largest error, µNm",
+        "rms error",
+        "saturated ticks",
+        "speed, s/s",
+    ]
+    rows = []
+    for name in ENGINES:
+        engine = summary["engines"].get(name)
+        if engine is None:
+            continue
+        rows.append(
+            [ENGINE_NAMES.get(name, name)]
+            + error_cells(engine, "velocity_rad_s", 1e6)
+            + error_cells(engine, "tau_hat_nm", 1e6)
+            + error_cells(engine, "torque_nm", 1e6)
+            + [f"{engine['saturations']:,}" if "saturations" in engine else "–"]
+            + [page.number(engine.get("speed"))]
+        )
+    return page.table(head, rows)
+
+
+def steps_of(summary):
+    """Step responses of the engine that drove the motor."""
+    for name in ENGINES:
+        steps = summary["engines"].get(name, {}).get("step_responses")
+        if steps:
+            return steps
+    return []
+
+
+STEP_KEYS = (
+    ("step to, Nm", "tau_ref_nm"),
+    ("motor settles, ms", "torque_settling_ms"),
+    ("observer settles, ms", "tau_hat_settling_ms"),
+    ("overshoot, %", "overshoot_pct"),
+    ("final error, %", "final_error_pct"),
+    ("observer's final error, %", "tau_hat_final_error_pct"),
+)
+
+
+def step_table(summary):
+    rows = [[page.number(step.get(key)) for _, key in STEP_KEYS] for step in steps_of(summary)]
+    return page.table([title for title, _ in STEP_KEYS], rows)
+
+
+def faults_of(summary):
+    """Everything that makes a run wrong, one line each."""
+    count = summary.get("mismatches", 0)
+    texts = [f"{count:,} mismatches"] if count else []
+    if "first_mismatch" in summary:
+        texts[-1:] = [f"{count:,} mismatches, the first: {summary['first_mismatch']}"]
+    texts += summary.get("expectations", {}).get("broken", [])
+    texts += felt_section.broken_bounds(summary)
+    return [f"{subject(summary)}, {summary['design']}: {text}" for text in texts]
+
+
+def in_a_line(summary):
+    """A recording with nothing to look at."""
+    p, wrong = summary["position"], summary.get("mismatches")
+    count = "not compared" if wrong is None else f"{wrong:,} mismatches"
+    return (
+        f"{p['steps']:,} steps, {p['illegal']:,} illegal, {p['reversals']:,} reversals in "
+        f"{page.number(summary['simulated_s'])} s; {count}"
+    )
+
+
+def inside(summary, drawn):
+    """The section's body: facts and pictures, the tables folded."""
+    parts = [page.bullets(facts(summary)), page.pictures(drawn)]
+    parts.append(page.fold("Torque steps", step_table(summary)))
+    parts.append(page.fold("What the scene expects", felt_section.table(summary)))
+    parts.append(page.fold("Errors and speed of each engine", engine_table(summary)))
+    return "\n".join(parts)

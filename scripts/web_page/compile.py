@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Compiles the twin, the plant and the stability study to WebAssembly with Debian's Emscripten."""
+
+import concurrent.futures
+import os
+import re
+import shutil
+from pathlib import Path
+
+import interrupts
+
+# Boost.Interval wants to know how to set a rounding mode; ours (bounds::Outward) never does.
+FLAGS = "-std=c++17 -O3 -fexceptions -DFMT_HEADER_ONLY -D__USE_ISOC99=1".split()
+LINK = (
+    "-O3 -fexceptions --bind -sALLOW_MEMORY_GROWTH=1 -sMODULARIZE=1 -sEXPORT_NAME=Feltgate "
+    "-sENVIRONMENT=web,worker"
+).split()
+# Header-only libraries of the system, one by one: its C library is not Emscripten's.
+HEADERS = {
+    "toml++": "/usr/include/toml++",
+    "fmt": "/usr/include/fmt",
+    "boost": "/usr/include/boost",
+    "Eigen": "/usr/include/eigen3/Eigen",
+}
+FOLDERS = ("apps/page", "sim/plant", "files/toml", "design", "law", "sim/law_loop")
+FILES = (
+    "sim/axes_loop/plane_host.cpp",
+    "sim/engines/built_in_designs.cpp",
+    "sim/engines/engine.cpp",
+    "sim/loop/ensemble.cpp",
+    "sim/loop/engine_choice.cpp",
+    "sim/loop/run_host.cpp",
+    "sim/loop/step_plan.cpp",
+    "studies/shape/rhombus.cpp",
+    "studies/stability/dominant_poles.cpp",
+    "studies/stability/linear_loop.cpp",
+)
+PLANTS = ("p24", "p48", "linear")
+# A hand read from a file needs recordings, which the page has none of; nobody asks it for C++ or
+# proofs.
+LEFT_OUT = re.compile(r"hand_file|cpp(_.*)?|gappa(_.*)?|.*_main")
+# The design with an engine, on which laws run.
+LAW_DESIGN = "lever_law"
+
+
+class CompileError(Exception):
+    """Emscripten is missing or refused something; the message is for the user."""
+
+
+def sources(root):
+    """What is compiled."""
+    found = [path for name in FOLDERS for path in sorted((root / "model" / name).glob("*.cpp"))]
+    found += [root / "model" / name for name in FILES]
+    return [p for p in found if not LEFT_OUT.fullmatch(p.stem)]
+
+
+def type_of(design):
+    return "".join(word.capitalize() for word in design.replace("-", "_").split("_"))
+
+
+def engines(root, designs, folder):
+    """Writes what CMake writes for a native build: an engine a design, and their list."""
+    template = (root / "scripts/cmake/design_engines.cpp.in").read_text(encoding="utf-8")
+    written = []
+    for design in designs:
+        path = folder / f"{design}_engines.cpp"
+        text = template.replace("@design@", design).replace("@type@", type_of(design))
+        path.write_text(text, encoding="utf-8")
+        written.append(path)
+    lines = "".join(f"FELTGATE_DESIGN({design})\n" for design in designs)
+    (folder / "designs.inc").write_text(lines, encoding="utf-8")
+    return written
+
+
+def run(words):
+    # Debian's Emscripten finds its optimiser's parser only so when node is not Debian's.
+    environment = dict(os.environ, NODE_PATH="/usr/share/nodejs")
+    done = interrupts.run([str(word) for word in words], env=environment, **interrupts.CAPTURED)
+    if done.returncode:
+        raise CompileError(f"em++ has failed:\n{done.stderr.strip()[:2000]}")
+
+
+def compile_core(root, designs, folder, progress=None):
+    """(JavaScript, WebAssembly) of the core of these designs, which must have generated files.
+
+    `folder` is written; `progress` is called with a number of steps done and their total.
+    """
+    if not shutil.which("em++"):
+        raise CompileError("em++ is not there; apt-get install emscripten")
+    include = folder / "include"
+    include.mkdir(parents=True, exist_ok=True)
+    for name, place in HEADERS.items():
+        if not (include / name).exists():
+            (include / name).symlink_to(place)
+    jobs = engines(root, designs, folder) + sources(root)
+    paths = ["-I", root, "-I", root / "model", "-I", root / "model/include", "-I", folder]
+    paths += ["-isystem", include]
+
+    def compiled(source):
+        target = folder / f"{source.parent.name}_{source.stem}.o"
+        run(["em++", "-c", *FLAGS, *paths, source, "-o", target])
+        return target
+
+    objects = []
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for done, target in enumerate(pool.map(compiled, jobs), 1):
+            objects.append(target)
+            if progress:
+                progress(done, len(jobs) + 1)
+    data = {root / "rtl/registers.toml": "/rtl/registers.toml"}
+    for design in designs:
+        data[root / f"rtl/designs/{design}.toml"] = f"/designs/{design}.toml"
+    for plant in PLANTS:
+        data[root / f"vectors/plants/{plant}.toml"] = f"/plants/{plant}.toml"
+    files = [word for path, place in data.items() for word in ("--embed-file", f"{path}@{place}")]
+    script = folder / "core.js"
+    run(["em++", *LINK, *files, *objects, "-o", script])
+    return script.read_bytes(), script.with_suffix(".wasm").read_bytes()

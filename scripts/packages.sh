@@ -7,6 +7,10 @@
 # Group | package | what for.
 mapfile -t PACKAGES < <(grep -v '^#' "$ROOT/scripts/packages.txt")
 
+INSTALL=(install --yes --no-install-recommends)
+# What the build does not need: pictures, and what tests run.
+LATER='plots test'
+
 # Missing ones among the named packages, one a line.
 missing_packages() {
   local name status installed=" " package
@@ -39,9 +43,11 @@ may_install() {
   [[ ! $answer || $answer == [Yy]* ]]
 }
 
-install_packages() {
-  local shown as_root=() apt install=(install --yes --no-install-recommends "$@")
-  shown="apt-get update && apt-get ${install[*]}"
+# ask_to_install PACKAGE...: the command is shown, and the launcher ends where it may not be called. APT is
+# how apt-get is called afterwards.
+ask_to_install() {
+  local shown as_root=()
+  shown="apt-get update && apt-get ${INSTALL[*]} $*"
   if ((EUID != 0)); then
     if ! command -v sudo >/dev/null; then
       die "neither root nor sudo here; run this, then start again:"$'\n'"  su -c '$shown'"
@@ -54,21 +60,32 @@ install_packages() {
   say "$shown"
   # Ask for the password here, not behind the progress line.
   if [[ ${as_root[*]} == sudo ]]; then sudo -v || die "sudo refused; the command was: $shown"; fi
-  apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
+  APT=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
   # Old package lists may still do, so only the installation decides.
-  run_logged "package lists" "$STATE/apt-update.log" "${apt[@]}" update || true
-  run_logged "installing" "$STATE/apt-install.log" "${apt[@]}" "${install[@]}" ||
-    die "the installation failed; the command was: $shown"
+  run_logged "package lists" "$STATE/apt-update.log" "${APT[@]}" update || true
 }
 
-# need_packages GROUPS: all packages of these groups are there, or the launcher ends with status 2.
+# install_packages LABEL LOG PACKAGE...: all of them are there, or the launcher ends with status 2.
+install_packages() {
+  local label=$1 log=$STATE/$2 missing
+  shift 2
+  run_logged "$label" "$log" "${APT[@]}" "${INSTALL[@]}" "$@" ||
+    die "the installation failed; the command was: ${APT[*]} ${INSTALL[*]} $*"
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]} == 0)) || die "still missing after the installation: ${missing[*]}"
+}
+
+# need_packages GROUPS: all packages of these groups are there, or the launcher ends with status 2. Those
+# that only groups of LATER name are installed while the launcher builds; await_packages waits for them.
 # The stamp saves even the look, until dpkg changes anything.
 need_packages() {
-  local entry rest wanted=() missing stamp=$STATE/packages-${1// /-}
+  local entry group package _ wanted=() now=() missing first=() stamp=$STATE/packages-${1// /-}
   [[ ${FELTGATE_SKIP_PACKAGES-} == 1 ]] && return
   for entry in "${PACKAGES[@]}"; do
-    rest=${entry#*|}
-    if [[ " $1 " == *" ${entry%%|*} "* ]]; then wanted+=("${rest%%|*}"); fi
+    IFS='|' read -r group package _ <<<"$entry"
+    [[ " $1 " == *" $group "* ]] || continue
+    wanted+=("$package")
+    [[ " $LATER " == *" $group "* ]] || now+=("$package")
   done
   [[ $stamp -nt /var/lib/dpkg/status && $(<"$stamp") == "${wanted[*]}" ]] && return
   mkdir -p "$STATE"
@@ -81,9 +98,35 @@ need_packages() {
   if ((${#missing[@]})); then
     say "these Debian packages are missing:"
     list_with_reasons "${missing[@]}"
-    install_packages "${missing[@]}"
-    mapfile -t missing < <(missing_packages "${wanted[@]}")
-    ((${#missing[@]} == 0)) || die "still missing after the installation: ${missing[*]}"
+    ask_to_install "${missing[@]}"
+    for package in "${missing[@]}"; do
+      if [[ " ${now[*]} " == *" $package "* ]]; then first+=("$package"); fi
+    done
+    if ((${#first[@]} && ${#first[@]} < ${#missing[@]})); then
+      install_packages installing apt-install.log "${first[@]}"
+      mapfile -t missing < <(missing_packages "${missing[@]}")
+      say "the other packages are installed while it builds"
+      (install_packages "installing beside" apt-beside.log "${missing[@]}") 2>"$STATE/apt-beside.txt" &
+      PACKAGES_BESIDE=$!
+    else
+      install_packages installing apt-install.log "${missing[@]}"
+    fi
   fi
-  printf '%s\n' "${wanted[*]}" >"$stamp"
+  PACKAGES_STAMP=$stamp
+  PACKAGES_WANTED=${wanted[*]}
+  [[ ${PACKAGES_BESIDE-} ]] || await_packages
+}
+
+# Waits for packages that are installed beside the build.
+await_packages() {
+  local beside=${PACKAGES_BESIDE-}
+  PACKAGES_BESIDE=''
+  if [[ $beside ]]; then
+    if kill -0 "$beside" 2>/dev/null; then say "waiting for the other packages"; fi
+    if ! wait "$beside"; then
+      cat "$STATE/apt-beside.txt" >&2
+      exit 2
+    fi
+  fi
+  if [[ ${PACKAGES_STAMP-} ]]; then printf '%s\n' "$PACKAGES_WANTED" >"$PACKAGES_STAMP"; fi
 }

@@ -67,6 +67,9 @@ run_tests() {
   done
   need_packages "$groups"
   look_up_programs
+  # What needs no packages of the tests is built while these are installed.
+  if [[ ${PACKAGES_BESIDE-} && ! $list && ! $name ]]; then build OFF all; fi
+  await_packages
   if [[ $list || $name ]]; then
     build ON build.ninja
     found=$(tests_say list "${chosen[@]}") || exit 2

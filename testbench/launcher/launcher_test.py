@@ -73,6 +73,47 @@ class FirstStart(Machine):
         self.assertLess(calls.index("apt-get"), calls.index("cmake"))
 
 
+class Beside(Machine):
+    """Packages that the build does not need come while it runs."""
+
+    def test_pictures_come_beside_the_build(self):
+        done = self.start("--yes", "demo", "--help-is-not-asked-for")
+        installs = [c for c in self.log() if c.startswith("apt-get") and " install " in c]
+        self.assertEqual(len(installs), 2, done.stderr)
+        self.assertIn(" ninja-build ", installs[0])
+        self.assertNotIn("matplotlib", installs[0])
+        self.assertIn("python3-matplotlib", installs[1])
+        self.assertIn("the other packages are installed while it builds", done.stderr)
+
+    def test_tests_are_configured_when_their_packages_are_there(self):
+        for words, targets in ((("test",), ["all", "all"]), (("coverage",), ["build.ninja"])):
+            with self.subTest(words):
+                self.setUp()
+                self.start("--yes", *words)
+                log = self.log()
+                second = max(i for i, c in enumerate(log) if c.startswith("apt-get"))
+                tests = [i for i, c in enumerate(log) if "-DFELTGATE_TESTS=ON" in c]
+                self.assertIn(" catch2 ", log[second])
+                self.assertEqual(len(tests), 1)
+                self.assertLess(second, tests[0])
+                self.assertEqual([c.split()[3] for c in log if c.startswith("ninja")], targets)
+
+    def test_a_failure_beside_ends_the_launcher(self):
+        """After the build, with what apt-get says, and the next start tries again."""
+        fails = '[ "${3-}" = install ] && case "$*" in *matplotlib*) echo no space; exit 100 ;; esac\n'
+        path = self.bin / "apt-get"
+        good = path.read_text(encoding="utf-8")
+        path.write_text(good.replace("#!/bin/sh\n", "#!/bin/sh\n" + fails), encoding="utf-8")
+        done = self.start("--yes", "demo")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no space", done.stderr)
+        self.assertIn("the installation failed; the command was: ", done.stderr)
+        path.write_text(good, encoding="utf-8")
+        self.log()
+        self.start("--yes", "demo")
+        self.assertEqual(sum(" install " in call for call in self.calls("apt-get")), 1)
+
+
 class Help(Machine):
     def test_every_command_helps_on_a_bare_machine(self):
         names = re.findall(r"^  ([a-z]+) ", self.start("--help").stdout, re.M)

@@ -20,14 +20,14 @@ constexpr std::size_t kMostWords = EngineMap::parameter_words;
 constexpr std::size_t kMostConstants =
     std::tuple_size_v<decltype(Image::data)> - std::size_t{Image::constant_base};
 
-std::string number(double value) {
+std::string number_text(double value) {
   return value < 0 ? fmt::format("{:.17g} neg", -value) : fmt::format("{:.17g}", value);
 }
 
 /// Formula of the element that `index` selects from `first` to `last`, by halving.
 std::string one_of(const std::vector<double>& values, std::size_t first, std::size_t last,
                    const std::string& index) {
-  if (first == last) return number(values[first]);
+  if (first == last) return number_text(values[first]);
   const std::size_t middle = (first + last) / 2;
   return fmt::format("{} {} < {} {} ?", index, middle + 1, one_of(values, first, middle, index),
                      one_of(values, middle + 1, last, index));
@@ -40,7 +40,7 @@ std::string postfix(const Law& law, NodeId id) {
   const auto two = [&](const char* op) { return arg(0) + " " + arg(1) + " " + op; };
   switch (n.op) {
     case Op::constant:
-      return number(n.value);
+      return number_text(n.value);
     case Op::parameter: {
       const Parameter& p = law.parameters[at(n.index)];
       return p.derived >= 0 ? postfix(law, p.derived) : p.name;

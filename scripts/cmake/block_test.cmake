@@ -37,7 +37,7 @@ if(NOT TARGET feltgate_catch_main)
   target_compile_definitions(feltgate_catch_main PUBLIC
     FELTGATE_BUILD_DIR="${PROJECT_BINARY_DIR}" FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
   target_compile_features(feltgate_catch_main PUBLIC cxx_std_17)
-  target_compile_options(feltgate_catch_main PRIVATE ${FELTGATE_WARNINGS} -O2)
+  target_compile_options(feltgate_catch_main PRIVATE ${FELTGATE_WARNINGS} -O1)
   target_link_libraries(feltgate_catch_main PUBLIC Catch2::Catch2)
   # Catch2's header is a second of the compiler, of most tests the greater half: read once.
   target_precompile_headers(feltgate_catch_main PRIVATE "${FELTGATE_ROOT}/testbench/common/catch.hpp")
@@ -49,7 +49,7 @@ if(FELTGATE_RTL AND NOT TARGET feltgate_lock_step)
   # The headers of every block's test, read once.
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/lock_step.cpp" CONTENT "#include \"lock_step.hpp\"\n")
   add_library(feltgate_lock_step OBJECT "${PROJECT_BINARY_DIR}/lock_step.cpp")
-  target_compile_options(feltgate_lock_step PRIVATE ${FELTGATE_WARNINGS} -O2)
+  target_compile_options(feltgate_lock_step PRIVATE ${FELTGATE_WARNINGS} -O1)
   target_include_directories(feltgate_lock_step PRIVATE "${FELTGATE_ROOT}/model")
   target_link_libraries(feltgate_lock_step PRIVATE feltgate_catch_main feltgate_verilated)
   target_precompile_headers(feltgate_lock_step PRIVATE
@@ -111,7 +111,7 @@ function(feltgate_block_test block)
   add_library(${arg_NAME}_object OBJECT
     "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp" ${arg_TESTS})
   target_compile_definitions(${arg_NAME}_object PRIVATE ${arg_DEFINES})
-  target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O2)
+  target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O1)
   target_precompile_headers(${arg_NAME}_object REUSE_FROM feltgate_lock_step)
   feltgate_unity(${arg_NAME}_object)
   target_link_libraries(${arg_NAME}_object PUBLIC feltgate_catch_main ${arg_LIBRARIES})

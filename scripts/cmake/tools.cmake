@@ -49,6 +49,7 @@ feltgate_library(feltgate_constants studies/stability ONLY "/constants\\.cpp$" f
 feltgate_library(feltgate_stability studies/stability EXCEPT "/constants\\.cpp$"
   feltgate_constants feltgate_engines Eigen3::Eigen)
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
+set_source_files_properties("${FELTGATE_ROOT}/model/studies/stability/eigenvalues.cpp" PROPERTIES COMPILE_OPTIONS -O1)
 
 # Scenes at several rates.
 feltgate_library(feltgate_rates studies/rates feltgate_stability feltgate_loop feltgate_law_loop
@@ -104,6 +105,8 @@ target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nl
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
 feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)
+# Its templates are most of a minute of the compiler, optimised or not.
+set_source_files_properties("${FELTGATE_ROOT}/model/studies/shape/read_svg.cpp" PROPERTIES COMPILE_OPTIONS -O1)
 # Height fields from images.
 find_package(PNG REQUIRED)
 feltgate_library(feltgate_texture studies/texture feltgate_shape PNG::PNG)

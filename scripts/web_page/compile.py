@@ -34,6 +34,7 @@ FILES = (
     "sim/loop/step_plan.cpp",
     "studies/shape/rhombus.cpp",
     "studies/stability/dominant_poles.cpp",
+    "studies/stability/eigenvalues.cpp",
     "studies/stability/linear_loop.cpp",
 )
 PLANTS = ("p24", "p48", "linear")

@@ -5,12 +5,13 @@
 // they move against each other, so one of them is enough. docs/devices/coupled_levers.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "sim/plant/parameters.hpp"
+#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::test {
 
@@ -32,7 +33,7 @@ struct LeversLoop {
       period(s, p);
       for (int row = 0; row < size; ++row) m(row, k) = s[static_cast<std::size_t>(row)];
     }
-    return std::log(m.eigenvalues().cwiseAbs().maxCoeff()) / (steps * step_s);
+    return std::log(stability::eigenvalues(m).cwiseAbs().maxCoeff()) / (steps * step_s);
   }
 
   /// The largest stiffness that is quiet with this damping, Nm/rad.

@@ -5,13 +5,14 @@
 // around a pen that is pressed in. Equations: docs/devices/pantograph_wall.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "sim/plant/pantograph/linkage_dynamics.hpp"
 #include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::test {
 
@@ -43,7 +44,7 @@ struct WallLoop {
       unit(k) = 1.0;
       m.col(k) = packed(run(unpacked(unit), p, joint_viscous_nm_s_rad));
     }
-    return std::log(m.eigenvalues().cwiseAbs().maxCoeff()) / run_s;
+    return std::log(stability::eigenvalues(m).cwiseAbs().maxCoeff()) / run_s;
   }
 
   /// Joint's viscous friction at which it neither grows nor dies, Nm s/rad.

@@ -3,7 +3,7 @@
 //
 // Margins of several axes: where the axes can be told apart they are those of single levers, and a
 // pen on a floor is the matrix that its own test derives.
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -41,8 +41,8 @@ Slope of(const Matrix& stiffness, const Matrix& damping) {
   s.stiffness = stiffness;
   s.damping = damping;
   s.observed = Matrix::Zero();
-  s.stiffness_nm_rad = stiffness.eigenvalues().real().maxCoeff();
-  s.damping_nm_s_rad = damping.eigenvalues().real().maxCoeff();
+  s.stiffness_nm_rad = stability::eigenvalues(stiffness).real().maxCoeff();
+  s.damping_nm_s_rad = stability::eigenvalues(damping).real().maxCoeff();
   return s;
 }
 Slope single(double stiffness_nm_rad, double damping_nm_s_rad) {

@@ -4,12 +4,14 @@
 // Documentation: docs/rates.md
 #include "studies/rates/continuous.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"
+#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::rates {
 
@@ -136,7 +138,9 @@ void Continuous::look() {
   const Eigen::MatrixXd per_torque = setting_.inertia
                                          ? setting_.inertia(at_rad).inverse().eval()
                                          : Eigen::MatrixXd::Identity(wide.rows(), wide.cols());
-  const auto largest = [](const Eigen::MatrixXd& m) { return m.eigenvalues().real().maxCoeff(); };
+  const auto largest = [](const Eigen::MatrixXd& m) {
+    return stability::eigenvalues(m).real().maxCoeff();
+  };
   const double steep = largest(per_torque * stiffness);
   const bool stiff = largest(stiffness) > rounding_nm_rad || slope_.stiffness_nm_rad > 0;
   if (largest(stiffness) <= rounding_nm_rad && wide.cols() > 1) {

@@ -5,7 +5,7 @@
 // the error of the core's torques. Documentation: docs/rates.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <functional>
 #include <string>
 #include <vector>

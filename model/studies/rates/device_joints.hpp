@@ -5,7 +5,7 @@
 // Documentation: docs/rates.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "sim/axes_loop/axes_scene.hpp"
 

@@ -4,6 +4,7 @@
 // Documentation: docs/stability.md
 #include "studies/stability/axes_linear_loop.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>

@@ -5,7 +5,7 @@
 // torque of a scene or a host, voltage. Derivation: docs/stability.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 #include "studies/stability/linear_loop.hpp"

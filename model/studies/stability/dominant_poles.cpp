@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "studies/stability/eigenvalues.hpp"
+
 namespace feltgate::stability {
 
 // Arnoldi: the matrix is known by what it does to a vector, its largest eigenvalues are wanted and
@@ -34,9 +36,8 @@ std::vector<Pole> dominant_poles(
     if (w.norm() <= 1e-13 * scale) break;
     basis.col(size) = w / w.norm();
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(h.topLeftCorner(size, size), false);
   std::vector<Pole> out;
-  for (const Pole& z : solver.eigenvalues()) {
+  for (const Pole& z : eigenvalues(h.topLeftCorner(size, size))) {
     if (std::abs(z) > 1e-6 && z.imag() >= 0) out.push_back(std::log(z) / seconds);
   }
   std::sort(out.begin(), out.end(),

@@ -5,7 +5,7 @@
 // docs/stability.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <complex>
 #include <functional>
 #include <vector>

@@ -9,23 +9,11 @@
 #include <numeric>
 
 #include "studies/stability/axis_chain.hpp"
+#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::stability {
 
 namespace {
-
-/// exp(a*t) - 1, by a Taylor series and doubling.
-Eigen::MatrixXd exp_minus_one(const Eigen::MatrixXd& a, double t) {
-  const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
-  const Eigen::MatrixXd step = a * std::ldexp(t, -doublings);
-  Eigen::MatrixXd term = step, sum = Eigen::MatrixXd::Zero(a.rows(), a.cols());
-  for (int n = 2; n < 20; ++n) {
-    sum += term;
-    term = (term * step / n).eval();
-  }
-  for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
-  return sum;
-}
 
 /// Everything that one tick hands to the next.
 struct State {
@@ -102,7 +90,7 @@ Eigen::MatrixXd plant_change(const plant::Parameters& p, double damping_nm_s_rad
   }
   block(Of::kSpeed, Of::kSpeed) = -damping * per_torque;
   block(Of::kAngle, Of::kSpeed).setIdentity();
-  Eigen::MatrixXd change = exp_minus_one(rate, tick_s);
+  Eigen::MatrixXd change = matrix_exp_minus_one(rate, tick_s);
   // A current that follows at once is no state: nothing of it remains after a tick.
   if (!p.effects.inductance) change.topLeftCorner(n, n) = -Eigen::MatrixXd::Identity(n, n);
   return change;

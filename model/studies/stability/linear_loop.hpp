@@ -6,7 +6,7 @@
 // docs/stability.md
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 #include "design/design.hpp"

@@ -4,10 +4,10 @@
 // Documentation: docs/stability.md
 #include "studies/stability/mass_loop.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::stability {
 
@@ -27,7 +27,7 @@ Eigen::MatrixXd flow(const MassLoop& loop, double seconds, int size) {
   rate(kSpeed, lags ? kForce : kCommand) = 1 / loop.mass;
   rate(kForce, kForce) = -1 / (lags ? loop.actuator_s : loop.period_s);
   if (lags) rate(kForce, kCommand) = 1 / loop.actuator_s;
-  return (rate * seconds).exp();
+  return Eigen::MatrixXd::Identity(size, size) + matrix_exp_minus_one(rate, seconds);
 }
 
 Eigen::MatrixXd one_period(const MassLoop& loop, double stiffness) {
@@ -52,8 +52,7 @@ Eigen::MatrixXd one_period(const MassLoop& loop, double stiffness) {
 }  // namespace
 
 double spectral_radius(const MassLoop& loop, double stiffness) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(one_period(loop, stiffness), false);
-  return solver.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(one_period(loop, stiffness)).cwiseAbs().maxCoeff();
 }
 
 double stiffest(const MassLoop& loop) {

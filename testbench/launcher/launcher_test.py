@@ -86,7 +86,7 @@ class Beside(Machine):
         self.assertIn("the other packages are installed while it builds", done.stderr)
 
     def test_tests_are_configured_when_their_packages_are_there(self):
-        for words, targets in ((("test",), ["all", "all"]), (("coverage",), ["build.ninja"])):
+        for words, targets in ((("test",), ["feltgate_run", "all"]), (("coverage",), ["build.ninja"])):
             with self.subTest(words):
                 self.setUp()
                 self.start("--yes", *words)

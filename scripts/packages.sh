@@ -108,6 +108,8 @@ need_packages() {
       say "the other packages are installed while it builds"
       (install_packages "installing beside" apt-beside.log "${missing[@]}") 2>"$STATE/apt-beside.txt" &
       PACKAGES_BESIDE=$!
+      # A launcher that ends early (a build that fails, an option that is refused) leaves no apt behind it.
+      trap await_beside EXIT
     else
       install_packages installing apt-install.log "${missing[@]}"
     fi
@@ -117,16 +119,20 @@ need_packages() {
   [[ ${PACKAGES_BESIDE-} ]] || await_packages
 }
 
-# Waits for packages that are installed beside the build.
-await_packages() {
+# Waits for what is installed beside the build, if anything is; a failure is told. 1 where it failed.
+await_beside() {
   local beside=${PACKAGES_BESIDE-}
   PACKAGES_BESIDE=''
-  if [[ $beside ]]; then
-    if kill -0 "$beside" 2>/dev/null; then say "waiting for the other packages"; fi
-    if ! wait "$beside"; then
-      cat "$STATE/apt-beside.txt" >&2
-      exit 2
-    fi
+  [[ $beside ]] || return 0
+  if kill -0 "$beside" 2>/dev/null; then say "waiting for the other packages"; fi
+  if ! wait "$beside"; then
+    cat "$STATE/apt-beside.txt" >&2
+    return 1
   fi
+}
+
+# All packages that need_packages asked for are there, or the launcher ends with status 2.
+await_packages() {
+  await_beside || exit 2
   if [[ ${PACKAGES_STAMP-} ]]; then printf '%s\n' "$PACKAGES_WANTED" >"$PACKAGES_STAMP"; fi
 }

@@ -77,7 +77,8 @@ def version_of(root):
 def stamp_of(root):
     """Hash of what the page says and how it calls the core; the core's bits have their own."""
     digest = hashlib.sha256()
-    paths = sorted((root / "scripts/web_page").glob("*.*")) + sorted((root / "model/apps/page").glob("*"))
+    paths = sorted((root / "scripts/web_page").glob("*.*"))
+    paths += sorted((root / "model/apps/page").glob("*"))
     for path in paths:
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()[:16]

@@ -68,8 +68,8 @@ run_tests() {
   need_packages "$groups"
   look_up_programs
   # What needs no packages of the tests is built while these are installed: the longest of what a
-  # build with tests compiles alike.
-  if [[ ${PACKAGES_BESIDE-} && ! $list && ! $name ]]; then
+  # build with tests compiles alike. A folder that is configured with tests would be so again.
+  if [[ ${PACKAGES_BESIDE-} && ! -f $STATE/configured && ! $list && ! $name ]]; then
     build OFF feltgate_run feltgate_rtl feltgate_stability feltgate_shape
   fi
   await_packages

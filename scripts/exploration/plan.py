@@ -21,7 +21,8 @@ SCHEMA = "feltgate-explore-plan/1"
 # What decides a point's figures: a change of these makes chunks of before stale.
 SOURCES = (
     *("rtl/*.sv", "rtl/*.f", "rtl/*.toml", "vectors/plants/linear.toml"),
-    *("model/include/feltgate/*.hpp", "model/sim/reference/*", "model/studies/explore/*", "model/design/*"),
+    *("model/include/feltgate/*.hpp", "model/sim/reference/*"),
+    *("model/studies/explore/*", "model/design/*"),
 )
 EVALUATOR = "scripts/exploration/point*.py"
 GENERATED = "/generated/"

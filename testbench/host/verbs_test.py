@@ -68,7 +68,7 @@ class Session(VerbTest):
         self.assertGreater(lines, 8)
 
     def test_every_verb_is_on_the_page(self):
-        table = (ROOT / "model/apps/commands/host/verbs.cpp").read_text(encoding="utf-8")
+        table = (ROOT / "model/tools/host/verbs.cpp").read_text(encoding="utf-8")
         page = PAGE.read_text(encoding="utf-8")
         for verb in re.findall(r'^ +\{"([a-z]+)", "', table, re.M):
             self.assertRegex(page, rf"\b{verb}\b")
@@ -131,12 +131,9 @@ class Verbs(VerbTest):
                 held = self.start(board.port, "arm", "wall", "--hold")
                 self.assertEqual(held.stdout.readline(), BANNER)
                 self.assertIn("armed", held.stdout.readline())
-                # A busy machine kicks late, and the watchdog of this board is patient.
-                began = time.monotonic()
-                while int(board.order("kicks?")) <= 8 and time.monotonic() < began + 10:
-                    time.sleep(0.05)
-                self.assertGreater(int(board.order("kicks?")), 8)
+                time.sleep(0.3)
                 self.assertEqual(board.order("armed?"), "1")
+                self.assertGreater(int(board.order("kicks?")), 8)
                 held.send_signal(end)
                 out, err = held.communicate(timeout=10)
                 self.assertEqual((held.returncode, out, err), (0, "disarmed\n", ""))

@@ -77,7 +77,8 @@ class Beside(Machine):
     """Packages that the build does not need come while it runs."""
 
     def test_pictures_come_beside_the_build(self):
-        done = self.start("--yes", "demo", "--help-is-not-asked-for")
+        done = self.start("--yes", "run", "membrane", "--report", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
         installs = [c for c in self.log() if c.startswith("apt-get") and " install " in c]
         self.assertEqual(len(installs), 2, done.stderr)
         self.assertIn(" ninja-build ", installs[0])
@@ -104,14 +105,27 @@ class Beside(Machine):
         path = self.bin / "apt-get"
         good = path.read_text(encoding="utf-8")
         path.write_text(good.replace("#!/bin/sh\n", "#!/bin/sh\n" + fails), encoding="utf-8")
-        done = self.start("--yes", "demo")
-        self.assertEqual(done.returncode, 2)
+        words = ("--yes", "run", "membrane", "--report", "out")
+        done = self.start(*words)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("no space", done.stderr)
         self.assertIn("the installation failed; the command was: ", done.stderr)
         path.write_text(good, encoding="utf-8")
         self.log()
-        self.start("--yes", "demo")
+        self.assertEqual(self.start(*words).returncode, 0)
         self.assertEqual(sum(" install " in call for call in self.calls("apt-get")), 1)
+
+    def test_a_launcher_that_ends_early_leaves_no_apt_behind(self):
+        """An option that is refused before the build; apt is slow."""
+        path = self.bin / "apt-get"
+        (self.bin / "sleep").symlink_to("/usr/bin/sleep")
+        slow = 'case "$*" in *matplotlib*) sleep 2; echo "apt ended" >>"$MACHINE/log" ;; esac\n'
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.replace("#!/bin/sh\n", "#!/bin/sh\n" + slow), encoding="utf-8")
+        done = self.start("--yes", "demo", "--no-such-option")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("waiting for the other packages", done.stderr)
+        self.assertIn("apt ended", self.log())
 
 
 class Help(Machine):

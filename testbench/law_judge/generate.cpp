@@ -334,8 +334,10 @@ class Generator {
       default: {
         // Not at 0, where inputs often are.
         const Node x = limited(a, -3, 3) + value(0.05, 0.25);
-        return one_in(2) ? value(0.1, 0.5) * make(Kind::floor, {value(0.5, 4) * x})
-                         : make(Kind::modulo, {x, value(0.3, 2)});
+        const Node whole = one_in(2) ? value(0.1, 0.5) * make(Kind::floor, {value(0.5, 4) * x})
+                                     : make(Kind::modulo, {x, value(0.3, 2)});
+        // The language refuses a floor of parameters alone: it wants a parameter there.
+        return of_parameters(x) ? x : whole;
       }
     }
   }

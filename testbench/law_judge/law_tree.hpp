@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -51,6 +52,19 @@ inline Node number(const std::string& text) {
 inline Node number(double value, int digits = 3) {
   Node n = number(fmt::format("{:.{}f}", value < 0 ? -value : value, digits));
   return value < 0 ? make(Kind::negate, {n}) : n;
+}
+/// Whether `is` holds for the kind of the node, or of one below it.
+template <class Is>
+bool any(const Node& n, Is is) {
+  if (is(n->kind)) return true;
+  return std::any_of(n->parts.begin(), n->parts.end(), [&](const Node& p) { return any(p, is); });
+}
+/// Whether the value depends on parameters and on nothing else that changes. A `let` may.
+inline bool of_parameters(const Node& n) {
+  return any(n, [](Kind k) { return k == Kind::param; }) && !any(n, [](Kind k) {
+           return k == Kind::input || k == Kind::state || k == Kind::line || k == Kind::let ||
+                  k == Kind::noise;
+         });
 }
 inline Node operator+(const Node& a, const Node& b) { return make(Kind::add, {a, b}); }
 inline Node operator-(const Node& a, const Node& b) { return make(Kind::subtract, {a, b}); }

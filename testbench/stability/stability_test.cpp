@@ -5,6 +5,8 @@
 // what counts and noise do. Documentation: docs/stability.md
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include "catch.hpp"
 #include "sim/plant/plant_file.hpp"
@@ -58,6 +60,34 @@ TEST_CASE("stability: the textbook loop at its own borders") {
   within(whole, closed_form(delayed), 0.05);
   // Damping so large that it shakes by itself: no stiffness is stable.
   CHECK(stiffest(MassLoop{1.22e-4, 0, 1e-2, 0.05, 0, 0}) == 0);
+}
+
+TEST_CASE("stability: eigenvalues and exponential of matrices that have a closed form") {
+  // z^3 - 6 z^2 + 13 z - 20 = (z - 4)(z - 1 - 2i)(z - 1 + 2i), as a companion matrix.
+  const Eigen::MatrixXd companion{{6, -13, 20}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<Pole> found;
+  for (const Pole& z : eigenvalues(companion)) found.push_back(z);
+  REQUIRE(found.size() == 3);
+  for (const Pole& root : {Pole{4, 0}, Pole{1, 2}, Pole{1, -2}}) {
+    CHECK(std::any_of(found.begin(), found.end(),
+                      [&](const Pole& z) { return std::abs(z - root) < 1e-12; }));
+  }
+  // A spiral: a turn by w*t that grows by exp(g*t); from less than a millionth to many turns.
+  const double g = -0.3, w = 2.0;
+  const Eigen::MatrixXd spiral{{g, -w}, {w, g}};
+  for (const double t : {0.0, 1e-7, 0.01, 1.0, 30.0}) {
+    const Eigen::MatrixXd is = matrix_exp_minus_one(spiral, t);
+    const std::complex<double> exact = std::exp(std::complex<double>(g, w) * t) - 1.0;
+    INFO(t);
+    CHECK(std::abs(is(0, 0) - exact.real()) < 1e-12);
+    CHECK(std::abs(is(1, 0) - exact.imag()) < 1e-12);
+    CHECK(is(0, 0) == is(1, 1));
+    CHECK(is(0, 1) == -is(1, 0));
+  }
+  // Small results keep their digits: where a is -1, expm1.
+  const Eigen::MatrixXd decay{{-1.0}};
+  const double small = matrix_exp_minus_one(decay, 1e-9)(0, 0);
+  CHECK(std::abs(small / std::expm1(-1e-9) - 1) < 1e-14);
 }
 
 TEST_CASE("stability: Arnoldi finds the largest eigenvalues of the whole monodromy matrix") {

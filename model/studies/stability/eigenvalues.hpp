@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The eigenvalues of a real matrix, compiled once: Eigen's solver is ten seconds of the compiler
-// wherever it is used. Documentation: docs/stability.md
+// Eigenvalues and exponential of a real matrix, in one source: Eigen's solver takes the compiler
+// long. Documentation: docs/stability.md
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,8 @@ namespace feltgate::stability {
 /// All eigenvalues of a square matrix, in no order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
-/// exp(a*t) - 1, by a Taylor series and doubling.
+/// exp(a*t) - 1 of a square matrix `a` and a time t >= 0 in the inverse of its unit, by a Taylor
+/// series and doubling, so that small results keep their digits.
 Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t);
 
 }  // namespace feltgate::stability

@@ -68,7 +68,7 @@ class Session(VerbTest):
         self.assertGreater(lines, 8)
 
     def test_every_verb_is_on_the_page(self):
-        table = (ROOT / "model/tools/host/verbs.cpp").read_text(encoding="utf-8")
+        table = (ROOT / "model/apps/commands/host/verbs.cpp").read_text(encoding="utf-8")
         page = PAGE.read_text(encoding="utf-8")
         for verb in re.findall(r'^ +\{"([a-z]+)", "', table, re.M):
             self.assertRegex(page, rf"\b{verb}\b")

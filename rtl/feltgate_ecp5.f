@@ -1,3 +1,3 @@
 // Beside it where FELTGATE_ECP5 is defined; paths are relative to this folder.
 // sources: written by scripts/check_blocks.py --write
-mult18_ecp5.sv
+core/wave/mult18_ecp5.sv

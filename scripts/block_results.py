@@ -118,7 +118,7 @@ def sources(root, block, key):
     else:
         folder, pattern = Path(root, "rtl"), "*.sv"
     if block in EXTRA:
-        return sorted(folder.glob(pattern))
+        return sorted(folder.glob(pattern if key == "twin" or block == EXTRA[1] else "core/**/*.sv"))
     own = [path for path in folder.rglob(pattern) if path.stem == block]
     return [path for path in own if "generated" not in path.parts]
 

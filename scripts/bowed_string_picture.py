@@ -7,7 +7,7 @@
   sed 's/^rate = 40 kHz/rate = 1 kHz/' rtl/laws/bowed_string.law > slow.law
   sed 's/"bowed_string"/"slow.law"/; /^.\[expect/,$d' vectors/scenes/bowed_string.toml > slow.toml
   ./feltgate run slow.toml --engine twin --csv slow.csv --every 25 --states slow_states.csv
-  build/testbench/bowed_string/bowed_string_test "[.diagram]" | grep , > diagram.csv
+  build/testbench/sim/bowed_string/bowed_string_test "[.diagram]" | grep , > diagram.csv
   scripts/bowed_string_picture.py fast slow diagram.csv
 """
 

@@ -3,10 +3,11 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Each block has one name everywhere: fails when a block lacks one of its files.
 
-Every rtl/<b>.sv, rtl/link/<b>.sv and rtl/bus/<b>.sv has a twin, testbench/<b>/<b>_test.cpp and docs/blocks/<b>.md (scene_* blocks may
-share one folder testbench/scene*/), at least one seeded defect, and a page that links the others. The
-twin is the class with the block's name. It is in model/include/feltgate/<b>.hpp if the product uses
-it, else in testbench/<b>/<b>_twin.hpp; then the law that it evaluates, if any, is in the former.
+Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp and
+docs/blocks/<b>.md (scene_* blocks may share a folder of testbench/scenes), at least one seeded defect, and a
+page that links the others. The twin is the class with the block's name. It is in
+model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
+law that it evaluates, if any, is in the former.
 Further checks: no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
 and the lists made from the blocks are up to date: docs/blocks.md with the results of
 docs/verification, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
@@ -43,6 +44,7 @@ class Block:
     """Paths are relative to the root and need not exist."""
 
     name: str
+    room: str
     rtl: Path
     law: Path  # None where it has none, or where the twin is in the same file
     twin: Path
@@ -50,14 +52,18 @@ class Block:
     doc: Path
     defects: tuple
 
+    @property
+    def folder(self):
+        return Path("testbench", self.room, self.name)
+
 
 def class_name(name):
     return "".join(part.capitalize() for part in name.split("_"))
 
 
 def shared_scene_test(root, name):
-    """The first test in a folder testbench/scene*/ that names the block, if any."""
-    for test in sorted(root.glob("testbench/scene*/*_test.cpp")):
+    """The first test in a folder of testbench/scenes that names the block, if any."""
+    for test in sorted(root.glob("testbench/scenes/*/*_test.cpp")):
         names = rf"\b({name}|{class_name(name)})(?![A-Za-z0-9])"
         if re.search(names, test.read_text(encoding="utf-8")):
             return test.relative_to(root)
@@ -73,21 +79,24 @@ def find_blocks(root):
             continue  # a part: twin, test, page and defects are the engine's
         if name in EXEMPT or not re.search(r"^\s*module\b", code, re.M):
             continue  # a package
-        test = Path(f"testbench/{name}/{name}_test.cpp")
+        room = rtl_sources.room_of(path)
+        folder = Path("testbench", room, name)
+        test = folder / f"{name}_test.cpp"
         if name.startswith("scene_") and not (root / test).exists():
             test = shared_scene_test(root, name) or test
         public = Path(f"model/include/feltgate/{name}.hpp")
-        beside = Path(f"testbench/{name}/{name}_twin.hpp")
+        beside = folder / f"{name}_twin.hpp"
         tested = (root / beside).exists()
         blocks.append(
             Block(
                 name=name,
+                room=room,
                 rtl=rtl.relative_to(root),
                 law=public if tested and (root / public).exists() else None,
                 twin=beside if tested else public,
                 test=test,
                 doc=Path(f"docs/blocks/{name}.md"),
-                defects=tuple(patches.names(root / f"testbench/{name}/defects.diff")),
+                defects=tuple(patches.names(root / folder / "defects.diff")),
             )
         )
     return blocks
@@ -106,7 +115,7 @@ def check_block(root, block):
         yield f"{block.rtl}: no module {block.name} in it; name the module as the file"
     if str(block.doc) not in rtl:
         yield f"{block.rtl}: does not name its page; add {block.doc} to the head comment"
-    file = f"testbench/{block.name}/defects.diff"
+    file = block.folder / "defects.diff"
     if not block.defects:
         yield f"{file}: no seeded defect of {block.rtl}; add one, docs/testing.md says how"
     if re.search(r"\bDefect\b", rtl):
@@ -183,7 +192,7 @@ def blocks_table(root, blocks):
         return "" if path is None else f"[{path.name}]({os.path.relpath(path, 'docs')})"
 
     rows = [
-        f"| {b.name} | {link(b.rtl)} | {link(b.law)} | {link(b.twin)} | {link(b.test)} "
+        f"| {b.room} | {b.name} | {link(b.rtl)} | {link(b.law)} | {link(b.twin)} | {link(b.test)} "
         f"| {link(b.doc)} | {len(b.defects)} |"
         for b in blocks
     ]
@@ -191,7 +200,8 @@ def blocks_table(root, blocks):
         [
             "# Blocks",
             "",
-            "Every block has one name everywhere. The last column counts the seeded defects of",
+            "Every block has one name everywhere, and its room is the folder of its RTL (`rtl/core/ROOM` or",
+            "`rtl/ROOM`) and of its tests (`testbench/ROOM/BLOCK`). The last column counts the seeded defects of",
             "its RTL; the block's test runs once against each and must fail. Written by",
             "`scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
             "",
@@ -199,8 +209,8 @@ def blocks_table(root, blocks):
             "a law instead, the law is a template in the public headers, and the class, which only",
             "tests use, is beside its test.",
             "",
-            "| block | RTL | law | twin | test | page | seeded defects |",
-            "|---|---|---|---|---|---|---|",
+            "| room | block | RTL | law | twin | test | page | seeded defects |",
+            "|---|---|---|---|---|---|---|---|",
             *rows,
             "",
             "## Verification",
@@ -312,7 +322,7 @@ def check(root, write=False):
     except block_results.ResultsError as error:
         found.append(str(error))
     for name in rtl_sources.modules(root)[1]:
-        found.append(f"rtl/{name}.sv: the core does not instantiate it; do, or remove it")
+        found.append(f"rtl/{rtl_sources.module_files(root)[name]}: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
     for page in sorted(root.glob("docs/**/*.md")):

@@ -12,7 +12,7 @@ from unittest import mock
 import block_results
 import check_blocks
 
-PAGE = "[{0}](../../rtl/{0}.sv) [twin](../../model/include/feltgate/{0}.hpp) [test](../../{1})\n"
+PAGE = "[{0}](../../rtl/core/{2}/{0}.sv) [twin](../../model/include/feltgate/{0}.hpp) [test](../../{1})\n"
 RTL = (
     "// docs/blocks/{0}.md\n"
     "module {0};\n{1}endmodule\n"
@@ -25,11 +25,11 @@ CORE = "files:\n" + "".join(f"      {line}\n" for line in LISTS.splitlines())
 class CheckBlocks(unittest.TestCase):
     def setUp(self):
         self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        self.add_block("alpha", "testbench/alpha/alpha_test.cpp")
-        self.add_block("scene_spring", "testbench/scene_all/scene_test.cpp")
-        self.put("testbench/scene_all/scene_test.cpp", "SceneSpring twin;\n")
+        self.add_block("alpha", "testbench/wave/alpha/alpha_test.cpp")
+        self.add_block("scene_spring", "testbench/scenes/scene_all/scene_test.cpp")
+        self.put("testbench/scenes/scene_all/scene_test.cpp", "SceneSpring twin;\n")
         instance = "  scene_spring #(.N(1)) u_spring ();\n"  # so it is read before alpha
-        self.put("rtl/alpha.sv", RTL.format("alpha", instance))
+        self.put("rtl/core/wave/alpha.sv", RTL.format("alpha", instance))
         self.put("rtl/generated/lever/feltgate_pkg.sv", "package feltgate_pkg;\nendpackage\n")
         self.put("rtl/boards/toy/toy.sv", "module toy;\nendmodule\n")
         self.put("rtl/boards/toy/toy.qsf", "# head\n" + LISTS)
@@ -42,13 +42,14 @@ class CheckBlocks(unittest.TestCase):
         (self.root / path).write_text(text, encoding="utf-8")
 
     def add_block(self, name, test):
-        self.put(f"rtl/{name}.sv", RTL.format(name, ""))
-        self.put(f"testbench/{name}/defects.diff", DEFECT)
-        self.put(f"testbench/{name}/CMakeLists.txt", f"feltgate_block_test({name} WITH_DEFECTS)\n")
+        room = "scenes" if name.startswith("scene_") else "wave"
+        self.put(f"rtl/core/{room}/{name}.sv", RTL.format(name, ""))
+        self.put(f"testbench/{room}/{name}/defects.diff", DEFECT)
+        self.put(f"testbench/{room}/{name}/CMakeLists.txt", f"feltgate_block_test({name} WITH_DEFECTS)\n")
         class_name = check_blocks.class_name(name)
         self.put(f"model/include/feltgate/{name}.hpp", f"class {class_name} {{}};\n")
         self.put(test, "")
-        self.put(f"docs/blocks/{name}.md", PAGE.format(name, test))
+        self.put(f"docs/blocks/{name}.md", PAGE.format(name, test, room))
 
     def expect(self, *words):
         found = check_blocks.check(self.root)
@@ -57,28 +58,31 @@ class CheckBlocks(unittest.TestCase):
 
     def test_lists(self):
         table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
-        self.assertIn("| alpha | [alpha.sv](../rtl/alpha.sv) |", table)
+        self.assertIn("| wave | alpha | [alpha.sv](../rtl/core/wave/alpha.sv) |", table)
         self.assertIn("| [alpha.md](blocks/alpha.md) | 1 |", table)
         qsf = (self.root / "rtl/boards/toy/toy.qsf").read_text(encoding="utf-8").splitlines()
         self.assertEqual(
             [line.split()[-1] for line in qsf if line.startswith("set_")],
             [
                 "../../generated/lever/feltgate_pkg.sv",
-                "../../scene_spring.sv",
-                "../../alpha.sv",
+                "../../core/scenes/scene_spring.sv",
+                "../../core/wave/alpha.sv",
                 "toy.sv",
             ],
         )
         files = (self.root / "rtl/feltgate_core.f").read_text(encoding="utf-8").splitlines()
-        self.assertEqual(files[2:], ["scene_spring.sv", "alpha.sv"])
-        self.assertIn("      - rtl/alpha.sv\n", (self.root / "feltgate.core").read_text())
+        self.assertEqual(files[2:], ["core/scenes/scene_spring.sv", "core/wave/alpha.sv"])
+        self.assertIn("      - rtl/core/wave/alpha.sv\n", (self.root / "feltgate.core").read_text())
 
     def test_blocks_beside_the_core(self):
-        self.add_block("beta", "testbench/beta/beta_test.cpp")
+        self.add_block("beta", "testbench/link/beta/beta_test.cpp")
         (self.root / "rtl/link").mkdir()
-        (self.root / "rtl/beta.sv").rename(self.root / "rtl/link/beta.sv")
-        page = PAGE.format("beta", "testbench/beta/beta_test.cpp")
-        page = page.replace("rtl/beta", "rtl/link/beta")
+        (self.root / "rtl/core/wave/beta.sv").rename(self.root / "rtl/link/beta.sv")
+        (self.root / "testbench/link").mkdir(exist_ok=True)
+        for file in ("defects.diff", "CMakeLists.txt"):
+            (self.root / "testbench/wave/beta" / file).rename(self.root / "testbench/link/beta" / file)
+        page = PAGE.format("beta", "testbench/link/beta/beta_test.cpp", "wave")
+        page = page.replace("rtl/core/wave/beta", "rtl/link/beta")
         self.put("docs/blocks/beta.md", page)
         self.put("rtl/generated/feltgate_link_pkg.sv", "package feltgate_link_pkg;\nendpackage\n")
         self.expect("rtl/feltgate_linked.f: stale")
@@ -141,7 +145,7 @@ class CheckBlocks(unittest.TestCase):
     def test_results_of_an_earlier_source_are_marked(self):
         write = {"root": self.root, "kind": "mutants", "command": "measured"}
         block_results.write(**write, blocks={"alpha": {"rtl": [1, 2], "twin": [3, 4]}})
-        rtl = next(self.root.glob("rtl/alpha.sv"))
+        rtl = next(self.root.glob("rtl/core/wave/alpha.sv"))
         text = rtl.read_text(encoding="utf-8")
         rtl.write_text(text.replace(";", "; // the same code", 1), encoding="utf-8")
         self.assertNotIn("*", block_results.table(self.root, ["alpha"])[2])
@@ -173,7 +177,7 @@ class CheckBlocks(unittest.TestCase):
     def test_every_missing_sibling(self):
         for path in (
             "model/include/feltgate/alpha.hpp",
-            "testbench/alpha/alpha_test.cpp",
+            "testbench/wave/alpha/alpha_test.cpp",
             "docs/blocks/alpha.md",
         ):
             with self.subTest(path):
@@ -183,11 +187,11 @@ class CheckBlocks(unittest.TestCase):
                 self.put(path, saved)
 
     def test_twin_beside_its_test(self):
-        public, beside = "model/include/feltgate/alpha.hpp", "testbench/alpha/alpha_twin.hpp"
+        public, beside = "model/include/feltgate/alpha.hpp", "testbench/wave/alpha/alpha_twin.hpp"
         self.put(beside, "class Alpha {};\n")
         self.put(public, "struct AlphaLaw {};\n")
         self.expect(f"docs/blocks/alpha.md: no link to {beside}", "blocks.md: stale")
-        page = PAGE.format("alpha", "testbench/alpha/alpha_test.cpp") + f"[twin](../../{beside})\n"
+        page = PAGE.format("alpha", "testbench/wave/alpha/alpha_test.cpp", "wave") + f"[twin](../../{beside})\n"
         self.put("docs/blocks/alpha.md", page)
         self.assertEqual(check_blocks.check(self.root, write=True), [])
         table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
@@ -200,50 +204,50 @@ class CheckBlocks(unittest.TestCase):
         self.assertEqual(check_blocks.check(self.root, write=True), [])
 
     def test_scene_that_no_shared_test_names(self):
-        self.put("testbench/scene_all/scene_test.cpp", "SceneSpringy other;\n")
-        self.expect("testbench/scene_spring/scene_spring_test.cpp: missing")
+        self.put("testbench/scenes/scene_all/scene_test.cpp", "SceneSpringy other;\n")
+        self.expect("testbench/scenes/scene_spring/scene_spring_test.cpp: missing")
 
     def test_defects(self):
-        self.put("rtl/alpha.sv", RTL.format("alpha", "  assign a = Defect == 1;\n"))
-        self.expect("rtl/alpha.sv: the word Defect")
-        self.put("testbench/alpha/defects.diff", DEFECT.replace("It is inverted.\n", ""))
-        self.expect("testbench/alpha/defects.diff/inverted: its first line does not say")
-        self.put("testbench/alpha/defects.diff", DEFECT)
-        self.put("testbench/alpha/proofs/defects.diff", DEFECT)
-        self.put("testbench/alpha/proofs/proofs.toml", 'defect = "other"\n')
-        self.expect("testbench/alpha/proofs/defects.diff/inverted: no test is built with it")
-        self.put("testbench/alpha/CMakeLists.txt", "feltgate_block_test(alpha)\n")
-        self.expect("testbench/alpha/defects.diff/inverted: no test is built with it")
-        (self.root / "testbench/alpha/defects.diff").unlink()
-        self.put("rtl/alpha.sv", RTL.format("alpha", ""))
-        self.expect("testbench/alpha/defects.diff: no seeded defect of rtl/alpha.sv")
+        self.put("rtl/core/wave/alpha.sv", RTL.format("alpha", "  assign a = Defect == 1;\n"))
+        self.expect("rtl/core/wave/alpha.sv: the word Defect")
+        self.put("testbench/wave/alpha/defects.diff", DEFECT.replace("It is inverted.\n", ""))
+        self.expect("testbench/wave/alpha/defects.diff/inverted: its first line does not say")
+        self.put("testbench/wave/alpha/defects.diff", DEFECT)
+        self.put("testbench/wave/alpha/proofs/defects.diff", DEFECT)
+        self.put("testbench/wave/alpha/proofs/proofs.toml", 'defect = "other"\n')
+        self.expect("testbench/wave/alpha/proofs/defects.diff/inverted: no test is built with it")
+        self.put("testbench/wave/alpha/CMakeLists.txt", "feltgate_block_test(alpha)\n")
+        self.expect("testbench/wave/alpha/defects.diff/inverted: no test is built with it")
+        (self.root / "testbench/wave/alpha/defects.diff").unlink()
+        self.put("rtl/core/wave/alpha.sv", RTL.format("alpha", ""))
+        self.expect("testbench/wave/alpha/defects.diff: no seeded defect of rtl/core/wave/alpha.sv")
 
     def test_module_name_and_page_name(self):
-        self.put("rtl/alpha.sv", "module beta;\nendmodule\n")
+        self.put("rtl/core/wave/alpha.sv", "module beta;\nendmodule\n")
         self.expect("no module alpha", "does not name its page")
 
     def test_links(self):
         self.put("docs/blocks/alpha.md", "no links\n")
-        self.expect("no link to rtl/alpha.sv", "no link to model/include/feltgate/alpha.hpp")
+        self.expect("no link to rtl/core/wave/alpha.sv", "no link to model/include/feltgate/alpha.hpp")
         self.put("docs/other.md", "[gone](nowhere.md) [far](https://example.org/x)\n")
         self.put("docs/code.md", "```cpp\nauto f = [&](const int& x) { return x; };\n```\n")
         self.expect("docs/other.md: links docs/nowhere.md")
         self.assertFalse([line for line in check_blocks.check(self.root) if "code.md" in line])
 
     def test_stale_lists(self):
-        self.add_block("beta", "testbench/beta/beta_test.cpp")
+        self.add_block("beta", "testbench/link/beta/beta_test.cpp")
         lists = ("docs/blocks.md", "rtl/feltgate_core.f", "feltgate.core", "rtl/boards/toy/toy.qsf")
         self.expect(*(f"{path}: stale" for path in lists))
 
     def test_sources_that_the_core_does_not_reach(self):
-        self.put("rtl/feltgate_core.sv", "module feltgate_core;\n  alpha u_alpha ();\nendmodule\n")
-        self.put("rtl/stray.sv", "module stray;\nendmodule\n")
-        self.expect("rtl/stray.sv: the core does not instantiate it")
+        self.put("rtl/core/feltgate_core.sv", "module feltgate_core;\n  alpha u_alpha ();\nendmodule\n")
+        self.put("rtl/core/wave/stray.sv", "module stray;\nendmodule\n")
+        self.expect("rtl/core/wave/stray.sv: the core does not instantiate it")
         found = [line for line in check_blocks.check(self.root) if "does not instantiate" in line]
         self.assertEqual(len(found), 1)
 
     def test_a_cell_of_one_vendor_has_a_list_of_its_own(self):
-        self.put("rtl/mult18_ecp5.sv", "module mult18_ecp5;\nendmodule\n")
+        self.put("rtl/core/wave/mult18_ecp5.sv", "module mult18_ecp5;\nendmodule\n")
         check_blocks.check(self.root, write=True)
         self.assertIn("mult18_ecp5.sv\n", (self.root / "rtl/feltgate_ecp5.f").read_text())
         self.assertNotIn("mult18", (self.root / "rtl/feltgate_core.f").read_text())

@@ -8,7 +8,7 @@ table.
   ./feltgate run free_lever --engine twin --every 500 --csv free.csv
   ./feltgate run damped_lever --engine twin --every 500 --csv lever.csv
   ./feltgate run damped_lever --design paper --engine twin --every 500 --csv paper.csv
-  FELTGATE_SHOW=1 build/testbench/loop/free_lever_test > table.md
+  FELTGATE_SHOW=1 build/testbench/sim/loop/free_lever_test > table.md
   scripts/free_lever_picture.py free.csv lever.csv paper.csv table.md
 """
 

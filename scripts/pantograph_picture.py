@@ -4,7 +4,7 @@
 """Draws docs/images/pantograph.svg: where the pen of the default pantograph can be and what its
 motors can push there, and a drop of its cranks against a stop, from the table that the test prints.
 
-  build/testbench/pantograph/linkage_test "[.drop]" > drop.csv
+  build/testbench/axes/pantograph/linkage_test "[.drop]" > drop.csv
   scripts/pantograph_picture.py drop.csv
 """
 

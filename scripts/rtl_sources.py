@@ -11,6 +11,8 @@ CELL_WRAPPERS = ("mult18_ecp5",)  # one cell of one vendor: no other vendor's so
 FOLDERS = {"link": "feltgate_linked", "bus": "feltgate_bus", "engine": "feltgate_engine", "axes": "feltgate_axes"}
 PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
 NEEDS = {"axes": "engine", "link": "axes"}  # a folder whose blocks instantiate those of another
+# Rooms of the core below rtl/core, in the order of the data; the tests have the same: testbench/ROOM/BLOCK.
+ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
 NO_BLOCKS = ("feltgate_checks",)  # elaborated, never clocked: no twin, no test of its own block
 
 
@@ -25,10 +27,21 @@ def instantiated(text, names):
     return [name for name in dict.fromkeys(found) if name in names]
 
 
+def room_of(path):
+    """The room of a file below rtl/: of core/scenes/x.sv scenes, of core/x.sv core, of link/x.sv link."""
+    return path.split("/")[-2]
+
+
+def tests_of(root, block):
+    """testbench/ROOM/BLOCK, or testbench/BLOCK, which is not there, without one."""
+    return next(iter(sorted(root.glob(f"testbench/*/{block}"))), root / "testbench" / block)
+
+
 def module_files(root):
-    """{name: path below rtl/} of the core's modules and those of FOLDERS, by name."""
+    """{name: path below rtl/} of the core's modules, by rooms, and of those of FOLDERS."""
     rtl = root / "rtl"
-    files = sorted(rtl.glob("*.sv")) + [p for folder in FOLDERS for p in sorted(rtl.glob(f"{folder}/*.sv"))]
+    folders = ["core", *(f"core/{room}" for room in ROOMS), *FOLDERS]
+    files = [path for folder in folders for path in sorted(rtl.glob(f"{folder}/*.sv"))]
     return {p.stem: str(p.relative_to(rtl)) for p in files if p.stem not in CELL_WRAPPERS}
 
 
@@ -51,7 +64,7 @@ def modules(root):
     for name in paths:
         visit(name, frozenset())
     lost = [name for name, path in paths.items()
-            if CORE in paths and name not in reached and "/" not in path]
+            if CORE in paths and name not in reached and path.startswith("core/")]
     return ordered, lost
 
 
@@ -60,7 +73,7 @@ def core_files(root):
     beside = {f"{package}.sv" for package in PACKAGES.values()}
     packages = sorted(path.name for path in root.glob("rtl/generated/*_pkg.sv"))
     listed = [f"generated/{name}" for name in packages if name not in beside]
-    return [*listed, *(path for path in modules(root)[0].values() if "/" not in path)]
+    return [*listed, *(path for path in modules(root)[0].values() if path.startswith("core/"))]
 
 
 def folder_files(root, folder):
@@ -73,4 +86,6 @@ def folder_files(root, folder):
 
 def cell_files(root):
     """Files below rtl/ that a vendor's cells need beside them."""
-    return [f"{name}.sv" for name in CELL_WRAPPERS if (root / f"rtl/{name}.sv").exists()]
+    rtl = root / "rtl"
+    found = [path for name in CELL_WRAPPERS for path in rtl.glob(f"core/*/{name}.sv")]
+    return [str(path.relative_to(rtl)) for path in found]

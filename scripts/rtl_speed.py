@@ -30,7 +30,7 @@ from pathlib import Path
 import command_line
 
 ROOT = Path(__file__).resolve().parents[1]
-DRIVER = ROOT / "testbench/bench/rtl_speed.cpp"
+DRIVER = ROOT / "testbench/studies/bench/rtl_speed.cpp"
 DEFINES = ["-DVM_COVERAGE=0", "-DVM_SC=0", "-DVM_TRACE=1", "-DVM_TRACE_FST=1", "-DVM_TRACE_VCD=0"]
 RUNTIME = ("verilated", "verilated_threads", "verilated_fst_c")
 # What feltgate_verilate() in scripts/cmake/verilate.cmake says.

@@ -4,10 +4,10 @@
 # feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
-# verilates rtl/<block>.sv or rtl/FOLDER/<block>.sv, links it with testbench/<block>/<block>_test.cpp and with the
-# TESTS in the same folder, and adds the CTest <test> (default <block>, labels unit and lockstep).
-# WITH_DEFECTS: also <test>.<defect> (label mutation) for each defect in testbench/<block>/defects.diff, which passes only when an assertion fails, and
-# mutate.<test>, a share of the block's mutants.
+# verilates the RTL of the block, links it with testbench/<room>/<block>/<block>_test.cpp and with the TESTS in
+# the same folder, and adds the CTest <test> (default <block>, labels unit and lockstep).
+# WITH_DEFECTS: also <test>.<defect> (label mutation) for each defect in the folder's defects.diff, which passes only when an
+# assertion fails, and mutate.<test>, a share of the block's mutants.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
 # go to the RTL, DEFINES to the test. <test>_cover is the same test on RTL with coverage counters.
 # docs/testing.md
@@ -92,24 +92,22 @@ function(feltgate_block_test block)
     get_filename_component(source "${source}" ABSOLUTE BASE_DIR "${FELTGATE_ROOT}")
     list(APPEND sources "${source}")
   endforeach()
-  # Beside the core: rtl/link and rtl/engine with their packages, rtl/bus, rtl/axes.
-  foreach(folder "" link/ bus/ engine/ axes/)
-    if(EXISTS "${FELTGATE_ROOT}/rtl/${folder}${block}.sv")
-      list(APPEND sources "${FELTGATE_ROOT}/rtl/${folder}${block}.sv")
-      if(folder STREQUAL link/)
-        list(APPEND package "${FELTGATE_ROOT}/rtl/generated/feltgate_link_pkg.sv")
-      elseif(folder STREQUAL engine/)
-        list(APPEND package "${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv")
-      endif()
+  # In a room of the core, or beside it: rtl/link and rtl/engine with their packages, rtl/bus, rtl/axes.
+  file(GLOB own "${FELTGATE_ROOT}/rtl/core/*/${block}.sv" "${FELTGATE_ROOT}/rtl/*/${block}.sv")
+  list(APPEND sources ${own})
+  foreach(folder link engine)
+    if(own MATCHES "/rtl/${folder}/")
+      list(APPEND package "${FELTGATE_ROOT}/rtl/generated/feltgate_${folder}_pkg.sv")
     endif()
   endforeach()
+  feltgate_tests_of(folder ${block})
   list(REMOVE_ITEM sources "${FELTGATE_MAP_PACKAGE}")  # among the sources of the core
 
   # A block with a defect has the same ports, so one object of the test serves both.
   feltgate_verilate(${arg_NAME}_rtl ${block} "${package};${sources}" ${arg_PARAMS})
-  list(TRANSFORM arg_TESTS PREPEND "${FELTGATE_ROOT}/testbench/${block}/")
+  list(TRANSFORM arg_TESTS PREPEND "${folder}/")
   add_library(${arg_NAME}_object OBJECT
-    "${FELTGATE_ROOT}/testbench/${block}/${block}_test.cpp" ${arg_TESTS})
+    "${folder}/${block}_test.cpp" ${arg_TESTS})
   target_compile_definitions(${arg_NAME}_object PRIVATE ${arg_DEFINES})
   target_compile_options(${arg_NAME}_object PRIVATE ${FELTGATE_WARNINGS} -O1)
   target_precompile_headers(${arg_NAME}_object REUSE_FROM feltgate_lock_step)
@@ -134,7 +132,7 @@ function(feltgate_block_test block)
     target_link_libraries(${arg_NAME}_defects PRIVATE
       feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_defects_rtl)
     feltgate_same_class(${arg_NAME}_defects ${block} ${arg_NAME}_rtl ${arg_NAME}_defects_rtl)
-    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects FILE "${FELTGATE_ROOT}/testbench/${block}/defects.diff")
+    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects FILE "${folder}/defects.diff")
     feltgate_mutants(${arg_NAME} ${block} "${package};${sources}" "${arg_LIBRARIES}" ${arg_PARAMS})
   endif()
 endfunction()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Compiles through ccache if it is installed. testbench/launcher/ccache_test.py checks that ccache
+# Compiles through ccache if it is installed. testbench/apps/launcher/ccache_test.py checks that ccache
 # gives no outdated result.
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(FELTGATE_CCACHE ccache DOC "Keeps what was compiled; FALSE: not used")

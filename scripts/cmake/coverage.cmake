@@ -15,12 +15,12 @@ function(feltgate_cover_program test block sources)
   set(points "")
   foreach(source IN LISTS sources)
     get_filename_component(name "${source}" NAME_WE)
-    if(EXISTS "${FELTGATE_ROOT}/testbench/coverage/${name}_cover.sv")
-      list(APPEND points "${FELTGATE_ROOT}/testbench/coverage/${name}_cover.sv")
+    if(EXISTS "${FELTGATE_ROOT}/testbench/campaigns/coverage/${name}_cover.sv")
+      list(APPEND points "${FELTGATE_ROOT}/testbench/campaigns/coverage/${name}_cover.sv")
     endif()
   endforeach()
   # A cover point samples a reset that its block takes between the clocks, and looks at some bits of a signal.
-  feltgate_verilate(${test}_cover_rtl ${block} "${FELTGATE_ROOT}/testbench/coverage/coverage.vlt;${sources};${points}" COVERAGE
+  feltgate_verilate(${test}_cover_rtl ${block} "${FELTGATE_ROOT}/testbench/campaigns/coverage/coverage.vlt;${sources};${points}" COVERAGE
     --flatten -Wno-SYNCASYNCNET -Wno-UNUSEDSIGNAL ${arg_PARAMS})
   target_compile_options(${test}_cover_rtl PRIVATE -O1)
   add_executable(${test}_cover EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${test}_object>)

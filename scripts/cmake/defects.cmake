@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Seeded defects: patches in testbench/<block>/defects.diff. All defects of a block are in one model,
+# Seeded defects: patches in testbench/<room>/<block>/defects.diff. All defects of a block are in one model,
 # all defects of a test's headers in one program. FILE is that of the folder where none is named,
 # without DEFECTS all defects of the file are taken.
 # docs/testing.md
@@ -73,11 +73,18 @@ macro(feltgate_default_defects)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${arg_FILE}")
 endmacro()
 
+# feltgate_tests_of(<variable> <block>): testbench/<room>/<block>.
+function(feltgate_tests_of variable block)
+  file(GLOB folder "${FELTGATE_ROOT}/testbench/*/${block}")
+  set(${variable} "${folder}" PARENT_SCOPE)
+endfunction()
+
 # feltgate_verilate_defects(<target> <block> <package> <sources> [verilator arguments...]): a library
 # with the class V<block>, which is what the environment variable FELTGATE_DEFECT names: the block with
 # one of its defects, or with none. Copies of the block side by side, of which one has a clock.
 function(feltgate_verilate_defects target block package sources)
-  set(file "${FELTGATE_ROOT}/testbench/${block}/defects.diff")
+  feltgate_tests_of(folder ${block})
+  set(file "${folder}/defects.diff")
   feltgate_defect_names(names "${file}")
   set(copies "${CMAKE_CURRENT_BINARY_DIR}/${target}.sv")
   add_custom_command(OUTPUT "${copies}"

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# The cases of testbench/extremes and the program feltgate_extremes, which writes their page. With
+# The cases of testbench/campaigns/extremes and the program feltgate_extremes, which writes their page. With
 # decoder and low-pass alone, the decoder's count starting just below the wrap. docs/extremes.md
 include_guard(GLOBAL)
 
-set(extremes_folder "${FELTGATE_ROOT}/testbench/extremes")
+set(extremes_folder "${FELTGATE_ROOT}/testbench/campaigns/extremes")
 feltgate_verilate(extremes_decoder quad_decoder
-  "${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/quad_decoder.sv"
+  "${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/core/encoder/quad_decoder.sv"
   -GResetPosition=2147483000)
 set(extremes_blocks extremes_decoder)
 foreach(mode "" _truncate _convergent)  # half up, floor, convergent
@@ -15,7 +15,7 @@ foreach(mode "" _truncate _convergent)  # half up, floor, convergent
   math(EXPR rounding "${rounding} - 1")
   list(APPEND extremes_blocks extremes_lowpass${mode})
   feltgate_verilate(extremes_lowpass${mode} lowpass
-    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_ROOT}/rtl/lowpass.sv"
+    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_ROOT}/rtl/core/estimators/lowpass.sv"
     CLASS Vlowpass${mode} -GRounding=${rounding})
 endforeach()
 
@@ -42,7 +42,7 @@ list(FILTER extremes_sources EXCLUDE REGEX "_(main|test|defects)\\.cpp$")
 add_library(feltgate_extreme_cases STATIC ${extremes_sources} "${extremes_wide}/wide.hpp")
 target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
 target_include_directories(feltgate_extreme_cases
-  PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
+  PUBLIC "${FELTGATE_ROOT}/testbench/campaigns" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
 target_link_libraries(feltgate_extreme_cases
   PUBLIC feltgate_rtl feltgate_loop feltgate_design feltgate_stability
   PRIVATE extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# The fault campaign of testbench/faults: the Verilated core with accessible state, and the program
+# The fault campaign of testbench/campaigns/faults: the Verilated core with accessible state, and the program
 # feltgate_faults. Yosys names the flip-flops; without Yosys there is no campaign. docs/verification.md
 include_guard(GLOBAL)
 
@@ -10,7 +10,7 @@ if(NOT FELTGATE_YOSYS)
   message(STATUS "no yosys: the fault campaign is left out")
   return()
 endif()
-set(faults_folder "${FELTGATE_ROOT}/testbench/faults")
+set(faults_folder "${FELTGATE_ROOT}/testbench/campaigns/faults")
 set(FELTGATE_LEVER_PACKAGE "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv")
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 
@@ -31,7 +31,7 @@ list(FILTER faults_sources EXCLUDE REGEX "_(main|test)\\.cpp$")
 add_library(feltgate_fault_campaign STATIC ${faults_sources} "${faults_flops}")
 target_compile_options(feltgate_fault_campaign PRIVATE ${FELTGATE_WARNINGS} -O2)
 target_include_directories(feltgate_fault_campaign
-  PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common")
+  PUBLIC "${FELTGATE_ROOT}/testbench/campaigns" "${FELTGATE_ROOT}/testbench/common")
 target_include_directories(feltgate_fault_campaign SYSTEM PUBLIC "${PROJECT_BINARY_DIR}/faults")
 target_link_libraries(feltgate_fault_campaign PUBLIC faults_core feltgate_engines feltgate_plant_files feltgate_traces
   PRIVATE nlohmann_json::nlohmann_json fmt::fmt)

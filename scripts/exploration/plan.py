@@ -20,7 +20,7 @@ from exploration import space
 SCHEMA = "feltgate-explore-plan/1"
 # What decides a point's figures: a change of these makes chunks of before stale.
 SOURCES = (
-    *("rtl/*.sv", "rtl/*.f", "rtl/*.toml", "vectors/plants/linear.toml"),
+    *("rtl/core/**/*.sv", "rtl/*.f", "rtl/*.toml", "vectors/plants/linear.toml"),
     *("model/include/feltgate/*.hpp", "model/sim/reference/*"),
     *("model/studies/explore/*", "model/design/*"),
 )

@@ -79,7 +79,7 @@ def sources_digest():
     if _sources is None:
         digest = hashlib.sha256(f"{OPTIMISE} {tool_version(compiler())}".encode())
         digest.update(f"{tool_version('verilator')} {synth_tools.version(yosys())}".encode())
-        paths = [*rtl_sources(), *ROOT.glob("rtl/*.sv"), *ROOT.glob("model/**/*.hpp")]
+        paths = [*rtl_sources(), *ROOT.glob("rtl/core/**/*.sv"), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/studies/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
         paths = [p for p in paths if "generated" not in p.parts]

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import interrupts
+import rtl_sources
 from command_line import say
 from crew import Crew
 
@@ -61,7 +62,7 @@ class Test:
 def tests(build):
     """All that the build folder has been configured with."""
     found = []
-    for path in sorted(build.glob("testbench/*/*_mutants.netlist/test.json")):
+    for path in sorted(build.glob("testbench/*/*/*_mutants.netlist/test.json")):
         entry = json.loads(path.read_text(encoding="utf-8"))
         program = path.parent.parent / f"{entry['test']}_mutants"
         found.append(Test(entry["test"], entry["block"], path.parent, program))
@@ -69,10 +70,10 @@ def tests(build):
 
 
 class Listed:
-    """testbench/BLOCK/mutants.toml: survivors that were looked at, with the reason."""
+    """testbench/ROOM/BLOCK/mutants.toml: survivors that were looked at, with the reason."""
 
     def __init__(self, root, block):
-        path = Path(root, "testbench", block, "mutants.toml")
+        path = rtl_sources.tests_of(root, block) / "mutants.toml"
         self.root = root
         self.entries = []
         if path.exists():
@@ -366,6 +367,6 @@ def show(test, number, root, proof_seconds):
         print(
             f"{kind}: {why}"
             if kind
-            else f"to list it with a reason: testbench/{test.block}/mutants.toml"
+            else f"to list it with a reason: testbench/*/{test.block}/mutants.toml"
         )
     print(f"again: FELTGATE_MUTANT={number} {test.program}")

@@ -7,7 +7,7 @@ one off, a condition turned round or left out, a statement removed, arguments sw
 rounding. All of them are compiled into the header's test programs once and chosen at run time. A
 first run without any notes which test cases reach which mutants; each is then run by those until
 one fails, within a limit of CPU time. What survives is listed with its reason in
-testbench/mutate/twin.toml, equivalent or a gap, or is printed. A mutant is named by its function
+testbench/campaigns/mutate/twin.toml, equivalent or a gap, or is printed. A mutant is named by its function
 and what it changes, so that the list outlives a change of other lines. Method, results and what
 this does not say: docs/verification.md
 

@@ -92,12 +92,12 @@ class Maker:
         self.crew = Crew()
 
     def include(self):
-        return [f"-I{self.folder / 'include'}", f"-I{self.root / 'testbench/mutate/twin'}"]
+        return [f"-I{self.folder / 'include'}", f"-I{self.root / 'testbench/campaigns/mutate/twin'}"]
 
     def compile_selector(self, compiler):
         """The object that knows which mutant was chosen."""
         out = self.folder / "mutant.o"
-        source = self.root / "testbench/mutate/twin/mutant.cpp"
+        source = self.root / "testbench/campaigns/mutate/twin/mutant.cpp"
         self.call(
             [
                 *compiler,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Known survivors of the twin's mutants, and the results: testbench/mutate/twin.toml, the
+"""Known survivors of the twin's mutants, and the results: testbench/campaigns/mutate/twin.toml, the
 rows of the table, docs/verification/twin_mutants.json. docs/verification.md
 """
 
@@ -16,7 +16,7 @@ from reports.columns import aligned
 from . import twin_programs
 
 SCHEMA = "feltgate-mutate-twin/1"
-CATALOGUE = "testbench/mutate/twin.toml"
+CATALOGUE = "testbench/campaigns/mutate/twin.toml"
 RESULTS = "docs/verification/twin_mutants.json"
 SURVIVOR_KEYS = {"header", "kind", "why", "mutants"}
 DEAD = ("killed", "hangs", "crashes")
@@ -28,7 +28,7 @@ class TwinError(Refused):
 
 @dataclass
 class Catalogue:
-    """What testbench/mutate/twin.toml says."""
+    """What testbench/campaigns/mutate/twin.toml says."""
 
     tests: dict  # header: targets
     constant: dict = field(default_factory=dict)  # header: functions that only the compiler calls
@@ -39,7 +39,7 @@ class Catalogue:
 
 
 def read_catalogue(root):
-    """testbench/mutate/twin.toml; TwinError where something in it cannot be used."""
+    """testbench/campaigns/mutate/twin.toml; TwinError where something in it cannot be used."""
     path = root / CATALOGUE
     try:
         text = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Mutants of a C++ header, all in one text, chosen at run time (testbench/mutate/twin/mutant.hpp).
+"""Mutants of a C++ header, all in one text, chosen at run time (testbench/campaigns/mutate/twin/mutant.hpp).
 
 tree-sitter parses the header. Code that only the compiler evaluates, such as constants and
 template arguments, is not changed. Documentation: docs/verification.md

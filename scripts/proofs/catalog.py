@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The proofs to make: testbench/BLOCK/proofs/proofs.toml, one table per proof."""
+"""The proofs to make: testbench/ROOM/BLOCK/proofs/proofs.toml, one table per proof."""
 
 import re
 import tomllib
@@ -18,7 +18,7 @@ KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "ass
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
 COVER = re.compile(r"\b(\w+):\s*cover\b")
 INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
-SHARED = "testbench/prove"  # what wrappers of several blocks include
+SHARED = "testbench/campaigns/prove"  # what wrappers of several blocks include
 
 
 class CatalogError(Refused):
@@ -38,7 +38,7 @@ class Property:
 
 @dataclass(frozen=True)
 class Proof:
-    """One wrapper around a block: testbench/BLOCK/proofs/NAME.sv, module NAME_proof."""
+    """One wrapper around a block: testbench/ROOM/BLOCK/proofs/NAME.sv, module NAME_proof."""
 
     block: str
     name: str
@@ -68,7 +68,7 @@ class Proof:
 
 
 def wrapper_text(root, path):
-    """A wrapper as Yosys reads it: its includes stand beside it or in testbench/prove."""
+    """A wrapper as Yosys reads it: its includes stand beside it or in testbench/campaigns/prove."""
     def included(match):
         for folder in (path.parent, root / SHARED):
             if (folder / match[1]).is_file():
@@ -81,10 +81,10 @@ def wrapper_text(root, path):
 def defect_path(root, block, name):
     """NAME is a patch of the block's proofs, of its test, or BLOCK/NAME of another's test."""
     where, _, stem = name.rpartition("/")
-    own = root / f"testbench/{block}/proofs/defects.diff"
+    own = rtl_sources.tests_of(root, block) / "proofs/defects.diff"
     if name in patches.names(own):
         return own / name
-    return root / f"testbench/{where or block}/defects.diff" / stem
+    return rtl_sources.tests_of(root, where or block) / "defects.diff" / stem
 
 
 def read_proof(root, block, path, table):
@@ -153,7 +153,7 @@ def read_proof(root, block, path, table):
 def read(root):
     """All proofs, block by block in the order of their names."""
     proofs = []
-    for path in sorted(root.glob("testbench/*/proofs/proofs.toml")):
+    for path in sorted(root.glob("testbench/*/*/proofs/proofs.toml")):
         block = path.parents[1].name
         try:
             tables = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -77,7 +77,7 @@ def generated(result, proofs, before=""):
 
 def proof_lines(proof, entries):
     """One proof of the page: assumptions, covers, times, properties."""
-    relative = f"../testbench/{proof.block}/proofs/{proof.name}.sv"
+    relative = "../" + "/".join(proof.wrapper.parts[-5:])
     lines = [f"[`{proof.key}`]({relative}): {proof.title}.", ""]
     lines += [f"- assumed: {text}" for text in proof.assumes]
     covers = [

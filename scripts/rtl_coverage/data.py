@@ -16,7 +16,7 @@ LINE = re.compile(r"^C '(.*)' (\d+)$")
 PAGES = {"line": "line", "branch": "branch", "toggle": "toggle", "user": "cover"}
 KINDS = tuple(PAGES.values())
 NEEDED = {"toggle": 2}  # a bit must come back, or rise in two models; of all else once is enough
-POINTS = "_cover"  # testbench/coverage/BLOCK_cover.sv has the cover points of BLOCK
+POINTS = "_cover"  # testbench/campaigns/coverage/BLOCK_cover.sv has the cover points of BLOCK
 
 
 class DataError(Refused):

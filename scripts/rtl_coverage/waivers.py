@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""testbench/coverage/waivers.toml: points that need not be reached, each with its reason."""
+"""testbench/campaigns/coverage/waivers.toml: points that need not be reached, each with its reason."""
 
 import re
 import tomllib
@@ -10,7 +10,7 @@ from .data import KINDS
 
 from command_line import Refused
 
-FILE = "testbench/coverage/waivers.toml"
+FILE = "testbench/campaigns/coverage/waivers.toml"
 MOST = 10
 KEYS = {"block", "kind", "points", "most", "reason"}
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/dob.sv: disturbance observer tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w. tau_hat is the
-// load that opposes positive motor torque. While disarmed, the current counts as 0 and the filter
-// follows its input; so tau_hat is 0, and arming in motion causes no jump.
+// Law of rtl/core/estimators/dob.sv: disturbance observer tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w.
+// tau_hat is the load that opposes positive motor torque. While disarmed, the current counts as 0
+// and the filter follows its input; so tau_hat is 0, and arming in motion causes no jump.
 // Documentation: docs/blocks/dob.md
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on one channel
-// only. Documentation: docs/blocks/encoder_monitor.md
+// Law of rtl/core/encoder/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on
+// one channel only. Documentation: docs/blocks/encoder_monitor.md
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/hold_timer.sv: lowers the torque limit after a strong torque was held too long against
-// a lever that stands still. Documentation: docs/blocks/hold_timer.md
+// Law of rtl/core/safety/hold_timer.sv: lowers the torque limit after a strong torque was held too
+// long against a lever that stands still. Documentation: docs/blocks/hold_timer.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/limiter.sv, the only limiter of the core. Documentation: docs/blocks/limiter.md
+// Law of rtl/core/actuation/limiter.sv, the only limiter of the core. Documentation:
+// docs/blocks/limiter.md
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), with the design's rounding.
-// With 0 <= a1 < 1 the new state lies between the old state and the input, so it cannot overflow.
-// Documentation: docs/blocks/lowpass.md
+// Law of rtl/core/estimators/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), with the
+// design's rounding. With 0 <= a1 < 1 the new state lies between the old state and the input, so it
+// cannot overflow. Documentation: docs/blocks/lowpass.md
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/ramp.sv: the torque reference follows the limited torque of the scene. It moves in
-// steps after arming, after a change of scene, and after other events that may make the torque
-// jump. Documentation: docs/blocks/ramp.md
+// Law of rtl/core/actuation/ramp.sv: the torque reference follows the limited torque of the scene.
+// It moves in steps after arming, after a change of scene, and after other events that may make the
+// torque jump. Documentation: docs/blocks/ramp.md
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/registers.sv: register port, parameter RAM, control word, commands and snapshot. A
-// write takes effect at the end of the tick; a disarm and a stop do not wait behind an earlier
-// write. A word is on the parameter bus 2 clocks after its slot is fetched; read data follow their
-// address by 3 clocks. Documentation: docs/blocks/registers.md
+// Twin of rtl/core/wave/registers.sv: register port, parameter RAM, control word, commands and
+// snapshot. A write takes effect at the end of the tick; a disarm and a stop do not wait behind an
+// earlier write. A word is on the parameter bus 2 clocks after its slot is fetched; read data
+// follow their address by 3 clocks. Documentation: docs/blocks/registers.md
 #pragma once
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Cause 3 of rtl/supervisor.sv: in several windows in a row, the speed grows against the commanded
-// current, as with swapped motor leads or encoder channels.
-// Documentation: docs/blocks/supervisor.md
+// Cause 3 of rtl/core/safety/supervisor.sv: in several windows in a row, the speed grows against
+// the commanded current, as with swapped motor leads or encoder channels. Documentation:
+// docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_charge.sv: the torque of a point charge at distance x. Outside a linear core it
-// is strength * sgn(x) / x^2, inside the core slope * x; the charge attracts or repels.
-// Documentation: docs/blocks/scene_charge.md
+// Twin of rtl/core/scenes/scene_charge.sv: the torque of a point charge at distance x. Outside a
+// linear core it is strength * sgn(x) / x^2, inside the core slope * x; the charge attracts or
+// repels. Documentation: docs/blocks/scene_charge.md
 #pragma once
 
 #include <cstdint>

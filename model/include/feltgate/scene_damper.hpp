@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_damper.sv: tau = -b * velocity. Documentation: docs/blocks/scene_damper.md
+// Twin of rtl/core/scenes/scene_damper.sv: tau = -b * velocity. Documentation:
+// docs/blocks/scene_damper.md
 #pragma once
 
 #include "feltgate/scene_part.hpp"

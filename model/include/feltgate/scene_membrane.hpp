@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_membrane.sv: between two faces, a constant torque drives the lever back to the
-// side that it came from. Documentation: docs/blocks/scene_membrane.md
+// Twin of rtl/core/scenes/scene_membrane.sv: between two faces, a constant torque drives the lever
+// back to the side that it came from. Documentation: docs/blocks/scene_membrane.md
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // What the laws of the scenes share: the distance from a reference, and the torque format before
-// the limit. RTL: rtl/scene_part.sv, rtl/scenes.sv. Documentation: docs/blocks/scenes.md
+// the limit. RTL: rtl/core/scenes/scene_part.sv, rtl/core/scenes/scenes.sv. Documentation:
+// docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

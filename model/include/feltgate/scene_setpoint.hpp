@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_setpoint.sv: a constant torque. Documentation: docs/blocks/scene_setpoint.md
+// Twin of rtl/core/scenes/scene_setpoint.sv: a constant torque. Documentation:
+// docs/blocks/scene_setpoint.md
 #pragma once
 
 #include "feltgate/scene_part.hpp"

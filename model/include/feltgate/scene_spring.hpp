@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_spring.sv: tau = k * (reference - position). Tension acts on both sides of the
-// reference, compression only below the contact. Documentation: docs/blocks/scene_spring.md
+// Twin of rtl/core/scenes/scene_spring.sv: tau = k * (reference - position). Tension acts on both
+// sides of the reference, compression only below the contact. Documentation:
+// docs/blocks/scene_spring.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/scene_wall.sv: a unilateral spring-damper. Above the contact
+// Twin of rtl/core/scenes/scene_wall.sv: a unilateral spring-damper. Above the contact
 // tau = k * (contact - position) - b * velocity, but never a pull.
 // Documentation: docs/blocks/scene_wall.md
 #pragma once

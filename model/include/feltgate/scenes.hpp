@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/scenes.sv: the torque of the selected scene, followed by limiter and ramp, which give
-// the torque reference. Documentation: docs/blocks/scenes.md
+// Law of rtl/core/scenes/scenes.sv: the torque of the selected scene, followed by limiter and ramp,
+// which give the torque reference. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

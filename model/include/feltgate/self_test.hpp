@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/self_test.sv, tick by tick: after arming it gives a torque pulse and its opposite, and
-// checks which way the lever moves. Documentation: docs/blocks/self_test.md
+// Law of rtl/core/safety/self_test.sv, tick by tick: after arming it gives a torque pulse and its
+// opposite, and checks which way the lever moves. Documentation: docs/blocks/self_test.md
 #pragma once
 
 #include <algorithm>

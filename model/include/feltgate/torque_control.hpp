@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/torque_control.sv: from the torque reference to current, voltage and duty.
+// Twin of rtl/core/actuation/torque_control.sv: from the torque reference to current, voltage and
+// duty.
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer sees this I
 //   V = gain*I + Ke*w + dead voltage                           limited to a window around Ke*w
 //   duty = V * period/supply                                   limited

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/velocity_n.sv: N-method velocity. The velocity is 2^n times the counts of the last m1
-// ticks, saturated to the velocity format and low-pass filtered.
-// Documentation: docs/blocks/velocity_n.md
+// Law of rtl/core/estimators/velocity_n.sv: N-method velocity. The velocity is 2^n times the counts
+// of the last m1 ticks, saturated to the velocity format and low-pass filtered. Documentation:
+// docs/blocks/velocity_n.md
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The twin of a design as an sc_module with the pins of rtl/feltgate_core.sv.
+// The twin of a design as an sc_module with the pins of rtl/core/feltgate_core.sv.
 // Documentation: docs/library.md
 #pragma once
 

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// limiter: RTL against twin on every clock, and both against a plain integer program.
+// Documentation: docs/blocks/limiter.md
+#include <Vlimiter.h>
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "../../estimators/lowpass/exact.hpp"
+#include "catch.hpp"
+#include "limiter_twin.hpp"
+#include "lock_step.hpp"
+#include "ports.hpp"
+#include "unreset.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+constexpr int kWide = Design::f.limiter_input.width();
+constexpr int kWidth = Design::f.limiter.width();
+constexpr std::int64_t kMaxX = (std::int64_t{1} << (kWide - 1)) - 1;
+constexpr std::int64_t kMaxLimit = (std::int64_t{1} << (kWidth - 1)) - 1;
+
+using Twin = Filled<Limiter<Design>, 2>;
+using Rtl = Unreset<Vlimiter>;
+
+struct Adapter {
+  static void drive(Rtl& rtl, const Twin::In& in) {
+    FELTGATE_DRIVE(rtl, in, valid, torque, voltage, duty);
+    // The width of the port is the design's: 32 or 64 bits of a word.
+    using Port = std::remove_reference_t<decltype(rtl.ahead_i)>;
+    rtl.ahead_i = port_bits<kWide, Port>(in.ahead);
+    rtl.late_i = port_bits<kWide, Port>(in.late);
+    rtl.param_i = in.param;
+  }
+  template <class Check>
+  static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
+    if (!out.known) return;
+    check("limited", sign_extend<kWidth>(rtl.limited_o), out.limited);
+    check("beyond", rtl.beyond_o, out.beyond);
+  }
+};
+
+using Bench = LockStep<Rtl, Twin, Adapter>;
+
+/// One x and its limit.
+struct Case {
+  bool valid = true, ahead = false;  ///< x comes a clock ahead
+  int signal = 0;                    ///< 1 torque, 2 voltage, 3 duty
+  std::int64_t x = 0;
+  std::uint32_t param = 0;
+};
+
+/// Cases from next(), one per clock.
+template <class Next>
+struct Pipeline {
+  Next next;
+  Case now{}, after{};
+
+  Twin::In operator()(std::int64_t) {
+    now = after;
+    after = next();
+    return {after.valid,       after.ahead ? after.x : 0, now.ahead ? 0 : now.x, now.param,
+            after.signal == 1, after.signal == 2,         after.signal == 3};
+  }
+};
+
+/// x of every size, and around its limit; limits of every size, 0, negative, and any 32 bits.
+struct RandomCases {
+  Random random;
+
+  Case operator()() {
+    Case c;
+    c.valid = !random.one_in(4);
+    c.ahead = random.coin();
+    if (c.valid) c.signal = static_cast<int>(random.below(4));
+    std::int64_t limit = kMaxLimit >> random.below(static_cast<std::uint64_t>(kWidth));
+    if (random.one_in(4))
+      limit = std::int64_t{1} << random.below(
+                  static_cast<std::uint64_t>(kWidth - 1));  // one misfit bit
+    if (random.one_in(8)) limit = -1 - limit;
+    c.param = static_cast<std::uint32_t>(limit);
+    // The bits above the limit's width have no effect.
+    if (random.one_in(4)) c.param ^= static_cast<std::uint32_t>(random.bits()) << (kWidth % 32);
+    c.x = static_cast<std::int64_t>(random.bits()) >>
+          (64 - kWide + static_cast<int>(random.below(static_cast<std::uint64_t>(kWide))));
+    if (random.one_in(3)) {
+      c.x = (random.coin() ? limit : -limit) + random.between(-2, 2);
+    } else if (random.one_in(16)) {
+      c.x = random.coin() ? kMaxX : -kMaxX - 1;
+    }
+    return c;
+  }
+};
+
+/// By sign of x: [0] negative, [1] not.
+struct Tally {
+  std::int64_t beyond[2] = {}, within[2] = {}, at_limit[2] = {}, wide[2] = {}, negative[2] = {},
+               compared[2] = {}, misfit[2] = {};
+};
+
+/// The plain program.
+struct Plain {
+  Tally* tally;
+  Twin::In before[2] = {};
+  int filled = 0;
+
+  const char* operator()(const Twin::In& in, const Rtl& rtl, const Twin&, bool in_reset) {
+    const std::int64_t x = before[0].ahead + in.late;  // one of them is 0
+    const bool valid = before[0].valid;
+    const int width = before[0].torque    ? Design::f.torque.width()
+                      : before[0].voltage ? Design::f.voltage.width()
+                      : before[0].duty    ? Design::f.duty.width()
+                                          : kWidth;
+    before[0] = in;
+    filled = in_reset ? 0 : filled + 1;
+    if (filled < 2) return nullptr;
+    const std::int64_t limit = sign_extend<kWidth>(in.param);
+    const std::int64_t size = x < 0 ? -x : x;
+    const bool misfit = limit >= std::int64_t{1} << (width - 1);
+    const bool beyond = misfit || size > limit;
+    const std::int64_t most = misfit ? 0 : std::max<std::int64_t>(limit, 0);
+    const std::int64_t limited = !valid ? 0 : std::clamp(x, -most, most);
+    const int sign = x >= 0;
+    ++(limit < 0 ? tally->negative : beyond ? tally->beyond : tally->within)[sign];
+    if (size == limit) ++tally->at_limit[sign];
+    if (size > kMaxLimit) ++tally->wide[sign];
+    ++tally->compared[valid];
+    tally->misfit[sign] += misfit;
+    if (sign_extend<kWidth>(rtl.limited_o) != limited) return "limited of the plain program";
+    if ((rtl.beyond_o != 0) != beyond) return "beyond of the plain program";
+    return nullptr;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("limiter: random x and limits, both ways in, with and without valid") {
+  Tally t;
+  const std::int64_t clocks = scaled_clocks(1000000);
+  Bench bench("limiter", 1);
+  bench.run(Pipeline<RandomCases>{{Random(2)}}, clocks, {1000}, Plain{&t});
+  for (const int sign : {0, 1}) {
+    INFO("sign " << sign << ": beyond " << t.beyond[sign] << ", within " << t.within[sign]
+                 << ", at the limit " << t.at_limit[sign] << ", wide " << t.wide[sign]
+                 << ", limit negative " << t.negative[sign]);
+    REQUIRE(t.beyond[sign] * 20 > clocks);
+    REQUIRE(t.within[sign] * 20 > clocks);
+    REQUIRE(t.at_limit[sign] * 100 > clocks);
+    REQUIRE(t.wide[sign] * 100 > clocks);
+    REQUIRE(t.negative[sign] * 100 > clocks);
+    REQUIRE(t.compared[sign] * 10 > clocks);
+    REQUIRE(t.misfit[sign] * 1000 > clocks);
+  }
+}
+
+TEST_CASE("limiter: every pair of corners, each way in, back to back") {
+  std::vector<std::int64_t> corners{0, 1, -1};
+  for (int k = 1; k < kWide; ++k) {
+    const std::int64_t power = std::int64_t{1} << k;
+    for (const std::int64_t x : {power - 1, power, power + 1}) {
+      if (x > kMaxX) continue;
+      corners.push_back(x);
+      corners.push_back(-x);
+    }
+  }
+  corners.push_back(-kMaxX - 1);
+  std::vector<Case> cases;
+  for (const std::int64_t x : corners) {
+    for (const std::int64_t limit : corners) {
+      if (limit > kMaxLimit || limit < -kMaxLimit - 1) continue;
+      for (const bool ahead : {false, true}) {
+        cases.push_back({true, ahead, 0, x, static_cast<std::uint32_t>(limit)});
+      }
+    }
+  }
+  struct Listed {
+    const std::vector<Case>* cases;
+    std::size_t k = 0;
+    Case operator()() { return (*cases)[k++ % cases->size()]; }
+  };
+  Tally t;
+  Bench bench("limiter", 3);
+  bench.run(Pipeline<Listed>{{&cases}}, static_cast<std::int64_t>(cases.size()) + 10, {},
+            Plain{&t});
+  REQUIRE(t.compared[1] >= static_cast<std::int64_t>(cases.size()));
+}
+
+TEST_CASE("limiter: the law takes the largest limit of a format, and the next one for none") {
+  using D = FELTGATE_DESIGN;
+  using Law = LimiterLaw<D, Fixed>;
+  constexpr int key = Law::key<D::f.torque.fraction>;
+  using Torque = fixed_of<D::f.torque.key()>;
+  for (const std::int64_t more : {-1, 0, 1, 2}) {
+    bool hit = false;
+    const auto limit = Fixed::from_raw<key>(Torque::max_raw() + more);
+    const auto got = Law::limited<Torque, D::f.torque.key()>(Torque::from_raw(9), limit, &hit);
+    REQUIRE(hit == (more > 0));
+    REQUIRE(got.raw() == (more > 0 ? 0 : 9));
+  }
+}

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What the command line refuses: one line that names it, its range or the nearest name.
+
+Documentation: README.md
+"""
+
+import json
+import unittest
+
+from bench import ROOT, Bench
+
+SEED = "a whole number from 0 to 18446744073709551615"
+SECONDS = "a number above 0, to 100000 s"
+NUMBERS = (
+    ("stability", "--rate", ("nan", "inf", "0", "1e300", "1000,nan", "x"), "1 to 1000000 Hz"),
+    ("stability", "--damping", ("nan", "-1", "-nan", "2"), "a number from 0 to 1 Nm s/rad"),
+    ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "x"), SECONDS),
+    ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf"), "a number above 0, to 1e+12 Hz"),
+    ("trim membrane", "--duration", ("nan", "1e300", "-1", "0"), SECONDS),
+    ("trim membrane", "--window", ("nan", "0"), "a number from 0.01 to 1000 ms"),
+    ("trim membrane", "--threads", ("0", "65", "1e1", "nan"), "a whole number from 1 to 64"),
+    ("run membrane", "--every", ("0", "-1", "1.5", "nan", "99999999999"), "from 1 to 1000000000"),
+    ("run membrane", "--seed", ("-1", "1.5", "nan", "18446744073709551616", "0x1"), SEED),
+    ("replay x.vec", "--seed", ("-1",), SEED),
+    ("import x.vec y.vec", "--seed", ("-1",), SEED),
+    ("budget membrane", "--seed", ("-1",), SEED),
+    ("trim membrane", "--seed", ("-1",), SEED),
+)
+
+
+class CommandLine(Bench):
+    def refused(self, *words, said):
+        process = self.start(*words)
+        process.err = process.communicate(timeout=20)[1].decode()
+        self.assert_refused(process, *said)
+        self.assert_only()
+
+    def test_a_law_where_none_is_taken(self):
+        for command in ("trim", "budget"):
+            with self.subTest(command):
+                said = f"detent.toml:11: `feltgate {command}` takes no scene with a law"
+                self.refused(command, "detent", said=(said, "`feltgate run` runs its scene"))
+        self.refused("replay", "x.vec", "--scene", "law", said=("--scene law", "loads no program"))
+
+    def test_numbers(self):
+        for command, option, values, accepted in NUMBERS:
+            for value in values:
+                with self.subTest(command, option=option, value=value):
+                    wrong = value.rpartition(",")[2]
+                    said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
+                    self.refused(*command.split(), f"{option}={value}", said=said)
+
+    def test_empty_words(self):
+        for words in (("run", "short.toml", "--json", ""), ("figures", "-o", ""), ("replay", "")):
+            with self.subTest(words):
+                self.refused(*words, said=(f"the word after {words[-2]} is empty",))
+        self.refused("run", "short.toml", "--report=", said=("--report= has no value",))
+
+    def test_a_folder_is_no_law(self):
+        for path in (".", "..", "./", self.folder):
+            self.refused("law", path, said=(f"{path}: is a folder; give a file in it",))
+
+    def test_a_binary_table_reaches_no_terminal(self):
+        table = b"\xff\x9b\x1b[2J,A\xc3\xa9,\xc3(,\x80\n" + bytes(range(128, 200)) + b"\n"
+        self.path("binary.csv").write_bytes(table)
+        self.given.add("binary.csv")
+        for command in (("replay",), ("import",)):
+            process = self.start(*command, "binary.csv", *(("x.vec",) if command == ("import",) else ()))
+            out, err = process.communicate(timeout=20)
+            self.assertEqual((process.returncode, out), (2, b""), err)
+            self.assertIn("A\u00e9", err.decode())  # UTF-8 is what a terminal takes
+            self.assertNotRegex(err.decode(), r"[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+
+    def test_abbreviations(self):
+        for command in ("figures", "synth", "demo"):
+            with self.subTest(command):
+                process = self.start(command, "--desig", "lever")
+                said = process.communicate(timeout=20)[1].decode()
+                self.assertEqual(process.returncode, 2, said)
+                self.assertIn("unrecognized arguments: --desig", said)
+
+    def test_trim_ends_in_a_set_that_breaks_an_expectation(self):
+        scene = (ROOT / "testbench/studies/trim/push.toml").read_text(encoding="utf-8")
+        self.path("push.toml").write_text(scene + '[[expect]]\nfigure = "faults"\nlow = 1\n')
+        self.given.add("push.toml")
+        words = ("--tolerance", "20%", "--unseen", "1", "-o", "trimmed.toml")
+        process = self.start("trim", "push.toml", *words)
+        out = process.communicate(timeout=60)[0].decode()
+        self.assertEqual(process.returncode, 1, out)
+        self.assertRegex(out, r"^trimmed, not as expected: .*faults")
+        self.assert_only()
+
+    def test_how_long_trim_runs(self):
+        self.refused("trim", "wall", "--duration", "1e-9", said=("shorter than 10 windows",))
+        self.refused("trim", "wall", "--duration", "5", said=("the scene is over after",))
+
+    def test_settings(self):
+        for value in ("nan", "inf", "1e300", "", "x"):
+            with self.subTest(value):
+                word = f"voltage_gain={value}"
+                self.refused("run", "membrane", "--set", word, said=("voltage_gain",))
+
+    def test_units(self):
+        for words, said in (
+            (("run", "wall", "--set", "torque_limit=1V"), "1V is not in Nm; write 1 Nm"),
+            (("run", "wall", "--set", "wall_stiffness=4Nm"),
+             "write 4 Nm/count, or give it in Nm/rad"),
+            (("run", "wall", "--set", "torque_limit=20000mNm"), "torque_limit = 20 "),
+            (("run", "wall", "--set", "wall_contact=nan rad"), "is no number"),
+            (("trim", "wall", "--duration", "5V"), "--duration: 5V is not in s; write 5 s"),
+            (("trim", "wall", "--duration", "1us"), "shorter than 10 windows"),
+            (("replay", "x.vec", "--seconds=2m"), "2m is not in s; write 2 s"),
+            (("stability", "--damping", "2V"), "2V is not in Nm s/rad"),
+        ):
+            with self.subTest(words):
+                self.refused(*words, said=(said,))
+
+    def test_the_nearest_name(self):
+        for words, said in (
+            (("rnu",), 'command rnu is unknown; did you mean "run"?'),
+            (("run", "membrane", "--desing", "lever"), 'did you mean "--design"?'),
+            (("run", "membrane", "--desing=lever"), 'option --desing is unknown; did you mean'),
+            (("stability", "--no-experimnets"), 'did you mean "--no-experiments"?'),
+            (("run", "membrnae"), '"membrnae" is not in vectors/scenes; did you mean "membrane"?'),
+            (("run", "mebrane.toml"), "did you mean membrane, which is in vectors/scenes?"),
+            (("run", "membrane", "--plant", "p42"), '"p42" is not in vectors/plants; did you mean'),
+            (("extremes", "warp_32"), 'case "warp_32" is unknown; did you mean "wrap_32"?'),
+            (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
+            (("stability", "detent"), "detent is a scene, and stability takes a design"),
+            (("stability", ROOT / "vectors/scenes/detent.toml"), "in: ./feltgate rates detent"),
+            (("budget", "membrane", "--design", "levr"), 'did you mean "lever"?'),
+        ):
+            with self.subTest(words):
+                self.refused(*words, said=(said,))
+
+    def test_options_that_would_do_nothing(self):
+        self.refused(
+            "run", "membrane", "--every", "2", said=("--every thins out the rows of --csv",)
+        )
+        self.refused("replay", "x.vec", "--every", "2", said=("--every thins out the rows",))
+        self.refused("import", "x.vec", "a.vec", "-o", "b.vec", said=("two files to write",))
+
+    def test_a_folder_is_no_scene(self):
+        self.path("scenes.toml").mkdir()
+        self.given.add("scenes.toml")
+        for name in (self.folder, "./", "scenes.toml"):
+            for command in ("run", "budget", "trim"):
+                with self.subTest(command, name=name):
+                    self.refused(command, name, said=(f"{name}: is a folder; give a file in it",))
+        self.refused("run", "short.toml", "--plant", "./", said=("./: is a folder",))
+        self.refused("design", "./", said=("./: is a folder",))
+
+    def test_a_design_by_its_path(self):
+        ours = ROOT / "rtl/designs/lever.toml"
+        done = self.run_it("--design", ours, "--json", "a.json")
+        self.assertEqual(done.returncode, 0, done.err)
+        self.assertEqual(json.loads(self.path("a.json").read_text())["design"], "lever")
+        self.path("a.json").unlink()
+        text = ours.read_text().replace("# ", "#  ", 1)
+        for name in ("mine", "lever"):
+            self.given.add(f"{name}.toml")
+            self.path(f"{name}.toml").write_text(text)
+            for command in ("run", "budget", "trim"):
+                said = (f"{name}.toml: a design runs once it is built in; ", f"--design {name}")
+                self.refused(command, "short.toml", "--design", f"{name}.toml", said=said)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""exploration.point: a coarse design from its text to its figures, a seeded defect, what is kept."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "scripts"))
+from exploration import point  # noqa: E402
+from exploration.design_text import design_text  # noqa: E402
+from seeded_defects import patches  # noqa: E402
+
+COARSE = {
+    "clock.tick_hz": 10000,
+    "velocity.m1": 8,
+    "velocity.gain": "exact",
+    "formats.velocity": [1, 10, 12],
+    "formats.torque": [1, 4, 10],
+    "formats.current": [1, 5, 12],
+    "formats.voltage": [1, 5, 10],
+    "formats.observer_fraction": 18,
+    "formats.coefficient_bits": 12,
+    "formats.rounding": "floor",
+    "fabric.multipliers": "parallel",
+}
+
+
+class Evaluation(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="feltgate-point-")
+        cls.addClassCleanup(cls.folder.cleanup)
+
+    def evaluate(self, changes, **options):
+        text = design_text(ROOT, {"base": "lever", "set": changes})
+        return point.evaluate_design(text, self.folder.name, area=False, **options)
+
+    def structures(self):
+        return len(list((Path(self.folder.name) / "structures").iterdir()))
+
+    def test_floor_narrow_slow_and_parallel_matches_and_is_measured(self):
+        result = self.evaluate(COARSE)
+        self.assertEqual(result["status"], "ok")
+        self.assertTrue(result["coarse"])
+        self.assertEqual(result["mismatches"], 0)
+        self.assertGreater(result["clocks_compared"], 4_000_000)
+        self.assertGreater(result["clocks_armed"], 0.8 * result["clocks_compared"])
+        self.assertGreater(result["ticks"], 10_000)
+        self.assertEqual(result["ticks_left_out"], 0)
+        # An LSB of torque is 0.98 mNm: the error is of that size, neither hidden nor wild.
+        self.assertGreater(result["torque_error_max_nm"], 0.3e-3)
+        self.assertLess(result["torque_error_max_nm"], 5e-3)
+        self.assertAlmostEqual(result["delay_s"], 0.5 * 8e-4 + 1 / 500, delta=1e-6)
+        # The limits are reached and left again.
+        limited = result["ticks_limited"]["torque"]
+        self.assertTrue(0 < limited < result["ticks"] / 2, limited)
+        self.assertTrue(result["bound_holds"])
+        self.assertEqual(result["bound_without"], [])
+        # Registers carry the cut-off: the same structure, other figures.
+        count = self.structures()
+        other = self.evaluate(COARSE | {"velocity.cutoff_rad_s": 550.0})
+        self.assertEqual(self.structures(), count)
+        self.assertEqual(other["structure"], result["structure"])
+        self.assertEqual(other["mismatches"], 0)
+        self.assertNotEqual(other["torque_error_max_nm"], result["torque_error_max_nm"])
+        # And a point does not depend on who built its structure.
+        self.assertEqual(self.evaluate(COARSE), result)
+
+    def test_a_defect_of_the_rtl_fails_the_point(self):
+        # The second is of the supervisor's own multiplier, and seen by the heat alone.
+        for name, changes in (
+            ("estimators/dob/defects.diff/other_sign_of_inertia", {}),
+            ("campaigns/explore/defects.diff/supervisor_multiplies_for_control", COARSE),
+        ):
+            defect = ROOT / "testbench" / name
+            folder = Path(self.folder.name, defect.name)
+            copies = {p.name: p for p in patches.write_copies(defect, folder)}
+            sources = [copies.get(path.name, path) for path in point.rtl_sources()]
+            with (
+                self.subTest(name),
+                mock.patch.object(point, "rtl_sources", return_value=sources),
+                mock.patch.object(point, "_sources", None),
+            ):
+                result = self.evaluate(changes)
+                self.assertEqual(result["status"], "mismatch")
+                self.assertGreater(result["mismatches"], 0)
+                self.assertIn("clock", result["first_mismatch"])
+                self.assertNotIn("torque_error_max_nm", result)
+
+    def test_what_cannot_work_is_refused_with_the_reason(self):
+        result = self.evaluate({"formats.observer_fraction": 10})
+        self.assertEqual(result["status"], "refused")
+        self.assertIn("fraction bits", result["reason"])
+        self.assertNotIn(self.folder.name, result["reason"])
+
+
+if __name__ == "__main__":
+    if not (point.BUILD / "feltgate_generate").exists():
+        sys.exit(f"{point.BUILD} has no feltgate_generate; set FELTGATE_BUILD")
+    unittest.main()

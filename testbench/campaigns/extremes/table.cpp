@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The table of the cases. Documentation: docs/extremes.md
+#include "extremes/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "files/json_text.hpp"
+
+namespace feltgate::extremes {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string cell(const std::optional<double>& v) { return v ? number(*v) : "-"; }
+
+std::string verdict(const Finding& f) { return f.holds() ? "ok" : "FAIL"; }
+
+std::string row(const Finding& f) {
+  const std::string unit = f.unit.empty() ? "" : " [" + f.unit + "]";
+  return "| " + f.what + unit + " | " + f.expected.text + " | " + cell(f.rtl) + " | " +
+         cell(f.twin) + " | " + cell(f.real) + " | " + verdict(f) + " |";
+}
+
+std::string ran(const Outcome& o) {
+  std::string line;
+  if (o.rtl_s > 0 || o.twin_s > 0) {
+    line = "Device time: RTL " + number(o.rtl_s) + " s, twin " + number(o.twin_s) + " s.";
+  }
+  if (!o.note.empty()) line += (line.empty() ? "" : " ") + o.note;
+  return line;
+}
+
+/// Cells of a table row, without the outer bars.
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::size_t from = line.find('|');
+  while (from != std::string::npos) {
+    const std::size_t to = line.find('|', from + 1);
+    if (to == std::string::npos) break;
+    std::string c = line.substr(from + 1, to - from - 1);
+    c.erase(0, c.find_first_not_of(' '));
+    c.erase(c.find_last_not_of(' ') + 1);
+    out.push_back(c);
+    from = to;
+  }
+  return out;
+}
+
+bool same_cell(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  char *end_a = nullptr, *end_b = nullptr;
+  const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
+  if (end_a == a.c_str() || end_b == b.c_str() || *end_a != '\0' || *end_b != '\0') return false;
+  return std::abs(x - y) <= 0.01 * std::max(std::abs(x), std::abs(y));
+}
+
+/// The section of one case in a page, with its heading; empty if the page has none.
+std::string section_of(const std::string& page, const std::string& name) {
+  const std::string place = "### " + name + "\n";
+  const std::size_t begin = page.find(place);
+  if (begin == std::string::npos) return {};
+  const std::size_t end = page.find("\n\n##", begin + place.size());
+  return end == std::string::npos ? page.substr(begin) : page.substr(begin, end - begin) + "\n";
+}
+
+constexpr const char* head =
+    "| what | expected | RTL | twin | double | verdict |\n|---|---|---|---|---|---|\n";
+
+}  // namespace
+
+std::string number(double value) {
+  if (value == 0) return "0";
+  const bool whole = value == std::floor(value) && std::abs(value) < 1e12;
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
+}
+
+std::string text(const Result& result) {
+  std::ostringstream out;
+  const Outcome& o = result.outcome;
+  out << result.which.group << "." << result.which.name << ": " << (o.holds() ? "ok" : "FAIL")
+      << "\n  " << result.which.about << "\n";
+  for (const Finding& f : o.findings) {
+    out << "    " << f.what << (f.unit.empty() ? "" : " [" + f.unit + "]") << ": expected "
+        << f.expected.text << "; RTL " << cell(f.rtl) << ", twin " << cell(f.twin) << ", double "
+        << cell(f.real) << ": " << verdict(f) << "\n";
+  }
+  if (o.mismatches > 0) {
+    out << "    RTL and twin differ in " << o.mismatches << " clocks, first: " << o.first_mismatch
+        << "\n";
+  }
+  const std::string line = ran(o);
+  if (!line.empty()) out << "  " << line << "\n";
+  return out.str();
+}
+
+std::string json(const std::vector<Result>& results) {
+  Json all = Json::array();
+  bool holds = true;
+  for (const Result& r : results) {
+    Json findings = Json::array();
+    for (const Finding& f : r.outcome.findings) {
+      Json j{{"what", f.what}, {"unit", f.unit}, {"expected", f.expected.text}};
+      if (std::isfinite(f.expected.low)) j["low"] = f.expected.low;
+      if (std::isfinite(f.expected.high)) j["high"] = f.expected.high;
+      if (f.rtl) j["rtl"] = *f.rtl;
+      if (f.twin) j["twin"] = *f.twin;
+      if (f.real) j["double"] = *f.real;
+      j["holds"] = f.holds();
+      findings.push_back(j);
+    }
+    all.push_back({{"group", r.which.group},
+                   {"case", r.which.name},
+                   {"about", r.which.about},
+                   {"holds", r.outcome.holds()},
+                   {"mismatches", r.outcome.mismatches},
+                   {"rtl_s", r.outcome.rtl_s},
+                   {"twin_s", r.outcome.twin_s},
+                   {"note", r.outcome.note},
+                   {"findings", findings}});
+    holds = holds && r.outcome.holds();
+  }
+  return files::json_text(
+      Json{{"schema", "feltgate-extremes/1"}, {"holds", holds}, {"cases", all}});
+}
+
+std::string markdown(const Result& result) {
+  std::string out = std::string("### ") + result.which.name + "\n\n" + result.which.about + "\n\n";
+  out += head;
+  for (const Finding& f : result.outcome.findings) out += row(f) + "\n";
+  const std::string line = ran(result.outcome);
+  if (!line.empty()) out += "\n" + line + "\n";
+  return out;
+}
+
+std::string page(const std::vector<Result>& results, const std::string& before) {
+  std::string out =
+      "# Extremes\n\n"
+      "Tests: [testbench/campaigns/extremes](../testbench/campaigns/extremes) · this page is "
+      "written by "
+      "`./feltgate extremes --markdown`; a test\n"
+      "fails when a row is out of date.\n\n"
+      "Each case takes the core to one of its limits. The expected value is computed by the case's "
+      "own code, from what the\n"
+      "text beside it says. *RTL* and *twin* run in lock-step where both have a value: every "
+      "output was compared on\n"
+      "every clock, and one difference fails the case. *double* is the same chain in binary64 "
+      "on the same sampled\n"
+      "counts, or, in closed loop, driving the motor itself. A dash: not measured there; the "
+      "line below the table\n"
+      "says what each engine ran. Everything is simulation.\n\n"
+      "```\n"
+      "./feltgate extremes                  every short case, as text\n"
+      "./feltgate extremes wrap_16 rest     only these\n"
+      "./feltgate extremes --json out.json  the same for a program\n"
+      "./feltgate extremes day --long       the 24 hours\n"
+      "```\n";
+  std::string group;
+  for (const Case& c : cases()) {
+    const auto it = std::find_if(results.begin(), results.end(), [&](const Result& r) {
+      return std::string(r.which.name) == c.name;
+    });
+    const std::string section = it != results.end() ? markdown(*it) : section_of(before, c.name);
+    if (section.empty()) continue;
+    if (group != c.group) {
+      group = c.group;
+      out += "\n## " + group + "\n";
+    }
+    out += "\n" + section;
+  }
+  return out;
+}
+
+std::vector<std::string> stale_rows(const std::string& page, const Result& result) {
+  std::vector<std::string> stale;
+  const std::string old = section_of(page, result.which.name);
+  if (old.empty()) return {std::string("no section ") + result.which.name};
+  std::istringstream section(old);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(section, line);) {
+    if (line.rfind("| ", 0) == 0 && line.rfind("| what", 0) != 0) rows.push_back(cells(line));
+  }
+  const auto& findings = result.outcome.findings;
+  if (rows.size() != findings.size()) {
+    stale.push_back(fmt::format("{} rows instead of {}", rows.size(), findings.size()));
+    return stale;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<std::string> now = cells(row(findings[i]));
+    for (std::size_t c = 0; c < now.size(); ++c) {
+      const bool measured = c >= 2 && c <= 4;
+      if (measured && findings[i].chaotic && (rows[i][c] == "-") == (now[c] == "-")) continue;
+      if (c < rows[i].size() && same_cell(rows[i][c], now[c])) continue;
+      stale.push_back(findings[i].what + ": the page says \"" +
+                      (c < rows[i].size() ? rows[i][c] : "") + "\", now it is \"" + now[c] + "\"");
+    }
+  }
+  return stale;
+}
+
+}  // namespace feltgate::extremes

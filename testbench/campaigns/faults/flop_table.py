@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Every flip-flop of the core, and where the Verilated model keeps it: Yosys names the flip-flops,
+with all names that each has in the hierarchy, and one of these is a member of the model.
+
+  flop_table.py --root R --design lever --header Vfaults___024root.h --model Vfaults
+                --output flops.hpp
+"""
+
+import argparse
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TOP = "feltgate_core"
+
+
+def sources(root, design):
+    listed = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").split("\n")
+    names = [f"generated/{design}/feltgate_pkg.sv",
+             *(n for n in listed if n and not n.startswith("//"))]
+    return [root / "rtl" / name for name in names]
+
+
+def netlist(yosys, files):
+    """The core, word by word: flip-flops are still those of the source."""
+    with tempfile.TemporaryDirectory() as folder:
+        read = "read_verilog -sv " + " ".join(f'"{f}"' for f in files)
+        # Not every command of Yosys takes a path with a blank, and YoWASP's sees /tmp as a folder
+        # of its own.
+        script = (f"{read}; hierarchy -top {TOP}; proc; flatten; opt_expr; opt_clean; "
+                  "write_json core.json")
+        run = subprocess.run([yosys, "-q", "-p", script], cwd=folder, capture_output=True,
+                             text=True, check=False)
+        if run.returncode:
+            raise SystemExit(f"yosys: {run.stdout}{run.stderr}")
+        return json.loads((Path(folder) / "core.json").read_text(encoding="utf-8"))["modules"][TOP]
+
+
+def names_by_bits(module):
+    """{bits of a net: names of it}: the public nets that are just these bits."""
+    found = {}
+    for name, net in module["netnames"].items():
+        if not net.get("hide_name"):
+            found.setdefault(tuple(net["bits"]), []).append(name)
+    return found
+
+
+def member(name, members):
+    nested = name.replace(".", "__DOT__").replace("[", "__BRA__").replace("]", "__KET__")
+    for candidate in (f"{TOP}__DOT__{nested}", nested):
+        if candidate in members:
+            return candidate
+    return None
+
+
+def rank(name):
+    """A register by its own name, before the ports that it comes out of; deeper before higher."""
+    kind = 0 if re.search(r"_q\d?$", name) else 1 if name.endswith("_o") else 2
+    return (kind, -name.count("."), len(name), name)
+
+
+def flops(module, members):
+    """[(name, member, first bit, width)], and names of flip-flops that the model does not keep."""
+    nets = names_by_bits(module)
+    whole = {}  # bit: (bits of its net)
+    for bits in nets:
+        for bit in bits:
+            whole.setdefault(bit, []).append(bits)
+    found, lost = {}, []
+    for cell in module["cells"].values():
+        kind = cell["type"]
+        if "latch" in kind or ("dff" in kind and kind not in ("$dff", "$adff")):
+            raise SystemExit(f"flop_table: what is a {kind}?")
+        if kind not in ("$dff", "$adff"):
+            continue
+        for bit in cell["connections"]["Q"]:
+            choices = sorted((rank(n), n, bits) for bits in whole[bit] for n in nets[bits])
+            name, bits = choices[0][1], choices[0][2]
+            kept = [(n, bits_of, m) for _, n, bits_of in choices if (m := member(n, members))]
+            if not kept:
+                lost.append(f"{name}[{bits.index(bit)}]")
+                continue
+            _, of, where = kept[0]
+            found[(name, bits.index(bit))] = (where, of.index(bit))
+    return found, lost
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--root", type=Path, required=True)
+    parser.add_argument("--design", required=True)
+    parser.add_argument("--header", type=Path, required=True, help="of the Verilated model")
+    parser.add_argument("--model", required=True, help="its class")
+    parser.add_argument("--yosys", default="yosys")
+    parser.add_argument("--output", type=Path, required=True)
+    options = parser.parse_args()
+    text = options.header.read_text(encoding="utf-8")
+    members = set(re.findall(r"(?:[CSIQ]Data|VlWide<\d+>)(?:/\*[0-9:]+\*/)? (\w+);|"
+                             r"VL_(?:IN|OUT)\w*\((\w+),", text))
+    members = {name for pair in members for name in pair if name}
+    module = netlist(options.yosys, sources(options.root, options.design))
+    found, lost = flops(module, members)
+    if lost:
+        raise SystemExit(f"flop_table: the model has no place for {', '.join(lost)}")
+    places = sorted({where for where, _ in found.values()})
+    root = f"{options.model}___024root"
+    lines = [
+        "// Written by testbench/campaigns/faults/flop_table.py.",
+        "#pragma once",
+        f"#include <{root}.h>",
+        "struct Flop {", "  const char* name;", "  int bit;", "  int place, place_bit;", "};",
+        "inline constexpr Flop kFlops[] = {",
+        *(f'    {{"{name}", {bit}, {places.index(where)}, {at}}},'
+          for (name, bit), (where, at) in sorted(found.items())),
+        "};",
+        f"inline void* flop_place({root}& r, int n) {{", "  switch (n) {",
+        *(f"    case {n}: return &r.{where};" for n, where in enumerate(places)),
+        "  }", "  return nullptr;", "}", "",
+    ]
+    options.output.write_text("\n".join(lines), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,325 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The parts of `feltgate prove` that need no solver: the catalogue, options, traces, verdicts."""
+
+import os
+import shutil
+import sys
+import unittest
+from pathlib import Path
+from unittest import mock
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
+from testing import ROOT, Scratch, called  # noqa: E402
+import prove  # noqa: E402
+import rtl_sources  # noqa: E402
+from proofs import catalog, page, record, tasks, tools, trace, unproven  # noqa: E402
+
+TOML = """
+[[proof]]
+name = "p"
+title = "t"
+depth = 2
+[proof.property.a]
+says = "s"
+defect = "d"
+ports = "x_i y_o"
+[proof.cover]
+c = "reached"
+"""
+WRAPPER = "module p_proof; always_comb begin a: assert (1); c: cover (1); end endmodule\n"
+RTL = """module b (
+  input logic clk_i,
+  input logic [3:0] x_i,
+  output logic y_o
+);
+endmodule
+"""
+
+
+class Catalogue(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.put("testbench/b/proofs/proofs.toml", TOML)
+        self.put("testbench/b/proofs/p.sv", WRAPPER)
+        self.put("testbench/b/defects.diff", "== d\nIt breaks.\n")
+        self.put("rtl/b.sv", RTL)
+
+    def refused(self, *said):
+        with self.assertRaises(catalog.CatalogError) as error:
+            catalog.read(self.folder)
+        for words in said:
+            self.assertIn(words, str(error.exception))
+
+    def test_a_good_one(self):
+        (proof,) = catalog.read(self.folder)
+        self.assertEqual((proof.key, proof.top, proof.depth), ("b.p", "p_proof", 2))
+        self.assertEqual(catalog.open_ports(self.folder, [proof]), {"b": []})
+
+    def test_a_port_of_a_block_inside(self):
+        self.put("rtl/c.sv", RTL.replace("module b", "module c"))
+        toml = "testbench/b/proofs/proofs.toml"
+        self.put(toml, TOML.replace("y_o", "y_o c.x_i"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
+                         {"b": [], "c": ["y_o"]})
+        for port, said in (("c.q_o", "no port q_o"), ("d.x_i", "no block d")):
+            self.put(toml, TOML.replace("y_o", f"y_o {port}"))
+            with self.assertRaisesRegex(catalog.CatalogError, said):
+                catalog.open_ports(self.folder, catalog.read(self.folder))
+
+    def test_a_block_of_a_folder_that_no_property_names(self):
+        self.put("rtl/link/n.sv", RTL.replace("module b", "module n"))
+        self.put("rtl/core/feltgate_checks.sv", RTL.replace("module b", "module feltgate_checks"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
+                         {"b": [], "n": ["x_i", "y_o"]})
+
+    def test_a_port_in_no_property(self):
+        self.put("rtl/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": ["z_i"]})
+
+    def test_a_block_of_the_link_without_a_proof(self):
+        self.put("rtl/link/e.sv", RTL.replace("module b", "module e"))
+        self.put("rtl/boards/f.sv", RTL.replace("module b", "module f"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
+                         {"b": [], "e": ["x_i", "y_o"]})
+
+    def test_a_port_that_is_none(self):
+        self.put("rtl/b.sv", RTL.replace("x_i", "u_i"))
+        with self.assertRaises(catalog.CatalogError):
+            catalog.open_ports(self.folder, catalog.read(self.folder))
+
+    def test_defects_beside_the_proof_come_first(self):
+        self.put("testbench/b/proofs/defects.diff", "== d\nIt breaks.\n")
+        (proof,) = catalog.read(self.folder)
+        self.assertEqual(proof.properties[0].defect.parent.parent.name, "proofs")
+
+    def test_what_is_wrong(self):
+        for old, new, said in (
+            ("property.a", "property.z", "no assertion 'z'"),
+            ('"d"', '"e"', "no defect"),
+            ("c = ", "e = ", "has the covers c"),
+            ("depth = 2", "", "without 'depth'"),
+            ('defect = "d"', "", "property 'a' without 'defect'"),
+            ("depth = 2", "depth = 2\nspeed = 1", "unknown key speed"),
+        ):
+            with self.subTest(said):
+                self.put("testbench/b/proofs/proofs.toml", TOML.replace(old, new))
+                self.refused("testbench/b/proofs/proofs.toml", said)
+
+    def test_what_a_wrapper_includes(self):
+        wrapper = "module p_proof;\n  `include \"own.svh\"\nendmodule\n"
+        self.put("testbench/b/proofs/p.sv", wrapper)
+        self.refused("p.sv", "no own.svh beside it or in testbench/campaigns/prove")
+        self.put("testbench/campaigns/prove/shared.svh",
+                   "always_comb begin a: assert (1); c: cover (1); end\n")
+        self.put("testbench/b/proofs/own.svh", "`include \"shared.svh\"\n")
+        (proof,) = catalog.read(self.folder)
+        text = catalog.wrapper_text(self.folder, proof.wrapper)
+        self.assertIn("a: assert (1)", text)
+        self.assertNotIn("include", text)
+
+    def test_an_assertion_that_nothing_is_said_of(self):
+        self.put("testbench/b/proofs/p.sv",
+                   WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
+        self.refused("p.sv asserts b")
+        self.put("testbench/b/proofs/p.sv",
+                   WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
+        self.assertEqual(len(catalog.read(self.folder)), 1)
+
+    def test_without_a_cover(self):
+        self.put("testbench/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
+        self.put("testbench/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
+        self.refused("no cover")
+
+
+class Product(unittest.TestCase):
+    def setUp(self):
+        self.proofs = catalog.read(ROOT)
+
+    def test_every_port_is_in_a_property_or_its_block_is_named(self):
+        found = catalog.open_ports(ROOT, self.proofs)
+        without = {block for block, names in found.items() if names}
+        self.assertEqual(without, set(unproven.SOME_PORTS))
+        # A block that is in a property by now is no longer one of which nothing is proven.
+        self.assertEqual(found.keys() & unproven.BLOCKS.keys(), set())
+        self.assertEqual(found.keys() | unproven.BLOCKS.keys(),
+                         rtl_sources.module_files(ROOT).keys())
+
+    def test_the_page_names_what_is_in_no_property(self):
+        page_text = (ROOT / "docs/verification.md").read_text(encoding="utf-8")
+        part = page_text.split("## Proofs", 1)[1].split("\n## ", 1)[0]
+        for block in unproven.BLOCKS:
+            self.assertIn(f"`{block}`", part)
+
+    def test_every_defect_applies_and_says_what_it_breaks(self):
+        for patch in {entry.defect for proof in self.proofs for entry in proof.properties}:
+            self.assertTrue(tools.patches.patched(patch, ROOT))
+
+    def test_there_are_enough(self):
+        self.assertGreaterEqual(sum(len(proof.properties) for proof in self.proofs), 200)
+
+
+class Verdicts(unittest.TestCase):
+    def test_reached_covers_of_both_versions(self):
+        text = ("## 0:00:00 Reached cover statement at one in step 7.\n"
+                "## 0:00:00 Reached cover statement in step 9 at top: two (a.sv:3)\n")
+        self.assertEqual(tools.reached_covers(text), {"one": 7, "two": 9})
+
+    def test_a_row(self):
+        proof = type("P", (), {"properties": [type("E", (), {"name": "a", "defect": "d"})]})
+        good = tools.Result(True, 1.0)
+        row = tasks.Row(proof, "lever", True)
+        self.assertFalse(row.good(0))
+        row.results = {tasks.BASE: good, tasks.INDUCTION: good, tasks.COVERS: good}
+        self.assertTrue(row.good(0))
+        self.assertFalse(row.good())  # no defect was tried
+        row.caught = {"a": good}
+        self.assertFalse(row.good())  # the assertion holds with its defect
+        row.caught = {"a": tools.Result(False, 1.0)}
+        self.assertTrue(row.good())
+
+    def test_a_share_of_the_defects_is_spread(self):
+        proof = type("P", (), {})
+        proof.properties = [type("E", (), {"name": n, "defect": n}) for n in "abccdef"]
+        self.assertEqual(tasks.chosen_defects(proof), list("abcdef"))
+        self.assertEqual(tasks.chosen_defects(proof, 2), ["b", "e"])
+        self.assertEqual(tasks.chosen_defects(proof, 6), list("abcdef"))
+        self.assertEqual(tasks.chosen_defects(proof, 0), [])
+
+    def test_the_trace_ends_with_the_failing_clock(self):
+        vcd = ("$scope module top $end\n$var wire 4 n0 x $end\n$scope module in $end\n"
+               "$var wire 4 n1 y $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
+               "#0\nb0001 n0\nb1111 n1\n#5\n#10\nb1000 n0\n#15\n#20\n")
+        step, text = trace.table(trace.read(vcd), ())
+        self.assertEqual(step, 1)
+        self.assertEqual([line.split() for line in text.splitlines()],
+                         [["clock", "0", "1"], ["x", "1", "-8"]])
+
+
+class Page(unittest.TestCase):
+    def test_blocks_without_a_run_stay_as_they_were(self):
+        proofs = [type("P", (), {"block": name, "key": f"{name}.p", "name": "p", "title": "t",
+                                 "assumes": (), "covers": {}, "properties": ()})
+                  for name in ("a", "b")]
+        entry = {"proof": "b.p", "design": "d", "k": 2, "base_seconds": 1.0,
+                 "induction_seconds": 1.0, "covers": {}, "properties": []}
+        result = {"tools": {"yosys": "y", "z3": "z"}, "proofs": [entry]}
+        text = page.generated(result, proofs,
+                              "stale counts\n\n### a\n\nof a\n\n### b\n\nstale b\n\n")
+        self.assertEqual(list(page.sections(text)), ["a", "b"])
+        self.assertIn("0 properties in 2 proofs of 2 blocks", text)
+        self.assertIn("\n### a\n\nof a\n\n### b\n\n[`b.p`]", text)
+        self.assertNotIn("stale", text)
+
+
+class Reading(unittest.TestCase):
+    def test_a_block_that_is_cut_has_ports_only(self):
+        head = "module a (\n  output logic y_o\n);\n"
+        self.assertEqual(tools.ports_only(f"{head}  assign y_o = 1'b1;\nendmodule\n"),
+                         f"{head}endmodule\n`default_nettype wire\n")
+
+
+class Recorded(Scratch):
+    """What is on record as proven is what the proof reads, and nothing else."""
+
+    VERSIONS = {"yosys": "1", "z3": "2"}
+
+    def setUp(self):
+        super().setUp()
+        for name in ("rtl", "testbench/actuation/limiter", "testbench/campaigns/prove"):
+            shutil.copytree(ROOT / name, self.folder / name)
+        (self.folder / "docs/verification").mkdir(parents=True)
+        rows = tasks.rows(self.proofs(), True)
+        record.write(self.folder, rows, self.VERSIONS)
+
+    def proofs(self):
+        return [p for p in catalog.read(self.folder) if p.block == "limiter"]
+
+    def known(self, versions=None):
+        return record.known(self.folder, self.proofs(), versions or self.VERSIONS, True)
+
+    def change(self, name, old, new):
+        text = (self.folder / name).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        self.put(name, text.replace(old, new, 1))
+
+    def test_the_same_inputs_are_known(self):
+        self.assertEqual(self.known(), self.proofs())
+        self.change("rtl/core/actuation/limiter.sv", "module limiter", "// a comment\nmodule   limiter")
+        self.assertEqual(self.known(), self.proofs())
+
+    def test_a_change_of_any_input_is_seen(self):
+        wrapper = self.proofs()[0].wrapper.relative_to(self.folder)
+        for name, old, new in (
+            ("rtl/core/actuation/limiter.sv", "endmodule", "logic more;\nendmodule"),
+            ("rtl/generated/lever/feltgate_pkg.sv", "ROUNDING = 0", "ROUNDING = 1"),
+            (wrapper, "endmodule", "logic more;\nendmodule"),
+            ("testbench/actuation/limiter/proofs/proofs.toml", "depth = ", "depth = 1"),
+        ):
+            with self.subTest(name):
+                before = (self.folder / name).read_text(encoding="utf-8")
+                self.change(name, old, new)
+                self.assertLess(len(self.known()), len(self.proofs()))
+                self.put(name, before)
+        self.assertEqual(self.known({**self.VERSIONS, "z3": "3"}), [])
+
+    def test_a_broken_record_is_refused_with_the_mend(self):
+        for text in ("", "{", "[]", '{"schema": "another", "inputs": {}}', '{"inputs": {}}'):
+            with self.subTest(text):
+                self.put(record.FILE, text)
+                with self.assertRaisesRegex(catalog.CatalogError, "proven.json.*--record"):
+                    self.known()
+
+    def test_the_record_is_of_proofs_that_there_are(self):
+        names = {
+            record.name(proof, design)
+            for proof in catalog.read(ROOT)
+            for design in proof.designs
+        }
+        self.assertEqual(record.read(ROOT).keys() - names, set())
+        fast = {p.key for p in catalog.read(ROOT) if p.fast}
+        self.assertEqual(fast - {n.split()[0] for n in record.read(ROOT)}, set())
+
+
+class Command(Scratch):
+    def status(self, *words):
+        return called(prove.main, *words)
+
+    def test_the_list_names_every_property(self):
+        status, out, _ = self.status("--list")
+        self.assertEqual(status, 0)
+        self.assertIn("limiter.clamp", out)
+
+    def test_wrong_words(self):
+        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"],
+                      ["--update", "limiter.clamp"], ["--update", "--fast"],
+                      ["--update", "--changed"], ["--list", "--update"],
+                      ["--list", "--json", "x"], ["--list", "--check-page"],
+                      ["--list", "--defects", "0"], ["--check-page", "--record"],
+                      ["--check-page", "--fast"], ["--check-page", "limiter"]):
+            with self.subTest(words):
+                status, _, err = self.status(*words)
+                self.assertEqual(status, 2, err)
+
+    def test_arguments_by_themselves(self):
+        self.assertEqual(self.status("--only-arguments", "limiter", "--defects", "3"), (0, "", ""))
+        self.assertEqual(self.status("--only-arguments", "--check-page"), (0, "", ""))
+        self.assertEqual(self.status("--only-arguments", "nothing")[0], 2)
+
+    def test_what_is_in_a_folder_is_kept(self):
+        mine = self.put("mine.txt", "mine")
+        status, _, err = self.status("--keep", self.folder, "limiter")
+        self.assertEqual(status, 2)
+        self.assertIn("is not an empty folder", err)
+        self.assertEqual(mine.read_text(encoding="utf-8"), "mine")
+
+    def test_without_a_solver(self):
+        self.enterContext(mock.patch.dict(os.environ, PATH="/nowhere"))
+        status, _, err = self.status("limiter")
+        self.assertEqual(status, 2)
+        self.assertIn("no Yosys", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

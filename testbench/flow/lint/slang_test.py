@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""slang finds nothing in any design or board, and does find what it is there for. docs/testing.md
+
+slang_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+RTL = ROOT / "rtl"
+BOARDS = ("de0_nano", "ulx3s")
+VENV = Path(sys.argv.pop(1))
+
+
+def core(name="feltgate_core"):
+    listed = (RTL / f"{name}.f").read_text(encoding="utf-8").splitlines()
+    return [RTL / line for line in listed if line and not line.startswith("//")]
+
+
+def package(design):
+    return RTL / "generated" / design / "feltgate_pkg.sv"
+
+
+def lint(top, *files):
+    """What slang says, empty where it finds nothing."""
+    command = [VENV / "bin/python", "-B", ROOT / "scripts/slang_lint.py", "--top", top, *files]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.stdout + done.stderr if done.returncode else ""
+
+
+@unittest.skipUnless(
+    (VENV / "bin/python").exists() or os.environ.get("CI"), "no pyslang; ./feltgate test fetches it"
+)
+class Slang(unittest.TestCase):
+    def test_every_design(self):
+        designs = sorted(path.parent.name for path in RTL.glob("generated/*/feltgate_pkg.sv"))
+        self.assertIn("lever", designs)
+        for design in designs:
+            with self.subTest(design):
+                self.assertEqual(lint("feltgate_core", package(design), *core()), "")
+
+    def test_the_core_with_its_link(self):
+        for design in ("lever", "paper"):
+            with self.subTest(design):
+                files = [package(design), *core("feltgate_linked")]
+                self.assertEqual(lint("feltgate_linked", *files), "")
+
+    def test_axes(self):
+        for design in ("lever", "lever_law"):
+            with self.subTest(design=design):
+                files = [package(design), *core("feltgate_axes")]
+                self.assertEqual(lint("feltgate_axes", *files), "")
+
+    def test_a_multiplier_for_each_block(self):
+        text = package("lever").read_text(encoding="utf-8")
+        self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)
+        with tempfile.TemporaryDirectory() as folder:
+            parallel = Path(folder, "feltgate_pkg.sv")
+            parallel.write_text(text.replace("PARALLEL_MULTIPLIERS = 0;",
+                                             "PARALLEL_MULTIPLIERS = 1;"))
+            self.assertEqual(lint("feltgate_core", parallel, *core()), "")
+
+    def test_every_board(self):
+        for board in BOARDS:
+            packages = [RTL / f"generated/feltgate_{name}_pkg.sv" for name in ("engine", "link")]
+            files = [*packages, *sorted(RTL.glob("link/*.sv"))]
+            files += sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob(f"boards/{board}/*.sv")])
+            files.append(ROOT / "testbench/boards/boards/stub/EHXPLLL.sv")
+            with self.subTest(board):
+                self.assertEqual(lint(board, package("lever"), *core(), *files), "")
+
+    def test_bus_ports(self):
+        shared = RTL / "generated/feltgate_map_pkg.sv"
+        for path in sorted(RTL.glob("bus/*.sv")):
+            with self.subTest(path.stem):
+                self.assertEqual(lint(path.stem, shared, path), "")
+
+    def test_cells_of_the_ecp5(self):
+        cell = ROOT / "testbench/flow/synth/mult18x18d_model.sv"
+        files = [package("lever"), RTL / "mult18_ecp5.sv", cell, *core()]
+        # The cell's third operand stays open, as its manual says.
+        options = ["-DFELTGATE_ECP5", "-Wno-unconnected-input-port"]
+        self.assertEqual(lint("feltgate_core", *options, *files), "")
+
+    def changed(self, name, old, new):
+        """What slang says of the core with one change in a file."""
+        text = (RTL / name).read_text(encoding="utf-8")
+        self.assertIn(old, text)
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder, name)
+            copy.write_text(text.replace(old, new, 1), encoding="utf-8")
+            files = [copy if path.name == name else path for path in core()]
+            return lint("feltgate_core", package("lever"), *files)
+
+    def test_finds_a_use_before_the_declaration(self):
+        words = self.changed(
+            "lowpass.sv", "  logic signed [Width-1:0] y_q;\n", "  wire early = y_q[0];\n"
+            "  logic signed [Width-1:0] y_q;\n"
+        )
+        self.assertIn("used before its declaration", words)
+
+    def test_finds_two_writers(self):
+        words = self.changed(
+            "lowpass.sv", "  assign y_o = y_q;", "  assign y_o = y_q;\n  always_comb y_o = y_q;"
+        )
+        self.assertIn("y_o", words)
+
+
+if __name__ == "__main__":
+    unittest.main()

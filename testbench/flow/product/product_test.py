@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate product: Icarus and slang take what it writes as Verilog-2005; what it refuses.
+
+Documentation: docs/product.md
+
+product_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
+"""
+
+import os
+import re
+import shutil
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
+from testing import ROOT, Scratch, ran, script  # noqa: E402
+
+VENV = Path(sys.argv.pop(1))
+SLANG = """
+import sys
+from pyslang import driver
+slang = driver.Driver()
+slang.addStandardArgs()
+words = f"slang --std 1364-2005 --top feltgate_core {sys.argv[1]}"
+fine = slang.parseCommandLine(words, driver.CommandLineOptions()) and slang.processOptions()
+sys.exit(0 if fine and slang.parseAllSources() and slang.runFullCompilation(True) else 1)
+"""
+
+
+@unittest.skipUnless(shutil.which("yosys") or os.environ.get("CI"), "no yosys")
+class Product(Scratch):
+    def product(self, *words):
+        program = Path(os.environ["FELTGATE_BUILD"], "feltgate")
+        env = os.environ | {"FELTGATE_PROGRAM": str(program)}
+        return script("product.py", *words, cwd=self.folder, env=env)
+
+    def written(self, *words):
+        done = self.product("verilog", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        path = self.folder / "feltgate.v"
+        readers = [["iverilog", "-g2005", "-Wall", "-t", "null", "-s", "feltgate_core", path]]
+        if (VENV / "bin/python").exists():
+            readers.append([VENV / "bin/python", "-c", SLANG, path])
+        for command in readers:
+            done = ran(*command)
+            self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        return path.read_text()
+
+    def test_lever(self):
+        text = self.written()
+        self.assertIn("design lever, with read-back", text)
+        self.assertNotIn("$paramod", text)
+        modules = re.findall(r"^module (\w+)", text, re.M)
+        self.assertEqual(len(modules), text.count("endmodule"))
+        self.assertEqual(len(set(modules)), len(modules))
+        self.assertTrue(all(name.startswith("feltgate_") for name in modules), modules)
+        for name in ("feltgate_core", "feltgate_dob", "feltgate_pwm", "feltgate_supervisor"):
+            self.assertIn(name, modules)
+        # Memories as arrays with one write of whole words and a registered read, products as *.
+        self.assertIn("reg [35:0] parameter_ram [511:0];", text)
+        self.assertEqual(len(re.findall(r"parameter_ram\[_\w+_\] <= ", text)), 1)
+        self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 2)
+        self.assertNotRegex(text, r"<= \d+'hx")
+        self.assertIn('ramstyle = "no_rw_check"', text)
+        mult = text.partition("module feltgate_mult(")[2].partition("endmodule")[0]
+        self.assertEqual(mult.count(" * "), 2)
+
+    def test_without_read_back(self):
+        text = self.written("--no-read-back", "--design", "paper")
+        self.assertIn("design paper, without read-back", text)
+        self.assertNotIn("snapshot_ram", text)
+        self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 1)
+
+    def test_a_design_of_ones_own(self):
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        own = re.sub(r"^lines = .*", "lines = 2048", own, flags=re.M)
+        (self.folder / "own.toml").write_text(own)
+        self.assertIn("design own", self.written("--design", "own.toml"))
+
+    def board(self, *words):
+        done = self.product("board", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def test_board_of_a_design_of_ones_own(self):
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        own = own.replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.25")
+        (self.folder / "own.toml").write_text(own)
+        self.board("--design", "own.toml")
+        made = self.folder / "de0_nano_own"
+        settings = (made / "de0_nano.qsf").read_text()
+        named = re.findall(r"SYSTEMVERILOG_FILE (\S+)", settings)
+        self.assertGreater(len(named), 30)
+        self.assertTrue(all((made / name).is_file() for name in named), named)
+        self.assertNotIn("..", "".join(named))
+        # All that Quartus is told to read is in the folder, and it elaborates.
+        command = ["iverilog", "-g2012", "-t", "null", "-s", "de0_nano", *(made / n for n in named)]
+        done = ran(*command)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        for name in ("de0_nano.qpf", "de0_nano.sdc", "build.tcl"):
+            self.assertTrue((made / name).is_file())
+        # Package and file of parameters are of one design, and not of lever.
+        package = (made / "rtl/feltgate_pkg.sv").read_text()
+        values = (made / "rtl/parameters.mem").read_text()
+        words = dict(re.findall(r"9'd(\d+): parameter_reset = 32'd(\d+);", package))
+        self.assertGreater(len(words), 40)
+        listed = re.findall(r"^[0-9a-f]{9}$", values, re.M)
+        self.assertEqual(len(listed), 512)
+        for address, word in words.items():
+            self.assertEqual(int(listed[int(address)], 16) & 0xFFFFFFFF, int(word), address)
+        lever = (ROOT / "rtl/generated/lever/parameters.mem").read_text()
+        self.assertNotEqual(values, lever)
+        self.assertIn("design own", (made / "design.txt").read_text())
+        # Written again over itself with another design: nothing of the first is left.
+        (made / "rtl/stale.sv").write_text("")
+        self.board("--design", "lever", "-o", "de0_nano_own")
+        self.assertEqual((made / "rtl/parameters.mem").read_text(), lever)
+        self.assertFalse((made / "rtl/stale.sv").exists())
+
+    def test_board_refused(self):
+        own = (ROOT / "rtl/designs/lever.toml").read_text()
+        fast = own.replace("clock_hz = 50_000_000", "clock_hz = 100_000_000")
+        (self.folder / "fast.toml").write_text(fast)
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/thesis.txt").write_text("x")
+        for words, said in (
+            (("--design", "fast.toml"), "the board's clock is 50 MHz, the design wants 100"),
+            (("-o", "mine"), "not from here"),
+            (("-o", "mine/thesis.txt"), "is a file"),
+            (("--no-read-back",), "is of verilog"),
+            (("--design", "levr"), "levr is neither"),
+        ):
+            with self.subTest(said):
+                done = self.product("board", *words)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+        self.assertEqual((self.folder / "mine/thesis.txt").read_text(), "x")
+
+    def test_refused(self):
+        for words, said in (
+            (("verilog", "--design", "levr"), "levr is neither a design (balanced, exact"),
+            (("verilog", "-o", "no/x.v"), "there is no folder"),
+            (("vhdl",), "invalid choice"),
+        ):
+            done = self.product(*words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(said, done.stderr)
+        (self.folder / "bad.toml").write_text("[clock]\n")
+        done = self.product("verilog", "--design", "bad.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bad.toml", done.stderr)
+        self.assertFalse((self.folder / "feltgate.v").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The gates in the ECP5 netlist of pwm: four flip-flops whose outputs go to the pins and nowhere
+else, with one asynchronous clear between them, so that they fit into the I/O cells.
+docs/blocks/pwm.md
+"""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ["FELTGATE_ROOT"])
+GATES = [f"gate_{leg}_{side}_o" for leg in "ab" for side in ("hi", "lo")]
+
+
+def netlist(text):
+    """The module pwm of this source, as Yosys maps it."""
+    with tempfile.TemporaryDirectory() as folder:
+        source = Path(folder) / "pwm.sv"
+        source.write_text(text, encoding="utf-8")
+        script = f"read_verilog -sv {source}; synth_ecp5 -top pwm -json {folder}/pwm.json"
+        subprocess.run(["yosys", "-q", "-p", script], check=True, capture_output=True, text=True)
+        return json.loads((Path(folder) / "pwm.json").read_text())["modules"]["pwm"]
+
+
+def findings(module):
+    drivers, loads = {}, {}
+    for cell in module["cells"].values():
+        for port, bits in cell["connections"].items():
+            for bit in bits:
+                if cell["port_directions"][port] == "output":
+                    drivers[bit] = cell
+                else:
+                    loads.setdefault(bit, []).append(port)
+    found, clears = [], set()
+    for gate in GATES:
+        bit = module["ports"][gate]["bits"][0]
+        cell = drivers.get(bit)
+        if cell is None or cell["type"] != "TRELLIS_FF":
+            found.append(f"{gate} does not come from a flip-flop")
+            continue
+        if bit in loads:
+            found.append(f"{gate} goes to {loads[bit]} too")
+        if cell["parameters"].get("SRMODE") != "ASYNC" or cell["parameters"]["REGSET"] != "RESET":
+            found.append(f"{gate} has no asynchronous clear")
+        if cell["parameters"]["CEMUX"].strip() != "1":
+            found.append(f"{gate} has a clock enable")
+        clears.add(tuple(cell["connections"]["LSR"]))
+    if len(clears) != 1:
+        found.append(f"the gates have {len(clears)} clears")
+    return found
+
+
+class GateRegisters(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.source = (ROOT / "rtl/core/actuation/pwm.sv").read_text(encoding="utf-8")
+
+    def test_they_fit_the_cells(self):
+        self.assertEqual(findings(netlist(self.source)), [])
+
+    def test_other_circuits_are_found(self):
+        for old, new, word in (
+            ("= gate_hi_q[0];", "= gate_hi_q[0] && enable_i;", "flip-flop"),
+            ("posedge clk_i or posedge clear)", "posedge clk_i)", "asynchronous"),
+        ):
+            with self.subTest(word):
+                self.assertEqual(self.source.count(old), 1)
+                text = " ".join(findings(netlist(self.source.replace(old, new))))
+                self.assertIn(word, text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,286 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""The board without hardware behind its pseudo-terminal: the host's verbs with a motor that moves,
+bad lines, hosts that vanish, two at once, recordings that run again, on the twin and on the RTL."""
+
+import json
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
+from board_process import need_terminals  # noqa: E402
+from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
+from testing import ran  # noqa: E402
+
+SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
+
+
+class Board:
+    """feltgate board in a process of its own."""
+
+    def __init__(self, test, *words, program="feltgate_board"):
+        need_terminals()
+        self.process = test.start_program(program, *words, stderr=subprocess.STDOUT)
+        self.port = self.process.stdout.readline().strip()
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        said = self.process.stdout.read()
+        self.process.stdout.close()
+        return self.process.wait(), said
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+
+
+class BoardTest(ProgramTest):
+    def host(self, port, *words, status=0, typed=""):
+        words = ("--patience", 20, port, *words)
+        return self.run_program("feltgate_host", *words, status=status, typed=typed)
+
+    def patient(self, port):
+        """A watchdog of 1 s: what is no test of it must not fail on a busy machine."""
+        self.host(port, "set", "watchdog_ticks=1000000")
+
+    def value(self, port, name):
+        self.host(port, "get", name, "--json", "v.json")
+        text = (self.folder / "v.json").read_text(encoding="utf-8")
+        return json.loads(text)["values"][name]["value"]
+
+
+class Verbs(BoardTest):
+    def test_a_session(self):
+        (self.folder / "lever").symlink_to("/dev/pts/of-a-board-that-was-killed")
+        with Board(self, "--hand", "swing", "--link", "lever") as board:
+            self.assertRegex(board.port, r"^lever -> /dev/pts/\d+$")
+            port = self.folder / "lever"
+            self.assertIn("SIMULATED", self.host(port, "info"))
+            said = self.run_program("feltgate_board", "--link", "lever", status=2)
+            self.assertIn("is a link to what is there", said)
+            self.host(port, "set", "torque_limit=0.1Nm")
+            self.assertAlmostEqual(self.value(port, "torque_limit"), 0.1, places=4)
+            self.patient(port)
+            self.host(port, "arm", "spring_tension")
+            self.assertEqual(self.value(port, "status.armed"), 1)
+            self.host(port, "capture", "--trigger", "velocity>1", "--csv", "c.csv")
+            self.assertEqual(len((self.folder / "c.csv").read_text().splitlines()), 1025)
+            self.host(port, "record", "position", "--for", "0.3", "--csv", "r.csv")
+            rows = (self.folder / "r.csv").read_text().splitlines()
+            self.assertGreater(len({row.split(",")[1] for row in rows}), 50)
+            self.host(port, "stop")
+            self.assertIn("fault stop", self.host(port, "info", status=1))
+            self.host(port, "clear")
+            self.assertEqual(board.end()[0], 0)
+            self.assertFalse(port.is_symlink())
+
+    def test_the_example_in_python(self):
+        # The tests' own folder of programs lies within the build.
+        places = [place / "venv-neighbours/bin/python3" for place in (BUILD, *BUILD.parents)]
+        python = next((path for path in places if path.exists()), None)
+        if python is None:
+            self.skipTest("no pyserial; ./feltgate test fetches it")
+        with Board(self, "--hand", "swing") as board:
+            done = ran(python, ROOT / "docs/examples/link.py", board.port)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            crc = re.search(r"CRC 0x(\w+)", self.host(board.port, "info"))[1]
+            self.assertIn(f"design {crc}, 1000000 ticks/s", done.stdout)
+            self.assertIn("status after set_zero: 0x", done.stdout)
+
+    def test_calibrate_finds_dead_zone_and_slope(self):
+        noise = random.Random(5)
+        volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)
+        typed = "".join(f"{SLOPE * (v - DEAD) + noise.gauss(0, 0.002):.4f}\n" for v in volts)
+        with Board(self, "--hand", "locked") as board:
+            self.patient(board.port)
+            said = self.host(
+                board.port, "calibrate", "--points", ",".join(map(str, volts)), "--json", "c.json",
+                "--save", "c.csv", "--confidence", 0.99, "--write", "mine.toml", typed=typed,
+            )  # fmt: skip
+            self.assertIn("SIMULATED", said)
+            found = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
+            for name, truth in (("slope_nm_v", SLOPE), ("dead_voltage_v", DEAD)):
+                with self.subTest(name):
+                    self.assertTrue(found[name]["low"] < truth < found[name]["high"])
+            # The observer of a blocked lever sees what is commanded.
+            self.assertAlmostEqual(found["observer_slope_nm_v"]["value"], SLOPE, delta=2e-4)
+            again = self.host("-", "calibrate", "--from", "c.csv", "--confidence", 0.99)
+            self.assertEqual(again.splitlines()[1], said.splitlines()[said.splitlines().index(
+                again.splitlines()[0]) + 1])  # fmt: skip
+            # Closed loop: the design's constants are those of the plant.
+            torques = (0.05, 0.1, 0.2, 0.3)
+            typed = "".join(f"{t + noise.gauss(0, 0.001):.4f}\n" for t in torques)
+            said = self.host(board.port, "calibrate", "--closed", "--points",
+                             ",".join(map(str, torques)), typed=typed)  # fmt: skip
+            self.assertIn("slope", said)
+            self.assertEqual(self.value(board.port, "status.armed"), 0)
+            self.assertEqual(self.value(board.port, "control.mode"), 0)
+
+    def test_identify_finds_the_motor(self):
+        with Board(self) as board:
+            said = self.host(board.port, "identify", status=2)
+            self.assertIn("say so with --free", said)
+            self.patient(board.port)
+            self.host(
+                board.port, "identify", "--free", "--resistance", 0.42, "--electrical-time",
+                196e-6, "--step", 0.2, "--spin", 0.15, "--json", "i.json", "--save", "lever",
+            )  # fmt: skip
+        found = json.loads((self.folder / "i.json").read_text(encoding="utf-8"))
+        kt, r, j, friction = 0.0302, 0.42, 1.22e-4, 3.5e-3
+        for name, truth in (
+            ("j_r_over_kt_v_s2", j * r / kt),
+            ("ke_plus_b_r_over_kt_v_s", kt + 1.5e-6 * r / kt),
+            ("friction_and_dead_v", friction * r / kt + DEAD),
+        ):
+            with self.subTest(name):
+                self.assertAlmostEqual(found["driven"][name]["value"] / truth, 1, delta=0.02)
+        for name, truth in (
+            ("ke_v_s_rad", kt),
+            ("inertia_kg_m2", j),
+            ("damping_nm_s_rad", 1.5e-6),
+            ("friction_nm", friction),
+            ("dead_voltage_v", DEAD),
+        ):
+            with self.subTest(name):
+                self.assertAlmostEqual(found["constants"][name]["value"] / truth, 1, delta=0.02)
+        files = ("--from", "lever.drive.csv", "--coast", "lever.coast.csv")
+        self.assertIn("F/J", self.host("-", "identify", *files))
+
+
+class Lines(BoardTest):
+    def test_a_bad_line_costs_repetitions_and_nothing_else(self):
+        with Board(self, "--bad-line", 0.003, "--seed", 4, "--hand", "swing") as board:
+            for k in range(8):
+                self.host(board.port, "set", f"torque_limit={0.1 + k / 100}")
+                self.assertAlmostEqual(
+                    self.value(board.port, "torque_limit"), 0.1 + k / 100, places=4
+                )
+            self.host(board.port, "capture", "--trigger", "now", "--csv", "c.csv")
+            self.assertEqual(len((self.folder / "c.csv").read_text().splitlines()), 1025)
+            self.assertGreater(self.value(board.port, "frames_bad"), 0)
+
+    def test_garbage_and_half_frames_change_nothing(self):
+        with Board(self) as board:
+            before = self.value(board.port, "torque_limit")
+            noise = random.Random(2)
+            line = os.open(board.port, os.O_RDWR | os.O_NOCTTY)
+            for _ in range(40):
+                os.write(line, bytes(noise.randrange(256) for _ in range(100)))
+                os.write(line, bytes.fromhex("c0020218000000"))
+                time.sleep(0.005)
+            os.close(line)
+            time.sleep(0.3)
+            self.assertEqual(self.value(board.port, "torque_limit"), before)
+            self.assertGreater(self.value(board.port, "frames_bad"), 40)
+
+    def test_unplugged_in_mid_capture(self):
+        with Board(self, "--hand", "swing") as board:
+            for _ in range(3):
+                words = ("capture", "--trigger", "velocity>1000", "--csv", "never.csv")
+                waits = self.start_program("feltgate_host", board.port, *words)
+                time.sleep(0.4)
+                waits.kill()
+                waits.communicate()
+            self.assertFalse((self.folder / "never.csv").exists())
+            self.host(board.port, "capture", "--trigger", "velocity>1", "--csv", "c.csv")
+
+    def test_a_host_that_vanishes_leaves_no_motor_armed(self):
+        with Board(self) as board:
+            words = ("arm", "spring_tension", "--hold")
+            holds = self.start_program("feltgate_host", board.port, *words)
+            holds.stdout.readline()
+            time.sleep(0.3)
+            holds.kill()
+            holds.communicate()
+            time.sleep(0.3)
+            self.assertEqual(self.value(board.port, "status.armed"), 0)
+            self.assertIn("fault watchdog", self.host(board.port, "info", status=1))
+
+    def test_two_hosts_at_once(self):
+        with Board(self) as board:
+            self.patient(board.port)
+            first = self.start_program("feltgate_host", board.port, "arm", "free", "--hold")
+            first.stdout.readline()
+            said = self.host(board.port, "info", status=2)
+            self.assertIn("in use", said)
+            first.send_signal(signal.SIGINT)
+            first.communicate()
+            self.assertEqual(first.returncode, 0)
+            self.host(board.port, "info")
+
+
+class Recordings(BoardTest):
+    def record(self, *words, program="feltgate_board", path="day.board"):
+        with Board(self, "--record", path, *words, program=program) as board:
+            self.host(board.port, "set", "torque_limit=0.1")
+            if "--rtl" not in words:  # which takes its time
+                self.patient(board.port)
+                self.host(board.port, "arm", "wall")
+                self.host(board.port, "record", "position", "--for", "0.02", "--csv", "r.csv")
+            status, said = board.end()
+            self.assertEqual(status, 0, said)
+            return said
+
+    def test_the_same_ticks_again_on_twin_and_rtl(self):
+        said = self.record("--hand", "swing", "--bad-line", 0.001)
+        again = self.run_program("feltgate_board", "--replay", "day.board")
+        self.assertIn("identical to the recording", again)
+        self.assertEqual(again.splitlines()[0], said.splitlines()[0])
+        # The RTL is slow: a short session, first on it.
+        self.record("--hand", "swing", "--rtl", program="feltgate_board_rtl", path="rtl.board")
+        again = self.run_program("feltgate_board", "--replay", "rtl.board")
+        self.assertIn("identical to the recording", again)
+
+    def test_other_bytes_are_other_ticks(self):
+        self.record()
+        text = (self.folder / "day.board").read_text(encoding="utf-8")
+        first = re.search(r"^(\d+) (c0\w{18,})$", text, re.M)  # a request, not "c0c0"
+        (self.folder / "x.board").write_text(text.replace(first[0] + "\n", "", 1))
+        said = self.run_program("feltgate_board", "--replay", "x.board", status=1)
+        self.assertIn("DIFFERS from the recording", said)
+        (self.folder / "x.board").write_text(text[: len(text) // 2])
+        self.run_program("feltgate_board", "--replay", "x.board", status=2)
+
+    def test_wrong_words(self):
+        for words, needle in (
+            (("--hand", "wave"), "is neither free, locked, hold or swing"),
+            (("--plant", "p42"), "is not in vectors/plants"),
+            (("--scene", "walls"), "wall"),
+            (("--design", "levr"), "did you mean"),
+            (("--twin", "--rtl"), "give one of them"),
+            (("--rtl", "--for", "1"), "this program has the twin alone"),
+            (("--replay", "none.board"), "cannot be read"),
+            (("--replay", "x", "--link", "y"), "leave --record and --link out"),
+            (("--bad-line", "2"), "--bad-line"),
+            (("--design", "pantograph_law"), "has 2 axes, and a board has one"),
+        ):
+            with self.subTest(words):
+                self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))
+        for words, needle in (
+            (("--design", "paper"), "leave --rtl out"),
+            (("--baud", "115200"), "leave --baud out, or take the twin"),
+        ):
+            with self.subTest(words):
+                words = ("--rtl", "--for", "1", *words)
+                said = self.run_program("feltgate_board_rtl", *words, status=2)
+                self.assertIn(needle, said)
+        (self.folder / "there").write_text("mine")
+        said = self.run_program("feltgate_board", "--link", "there", status=2)
+        self.assertIn("is there and no symbolic link", said)
+        self.assertEqual((self.folder / "there").read_text(), "mine")
+
+
+if __name__ == "__main__":
+    unittest.main()

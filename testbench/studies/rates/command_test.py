@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate rates as a user calls it: table, JSON, CSV and picture of a short scene; what is wrong
+is told in a line, with exit code 2, and nothing is written."""
+
+import csv
+import json
+import os
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
+from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
+
+PROGRAM, OF_DEVICE = BUILD / "feltgate_lever_law", BUILD / "feltgate_two_levers_law"
+SCENE = """title = "Short"
+about = "A wall for some milliseconds."
+duration_s = 0.03
+[core]
+scene = "wall"
+arm_s = 0.001
+[parameters]
+wall_contact = 5
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
+"""
+LEVERS = """title = "Short levers"
+about = "Two levers parted for some milliseconds."
+duration_s = 0.03
+device = "two_levers"
+[core]
+scene = "law"
+law = "coupled_levers"
+arm_s = 0.001
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
+[[expect]]
+figure = "faults"
+high = 0
+[[expect]]
+figure = "theta_rad.0.end"
+high = 0.01
+"""
+NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 5\n", "")
+
+
+class Rates(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.put("short.toml", SCENE)
+        self.put("levers.toml", LEVERS)
+        self.put("lawless.toml", LEVERS.replace('law = "coupled_levers"\n', ""))
+        self.put("free.toml", NO_TORQUE)
+
+    def call(self, *words, program=PROGRAM):
+        environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
+        return ran(program, "rates", *words, cwd=self.folder, env=environment)
+
+    def test_gates_are_those_of_the_budget(self):
+        budget = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
+        rows = budget["scene_sets"]["lever"]
+        sets = {name: row["lut4_equivalents"] for name, row in rows.items()}
+        page = (ROOT / "docs/rates.md").read_text(encoding="utf-8")
+        engine = budget["figures"]["lever"]["axes_engine"]["lut4_equivalents"]
+        files = (ROOT / "model/studies/rates").glob("*.cpp")
+        source = "".join(path.read_text(encoding="utf-8") for path in files)
+        for text, name in (
+            ("{} LUT4 eq, both charges", "charge_attract, charge_repel"),
+            ("{} LUT4 eq, wall too", "wall, damper"),
+            ("{} LUT4 eq, damper too", "wall, damper"),
+            ("{} LUT4 eq", "membrane"),
+        ):
+            with self.subTest(name):
+                wanted = text.format(sets[name] - sets["setpoint"])
+                self.assertIn(f'"{wanted}"', source)
+                self.assertIn(f"block {wanted}", page)
+        self.assertIn(f"engine {engine} LUT4 eq", source)
+        self.assertIn(f"engine {engine} LUT4 eq", page)
+
+    def test_everything_is_written(self):
+        done = self.call(
+            *("short.toml", "--rate", "1000,10000", "--json", "a.json", "--csv", "a.csv"),
+            *("-o", "a.svg"),
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("1 kHz", "10 kHz", "1 MHz", "block", "48 of 50000", "48 of 50", "1448 LUT4"):
+            self.assertIn(word, done.stdout)
+        data = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
+        self.assertEqual(data["schema"], "feltgate-rates/1")
+        (scene,) = data["scenes"]
+        self.assertEqual([r["rate_hz"] for r in scene["rates"]], [1e3, 1e4, 1e6, 1e6])
+        for rate in scene["rates"]:
+            self.assertGreater(rate["ticks_compared"], 20_000)
+            self.assertGreater(rate["error_rms_nm"], 1e-4)
+        with (self.folder / "a.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([r["by"] for r in rows], ["engine", "engine", "engine", "block"])
+        for row, one in zip(rows, scene["rates"], strict=True):
+            self.assertAlmostEqual(float(row["error_rms_nm"]), one["error_rms_nm"], places=7)
+        svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+        self.assertIn("torque error, mNm", svg)
+        self.assertIn("border / scene", svg)
+
+    def test_a_device_has_its_axes_and_what_is_kept(self):
+        done = self.call(
+            *("levers.toml", "--rate", "144,10000", "--json", "a.json", "--csv", "a.csv"),
+            *("-o", "a.svg"),
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for word in ("device two_levers, 2 axes", "144 Hz", "10 kHz", "1 of 2", "at its steepest"):
+            self.assertIn(word, done.stdout)
+        self.assertIn("not kept at 144 Hz: theta_rad.0.end = 0.04", done.stdout)
+        (scene,) = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["scenes"]
+        self.assertEqual((scene["device"], scene["axes"]), ("two_levers", 2))
+        self.assertNotIn("plant", scene)
+        self.assertEqual([round(r["rate_hz"]) for r in scene["rates"][:2]], [144, 10_000])
+        for rate in scene["rates"]:
+            self.assertEqual(len(rate["axes"]), 2)
+            of_axes = [axis["error_max_nm"] for axis in rate["axes"]]
+            self.assertEqual(max(of_axes), rate["error_max_nm"])
+            self.assertGreater(min(of_axes), 0)
+            self.assertEqual((rate["expected"], len(rate["broken"])), (2, 1))
+            # Against each other the levers feel twice the law's stiffness.
+            self.assertEqual(rate["border_of"], "stiffness")
+            whole = rate["margin"] * scene["stiffness_nm_rad"]
+            self.assertAlmostEqual(rate["border"], whole, delta=1e-3 * whole)
+        margins = [rate["margin"] for rate in scene["rates"]]
+        self.assertEqual(margins, sorted(margins))
+        slow, fast = scene["rates"][0], scene["rates"][-1]
+        self.assertGreater(slow["error_rms_nm"], 3 * fast["error_rms_nm"])
+        with (self.folder / "a.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([(r["expected"], r["broken"]) for r in rows], [("2", "1")] * len(rows))
+        svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+        for word in ("torque error, mNm", "border / scene", "swing, mNm"):
+            self.assertIn(word, svg)
+
+    def test_rtl_and_twin_are_equal_at_every_rate(self):
+        done = self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (scene,) = json.loads(done.stdout)["scenes"]
+        # 6940 ticks are beyond the engine's divider, so two of its runs make an update.
+        self.assertEqual([r.get("runs") for r in scene["rates"]], [2, 1, 1, None])
+        for row in scene["rates"]:
+            self.assertEqual(row["mismatches"], 0)
+            self.assertGreater(row["clocks_compared"], 1_400_000)
+
+    def test_rtl_and_twin_of_a_device_are_equal(self):
+        short = LEVERS.replace("duration_s = 0.03\n", "duration_s = 0.015\n", 1)
+        (self.folder / "levers.toml").write_text(short, encoding="utf-8")
+        done = self.call(
+            *("levers.toml", "--rate", "144", "--lock-step", "--json", "-"), program=OF_DEVICE
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (scene,) = json.loads(done.stdout)["scenes"]
+        self.assertEqual([r["runs"] for r in scene["rates"]], [2, 1])
+        for row in scene["rates"]:
+            self.assertEqual((row["mismatches"], row["clocks_compared"]), (0, 750_000))
+
+    def test_several_scenes_make_one_picture(self):
+        (self.folder / "other.toml").write_text(SCENE, encoding="utf-8")
+        scenes = ("short.toml", "other.toml", "levers.toml")
+        done = self.call(*scenes, "--rate", "2000", "-o", "b.svg", "--quiet")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        svg = (self.folder / "b.svg").read_text(encoding="utf-8")
+        for name in ("short", "other", "levers", "torque error rms, %"):
+            self.assertIn(name, svg)
+
+    def test_bad_input_is_told_in_a_line(self):
+        for words, told in (
+            (("nosuch",), "nosuch"),
+            (("levers.toml", "--plant", "linear"), "levers.toml names a device; leave it out"),
+            (("lawless.toml",), "lawless.toml:6: a device of several axes needs a law"),
+            (("levers.toml", "--lock-step"), "of two_levers_law is not in this program"),
+            (("free.toml",), "free.toml:5: the scene renders no torque law"),
+            (("short.toml", "--rate", "0"), "--rate"),
+            (("short.toml", "--rate", "nan"), "--rate"),
+            (("short.toml", "--rate", "2e6"), "--rate"),
+            (("short.toml", "-o", "none/a.svg"), "none"),
+            (("short.toml", "--json", "short.toml"), "short.toml"),
+        ):
+            with self.subTest(words=words):
+                done = self.call(*words, "--csv", "c.csv")
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn(told, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertFalse((self.folder / "c.csv").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate shape: laws that feltgate law proves; bad input is one line, code 2, nothing written."""
+
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "law/law"))
+from law_making import ROOT, LawMaking  # noqa: E402
+
+SHAPES = ROOT / "vectors/shapes"
+
+
+class Shape(LawMaking):
+    COMMAND = "shape"
+
+    def drawing(self, name, text):
+        """An SVG file in the folder."""
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return name
+
+    def test_written_and_proven(self):
+        for kind, vertices in (("proxy", 40), ("simple", 20), ("walk", 20)):
+            words = ("--law", kind, "--vertices", vertices, "--radius", "2mm", "-o", "fish.law")
+            done = self.run_it("shape", SHAPES / "fish.svg", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("proven: no instruction saturates", done.stdout)
+            law = self.run_it("law", "./fish.law", "--json", "fish.json")
+            self.assertEqual(law.returncode, 0, law.stderr)
+            self.assertIn('"unproven": 0', (self.folder / "fish.json").read_text())
+
+    def test_seven_shapes_are_the_shipped_law(self):
+        """rtl/laws/hidden_shapes.law is what the command of its page writes."""
+        names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
+        files = [SHAPES / f"{name}.svg" for name in names]
+        options = ("--radius", "2mm", "--vertices", 27, "-o", "hidden_shapes.law")
+        done = self.run_it("shape", *files, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        written = (self.folder / "hidden_shapes.law").read_text()
+        self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())
+        self.assertIn("shape 4: ", done.stdout)
+        self.refused("say --vertices 27", *files, "--radius", "2mm", "--vertices", 28)
+        self.refused("bell.svg:1: ", *files, "--vertices", 27)
+        for option in (("--texture",), ("--table",), ("--law", "walk"), ("--path", "way.csv")):
+            self.refused("one", *files, "--vertices", 27, *option)
+        self.refused("holds 7", *files, files[0])
+
+    def test_as_many_vertices_as_fit(self):
+        """Nobody who did not ask for a number of vertices is told that it is too large."""
+        for option in ("--friction", "--texture"):
+            done = self.run_it("shape", SHAPES / "square.svg", option)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("around, 80 vertices", done.stdout)
+        names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
+        files = [SHAPES / f"{name}.svg" for name in names]
+        done = self.run_it("shape", *files, "--radius", "2mm", "-o", "hidden_shapes.law")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("around, 27 vertices", done.stdout)
+        written = (self.folder / "hidden_shapes.law").read_text()
+        self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())
+
+    def test_table(self):
+        """The proxy's force never steps by more than 6 %, the others' by their edges."""
+        done = self.run_it("shape", SHAPES / "square.svg", "--table")
+        rows = [line.split() for line in done.stdout.splitlines()]
+        rows = [row for row in rows if row[:1] in (["simple"], ["walk"], ["proxy"])]
+        self.assertEqual(len(rows), 9, done.stdout)
+        steps = {(row[0], int(row[1])): float(row[6]) for row in rows}
+        for vertices in (20, 40, 100):
+            self.assertLess(steps["proxy", vertices], 6.0)
+            self.assertGreater(steps["simple", vertices], 10.0)
+            self.assertGreater(steps["walk", vertices], 10.0)
+
+    def test_refused(self):
+        path = '<svg xmlns="http://www.w3.org/2000/svg"><path d="{}"/></svg>'
+        self.refused("no SVG; write <svg xmlns=", self.drawing("a.svg", "<svg><text>x</text></svg>"))
+        text = "<svg xmlns='http://www.w3.org/2000/svg'><text>x</text></svg>"
+        self.refused("no path", self.drawing("a.svg", text))
+        self.refused("crosses", self.drawing("b.svg", path.format("M0 0 L9 9 L9 0 L0 9 Z")))
+        many = " ".join(f"L{i} {i % 5}" for i in range(10_000))
+        self.refused("simplify", self.drawing("c.svg", path.format("M0 0 " + many + " Z")))
+        self.refused("whole XML", self.drawing("d.svg", path.format("M0 0 L9 0")[:-9]))
+        self.refused("too short", SHAPES / "fish.svg", "--radius", "20mm")
+        self.refused("no.svg", "no.svg")
+        self.refused("--vertices", SHAPES / "fish.svg", "--vertices", "1000")
+        self.refused("--radius", SHAPES / "fish.svg", "--radius", "5")
+        self.refused("--radius", SHAPES / "fish.svg", "--radius", "-1mm")
+        self.refused("--size", SHAPES / "fish.svg", "--size", "-60mm")
+        self.refused("--stiffness", SHAPES / "fish.svg", "--stiffness", "nan")
+        self.refused("--centre", SHAPES / "fish.svg", "--centre", "nan", "0.12")
+        self.refused("say --vertices 80", SHAPES / "fish.svg", "--texture", "--vertices", 81)
+        self.refused("out of the pen", SHAPES / "fish.svg", "--size", "300mm")
+
+
+if __name__ == "__main__":
+    unittest.main()

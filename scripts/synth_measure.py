@@ -21,7 +21,7 @@ SCENE_ROW = "core without read-back, registered"
 # reads. Everything that only they need is left out of the core's figures.
 SNAPSHOT_PORTS = (
     "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
-    "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o asks_o ready_o testing_o "
+    "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o arm_request_o ready_o testing_o "
     "measured_o zeroed_o"
 ).split()
 # Inputs of a core that is alone and has no engine.
@@ -102,7 +102,7 @@ def axes_targets():
             AXES,
             {"AxisCount": str(count)},
             registered,
-            tuple(set(SNAPSHOT_PORTS) - {"asks_o", "ready_o", "testing_o"}),
+            tuple(set(SNAPSHOT_PORTS) - {"arm_request_o", "ready_o", "testing_o"}),
             ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i"),
         )
         for count in (1, 2, 3)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* sources = "rtl/registers.toml and rtl/schedule.toml";
 
-/// A named clock of the wave; the name has no prefix S_, M_, ...
+/// A named clock of the wave; the name has no prefix PARAM_AT_, ...
 struct Clock {
   std::string name;
   int clock;
@@ -167,10 +167,10 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
   for (const Cause& c : map.constants) {
     s << "  localparam int " << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
   }
-  clocks_sv(s, "S_", slots_doc, slots(map, schedule));
-  clocks_sv(s, "M_", products_doc, products(map, schedule));
-  clocks_sv(s, "T_", steps_doc, steps(schedule));
-  clocks_sv(s, "R_", words_doc, words(map));
+  clocks_sv(s, "PARAM_AT_", slots_doc, slots(map, schedule));
+  clocks_sv(s, "PRODUCT_AT_", products_doc, products(map, schedule));
+  clocks_sv(s, "EVENT_AT_", steps_doc, steps(schedule));
+  clocks_sv(s, "READ_AT_", words_doc, words(map));
   s << "\n  // Scene numbers.\n";
   for (const Scene& scene : map.scenes) {
     s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number

@@ -95,24 +95,26 @@ Product read_product(config::TomlReader r, const RegisterMap& map) {
   return p;
 }
 
-/// The clock of a name S_..., M_..., R_... or T_...
+/// The clock of a name PARAM_AT_..., PRODUCT_AT_..., READ_AT_... or EVENT_AT_...
 int clock_of(config::TomlReader& r, const std::string& name, const RegisterMap& map,
              const Schedule& s) {
-  std::string rest = name.size() > 2 ? name.substr(2) : "";
+  const std::size_t at = name.find("_AT_");
+  const std::string kind = name.substr(0, at);
+  std::string rest = at == std::string::npos ? "" : name.substr(at + 4);
   std::transform(rest.begin(), rest.end(), rest.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::string kind = name.substr(0, 2);
   const Product* product = s.product(rest);
   const Parameter* word = map.find(rest);
-  if (kind == "S_" && product != nullptr) return product->slot;
-  if (kind == "S_" && word != nullptr) return word->slot;
-  if (kind == "M_" && product != nullptr) return product->slot + s.multiplier_latency;
-  if (kind == "T_" && s.step(rest) != nullptr) return s.step(rest)->clock;
+  if (kind == "PARAM" && product != nullptr) return product->slot;
+  if (kind == "PARAM" && word != nullptr) return word->slot;
+  if (kind == "PRODUCT" && product != nullptr) return product->slot + s.multiplier_latency;
+  if (kind == "EVENT" && s.step(rest) != nullptr) return s.step(rest)->clock;
   for (const Snapshot& n : map.snapshots) {
-    if (kind == "R_" && n.name == rest) return n.slot;
+    if (kind == "READ" && n.name == rest) return n.slot;
   }
   r.fail("after", fmt::format("there is no clock {}", name),
-         "name S_<word>, M_<product>, R_<snapshot word> or T_<step that is listed before>");
+         "name PARAM_AT_<word>, PRODUCT_AT_<product>, READ_AT_<snapshot word> or "
+         "EVENT_AT_<step that is listed before>");
 }
 
 Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) {

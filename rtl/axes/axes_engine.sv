@@ -21,7 +21,7 @@ module axes_engine #(
 
     // Axes: axis n is bit n, or the n-th part from below.
     input  logic [AxisCount-1:0] law_i,     // the axis is in the scene of laws
-    input  logic [AxisCount-1:0] asks_i,    // requests to arm, or to stay armed
+    input  logic [AxisCount-1:0] arm_request_i,    // requests to arm, or to stay armed
     input  logic [AxisCount-1:0] armed_i,
     input  logic [AxisCount-1:0] zeroed_i,  // one clock: the position becomes 0
     input  logic snapshot_i,                // one clock per tick
@@ -54,7 +54,7 @@ module axes_engine #(
   logic check, checks_q, check_of_these_q, checked_q, crc_done, crc_good;
   logic [31:0] engine_word;
   assign law_any = |law_i;
-  assign all_ask = &asks_i;
+  assign all_ask = &arm_request_i;
   assign armed   = |armed_i;
   localparam logic [15:0] First = 16'(feltgate_engine_pkg::PORT_FIRST);
   assign engine_addressed = reg_addr_i[15:12] == First[15:12];

@@ -93,7 +93,7 @@ module feltgate_axes #(
   endgenerate
 
   // State of each axis. All of these except asks come from registers.
-  logic [AxisCount-1:0] asks, ready, testing, faulty;
+  logic [AxisCount-1:0] arm_requests, ready, testing, faulty;
 
   // Register port. An axis that is not addressed gets an address without a word, which reads 0, so
   // an OR combines the read data.
@@ -141,11 +141,11 @@ module feltgate_axes #(
         .law_torque_i(law_torque[n*TorqueW+:TorqueW]),
         .law_late_i(law_late), .law_restart_i(law_restart),
         .axis_fault_i(|(faulty & ~Own)),
-        .axis_silent_i(!(&(asks | Own)) || unchecked),
+        .axis_silent_i(!(&(arm_requests | Own)) || unchecked),
         .axis_blocked_i(!(&(ready | Own)) || unfit),
         .axis_testing_i(|(testing & ~Own)),
         .axis_waits_i(|(testing & Before)),
-        .asks_o(asks[n]), .ready_o(ready[n]), .testing_o(testing[n]),
+        .arm_request_o(arm_requests[n]), .ready_o(ready[n]), .testing_o(testing[n]),
         .measured_o(measured[n]), .zeroed_o(zeroed_o[n]),
         .reg_addr_i({{2{!addressed[n]}}, reg_addr_i[9:0]}),
         .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
@@ -183,7 +183,7 @@ module feltgate_axes #(
         .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent), .Reset(Reset)
     ) u_engine (
         .clk_i(clk_i), .rst_ni(rst_ni),
-        .law_i(in_law), .asks_i(asks), .armed_i(armed_o), .zeroed_i(zeroed_o),
+        .law_i(in_law), .arm_request_i(arm_requests), .armed_i(armed_o), .zeroed_i(zeroed_o),
         .snapshot_i(snapshot_valid_o), .measured_i(measured_o), .tick_count_i(tick_count_o),
         .position_i(position_o), .velocity_i(velocity), .tau_hat_i(tau_hat),
         .torque_o(law_torque), .late_o(law_late), .restart_o(law_restart),

@@ -31,7 +31,7 @@ module feltgate_core #(
     input  logic [3:0] scene_i,
 
     // Programmed torque of the scene law; state of other axes. Tie unused inputs to 0.
-    input  logic signed [feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // sampled in T_LAW_TORQUE
+    input  logic signed [feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // sampled in EVENT_AT_LAW_TORQUE
     input  logic law_late_i,      // no valid law_torque_i: it counts as 0; a fault if used
     input  logic law_restart_i,   // last clock of a tick: ramp from the next tick on
     input  logic axis_fault_i,    // another axis has a fault
@@ -39,7 +39,7 @@ module feltgate_core #(
     input  logic axis_blocked_i,  // another axis is not ready, or the program's CRC is wrong
     input  logic axis_testing_i,  // another axis runs its self-test: the scene waits
     input  logic axis_waits_i,    // an axis of a lower number does: the self-test waits
-    output logic asks_o,          // state of this axis for the others: requests arming
+    output logic arm_request_o,          // state of this axis for the others: requests arming
     output logic ready_o,
     output logic testing_o,
     output logic measured_o,      // one clock: position, velocity, tau_hat are new, held half a tick
@@ -94,7 +94,7 @@ module feltgate_core #(
   logic [ 1:0] mode;
   logic host, clear_faults, kick, region_high;
   logic clear, disarm, host_stop, restart, refused, arms, unkicked, word_error, testing, paused, law, self_test_trip;
-  logic moved, beyond, frozen, eased, channel_trip, index_trip, flip_trip;
+  logic moved, over_limit, frozen, derated, channel_trip, index_trip, flip_trip;
   assign host         = control[feltgate_map_pkg::B_CONTROL_HOST];
   assign mode         = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign scene_wanted = host ? control[feltgate_map_pkg::B_CONTROL_SCENE+:feltgate_map_pkg::W_CONTROL_SCENE] : scene_i;
@@ -117,7 +117,7 @@ module feltgate_core #(
       .armed_i(armed_o || arms), .set_zero_i(set_zero_i),
       .slot_fetch_i(slot_fetch), .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_q),
-      .region_high_i(region_high), .eased_i(eased), .testing_i(testing),
+      .region_high_i(region_high), .derated_i(derated), .testing_i(testing),
       .param_o(param),
       .word_error_o(word_error),
       .control_o(control), .set_zero_o(zeroed_o),
@@ -158,7 +158,7 @@ module feltgate_core #(
   );
   hold_timer u_hold_timer (
       .clk_i(clk_i), .rst_ni(rst_ni), .armed_i(armed_o), .wave_i(wave), .tick_count_i(tick_count_o),
-      .param_i(param), .moved_i(moved), .beyond_i(beyond), .eased_o(eased)
+      .param_i(param), .moved_i(moved), .over_limit_i(over_limit), .derated_o(derated)
   );
 
   logic signed [SceneW-1:0] scene_position_q;
@@ -168,7 +168,7 @@ module feltgate_core #(
     if (!rst_ni) begin
       position_o       <= '0;
       scene_position_q <= '0;
-    end else if (wave[feltgate_map_pkg::T_SAMPLE]) begin
+    end else if (wave[feltgate_map_pkg::EVENT_AT_SAMPLE]) begin
       position_o       <= position;
       scene_position_q <= position_over ? {position[31], {(SceneW - 1) {~position[31]}}}
                                         : position[SceneW-1:0];
@@ -206,8 +206,8 @@ module feltgate_core #(
 
   logic signed [feltgate_pkg::LIMITER_W-1:0] limited;
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
-  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_ahead;
-  logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early;
+  logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late_term;
   assign paused = testing || axis_testing_i;
   scenes u_scenes (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -216,37 +216,37 @@ module feltgate_core #(
       .wave_i(wave), .position_i(scene_position_q),
       .param_i(param),
       .product_i(scene_product),
-      .beyond_i(beyond),
+      .over_limit_i(over_limit),
       .law_torque_i(law_torque_i), .law_late_i(law_late_i), .law_o(law),
       .distance_o(distance), .square_o(square),
-      .ahead_o(scene_ahead), .late_o(scene_late)
+      .early_term_o(scene_early), .late_term_o(scene_late_term)
   );
 
-  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_ahead;
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_early;
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   self_test u_self_test (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_o), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)), .waits_i(axis_waits_i),
       .travel_i(travel[1:0]), .tick_count_i(tick_count_o),
       .wave_i(wave), .param_i(param),
-      .busy_o(testing), .ahead_o(pulse_ahead),
+      .busy_o(testing), .early_term_o(pulse_early),
       .result_o(test_result), .trip_o(self_test_trip)
   );
 
-  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_ahead, control_late;
+  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_early, control_late_term;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   limiter u_limiter (
       .clk_i(clk_i),
-      .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] || wave[feltgate_map_pkg::S_VOLTAGE_STEP-1] ||
-               wave[feltgate_map_pkg::S_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE-1] ||
-               wave[feltgate_map_pkg::S_VOLTAGE_WINDOW-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]), .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_WINDOW-1]),
-      .duty_i(wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .ahead_i(control_ahead | feltgate_pkg::LIMITER_INPUT_W'(scene_ahead | pulse_ahead)),
-      .late_i(control_late | feltgate_pkg::LIMITER_INPUT_W'(scene_late)),
+      .valid_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1] || wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_STEP-1] ||
+               wave[feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE-1] ||
+               wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW-1] || wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT-1]),
+      .torque_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1]), .voltage_i(wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW-1]),
+      .duty_i(wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT-1]),
+      .early_term_i(control_early | feltgate_pkg::LIMITER_INPUT_W'(scene_early | pulse_early)),
+      .late_term_i(control_late_term | feltgate_pkg::LIMITER_INPUT_W'(scene_late_term)),
       .param_i(param),
       .limited_o(limited),
-      .beyond_o(beyond)
+      .over_limit_o(over_limit)
   );
   logic limit_torque, limit_ramp, limit_hold, limit_current, limit_voltage, limit_duty;
   ramp u_ramp (
@@ -255,9 +255,9 @@ module feltgate_core #(
       .scene_i(scene_q),
       .restart_i(restart || (tick && law && law_restart_i)),
       .wave_i(wave), .param_i(param),
-      .limited_i(limited), .beyond_i(beyond),
+      .limited_i(limited), .over_limit_i(over_limit),
       .tau_ref_o(tau_ref_o),
-      .frozen_i(frozen), .eased_i(eased),
+      .frozen_i(frozen), .derated_i(derated),
       .limit_torque_o(limit_torque), .limit_ramp_o(limit_ramp),
       .limit_hold_o(limit_hold)
   );
@@ -268,9 +268,9 @@ module feltgate_core #(
       .mode_i(mode), .wave_i(wave), .param_i(param),
       .product_i(control_product),
       .tau_ref_i(tau_ref_o),
-      .ahead_o(control_ahead),
-      .late_o(control_late),
-      .limited_i(limited), .beyond_i(beyond), .applied_o(applied),
+      .early_term_o(control_early),
+      .late_term_o(control_late_term),
+      .limited_i(limited), .over_limit_i(over_limit), .applied_o(applied),
       .region_high_o(region_high),
       .current_ref_o(current_ref_o),
       .voltage_o(voltage_o),
@@ -284,7 +284,7 @@ module feltgate_core #(
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick), .period_start_i(period_start),
       .host_i(host), .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm),
-      .asks_o(asks_o), .arms_o(arms), .ready_o(ready_o), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
+      .arm_request_o(arm_request_o), .arms_o(arms), .ready_o(ready_o), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
       .stop_i(stop_i),
       .clear_faults_i(clear_faults), .clear_o(clear), .kick_i(kick),
       .encoder_error_i(illegal),
@@ -370,7 +370,7 @@ module feltgate_core #(
   );
 
   logic square_q;
-  always_ff @(posedge clk_i) square_q <= square && wave[feltgate_map_pkg::S_CHARGE_SQUARE-1];
+  always_ff @(posedge clk_i) square_q <= square && wave[feltgate_map_pkg::PARAM_AT_CHARGE_SQUARE-1];
   multipliers u_multipliers (
       .clk_i(clk_i),
       .operand_i(operand),
@@ -393,8 +393,8 @@ module feltgate_core #(
   assign scene_o = scene_q;
   assign gates_enable_o = gates_enable;
   assign testing_o = testing;
-  assign measured_o = wave[feltgate_map_pkg::T_TAU_HAT+1];
-  assign snapshot_valid_o = wave[feltgate_map_pkg::T_SNAPSHOT];
+  assign measured_o = wave[feltgate_map_pkg::EVENT_AT_TAU_HAT+1];
+  assign snapshot_valid_o = wave[feltgate_map_pkg::EVENT_AT_SNAPSHOT];
 endmodule
 
 `default_nettype wire

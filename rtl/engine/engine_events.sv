@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// FIFO of 16 events for the host, oldest first. An event that comes while it is full is lost and
-// counted. An event is readable in the clock after event_i. docs/blocks/engine.md
+// FIFO of 16 events for the host, oldest first, in block RAM. An event that comes while it is full
+// is lost and counted. An event is counted and readable from two clocks after event_i on; while
+// count_o is 0 the outputs show what their place held before. docs/blocks/engine.md
 
 `default_nettype none
 
@@ -21,30 +22,37 @@ module engine_events (
     output logic [ 7:0] lost_o     // events lost; saturates
 );
   logic [72:0] events[0:15];
+  logic [ 3:0] first_q, next, place;
+  logic [ 4:0] count_q, kept;
+  logic        keeps, takes, comes_q;  // comes_q: kept in the clock before, not yet counted
+  logic [72:0] read, oldest_q;
   initial begin
     for (int n = 0; n < 16; n = n + 1) events[n] = '0;
+    oldest_q = '0;
   end
-  logic [3:0] first_q;
-  logic [4:0] count_q;
-  logic keeps, takes;
-  logic [3:0] place;
-  assign keeps   = event_i && !count_q[4];
+  assign kept    = count_q + 5'(comes_q);
+  assign keeps   = event_i && !kept[4];
   assign takes   = take_i && count_q != 5'd0;
-  assign place   = first_q + count_q[3:0];
+  assign place   = first_q + kept[3:0];
+  assign next    = first_q + 4'(takes);
+  assign read    = events[next];
   assign count_o = count_q;
-  assign {number_o, value_o, tick_o} = events[first_q];
+  assign {number_o, value_o, tick_o} = oldest_q;
   always @(posedge clk_i) begin  // not always_ff: the initial block writes it too
     if (keeps) events[place] <= {number_i, value_i, tick_i};
+    oldest_q <= read;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       first_q <= '0;
       count_q <= '0;
+      comes_q <= 1'b0;
       lost_o  <= '0;
     end else begin
-      if (takes) first_q <= first_q + 4'd1;
-      if (keeps != takes) count_q <= keeps ? count_q + 5'd1 : count_q - 5'd1;
-      if (event_i && count_q[4] && lost_o != '1) lost_o <= lost_o + 8'd1;
+      first_q <= next;
+      count_q <= kept - 5'(takes);
+      comes_q <= keeps;
+      if (event_i && kept[4] && lost_o != '1) lost_o <= lost_o + 8'd1;
     end
   end
 endmodule

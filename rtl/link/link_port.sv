@@ -50,7 +50,7 @@ module link_port #(
 );
   localparam int AddressW = 14 + Engine;
   localparam logic [AddressW-1:0] STATUS =
-      AddressW'(feltgate_map_pkg::A_SNAPSHOT) + AddressW'(feltgate_map_pkg::R_STATUS);
+      AddressW'(feltgate_map_pkg::A_SNAPSHOT) + AddressW'(feltgate_map_pkg::READ_AT_STATUS);
   // The engine's words have the core's addresses with one more bit on top.
   localparam logic [15:0] OF_PORT = {1'b0, 1'(Engine), 2'd0, 12'hfff};
 

@@ -58,7 +58,7 @@ module axi_core (
     .arm_i(1'b0), .stop_i(stop_i), .set_zero_i(1'b0), .scene_i(4'd0),
     .law_torque_i('0), .law_late_i(1'b0), .law_restart_i(1'b0),
     .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
-    .asks_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
+    .arm_request_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
     .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
     .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
     .snapshot_valid_o(), .tick_count_o(), .position_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),

@@ -97,7 +97,7 @@ class AxesEngine {
     for (std::size_t n = 0; n < N; ++n) {
       law |= in_law(cores[n]);
       armed |= cores[n].out().armed;
-      all_ask &= cores[n].asks(each[n]);
+      all_ask &= cores[n].arm_request(each[n]);
       zeroed |= cores[n].zeroed();
     }
     const bool shown = cores[0].out().snapshot_valid;
@@ -158,7 +158,7 @@ class AxesEngine {
     for (std::size_t n = 0; n < N; ++n) {
       law |= in_law(cores[n]);
       armed |= cores[n].out().armed;
-      all_ask &= cores[n].asks(each[n]);
+      all_ask &= cores[n].arm_request(each[n]);
     }
     const bool settled = all_ask ? s.checked : !s.checked && !s.check_of_these;
     if (law != s.law || (armed && !s.armed) || !settled) return false;

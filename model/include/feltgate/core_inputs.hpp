@@ -22,10 +22,10 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
 }
 
 template <class D, bool ReadBack>
-bool FeltgateCore<D, ReadBack>::asks(const In& in) const {
+bool FeltgateCore<D, ReadBack>::arm_request(const In& in) const {
   typename Supervisor<D>::In sup;
   ask(in, &sup);
-  return sup.asks();
+  return sup.arm_request();
 }
 
 /// The scene that is asked for: by the control word if the host has control, else by the panel.
@@ -61,7 +61,7 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
     reg.scene_slot_fetch = ((Map::scene_slots >> slot) & 1u) != 0;
     reg.region_high = wave_.region_high();
     reg.testing = self_test_.busy(out_.armed);
-    reg.eased = hold_.eased();
+    reg.derated = hold_.derated();
   }
   return reg;
 }

@@ -68,7 +68,7 @@ template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::outside_trips(const In& in) const {
   const bool late = kLaw && in.law_late && (renders_law() || wanted_scene(in) == Map::S::law);
   if (!in.axis_fault && !late) return false;
-  return supervisor_.out().gates_enable || (asks(in) && ready());
+  return supervisor_.out().gates_enable || (arm_request(in) && ready());
 }
 
 /// Whether, with the inputs held, the next `clocks` clocks change neither the duty in force nor the

@@ -33,7 +33,7 @@ class CoreWave {
     relief_.frozen = frozen;
     set(Map::L::chatter, frozen);
   }
-  void set_eased(bool eased) { relief_.eased = eased; }
+  void set_derated(bool derated) { relief_.derated = derated; }
 
   void set_word(int address, std::uint32_t word) { chain_.words().set_raw(address, word); }
 
@@ -52,7 +52,7 @@ class CoreWave {
         sampled_travel_ = static_cast<std::int16_t>(travel);
         break;
       case Step::ramp_begin:
-        set(Map::L::hold, relief_.eased);
+        set(Map::L::hold, relief_.derated);
         break;
       case Step::velocity_raw:
         chain_.estimate(sampled_travel_);

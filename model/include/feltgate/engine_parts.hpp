@@ -288,22 +288,32 @@ class EngineEvents {
 
   /// The contents of the queue's places stay.
   void reset() {
+    count_last();
     first_ = count = lost = 0;
     told.clear();
   }
   const Event& oldest() const { return events_[static_cast<std::size_t>(first_)]; }
 
   void clock(bool event, const Event& e, bool take) {
-    const bool full = count == 16, takes = take && count != 0;
+    const bool takes = take && count != 0;
+    count_last();
     if (event && told.size() < most_told) told.push_back(e);
-    if (event && full) lost = std::min(lost + 1, 0xff);
-    if (event && !full) events_[static_cast<std::size_t>((first_ + count) % 16)] = e;
-    if (takes) first_ = (first_ + 1) % 16;
-    count += (event && !full ? 1 : 0) - (takes ? 1 : 0);
+    if (event && count == 16) lost = std::min(lost + 1, 0xff);
+    comes_ = event && count < 16;
+    if (comes_) last_ = e;
+    if (takes) first_ = (first_ + 1) % 16, --count;
+  }
+
+  /// The event of the clock before is counted and readable from now on.
+  void count_last() {
+    if (comes_) events_[static_cast<std::size_t>((first_ + count++) % 16)] = last_;
+    comes_ = false;
   }
 
  private:
   std::array<Event, 16> events_{};
+  Event last_;
+  bool comes_ = false;
   int first_ = 0;
 };
 

@@ -227,6 +227,7 @@ class EngineRuns {
   /// A run starts at clock n: the start of the run before becomes base_, the oldest state to return
   /// to.
   void mark(std::int64_t n) {
+    const std::int64_t before = base_.clock;
     base_ = last_;
     last_ = state_;
     for (int k = 0; k < coming_; ++k) comes_[static_cast<std::size_t>(k)].appear(&last_, silent_);
@@ -238,6 +239,8 @@ class EngineRuns {
     for (auto e = events_.begin(); e != kept; ++e) {
       engine_.events_.clock(true, {e->number, e->value, ticks_.count_at(e->clock)}, false);
     }
+    const bool just_now = kept != events_.begin() && std::prev(kept)->clock == base_.clock - 1;
+    if (base_.clock != before && !just_now) engine_.events_.count_last();
     events_.erase(events_.begin(), kept);
   }
 

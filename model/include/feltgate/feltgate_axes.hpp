@@ -173,7 +173,7 @@ class FeltgateAxes {
         if (other == n) continue;
         const Core& core = cores_[other];
         each[n].axis_fault |= core.out().first_fault != 0;
-        each[n].axis_silent |= !core.asks(each[other]);
+        each[n].axis_silent |= !core.arm_request(each[other]);
         each[n].axis_blocked |= !core.ready();
         each[n].axis_testing |= core.testing();
         each[n].axis_waits |= other < n && core.testing();
@@ -189,7 +189,7 @@ class FeltgateAxes {
     if (N == 1) return true;
     bool enabled = false;
     for (const Core& core : cores_) enabled |= core.out().gates_enable;
-    if (!enabled) return !ends || each[0].axis_silent || !cores_[0].asks(each[0]);
+    if (!enabled) return !ends || each[0].axis_silent || !cores_[0].arm_request(each[0]);
     for (std::size_t n = 0; n < N; ++n) {
       if (cores_[n].may_trip(each[n])) return false;
     }

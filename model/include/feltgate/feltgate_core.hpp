@@ -88,7 +88,7 @@ class FeltgateCore {
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
     supervisor_.clock(sup);
     const bool held = out_.armed || supervisor_.out().armed;
-    const QuadDecoder::In d = decoder_inputs(in, zero, clear && !sup.asks());
+    const QuadDecoder::In d = decoder_inputs(in, zero, clear && !sup.arm_request());
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     const bool committed = tick && registers_.out().reg_busy;
@@ -143,7 +143,7 @@ class FeltgateCore {
   bool testing() const { return self_test_.busy(out_.armed); }
   /// For the other axes: whether this axis will ask to be armed in the next clock (asks), and
   /// whether it could be armed (ready).
-  bool asks(const In& in) const;
+  bool arm_request(const In& in) const;
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
   bool measured() const { return clock_ == after(T::tau_hat); }
   /// Whether the position becomes 0 in the next clock.
@@ -274,7 +274,7 @@ class FeltgateCore {
       case Step::hold:
         hold_.tick(out_.armed, monitor_.moved(), wave_.beyond(D::A::hold_torque), out_.tick_count,
                    registers_.parameter(D::A::hold_time));
-        wave_.set_eased(hold_.eased());
+        wave_.set_derated(hold_.derated());
         return;
       case Step::self_test:
         self_test_.turn(out_.armed, mode() == Mode::voltage, out_.tick_count, self_test_words_,

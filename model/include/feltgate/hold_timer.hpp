@@ -23,7 +23,7 @@ class HoldTimerLaw {
     const bool over = hold_time < kLongest && units_ >= hold_time;
     const bool expired = negative || over;
     const bool whole = (tick & ((1u << Map::hold_unit_bits) - 1)) == 0;
-    eased_ = holds && (eased_ || (strong && expired));
+    derated_ = holds && (derated_ || (strong && expired));
     if (!holds || !strong) {
       units_ = 0;
     } else if (whole) {
@@ -32,12 +32,12 @@ class HoldTimerLaw {
   }
 
   /// Whether the lower torque limit is in force.
-  bool eased() const { return eased_; }
+  bool derated() const { return derated_; }
 
  private:
   static constexpr std::uint32_t kLongest = 1u << Map::hold_bits;
   std::uint32_t units_ = 0;
-  bool eased_ = false;
+  bool derated_ = false;
 };
 
 }  // namespace feltgate

@@ -16,8 +16,8 @@ namespace feltgate {
 
 /// Conditions that keep a torque from growing.
 struct Relief {
-  bool frozen = false;  ///< the reference may only move towards 0
-  bool eased = false;   ///< the limit is hold_limit
+  bool frozen = false;   ///< the reference may only move towards 0
+  bool derated = false;  ///< the limit is hold_limit
 };
 
 /// The relief that bits of a core's limits word stand for.
@@ -37,7 +37,7 @@ class RampLaw {
 
   /// Starts a wave and decides whether a ramp begins.
   void begin(bool armed, int scene, Relief relief = {}) {
-    if (!armed || scene != scene_ || relief.eased != relief_.eased) ramping_ = true;
+    if (!armed || scene != scene_ || relief.derated != relief_.derated) ramping_ = true;
     scene_ = scene;
     armed_ = armed;
     relief_ = relief;
@@ -47,26 +47,26 @@ class RampLaw {
   /// Sets the target: the scene's torque in [-limit, limit]; a negative limit counts as 0.
   template <class Rendered, class Limit>
   void limit(Rendered tau, Limit limit) {
-    bool beyond = false;
+    bool over_limit = false;
     const auto target = LimiterLaw<D, N>::template limited<Torque, D::f.torque.key()>(
-        armed_ ? tau : Rendered{}, limit, &beyond);
-    aim(target, beyond);
+        armed_ ? tau : Rendered{}, limit, &over_limit);
+    aim(target, over_limit);
   }
   /// Sets the target without a scene: 0 for sign 0, else the limit with that sign.
   template <class Limit>
   void pulse(int sign, Limit limit) {
-    bool beyond = false;
+    bool over_limit = false;
     const auto held =
-        LimiterLaw<D, N>::template limited<Torque, D::f.torque.key()>(most(), limit, &beyond);
+        LimiterLaw<D, N>::template limited<Torque, D::f.torque.key()>(most(), limit, &over_limit);
     aim(sign == 0  ? Torque{}
         : sign > 0 ? held
                    : quantise<N, Torque, Round::truncate, Overflow::wrap>(-held),
-        beyond);
+        over_limit);
   }
   /// Sets the target; `beyond`: it was beyond the limit.
-  void aim(Torque target, bool beyond) {
+  void aim(Torque target, bool over_limit) {
     target_ = target;
-    limit_torque_ = armed_ && beyond;
+    limit_torque_ = armed_ && over_limit;
   }
   /// Moves the reference towards the target by one step, at least one LSB. The tick in which the
   /// target is found within one step ends the ramp; the reference reaches the target in the next
@@ -98,7 +98,7 @@ class RampLaw {
   }
   bool limit_torque() const { return limit_torque_; }
   bool limit_ramp() const { return limit_ramp_; }
-  bool limit_hold() const { return relief_.eased; }
+  bool limit_hold() const { return relief_.derated; }
 
  private:
   /// One LSB of the reference.

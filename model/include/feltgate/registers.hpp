@@ -39,7 +39,7 @@ class Registers {
     bool scene_slot_fetch = false;  ///< the slot is one of the scene's parameters
     std::uint8_t scene = 0;         ///< in force
     bool region_high = false;       ///< voltage_gain_high replaces voltage_gain
-    bool eased = false;             ///< hold_limit replaces torque_limit
+    bool derated = false;           ///< hold_limit replaces torque_limit
     bool testing = false;           ///< self_test_torque replaces torque_limit
     std::uint8_t snap_slot = 0;
     bool snap_valid = false;  ///< snap_data goes into the snapshot at snap_slot
@@ -230,7 +230,7 @@ class Registers {
   static std::size_t fetch_address(const In& in) {
     if (in.scene_slot_fetch) return (in.scene * 32U + (in.slot_fetch & 31U)) & 0x1ffU;
     if (in.testing && in.slot_fetch == D::A::torque_limit) return D::A::self_test_torque;
-    if (in.eased && in.slot_fetch == D::A::torque_limit) return D::A::hold_limit;
+    if (in.derated && in.slot_fetch == D::A::torque_limit) return D::A::hold_limit;
     const bool high = in.region_high && in.slot_fetch == D::A::voltage_gain;
     return high ? D::A::voltage_gain_high : in.slot_fetch;
   }

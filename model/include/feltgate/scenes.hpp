@@ -50,7 +50,7 @@ class ScenesLaw {
     }
     ramp_.begin(armed && pulse == TestPulse::none, scene, relief);
     if (pulse == TestPulse::none) {
-      const int limit = relief.eased ? D::A::hold_limit : D::A::torque_limit;
+      const int limit = relief.derated ? D::A::hold_limit : D::A::torque_limit;
       ramp_.limit(rendered, w.template get<limit_key>(limit));
     } else {
       const int sign = pulse == TestPulse::up ? 1 : pulse == TestPulse::down ? -1 : 0;

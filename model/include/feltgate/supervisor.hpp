@@ -81,7 +81,7 @@ class Supervisor {
     bool axis_silent = false;   ///< another axis does not request arming
     bool axis_blocked = false;  ///< another axis is not ready
     /// The request of the host or the panel, whichever has control.
-    bool asks() const { return (host ? host_arm : arm) && !disarm; }
+    bool arm_request() const { return (host ? host_arm : arm) && !disarm; }
   };
   struct Out {
     std::int32_t current_estimate = 0;  ///< raw, A
@@ -259,7 +259,7 @@ class Supervisor {
       at(T::estimate_part) | at(T::current_estimate) | at(T::speed_size) | at(T::too_fast) |
       at(T::speed) | at(T::nominal) | at(T::cooled) | at(T::current_squared) | at(T::too_hot) |
       at(T::heat) | at(T::growth_size) | at(T::growth) | at(T::strong_size) | at(T::strong) |
-      at(T::runaway_ticks) | at(T::polarity) | at(T::silent) | at(T::watchdog);
+      at(T::window_over) | at(T::polarity) | at(T::silent) | at(T::watchdog);
 
   /// A product of the multiplier, with F fraction bits.
   template <int F>
@@ -314,11 +314,11 @@ class Supervisor {
     if (now(T::current_squared)) square_ = square_of(in.product);
     if (now(T::too_hot)) too_hot_ = sum_.raw() >= std::int64_t{in.param};
 
-    if (now(T::polarity) && out_.gates_enable && runaway_.due())
-      *trip |= fault_bit(Fault::polarity);
-    if (now(T::runaway_ticks)) {
-      runaway_.turn(in.velocity, in.current_ref, in.param, out_.gates_enable);
+    if (now(T::polarity)) {
+      runaway_.turn(in.velocity, in.current_ref, window_ticks_, out_.gates_enable);
+      if (runaway_.due()) *trip |= fault_bit(Fault::polarity);
     }
+    if (now(T::window_over)) window_ticks_ = in.param;
     if (now(T::growth)) runaway_.compare_growth(signal_, in.velocity, in.param);
     if (now(T::strong)) runaway_.compare_current(signal_, in.param);
 
@@ -346,16 +346,16 @@ class Supervisor {
   bool able() const { return out_.first_fault == 0 && !stop_2_ && !out_.unkicked; }
   /// End of a tick: commands, arming and disarming. `trip`: faults of the same clock.
   void end_tick(const In& in, std::uint16_t trip) {
-    const bool asks = in.asks() && !in.axis_silent;
-    const bool arms = asks && !asked_ && ready(in.host) && !in.axis_blocked;
-    const bool armed = (arms || (asks && out_.gates_enable)) && trip == 0;
+    const bool arm_request = in.arm_request() && !in.axis_silent;
+    const bool arms = arm_request && !asked_ && ready(in.host) && !in.axis_blocked;
+    const bool armed = (arms || (arm_request && out_.gates_enable)) && trip == 0;
     host_counts_ = !in.host_arm || (host_counts_ && in.host && able());
     panel_counts_ = !in.arm || (panel_counts_ && !in.host && able());
     kickless_ticks_ = in.kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
-    if (in.clear_faults && !in.asks()) out_.faults = 0, out_.first_fault = 0;
+    if (in.clear_faults && !in.arm_request()) out_.faults = 0, out_.first_fault = 0;
     if (trip != 0) latch(trip);
     out_.gates_enable = out_.armed = armed;
-    asked_ = asks;
+    asked_ = arm_request;
     if (in.kick) awake_ = true, out_.unkicked = false;
   }
 
@@ -374,6 +374,7 @@ class Supervisor {
   std::int32_t signal_ = 0;  ///< value to compare in the next clock
   bool too_fast_ = false;
   Runaway<D> runaway_;
+  std::uint32_t window_ticks_ = 0;  ///< the word polarity_ticks, as it was on the bus
   std::int64_t v_product_ = 0;
   Sum sum_ = Sum::from_raw(D::i2t_start);
   Nominal nominal_;

@@ -38,7 +38,7 @@
   X(bool, gate_a_lo_o)            \
   X(bool, gate_b_hi_o)            \
   X(bool, gate_b_lo_o)            \
-  X(bool, asks_o)                 \
+  X(bool, arm_request_o)          \
   X(bool, ready_o)                \
   X(bool, testing_o)              \
   X(bool, measured_o)             \

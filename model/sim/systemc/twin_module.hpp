@@ -81,7 +81,7 @@ class TwinModule : public sc_core::sc_module {
   }
 
   void show(const CoreOut& o) {
-    asks_o.write(core_.asks(inputs()));
+    arm_request_o.write(core_.arm_request(inputs()));
     ready_o.write(core_.ready());
     testing_o.write(core_.testing());
     measured_o.write(core_.measured());

@@ -4,8 +4,8 @@
 // The core's one limiter: it saturates x to [-limit, limit]. The limit is the word on the parameter
 // bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
 // Torque, current, dead voltage, voltage and duty use it in turn. Without valid_i it only compares
-// x with a border: beyond_o is valid, limited_o is 0. Latency: valid_i and ahead_i in clock t - 1,
-// late_i and the limit in t, limited_o (0 in all other clocks) and beyond_o in t + 1.
+// x with a border: over_limit_o is valid, limited_o is 0. Latency: valid_i and early_term_i in clock t - 1,
+// late_term_i and the limit in t, limited_o (0 in all other clocks) and over_limit_o in t + 1.
 // docs/blocks/limiter.md
 
 `default_nettype none
@@ -16,13 +16,13 @@ module limiter (
     input  logic                                            torque_i,   // with valid_i: x is torque
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,  // one clock before x
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,   // x = ahead | late
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,  // one clock before x
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = ahead | late
     /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a limit has
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     output logic signed [      feltgate_pkg::LIMITER_W-1:0] limited_o,
-    output logic                                            beyond_o
+    output logic                                            over_limit_o
 );
   localparam int W = feltgate_pkg::LIMITER_W;
   localparam int InputW = feltgate_pkg::LIMITER_INPUT_W;
@@ -32,20 +32,20 @@ module limiter (
   // signal's format.
   localparam logic [W-1:0] Sign = W'(1) << (W - 1);
   logic        [     W-1:0] misfit_q;
-  logic                     valid_q, ahead_over_q, over, negative;
-  logic signed [InputW-1:0] ahead_q, x;
+  logic                     valid_q, early_over_q, over, negative;
+  logic signed [InputW-1:0] early_q, x;
   always_ff @(posedge clk_i) begin
     valid_q      <= valid_i;
     if (duty_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::DUTY_W - 1);
     else if (voltage_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::VOLTAGE_W - 1);
     else if (torque_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::TORQUE_W - 1);
     else misfit_q <= Sign;
-    ahead_q      <= ahead_i;
-    ahead_over_q <= ahead_i[InputW-1:W-1] != {(InputW - W + 1) {ahead_i[InputW-1]}};
+    early_q      <= early_term_i;
+    early_over_q <= early_term_i[InputW-1:W-1] != {(InputW - W + 1) {early_term_i[InputW-1]}};
   end
-  assign x        = ahead_q | late_i;
+  assign x        = early_q | late_term_i;
   assign negative = x[InputW-1];
-  assign over     = ahead_over_q || late_i[InputW-1:W-1] != {(InputW - W + 1) {late_i[InputW-1]}};
+  assign over     = early_over_q || late_term_i[InputW-1:W-1] != {(InputW - W + 1) {late_term_i[InputW-1]}};
 
   logic signed [W-1:0] limit, low;
   logic                above, below, misfit;
@@ -76,7 +76,7 @@ module limiter (
     end
   end
   assign limited_o = outside_q ? upper_q | lower_q : low_q;
-  assign beyond_o  = outside_q || unfit_q;
+  assign over_limit_o  = outside_q || unfit_q;
 endmodule
 
 `default_nettype wire

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Ramp of the torque reference. tau_ref_o follows the scene's limited torque. After arming, a
-// change of scene, a change of eased_i or restart_i it moves by at most one step word per tick
+// change of scene, a change of derated_i or restart_i it moves by at most one step word per tick
 // until it reaches the target; after that it is not slowed. Latency: target on limited_i in the
-// clock of the step's word (T_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/ramp.md
+// clock of the step's word (EVENT_AT_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/ramp.md
 
 `default_nettype none
 
@@ -19,9 +19,9 @@ module ramp (
     input  logic        [                       31:0] param_i,
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
     /* verilator lint_on UNUSEDSIGNAL */
-    input  logic                                      beyond_i,
+    input  logic                                      over_limit_i,
     input  logic                                      frozen_i,  // 1: only toward 0, or to > 0
-    input  logic                                      eased_i,   // 1: the limit is hold_limit
+    input  logic                                      derated_i,   // 1: the limit is hold_limit
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts
     output logic                                      limit_ramp_o,    // the step acts
@@ -30,7 +30,7 @@ module ramp (
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;
   localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
-  localparam int Excess = feltgate_map_pkg::T_RAMP_EXCESS;  // the step's word is on the bus
+  localparam int Excess = feltgate_map_pkg::EVENT_AT_RAMP_EXCESS;  // the step's word is on the bus
 
   logic signed [W-1:0] ramp_q;
   assign tau_ref_o = ramp_q[W-1:Fine];
@@ -53,7 +53,7 @@ module ramp (
   // the tick whose distance is within one step; the reference moves on with the next tick. While
   // frozen the step is 0; it applies to a reference that would grow or would change from above 0 to
   // below 0. The choice is made for both directions before the direction is known.
-  logic signed [W:0] step, change, beyond;
+  logic signed [W:0] step, change, overshoot;
   logic signed [W-1:0] change_q;
   logic ramping_q, active, frozen, steps_down_q, steps_up_q, stepping, stepping_q;
   logic down, reached, carry_q, stay_q;
@@ -67,10 +67,10 @@ module ramp (
   assign stepping = down ? steps_down_q : steps_up_q;
   assign step     = {2'b0, step_q};
   assign change   = stepping ? (step ^ {(W + 1) {down}}) : ~excess_q;
-  assign beyond   = excess_q + change;
-  assign reached  = beyond[W] == down;
+  assign overshoot = excess_q + change;
+  assign reached  = overshoot[W] == down;
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_RAMP_CHANGE]) begin
+    if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]) begin
       change_q <= change[W-1:0];
       carry_q  <= down || !stepping;
       stay_q   <= stepping && reached;
@@ -88,20 +88,20 @@ module ramp (
       limit_ramp_o <= 1'b0;
       limit_hold_o <= 1'b0;
     end else begin
-      if (wave_i[Excess]) limit_torque_o <= beyond_i && armed_i;
-      if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN]) scene_q <= scene_i;
-      if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN]) limit_hold_o <= eased_i;
+      if (wave_i[Excess]) limit_torque_o <= over_limit_i && armed_i;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]) scene_q <= scene_i;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]) limit_hold_o <= derated_i;
       if (restart_i) ramping_q <= 1'b1;
-      else if (wave_i[feltgate_map_pkg::T_RAMP_BEGIN] &&
-               (!armed_i || scene_i != scene_q || eased_i != limit_hold_o)) ramping_q <= 1'b1;
-      else if (wave_i[feltgate_map_pkg::T_TAU_REF] && stay_q) ramping_q <= 1'b0;
-      if (wave_i[feltgate_map_pkg::T_TAU_REF] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
-      if (wave_i[feltgate_map_pkg::T_TAU_REF]) limit_ramp_o <= stepping_q;
+      else if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN] &&
+               (!armed_i || scene_i != scene_q || derated_i != limit_hold_o)) ramping_q <= 1'b1;
+      else if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF] && stay_q) ramping_q <= 1'b0;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
+      if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF]) limit_ramp_o <= stepping_q;
     end
   end
 
   logic unused;
-  assign unused = ^beyond[W-1:0];
+  assign unused = ^overshoot[W-1:0];
 endmodule
 
 `default_nettype wire

@@ -22,10 +22,10 @@ module torque_control (
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_o,  // one clock before its limit
-    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_o,   // with its limit
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_o,  // one clock before its limit
+    output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_o,   // with its limit
     input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
-    input  logic                                                   beyond_i,
+    input  logic                                                   over_limit_i,
     output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend
     output logic                                                   region_high_o,  // high torque
     output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,  // A
@@ -55,18 +55,18 @@ module torque_control (
   localparam int GainDrop = CurrentF + feltgate_pkg::P_VOLTAGE_GAIN_F - VoltageF;
   localparam int DutyDrop = VoltageF + feltgate_pkg::P_DUTY_GAIN_F;
   // Wave clocks: first of the products, then of the limits' words.
-  localparam int Emf = feltgate_map_pkg::M_EMF_CONSTANT;
-  localparam int TauHat = feltgate_map_pkg::M_OBSERVER_GAIN;
-  localparam int Direct = feltgate_map_pkg::M_VOLTAGE_TO_CURRENT;
-  localparam int TauRef = feltgate_map_pkg::M_TORQUE_GAIN;
-  localparam int Slope = feltgate_map_pkg::M_DEAD_VOLTAGE_SLOPE;
-  localparam int Gain = feltgate_map_pkg::M_VOLTAGE_GAIN;
-  localparam int Duty = feltgate_map_pkg::M_DUTY_GAIN;
-  localparam int SetPoint = feltgate_map_pkg::S_VOLTAGE_SETPOINT;
-  localparam int SetStep = feltgate_map_pkg::S_VOLTAGE_STEP;
-  localparam int CurrentLimit = feltgate_map_pkg::S_CURRENT_LIMIT;
-  localparam int DeadVoltage = feltgate_map_pkg::S_DEAD_VOLTAGE;
-  localparam int Window = feltgate_map_pkg::S_VOLTAGE_WINDOW;
+  localparam int Emf = feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT;
+  localparam int TauHat = feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN;
+  localparam int Direct = feltgate_map_pkg::PRODUCT_AT_VOLTAGE_TO_CURRENT;
+  localparam int TauRef = feltgate_map_pkg::PRODUCT_AT_TORQUE_GAIN;
+  localparam int Slope = feltgate_map_pkg::PRODUCT_AT_DEAD_VOLTAGE_SLOPE;
+  localparam int Gain = feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN;
+  localparam int Duty = feltgate_map_pkg::PRODUCT_AT_DUTY_GAIN;
+  localparam int SetPoint = feltgate_map_pkg::PARAM_AT_VOLTAGE_SETPOINT;
+  localparam int SetStep = feltgate_map_pkg::PARAM_AT_VOLTAGE_STEP;
+  localparam int CurrentLimit = feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT;
+  localparam int DeadVoltage = feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE;
+  localparam int Window = feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW;
 
   localparam logic [1:0] Open = 2'(feltgate_map_pkg::MODE_OPEN);
   localparam logic [1:0] Voltage = 2'(feltgate_map_pkg::MODE_VOLTAGE);
@@ -86,9 +86,9 @@ module torque_control (
   );
 
   // applied is the limiter's result plus an addend. The addend is not 0 in three clocks:
-  //   after S_VOLTAGE_STEP    the voltage of the previous tick, added to the step of its ramp
-  //   after S_DEAD_VOLTAGE    minus the back-EMF, if the law does not compensate the back-EMF
-  //   after S_VOLTAGE_WINDOW  the back-EMF, added to the result of the window
+  //   after PARAM_AT_VOLTAGE_STEP    the voltage of the previous tick, added to the step of its ramp
+  //   after PARAM_AT_DEAD_VOLTAGE    minus the back-EMF, if the law does not compensate the back-EMF
+  //   after PARAM_AT_VOLTAGE_WINDOW  the back-EMF, added to the result of the window
   logic signed [         EmfW-1:0] emf_q;
   logic signed [  AppliedSumW-1:0] addend_q, applied;
   assign applied   = AppliedSumW'(limited_i) + addend_q;
@@ -105,7 +105,7 @@ module torque_control (
   logic signed [VoltageSumW-1:0] fixed_q;
   logic signed [CurrentSumW-1:0] kept_q;
   logic                          fixes;
-  assign fixes = direct ? wave_i[feltgate_map_pkg::T_DIRECT_VOLTAGE] : wave_i[feltgate_map_pkg::T_VOLTAGE_OFFSET];
+  assign fixes = direct ? wave_i[feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE] : wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET];
   always_ff @(posedge clk_i) begin
     if (mode_i == Open || wave_i[CurrentLimit]) kept_q <= '0;
     else if (wave_i[TauHat]) kept_q <= CurrentSumW'(product_i >>> TauHatDrop);
@@ -127,7 +127,7 @@ module torque_control (
   assign product = less_emf ? ~(SumW'(emf_q))
                             : wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
   always_ff @(posedge clk_i) begin
-    if (!(wave_i[feltgate_map_pkg::T_BORDER] || wave_i[feltgate_map_pkg::T_HOLD_SIZE])) border_q <= '0;
+    if (!(wave_i[feltgate_map_pkg::EVENT_AT_BORDER] || wave_i[feltgate_map_pkg::EVENT_AT_HOLD_SIZE])) border_q <= '0;
     else border_q <= tau_ref_i;
     if (!(wave_i[Direct] && ramps)) direct_q <= '0;
     else direct_q <= CurrentSumW'(product_i >>> DirectDrop);
@@ -140,8 +140,8 @@ module torque_control (
     if (!wave_i[Duty]) duty_q <= '0;
     else duty_q <= DutySumW'(product_i >>> DutyDrop) + DutySumW'({1'b0, carry});
   end
-  assign ahead_o = Wide'(border_q) | Wide'(direct_q) | Wide'(dead_q);
-  assign late_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
+  assign early_term_o = Wide'(border_q) | Wide'(direct_q) | Wide'(dead_q);
+  assign late_term_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
 
   // The voltage saturates at the range of its port. The voltage at the motor is below the supply,
   // so this matters only for the current estimate.
@@ -160,19 +160,19 @@ module torque_control (
       limit_duty_o    <= 1'b0;
     end else begin
       // The region of the voltage gain is decided before its word is fetched.
-      if (wave_i[feltgate_map_pkg::T_REGION]) region_high_o <= beyond_i;
-      if (wave_i[feltgate_map_pkg::T_CURRENT]) begin
+      if (wave_i[feltgate_map_pkg::EVENT_AT_REGION]) region_high_o <= over_limit_i;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_CURRENT]) begin
         current_ref_o   <= limited_i[feltgate_pkg::CURRENT_W-1:0];
-        limit_current_o <= beyond_i && armed_i;
+        limit_current_o <= over_limit_i && armed_i;
       end
-      if (wave_i[feltgate_map_pkg::T_VOLTAGE]) begin
+      if (wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]) begin
         voltage_o <= voltage_over ? {applied[AppliedSumW-1], {(VoltageW - 1) {~applied[AppliedSumW-1]}}}
                                   : applied[VoltageW-1:0];
-        limit_voltage_o <= beyond_i && armed_i;
+        limit_voltage_o <= over_limit_i && armed_i;
       end
-      if (wave_i[feltgate_map_pkg::T_DUTY]) begin
+      if (wave_i[feltgate_map_pkg::EVENT_AT_DUTY]) begin
         duty_o       <= limited_i[feltgate_pkg::DUTY_W-1:0];
-        limit_duty_o <= beyond_i;
+        limit_duty_o <= over_limit_i;
       end
     end
   end

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Encoder monitor. Once per tick (T_LEVELS) it checks whether edges come on one channel only. That
+// Encoder monitor. Once per tick (EVENT_AT_LEVELS) it checks whether edges come on one channel only. That
 // is either chatter on one edge, which lasts only while a torque drives it, or a dead channel. In
 // every clock it checks that count and zero do not change without an edge or a new zero.
 // Documentation: docs/blocks/encoder_monitor.md
@@ -33,7 +33,7 @@ module encoder_monitor (
   localparam int ChatterBits = feltgate_map_pkg::CHATTER_UNIT_BITS;
 
   logic sample, edge_unit, chatter_unit;
-  assign sample       = wave_i[feltgate_map_pkg::T_LEVELS];
+  assign sample       = wave_i[feltgate_map_pkg::EVENT_AT_LEVELS];
   assign edge_unit    = tick_count_i[EdgeBits-1:0] == '0;
   assign chatter_unit = edge_unit && tick_count_i[ChatterBits-1:EdgeBits] == '0;
 

@@ -4,8 +4,8 @@
 // Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load torque; positive tau_hat
 // opposes positive motor torque. Disarmed, the current counts as 0 and the filter output follows
 // its input: tau_hat is 0, and arming in motion makes no jump. Wave clocks: the block latches Ktn*I
-// in T_DRIVE_TORQUE, g*Jn*w in T_OBSERVER_INPUT, the filter's product in T_OBSERVER_STATE, and
-// tau_hat_o in T_TAU_HAT. docs/blocks/dob.md
+// in EVENT_AT_DRIVE_TORQUE, g*Jn*w in EVENT_AT_OBSERVER_INPUT, the filter's product in EVENT_AT_OBSERVER_STATE, and
+// tau_hat_o in EVENT_AT_TAU_HAT. docs/blocks/dob.md
 
 `default_nettype none
 
@@ -45,18 +45,18 @@ module dob (
               (feltgate_pkg::ROUNDING == 2 && (beyond_half || observed_q[TorqueDrop]));
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_DRIVE_TORQUE]) begin
+    if (wave_i[feltgate_map_pkg::EVENT_AT_DRIVE_TORQUE]) begin
       drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
     end
-    if (wave_i[feltgate_map_pkg::T_OBSERVER_INPUT]) begin
+    if (wave_i[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT]) begin
       inertia_q <= inertia;
       input_q   <= W'(drive_q) + W'(inertia);
     end
-    if (wave_i[feltgate_map_pkg::T_OBSERVED]) begin
+    if (wave_i[feltgate_map_pkg::EVENT_AT_OBSERVED]) begin
       observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
     end
     // The highest dropped bit is the carry in; up masks it as the design's rounding says.
-    if (wave_i[feltgate_map_pkg::T_OBSERVED_ROUNDED]) begin
+    if (wave_i[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED]) begin
       rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
                    RoundedW'({1'b0, observed_q[TorqueDrop-1] && up});
     end
@@ -70,8 +70,8 @@ module dob (
   ) u_lowpass (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(wave_i[feltgate_map_pkg::T_OBSERVER_DIFFERENCE]),
-      .update_i(wave_i[feltgate_map_pkg::T_OBSERVER_STATE]),
+      .valid_i(wave_i[feltgate_map_pkg::EVENT_AT_OBSERVER_DIFFERENCE]),
+      .update_i(wave_i[feltgate_map_pkg::EVENT_AT_OBSERVER_STATE]),
       .follow_i(!armed_i),
       .x_i(input_q),
       .operand_o(operand_o),
@@ -86,7 +86,7 @@ module dob (
     if (!rst_ni) begin
       tau_hat_o   <= '0;
       saturated_o <= 1'b0;
-    end else if (wave_i[feltgate_map_pkg::T_TAU_HAT]) begin
+    end else if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_HAT]) begin
       tau_hat_o   <= rounded_q[TorqueW-1:0];
       saturated_o <= 1'b0;
       if (over) begin

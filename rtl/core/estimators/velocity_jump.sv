@@ -4,7 +4,7 @@
 // Trips if the velocity changes in one tick by more than its low-pass can, whatever its
 // coefficient: then the hardware is faulty. |a1 * (x - y)| < 2^(W + 17 - F) LSB for all x, y of W
 // bits and every word a1 of 17 bits with F fraction bits. So the bits from that weight up change by
-// at most one. Latency: trip_o in the clock after T_JUMP. docs/blocks/velocity_jump.md
+// at most one. Latency: trip_o in the clock after EVENT_AT_JUMP. docs/blocks/velocity_jump.md
 
 `default_nettype none
 
@@ -19,7 +19,7 @@ module velocity_jump (
 );
   localparam int W = feltgate_pkg::VELOCITY_W;
   localparam int Weight = W + feltgate_pkg::COEFFICIENT_BITS - feltgate_pkg::P_VELOCITY_A1_F;
-  localparam int Now = feltgate_map_pkg::T_JUMP;
+  localparam int Now = feltgate_map_pkg::EVENT_AT_JUMP;
 
   generate
   if (Weight >= 0 && Weight <= W - 2) begin : gen_compare

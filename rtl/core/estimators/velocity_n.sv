@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // N-method velocity: the counts of the last M1 ticks times 2^n (or a quantised gain), saturated,
-// then low-pass filtered. Wave clocks: travel is sampled in T_SAMPLE, the filter's product is taken
-// in T_VELOCITY. Formats: travel [1,15,0] counts, wraps; velocity in rad/s, format set by the
+// then low-pass filtered. Wave clocks: travel is sampled in EVENT_AT_SAMPLE, the filter's product is taken
+// in EVENT_AT_VELOCITY. Formats: travel [1,15,0] counts, wraps; velocity in rad/s, format set by the
 // design. docs/blocks/velocity_n.md
 
 `default_nettype none
@@ -47,14 +47,14 @@ module velocity_n #(
   logic                       filled_q;
   logic signed [       T-1:0] travel_q, oldest_q, difference_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_VELOCITY_RAW]) line[pointer_q] <= travel_q;
+    if (wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]) line[pointer_q] <= travel_q;
     line_q <= line[pointer_q];
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       pointer_q <= '0;
       filled_q  <= 1'b0;
-    end else if (wave_i[feltgate_map_pkg::T_VELOCITY_DIFFERENCE]) begin
+    end else if (wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]) begin
       if (pointer_q == AddressW'(M1 - 1)) begin
         pointer_q <= '0;
         filled_q  <= 1'b1;
@@ -67,15 +67,15 @@ module velocity_n #(
   // No reset: the block RAM's output is late in the clock, so no logic may follow it.
   always_ff @(posedge clk_i) begin
     if (!filled_q) oldest_q <= '0;
-    else if (wave_i[feltgate_map_pkg::T_SAMPLE]) oldest_q <= line_q;
+    else if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) oldest_q <= line_q;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       travel_q     <= '0;
       difference_q <= '0;
     end else begin
-      if (wave_i[feltgate_map_pkg::T_SAMPLE]) travel_q <= travel_i;
-      if (wave_i[feltgate_map_pkg::T_TRAVEL]) difference_q <= travel_q - oldest_q;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) travel_q <= travel_i;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_TRAVEL]) difference_q <= travel_q - oldest_q;
     end
   end
 
@@ -105,7 +105,7 @@ module velocity_n #(
     if (!rst_ni) begin
       raw_q       <= '0;
       saturated_o <= 1'b0;
-    end else if (wave_i[feltgate_map_pkg::T_VELOCITY_RAW]) begin
+    end else if (wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]) begin
       raw_q       <= raw;
       saturated_o <= 1'b0;
       if (over) begin
@@ -123,8 +123,8 @@ module velocity_n #(
   ) u_lowpass (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(wave_i[feltgate_map_pkg::T_VELOCITY_DIFFERENCE]),
-      .update_i(wave_i[feltgate_map_pkg::T_VELOCITY]),
+      .valid_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]),
+      .update_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY]),
       .follow_i(1'b0),
       .x_i(raw_q),
       .operand_o(operand_o),

@@ -3,8 +3,8 @@
 //
 // Self-test after arming: waits until the lever is at rest, applies a torque pulse and then its
 // opposite, and checks the direction of motion before the scene begins. A wrong direction trips.
-// Timing: each word is compared when it is on the bus; the state changes in T_SELF_TEST_TURN;
-// trip_o is high in T_SELF_TEST. docs/blocks/self_test.md
+// Timing: each word is compared when it is on the bus; the state changes in EVENT_AT_SELF_TEST_TURN;
+// trip_o is high in EVENT_AT_SELF_TEST. docs/blocks/self_test.md
 
 `default_nettype none
 
@@ -21,15 +21,15 @@ module self_test (
     input  logic        [                              31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     output logic                                             busy_o,        // the scene waits
-    output logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]   ahead_o,       // +-beyond any limit, or 0
+    output logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]   early_term_o,       // +-beyond any limit, or 0
     output logic        [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] result_o,
     output logic                                             trip_o
 );
   localparam int UnitBit = feltgate_map_pkg::SELF_TEST_UNIT_BITS;
   localparam int PatienceBit = feltgate_map_pkg::SELF_TEST_PATIENCE_BITS;
   localparam int CountW = feltgate_map_pkg::SELF_TEST_COUNT_BITS;
-  localparam int Turn = feltgate_map_pkg::T_SELF_TEST_TURN;
-  localparam int Rounded = feltgate_map_pkg::T_SCENE_ROUNDED;
+  localparam int Turn = feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN;
+  localparam int Rounded = feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED;
   localparam int ResultW = feltgate_map_pkg::W_STATUS_SELF_TEST;
   localparam logic [ResultW-1:0] None = '0;
   localparam logic [ResultW-1:0] Right = ResultW'(feltgate_map_pkg::SELF_TEST_RIGHT);
@@ -42,7 +42,7 @@ module self_test (
     if (!rst_ni) begin
       now_q    <= '0;
       before_q <= '0;
-    end else if (wave_i[feltgate_map_pkg::T_SAMPLE]) begin
+    end else if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) begin
       now_q    <= travel_i;
       before_q <= now_q;
     end
@@ -61,8 +61,8 @@ module self_test (
       quiet_q <= 1'b1;
       over_q  <= 1'b1;
     end else begin
-      if (wave_i[feltgate_map_pkg::T_SELF_TEST_QUIET]) quiet_q <= enough;
-      if (wave_i[feltgate_map_pkg::T_SELF_TEST_OVER]) over_q <= enough;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_SELF_TEST_QUIET]) quiet_q <= enough;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_SELF_TEST_OVER]) over_q <= enough;
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -92,7 +92,7 @@ module self_test (
   assign net     = counts ? net_q + $signed({step[1], step[1], 1'b1}) : net_q;
   assign against = (first_q || second_q) && net == -End;
   assign failed  = rest_q && net_q != End;
-  assign trip_o  = wave_i[feltgate_map_pkg::T_SELF_TEST] && fail_q;
+  assign trip_o  = wave_i[feltgate_map_pkg::EVENT_AT_SELF_TEST] && fail_q;
 
   logic runs;
   assign runs = armed_i && ((wait_q && !waits_i && still && !begins && !gives_up) || ((first_q || second_q) && !over_q));
@@ -128,7 +128,7 @@ module self_test (
     end
   end
 
-  // ahead_o is beyond every limit, so the limiter makes the pulse: +-the word of the test's torque.
+  // early_term_o is beyond every limit, so the limiter makes the pulse: +-the word of the test's torque.
   logic up_q, down_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -139,7 +139,7 @@ module self_test (
       down_q <= wave_i[Rounded] && armed_i && second_q;
     end
   end
-  assign ahead_o = {down_q, {(feltgate_pkg::SCENE_TORQUE_W - 1) {up_q}}};
+  assign early_term_o = {down_q, {(feltgate_pkg::SCENE_TORQUE_W - 1) {up_q}}};
 endmodule
 
 `default_nettype wire

@@ -4,7 +4,7 @@
 // Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fourteen
 // fault causes itself; other blocks report theirs on trips_i. A fault is latched and
 // gates_enable_o falls one clock after the cause is seen; the gates are off a clock later. A limit
-// is compared in the clock S_* in which it is on the parameter bus, and acts in the next, T_*. Estimated current [1,8,8] A,
+// is compared in the clock PARAM_AT_* in which it is on the parameter bus, and acts in the next, EVENT_AT_*. Estimated current [1,8,8] A,
 // I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
@@ -21,7 +21,7 @@ module supervisor (
   input  logic               clear_faults_i,   // in the clock of tick_i
   input  logic               kick_i,           // in the clock of tick_i
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
-  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s, from T_VELOCITY + 1
+  input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s, from EVENT_AT_VELOCITY + 1
   input  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_ref_i,  // of the previous tick
   /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
   input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
@@ -33,7 +33,7 @@ module supervisor (
   output logic               gates_enable_o,   // falls at once on a fault
   output logic               gates_clear_o,    // asynchronous: from the stop's edge until it is handled
   output logic               unkicked_o,       // arming waits for the first kick
-  output logic               asks_o,           // request of the one that has control
+  output logic               arm_request_o,           // request of the one that has control
   output logic               arms_o,           // in the clock of tick_i: armed from the next one on
   output logic               ready_o,          // this axis can be armed
   output logic               clear_o,          // clear_faults_i while there is no request to arm
@@ -98,40 +98,47 @@ module supervisor (
   assign over       = param_i[31] || {param_i[30:0], 1'b0} < twice_size;
 
   always_ff @(posedge clk_i) begin
-    if (!wave_i[feltgate_map_pkg::T_SPEED_SIZE]) speed_q <= '0;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_SPEED_SIZE]) speed_q <= '0;
     else speed_q <= velocity_i;
-    if (!wave_i[feltgate_map_pkg::T_GROWTH_SIZE]) gained_q <= '0;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_GROWTH_SIZE]) gained_q <= '0;
     else gained_q <= gained;
-    if (!wave_i[feltgate_map_pkg::T_STRONG_SIZE]) current_q <= '0;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_STRONG_SIZE]) current_q <= '0;
     else current_q <= current_ref_i;
   end
 
   // Cause 2, over-speed: |velocity| > overspeed.
   logic too_fast_q;
 
-  assign speed_trip = wave_i[feltgate_map_pkg::T_SPEED] && too_fast_q;
+  assign speed_trip = wave_i[feltgate_map_pkg::EVENT_AT_SPEED] && too_fast_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_OVERSPEED]) too_fast_q <= over;
+    if (wave_i[feltgate_map_pkg::PARAM_AT_OVERSPEED]) too_fast_q <= over;
   end
 
   // Two tick counters share an adder and a comparator: cause 3 uses them in the clock in which its
   // limit is on the bus, cause 5 in all others. A counter with its top bit set has reached every
-  // limit. A wrap of the kick counter before the first kick has no effect.
+  // limit. A wrap of the kick counter before the first kick has no effect. Both results are
+  // registered: the way from the parameter RAM through the comparator is long.
   localparam int RUNAWAY_W  = feltgate_map_pkg::RUNAWAY_BITS + 1;
   localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 
   logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // ticks of the window, including this one
   logic [KICKLESS_W-1:0] kickless_ticks_q;  // ticks since the last kick or arming
   logic [KICKLESS_W-1:0] ticks, next_ticks;
-  logic                  of_runaway, full, in_reach, expired;
+  logic [RUNAWAY_W-1:0]  next_ticks_q;
+  logic                  of_runaway, full, in_reach, expired, expired_q;
 
-  assign of_runaway = wave_i[feltgate_map_pkg::S_POLARITY_TICKS];
+  assign of_runaway = wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_TICKS];
   assign ticks      = of_runaway ? KICKLESS_W'(runaway_ticks_q) : kickless_ticks_q;
   assign next_ticks = ticks + KICKLESS_W'(1);
   assign full       = of_runaway ? runaway_ticks_q[RUNAWAY_W-1] : kickless_ticks_q[KICKLESS_W-1];
   assign in_reach   = param_i[31:KICKLESS_W-1] == '0;
   assign expired    = full || (in_reach && ticks[KICKLESS_W-2:0] >= param_i[KICKLESS_W-2:0]);
+
+  always_ff @(posedge clk_i) begin
+    expired_q    <= expired;
+    next_ticks_q <= next_ticks[RUNAWAY_W-1:0];
+  end
 
   // Cause 3, wrong polarity: in RUNAWAY_WINDOWS consecutive windows of polarity_ticks, the speed
   // against the commanded current has grown. A window restarts when the speed is not against the
@@ -139,23 +146,23 @@ module supervisor (
   localparam int GROWN_W = feltgate_map_pkg::RUNAWAY_WINDOWS - 1;
 
   logic [GROWN_W-1:0] grown_q;  // the previous windows; 1: the speed has grown
-  logic grows_q, strong_q, due_q, against;
+  logic grows_q, strong_q, against;
 
   assign against       = strong_q && gates_enable_o && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
                                                         current_ref_i[feltgate_pkg::CURRENT_W-1]);
-  assign polarity_trip = wave_i[feltgate_map_pkg::T_POLARITY] && gates_enable_o && due_q;
+  assign polarity_trip = wave_i[feltgate_map_pkg::EVENT_AT_POLARITY] && against && expired_q && grows_q &&
+                         grown_q == '1;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_SPEED])
+    if (wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_SPEED])
       grows_q <= over && signal[31] == velocity_i[feltgate_pkg::VELOCITY_W-1];
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= over;
+    if (wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_CURRENT]) strong_q <= over;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_POLARITY_TICKS]) begin
-      due_q <= against && expired && grows_q && grown_q == '1;
-      if (against && !expired) runaway_ticks_q <= next_ticks[RUNAWAY_W-1:0];
+    if (wave_i[feltgate_map_pkg::EVENT_AT_POLARITY]) begin
+      if (against && !expired_q) runaway_ticks_q <= next_ticks_q;
       else begin
         runaway_ticks_q <= RUNAWAY_W'(1);
         begin_q         <= velocity_i[feltgate_pkg::VELOCITY_W-1:GROWTH_DROP];
@@ -177,11 +184,11 @@ module supervisor (
   assign part_w = product_i[W_DROP+:PART_W];
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_ESTIMATE_PART]) part_v_q <= product_i[V_DROP+:PART_W];
+    if (wave_i[feltgate_map_pkg::EVENT_AT_ESTIMATE_PART]) part_v_q <= product_i[V_DROP+:PART_W];
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) current_estimate_o <= '0;
-    else if (wave_i[feltgate_map_pkg::T_CURRENT_ESTIMATE])
+    else if (wave_i[feltgate_map_pkg::EVENT_AT_CURRENT_ESTIMATE])
       current_estimate_o <= (PART_W + 1)'(part_v_q) - (PART_W + 1)'(part_w);
   end
 
@@ -201,10 +208,10 @@ module supervisor (
   logic                        too_hot_q;
 
   assign rest     = $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(nominal_q));
-  assign i2t_trip = wave_i[feltgate_map_pkg::T_HEAT] && too_hot_q;
+  assign i2t_trip = wave_i[feltgate_map_pkg::EVENT_AT_HEAT] && too_hot_q;
 
   always_ff @(posedge clk_i) begin
-    if (!wave_i[feltgate_map_pkg::T_NOMINAL] || param_i[31]) nominal_q <= '0;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_NOMINAL] || param_i[31]) nominal_q <= '0;
     else nominal_q <= param_i[30:0];
   end
   always_ff @(posedge clk_i) begin
@@ -212,20 +219,20 @@ module supervisor (
     else cooled_q <= rest[SUM_W-1:0];
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_I2T_BUDGET]) too_hot_q <= sum_q >= SUM_W'(param_i);
+    if (wave_i[feltgate_map_pkg::PARAM_AT_I2T_BUDGET]) too_hot_q <= sum_q >= SUM_W'(param_i);
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_CURRENT_SQUARED])
+    if (wave_i[feltgate_map_pkg::EVENT_AT_CURRENT_SQUARED])
       square_q <= (armed_o && !sum_q[SUM_W-1]) ? product_i[SQUARED_DROP+:SQUARED_W] : '0;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_HEAT]) sum_q <= cooled_q + SUM_W'(square_q);
+    if (wave_i[feltgate_map_pkg::EVENT_AT_HEAT]) sum_q <= cooled_q + SUM_W'(square_q);
   end
 
   // Cause 5, host watchdog: watchdog_ticks ticks without a kick, from the first kick on.
   logic awake_q, silent_q;
 
-  assign watchdog_trip = wave_i[feltgate_map_pkg::T_WATCHDOG] && gates_enable_o && awake_q &&
+  assign watchdog_trip = wave_i[feltgate_map_pkg::EVENT_AT_WATCHDOG] && gates_enable_o && awake_q &&
                          silent_q;
 
   assign unkicked_o = feltgate_pkg::REQUIRE_WATCHDOG != 0 && !awake_q;
@@ -235,7 +242,7 @@ module supervisor (
     else if (kick_i) awake_q <= 1'b1;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::S_WATCHDOG_TICKS]) silent_q <= expired || param_i[31];
+    if (wave_i[feltgate_map_pkg::PARAM_AT_WATCHDOG_TICKS]) silent_q <= expired || param_i[31];
   end
   always_ff @(posedge clk_i) begin
     if (tick_i) begin
@@ -303,7 +310,7 @@ module supervisor (
                 (FAULTS_W'(tick_trip) << feltgate_map_pkg::FAULT_TICK) | trips_i;
 
   assign any_trip = trip != '0;
-  assign clear_o  = clear_faults_i && !asks_o;
+  assign clear_o  = clear_faults_i && !arm_request_o;
 
   function automatic logic [FIRST_W-1:0] lowest(input logic [FAULTS_W-1:0] causes);
     lowest = NONE;
@@ -323,14 +330,14 @@ module supervisor (
   // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop, or
   // while the other side had control, must fall before it counts. Arming needs a rising edge of the
   // AND of all axes' requests.
-  logic host_counts_q, panel_counts_q, able, asks, asked_q, may_arm, arms;
+  logic host_counts_q, panel_counts_q, able, arm_request, asked_q, may_arm, arms;
 
-  assign asks_o  = (host_i ? host_arm_i : arm_i) && !disarm_i;
-  assign asks    = asks_o && !axis_silent_i;
+  assign arm_request_o  = (host_i ? host_arm_i : arm_i) && !disarm_i;
+  assign arm_request    = arm_request_o && !axis_silent_i;
   assign able    = first_fault_o == NONE && !stop_q[1] && !unkicked_o;
   assign ready_o = able && (host_i ? host_counts_q : panel_counts_q);
   assign may_arm = !asked_q && ready_o && !axis_blocked_i;
-  assign arms    = asks && (gates_enable_o || may_arm) && !any_trip;  // arms, or stays armed
+  assign arms    = arm_request && (gates_enable_o || may_arm) && !any_trip;  // arms, or stays armed
 
   assign arms_o = arms;
 
@@ -344,7 +351,7 @@ module supervisor (
     end else if (tick_i) begin
       host_counts_q  <= !host_arm_i || (host_counts_q && host_i && able);
       panel_counts_q <= !arm_i || (panel_counts_q && !host_i && able);
-      asked_q        <= asks;
+      asked_q        <= arm_request;
       armed_o        <= arms;
       gates_enable_o <= arms;
     end else if (any_trip) begin

@@ -22,7 +22,7 @@ module scene_charge (
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [   feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic                                            beyond_i,   // from the limiter
+    input  logic                                            over_limit_i,   // from the limiter
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] plus_o,
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] minus_o,
     output logic signed [       feltgate_pkg::TORQUE_W-1:0] outside_o
@@ -35,9 +35,9 @@ module scene_charge (
   localparam int ForceW = 17;  // the quotient with its sign, [1,0,ChargeF]
   localparam int Up = (TorqueF > ChargeF) ? TorqueF - ChargeF : 0;
   localparam int Down = (TorqueF < ChargeF) ? ChargeF - TorqueF : 0;
-  localparam int Square = feltgate_map_pkg::M_CHARGE_SQUARE;
-  localparam int Strength = feltgate_map_pkg::S_ATTRACT_STRENGTH;
-  localparam int Core = feltgate_map_pkg::T_CHARGE_CORE;
+  localparam int Square = feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE;
+  localparam int Strength = feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH;
+  localparam int Core = feltgate_map_pkg::EVENT_AT_CHARGE_CORE;
   localparam int First = Square + 1;  // first clock of the divider
   localparam int Last = First + 16;
 
@@ -99,11 +99,11 @@ module scene_charge (
   // Core: |x| <= half-width; the limiter compares them. A half-width of 0 means no core.
   logic none_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_CHARGE_WIDTH_LIMITED]) begin
+    if (wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH_LIMITED]) begin
       none_q <= param_i[feltgate_pkg::LIMITER_W-1:0] == '0;
     end
-    if (wave_i[feltgate_map_pkg::T_SCENE_DISTANCE]) near_q <= 1'b0;
-    else if (wave_i[Core]) near_q <= !beyond_i && !none_q;
+    if (wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]) near_q <= 1'b0;
+    else if (wave_i[Core]) near_q <= !over_limit_i && !none_q;
   end
 
   // slope * -x attracts; its negative repels.
@@ -122,9 +122,9 @@ module scene_charge (
   );
   always_ff @(posedge clk_i) begin
     if (!attract_i || (wave_i[Core+1] && !near_q)) plus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::M_ATTRACT_CORE_SLOPE]) plus_o <= attract;
+    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_ATTRACT_CORE_SLOPE]) plus_o <= attract;
     if (!repel_i || (wave_i[Core+1] && !near_q)) minus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::M_REPEL_CORE_SLOPE]) minus_o <= repel;
+    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_REPEL_CORE_SLOPE]) minus_o <= repel;
   end
 
   logic unused;

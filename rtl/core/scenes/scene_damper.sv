@@ -26,7 +26,7 @@ module scene_damper (
 
   always_ff @(posedge clk_i) begin
     if (!select_i) minus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::M_DAMPER_DAMPING]) minus_o <= part;
+    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_DAMPER_DAMPING]) minus_o <= part;
   end
 endmodule
 

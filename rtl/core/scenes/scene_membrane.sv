@@ -22,9 +22,9 @@ module scene_membrane (
     output logic signed [feltgate_pkg::TORQUE_W-1:0] minus_o   // lever came from below
 );
   localparam int W = feltgate_pkg::TORQUE_W;
-  localparam int Lower = feltgate_map_pkg::S_MEMBRANE_LOWER;
-  localparam int Upper = feltgate_map_pkg::S_MEMBRANE_UPPER;
-  localparam int Torque = feltgate_map_pkg::S_MEMBRANE_TORQUE;
+  localparam int Lower = feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER;
+  localparam int Upper = feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER;
+  localparam int Torque = feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE;
 
   logic below_q, above_q;
   always_ff @(posedge clk_i) begin

@@ -18,7 +18,7 @@ module scene_setpoint (
 );
   always_ff @(posedge clk_i) begin
     if (!select_i) plus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::S_SETPOINT_TORQUE]) begin
+    else if (wave_i[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE]) begin
       plus_o <= param_i[feltgate_pkg::TORQUE_W-1:0];
     end
   end

@@ -29,7 +29,7 @@ module scene_spring (
 
   always_ff @(posedge clk_i) begin
     if (!tension_i && (!compression_i || behind_i)) plus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::M_SCENE_STIFFNESS]) plus_o <= part;
+    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_SCENE_STIFFNESS]) plus_o <= part;
   end
 endmodule
 

@@ -45,14 +45,14 @@ module scene_wall (
   assign over     = negative && product_i[feltgate_pkg::PRODUCT_BITS-1:Top] != '1;
   always_ff @(posedge clk_i) begin
     if (!select_i || !behind_i) plus_o[W-1] <= 1'b0;
-    else if (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS]) plus_o[W-1] <= negative;
-    if (!select_i || !behind_i || (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS] && over)) begin
+    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS]) plus_o[W-1] <= negative;
+    if (!select_i || !behind_i || (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS] && over)) begin
       plus_o[W-2:0] <= '0;
-    end else if (wave_i[feltgate_map_pkg::M_WALL_STIFFNESS]) begin
+    end else if (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS]) begin
       plus_o[W-2:0] <= spring[W-2:0];
     end
     if (!select_i || !behind_i) minus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::M_WALL_DAMPING]) minus_o <= damper;
+    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_DAMPING]) minus_o <= damper;
   end
 
   logic unused;

@@ -3,9 +3,9 @@
 //
 // All scenes, with one distance from the reference, one sum of their terms and one rounding. A
 // scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
-// reference's word, for two clocks. The torque, rounded but not limited, is on ahead_o in the clock
-// before the torque limit's word, or on late_o in the clock of that word. Earlier, ahead_o shows a
-// charge's distance, which the limiter compares with the core's half-width, and late_o shows
+// reference's word, for two clocks. The torque, rounded but not limited, is on early_term_o in the clock
+// before the torque limit's word, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
+// charge's distance, which the limiter compares with the core's half-width, and late_term_o shows
 // quotient bits that nothing uses. docs/blocks/scenes.md
 
 `default_nettype none
@@ -23,14 +23,14 @@ module scenes #(
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,  // counts
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic                                             beyond_i,    // from the limiter
+    input  logic                                             over_limit_i,    // from the limiter
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; used if law_o
     input  logic                                             law_late_i,    // it counts as 0
     output logic                                             law_o,         // scene law selected
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // square the distance
-    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] ahead_o,     // one clock before its limit
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_o       // with its limit
+    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,     // one clock before its limit
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o       // with its limit
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -38,9 +38,9 @@ module scenes #(
   localparam int OffsetF = feltgate_pkg::SCENE_OFFSET_F;
   localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
   localparam int Guard = feltgate_pkg::SCENE_GUARD_BITS;
-  localparam int Reference = feltgate_map_pkg::T_SCENE_DISTANCE;
-  localparam int Sum = feltgate_map_pkg::T_SCENE_SUM;
-  localparam int Rounded = feltgate_map_pkg::T_SCENE_ROUNDED;
+  localparam int Reference = feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE;
+  localparam int Sum = feltgate_map_pkg::EVENT_AT_SCENE_SUM;
+  localparam int Rounded = feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED;
 
   logic setpoint, membrane, compression, tension, damper, attract, repel, wall;
   assign setpoint    = Mask[{1'b0, feltgate_map_pkg::SCENE_SETPOINT}] &&
@@ -148,16 +148,16 @@ module scenes #(
         .wave_i(wave_i),
         .param_i(param_i),
         .product_i(product_i),
-        .beyond_i(beyond_i),
+        .over_limit_i(over_limit_i),
         .plus_o(charge_plus),
         .minus_o(charge_minus),
-        .outside_o(late_o),
+        .outside_o(late_term_o),
         .armed_i(armed_i)
     );
   end else begin : gen_no_charge
     assign charge_plus  = '0;
     assign charge_minus = '0;
-    assign late_o       = '0;
+    assign late_term_o       = '0;
   end
 
   if (Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}]) begin : gen_wall
@@ -204,17 +204,17 @@ module scenes #(
                       feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
     if (!wave_i[Rounded] || !armed_i) word_q <= '0;
     else word_q <= setpoint_plus;
-    if (!wave_i[feltgate_map_pkg::T_LAW_TORQUE] || !armed_i || !law_o || law_late_i) law_q <= '0;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_LAW_TORQUE] || !armed_i || !law_o || law_late_i) law_q <= '0;
     else law_q <= law_torque_i;
-    if (!wave_i[feltgate_map_pkg::T_CHARGE_WIDTH]) width_q <= '0;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH]) width_q <= '0;
     else width_q <= gap_q;
   end
-  assign ahead_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
+  assign early_term_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
                    feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(width_q);
 
   // Inputs without a load if fewer scenes are built.
   logic unused;
-  assign unused = ^{rst_ni, beyond_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
+  assign unused = ^{rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
 endmodule
 
 `default_nettype wire

@@ -45,20 +45,20 @@ module operand_bus (
   // A value that is new in its first bus clock is gated by a select made one clock ahead. The other
   // values are copied one clock ahead.
   always_ff @(posedge clk_i) begin
-    take_velocity_q <= wave_i[feltgate_map_pkg::S_EMF_OVER_RESISTANCE-1] ||
-                       wave_i[feltgate_map_pkg::S_INERTIA_GAIN-1] ||
-                       wave_i[feltgate_map_pkg::S_DAMPER_DAMPING-1] ||
-                       wave_i[feltgate_map_pkg::S_EMF_CONSTANT-1];
-    take_tau_hat_q  <= wave_i[feltgate_map_pkg::S_OBSERVER_GAIN-1];
-    take_tau_ref_q  <= wave_i[feltgate_map_pkg::S_TORQUE_GAIN-1] ||
-                       wave_i[feltgate_map_pkg::S_DEAD_VOLTAGE_SLOPE-1];
-    if (!wave_i[feltgate_map_pkg::S_TORQUE_CONSTANT-1]) current_q <= '0;
+    take_velocity_q <= wave_i[feltgate_map_pkg::PARAM_AT_EMF_OVER_RESISTANCE-1] ||
+                       wave_i[feltgate_map_pkg::PARAM_AT_INERTIA_GAIN-1] ||
+                       wave_i[feltgate_map_pkg::PARAM_AT_DAMPER_DAMPING-1] ||
+                       wave_i[feltgate_map_pkg::PARAM_AT_EMF_CONSTANT-1];
+    take_tau_hat_q  <= wave_i[feltgate_map_pkg::PARAM_AT_OBSERVER_GAIN-1];
+    take_tau_ref_q  <= wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_GAIN-1] ||
+                       wave_i[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE_SLOPE-1];
+    if (!wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_CONSTANT-1]) current_q <= '0;
     else current_q <= current_ref_i;
-    if (!(wave_i[feltgate_map_pkg::S_INVERSE_RESISTANCE-1] ||
-          wave_i[feltgate_map_pkg::S_VOLTAGE_TO_CURRENT-1])) voltage_q <= '0;
+    if (!(wave_i[feltgate_map_pkg::PARAM_AT_INVERSE_RESISTANCE-1] ||
+          wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_TO_CURRENT-1])) voltage_q <= '0;
     else voltage_q <= voltage_i;
-    square_estimate_q <= wave_i[feltgate_map_pkg::S_CURRENT_SQUARE-1];
-    if (!wave_i[feltgate_map_pkg::S_CURRENT_SQUARE-1]) estimate_q <= '0;
+    square_estimate_q <= wave_i[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE-1];
+    if (!wave_i[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE-1]) estimate_q <= '0;
     else estimate_q <= current_estimate_i;
   end
   assign velocity  = take_velocity_q ? velocity_i : '0;

@@ -28,7 +28,7 @@ module registers #(
   input  logic        scene_slot_fetch_i,
   input  logic [3:0]  scene_i,             // bank of the active scene; never 1
   input  logic        region_high_i,       // 1: read voltage_gain_high for voltage_gain
-  input  logic        eased_i,             // 1: read hold_limit for torque_limit
+  input  logic        derated_i,             // 1: read hold_limit for torque_limit
   input  logic        testing_i,           // 1: read the self-test's torque for torque_limit
   output logic [31:0] param_o,
   output logic        word_error_o,        // check error of the word on the bus or of the held control bits
@@ -47,11 +47,11 @@ module registers #(
   input  logic [31:0] snap_data_i
 );
 
-  localparam logic [5:0] LOW  = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN);
-  localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::S_VOLTAGE_GAIN_HIGH);
-  localparam logic [5:0] FULL  = 6'(feltgate_map_pkg::S_TORQUE_LIMIT);
-  localparam logic [5:0] EASED = 6'(feltgate_map_pkg::S_HOLD_LIMIT);
-  localparam logic [5:0] TEST  = 6'(feltgate_map_pkg::S_SELF_TEST_TORQUE);
+  localparam logic [5:0] LOW  = 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN);
+  localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
+  localparam logic [5:0] FULL  = 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
+  localparam logic [5:0] EASED = 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
+  localparam logic [5:0] TEST  = 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
 
   // The waiting write: its target (no bit set: nothing waits), address and data.
   logic        to_parameter_q, to_control_q, to_command_q;
@@ -169,7 +169,7 @@ module registers #(
     if (lands) parameter_ram[address_q] <= written;
   end
 
-  logic        high, eased, test;
+  logic        high, derated, test;
   logic [8:0]  fetch_address;
   logic [35:0] fetch_q;
   logic [ 3:0] check_q;                // check bits of the word on the bus
@@ -177,10 +177,10 @@ module registers #(
   logic        warm_q;  // 0 for one clock: blocks the RAM's output register, which has no reset
 
   assign high = region_high_i && slot_fetch_i == LOW;
-  assign eased = eased_i && slot_fetch_i == FULL;
+  assign derated = derated_i && slot_fetch_i == FULL;
   assign test = testing_i && slot_fetch_i == FULL;
   assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
-                       : {3'b000, high ? HIGH : test ? TEST : eased ? EASED : slot_fetch_i};
+                       : {3'b000, high ? HIGH : test ? TEST : derated ? EASED : slot_fetch_i};
 
   always_ff @(posedge clk_i) fetch_q <= parameter_ram[fetch_address];
 

@@ -29,7 +29,7 @@ module snapshot #(
     output logic        [31:0] data_o
 );
   generate
-  if (!(feltgate_map_pkg::FIRST_WAVE_CLOCK + feltgate_map_pkg::T_SNAPSHOT < feltgate_pkg::CLOCKS_PER_TICK))
+  if (!(feltgate_map_pkg::FIRST_WAVE_CLOCK + feltgate_map_pkg::EVENT_AT_SNAPSHOT < feltgate_pkg::CLOCKS_PER_TICK))
   begin : g_check_tick
     the_last_word_must_be_stored_before_the_tick_ends missing ();
   end
@@ -37,19 +37,19 @@ module snapshot #(
   if (ReadBack != 0) begin : gen_words
     logic [31:0] word;
     logic        valid;
-    assign word = (wave_i[feltgate_map_pkg::R_STATUS] ? status_i : '0) |
-                  (wave_i[feltgate_map_pkg::R_FAULTS] ? faults_i : '0) |
-                  (wave_i[feltgate_map_pkg::R_POSITION] ? position_i : '0) |
-                  (wave_i[feltgate_map_pkg::R_TICK] ? tick_count_i : '0) |
-                  (wave_i[feltgate_map_pkg::R_INDEX] ? index_position_i : '0) |
-                  (wave_i[feltgate_map_pkg::R_ENCODER] ? {rejected_count_i, error_count_i} : '0);
+    assign word = (wave_i[feltgate_map_pkg::READ_AT_STATUS] ? status_i : '0) |
+                  (wave_i[feltgate_map_pkg::READ_AT_FAULTS] ? faults_i : '0) |
+                  (wave_i[feltgate_map_pkg::READ_AT_POSITION] ? position_i : '0) |
+                  (wave_i[feltgate_map_pkg::READ_AT_TICK] ? tick_count_i : '0) |
+                  (wave_i[feltgate_map_pkg::READ_AT_INDEX] ? index_position_i : '0) |
+                  (wave_i[feltgate_map_pkg::READ_AT_ENCODER] ? {rejected_count_i, error_count_i} : '0);
     assign valid =
-        wave_i[feltgate_map_pkg::R_STATUS] || wave_i[feltgate_map_pkg::R_FAULTS] ||
-        wave_i[feltgate_map_pkg::R_POSITION] || wave_i[feltgate_map_pkg::R_TICK] || wave_i[feltgate_map_pkg::R_INDEX] ||
-        wave_i[feltgate_map_pkg::R_ENCODER] || wave_i[feltgate_map_pkg::R_VELOCITY] ||
-        wave_i[feltgate_map_pkg::R_TAU_HAT] || wave_i[feltgate_map_pkg::R_TAU_REF] ||
-        wave_i[feltgate_map_pkg::R_CURRENT_REF] || wave_i[feltgate_map_pkg::R_VOLTAGE] ||
-        wave_i[feltgate_map_pkg::R_DUTY];
+        wave_i[feltgate_map_pkg::READ_AT_STATUS] || wave_i[feltgate_map_pkg::READ_AT_FAULTS] ||
+        wave_i[feltgate_map_pkg::READ_AT_POSITION] || wave_i[feltgate_map_pkg::READ_AT_TICK] || wave_i[feltgate_map_pkg::READ_AT_INDEX] ||
+        wave_i[feltgate_map_pkg::READ_AT_ENCODER] || wave_i[feltgate_map_pkg::READ_AT_VELOCITY] ||
+        wave_i[feltgate_map_pkg::READ_AT_TAU_HAT] || wave_i[feltgate_map_pkg::READ_AT_TAU_REF] ||
+        wave_i[feltgate_map_pkg::READ_AT_CURRENT_REF] || wave_i[feltgate_map_pkg::READ_AT_VOLTAGE] ||
+        wave_i[feltgate_map_pkg::READ_AT_DUTY];
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         valid_o <= 1'b0;

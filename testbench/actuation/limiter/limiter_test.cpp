@@ -33,16 +33,16 @@ struct Adapter {
   static void drive(Rtl& rtl, const Twin::In& in) {
     FELTGATE_DRIVE(rtl, in, valid, torque, voltage, duty);
     // The width of the port is the design's: 32 or 64 bits of a word.
-    using Port = std::remove_reference_t<decltype(rtl.ahead_i)>;
-    rtl.ahead_i = port_bits<kWide, Port>(in.ahead);
-    rtl.late_i = port_bits<kWide, Port>(in.late);
+    using Port = std::remove_reference_t<decltype(rtl.early_term_i)>;
+    rtl.early_term_i = port_bits<kWide, Port>(in.early_term);
+    rtl.late_term_i = port_bits<kWide, Port>(in.late_term);
     rtl.param_i = in.param;
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
     if (!out.known) return;
     check("limited", sign_extend<kWidth>(rtl.limited_o), out.limited);
-    check("beyond", rtl.beyond_o, out.beyond);
+    check("over_limit", rtl.over_limit_o, out.over_limit);
   }
 };
 
@@ -50,8 +50,8 @@ using Bench = LockStep<Rtl, Twin, Adapter>;
 
 /// One x and its limit.
 struct Case {
-  bool valid = true, ahead = false;  ///< x comes a clock ahead
-  int signal = 0;                    ///< 1 torque, 2 voltage, 3 duty
+  bool valid = true, early_term = false;  ///< x comes a clock ahead
+  int signal = 0;                         ///< 1 torque, 2 voltage, 3 duty
   std::int64_t x = 0;
   std::uint32_t param = 0;
 };
@@ -65,8 +65,13 @@ struct Pipeline {
   Twin::In operator()(std::int64_t) {
     now = after;
     after = next();
-    return {after.valid,       after.ahead ? after.x : 0, now.ahead ? 0 : now.x, now.param,
-            after.signal == 1, after.signal == 2,         after.signal == 3};
+    return {after.valid,
+            after.early_term ? after.x : 0,
+            now.early_term ? 0 : now.x,
+            now.param,
+            after.signal == 1,
+            after.signal == 2,
+            after.signal == 3};
   }
 };
 
@@ -77,7 +82,7 @@ struct RandomCases {
   Case operator()() {
     Case c;
     c.valid = !random.one_in(4);
-    c.ahead = random.coin();
+    c.early_term = random.coin();
     if (c.valid) c.signal = static_cast<int>(random.below(4));
     std::int64_t limit = kMaxLimit >> random.below(static_cast<std::uint64_t>(kWidth));
     if (random.one_in(4))
@@ -100,7 +105,7 @@ struct RandomCases {
 
 /// By sign of x: [0] negative, [1] not.
 struct Tally {
-  std::int64_t beyond[2] = {}, within[2] = {}, at_limit[2] = {}, wide[2] = {}, negative[2] = {},
+  std::int64_t over_limit[2] = {}, within[2] = {}, at_limit[2] = {}, wide[2] = {}, negative[2] = {},
                compared[2] = {}, misfit[2] = {};
 };
 
@@ -111,7 +116,7 @@ struct Plain {
   int filled = 0;
 
   const char* operator()(const Twin::In& in, const Rtl& rtl, const Twin&, bool in_reset) {
-    const std::int64_t x = before[0].ahead + in.late;  // one of them is 0
+    const std::int64_t x = before[0].early_term + in.late_term;  // one of them is 0
     const bool valid = before[0].valid;
     const int width = before[0].torque    ? Design::f.torque.width()
                       : before[0].voltage ? Design::f.voltage.width()
@@ -123,17 +128,17 @@ struct Plain {
     const std::int64_t limit = sign_extend<kWidth>(in.param);
     const std::int64_t size = x < 0 ? -x : x;
     const bool misfit = limit >= std::int64_t{1} << (width - 1);
-    const bool beyond = misfit || size > limit;
+    const bool over_limit = misfit || size > limit;
     const std::int64_t most = misfit ? 0 : std::max<std::int64_t>(limit, 0);
     const std::int64_t limited = !valid ? 0 : std::clamp(x, -most, most);
     const int sign = x >= 0;
-    ++(limit < 0 ? tally->negative : beyond ? tally->beyond : tally->within)[sign];
+    ++(limit < 0 ? tally->negative : over_limit ? tally->over_limit : tally->within)[sign];
     if (size == limit) ++tally->at_limit[sign];
     if (size > kMaxLimit) ++tally->wide[sign];
     ++tally->compared[valid];
     tally->misfit[sign] += misfit;
     if (sign_extend<kWidth>(rtl.limited_o) != limited) return "limited of the plain program";
-    if ((rtl.beyond_o != 0) != beyond) return "beyond of the plain program";
+    if ((rtl.over_limit_o != 0) != over_limit) return "beyond of the plain program";
     return nullptr;
   }
 };
@@ -146,10 +151,10 @@ TEST_CASE("limiter: random x and limits, both ways in, with and without valid") 
   Bench bench("limiter", 1);
   bench.run(Pipeline<RandomCases>{{Random(2)}}, clocks, {1000}, Plain{&t});
   for (const int sign : {0, 1}) {
-    INFO("sign " << sign << ": beyond " << t.beyond[sign] << ", within " << t.within[sign]
+    INFO("sign " << sign << ": beyond " << t.over_limit[sign] << ", within " << t.within[sign]
                  << ", at the limit " << t.at_limit[sign] << ", wide " << t.wide[sign]
                  << ", limit negative " << t.negative[sign]);
-    REQUIRE(t.beyond[sign] * 20 > clocks);
+    REQUIRE(t.over_limit[sign] * 20 > clocks);
     REQUIRE(t.within[sign] * 20 > clocks);
     REQUIRE(t.at_limit[sign] * 100 > clocks);
     REQUIRE(t.wide[sign] * 100 > clocks);
@@ -174,8 +179,8 @@ TEST_CASE("limiter: every pair of corners, each way in, back to back") {
   for (const std::int64_t x : corners) {
     for (const std::int64_t limit : corners) {
       if (limit > kMaxLimit || limit < -kMaxLimit - 1) continue;
-      for (const bool ahead : {false, true}) {
-        cases.push_back({true, ahead, 0, x, static_cast<std::uint32_t>(limit)});
+      for (const bool early_term : {false, true}) {
+        cases.push_back({true, early_term, 0, x, static_cast<std::uint32_t>(limit)});
       }
     }
   }

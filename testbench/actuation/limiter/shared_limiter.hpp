@@ -18,7 +18,7 @@ class SharedLimiter {
 
   /// The result in this clock. Call clock() once after it.
   std::int64_t limited() const { return out_.limited; }
-  bool beyond() const { return out_.beyond; }
+  bool beyond() const { return out_.over_limit; }
 
   /// `own`: the limit's word of the block under test is on the bus.
   void clock(bool own, const typename Limiter<D>::In& in) {
@@ -27,7 +27,7 @@ class SharedLimiter {
     if (!own) {
       constexpr int unused = 64 - D::f.limiter.width();
       out_.limited = static_cast<std::int64_t>(random_.bits()) >> unused;
-      out_.beyond = random_.coin();
+      out_.over_limit = random_.coin();
     }
   }
 

@@ -40,9 +40,9 @@ struct Adapter {
     rtl.wave_i = in.port.wave;
     rtl.param_i = in.port.param;
     rtl.limited_i = port_bits<Design::f.limiter.width()>(in.port.limited);
-    rtl.beyond_i = in.port.beyond;
+    rtl.over_limit_i = in.port.over_limit;
     rtl.frozen_i = in.port.relief.frozen;
-    rtl.eased_i = in.port.relief.eased;
+    rtl.derated_i = in.port.relief.derated;
   }
   template <class Check>
   static void compare(Check& check, const Vramp& rtl, const Twin::Out& out) {
@@ -89,12 +89,12 @@ struct Waves {
     in.port.wave = clock < Map::wave_length ? std::uint64_t{1} << clock : 0;
     in.port.param = static_cast<std::uint32_t>(word & 0xffffffff);
     in.port.limited = limiter.limited();
-    in.port.beyond = limiter.beyond();
+    in.port.over_limit = limiter.beyond();
     // Disarmed, the scenes give 0; the self-test gives what is beyond every limit.
-    const std::int64_t beyond = in.aside.pulse > 0   ? Rendered::max_raw()
-                                : in.aside.pulse < 0 ? Rendered::min_raw()
-                                                     : 0;
-    const std::int64_t x = limits ? (in.aside.armed ? in.aside.rendered : beyond) : 0;
+    const std::int64_t over_limit = in.aside.pulse > 0   ? Rendered::max_raw()
+                                    : in.aside.pulse < 0 ? Rendered::min_raw()
+                                                         : 0;
+    const std::int64_t x = limits ? (in.aside.armed ? in.aside.rendered : over_limit) : 0;
     const bool comes = clock == Map::W::torque_limit - 1;
     limiter.clock(limits, {comes, 0, x, in.port.param, comes});
     clock = clock + 1 == period ? 0 : clock + 1;
@@ -116,7 +116,7 @@ struct Waves {
 struct Tally {
   std::int64_t waves = 0, disarmed = 0, free = 0, limited[2] = {}, ramping[2] = {}, ended[2] = {},
                scene_changes = 0, restarts = 0, held = 0, negative_step = 0, negative_limit = 0,
-               eased_changes = 0, frozen[2] = {}, fallen[2] = {}, pulsed = 0, pulsed_frozen = 0;
+               derated_changes = 0, frozen[2] = {}, fallen[2] = {}, pulsed = 0, pulsed_frozen = 0;
 };
 
 /// Checks that the chain gives the same result, and the properties of limit and ramp.
@@ -126,7 +126,7 @@ struct ChainBeside {
   std::int64_t before = 0;
   bool was_ramping = true;
   int scene = 0;
-  bool eased = false;
+  bool derated = false;
 
   const char* operator()(const Twin::In& in, const Vramp& rtl, const Twin&, bool in_reset) {
     if (in_reset) {
@@ -154,7 +154,7 @@ struct ChainBeside {
     before = tau;
     was_ramping = ramped;
     scene = w.scene;
-    eased = w.relief.eased;
+    derated = w.relief.derated;
     if (chain.tau_ref().raw() != tau) return "tau_ref of the chain is that of clock()";
     if (chain.limit_torque() != (rtl.limit_torque_o != 0)) return "limit_torque of the chain";
     if (chain.limit_ramp() != ramped) return "limit_ramp of the chain";
@@ -174,7 +174,7 @@ struct ChainBeside {
 
   void count(const Wave& w, std::int64_t limit, std::int64_t step, std::int64_t tau, bool ramped) {
     ++tally->waves;
-    tally->eased_changes += w.armed && w.relief.eased != eased && !was_ramping;
+    tally->derated_changes += w.armed && w.relief.derated != derated && !was_ramping;
     if (w.armed && w.relief.frozen && before != 0) {
       ++(tau == before ? tally->frozen : tally->fallen)[before > 0];
     }

@@ -36,7 +36,7 @@ struct RandomWaves {
     wave.restart = random.one_in(30);
     if (random.one_in(30)) wave.armed = !random.one_in(4);
     if (random.one_in(10)) wave.pulse = static_cast<int>(random.between(-1, 1));
-    if (random.one_in(20)) wave.relief.eased = random.coin();
+    if (random.one_in(20)) wave.relief.derated = random.coin();
     if (random.one_in(15)) wave.relief.frozen = random.one_in(3);
     if (random.one_in(20)) {
       wave.limit = any_word(random.below(80000));
@@ -113,7 +113,7 @@ TEST_CASE("ramp: random torques, limits, steps, arming, scenes and resets") {
   REQUIRE(t.restarts > 300);
   REQUIRE(t.negative_step > 300);
   REQUIRE(t.negative_limit > 300);
-  REQUIRE(t.eased_changes > 200);
+  REQUIRE(t.derated_changes > 200);
   REQUIRE(t.pulsed > 300);
   REQUIRE(t.pulsed_frozen > 100);
   for (const int sign : {0, 1}) {
@@ -175,8 +175,8 @@ TEST_CASE("ramp: another limit ramps, both ways") {
   const auto seen = play(
       [](std::int64_t k) {
         Wave w = wave(30000, k < 400 ? Law::Ramp::max_raw() : step);
-        w.relief.eased = k >= 400 && k < 800;
-        w.limit = w.relief.eased ? 10000 : 40000;
+        w.relief.derated = k >= 400 && k < 800;
+        w.limit = w.relief.derated ? 10000 : 40000;
         return w;
       },
       1100);
@@ -262,7 +262,7 @@ TEST_CASE("ramp: relief as the limits say") {
   for (unsigned bits = 0; bits < 1u << 12; ++bits) {
     const Relief relief = relief_of(bits);
     REQUIRE(relief.frozen == ((bits & limit::chatter) != 0));
-    REQUIRE(relief.eased == ((bits & limit::hold) != 0));
+    REQUIRE(relief.derated == ((bits & limit::hold) != 0));
   }
 }
 

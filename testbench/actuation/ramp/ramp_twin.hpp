@@ -26,7 +26,7 @@ class Ramp {
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t limited = 0;
-    bool beyond = false;
+    bool over_limit = false;
     Relief relief;
   };
   struct Out {
@@ -48,7 +48,7 @@ class Ramp {
     if (at(T::ramp_excess)) {
       // As many bits as a torque has.
       const auto target = static_cast<std::uint32_t>(in.limited & 0xffffffff);
-      law_.aim(Fixed::from_raw<D::f.torque.key()>(decode_word(D::f.torque, target)), in.beyond);
+      law_.aim(Fixed::from_raw<D::f.torque.key()>(decode_word(D::f.torque, target)), in.over_limit);
       step_ = Fixed::from_raw<D::P::ramp_step.key()>(decode_word(D::P::ramp_step, in.param));
       out_.limit_torque = law_.limit_torque();
     }

@@ -27,12 +27,12 @@ class TorqueControl {
     std::int64_t product = 0;
     std::int64_t tau_ref = 0;
     std::int64_t limited = 0;
-    bool beyond = false;
+    bool over_limit = false;
   };
   struct Out {
-    std::int64_t ahead = 0;   ///< value for the limiter, a clock before the limit's word
-    std::int64_t late = 0;    ///< value for the limiter, in the clock of the limit's word
-    std::int64_t addend = 0;  ///< difference `applied` - `limited`
+    std::int64_t early_term = 0;  ///< value for the limiter, a clock before the limit's word
+    std::int64_t late_term = 0;   ///< value for the limiter, in the clock of the limit's word
+    std::int64_t addend = 0;      ///< difference `applied` - `limited`
     bool region_high = false;
     std::int64_t current_ref = 0;
     std::int64_t voltage = 0;
@@ -48,9 +48,9 @@ class TorqueControl {
     const bool direct = in.mode == Mode::voltage;
     const bool follows = !direct && in.armed, ramps = direct && in.armed;
     const std::int64_t applied = in.limited + out_.addend;
-    out_.ahead = out_.late = out_.addend = 0;
+    out_.early_term = out_.late_term = out_.addend = 0;
     if (at(T::set_error) && ramps) {
-      out_.late = (word<D::P::voltage_setpoint.key()>(in.param) - voltage_).raw();
+      out_.late_term = (word<D::P::voltage_setpoint.key()>(in.param) - voltage_).raw();
     }
     if (at(T::set_step) && ramps) out_.addend = voltage_.raw();
     if (at(T::dead_voltage) && D::emf_in_law == 0 && !direct) out_.addend = -emf_.raw();
@@ -60,40 +60,40 @@ class TorqueControl {
       kept_ = in.mode == Mode::open_loop ? CurrentPart{}
                                          : Law::current_part(product<P::torque, P::observer>(in));
     }
-    if (at(T::border) || at(T::hold_size)) out_.ahead = in.tau_ref;
-    if (at(T::region)) out_.region_high = in.beyond;
+    if (at(T::border) || at(T::hold_size)) out_.early_term = in.tau_ref;
+    if (at(T::region)) out_.region_high = in.over_limit;
     if (at(T::direct_current) && direct && in.armed) {
-      out_.ahead = Law::current_sum(product<P::voltage, P::direct>(in)).raw();
+      out_.early_term = Law::current_sum(product<P::voltage, P::direct>(in)).raw();
     }
     if (at(T::current_sum) && follows) {
       const auto by_ref = Law::current_part(product<P::torque, P::torque_gain>(in));
-      out_.late = Law::current_sum(by_ref + kept_).raw();
+      out_.late_term = Law::current_sum(by_ref + kept_).raw();
     }
     if (at(T::dead_sum) && !direct) {
-      out_.ahead = Law::voltage_part(product<P::torque, P::slope>(in)).raw();
+      out_.early_term = Law::voltage_part(product<P::torque, P::slope>(in)).raw();
     }
     if (at(T::current)) {
       out_.current_ref = shown<D::f.current.width()>(in.limited);
-      out_.limit.current = in.beyond && in.armed;
+      out_.limit.current = in.over_limit && in.armed;
     }
     if (direct ? at(T::direct_voltage) : at(T::voltage_offset)) {
       fixed_ = VoltageSum::from_raw(raw<VoltageSum>(applied));
     }
     if (at(T::voltage_sum) && follows) {
       const auto resistive = Law::voltage_part(product<P::current, P::gain>(in));
-      out_.late = Law::voltage_sum(resistive + fixed_).raw();
+      out_.late_term = Law::voltage_sum(resistive + fixed_).raw();
     }
-    if (at(T::voltage_sum) && ramps) out_.late = Law::voltage_sum(fixed_ - emf_).raw();
+    if (at(T::voltage_sum) && ramps) out_.late_term = Law::voltage_sum(fixed_ - emf_).raw();
     if (at(T::voltage)) {
       voltage_ = Law::port_voltage(Applied::from_raw(raw<Applied>(applied)));
-      out_.limit.voltage = in.beyond && in.armed;
+      out_.limit.voltage = in.over_limit && in.armed;
     }
     if (at(T::duty_sum)) {
-      out_.late = Law::duty_sum(product<D::f.applied.key(), P::duty>(in)).raw();
+      out_.late_term = Law::duty_sum(product<D::f.applied.key(), P::duty>(in)).raw();
     }
     if (at(T::duty)) {
       out_.duty = shown<D::f.duty.width()>(in.limited);
-      out_.limit.duty = in.beyond;
+      out_.limit.duty = in.over_limit;
     }
     out_.voltage = voltage_.raw();
   }

@@ -89,7 +89,7 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
   in.tau_ref = clock > Map::T::tau_ref ? w.tau_ref : shared.garbage.between(-1000000, 1000000);
   in.product = shared.mult.product();
   in.limited = shared.limiter.limited();
-  in.beyond = shared.limiter.beyond();
+  in.over_limit = shared.limiter.beyond();
   in.param = static_cast<std::uint32_t>(shared.garbage.bits() >> 32);
   const bool limits = is_one_of(
       {W::current_limit, W::dead_voltage, W::voltage_step, W::voltage_window, W::duty_limit});
@@ -103,7 +103,7 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
   const bool valid = ahead_of(
       {W::current_limit, W::dead_voltage, W::voltage_step, W::voltage_window, W::duty_limit});
   shared.limiter.clock(limits || compares,
-                       {valid, out.ahead, out.late, in.param, false,
+                       {valid, out.early_term, out.late_term, in.param, false,
                         clock == Map::W::voltage_window - 1, clock == Map::W::duty_limit - 1});
 
   const std::int64_t coefficient = in.param & ((1u << Design::coefficient_bits) - 1);
@@ -145,14 +145,14 @@ struct Adapter {
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
     rtl.tau_ref_i = port_bits<Torque::width>(in.tau_ref);
     rtl.limited_i = port_bits<Design::f.limiter.width()>(in.limited);
-    rtl.beyond_i = in.beyond;
+    rtl.over_limit_i = in.over_limit;
   }
   /// Converts the RTL's outputs to the twin's type.
   static Control::Out outputs(const Vtorque_control& rtl) {
     Control::Out out;
     out.region_high = rtl.region_high_o != 0;
-    out.ahead = sign_extend<Design::f.limiter_input.width()>(rtl.ahead_o);
-    out.late = sign_extend<Design::f.limiter_input.width()>(rtl.late_o);
+    out.early_term = sign_extend<Design::f.limiter_input.width()>(rtl.early_term_o);
+    out.late_term = sign_extend<Design::f.limiter_input.width()>(rtl.late_term_o);
     constexpr int bits = Design::f.limiter.width();
     out.addend = sign_extend<Design::f.with_addend.width()>(rtl.applied_o) -
                  sign_extend<bits>(rtl.limited_i);
@@ -167,8 +167,8 @@ struct Adapter {
     const Control::Out out = outputs(rtl);
     check("region_high", out.region_high, seen.port.region_high);
     if (seen.clocked) {
-      check("ahead", out.ahead, seen.port.ahead);
-      check("late", out.late, seen.port.late);
+      check("early_term", out.early_term, seen.port.early_term);
+      check("late_term", out.late_term, seen.port.late_term);
       check("applied", out.addend, seen.port.addend);
     }
     check("current_ref", out.current_ref, seen.port.current_ref);

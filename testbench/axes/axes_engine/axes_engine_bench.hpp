@@ -23,7 +23,7 @@ constexpr int kAxes = 2;
 
 /// The signals of an axis.
 struct Axis {
-  bool law = false, asks = false, armed = false, zeroed = false;
+  bool law = false, arm_request = false, armed = false, zeroed = false;
   std::int32_t position = 0, velocity = 0, tau_hat = 0;
 };
 
@@ -33,7 +33,7 @@ struct AxisOf {
   bool is_measured = false;
   int in_tick = 0;
   const CoreOut& out() const { return core; }
-  bool asks(const CoreIn&) const { return says.asks; }
+  bool arm_request(const CoreIn&) const { return says.arm_request; }
   bool zeroed() const { return says.zeroed; }
   bool measured() const { return is_measured; }
   int clock_of_tick() const { return in_tick; }
@@ -113,7 +113,7 @@ struct Adapter {
              static_cast<std::uint32_t>(in.axis[0].*what);
     };
     rtl.law_i = bits(&Axis::law);
-    rtl.asks_i = bits(&Axis::asks);
+    rtl.arm_request_i = bits(&Axis::arm_request);
     rtl.armed_i = bits(&Axis::armed);
     rtl.zeroed_i = bits(&Axis::zeroed);
     rtl.snapshot_i = in.snapshot;
@@ -245,7 +245,7 @@ class Device {
     return n;
   }
   void arm() {
-    set(&Axis::asks, true);
+    set(&Axis::arm_request, true);
     until_checked(3000);
     set(&Axis::armed, true);
   }

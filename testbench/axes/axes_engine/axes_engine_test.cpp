@@ -66,10 +66,10 @@ TEST_CASE("axes_engine: arming waits for a check of its own, and for a good one 
     CHECK(device.out().unchecked);
     CHECK_FALSE(device.out().unfit);
     CHECK(device.out().late);  // no good check yet
-    device.axis(0).asks = true;
+    device.axis(0).arm_request = true;
     device.ticks(20);
     CHECK(device.out().unchecked);  // one of two
-    device.axis(1).asks = true;
+    device.axis(1).arm_request = true;
     const int whole = device.until_checked(3000);
     CHECK(whole > 500);
     CHECK(whole < 1500);
@@ -79,14 +79,14 @@ TEST_CASE("axes_engine: arming waits for a check of its own, and for a good one 
     device.clock();
     CHECK(device.out().unfit == (wrong != 0));
     // A check that another request began does not count.
-    device.axis(0).asks = false;
+    device.axis(0).arm_request = false;
     device.ticks(2);
     CHECK(device.out().unchecked);
-    device.axis(0).asks = true;
+    device.axis(0).arm_request = true;
     device.ticks(whole / 2);
-    device.axis(0).asks = false;
+    device.axis(0).arm_request = false;
     device.ticks(3);
-    device.axis(0).asks = true;
+    device.axis(0).arm_request = true;
     const int again = device.until_checked(3000);
     INFO("ticks " << whole << ", " << again);
     CHECK(again > whole);
@@ -218,7 +218,7 @@ TEST_CASE("axes_engine: a program that gives nothing is late, until it is entere
   device.ticks(20);
   CHECK_FALSE(device.out().late);
   device.set(&Axis::armed, false);
-  device.set(&Axis::asks, false);
+  device.set(&Axis::arm_request, false);
   device.ticks(2);
   device.write(H::divider0, 400);
   device.arm();
@@ -244,17 +244,17 @@ TEST_CASE("axes_engine: a program is locked from the request to arm on") {
   device.write(H::high, static_cast<std::uint32_t>(kLaw.program_at(3) >> 32));
   CHECK(writes(low ^ 1));
   CHECK(writes(low));
-  device.set(&Axis::asks, true);
+  device.set(&Axis::arm_request, true);
   device.until_checked(3000);
   CHECK_FALSE(writes(low ^ 1));
-  device.axis(0).asks = false;
+  device.axis(0).arm_request = false;
   CHECK(writes(low ^ 1));
   device.axis(1).armed = true;  // alone
   CHECK_FALSE(writes(low));
   device.axis(1).armed = false;
-  device.axis(0).asks = true;
+  device.axis(0).arm_request = true;
   device.ticks(2);
-  device.axis(0).asks = false;  // the check is under way
+  device.axis(0).arm_request = false;  // the check is under way
   device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::line_base);
   device.in.port.reg_wdata = 7;
   device.in.port.reg_write = true;
@@ -310,9 +310,9 @@ TEST_CASE("axes_engine: axes and hosts at random, RTL against twin") {
   for (int tick = 0; tick < 12'000; ++tick) {
     for (Axis& a : device.in.axis) {
       if (random.one_in(150)) a.law = !a.law;
-      if (random.one_in(a.asks ? 4000 : 100)) a.asks = !a.asks;
-      if (!a.asks || device.out().unchecked) a.armed = false;
-      if (a.asks && !device.out().unchecked && random.one_in(30)) a.armed = true;
+      if (random.one_in(a.arm_request ? 4000 : 100)) a.arm_request = !a.arm_request;
+      if (!a.arm_request || device.out().unchecked) a.armed = false;
+      if (a.arm_request && !device.out().unchecked && random.one_in(30)) a.armed = true;
       a.zeroed = random.one_in(300);
       a.position = static_cast<std::int32_t>(random.between(-3000, 3000));
       a.velocity = static_cast<std::int32_t>(random.between(-100'000, 100'000));

@@ -86,9 +86,9 @@ TEST_CASE("axes_engine: a program is locked while a check is under way that nobo
   device.load(m, image_crc(m));
   const auto low = static_cast<std::uint32_t>(m.program_at(3));
   device.write(H::high, static_cast<std::uint32_t>(m.program_at(3) >> 32));
-  device.set(&Axis::asks, true);
+  device.set(&Axis::arm_request, true);
   device.ticks(2);
-  device.set(&Axis::asks, false);
+  device.set(&Axis::arm_request, false);
   device.ticks(1);
   device.write(H::program + 3, low ^ 1);
   CHECK(device.read(H::program + 3) == low);
@@ -103,13 +103,13 @@ TEST_CASE("axes_engine: whose check it is does not change with the clock in whic
     const EngineMemory m = counting_law();
     Device device;
     device.load(m, image_crc(m));
-    device.set(&Axis::asks, true);
+    device.set(&Axis::arm_request, true);
     device.ticks(2);
-    device.axis(0).asks = false;
+    device.axis(0).arm_request = false;
     device.ticks(3);
     for (int k = 0; k < shift; ++k) device.pause();
     device.ticks(2);
-    device.axis(0).asks = true;
+    device.axis(0).arm_request = true;
     CHECK(device.until_checked(3000) > 500);
     device.play();
   }

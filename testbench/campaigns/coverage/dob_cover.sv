@@ -34,7 +34,7 @@ module dob_cover #(
 endmodule
 
 bind dob dob_cover #(.ObservedW(ObservedW), .TorqueDrop(TorqueDrop)) u_cover (
-  .rounds(wave_i[feltgate_map_pkg::T_OBSERVED_ROUNDED]), .shows(wave_i[feltgate_map_pkg::T_TAU_HAT]),
+  .rounds(wave_i[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED]), .shows(wave_i[feltgate_map_pkg::EVENT_AT_TAU_HAT]),
   .negative(rounded_q[RoundedW-1]), .*);
 
 `default_nettype wire

@@ -13,7 +13,7 @@ module feltgate_core_cover (
   input logic gates_enable,
   input logic host,
   input logic testing,
-  input logic eased,
+  input logic derated,
   input logic frozen,
   input logic position_over,
   input logic reg_write_i,
@@ -48,7 +48,7 @@ module feltgate_core_cover (
   by_panel:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick && armed_o && !host);
   by_host:           cover property (@(posedge clk_i) disable iff (!rst_ni) tick && armed_o && host);
   tests_itself:      cover property (@(posedge clk_i) disable iff (!rst_ni) tick && testing);
-  eases:             cover property (@(posedge clk_i) disable iff (!rst_ni) tick && eased);
+  eases:             cover property (@(posedge clk_i) disable iff (!rst_ni) tick && derated);
   freezes:           cover property (@(posedge clk_i) disable iff (!rst_ni) tick && frozen);
   position_beyond:   cover property (@(posedge clk_i) disable iff (!rst_ni) tick && armed_o && position_over && !position[31]);
   position_below:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick && armed_o && position_over && position[31]);

@@ -16,21 +16,21 @@ module hold_timer_cover #(
   input logic strong_q,
   input logic unit,
   input logic expired,
-  input logic eased_o,
+  input logic derated_o,
   input logic [W-1:0] units_q,
   input logic [31:0] param_i
 );
-  eases:              cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && strong_q && expired && !eased_o);
-  stays_eased:        cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && !strong_q && eased_o);
-  relieved_by_edge:   cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && moved_i && eased_o);
-  relieved_by_disarm: cover property (@(posedge clk_i) disable iff (!rst_ni) now && !armed_i && eased_o);
-  edge_at_the_end:    cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && moved_i && strong_q && expired && !eased_o);
+  eases:              cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && strong_q && expired && !derated_o);
+  stays_eased:        cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && !strong_q && derated_o);
+  relieved_by_edge:   cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && moved_i && derated_o);
+  relieved_by_disarm: cover property (@(posedge clk_i) disable iff (!rst_ni) now && !armed_i && derated_o);
+  edge_at_the_end:    cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && moved_i && strong_q && expired && !derated_o);
   weak_in_time:       cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && !strong_q && units_q != '0);
   time_beyond_bits:   cover property (@(posedge clk_i) disable iff (!rst_ni) now && strong_q && param_i[31:W] != '0);
   time_0:             cover property (@(posedge clk_i) disable iff (!rst_ni) now && strong_q && armed_i && !moved_i && param_i == '0);
   counts:             cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && strong_q && unit);
   exactly_in_time:    cover property (@(posedge clk_i) disable iff (!rst_ni) now && armed_i && !moved_i && strong_q && param_i != '0 &&
-                                      param_i == 32'(units_q) && !eased_o);
+                                      param_i == 32'(units_q) && !derated_o);
 endmodule
 
 bind hold_timer hold_timer_cover #(.W(W)) u_cover (.now(wave_i[Hold]), .*);

@@ -13,7 +13,7 @@ module ramp_cover #(
   input logic armed_i,
   input logic restart_i,
   input logic frozen_i,
-  input logic eased_i,
+  input logic derated_i,
   input logic limit_hold_o,
   input logic limit_torque_o,
   input logic begins,
@@ -36,8 +36,8 @@ module ramp_cover #(
 
   begins_by_arming:  cover property (@(posedge clk_i) disable iff (!rst_ni) begins && !armed_i);
   begins_by_scene:   cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && scene_i != scene_q && !ramping_q);
-  begins_by_ease:    cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && eased_i && !limit_hold_o);
-  begins_by_relief:  cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && !eased_i && limit_hold_o);
+  begins_by_ease:    cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && derated_i && !limit_hold_o);
+  begins_by_relief:  cover property (@(posedge clk_i) disable iff (!rst_ni) begins && armed_i && !derated_i && limit_hold_o);
   begins_by_restart: cover property (@(posedge clk_i) disable iff (!rst_ni) restart_i && armed_i && !ramping_q);
   steps_up:          cover property (@(posedge clk_i) disable iff (!rst_ni) moves && stepping_q && !stay_q && !down);
   steps_down:        cover property (@(posedge clk_i) disable iff (!rst_ni) moves && stepping_q && !stay_q && down);
@@ -55,7 +55,7 @@ module ramp_cover #(
 endmodule
 
 bind ramp ramp_cover #(.W(W)) u_cover (
-  .begins(wave_i[feltgate_map_pkg::T_RAMP_BEGIN]), .moves(wave_i[feltgate_map_pkg::T_TAU_REF]),
-  .changes(wave_i[feltgate_map_pkg::T_RAMP_CHANGE]), .*);
+  .begins(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]), .moves(wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF]),
+  .changes(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]), .*);
 
 `default_nettype wire

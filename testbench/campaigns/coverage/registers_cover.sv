@@ -33,7 +33,7 @@ module registers_cover (
   input logic armed_i,
   input logic input_scene,
   input logic high,
-  input logic eased,
+  input logic derated,
   input logic test,
   input logic written_q2
 );
@@ -62,9 +62,9 @@ module registers_cover (
   kick_and_clear:     cover property (@(posedge clk_i) disable iff (!rst_ni) kick_o && clear_faults_o);
   command_waits:      cover property (@(posedge clk_i) disable iff (!rst_ni) to_command_q && !tick_i);
   high_gain:          cover property (@(posedge clk_i) disable iff (!rst_ni) high);
-  eased_limit:        cover property (@(posedge clk_i) disable iff (!rst_ni) eased);
+  eased_limit:        cover property (@(posedge clk_i) disable iff (!rst_ni) derated);
   test_limit:         cover property (@(posedge clk_i) disable iff (!rst_ni) test);
-  test_before_eased:  cover property (@(posedge clk_i) disable iff (!rst_ni) test && eased);
+  test_before_eased:  cover property (@(posedge clk_i) disable iff (!rst_ni) test && derated);
   fetched_as_written: cover property (@(posedge clk_i) disable iff (!rst_ni) written_q2);
 endmodule
 

@@ -20,7 +20,7 @@ module scenes_cover #(
   input logic signed [PartW:0] sum_q,
   input logic signed [SceneTorqueW-1:0] rounded_q,
   input logic signed [TorqueW-1:0] word_q,
-  input logic signed [TorqueW-1:0] late_o
+  input logic signed [TorqueW-1:0] late_term_o
 );
   logic [3:0] before_q;
   logic       known_q;
@@ -47,7 +47,7 @@ module scenes_cover #(
     if (Built) begin : g_built
       entered: cover property (@(posedge clk_i) disable iff (!rst_ni) enters);
       left:    cover property (@(posedge clk_i) disable iff (!rst_ni) leaves);
-      acts:    cover property (@(posedge clk_i) disable iff (!rst_ni) here && (rounded_q != 0 || word_q != 0 || late_o != 0));
+      acts:    cover property (@(posedge clk_i) disable iff (!rst_ni) here && (rounded_q != 0 || word_q != 0 || late_term_o != 0));
       if (Rounds) begin : g_rounds
         tie_even: cover property (@(posedge clk_i) disable iff (!rst_ni) rounds && here && tie && !sum_q[Guard]);
         tie_odd:  cover property (@(posedge clk_i) disable iff (!rst_ni) rounds && here && tie && sum_q[Guard]);

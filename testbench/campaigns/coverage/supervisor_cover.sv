@@ -9,7 +9,7 @@ module supervisor_cover (
   input logic clk_i,
   input logic rst_ni,
   input logic tick_i,
-  input logic asks,
+  input logic arm_request,
   input logic stop_i,
   input logic kick_i,
   input logic encoder_error_i,
@@ -58,24 +58,24 @@ module supervisor_cover (
   watchdog_with_stop:   cover property (@(posedge clk_i) disable iff (!rst_ni) watchdog_trip && stop_trip);
   i2t_with_stop:        cover property (@(posedge clk_i) disable iff (!rst_ni) i2t_trip && stop_trip);
   trip_at_a_tick:       cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && gates_enable_o);
-  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && asks && may_arm && !gates_enable_o);
+  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && arm_request && may_arm && !gates_enable_o);
   error_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_error_i && forgive && !encoder_trip);
   trip_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_trip && forgive);
-  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && asks && !none);
+  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_request && !none);
   arms_now:             cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arms && !gates_enable_o);
-  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && asks && asked_q && !gates_enable_o && none);
-  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !asks && gates_enable_o);
+  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_request && asked_q && !gates_enable_o && none);
+  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !arm_request && gates_enable_o);
   kicked_in_time:       cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && kick_i && gates_enable_o);
   kickless_to_the_end:  cover property (@(posedge clk_i) disable iff (!rst_ni) full && !of_runaway);
   cooled_below_0:       cover property (@(posedge clk_i) disable iff (!rst_ni) cooled_negative);
   speed_and_polarity:   cover property (@(posedge clk_i) disable iff (!rst_ni) polarity_trip || speed_trip);
   stop_between_clocks:  cover property (@(posedge stop_i) rst_ni && gates_enable_o);
   if (feltgate_pkg::REQUIRE_WATCHDOG != 0) begin : g_require
-    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && asks && unkicked_o && !asked_q && none);
+    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_request && unkicked_o && !asked_q && none);
   end
 endmodule
 
 bind supervisor supervisor_cover u_cover (
-  .cooled_negative(wave_i[feltgate_map_pkg::T_COOLED] && rest < 0), .*);
+  .cooled_negative(wave_i[feltgate_map_pkg::EVENT_AT_COOLED] && rest < 0), .*);
 
 `default_nettype wire

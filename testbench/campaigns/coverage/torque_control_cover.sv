@@ -15,7 +15,7 @@ module torque_control_cover (
   input logic limit_current_o,
   input logic limit_voltage_o,
   input logic limit_duty_o,
-  input logic beyond_i,
+  input logic over_limit_i,
   input logic region_high_o,
   input logic voltage_over,
   input logic applies,
@@ -35,13 +35,13 @@ module torque_control_cover (
     free_of_limits:      cover property (@(posedge clk_i) disable iff (!rst_ni) here && !limit_current_o && !limit_voltage_o &&
                                          !limit_duty_o && duty_o != 0);
   end
-  enters_high_region: cover property (@(posedge clk_i) disable iff (!rst_ni) region && beyond_i && !region_high_o);
-  leaves_high_region: cover property (@(posedge clk_i) disable iff (!rst_ni) region && !beyond_i && region_high_o);
+  enters_high_region: cover property (@(posedge clk_i) disable iff (!rst_ni) region && over_limit_i && !region_high_o);
+  leaves_high_region: cover property (@(posedge clk_i) disable iff (!rst_ni) region && !over_limit_i && region_high_o);
   beyond_the_port:    cover property (@(posedge clk_i) disable iff (!rst_ni) applies && voltage_over);
   disarmed:           cover property (@(posedge clk_i) disable iff (!rst_ni) shows && !armed_i && voltage_o == 0 && duty_o == 0);
 endmodule
 
 bind torque_control torque_control_cover u_cover (
-  .shows(wave_i[0]), .region(wave_i[feltgate_map_pkg::T_REGION]), .applies(wave_i[feltgate_map_pkg::T_VOLTAGE]), .*);
+  .shows(wave_i[0]), .region(wave_i[feltgate_map_pkg::EVENT_AT_REGION]), .applies(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]), .*);
 
 `default_nettype wire

@@ -30,7 +30,7 @@ class Coverage {
     ++clocks_;
     armed_ += o.armed;
     for (std::size_t b = 0; b < limits_.size(); ++b) limits_[b] += (o.limits >> b) & 1u;
-    eased_ += (o.limits & limit::hold) != 0;
+    derated_ += (o.limits & limit::hold) != 0;
     frozen_ += o.armed && (o.limits & limit::chatter) != 0;
     if (o.armed) ++scenes_[o.scene & 15u];
     if (gates_ && !o.gates_enable) ++faults_[o.first_fault & 15u];
@@ -57,7 +57,7 @@ class Coverage {
   void merge(const Coverage& o) {
     clocks_ += o.clocks_;
     armed_ += o.armed_;
-    eased_ += o.eased_;
+    derated_ += o.derated_;
     frozen_ += o.frozen_;
     zeroes_at_the_end_ += o.zeroes_at_the_end_;
     kicks_ += o.kicks_;
@@ -74,7 +74,7 @@ class Coverage {
   double armed_share() const { return share(armed_); }
   double duty_pinned_share() const { return share(limits_[Map::L::duty]); }
   double tau_ref_pinned_share() const { return share(limits_[Map::L::torque]); }
-  double eased_share() const { return share(eased_); }
+  double eased_share() const { return share(derated_); }
   double frozen_share() const { return share(frozen_); }
   /// Number of scenes below `numbers` that ran armed, without the reserved number 1 and the scenes
   /// not built.
@@ -129,7 +129,7 @@ class Coverage {
     return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_);
   }
 
-  std::int64_t clocks_ = 0, armed_ = 0, eased_ = 0, frozen_ = 0;
+  std::int64_t clocks_ = 0, armed_ = 0, derated_ = 0, frozen_ = 0;
   std::int64_t zeroes_at_the_end_ = 0, kicks_ = 0, disarms_past_a_write_ = 0;
   std::array<std::int64_t, limit::names.size()> limits_{};  ///< clocks
   std::array<std::int64_t, 16> scenes_{};                   ///< clocks armed in each scene

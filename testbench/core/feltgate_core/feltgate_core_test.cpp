@@ -25,7 +25,7 @@ constexpr bool kPrograms = feltgate::scene_built<D>(feltgate::Map::S::law);
 
 /// Compares the signals from a core to other axes.
 const char* differs_to_axes(const CoreIn& in, const Vfeltgate_core& rtl, const Twin& twin) {
-  if ((rtl.asks_o != 0) != twin.asks(in)) return "asks_o is not the twin's";
+  if ((rtl.arm_request_o != 0) != twin.arm_request(in)) return "arm_request_o is not the twin's";
   if ((rtl.ready_o != 0) != twin.ready()) return "ready_o is not the twin's";
   if ((rtl.measured_o != 0) != twin.measured()) return "measured_o is not the twin's";
   if ((rtl.zeroed_o != 0) != twin.zeroed()) return "zeroed_o is not the twin's";

@@ -83,7 +83,7 @@ TEST_CASE("a result that comes late is refused", "[schedule]") {
 TEST_CASE("a result that passes must be taken in its clocks", "[schedule]") {
   refused(
       Texts().move("dead_voltage", 42),
-      "dead_ahead passes: it is there from clock 35 to 35 .* dead_voltage needs it in clock 42");
+      "dead_early passes: it is there from clock 35 to 35 .* dead_voltage needs it in clock 42");
   refused(Texts().move("observer_a1", 16).move("overspeed", 15),
           "observer_difference passes: it is there from clock 15 to 15 .* observer_a1 needs it in "
           "clock 16");
@@ -152,8 +152,8 @@ TEST_CASE("what lies outside the wave is refused", "[schedule]") {
 }
 
 TEST_CASE("a schedule that says nonsense is refused where it stands", "[schedule]") {
-  refused(Texts().in_schedule("after = \"T_SAMPLE\"", "after = \"T_SIMPLE\""),
-          "schedule.toml:[0-9]+: there is no clock T_SIMPLE; name ");
+  refused(Texts().in_schedule("after = \"EVENT_AT_SAMPLE\"", "after = \"EVENT_AT_SIMPLE\""),
+          "schedule.toml:[0-9]+: there is no clock EVENT_AT_SIMPLE; name ");
   refused(Texts().in_schedule("needs = [\"travel\"]", "needs = [\"gravel\"]"),
           "the step velocity_raw needs \"gravel\", which no step gives");
   refused(Texts().in_schedule("factor = [\"observer_a1\"]", "factor = [\"overspeed\"]"),

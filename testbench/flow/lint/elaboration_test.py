@@ -47,7 +47,7 @@ BAD = (
     ("checks", "MULTIPLIER_LATENCY", 3, "the_map_must_have_the_latencies_of_this_RTL"),
     ("core", "PWM_PERIOD", 5001, "PWM_PERIOD_must_be_even_and_4_to_4094"),
     ("core", "CLOCKS_PER_TICK", 40, "CLOCKS_PER_TICK_must_hold_the_wave"),
-    ("core", "T_SNAPSHOT", 48, "the_last_word_must_be_stored_before_the_tick_ends"),
+    ("core", "EVENT_AT_SNAPSHOT", 48, "the_last_word_must_be_stored_before_the_tick_ends"),
     ("core", "DEAD_CLOCKS", 0, "DEAD_CLOCKS_must_be_1_to_64"),
     ("core", "SHORTEST_CLOCKS", 0, "SHORTEST_CLOCKS_must_be_1_to_255"),
     ("core", "INDEX_COUNTS", 4095, "INDEX_COUNTS_must_be_a_power_of_two"),

@@ -47,13 +47,13 @@ module smoke_tb;
   initial begin
     repeat (5) @(negedge clk);
     rst_n = 1'b1;
-    cycle(1'b0, 12'(feltgate_map_pkg::S_TORQUE_LIMIT), feltgate_pkg::parameter_reset(9'(feltgate_map_pkg::S_TORQUE_LIMIT)), 1'b1);
-    cycle(1'b1, 12'(feltgate_map_pkg::S_TORQUE_LIMIT), 32'd6554, 1'b1);
-    cycle(1'b1, 12'(feltgate_map_pkg::S_HOLD_TIME), 32'd77, 1'b1);
+    cycle(1'b0, 12'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT), feltgate_pkg::parameter_reset(9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT)), 1'b1);
+    cycle(1'b1, 12'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT), 32'd6554, 1'b1);
+    cycle(1'b1, 12'(feltgate_map_pkg::PARAM_AT_HOLD_TIME), 32'd77, 1'b1);
     cycle(1'b0, 12'h800, 32'd0, 1'b0);
     repeat (120) @(negedge clk);
-    cycle(1'b0, 12'(feltgate_map_pkg::S_TORQUE_LIMIT), 32'd6554, 1'b1);
-    cycle(1'b0, 12'(feltgate_map_pkg::S_HOLD_TIME), 32'd77, 1'b1);
+    cycle(1'b0, 12'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT), 32'd6554, 1'b1);
+    cycle(1'b0, 12'(feltgate_map_pkg::PARAM_AT_HOLD_TIME), 32'd77, 1'b1);
     cycle(1'b1, feltgate_map_pkg::A_CONTROL, 32'd3, 1'b1);
     repeat (120) @(negedge clk);
     if (armed !== 1'b1) wrong++;

@@ -22,11 +22,11 @@ using Twin = HoldTimer;
 
 struct Adapter {
   static void drive(Vhold_timer& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, armed, wave, tick_count, param, moved, beyond);
+    FELTGATE_DRIVE(rtl, in, armed, wave, tick_count, param, moved, over_limit);
   }
   template <class Check>
   static void compare(Check& check, const Vhold_timer& rtl, const Twin::Out& out) {
-    check("eased", rtl.eased_o, out.eased);
+    check("derated", rtl.derated_o, out.derated);
   }
 };
 using Bench = LockStep<Vhold_timer, Twin, Adapter>;
@@ -47,7 +47,7 @@ std::vector<Twin::In> inputs(const std::vector<Tick>& ticks) {
     list.push_back(in);
     in.wave = std::uint64_t{1} << Map::T::hold;
     in.param = t.hold_time;
-    in.beyond = !t.strong;
+    in.over_limit = !t.strong;
     list.push_back(in);
   }
   return list;
@@ -56,16 +56,16 @@ std::vector<Twin::In> inputs(const std::vector<Tick>& ticks) {
 /// Runs ticks, each the whole of a unit; whether the torque was eased after each.
 std::vector<bool> play(std::vector<Tick> ticks) {
   HoldTimerLaw law;
-  std::vector<bool> eased;
+  std::vector<bool> derated;
   std::uint32_t k = 0;
   for (Tick& t : ticks) {
     t.tick = k++ << Map::hold_unit_bits;
     law.tick(t.armed, t.moved, t.strong, t.tick, t.hold_time);
-    eased.push_back(law.eased());
+    derated.push_back(law.derated());
   }
   Bench bench("hold_timer", 1);
   bench.run_list(inputs(ticks));
-  return eased;
+  return derated;
 }
 
 std::vector<Tick> ticks(int n, Tick each = {}) { return std::vector<Tick>(n, each); }
@@ -84,7 +84,7 @@ struct Stimulus {
                          : random.bits() & ~(std::uint64_t{1} << Map::T::hold_strong |
                                          std::uint64_t{1} << Map::T::hold);
     in.param = word ? now.hold_time : static_cast<std::uint32_t>(random.bits());
-    in.beyond = clock == 0 ? now.strong : random.coin();
+    in.over_limit = clock == 0 ? now.strong : random.coin();
     clock = clock == 3 ? 0 : clock + 1;
     return in;
   }
@@ -113,20 +113,20 @@ struct Stimulus {
 }  // namespace
 
 TEST_CASE("hold_timer: random torques, counts, times, arming and resets") {
-  std::int64_t eased = 0, given_back = 0;
+  std::int64_t derated = 0, given_back = 0;
   bool before = false;
   Bench bench("hold_timer", 1);
   bench.run(Stimulus{Random(2)}, scaled_clocks(2000000), {50000},
             [&, before](const Twin::In&, const Vhold_timer& rtl, const Twin&,
                         bool in_reset) mutable -> const char* {
-              const bool now = rtl.eased_o != 0;
-              eased += now && !before;
+              const bool now = rtl.derated_o != 0;
+              derated += now && !before;
               given_back += !now && before && !in_reset;
               before = now;
               return nullptr;
             });
-  INFO(eased << " times eased, " << given_back << " times given back");
-  REQUIRE(eased > 800);
+  INFO(derated << " times eased, " << given_back << " times given back");
+  REQUIRE(derated > 800);
   REQUIRE(given_back > 800);
 }
 
@@ -134,25 +134,25 @@ TEST_CASE("hold_timer: after its time a torque is eased, and stays so while it i
   auto list = ticks(10);
   const auto weak = ticks(100, {true, false, false});
   list.insert(list.end(), weak.begin(), weak.end());
-  const auto eased = play(list);
-  for (std::size_t k = 0; k < eased.size(); ++k) REQUIRE(eased[k] == (k >= 3));
+  const auto derated = play(list);
+  for (std::size_t k = 0; k < derated.size(); ++k) REQUIRE(derated[k] == (k >= 3));
 }
 
 TEST_CASE("hold_timer: a count gives the torque back, and the time begins anew") {
   auto list = ticks(13);
   list[7].moved = true;
-  const auto eased = play(list);
-  for (std::size_t k = 0; k < eased.size(); ++k) {
-    REQUIRE(eased[k] == ((k >= 3 && k < 7) || k >= 11));
+  const auto derated = play(list);
+  for (std::size_t k = 0; k < derated.size(); ++k) {
+    REQUIRE(derated[k] == ((k >= 3 && k < 7) || k >= 11));
   }
 }
 
 TEST_CASE("hold_timer: disarming gives the torque back") {
   auto list = ticks(13);
   list[7].armed = false;
-  const auto eased = play(list);
-  for (std::size_t k = 0; k < eased.size(); ++k) {
-    REQUIRE(eased[k] == ((k >= 3 && k < 7) || k >= 11));
+  const auto derated = play(list);
+  for (std::size_t k = 0; k < derated.size(); ++k) {
+    REQUIRE(derated[k] == ((k >= 3 && k < 7) || k >= 11));
   }
 }
 
@@ -164,16 +164,16 @@ TEST_CASE("hold_timer: a count, a weak torque or a pause in time begins anew") {
       if (k % 3 == 2) (by_count ? t.moved : t.strong) = by_count;
       list.push_back(t);
     }
-    for (const bool eased : play(list)) REQUIRE_FALSE(eased);
+    for (const bool derated : play(list)) REQUIRE_FALSE(derated);
   }
 }
 
 TEST_CASE("hold_timer: a time of 2^13 units or more is for ever") {
   constexpr std::uint32_t kFirst = 1u << Map::hold_bits;
   for (const std::uint32_t time : {kFirst, kFirst + 3, 0x40000000u, 0x7fffffffu}) {
-    for (const bool eased :
+    for (const bool derated :
          play(ticks(2 * static_cast<int>(kFirst) + 9, {true, false, true, 0, time}))) {
-      if (eased) FAIL("eased with " << time);
+      if (derated) FAIL("eased with " << time);
     }
   }
   const auto longest =
@@ -185,8 +185,8 @@ TEST_CASE("hold_timer: a time of 2^13 units or more is for ever") {
 
 TEST_CASE("hold_timer: a negative time is none") {
   for (const std::uint32_t time : {0x80000000u, 0xffffffffu}) {
-    for (const bool eased : play(ticks(5, {true, false, true, 0, time}))) REQUIRE(eased);
-    for (const bool eased : play(ticks(5, {true, false, false, 0, time}))) REQUIRE_FALSE(eased);
+    for (const bool derated : play(ticks(5, {true, false, true, 0, time}))) REQUIRE(derated);
+    for (const bool derated : play(ticks(5, {true, false, false, 0, time}))) REQUIRE_FALSE(derated);
   }
 }
 
@@ -195,8 +195,8 @@ TEST_CASE("hold_timer: every unit counts, one less than the time is never enough
   std::uint32_t units = 0;
   for (Tick& t : list) t.hold_time = ++units;
   list.back().hold_time = units - 1;
-  const auto eased = play(list);
-  for (std::size_t k = 0; k < eased.size(); ++k) {
-    if (eased[k] != (k + 1 == eased.size())) FAIL("after " << k);
+  const auto derated = play(list);
+  for (std::size_t k = 0; k < derated.size(); ++k) {
+    if (derated[k] != (k + 1 == derated.size())) FAIL("after " << k);
   }
 }

@@ -18,10 +18,10 @@ class HoldTimer {
     std::uint32_t tick_count = 0;
     std::uint32_t param = 0;
     bool moved = false;
-    bool beyond = false;
+    bool over_limit = false;
   };
   struct Out {
-    bool eased = false;
+    bool derated = false;
   };
 
   void reset() {
@@ -33,9 +33,9 @@ class HoldTimer {
     const auto at = [&in](int t) { return ((in.wave >> t) & 1u) != 0; };
     if (at(Map::T::hold)) {
       law_.tick(in.armed, in.moved, strong_, in.tick_count, in.param);
-      out_.eased = law_.eased();
+      out_.derated = law_.derated();
     }
-    if (at(Map::T::hold_strong)) strong_ = in.beyond;
+    if (at(Map::T::hold_strong)) strong_ = in.over_limit;
   }
 
   const Out& out() const { return out_; }

@@ -36,7 +36,8 @@ struct Adapter {
   template <class Check>
   static void compare(Check& check, const Vself_test& rtl, const Twin::Out& out) {
     check("busy", rtl.busy_o, out.busy);
-    check("ahead", sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o), out.ahead);
+    check("early_term", sign_extend<Design::f.scene_torque.width()>(rtl.early_term_o),
+          out.early_term);
     check("result", rtl.result_o, out.result);
     check("trip", rtl.trip_o, out.trip);
   }
@@ -97,7 +98,7 @@ struct Waves {
     now.busy = out.busy;
     now.result = out.result;
     now.trip = now.trip || out.trip;
-    if (out.ahead != 0) now.pulse = out.ahead > 0 ? 1 : -1;
+    if (out.early_term != 0) now.pulse = out.early_term > 0 ? 1 : -1;
   }
 };
 

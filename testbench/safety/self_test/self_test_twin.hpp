@@ -26,7 +26,7 @@ class SelfTest {
   };
   struct Out {
     bool busy = false;
-    std::int64_t ahead = 0;
+    std::int64_t early_term = 0;
     std::uint8_t result = 0;
     bool trip = false;
   };
@@ -39,7 +39,7 @@ class SelfTest {
     using T = Map::T;
     const TestPulse pulse = at(T::scene_rounded) ? law_.pulse(in.armed) : TestPulse::none;
     constexpr std::int64_t most = (std::int64_t{1} << (D::f.scene_torque.width() - 1)) - 1;
-    ahead_ = pulse == TestPulse::up ? most : pulse == TestPulse::down ? -most - 1 : 0;
+    early_ = pulse == TestPulse::up ? most : pulse == TestPulse::down ? -most - 1 : 0;
     if (at(T::sample)) law_.sample(in.travel);
     if (at(T::self_test_quiet)) words_.quiet = in.param;
     if (at(T::self_test_over)) words_.pulse = in.param;
@@ -53,14 +53,14 @@ class SelfTest {
   Out out() const { return peek(last_); }
   Out peek(const In& in) const {
     const bool now = ((in.wave >> Map::T::self_test) & 1u) != 0;
-    return {law_.busy(in.armed), ahead_, static_cast<std::uint8_t>(law_.result()), now && fails_};
+    return {law_.busy(in.armed), early_, static_cast<std::uint8_t>(law_.result()), now && fails_};
   }
 
  private:
   In last_;
   SelfTestLaw law_;
   SelfTestLaw::Words words_;
-  std::int64_t ahead_ = 0;
+  std::int64_t early_ = 0;
   bool fails_ = false;
 };
 

@@ -181,14 +181,15 @@ class Watch {
       on_ = gates ? on_ + 1 : 0;
       stopped_ = in.stop ? 4 : stopped_ - (stopped_ > 0 ? 1 : 0);
       if (on_ > 4 && stopped_ == 0 && rtl.gates_clear_o != 0) broken = "open gates are not cleared";
-      if (gates && !gates_ && (!in.tick || !in.asks())) broken = "gates open on request at a tick";
+      if (gates && !gates_ && (!in.tick || !in.arm_request()))
+        broken = "gates open on request at a tick";
       if (gates && !armed) broken = "gates only while armed";
       if (armed != armed_ && !in.tick) broken = "armed changes at ticks";
       if (faults_ != 0 && rtl.faults_o != 0 && rtl.first_fault_o != first_ &&
-          !(in.clear_faults && !in.asks())) {
+          !(in.clear_faults && !in.arm_request())) {
         broken = "the first cause stays";
       }
-      if ((faults_ & ~rtl.faults_o) != 0 && !(in.clear_faults && !in.asks())) {
+      if ((faults_ & ~rtl.faults_o) != 0 && !(in.clear_faults && !in.arm_request())) {
         broken = "a fault stays until it is cleared";
       }
       if (rtl.faults_o != 0 && ((rtl.faults_o >> rtl.first_fault_o) & 1) == 0) {

@@ -25,7 +25,7 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
             bus.wave,
             bus.param,
             bus.product,
-            bus.beyond};
+            bus.over_limit};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.armed_i = in.armed;
@@ -35,7 +35,7 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
     rtl.wave_i = in.wave;
     rtl.param_i = in.param;
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
-    rtl.beyond_i = in.beyond;
+    rtl.over_limit_i = in.over_limit;
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {

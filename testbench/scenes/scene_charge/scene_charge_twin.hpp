@@ -27,7 +27,8 @@ class SceneCharge {
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t product = 0;
-    bool beyond = false;  ///< from the limiter: the distance is larger than the core's half-width
+    bool over_limit =
+        false;  ///< from the limiter: the distance is larger than the core's half-width
   };
   struct Out {
     std::int64_t plus = 0;     ///< a part
@@ -43,7 +44,7 @@ class SceneCharge {
     render_core(in, at(kCore + 1));
     render_outside(in, at(kFirst));
     if (at(Map::T::scene_distance)) near_ = false;
-    if (at(kCore)) near_ = !in.beyond && !none_;
+    if (at(kCore)) near_ = !in.over_limit && !none_;
     if (at(Map::T::charge_width_limited)) none_ = decode_word(kWidth, in.param) == 0;
     if (at(Map::W::attract_strength)) {
       strength_ = in.param;

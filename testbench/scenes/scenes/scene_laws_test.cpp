@@ -94,11 +94,11 @@ TEST_CASE("scenes: disarmed there is no torque, and no limit is told") {
 TEST_CASE("scenes: a relief eases the limit") {
   Device d;
   d.words.set_raw(A::setpoint_torque, most_setpoint);
-  const std::int64_t whole = d.limit_word(A::torque_limit), eased = d.limit_word(A::hold_limit);
-  REQUIRE(eased < whole);
+  const std::int64_t whole = d.limit_word(A::torque_limit), derated = d.limit_word(A::hold_limit);
+  REQUIRE(derated < whole);
   CHECK(d.settled(S::setpoint) == whole);
   CHECK(d.law.limit_torque());
-  CHECK(d.settled(S::setpoint, true, {false, true}) == eased);
+  CHECK(d.settled(S::setpoint, true, {false, true}) == derated);
   CHECK(d.settled(S::setpoint) == whole);
 }
 

@@ -95,7 +95,7 @@ struct Bus {
   std::int64_t product = 0;
   std::int64_t face_gap = 0;  ///< whole counts of what is on the parameter bus, less the position
   std::int64_t gap = 0;       ///< the same of the reference, held
-  bool beyond = false;        ///< from the limiter
+  bool over_limit = false;    ///< from the limiter
   std::int64_t law_torque = 0;
   bool law_late = false;
 };
@@ -152,7 +152,7 @@ class Waves {
       bus.law_late = (bus.product & 1) != 0;
     }
     if (p.t == Map::T::scene_distance) gap_ = bus.face_gap;
-    bus.beyond = p.t == Map::T::charge_core ? beyond_ : random_.coin();
+    bus.over_limit = p.t == Map::T::charge_core ? beyond_ : random_.coin();
     if (p.t == Map::T::charge_width_limited) {
       constexpr Format width{1, Design::f.limiter.width() - 1, 0};
       const std::int64_t limit = decode_word(width, bus.param);

@@ -25,8 +25,8 @@ using Built = Design;
 
 struct Block : BlockOf<Vscenes, Scenes<Built>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {bus.armed,   wave.scene, bus.wave,       bus.param,   wave.position,
-            bus.product, bus.beyond, bus.law_torque, bus.law_late};
+    return {bus.armed,   wave.scene,     bus.wave,       bus.param,   wave.position,
+            bus.product, bus.over_limit, bus.law_torque, bus.law_late};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.armed_i = in.armed;
@@ -35,7 +35,7 @@ struct Block : BlockOf<Vscenes, Scenes<Built>> {
     rtl.param_i = in.param;
     rtl.position_i = port_bits<18>(in.position);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
-    rtl.beyond_i = in.beyond;
+    rtl.over_limit_i = in.over_limit;
     rtl.law_torque_i = port_bits<kTorque.width()>(in.law_torque);
     rtl.law_late_i = in.law_late;
   }
@@ -43,8 +43,9 @@ struct Block : BlockOf<Vscenes, Scenes<Built>> {
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
     check("distance", sign_extend<Design::f.scene_distance.width()>(rtl.distance_o), out.distance);
     check("square", rtl.square_o, out.square);
-    check("ahead", sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o), out.ahead);
-    check("late", sign_extend<kTorque.width()>(rtl.late_o), out.late);
+    check("early_term", sign_extend<Design::f.scene_torque.width()>(rtl.early_term_o),
+          out.early_term);
+    check("late_term", sign_extend<kTorque.width()>(rtl.late_term_o), out.late_term);
     check("law", rtl.law_o, out.law);
   }
 };
@@ -74,19 +75,19 @@ struct LawBeside {
       return "the distance, in two clocks alone";
     }
     if ((rtl.square_o != 0) != (is_charge(w.scene) && built)) return "the square is the charges'";
-    const std::int64_t ahead = sign_extend<Design::f.scene_torque.width()>(rtl.ahead_o);
+    const std::int64_t early_term = sign_extend<Design::f.scene_torque.width()>(rtl.early_term_o);
     if (p.t == T::scene_rounded) {
-      seen = ahead;
-    } else if (ahead != (p.t == T::charge_width ? distance >> 8 : 0)) {
+      seen = early_term;
+    } else if (early_term != (p.t == T::charge_width ? distance >> 8 : 0)) {
       return "the distance in whole counts, and nothing in other clocks";
     }
-    return p.t == kRendered ? whole(p, sign_extend<kTorque.width()>(rtl.late_o)) : nullptr;
+    return p.t == kRendered ? whole(p, sign_extend<kTorque.width()>(rtl.late_term_o)) : nullptr;
   }
 
  private:
-  const char* whole(const Probe& p, std::int64_t late) {
+  const char* whole(const Probe& p, std::int64_t late_term) {
     const Wave& w = p.wave;
-    const std::int64_t tau = seen + late;
+    const std::int64_t tau = seen + late_term;
     const auto velocity = Law::Velocity::from_raw(w.velocity);
     auto law = Law::torque(p.memory.words(), w.scene, w.position, velocity, &side).raw();
     if (w.scene == S::law && scene_built<Built>(w.scene) && !w.law_late) law = w.law_torque;
@@ -95,12 +96,13 @@ struct LawBeside {
     tally->up[scene] += tau > 0;
     tally->down[scene] += tau < 0;
     tally->disarmed += !w.armed;
-    if (seen != 0 && late != 0) return "two torques at once";
+    if (seen != 0 && late_term != 0) return "two torques at once";
     if (!w.armed) return tau == 0 ? nullptr : "a torque while disarmed";
     if (w.disarmed_from <= kRendered) {
       ++tally->halted;
-      return late == 0 && (seen == 0 || w.disarmed_from == kRendered) ? nullptr
-                                                                      : "a torque once disarmed";
+      return late_term == 0 && (seen == 0 || w.disarmed_from == kRendered)
+                 ? nullptr
+                 : "a torque once disarmed";
     }
     if (tau != law) return "the law's torque";
     if (w.scene == S::wall && tau > 0) return "a wall pulls";

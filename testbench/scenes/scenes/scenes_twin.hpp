@@ -32,15 +32,15 @@ class Scenes {
     std::uint32_t param = 0;
     std::int64_t position = 0;
     std::int64_t product = 0;
-    bool beyond = false;          ///< from the limiter
+    bool over_limit = false;      ///< from the limiter
     std::int64_t law_torque = 0;  ///< of a program, raw
     bool law_late = false;
   };
   struct Out {
     std::int64_t distance = 0;
     bool square = false;  ///< follows the scene within the clock
-    std::int64_t ahead = 0;
-    std::int64_t late = 0;
+    std::int64_t early_term = 0;
+    std::int64_t late_term = 0;
     bool law = false;  ///< follows the scene within the clock
   };
 
@@ -55,13 +55,13 @@ class Scenes {
     const std::int64_t width = at(Map::T::charge_width) ? gap_ : 0;
     const bool law = built(in, S::law);
     const bool programmed = law && at(Map::T::law_torque) && in.armed && !in.law_late;
-    out_.ahead = (at(Map::T::scene_rounded) && in.armed ? rounded(in, repel) : 0) | width |
-                 (programmed ? in.law_torque : 0);
+    out_.early_term = (at(Map::T::scene_rounded) && in.armed ? rounded(in, repel) : 0) | width |
+                      (programmed ? in.law_torque : 0);
     if (at(Map::T::scene_sum)) add();
     const std::int64_t gap =
         (decode_word(D::f.scene_offset, in.param) >> D::f.scene_offset.fraction) - in.position;
     clock_scenes(in, attract, repel, gap);
-    out_.late = charge_.out().outside;
+    out_.late_term = charge_.out().outside;
     out_.square = attract || repel;
     out_.law = law;
     const bool reference = at(Map::T::scene_distance);
@@ -87,7 +87,7 @@ class Scenes {
     spring_.clock({built(in, S::spring_tension), built(in, S::spring_compression), gap_ < 0,
                    in.wave, in.product});
     damper_.clock({built(in, S::damper), in.wave, in.product});
-    charge_.clock({in.armed, attract, repel, gap_, in.wave, in.param, in.product, in.beyond});
+    charge_.clock({in.armed, attract, repel, gap_, in.wave, in.param, in.product, in.over_limit});
     wall_.clock({built(in, S::wall), gap_ < 0, in.wave, in.product});
   }
   /// At most one scene renders.

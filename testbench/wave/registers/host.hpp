@@ -24,7 +24,7 @@ constexpr std::uint16_t kCommand = Lever::C::command;
 struct RegistersAdapter {
   static void drive(Vregisters& rtl, const Twin::In& in) {
     FELTGATE_DRIVE(rtl, in, tick, reg_addr, reg_wdata, reg_write, armed, set_zero, slot_fetch,
-                   scene_slot_fetch, scene, region_high, eased, testing, snap_slot, snap_valid,
+                   scene_slot_fetch, scene, region_high, derated, testing, snap_slot, snap_valid,
                    snap_data);
   }
   template <class Check>
@@ -58,7 +58,7 @@ inline Twin::In inputs_of(const Clock::Out& now) {
 class Script {
  public:
   std::uint8_t scene = 0;
-  bool region_high = false, testing = false, armed = false, set_zero = false, eased = false;
+  bool region_high = false, testing = false, armed = false, set_zero = false, derated = false;
   std::uint16_t address = 0;
 
   Script() { twin_.reset(); }
@@ -76,7 +76,7 @@ class Script {
     in.testing = testing;
     in.armed = armed;
     in.set_zero = set_zero;
-    in.eased = eased;
+    in.derated = derated;
     in.reg_addr = address;
     in.reg_write = write;
     in.reg_wdata = data;
@@ -139,13 +139,13 @@ class RandomHost {
       in_force_.region_high = random_.coin();
       in_force_.testing = random_.coin();
       if (random_.one_in(5)) in_force_.armed = random_.coin();
-      in_force_.eased = random_.coin();
+      in_force_.derated = random_.coin();
     }
     in.armed = in_force_.armed;
     in.set_zero = random_.one_in(300);
     in.scene = in_force_.scene;
     in.region_high = in_force_.region_high;
-    in.eased = in_force_.eased;
+    in.derated = in_force_.derated;
     in.testing = in_force_.testing;
     // Some writes are held for a while, others last one clock.
     if (!in_force_.reg_write || random_.one_in(in.tick ? 2 : 60)) {

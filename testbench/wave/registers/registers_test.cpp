@@ -297,9 +297,9 @@ TEST_CASE("registers: slot 34 carries word 50 in the high region, slot 24 word 5
 TEST_CASE("registers: slot 24 carries hold_limit while a held torque is eased") {
   Script host;
   host.write(Lever::A::torque_limit, 1111).until(0).write(Lever::A::hold_limit, 2222).until(0);
-  for (const bool eased : {false, true, false}) {
-    host.eased = eased;
-    REQUIRE(host.bus(24) == (eased ? 2222U : 1111U));
+  for (const bool derated : {false, true, false}) {
+    host.derated = derated;
+    REQUIRE(host.bus(24) == (derated ? 2222U : 1111U));
   }
   host.play();
 }

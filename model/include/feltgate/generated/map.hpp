@@ -12,8 +12,8 @@ namespace feltgate {
 
 /// Clocks, slots, addresses, bits and numbers of all designs.
 struct Map {
-  static constexpr int wave_length = 50;       ///< clocks; a tick is at least as long
-  static constexpr int first_wave_clock = 2;  ///< clock of the tick that is wave clock 0
+  static constexpr int wave_length = 50;        ///< clocks; a tick is at least as long
+  static constexpr int first_wave_clock = 2;    ///< clock of the tick that is wave clock 0
   static constexpr int multiplier_latency = 4;  ///< clocks from the operands to the product
   /// Bit n: slot n is read from the scene's bank.
   static constexpr std::uint64_t scene_slots = 0x44e;
@@ -22,32 +22,45 @@ struct Map {
   static constexpr std::uint64_t refused_while_armed = 0xc23ef78c083b0;
   static constexpr std::uint64_t ramps_while_armed = 0x100000001000000;
   static constexpr unsigned input_scenes = 0x4;
-  static constexpr int mode_open = 1;  ///< control.mode: open loop
+  static constexpr int mode_open = 1;     ///< control.mode: open loop
   static constexpr int mode_voltage = 2;  ///< control.mode: direct voltage
-  static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
-  static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
-  static constexpr int runaway_bits = 16;  ///< bits of the longest window of the wrong-polarity check [tick]
-  static constexpr int runaway_windows = 2;  ///< windows on end in which the speed must grow against the commanded current
+  static constexpr int errors_borne =
+      7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
+  static constexpr int forgive_bits =
+      10;  ///< bits of the ticks after which one encoder error is forgiven
+  static constexpr int runaway_bits =
+      16;  ///< bits of the longest window of the wrong-polarity check [tick]
+  static constexpr int runaway_windows =
+      2;  ///< windows on end in which the speed must grow against the commanded current
   static constexpr int growth_bits = 5;  ///< fraction bits of the velocity whose growth is watched
-  static constexpr int self_test_unit_bits = 7;  ///< bits of the ticks in a unit of the self-test's times
+  static constexpr int self_test_unit_bits =
+      7;  ///< bits of the ticks in a unit of the self-test's times
   static constexpr int self_test_count_bits = 8;  ///< bits of these times
-  static constexpr int self_test_patience_bits = 17;  ///< bits of the ticks of which the second multiple ends the self-test's wait
+  static constexpr int self_test_patience_bits =
+      17;  ///< bits of the ticks of which the second multiple ends the self-test's wait
   static constexpr int self_test_counts = 2;  ///< counts that are an answer to the self-test
-  static constexpr int self_test_right = 1;  ///< what status.self_test says: the lever answered the right way
-  static constexpr int self_test_held = 2;  ///< it did not answer
+  static constexpr int self_test_right =
+      1;  ///< what status.self_test says: the lever answered the right way
+  static constexpr int self_test_held = 2;    ///< it did not answer
   static constexpr int self_test_moving = 3;  ///< it was not still for long enough to be asked
-  static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
-  static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
+  static constexpr int self_test_held_bit =
+      0;  ///< of self_test_arms: the scene begins though the lever is held
+  static constexpr int self_test_moving_bit =
+      1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
-  static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
+  static constexpr int one_channel_edges =
+      16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
-  static constexpr int edge_unit_bits = 6;  ///< bits of the ticks in which the time between edges is counted
+  static constexpr int edge_unit_bits =
+      6;  ///< bits of the ticks in which the time between edges is counted
   static constexpr int edge_units = 19;  ///< so many of them without an edge end the row
-  static constexpr int chatter_unit_bits = 8;  ///< bits of the ticks in which the time of chatter is counted
+  static constexpr int chatter_unit_bits =
+      8;  ///< bits of the ticks in which the time of chatter is counted
   static constexpr int chatter_units = 20;  ///< chatter for so many of them is a dead channel
-  static constexpr int index_width_bits = 3;  ///< an index may be less than 2^index_width_bits counts wide
+  static constexpr int index_width_bits =
+      3;  ///< an index may be less than 2^index_width_bits counts wide
   static constexpr int hold_unit_bits = 10;  ///< bits of the ticks in which hold_time is counted
-  static constexpr int hold_bits = 13;  ///< bits of the longest hold_time
+  static constexpr int hold_bits = 13;       ///< bits of the longest hold_time
 
   /// Wave clocks in which a word, or a square, is on its bus.
   struct W {
@@ -172,7 +185,7 @@ struct Map {
     static constexpr int membrane_side = 3;
     static constexpr int membrane_torque = 10;
     static constexpr int charge_width = 4;
-    static constexpr int charge_width_ahead = 5;
+    static constexpr int charge_width_early = 5;
     static constexpr int charge_quotient = 8;
     static constexpr int charge_width_limited = 6;
     static constexpr int charge_core = 7;
@@ -180,7 +193,7 @@ struct Map {
     static constexpr int scene_sum = 15;
     static constexpr int scene_rounded = 22;
     static constexpr int law_torque = 22;
-    static constexpr int scene_ahead = 23;
+    static constexpr int scene_early = 23;
     static constexpr int scene_torque = 23;
     static constexpr int torque_limited = 24;
     static constexpr int ramp_begin = 1;
@@ -196,17 +209,17 @@ struct Map {
     static constexpr int voltage_part = 26;
     static constexpr int current_part = 27;
     static constexpr int border = 28;
-    static constexpr int border_ahead = 29;
+    static constexpr int border_early = 29;
     static constexpr int region_limited = 30;
     static constexpr int region = 31;
     static constexpr int gain_fetch = 32;
     static constexpr int direct_current = 31;
-    static constexpr int direct_ahead = 32;
+    static constexpr int direct_early = 32;
     static constexpr int current_sum = 32;
     static constexpr int current_limited = 33;
     static constexpr int current = 34;
     static constexpr int dead_sum = 33;
-    static constexpr int dead_ahead = 34;
+    static constexpr int dead_early = 34;
     static constexpr int dead_voltage = 35;
     static constexpr int voltage_offset = 36;
     static constexpr int voltage_sum = 38;
@@ -230,7 +243,7 @@ struct Map {
     static constexpr int growth = 19;
     static constexpr int strong_size = 19;
     static constexpr int strong = 20;
-    static constexpr int runaway_ticks = 21;
+    static constexpr int window_over = 21;
     static constexpr int polarity = 22;
     static constexpr int self_test_quiet = 37;
     static constexpr int self_test_over = 38;
@@ -241,7 +254,7 @@ struct Map {
     static constexpr int levels = 0;
     static constexpr int channel = 1;
     static constexpr int hold_size = 34;
-    static constexpr int hold_ahead = 35;
+    static constexpr int hold_early = 35;
     static constexpr int hold_limited = 36;
     static constexpr int hold_strong = 37;
     static constexpr int hold = 43;
@@ -293,7 +306,7 @@ struct Map {
     charge_width,
     voltage_to_bus,
     operand_inverse_resistance,
-    charge_width_ahead,
+    charge_width_early,
     read_tick,
     charge_divide,
     spring_part,
@@ -339,7 +352,7 @@ struct Map {
     observed,
     strong,
     observed_rounded,
-    runaway_ticks,
+    window_over,
     operand_emf_constant,
     tau_hat,
     scene_rounded,
@@ -347,7 +360,7 @@ struct Map {
     polarity,
     read_tau_hat,
     operand_observer_gain,
-    scene_ahead,
+    scene_early,
     scene_torque,
     torque_limited,
     ramp_excess,
@@ -362,14 +375,14 @@ struct Map {
     operand_torque_gain,
     border,
     operand_dead_voltage_slope,
-    border_ahead,
+    border_early,
     region_limited,
     set_error,
     region,
     direct_current,
     set_step,
     gain_fetch,
-    direct_ahead,
+    direct_early,
     current_sum,
     direct_voltage,
     current_limited,
@@ -377,10 +390,10 @@ struct Map {
     read_current_ref,
     operand_voltage_gain,
     current,
-    dead_ahead,
+    dead_early,
     hold_size,
     dead_voltage,
-    hold_ahead,
+    hold_early,
     voltage_offset,
     hold_limited,
     self_test_quiet,
@@ -433,7 +446,7 @@ struct Map {
       {Step::charge_width, 4},
       {Step::voltage_to_bus, 4},
       {Step::operand_inverse_resistance, 5},
-      {Step::charge_width_ahead, 5},
+      {Step::charge_width_early, 5},
       {Step::read_tick, 6},
       {Step::charge_divide, 6},
       {Step::spring_part, 6},
@@ -479,7 +492,7 @@ struct Map {
       {Step::observed, 20},
       {Step::strong, 20},
       {Step::observed_rounded, 21},
-      {Step::runaway_ticks, 21},
+      {Step::window_over, 21},
       {Step::operand_emf_constant, 22},
       {Step::tau_hat, 22},
       {Step::scene_rounded, 22},
@@ -487,7 +500,7 @@ struct Map {
       {Step::polarity, 22},
       {Step::read_tau_hat, 23},
       {Step::operand_observer_gain, 23},
-      {Step::scene_ahead, 23},
+      {Step::scene_early, 23},
       {Step::scene_torque, 23},
       {Step::torque_limited, 24},
       {Step::ramp_excess, 25},
@@ -502,14 +515,14 @@ struct Map {
       {Step::operand_torque_gain, 28},
       {Step::border, 28},
       {Step::operand_dead_voltage_slope, 29},
-      {Step::border_ahead, 29},
+      {Step::border_early, 29},
       {Step::region_limited, 30},
       {Step::set_error, 31},
       {Step::region, 31},
       {Step::direct_current, 31},
       {Step::set_step, 32},
       {Step::gain_fetch, 32},
-      {Step::direct_ahead, 32},
+      {Step::direct_early, 32},
       {Step::current_sum, 32},
       {Step::direct_voltage, 33},
       {Step::current_limited, 33},
@@ -517,10 +530,10 @@ struct Map {
       {Step::read_current_ref, 34},
       {Step::operand_voltage_gain, 34},
       {Step::current, 34},
-      {Step::dead_ahead, 34},
+      {Step::dead_early, 34},
       {Step::hold_size, 34},
       {Step::dead_voltage, 35},
-      {Step::hold_ahead, 35},
+      {Step::hold_early, 35},
       {Step::voltage_offset, 36},
       {Step::hold_limited, 36},
       {Step::self_test_quiet, 37},
@@ -634,16 +647,9 @@ struct Map {
   }
   /// All of them, built or not, in the order of their numbers.
   static constexpr std::string_view scene_names[] = {
-      "free",
-      "setpoint",
-      "membrane",
-      "spring_compression",
-      "spring_tension",
-      "damper",
-      "charge_attract",
-      "charge_repel",
-      "wall",
-      "law"};
+      "free",           "setpoint", "membrane",       "spring_compression",
+      "spring_tension", "damper",   "charge_attract", "charge_repel",
+      "wall",           "law"};
 
   /// Addresses of control and snapshot words, and bits of the words' fields.
   struct C {

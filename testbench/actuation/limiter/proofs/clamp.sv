@@ -10,19 +10,19 @@ module clamp_proof (
     input logic                                            torque_i,
     input logic                                            voltage_i,
     input logic                                            duty_i,
-    input logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead_i,
-    input logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_i,
+    input logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,
+    input logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,
     input logic        [                             31:0] param_i
 );
   localparam int W = feltgate_pkg::LIMITER_W;
   localparam int WideW = feltgate_pkg::LIMITER_INPUT_W + 2;
 
   logic signed [W-1:0] limited;
-  logic                beyond;
+  logic                over_limit;
   limiter u_dut (
       .*,
       .limited_o(limited),
-      .beyond_o(beyond)
+      .over_limit_o(over_limit)
   );
 
   logic [1:0] age_q;  // clocks since the start, 2 from then on
@@ -30,10 +30,10 @@ module clamp_proof (
   always_ff @(posedge clk_i) if (age_q != 2'd2) age_q <= age_q + 2'd1;
 
   // A clock ago: what came ahead and of which kind it is.
-  logic signed [WideW-1:0] ahead_q;
+  logic signed [WideW-1:0] early_q;
   logic                    valid_q, torque_q, voltage_q, duty_q;
   always_ff @(posedge clk_i) begin
-    ahead_q   <= WideW'(ahead_i);
+    early_q   <= WideW'(early_term_i);
     valid_q   <= valid_i;
     torque_q  <= torque_i;
     voltage_q <= voltage_i;
@@ -41,7 +41,7 @@ module clamp_proof (
   end
   always_comb begin
     assume (4'(torque_i) + 4'(voltage_i) + 4'(duty_i) <= 4'd1);
-    assume (ahead_q == 0 || late_i == 0);
+    assume (early_q == 0 || late_term_i == 0);
   end
 
   // Two clocks ago: x, its limit, and the most that its format holds.
@@ -49,7 +49,7 @@ module clamp_proof (
   logic                    had_valid_q;
   always_ff @(posedge clk_i) begin
     had_valid_q <= valid_q;
-    x_q         <= ahead_q + WideW'(late_i);
+    x_q         <= early_q + WideW'(late_term_i);
     limit_q     <= WideW'($signed(param_i[W-1:0]));
     if (duty_q) most_q <= (WideW'(1) <<< (feltgate_pkg::DUTY_W - 1)) - 1;
     else if (voltage_q) most_q <= (WideW'(1) <<< (feltgate_pkg::VOLTAGE_W - 1)) - 1;
@@ -71,7 +71,7 @@ module clamp_proof (
       outside_at_its_limit: assert (!given || (x_q > limit_q ? result == limit_q :
                                                x_q >= -limit_q || result == -limit_q));
       idle_gives_nothing: assert (had_valid_q || result == 0);
-      beyond_is_beyond: assert (beyond == (!fits || x_q > limit_q || x_q < -limit_q));
+      beyond_is_beyond: assert (over_limit == (!fits || x_q > limit_q || x_q < -limit_q));
       negative_limit: cover (had_valid_q && limit_q < 0 && x_q < 0);
       at_the_limit: cover (given && result < 0 && x_q == result && x_q == -limit_q);
       beyond_the_format: cover (given && result == 0 - limit_q && x_q < -(WideW'(1) <<< W));

@@ -13,16 +13,16 @@ module steps_proof (
     input logic                                      restart_i,
     input logic        [                       31:0] param_i,
     input logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
-    input logic                                      beyond_i,
+    input logic                                      over_limit_i,
     input logic                                      frozen_i,
-    input logic                                      eased_i
+    input logic                                      derated_i
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;
   localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
-  localparam int Begin = feltgate_map_pkg::T_RAMP_BEGIN;
-  localparam int Excess = feltgate_map_pkg::T_RAMP_EXCESS;
-  localparam int Result = feltgate_map_pkg::T_TAU_REF;
+  localparam int Begin = feltgate_map_pkg::EVENT_AT_RAMP_BEGIN;
+  localparam int Excess = feltgate_map_pkg::EVENT_AT_RAMP_EXCESS;
+  localparam int Result = feltgate_map_pkg::EVENT_AT_TAU_REF;
 
   `include "wave.svh"
 
@@ -71,7 +71,7 @@ module steps_proof (
     end
     done_q <= began_q && wave[Result];
     limited_q    <= wave[Excess];
-    torque_due_q <= beyond_i && armed_i;
+    torque_due_q <= over_limit_i && armed_i;
     tau_q  <= tau_ref;
   end
   // A tick counts from its begin, without a reset.
@@ -102,9 +102,9 @@ module steps_proof (
     end else begin
       if (wave[Begin]) begin
         scene_q <= scene_i;
-        eased_q <= eased_i;
+        eased_q <= derated_i;
       end
-      must_q <= (wave[Begin] && (!armed_i || scene_i != scene_q || eased_i != eased_q)) || restart_i;
+      must_q <= (wave[Begin] && (!armed_i || scene_i != scene_q || derated_i != eased_q)) || restart_i;
     end
   end
 

@@ -20,20 +20,20 @@ module limits_proof
   int operand_bits;
   always_comb begin
     operand_bits = feltgate_pkg::TORQUE_W;
-    if (wave[feltgate_map_pkg::M_EMF_CONSTANT]) operand_bits = feltgate_pkg::VELOCITY_W;
-    if (wave[feltgate_map_pkg::M_VOLTAGE_GAIN]) operand_bits = CurrentW;
-    if (wave[feltgate_map_pkg::M_DUTY_GAIN]) operand_bits = feltgate_pkg::APPLIED_W;
+    if (wave[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]) operand_bits = feltgate_pkg::VELOCITY_W;
+    if (wave[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN]) operand_bits = CurrentW;
+    if (wave[feltgate_map_pkg::PRODUCT_AT_DUTY_GAIN]) operand_bits = feltgate_pkg::APPLIED_W;
     fits = (product_i < 0 ? ~product_i : product_i) >>> (operand_bits + feltgate_pkg::COEFFICIENT_BITS - 1) == 0;
   end
-  assign law_product = wave[feltgate_map_pkg::M_OBSERVER_GAIN] || wave[feltgate_map_pkg::M_TORQUE_GAIN] ||
-                       wave[feltgate_map_pkg::M_DEAD_VOLTAGE_SLOPE] || wave[feltgate_map_pkg::M_VOLTAGE_GAIN] ||
-                       wave[feltgate_map_pkg::M_DUTY_GAIN];
+  assign law_product = wave[feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN] || wave[feltgate_map_pkg::PRODUCT_AT_TORQUE_GAIN] ||
+                       wave[feltgate_map_pkg::PRODUCT_AT_DEAD_VOLTAGE_SLOPE] || wave[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN] ||
+                       wave[feltgate_map_pkg::PRODUCT_AT_DUTY_GAIN];
   always_ff @(posedge clk_i) begin
-    if (wave[feltgate_map_pkg::S_CURRENT_LIMIT]) current_limit_q <= as_limit(param_i, LimiterW);
-    if (wave[feltgate_map_pkg::S_DUTY_LIMIT]) duty_limit_q <= as_limit(param_i, DutyW);
+    if (wave[feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT]) current_limit_q <= as_limit(param_i, LimiterW);
+    if (wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT]) duty_limit_q <= as_limit(param_i, DutyW);
     // All products of the law point one way, and are no more than their operands and a word of
     // COEFFICIENT_BITS make; the back-EMF too, or it is 0 where the law does not give it back.
-    if (wave[feltgate_map_pkg::M_EMF_CONSTANT]) begin
+    if (wave[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]) begin
       all_down_q <= fits && ((feltgate_pkg::EMF_IN_LAW != 0) ? product_i <= 0 : product_i == 0);
       all_up_q   <= fits && ((feltgate_pkg::EMF_IN_LAW != 0) ? product_i >= 0 : product_i == 0);
     end else if (law_product) begin
@@ -50,7 +50,7 @@ module limits_proof
     voltage_was_q <= voltage;
     duty_was_q    <= duty;
     {any_current_q, any_voltage_q, any_duty_q} <=
-        {wave[feltgate_map_pkg::T_CURRENT], wave[feltgate_map_pkg::T_VOLTAGE], wave[feltgate_map_pkg::T_DUTY]};
+        {wave[feltgate_map_pkg::EVENT_AT_CURRENT], wave[feltgate_map_pkg::EVENT_AT_VOLTAGE], wave[feltgate_map_pkg::EVENT_AT_DUTY]};
   end
   localparam logic signed [VoltageW-1:0] Most = {1'b0, {(VoltageW - 1) {1'b1}}};
 
@@ -80,9 +80,9 @@ module limits_proof
         turns: cover (duty < 0 && limit_duty);
       end
       inside_down: assert (!began_q || !all_down_q || (emf <= 0 &&
-          (phase_q <= 9'(feltgate_map_pkg::M_OBSERVER_GAIN) || (kept <= 0 && kept >= -Kept))));
+          (phase_q <= 9'(feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN) || (kept <= 0 && kept >= -Kept))));
       inside_up: assert (!began_q || !all_up_q || (emf >= 0 &&
-          (phase_q <= 9'(feltgate_map_pkg::M_OBSERVER_GAIN) || (kept >= 0 && kept < Kept))));
+          (phase_q <= 9'(feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN) || (kept >= 0 && kept < Kept))));
     end
   end
 endmodule

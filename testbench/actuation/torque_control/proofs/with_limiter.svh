@@ -13,7 +13,7 @@
     input logic        [                             31:0] param_i,
     input logic signed [     feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic signed [         feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
-    input logic signed [  feltgate_pkg::LIMITER_INPUT_W-1:0] other_ahead_i,  // the scenes'
+    input logic signed [  feltgate_pkg::LIMITER_INPUT_W-1:0] other_early_i,  // the scenes'
     input logic signed [  feltgate_pkg::LIMITER_INPUT_W-1:0] other_late_i
 );
   localparam int CurrentW = feltgate_pkg::CURRENT_W;
@@ -32,23 +32,23 @@
   end
   always_comb begin
     assume (tick_q || !rst_ni || (armed_i == armed_q && mode_i == mode_q));
-    assume (phase_q <= 9'(feltgate_map_pkg::S_TORQUE_LIMIT) || (other_ahead_i == '0 && other_late_i == '0));
+    assume (phase_q <= 9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) || (other_early_i == '0 && other_late_i == '0));
   end
 
-  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] ahead, late;
+  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term, late_term;
   logic signed [LimiterW-1:0] limited;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [CurrentW-1:0] current;
   logic signed [VoltageW-1:0] voltage;
   logic signed [DutyW-1:0] duty;
-  logic beyond, region_high, limit_current, limit_voltage, limit_duty;
+  logic over_limit, region_high, limit_current, limit_voltage, limit_duty;
   torque_control u_dut (
       .*,
       .wave_i(rst_ni ? wave : '0),  // as the sequencer's reset has it
-      .ahead_o(ahead),
-      .late_o(late),
+      .early_term_o(early_term),
+      .late_term_o(late_term),
       .limited_i(limited),
-      .beyond_i(beyond),
+      .over_limit_i(over_limit),
       .applied_o(applied),
       .region_high_o(region_high),
       .current_ref_o(current),
@@ -61,17 +61,17 @@
   // As the core has it.
   limiter u_limiter (
       .clk_i(clk_i),
-      .valid_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1] || wave[feltgate_map_pkg::S_VOLTAGE_STEP-1] ||
-               wave[feltgate_map_pkg::S_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE-1] ||
-               wave[feltgate_map_pkg::S_VOLTAGE_WINDOW-1] || wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .torque_i(wave[feltgate_map_pkg::S_TORQUE_LIMIT-1]),
-      .voltage_i(wave[feltgate_map_pkg::S_VOLTAGE_WINDOW-1]),
-      .duty_i(wave[feltgate_map_pkg::S_DUTY_LIMIT-1]),
-      .ahead_i(ahead | other_ahead_i),
-      .late_i(late | other_late_i),
+      .valid_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1] || wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_STEP-1] ||
+               wave[feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT-1] || wave[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE-1] ||
+               wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW-1] || wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT-1]),
+      .torque_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1]),
+      .voltage_i(wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW-1]),
+      .duty_i(wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT-1]),
+      .early_term_i(early_term | other_early_i),
+      .late_term_i(late_term | other_late_i),
       .param_i(param_i),
       .limited_o(limited),
-      .beyond_o(beyond)
+      .over_limit_o(over_limit)
   );
   (* hierconn *) wire signed [feltgate_pkg::VOLTAGE_SUM_W-1:0] \u_dut.fixed_q ;
   (* hierconn *) wire signed [feltgate_pkg::CURRENT_SUM_W-1:0] \u_dut.kept_q ;
@@ -92,21 +92,21 @@
   logic [LimiterW-1:0] window_q;
   logic signed [EmfW-1:0] emf_then_q;
   always_ff @(posedge clk_i) begin
-    if (wave[feltgate_map_pkg::S_VOLTAGE_WINDOW]) window_q <= as_limit(param_i, VoltageW);
-    if (wave[feltgate_map_pkg::M_EMF_CONSTANT]) emf_then_q <= EmfW'(product_i >>> EmfDrop);
+    if (wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]) window_q <= as_limit(param_i, VoltageW);
+    if (wave[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]) emf_then_q <= EmfW'(product_i >>> EmfDrop);
   end
   // Clocks of this tick since its back-EMF, without a reset.
   logic began_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) began_q <= 1'b0;
-    else if (wave[feltgate_map_pkg::M_EMF_CONSTANT]) began_q <= 1'b1;
+    else if (wave[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]) began_q <= 1'b1;
     else if (tick_q) began_q <= 1'b0;
   end
   logic new_current, new_voltage, new_duty, law;
   logic new_current_q, new_voltage_q, new_duty_q, was_q;
-  assign new_current = began_q && wave[feltgate_map_pkg::T_CURRENT];
-  assign new_voltage = began_q && wave[feltgate_map_pkg::T_VOLTAGE];
-  assign new_duty    = began_q && wave[feltgate_map_pkg::T_DUTY];
+  assign new_current = began_q && wave[feltgate_map_pkg::EVENT_AT_CURRENT];
+  assign new_voltage = began_q && wave[feltgate_map_pkg::EVENT_AT_VOLTAGE];
+  assign new_duty    = began_q && wave[feltgate_map_pkg::EVENT_AT_DUTY];
   assign law = mode_q != 2'(feltgate_map_pkg::MODE_VOLTAGE);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {new_current_q, new_voltage_q, new_duty_q, was_q} <= '0;
@@ -119,7 +119,7 @@
   always_comb begin
     if (past_ok_q && rst_ni && was_q) begin
       inside_emf: assert (!began_q || emf == emf_then_q);
-      inside_fixed: assert (\u_dut.fixed_q == 0 || (phase_q > 9'(feltgate_map_pkg::T_DIRECT_VOLTAGE) &&
-                            phase_q <= 9'(feltgate_map_pkg::S_VOLTAGE_WINDOW)));
+      inside_fixed: assert (\u_dut.fixed_q == 0 || (phase_q > 9'(feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE) &&
+                            phase_q <= 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW)));
     end
   end

@@ -8,7 +8,7 @@ module around_proof (
     input logic        clk_i,
     input logic        rst_ni,
     input logic [ 1:0] law_i,
-    input logic [ 1:0] asks_i,
+    input logic [ 1:0] arm_request_i,
     input logic [ 1:0] armed_i,
     input logic [ 1:0] zeroed_i,
     input logic        snapshot_i,
@@ -32,7 +32,7 @@ module around_proof (
   logic [ 8:0] event_number;
   axes_engine #(.AxisCount(2)) u_dut (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .law_i(law_i), .asks_i(asks_i), .armed_i(armed_i), .zeroed_i(zeroed_i),
+      .law_i(law_i), .arm_request_i(arm_request_i), .armed_i(armed_i), .zeroed_i(zeroed_i),
       .snapshot_i(snapshot_i), .measured_i(measured_i), .tick_count_i(tick_count_i),
       .position_i(position_i), .velocity_i(velocity_i), .tau_hat_i(tau_hat_i),
       .torque_o(torque), .late_o(late), .restart_o(restart), .unchecked_o(unchecked), .unfit_o(unfit),
@@ -77,7 +77,7 @@ module around_proof (
 
   // The computation that runs, and whether one began and ended since a snapshot at which an axis did not ask.
   logic runs_q, begun_q, checked_q, withdrawn;
-  assign withdrawn = snapshot_i && asks_i != 2'b11;
+  assign withdrawn = snapshot_i && arm_request_i != 2'b11;
   // What makes the torque jump, the runs that ended since, and whether their torque was sampled.
   logic in_law_q, was_armed_q, jumps, open_q;
   logic [1:0] ended_q;
@@ -112,10 +112,10 @@ module around_proof (
   always_comb begin
     if (past_ok_q && rst_ni) begin
       checked_since_asked: assert (unchecked || checked_q);
-      every_request_is_checked: assert (starts == (snapshot_i && asks_i == 2'b11 && !checked_q && !runs_q));
+      every_request_is_checked: assert (starts == (snapshot_i && arm_request_i == 2'b11 && !checked_q && !runs_q));
       unfit_in_laws: assert (unfit == (law_i != '0 && !good));
       no_torque_unchecked: assert (late == (\u_dut.u_engine.late_o || !good));
-      locked_while_it_counts: assert (\u_dut.u_engine.locked_i == (armed_i != '0 || asks_i == 2'b11 || runs_q));
+      locked_while_it_counts: assert (\u_dut.u_engine.locked_i == (armed_i != '0 || arm_request_i == 2'b11 || runs_q));
       jumps_until_sampled: assert (restart == open_q);
       any_axis_is_heard: assert (\u_dut.u_engine.armed_i == (armed_i != '0) && \u_dut.u_engine.enter_i == (law_i != '0 && !in_law_q));
       inputs_pass: assert (\u_dut.u_engine.tick_i == measured_i && \u_dut.u_engine.tick_count_i == tick_count_i &&

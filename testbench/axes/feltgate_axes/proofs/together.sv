@@ -35,7 +35,7 @@ module together_proof (
   (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_blocked_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_testing_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.axis_waits_i ;
-  (* hierconn *) wire \u_dut.g_axis[0].u_core.asks_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.arm_request_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.ready_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.testing_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.reg_write_i ;
@@ -50,7 +50,7 @@ module together_proof (
   (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_blocked_i ;
   (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_testing_i ;
   (* hierconn *) wire \u_dut.g_axis[1].u_core.axis_waits_i ;
-  (* hierconn *) wire \u_dut.g_axis[1].u_core.asks_o ;
+  (* hierconn *) wire \u_dut.g_axis[1].u_core.arm_request_o ;
   (* hierconn *) wire \u_dut.g_axis[1].u_core.ready_o ;
   (* hierconn *) wire \u_dut.g_axis[1].u_core.testing_o ;
   (* hierconn *) wire \u_dut.g_axis[1].u_core.reg_write_i ;
@@ -65,7 +65,7 @@ module together_proof (
   (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_blocked_i ;
   (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_testing_i ;
   (* hierconn *) wire \u_dut.g_axis[2].u_core.axis_waits_i ;
-  (* hierconn *) wire \u_dut.g_axis[2].u_core.asks_o ;
+  (* hierconn *) wire \u_dut.g_axis[2].u_core.arm_request_o ;
   (* hierconn *) wire \u_dut.g_axis[2].u_core.ready_o ;
   (* hierconn *) wire \u_dut.g_axis[2].u_core.testing_o ;
   (* hierconn *) wire \u_dut.g_axis[2].u_core.reg_write_i ;
@@ -87,14 +87,14 @@ module together_proof (
   (* hierconn *) wire \u_dut.g_engine.u_engine.unfit_o ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.reg_busy_o ;
   (* hierconn *) wire [31:0] \u_dut.g_engine.u_engine.reg_rdata_o ;
-  (* hierconn *) wire [2:0] \u_dut.g_engine.u_engine.asks_i ;
+  (* hierconn *) wire [2:0] \u_dut.g_engine.u_engine.arm_request_i ;
   (* hierconn *) wire [15:0] \u_dut.g_engine.u_engine.reg_addr_i ;
   (* hierconn *) wire [31:0] \u_dut.g_engine.u_engine.reg_wdata_i ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.reg_write_i ;
   (* hierconn *) wire \u_dut.g_engine.u_engine.reg_read_i ;
 
   // Axis n is bit n.
-  logic [2:0] hears_fault, silent, blocked, beside, waits, asks, ready, testing, writes, busies, arms, stops;
+  logic [2:0] hears_fault, silent, blocked, beside, waits, arm_requests, ready, testing, writes, busies, arms, stops;
   logic [35:0] addresses;
   logic [95:0] data, words, velocities, torques;
   // A word of the engine, of a number of fewer bits.
@@ -105,7 +105,7 @@ module together_proof (
   assign blocked = {\u_dut.g_axis[2].u_core.axis_blocked_i , \u_dut.g_axis[1].u_core.axis_blocked_i , \u_dut.g_axis[0].u_core.axis_blocked_i };
   assign beside = {\u_dut.g_axis[2].u_core.axis_testing_i , \u_dut.g_axis[1].u_core.axis_testing_i , \u_dut.g_axis[0].u_core.axis_testing_i };
   assign waits = {\u_dut.g_axis[2].u_core.axis_waits_i , \u_dut.g_axis[1].u_core.axis_waits_i , \u_dut.g_axis[0].u_core.axis_waits_i };
-  assign asks = {\u_dut.g_axis[2].u_core.asks_o , \u_dut.g_axis[1].u_core.asks_o , \u_dut.g_axis[0].u_core.asks_o };
+  assign arm_requests = {\u_dut.g_axis[2].u_core.arm_request_o , \u_dut.g_axis[1].u_core.arm_request_o , \u_dut.g_axis[0].u_core.arm_request_o };
   assign ready = {\u_dut.g_axis[2].u_core.ready_o , \u_dut.g_axis[1].u_core.ready_o , \u_dut.g_axis[0].u_core.ready_o };
   assign testing = {\u_dut.g_axis[2].u_core.testing_o , \u_dut.g_axis[1].u_core.testing_o , \u_dut.g_axis[0].u_core.testing_o };
   assign writes = {\u_dut.g_axis[2].u_core.reg_write_i , \u_dut.g_axis[1].u_core.reg_write_i , \u_dut.g_axis[0].u_core.reg_write_i };
@@ -134,7 +134,7 @@ module together_proof (
     if (past_ok_q) begin
       any_fault_is_heard: assert (hears_fault[n] == ((faults & ~own) != 3'd0));
       stop_for_all: assert (stops == {3{stop_i}} && arms == {3{arm_i}});
-      arms_with_all: assert (silent[n] == ((~asks & ~own) != 3'd0 || \u_dut.g_engine.u_engine.unchecked_o ));
+      arms_with_all: assert (silent[n] == ((~arm_requests & ~own) != 3'd0 || \u_dut.g_engine.u_engine.unchecked_o ));
       ready_with_all: assert (blocked[n] == ((~ready & ~own) != 3'd0 || \u_dut.g_engine.u_engine.unfit_o ));
       tests_in_turn: assert (waits[n] == ((testing & (own - 3'd1)) != 3'd0));
       nothing_beside_a_test: assert (beside[n] == ((testing & ~own) != 3'd0));
@@ -144,7 +144,7 @@ module together_proof (
       word_of_all: assert (rdata == (words[31:0] | words[63:32] | words[95:64] | engine_word));
       engine_side: assert (\u_dut.g_engine.u_engine.reg_write_i == write_i && \u_dut.g_engine.u_engine.reg_wdata_i == wdata_i &&
                            \u_dut.g_engine.u_engine.reg_read_i == read_i);
-      engine_hears_all: assert (\u_dut.g_engine.u_engine.asks_i == asks && \u_dut.g_engine.u_engine.reg_addr_i == addr_i);
+      engine_hears_all: assert (\u_dut.g_engine.u_engine.arm_request_i == arm_requests && \u_dut.g_engine.u_engine.reg_addr_i == addr_i);
       engine_is_given_signs: assert (\u_dut.g_engine.u_engine.velocity_i == velocities && \u_dut.g_engine.u_engine.tau_hat_i == torques);
       a_test: cover (testing[2] && waits == 3'd0 && beside == 3'd3);
       a_fault: cover (faults == 3'd4 && hears_fault == 3'd3);

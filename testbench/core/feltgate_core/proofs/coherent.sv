@@ -53,25 +53,25 @@ module coherent_proof (
   end
   always_comb begin
     if (rst_ni && (began_q || phase_q > 10'(First))) begin  // from the first sample on
-      assume (wave[feltgate_map_pkg::S_VELOCITY_A1] || \u_core.velocity_difference == '0);
-      assume (wave[feltgate_map_pkg::S_OBSERVER_A1] || \u_core.observer_difference == '0);
-      assume (wave[feltgate_map_pkg::T_SCENE_DISTANCE+1] || wave[feltgate_map_pkg::T_SCENE_DISTANCE+2] ||
+      assume (wave[feltgate_map_pkg::PARAM_AT_VELOCITY_A1] || \u_core.velocity_difference == '0);
+      assume (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1] || \u_core.observer_difference == '0);
+      assume (wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE+1] || wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE+2] ||
               \u_core.distance == '0);
     end
     if (rst_ni && after_q) begin
-      assume (velocity == velocity_q || wave_q[feltgate_map_pkg::T_VELOCITY]);
-      assume (tau_hat == tau_hat_q || wave_q[feltgate_map_pkg::T_TAU_HAT]);
-      assume (tau_ref == tau_ref_q || wave_q[feltgate_map_pkg::T_TAU_REF]);
+      assume (velocity == velocity_q || wave_q[feltgate_map_pkg::EVENT_AT_VELOCITY]);
+      assume (tau_hat == tau_hat_q || wave_q[feltgate_map_pkg::EVENT_AT_TAU_HAT]);
+      assume (tau_ref == tau_ref_q || wave_q[feltgate_map_pkg::EVENT_AT_TAU_REF]);
     end
   end
 
   // A slot of the snapshot, whichever it is, and its pin, where it has one.
-  localparam logic [63:0] All = (64'd1 << feltgate_map_pkg::R_STATUS) | (64'd1 << feltgate_map_pkg::R_FAULTS) |
-      (64'd1 << feltgate_map_pkg::R_POSITION) | (64'd1 << feltgate_map_pkg::R_TICK) |
-      (64'd1 << feltgate_map_pkg::R_INDEX) | (64'd1 << feltgate_map_pkg::R_ENCODER) |
-      (64'd1 << feltgate_map_pkg::R_VELOCITY) | (64'd1 << feltgate_map_pkg::R_TAU_HAT) |
-      (64'd1 << feltgate_map_pkg::R_TAU_REF) | (64'd1 << feltgate_map_pkg::R_CURRENT_REF) |
-      (64'd1 << feltgate_map_pkg::R_VOLTAGE) | (64'd1 << feltgate_map_pkg::R_DUTY);
+  localparam logic [63:0] All = (64'd1 << feltgate_map_pkg::READ_AT_STATUS) | (64'd1 << feltgate_map_pkg::READ_AT_FAULTS) |
+      (64'd1 << feltgate_map_pkg::READ_AT_POSITION) | (64'd1 << feltgate_map_pkg::READ_AT_TICK) |
+      (64'd1 << feltgate_map_pkg::READ_AT_INDEX) | (64'd1 << feltgate_map_pkg::READ_AT_ENCODER) |
+      (64'd1 << feltgate_map_pkg::READ_AT_VELOCITY) | (64'd1 << feltgate_map_pkg::READ_AT_TAU_HAT) |
+      (64'd1 << feltgate_map_pkg::READ_AT_TAU_REF) | (64'd1 << feltgate_map_pkg::READ_AT_CURRENT_REF) |
+      (64'd1 << feltgate_map_pkg::READ_AT_VOLTAGE) | (64'd1 << feltgate_map_pkg::READ_AT_DUTY);
   localparam logic signed [feltgate_pkg::VOLTAGE_W-1:0] Top = {1'b0, {(feltgate_pkg::VOLTAGE_W - 1) {1'b1}}};
   logic [5:0] slot_q;
   logic mapped, of_slot, has_pin;
@@ -83,32 +83,32 @@ module coherent_proof (
     has_pin = 1'b1;
     pin     = tick_count;
     case (slot_q)
-      6'(feltgate_map_pkg::R_TICK):        ;
-      6'(feltgate_map_pkg::R_POSITION):    pin = position;
-      6'(feltgate_map_pkg::R_VELOCITY):    pin = 32'(velocity);
-      6'(feltgate_map_pkg::R_TAU_HAT):     pin = 32'(tau_hat);
-      6'(feltgate_map_pkg::R_TAU_REF):     pin = 32'(tau_ref);
-      6'(feltgate_map_pkg::R_CURRENT_REF): pin = 32'(current_ref);
-      6'(feltgate_map_pkg::R_VOLTAGE):     pin = 32'(voltage);
-      6'(feltgate_map_pkg::R_DUTY):        pin = 32'(duty);
+      6'(feltgate_map_pkg::READ_AT_TICK):        ;
+      6'(feltgate_map_pkg::READ_AT_POSITION):    pin = position;
+      6'(feltgate_map_pkg::READ_AT_VELOCITY):    pin = 32'(velocity);
+      6'(feltgate_map_pkg::READ_AT_TAU_HAT):     pin = 32'(tau_hat);
+      6'(feltgate_map_pkg::READ_AT_TAU_REF):     pin = 32'(tau_ref);
+      6'(feltgate_map_pkg::READ_AT_CURRENT_REF): pin = 32'(current_ref);
+      6'(feltgate_map_pkg::READ_AT_VOLTAGE):     pin = 32'(voltage);
+      6'(feltgate_map_pkg::READ_AT_DUTY):        pin = 32'(duty);
       default:                             has_pin = 1'b0;
     endcase
   end
   // A voltage beyond its port's format is at its end there.
   logic at_end;
-  assign at_end = slot_q == 6'(feltgate_map_pkg::R_VOLTAGE) && (voltage == Top || voltage == ~Top);
+  assign at_end = slot_q == 6'(feltgate_map_pkg::READ_AT_VOLTAGE) && (voltage == Top || voltage == ~Top);
   // After which clock of the wave it may change.
   logic changes;
   always_comb begin
     case (slot_q)
-      6'(feltgate_map_pkg::R_TICK):        changes = last_q;
-      6'(feltgate_map_pkg::R_POSITION):    changes = wave_q[feltgate_map_pkg::T_SAMPLE];
-      6'(feltgate_map_pkg::R_VELOCITY):    changes = wave_q[feltgate_map_pkg::T_VELOCITY];
-      6'(feltgate_map_pkg::R_TAU_HAT):     changes = wave_q[feltgate_map_pkg::T_TAU_HAT];
-      6'(feltgate_map_pkg::R_TAU_REF):     changes = wave_q[feltgate_map_pkg::T_TAU_REF];
-      6'(feltgate_map_pkg::R_CURRENT_REF): changes = wave_q[feltgate_map_pkg::T_CURRENT];
-      6'(feltgate_map_pkg::R_VOLTAGE):     changes = wave_q[feltgate_map_pkg::T_VOLTAGE];
-      default:                             changes = wave_q[feltgate_map_pkg::T_DUTY];
+      6'(feltgate_map_pkg::READ_AT_TICK):        changes = last_q;
+      6'(feltgate_map_pkg::READ_AT_POSITION):    changes = wave_q[feltgate_map_pkg::EVENT_AT_SAMPLE];
+      6'(feltgate_map_pkg::READ_AT_VELOCITY):    changes = wave_q[feltgate_map_pkg::EVENT_AT_VELOCITY];
+      6'(feltgate_map_pkg::READ_AT_TAU_HAT):     changes = wave_q[feltgate_map_pkg::EVENT_AT_TAU_HAT];
+      6'(feltgate_map_pkg::READ_AT_TAU_REF):     changes = wave_q[feltgate_map_pkg::EVENT_AT_TAU_REF];
+      6'(feltgate_map_pkg::READ_AT_CURRENT_REF): changes = wave_q[feltgate_map_pkg::EVENT_AT_CURRENT];
+      6'(feltgate_map_pkg::READ_AT_VOLTAGE):     changes = wave_q[feltgate_map_pkg::EVENT_AT_VOLTAGE];
+      default:                             changes = wave_q[feltgate_map_pkg::EVENT_AT_DUTY];
     endcase
   end
 
@@ -178,8 +178,8 @@ module coherent_proof (
       inside_data: assert (!busy || \u_core.u_registers.data_q == data_q);
       inside_warm: assert (\u_core.u_registers.warm_q == (clocks_q != 2'd0));
       inside_shown: assert (!shown_ok_q || began_q);
-      stores_the_position: cover (of_slot && slot_q == 6'(feltgate_map_pkg::R_POSITION) && data != 32'd0);
-      stores_the_velocity: cover (of_slot && slot_q == 6'(feltgate_map_pkg::R_VELOCITY) && data[31]);
+      stores_the_position: cover (of_slot && slot_q == 6'(feltgate_map_pkg::READ_AT_POSITION) && data != 32'd0);
+      stores_the_velocity: cover (of_slot && slot_q == 6'(feltgate_map_pkg::READ_AT_VELOCITY) && data[31]);
     end
   end
 endmodule

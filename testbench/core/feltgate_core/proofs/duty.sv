@@ -11,7 +11,7 @@ module duty_proof (
   `include "reset.svh"
   `include "core.svh"
   localparam int Most = 50;  // clocks from the sample
-  localparam int Age = feltgate_map_pkg::T_DUTY + 1 - feltgate_map_pkg::T_SAMPLE;
+  localparam int Age = feltgate_map_pkg::EVENT_AT_DUTY + 1 - feltgate_map_pkg::EVENT_AT_SAMPLE;
   localparam int Period = feltgate_pkg::PWM_PERIOD;
   localparam int Half = Period / 2;
   localparam int DutyW = feltgate_pkg::DUTY_W;
@@ -27,18 +27,18 @@ module duty_proof (
   logic sampled_q, fresh_q;
   logic [15:0] age_q, duty_age_q;
   logic due;  // the duty of this wave is taken
-  assign due = wave[feltgate_map_pkg::T_DUTY];
+  assign due = wave[feltgate_map_pkg::EVENT_AT_DUTY];
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       sampled_q <= 1'b0;
       fresh_q   <= 1'b0;
     end else begin
-      if (wave[feltgate_map_pkg::T_SAMPLE]) sampled_q <= 1'b1;
+      if (wave[feltgate_map_pkg::EVENT_AT_SAMPLE]) sampled_q <= 1'b1;
       if (sampled_q && due) fresh_q <= 1'b1;
     end
   end
   always_ff @(posedge clk_i) begin
-    age_q      <= wave[feltgate_map_pkg::T_SAMPLE] ? 16'd1 : age_q + 16'd1;
+    age_q      <= wave[feltgate_map_pkg::EVENT_AT_SAMPLE] ? 16'd1 : age_q + 16'd1;
     duty_age_q <= (duty_due_q ? age_q : duty_age_q) + 16'd1;
   end
   logic [15:0] duty_age;  // of the duty that stands
@@ -61,7 +61,7 @@ module duty_proof (
     end
   end
   always_ff @(posedge clk_i) begin
-    sample_q        <= wave[feltgate_map_pkg::T_SAMPLE];
+    sample_q        <= wave[feltgate_map_pkg::EVENT_AT_SAMPLE];
     decoder_q       <= \u_core.u_quad_decoder.position_o ;
     position_q      <= position;
     limited_q       <= \u_core.limited ;
@@ -100,12 +100,12 @@ module duty_proof (
                                                                          : 16'(phase_q) + 16'(N - First)) &&
                                        (began_q || phase_q > 10'(First)))
                                     : !began_q && phase_q <= 10'(First));
-      inside_fresh: assert (fresh_q == (sampled_q && (began_q || at > 10'(feltgate_map_pkg::T_DUTY))));
-      inside_due: assert (duty_due_q == (at == 10'(feltgate_map_pkg::T_DUTY + 1) && sampled_q));
+      inside_fresh: assert (fresh_q == (sampled_q && (began_q || at > 10'(feltgate_map_pkg::EVENT_AT_DUTY))));
+      inside_due: assert (duty_due_q == (at == 10'(feltgate_map_pkg::EVENT_AT_DUTY + 1) && sampled_q));
       inside_duty_age: assert (!fresh_q || duty_due_q || duty_age_q ==
-          ((at > 10'(feltgate_map_pkg::T_DUTY)) ? 16'(at) : 16'(at) + 16'(N)));
+          ((at > 10'(feltgate_map_pkg::EVENT_AT_DUTY)) ? 16'(at) : 16'(at) + 16'(N)));
       inside_then: assert (!(after_q && fresh_then_q) || duty_age_then_q + 16'd1 ==
-          ((at > 10'(feltgate_map_pkg::T_DUTY + 1)) ? 16'(at) : 16'(at) + 16'(N)));
+          ((at > 10'(feltgate_map_pkg::EVENT_AT_DUTY + 1)) ? 16'(at) : 16'(at) + 16'(N)));
       inside_clock: assert (clock_q < 16'(Period) && ticks_q < 16'(Period / N) &&
                             since == ticks_q * 16'(N) + 16'(phase_q));
       inside_level: assert (\u_core.u_pwm.rising_q ? 16'(\u_core.u_pwm.level_q ) == clock_q - 16'(Half)

@@ -39,7 +39,7 @@
   (* hierconn *) wire [3:0] \u_core.u_ramp.scene_i ;
   (* hierconn *) wire \u_core.u_supervisor.clear_faults_i ;
   (* hierconn *) wire \u_core.u_supervisor.kick_i ;
-  (* hierconn *) wire \u_core.asks_o ;
+  (* hierconn *) wire \u_core.arm_request_o ;
   (* hierconn *) wire \u_core.region_high ;
-  (* hierconn *) wire \u_core.eased ;
+  (* hierconn *) wire \u_core.derated ;
   (* hierconn *) wire \u_core.testing ;

@@ -133,7 +133,7 @@ module reads_proof (
   (* hierconn *) wire [L-1:0] \u_other.u_dob.wave_i ;
   (* hierconn *) wire [L-1:0] \u_other.u_snapshot.wave_i ;
   (* hierconn *) wire [L-1:0] \u_other.u_operand_bus.wave_i ;
-  (* hierconn *) wire \u_other.asks_o ;
+  (* hierconn *) wire \u_other.arm_request_o ;
   (* hierconn *) wire \u_other.clear ;
   (* hierconn *) wire \u_other.u_supervisor.host_i ;
   (* hierconn *) wire \u_other.u_supervisor.host_arm_i ;
@@ -146,7 +146,7 @@ module reads_proof (
   (* hierconn *) wire \u_other.armed_o ;
   (* hierconn *) wire \u_other.arms ;
   (* hierconn *) wire \u_other.region_high ;
-  (* hierconn *) wire \u_other.eased ;
+  (* hierconn *) wire \u_other.derated ;
   (* hierconn *) wire \u_other.testing ;
   (* hierconn *) wire \u_other.word_valid_o ;
   (* hierconn *) wire [5:0] \u_other.word_slot_o ;
@@ -158,10 +158,10 @@ module reads_proof (
     assume (
         \u_core.armed_o == \u_other.armed_o && \u_core.arms == \u_other.arms &&
         \u_core.region_high == \u_other.region_high &&
-        \u_core.eased == \u_other.eased && \u_core.testing == \u_other.testing &&
+        \u_core.derated == \u_other.derated && \u_core.testing == \u_other.testing &&
         \u_core.word_valid_o == \u_other.word_valid_o && \u_core.word_slot_o == \u_other.word_slot_o &&
         \u_core.word_data_o == \u_other.word_data_o && \u_core.clear == \u_other.clear &&
-        \u_core.asks_o == \u_other.asks_o );
+        \u_core.arm_request_o == \u_other.arm_request_o );
     if (past_ok_q) assume (\u_core.u_registers.fetch_q == \u_other.u_registers.fetch_q );
   end
 

@@ -41,12 +41,12 @@ module writes_proof (
   always_comb begin
     wanted = {3'd0, (phase_q < 10'd64) ? phase_q[5:0] : 6'd63};
     if (phase_q < 10'd64 && feltgate_map_pkg::SCENE_SLOTS[phase_q[5:0]]) wanted = {scene, phase_q[4:0]};
-    else if (phase_q == 10'(feltgate_map_pkg::S_VOLTAGE_GAIN) && \u_core.region_high )
-      wanted = 9'(feltgate_map_pkg::S_VOLTAGE_GAIN_HIGH);
-    else if (phase_q == 10'(feltgate_map_pkg::S_TORQUE_LIMIT) && \u_core.testing )
-      wanted = 9'(feltgate_map_pkg::S_SELF_TEST_TORQUE);
-    else if (phase_q == 10'(feltgate_map_pkg::S_TORQUE_LIMIT) && \u_core.eased )
-      wanted = 9'(feltgate_map_pkg::S_HOLD_LIMIT);
+    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN) && \u_core.region_high )
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
+    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.testing )
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
+    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.derated )
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
   end
   always_ff @(posedge clk_i) begin
     address_q    <= address_q;
@@ -115,7 +115,7 @@ module writes_proof (
       waits_a_tick_at_most: assert (!busy || busy_q < 10'(N));
       commands_once: assert (
           \u_core.u_supervisor.clear_faults_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
-          \u_core.u_quad_decoder.clear_error_i == (\u_core.u_supervisor.clear_faults_i && !\u_core.asks_o ) &&
+          \u_core.u_quad_decoder.clear_error_i == (\u_core.u_supervisor.clear_faults_i && !\u_core.arm_request_o ) &&
           \u_core.u_supervisor.kick_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
       zero_once: assert (
           zeroed == (last && (zero_due_q || (to_command && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))) &&
@@ -145,7 +145,7 @@ module writes_proof (
         disarm_lands: assert (!disarmed_q || (!gates_enable && !armed && control[Host] && !control[Arm]));
         stop_lands: assert (!stopped_q || (!gates_enable && faults[feltgate_map_pkg::FAULT_STOP]));
       end
-      if (wave != '0 && at <= 10'(feltgate_map_pkg::T_WATCHDOG)) begin
+      if (wave != '0 && at <= 10'(feltgate_map_pkg::EVENT_AT_WATCHDOG)) begin
         word_in_its_clock: assert (!wanted_q2 || param == word_then_q2);
       end
       one_bus: assert (\u_core.u_scenes.param_i == param && \u_core.u_limiter.param_i == param &&

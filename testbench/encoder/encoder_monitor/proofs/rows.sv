@@ -29,7 +29,7 @@ module rows_proof (
   `include "reset.svh"
   logic sample, sampled_q, after_q;
   logic [31:0] ticks_q;
-  assign sample = wave_i[feltgate_map_pkg::T_LEVELS];
+  assign sample = wave_i[feltgate_map_pkg::EVENT_AT_LEVELS];
   always_ff @(posedge clk_i) ticks_q <= !rst_ni ? first_i : sample ? ticks_q + 32'd1 : ticks_q;
 
   logic moved, chatters, trip, index_trip, flip_trip;

@@ -55,23 +55,23 @@ module torque_proof (
       after_q <= 1'b0;
     end else begin
       after_q <= 1'b1;
-      if (wave[feltgate_map_pkg::T_DRIVE_TORQUE]) began_q <= 1'b1;
+      if (wave[feltgate_map_pkg::EVENT_AT_DRIVE_TORQUE]) began_q <= 1'b1;
       else if (tick) began_q <= 1'b0;
-      new_q <= began_q && wave[feltgate_map_pkg::T_TAU_HAT];
+      new_q <= began_q && wave[feltgate_map_pkg::EVENT_AT_TAU_HAT];
     end
   end
   always_ff @(posedge clk_i) begin
-    if (wave[feltgate_map_pkg::T_DRIVE_TORQUE]) drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
-    if (wave[feltgate_map_pkg::T_OBSERVER_INPUT]) inertia_q <= InertiaW'(product_i >>> InertiaDrop);
-    if (wave[feltgate_map_pkg::T_OBSERVED]) observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
+    if (wave[feltgate_map_pkg::EVENT_AT_DRIVE_TORQUE]) drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
+    if (wave[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT]) inertia_q <= InertiaW'(product_i >>> InertiaDrop);
+    if (wave[feltgate_map_pkg::EVENT_AT_OBSERVED]) observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
     tau_hat_q   <= tau_hat;
     saturated_q <= saturated;
     state_q     <= state;
   end
   logic due_q, state_due_q;
   always_ff @(posedge clk_i) begin
-    due_q       <= wave[feltgate_map_pkg::T_TAU_HAT];
-    state_due_q <= wave[feltgate_map_pkg::T_OBSERVER_STATE];
+    due_q       <= wave[feltgate_map_pkg::EVENT_AT_TAU_HAT];
+    state_due_q <= wave[feltgate_map_pkg::EVENT_AT_OBSERVER_STATE];
   end
   localparam logic signed [TorqueW-1:0] Most = {1'b0, {(TorqueW - 1) {1'b1}}};
   localparam int ErrorW = ObservedW + 3;
@@ -91,11 +91,11 @@ module torque_proof (
         observes: cover (tau_hat < 0 && !saturated);
         saturates: cover (saturated && tau_hat > 0);
       end
-      if (wave[feltgate_map_pkg::T_OBSERVER_DIFFERENCE] && began_q) begin
+      if (wave[feltgate_map_pkg::EVENT_AT_OBSERVER_DIFFERENCE] && began_q) begin
         input_is_the_sum: assert (\u_dut.input_q == W'(drive_q) + W'(inertia_q));
       end
-      operand_in_its_clock: assert (wave[feltgate_map_pkg::S_OBSERVER_A1] || operand == '0);
-      inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::T_OBSERVER_INPUT) ||
+      operand_in_its_clock: assert (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1] || operand == '0);
+      inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT) ||
           \u_dut.inertia_q == inertia_q);
     end
   end

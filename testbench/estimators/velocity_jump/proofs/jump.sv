@@ -28,9 +28,9 @@ module jump_proof (
       now_q   <= 1'b0;
     end else begin
       after_q <= 1'b1;
-      now_q   <= wave_i[feltgate_map_pkg::T_JUMP];
+      now_q   <= wave_i[feltgate_map_pkg::EVENT_AT_JUMP];
       moved_q <= moved;
-      if (wave_i[feltgate_map_pkg::T_JUMP]) last_q <= velocity_i;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_JUMP]) last_q <= velocity_i;
     end
   end
 

@@ -48,9 +48,9 @@ module window_proof (
   assign now = pointer == entry_q;
   always_ff @(posedge clk_i) begin
     entry_q    <= entry_q;
-    at_entry_q <= now && !wave[feltgate_map_pkg::T_VELOCITY_RAW];
-    if (wave[feltgate_map_pkg::T_VELOCITY_RAW] && now) kept_q <= travel_q;
-    if (wave[feltgate_map_pkg::T_SAMPLE]) begin
+    at_entry_q <= now && !wave[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW];
+    if (wave[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW] && now) kept_q <= travel_q;
+    if (wave[feltgate_map_pkg::EVENT_AT_SAMPLE]) begin
       travel_q <= travel_i;
       oldest_q <= filled ? kept_q : '0;
       now_q    <= now;
@@ -70,22 +70,22 @@ module window_proof (
       samples_q <= '0;
     end else begin
       after_q <= 1'b1;
-      if (wave[feltgate_map_pkg::T_SAMPLE]) begin
+      if (wave[feltgate_map_pkg::EVENT_AT_SAMPLE]) begin
         whole_q <= 1'b1;
         if (age_q != '1) age_q <= age_q + 16'd1;
         if (samples_q != '1) samples_q <= samples_q + 32'd1;
       end
-      if (wave[feltgate_map_pkg::T_VELOCITY_RAW] && now) begin
+      if (wave[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW] && now) begin
         written_q <= whole_q;
         age_q     <= 16'd0;
       end
     end
   end
   always_ff @(posedge clk_i) begin
-    difference_now_q <= whole_q && wave[feltgate_map_pkg::T_TRAVEL];
-    raw_now_q        <= whole_q && wave[feltgate_map_pkg::T_VELOCITY_RAW];
+    difference_now_q <= whole_q && wave[feltgate_map_pkg::EVENT_AT_TRAVEL];
+    raw_now_q        <= whole_q && wave[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW];
     velocity_q       <= velocity;
-    update_q         <= wave[feltgate_map_pkg::T_VELOCITY];
+    update_q         <= wave[feltgate_map_pkg::EVENT_AT_VELOCITY];
   end
   always_comb begin
     assume (entry_q < AddressW'(M1));
@@ -103,10 +103,10 @@ module window_proof (
   assign exact = (T + Shift + 1)'(difference_q) <<< Shift;
   localparam logic signed [W-1:0] Most = {1'b0, {(W - 1) {1'b1}}};
 
-  // The pointer moves after T_VELOCITY_DIFFERENCE; between the sample and that it is the tick's own.
+  // The pointer moves after EVENT_AT_VELOCITY_DIFFERENCE; between the sample and that it is the tick's own.
   logic own;
   logic [15:0] distance;  // entries from this one to the pointer
-  assign own      = phase_q > 9'(feltgate_map_pkg::T_SAMPLE) && phase_q <= 9'(feltgate_map_pkg::T_VELOCITY_DIFFERENCE);
+  assign own      = phase_q > 9'(feltgate_map_pkg::EVENT_AT_SAMPLE) && phase_q <= 9'(feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE);
   assign distance = (pointer >= entry_q) ? 16'(pointer) - 16'(entry_q) : 16'(pointer) + 16'(M1) - 16'(entry_q);
   always_comb begin
     if (past_ok_q && rst_ni) begin
@@ -119,14 +119,14 @@ module window_proof (
                                              : (T + Shift + 1)'(raw) == exact);
       end
       velocity_in_its_clock: assert (!after_q || update_q || velocity == velocity_q);
-      operand_in_its_clock: assert (!whole_q || wave[feltgate_map_pkg::S_VELOCITY_A1] || operand == '0);
+      operand_in_its_clock: assert (!whole_q || wave[feltgate_map_pkg::PARAM_AT_VELOCITY_A1] || operand == '0);
       inside_pointer: assert (pointer < AddressW'(M1) && (whole_q || (!filled && pointer == '0 && samples_q == '0 &&
           !written_q)));
       filled_after_m1: assert (filled ? samples_q >= 32'(M1) + 32'(own) : 32'(pointer) + 32'(own &&
           whole_q) == samples_q);
       inside_written: assert (written_q || (!filled && pointer <= entry_q));
       window_is_m1_ticks: assert (!written_q || (own ? 32'(age_q) == ((distance != '0) ? 32'(distance) :
-                                                phase_q == 9'(feltgate_map_pkg::T_VELOCITY_DIFFERENCE) ? 32'd0 :
+                                                phase_q == 9'(feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE) ? 32'd0 :
                                                     32'(M1))
                                              : 32'(age_q) + 32'd1 == ((distance != '0) ? 32'(distance) : 32'(M1))));
       inside_begin: assert (whole_q || phase_q >= 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK) || phase_q == '0);

@@ -40,7 +40,7 @@ module requests_proof (
   );
   localparam int AddressW = 14 + feltgate_pkg::ENGINE;
   localparam logic [15:0] Port = {1'b0, 1'(feltgate_pkg::ENGINE), 14'hfff};
-  localparam logic [15:0] Status = 16'(feltgate_map_pkg::A_SNAPSHOT) + 16'(feltgate_map_pkg::R_STATUS);
+  localparam logic [15:0] Status = 16'(feltgate_map_pkg::A_SNAPSHOT) + 16'(feltgate_map_pkg::READ_AT_STATUS);
   localparam logic [5:0] OnlyClear = 6'd1 << feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS;
   localparam logic [1:0] Idle = 2'd0;
   localparam logic [1:0] Wait = 2'd1;

@@ -12,7 +12,7 @@ module ease_proof (
     input logic [                             31:0] tick_count_i,
     input logic [                             31:0] param_i,
     input logic                                      moved_i,
-    input logic                                      beyond_i
+    input logic                                      over_limit_i
 );
   localparam int Bits = feltgate_map_pkg::HOLD_BITS;
 
@@ -20,10 +20,10 @@ module ease_proof (
   initial past_ok_q = 1'b0;
   always_ff @(posedge clk_i) past_ok_q <= 1'b1;
 
-  logic eased;
+  logic derated;
   hold_timer u_dut (
       .*,
-      .eased_o(eased)
+      .derated_o(derated)
   );
   (* hierconn *) wire [Bits-1:0] \u_dut.units_q ;
   (* hierconn *) wire \u_dut.strong_q ;
@@ -37,13 +37,13 @@ module ease_proof (
   // In reach: the words since the hold began were times that the block can wait for.
   logic now, held, due, unit, in_reach_q, in_reach_was_q, eased_q, now_q, held_q, due_q, after_q;
   logic [Bits:0] units_q;
-  assign now  = wave_i[feltgate_map_pkg::T_HOLD];
+  assign now  = wave_i[feltgate_map_pkg::EVENT_AT_HOLD];
   assign held = armed_i && !moved_i;
   assign unit = tick_count_i[feltgate_map_pkg::HOLD_UNIT_BITS-1:0] == '0;
   assign due  = held && strong_q && (param_i[31] || 32'(units_q) >= param_i);
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::T_HOLD_STRONG]) strong_q <= beyond_i;
-    eased_q <= eased;
+    if (wave_i[feltgate_map_pkg::EVENT_AT_HOLD_STRONG]) strong_q <= over_limit_i;
+    eased_q <= derated;
     now_q   <= now;
     held_q  <= held;
     due_q   <= due;
@@ -71,18 +71,18 @@ module ease_proof (
   always_comb begin
     inside_strong: assert (!past_ok_q || \u_dut.strong_q == strong_q);
     if (rst_ni && past_ok_q && after_q) begin
-      stays_between: assert (now_q || eased == eased_q);
-      given_back: assert (!now_q || held_q || !eased);
-      kept_until_then: assert (!now_q || !held_q || !eased_q || eased);
-      eases_on_time: assert (!now_q || !in_reach_was_q || !due_q || eased);
-      eases_no_earlier: assert (!now_q || eased_q || !eased || due_q);
-      eases: cover (eased && !eased_q);
-      gives_back: cover (!eased && eased_q);
+      stays_between: assert (now_q || derated == eased_q);
+      given_back: assert (!now_q || held_q || !derated);
+      kept_until_then: assert (!now_q || !held_q || !eased_q || derated);
+      eases_on_time: assert (!now_q || !in_reach_was_q || !due_q || derated);
+      eases_no_earlier: assert (!now_q || eased_q || !derated || due_q);
+      eases: cover (derated && !eased_q);
+      gives_back: cover (!derated && eased_q);
     end
     if (rst_ni && past_ok_q) begin
       inside_units: assert (\u_dut.units_q == units_q[Bits-1:0]);
-      inside_reach: assert (!in_reach_q || eased || !units_q[Bits]);
-      inside_before: assert (after_q || !eased);
+      inside_reach: assert (!in_reach_q || derated || !units_q[Bits]);
+      inside_before: assert (after_q || !derated);
     end
   end
 endmodule

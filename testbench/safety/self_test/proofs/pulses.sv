@@ -26,7 +26,7 @@ module pulses_proof (
   logic turn;
   logic [31:0] ticks_q;
   always_ff @(posedge clk_i) ticks_q <= !rst_ni ? first_i : ticks_q + 32'(tick);
-  assign turn = wave[feltgate_map_pkg::T_SELF_TEST_TURN];
+  assign turn = wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN];
 
   // The length of a pulse stays as it is while armed.
   logic armed_q;
@@ -34,23 +34,23 @@ module pulses_proof (
   assign length = param_i > 32'd255 ? 8'd255 : param_i[7:0];
   always_ff @(posedge clk_i) begin
     armed_q <= armed_i;
-    if (wave[feltgate_map_pkg::T_SELF_TEST_QUIET]) quiet_q <= length;
-    if (wave[feltgate_map_pkg::T_SELF_TEST_OVER]) length_q <= length;
+    if (wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_QUIET]) quiet_q <= length;
+    if (wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_OVER]) length_q <= length;
   end
   always_comb begin
     assume (tick_q || !rst_ni || armed_i == armed_q);
-    assume (!wave[feltgate_map_pkg::T_SELF_TEST_OVER] || !armed_i || length == length_q);
+    assume (!wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_OVER] || !armed_i || length == length_q);
   end
 
   logic busy, trip;
-  logic signed [W-1:0] ahead;
+  logic signed [W-1:0] early_term;
   logic [ResultW-1:0] result;
   self_test u_dut (
       .*,
       .tick_count_i(ticks_q),
       .wave_i(wave),
       .busy_o(busy),
-      .ahead_o(ahead),
+      .early_term_o(early_term),
       .result_o(result),
       .trip_o(trip)
   );
@@ -95,7 +95,7 @@ module pulses_proof (
       down_seen_q <= 1'b0;
       tested_q    <= 1'b0;
     end else begin
-      if (wave[feltgate_map_pkg::T_SAMPLE]) begin
+      if (wave[feltgate_map_pkg::EVENT_AT_SAMPLE]) begin
         now_q    <= travel_i;
         before_q <= now_q;
       end
@@ -157,12 +157,12 @@ module pulses_proof (
       pulse_up_q   <= 1'b0;
       pulse_down_q <= 1'b0;
     end else begin
-      pulse_up_q   <= wave[feltgate_map_pkg::T_SCENE_ROUNDED] && armed_i && up;
-      pulse_down_q <= wave[feltgate_map_pkg::T_SCENE_ROUNDED] && armed_i && down;
+      pulse_up_q   <= wave[feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED] && armed_i && up;
+      pulse_down_q <= wave[feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED] && armed_i && down;
     end
   end
   logic [31:0] turn_tick;  // of the last turn
-  assign turn_tick = (phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_TURN) &&
+  assign turn_tick = (phase_q > 9'(feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN) &&
       !(phase_q > 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK)))
                      ? ticks_q : ticks_q - 32'd1;
   wire [6:0] part = UnitBit'(turn_tick);
@@ -170,11 +170,11 @@ module pulses_proof (
 
   always_comb begin
     if (rst_ni && past_ok_q) begin
-      size_is_beyond: assert (ahead == (pulse_up_q ? {1'b0, {(W - 1) {1'b1}}} : pulse_down_q ? {1'b1,
+      size_is_beyond: assert (early_term == (pulse_up_q ? {1'b0, {(W - 1) {1'b1}}} : pulse_down_q ? {1'b1,
           {(W - 1) {1'b0}}} : '0));
       inside_one: assert (!(waits && (up || down || rests)) && !(up && (down || rests)) && !(down && rests));
       scene_waits: assert (busy == (armed_i && (waits || up || down || rests)));
-      trips_in_its_clock: assert (!trip || wave[feltgate_map_pkg::T_SELF_TEST]);
+      trips_in_its_clock: assert (!trip || wave[feltgate_map_pkg::EVENT_AT_SELF_TEST]);
       pulse_is_bounded: assert (!(armed_i && (up || down)) || length_now_q <= 16'(length_q) << UnitBit);
       inside_travel: assert (\u_dut.now_q == now_q && \u_dut.before_q == before_q);
       if (turned_q) begin
@@ -186,7 +186,7 @@ module pulses_proof (
         second_is_whole: assert (!rests || !armed_then_q || length_then_q + 16'd1 == 16'(length_q) << UnitBit);
       end
       inside_right_way: assert (!trip || rests_then_q || waits_then_q || down_was_q || step_then_q == 2'd3);
-      trips_by_its_law: assert (!wave[feltgate_map_pkg::T_SELF_TEST] || !turned_q || trip == (armed_then_q &&
+      trips_by_its_law: assert (!wave[feltgate_map_pkg::EVENT_AT_SELF_TEST] || !turned_q || trip == (armed_then_q &&
           (((up_then_q || down_then_q) && law_after_q == -Answer) || (rests_then_q && law_then_q != Answer &&
               !held_word_q) ||
            (waits_then_q && !waits && !up && !moving_word_q))));
@@ -204,9 +204,9 @@ module pulses_proof (
            (units < length_q || (units == length_q && part == '0))));
       inside_second: assert (!(armed_i && down) || length_now_q + 16'd1 == (16'(units) << UnitBit) + 16'(part));
       inside_length: assert (!waits || length_q != '0 || (!armed_i &&
-          phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_OVER) &&
-                                                        phase_q <= 9'(feltgate_map_pkg::T_SELF_TEST_TURN)));
-      inside_disarmed: assert (armed_i || phase_q <= 9'(feltgate_map_pkg::T_SELF_TEST_TURN) ||
+          phase_q > 9'(feltgate_map_pkg::EVENT_AT_SELF_TEST_OVER) &&
+                                                        phase_q <= 9'(feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN)));
+      inside_disarmed: assert (armed_i || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN) ||
                                phase_q > 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK) ||
                                !turns_ok_q || (units == '0 && still_q == '0 && waited_q == '0 && !tested_q && !up &&
                                    !down && !rests && !\u_dut.late_q ));

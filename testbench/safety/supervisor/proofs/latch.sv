@@ -46,10 +46,10 @@ module latch_proof (
   logic [2:0] cleared_q;  // gates_clear_o one, two, three clocks ago
   // What the host, the panel and the one of them who has the say ask for: now, and at the end of the last tick.
   // A disarm takes away the request of who has the say.
-  logic asks, host_asks, panel_asks, asked_then_q, host_then_q, panel_then_q, silent_then_q;
+  logic arm_request, host_asks, panel_asks, asked_then_q, host_then_q, panel_then_q, silent_then_q;
   assign host_asks  = host_arm_i && !(host_i && disarm_i);
   assign panel_asks = arm_i && !(!host_i && disarm_i);
-  assign asks       = (host_i ? host_asks : panel_asks);
+  assign arm_request       = (host_i ? host_asks : panel_asks);
   // Whether a line has been low since a reset, a fault, a stop, a kick that is missing, and since the other had the say.
   logic host_low_q, panel_low_q, able;
   assign able = faults == '0 && !stop[1] && !unkicked;
@@ -61,10 +61,10 @@ module latch_proof (
     gates_q  <= gates;
     armed_q  <= armed;
     tick_q   <= tick_i;
-    asks_q   <= asks;
+    asks_q   <= arm_request;
     arms_q   <= arms_o;
     silent_q <= axis_silent_i;
-    clear_q  <= clear_faults_i && !asks;
+    clear_q  <= clear_faults_i && !arm_request;
     rose_q   <= silent_then_q || !(host_i ? host_then_q : panel_then_q);
     low_since_q <= host_i ? host_low_q : panel_low_q;
     faults_q <= faults;
@@ -90,7 +90,7 @@ module latch_proof (
     end else begin
       after_q <= 1'b1;
       if (tick_i) begin
-        asked_then_q  <= asks && !axis_silent_i;
+        asked_then_q  <= arm_request && !axis_silent_i;
         host_then_q   <= host_asks;
         panel_then_q  <= panel_asks;
         silent_then_q <= axis_silent_i;
@@ -107,7 +107,7 @@ module latch_proof (
   logic estimate_due_q;
   always_ff @(posedge clk_i) begin
     estimate_q     <= estimate;
-    estimate_due_q <= wave_i[feltgate_map_pkg::T_CURRENT_ESTIMATE];
+    estimate_due_q <= wave_i[feltgate_map_pkg::EVENT_AT_CURRENT_ESTIMATE];
   end
   logic [FaultsW-1:0] lowest_bit;
   assign lowest_bit = trip_q & (~trip_q + FaultsW'(1));
@@ -134,7 +134,7 @@ module latch_proof (
       inside_counts: assert (\u_dut.host_counts_q == host_low_q && \u_dut.panel_counts_q == panel_low_q);
       inside_who_asked: assert (((!host_then_q || !host_low_q) && (!panel_then_q || !panel_low_q)) ||
                                 asked_then_q || silent_then_q);
-      clears_where_nobody_asks: assert (clear_o == (clear_faults_i && !asks) && asks_o == asks);
+      clears_where_nobody_asks: assert (clear_o == (clear_faults_i && !arm_request) && arm_request_o == arm_request);
       disarms_with_the_request: assert (!(tick_q && (!asks_q || silent_q)) || (!gates && !armed));
       armed_in_ticks_only: assert (tick_q || armed == armed_q);
       armed_as_told: assert (!tick_q || armed == arms_q);

@@ -48,8 +48,8 @@ module limits_proof (
   logic signed [VelocityW-1:0] velocity_q;
   logic signed [CurrentW-1:0] current_q;
   logic steady;
-  assign steady = whole_q && phase_q > 9'(feltgate_map_pkg::T_SPEED_SIZE) &&
-                  phase_q <= 9'(feltgate_map_pkg::T_POLARITY);
+  assign steady = whole_q && phase_q > 9'(feltgate_map_pkg::EVENT_AT_SPEED_SIZE) &&
+                  phase_q <= 9'(feltgate_map_pkg::EVENT_AT_POLARITY);
   always_ff @(posedge clk_i) begin
     velocity_q <= velocity_i;
     current_q  <= current_ref_i;
@@ -62,14 +62,14 @@ module limits_proof (
 
 
   // Size of a signal against the word on the bus; a negative word is below everything.
-  function automatic logic beyond(input logic signed [32:0] x, input logic [31:0] word);
-    beyond = word[31] || (x < 0 ? -x : x) > $signed({1'b0, word});
+  function automatic logic over_limit(input logic signed [32:0] x, input logic [31:0] word);
+    over_limit = word[31] || (x < 0 ? -x : x) > $signed({1'b0, word});
   endfunction
 
   // Over-speed.
   logic fast_q;
   always_ff @(posedge clk_i) begin
-    if (wave[feltgate_map_pkg::S_OVERSPEED]) fast_q <= beyond(33'(velocity_i), param_i);
+    if (wave[feltgate_map_pkg::PARAM_AT_OVERSPEED]) fast_q <= over_limit(33'(velocity_i), param_i);
   end
 
   // Growth against the command: ticks of the window, the velocity before it, the windows before it that grew.
@@ -77,19 +77,19 @@ module limits_proof (
                         feltgate_pkg::VELOCITY_F - feltgate_map_pkg::GROWTH_BITS : 0;
   localparam int Longest = 2 ** feltgate_map_pkg::RUNAWAY_BITS;
   logic signed [VelocityW-1:0] coarse, before_q, growth;
-  logic grew_q, strong_q, ran_q, last_grew_q, against, ends;
+  logic grew_q, strong_q, last_grew_q, against, ends, ends_q;
   logic [17:0] ticks_q;
   assign coarse = (velocity_i >>> Drop) <<< Drop;
   assign growth = coarse - before_q;
   assign against = gates && strong_q && (velocity_i < 0) != (current_ref_i < 0);
   assign ends = ticks_q >= 18'(Longest) || {14'd0, ticks_q} >= param_i;
   always_ff @(posedge clk_i) begin
-    if (wave[feltgate_map_pkg::S_POLARITY_SPEED])
-      grew_q <= beyond(33'(growth), param_i) && (growth < 0) == (velocity_i < 0);
-    if (wave[feltgate_map_pkg::S_POLARITY_CURRENT]) strong_q <= beyond(33'(current_ref_i), param_i);
-    if (wave[feltgate_map_pkg::S_POLARITY_TICKS]) begin
-      ran_q <= against && ends && grew_q && last_grew_q;
-      if (against && !ends) ticks_q <= ticks_q + 18'd1;
+    if (wave[feltgate_map_pkg::PARAM_AT_POLARITY_SPEED])
+      grew_q <= over_limit(33'(growth), param_i) && (growth < 0) == (velocity_i < 0);
+    if (wave[feltgate_map_pkg::PARAM_AT_POLARITY_CURRENT]) strong_q <= over_limit(33'(current_ref_i), param_i);
+    ends_q <= ends;
+    if (wave[feltgate_map_pkg::EVENT_AT_POLARITY]) begin
+      if (against && !ends_q) ticks_q <= ticks_q + 18'd1;
       else begin
         ticks_q     <= 18'd1;
         before_q    <= coarse;
@@ -101,7 +101,7 @@ module limits_proof (
   logic window_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) window_q <= 1'b0;
-    else if (whole_q && wave[feltgate_map_pkg::S_POLARITY_TICKS]) window_q <= 1'b1;
+    else if (whole_q && wave[feltgate_map_pkg::EVENT_AT_POLARITY]) window_q <= 1'b1;
   end
 
   // Heat: what a tick makes of it, all at once.
@@ -118,16 +118,16 @@ module limits_proof (
   assign nominal = param_i[31] ? 32'd0 : param_i;
   always_ff @(posedge clk_i) begin
     heat_q   <= heat;
-    heated_q <= wave[feltgate_map_pkg::T_HEAT];
-    if (wave[feltgate_map_pkg::S_I2T_BUDGET]) hot_q <= heat >= SumW'(param_i);
-    if (wave[feltgate_map_pkg::S_NOMINAL_CURRENT_SQUARED]) begin
+    heated_q <= wave[feltgate_map_pkg::EVENT_AT_HEAT];
+    if (wave[feltgate_map_pkg::PARAM_AT_I2T_BUDGET]) hot_q <= heat >= SumW'(param_i);
+    if (wave[feltgate_map_pkg::PARAM_AT_NOMINAL_CURRENT_SQUARED]) begin
       cooled_q <= (heat > SumW'(nominal)) ? (SumW + 1)'(heat) - (SumW + 1)'(nominal) : '0;
       added_q  <= (armed && heat < SumW'(33'd1 << 32)) ? product_i[SquaredDrop+:SquaredW] : '0;
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) taken_q <= 1'b0;
-    else taken_q <= whole_q && wave[feltgate_map_pkg::T_HEAT];
+    else taken_q <= whole_q && wave[feltgate_map_pkg::EVENT_AT_HEAT];
   end
 
   // Silence: ticks since the last kick, or since the gates opened.
@@ -140,7 +140,7 @@ module limits_proof (
   end
   always_ff @(posedge clk_i) begin
     if (tick) silence_q <= (kick_i || !gates) ? 26'd0 : silence_q + 26'd1;
-    if (wave[feltgate_map_pkg::S_WATCHDOG_TICKS])
+    if (wave[feltgate_map_pkg::PARAM_AT_WATCHDOG_TICKS])
       silent_q <= silence_q >= Patience || param_i[31] || {6'd0, silence_q} >= param_i;
   end
   (* hierconn *) wire [feltgate_map_pkg::KICKLESS_BITS:0] \u_dut.kickless_ticks_q ;
@@ -183,6 +183,8 @@ module limits_proof (
 
   // Inside: what the laws' registers share with the block's.
   (* hierconn *) wire [feltgate_map_pkg::RUNAWAY_BITS:0] \u_dut.runaway_ticks_q ;
+  (* hierconn *) wire [feltgate_map_pkg::RUNAWAY_BITS:0] \u_dut.next_ticks_q ;
+  (* hierconn *) wire \u_dut.expired_q ;
   (* hierconn *) wire [VelocityW-Drop-1:0] \u_dut.begin_q ;
   (* hierconn *) wire [feltgate_map_pkg::RUNAWAY_WINDOWS-2:0] \u_dut.grown_q ;
 
@@ -192,14 +194,15 @@ module limits_proof (
     end
     if (rst_ni && past_ok_q) begin
       overspeed_in_its_clock: assert (!whole_q || trip[feltgate_map_pkg::FAULT_SPEED] ==
-                                      (wave[feltgate_map_pkg::T_SPEED] && fast_q));
+                                      (wave[feltgate_map_pkg::EVENT_AT_SPEED] && fast_q));
       runaway_in_its_clock: assert (!window_q || trip[feltgate_map_pkg::FAULT_POLARITY] ==
-                                    (wave[feltgate_map_pkg::T_POLARITY] && gates && ran_q));
+                                    (wave[feltgate_map_pkg::EVENT_AT_POLARITY] && against && ends_q &&
+                                     grew_q && last_grew_q));
       heat_is_its_law: assert (!taken_q || (SumW + 1)'(heat) == cooled_q + (SumW + 1)'(added_q));
       hot_in_its_clock: assert (!whole_q || trip[feltgate_map_pkg::FAULT_I2T] ==
-                                (wave[feltgate_map_pkg::T_HEAT] && hot_q));
+                                (wave[feltgate_map_pkg::EVENT_AT_HEAT] && hot_q));
       silence_in_its_clock: assert (!whole_q || trip[feltgate_map_pkg::FAULT_WATCHDOG] ==
-                                    (wave[feltgate_map_pkg::T_WATCHDOG] && gates && awake_q && silent_q));
+                                    (wave[feltgate_map_pkg::EVENT_AT_WATCHDOG] && gates && awake_q && silent_q));
       inside_patience_ends: assert (!gates || !awake_q || !whole_q || silence_q <= Patience);
       errors_trip: assert (errors_q <= forgiven_q + 16'(Borne));
       seven_are_borne: assert (!trip[feltgate_map_pkg::FAULT_ENCODER] || (encoder_error_i && recent_q >= 4'(Borne)));
@@ -208,13 +211,15 @@ module limits_proof (
           \u_dut.begin_q == before_q[VelocityW-1:Drop] &&
                              \u_dut.grown_q == last_grew_q && ticks_q <= 18'(Longest) &&
                              before_q == (before_q >>> Drop) <<< Drop));
+      inside_turn: assert (!window_q || !wave[feltgate_map_pkg::EVENT_AT_POLARITY] || (\u_dut.expired_q == ends_q &&
+                           (ends_q || {1'b0, \u_dut.next_ticks_q } == ticks_q + 18'd1)));
       inside_awake: assert (\u_dut.awake_q == awake_q);
       inside_silence: assert (!gates || !awake_q ||
           \u_dut.kickless_ticks_q == silence_q[feltgate_map_pkg::KICKLESS_BITS:0]);
       inside_whole: assert ((!gates || window_q) && (!window_q || whole_q) && (whole_q || \u_dut.asked_q || late) &&
-                            (window_q || \u_dut.asked_q || late || phase_q <= 9'(feltgate_map_pkg::S_POLARITY_TICKS)));
+                            (window_q || \u_dut.asked_q || late || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_POLARITY)));
       inside_patience: assert (!gates || !awake_q || silence_q != Patience || late ||
-                               phase_q <= 9'(feltgate_map_pkg::T_WATCHDOG));
+                               phase_q <= 9'(feltgate_map_pkg::EVENT_AT_WATCHDOG));
       inside_errors: assert (16'(\u_dut.errors_q ) + forgiven_q >= errors_q && 4'(\u_dut.errors_q ) <= recent_q &&
                              forgive_q == \u_dut.forgive_ticks_q );
       too_fast: cover (trip[feltgate_map_pkg::FAULT_SPEED] && velocity_i < 0 && whole_q);

@@ -6,7 +6,7 @@
   localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
   localparam int FirstW = feltgate_map_pkg::W_FAULTS_FIRST;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate;
-  logic armed, gates, gates_clear, unkicked, asks_o, arms_o, ready_o, clear_o;
+  logic armed, gates, gates_clear, unkicked, arm_request_o, arms_o, ready_o, clear_o;
   logic [FaultsW-1:0] faults;
   logic [ FirstW-1:0] first;
   supervisor u_dut (

@@ -14,11 +14,11 @@ module centre_proof (
     input logic signed [  feltgate_pkg::SCENE_POSITION_W:0] gap_i,
     input logic        [                              31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input logic                                            beyond_i
+    input logic                                            over_limit_i
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
-  localparam int Square = feltgate_map_pkg::M_CHARGE_SQUARE;
+  localparam int Square = feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE;
   localparam int DistanceF = feltgate_pkg::SCENE_DISTANCE_F;
 
   logic past_ok_q;
@@ -71,7 +71,7 @@ module centre_proof (
   logic near;  // within the core: its torque is the slope's product
   assign near = \u_dut.near_q ;
   always_comb begin
-    if (past_ok_q && phase_q == 6'(feltgate_map_pkg::S_TORQUE_LIMIT)) begin
+    if (past_ok_q && phase_q == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT)) begin
       centre_is_defined: assert (!armed_q || near || !(attract_i || repel_i) ||
                                  (attract_i ? 24'(outside) == Least : 24'(outside) == Most));
       core_is_its_product: assert (!near || outside == '0);

@@ -14,9 +14,9 @@ module faces_proof (
     input logic [31:0] param_i
 );
   localparam int W = feltgate_pkg::TORQUE_W;
-  localparam int Lower = feltgate_map_pkg::S_MEMBRANE_LOWER;
-  localparam int Upper = feltgate_map_pkg::S_MEMBRANE_UPPER;
-  localparam int Torque = feltgate_map_pkg::S_MEMBRANE_TORQUE;
+  localparam int Lower = feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER;
+  localparam int Upper = feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER;
+  localparam int Torque = feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE;
 
   `include "wave.svh"
   logic select_q;

@@ -49,11 +49,11 @@ module terms_proof (
     select_q     <= select_i;
     spring_on_q  <= tension_i || (compression_i && !behind_i);
     wall_on_q    <= select_i && behind_i;
-    word_q       <= wave_i[feltgate_map_pkg::S_SETPOINT_TORQUE];
-    stiff_q      <= wave_i[feltgate_map_pkg::M_SCENE_STIFFNESS];
-    wall_stiff_q <= wave_i[feltgate_map_pkg::M_WALL_STIFFNESS];
-    damps_q      <= wave_i[feltgate_map_pkg::M_DAMPER_DAMPING];
-    brakes_q     <= wave_i[feltgate_map_pkg::M_WALL_DAMPING];
+    word_q       <= wave_i[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE];
+    stiff_q      <= wave_i[feltgate_map_pkg::PRODUCT_AT_SCENE_STIFFNESS];
+    wall_stiff_q <= wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS];
+    damps_q      <= wave_i[feltgate_map_pkg::PRODUCT_AT_DAMPER_DAMPING];
+    brakes_q     <= wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_DAMPING];
     product_q    <= product_i;
     param_q      <= param_i[TorqueW-1:0];
     setpoint_q   <= setpoint;

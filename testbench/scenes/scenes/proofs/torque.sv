@@ -26,7 +26,7 @@ module torque_proof (
   localparam int Guard = feltgate_pkg::SCENE_GUARD_BITS;
   localparam int LimiterW = feltgate_pkg::LIMITER_W;
   localparam int Wide = feltgate_pkg::LIMITER_INPUT_W;
-  localparam int Limit = feltgate_map_pkg::S_TORQUE_LIMIT;
+  localparam int Limit = feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT;
 
   `include "wave.svh"
   logic armed_q;
@@ -37,23 +37,23 @@ module torque_proof (
   end
   always_comb begin
     assume (tick_q || !rst_ni || scene_i == scene_q);
-    assume (tick_q || !rst_ni || phase_q > 9'(feltgate_map_pkg::T_SELF_TEST_TURN) || armed_i == armed_q);
+    assume (tick_q || !rst_ni || phase_q > 9'(feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN) || armed_i == armed_q);
     assume (phase_q == 9'(Limit - 1) || pulse_i == '0);
   end
 
   logic signed [DistanceW-1:0] distance;
-  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] ahead;
-  logic signed [TorqueW-1:0] late;
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] early_term;
+  logic signed [TorqueW-1:0] late_term;
   logic signed [LimiterW-1:0] limited;
-  logic square, beyond, law_o;
+  logic square, over_limit, law_o;
   scenes u_dut (
       .*,
       .wave_i(wave),
-      .beyond_i(beyond),
+      .over_limit_i(over_limit),
       .distance_o(distance),
       .square_o(square),
-      .ahead_o(ahead),
-      .late_o(late)
+      .early_term_o(early_term),
+      .late_term_o(late_term)
   );
   // As the core has it, of the scenes' clocks.
   limiter u_limiter (
@@ -62,11 +62,11 @@ module torque_proof (
       .torque_i(wave[Limit-1]),
       .voltage_i(1'b0),
       .duty_i(1'b0),
-      .ahead_i(Wide'(ahead | pulse_i)),
-      .late_i(Wide'(late)),
+      .early_term_i(Wide'(early_term | pulse_i)),
+      .late_term_i(Wide'(late_term)),
       .param_i(param_i),
       .limited_o(limited),
-      .beyond_o(beyond)
+      .over_limit_o(over_limit)
   );
   (* hierconn *) wire signed [PartW-1:0] \u_dut.plus ;
   (* hierconn *) wire signed [PartW-1:0] \u_dut.minus ;
@@ -83,11 +83,11 @@ module torque_proof (
   assign charge = scene_i == feltgate_map_pkg::SCENE_CHARGE_ATTRACT || scene_i == feltgate_map_pkg::SCENE_CHARGE_REPEL;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) whole_q <= 1'b0;
-    else if (wave[feltgate_map_pkg::T_SCENE_DISTANCE]) whole_q <= 1'b1;
+    else if (wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]) whole_q <= 1'b1;
   end
 
   // The torque as the limiter gets it, in two clocks; limit, terms and words as they came by.
-  logic signed [Wide-1:0] ahead_q, x;
+  logic signed [Wide-1:0] early_q, x;
   logic signed [PartW+1:0] terms_q;
   logic [LimiterW-1:0] limit_q;
   logic signed [TorqueW-1:0] word_q, program_q;
@@ -95,24 +95,24 @@ module torque_proof (
   logic signed [OffsetW:0] gap, gap_q;
   logic new_q, now;
   assign now   = whole_q && wave[Limit];
-  assign x     = ahead_q | Wide'(late);
+  assign x     = early_q | Wide'(late_term);
   assign whole = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
   assign gap   = (OffsetW + 1)'($signed(param_i[OffsetW-1:0])) - ((OffsetW + 1)'(position_i) <<< OffsetF);
   always_ff @(posedge clk_i) begin
-    ahead_q <= Wide'(ahead);
+    early_q <= Wide'(early_term);
     new_q   <= now;
-    if (wave[feltgate_map_pkg::T_SCENE_SUM]) terms_q <= (PartW + 2)'(\u_dut.plus ) - (PartW + 2)'(\u_dut.minus );
-    if (wave[feltgate_map_pkg::S_SETPOINT_TORQUE]) word_q <= param_i[TorqueW-1:0];
-    if (wave[feltgate_map_pkg::T_LAW_TORQUE]) program_q <= law_late_i ? '0 : law_torque_i;
+    if (wave[feltgate_map_pkg::EVENT_AT_SCENE_SUM]) terms_q <= (PartW + 2)'(\u_dut.plus ) - (PartW + 2)'(\u_dut.minus );
+    if (wave[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE]) word_q <= param_i[TorqueW-1:0];
+    if (wave[feltgate_map_pkg::EVENT_AT_LAW_TORQUE]) program_q <= law_late_i ? '0 : law_torque_i;
     if (wave[Limit]) limit_q <= ((param_i[LimiterW-1:0] >> (TorqueW - 1)) != '0) ? '0 : param_i[LimiterW-1:0];
-    if (wave[feltgate_map_pkg::T_SCENE_DISTANCE])
+    if (wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE])
       gap_q <= charge ? {gap[OffsetW:OffsetF], {OffsetF{1'b0}}} : gap;
   end
   logic signed [PartW+3:0] error;  // in the terms' bits, of a torque that no word is in
   assign error = ((PartW + 4)'(x) <<< Guard) - (PartW + 4)'(terms_q);
   localparam logic signed [PartW+3:0] Half = (PartW + 4)'(1) << (Guard - 1);
   logic of_distance;
-  assign of_distance = wave[feltgate_map_pkg::T_SCENE_DISTANCE+1] || wave[feltgate_map_pkg::T_SCENE_DISTANCE+2];
+  assign of_distance = wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE+1] || wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE+2];
 
   always_comb begin
     if (past_ok_q && rst_ni && whole_q) begin
@@ -131,10 +131,10 @@ module torque_proof (
       distance_is_exact: assert (distance == (of_distance ? DistanceW'(gap_q) : '0));
       law_is_told: assert (law_o == (built && scene_i == feltgate_map_pkg::SCENE_LAW));
       square_of_a_charge: assert (square == (charge && built));
-      limits: cover (new_q && beyond && limited > 0);
-      inside_word: assert (phase_q <= 9'(feltgate_map_pkg::S_SETPOINT_TORQUE) || phase_q > 9'(Limit) ||
+      limits: cover (new_q && over_limit && limited > 0);
+      inside_word: assert (phase_q <= 9'(feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE) || phase_q > 9'(Limit) ||
                            \u_dut.setpoint_plus == ((scene_i == feltgate_map_pkg::SCENE_SETPOINT) ? word_q : '0));
-      inside_sum: assert (phase_q <= 9'(feltgate_map_pkg::T_SCENE_SUM) || phase_q > 9'(Limit) ||
+      inside_sum: assert (phase_q <= 9'(feltgate_map_pkg::EVENT_AT_SCENE_SUM) || phase_q > 9'(Limit) ||
                           ((PartW + 2)'(sum) == terms_q && (terms || sum == 0)));
       inside_free: assert (terms || phase_q == '0 || phase_q > 9'(feltgate_map_pkg::WAVE_LENGTH - 3) ||
                            (\u_dut.plus == 0 && \u_dut.minus == 0));

@@ -32,17 +32,17 @@ module operands_proof (
   assign wave = (phase_q < 9'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
 
   logic of_velocity, of_voltage, of_tau_ref, of_distance, of_limited;
-  assign of_velocity = wave[feltgate_map_pkg::S_EMF_OVER_RESISTANCE] || wave[feltgate_map_pkg::S_INERTIA_GAIN] ||
-                       wave[feltgate_map_pkg::S_DAMPER_DAMPING] || wave[feltgate_map_pkg::S_EMF_CONSTANT];
-  assign of_voltage  = wave[feltgate_map_pkg::S_INVERSE_RESISTANCE] || wave[feltgate_map_pkg::S_VOLTAGE_TO_CURRENT];
-  assign of_tau_ref  = wave[feltgate_map_pkg::S_TORQUE_GAIN] || wave[feltgate_map_pkg::S_DEAD_VOLTAGE_SLOPE];
-  assign of_distance = wave[feltgate_map_pkg::S_SCENE_STIFFNESS] || wave[feltgate_map_pkg::S_CHARGE_SLOPE];
-  assign of_limited  = phase_q > 9'(feltgate_map_pkg::S_TORQUE_LIMIT) && !of_voltage && !of_tau_ref;
+  assign of_velocity = wave[feltgate_map_pkg::PARAM_AT_EMF_OVER_RESISTANCE] || wave[feltgate_map_pkg::PARAM_AT_INERTIA_GAIN] ||
+                       wave[feltgate_map_pkg::PARAM_AT_DAMPER_DAMPING] || wave[feltgate_map_pkg::PARAM_AT_EMF_CONSTANT];
+  assign of_voltage  = wave[feltgate_map_pkg::PARAM_AT_INVERSE_RESISTANCE] || wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_TO_CURRENT];
+  assign of_tau_ref  = wave[feltgate_map_pkg::PARAM_AT_TORQUE_GAIN] || wave[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE_SLOPE];
+  assign of_distance = wave[feltgate_map_pkg::PARAM_AT_SCENE_STIFFNESS] || wave[feltgate_map_pkg::PARAM_AT_CHARGE_SLOPE];
+  assign of_limited  = phase_q > 9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && !of_voltage && !of_tau_ref;
   always_comb begin
     assume (phase_q < 9'(Clocks));
     // Who is 0 outside its clocks by itself.
-    assume (wave[feltgate_map_pkg::S_VELOCITY_A1] || velocity_difference_i == '0);
-    assume (wave[feltgate_map_pkg::S_OBSERVER_A1] || observer_difference_i == '0);
+    assume (wave[feltgate_map_pkg::PARAM_AT_VELOCITY_A1] || velocity_difference_i == '0);
+    assume (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1] || observer_difference_i == '0);
     assume (of_distance || distance_i == '0);
     assume (of_limited || limited_i == '0);
   end
@@ -74,13 +74,13 @@ module operands_proof (
   end
   logic signed [W-1:0] wanted;
   always_comb begin
-    if (wave[feltgate_map_pkg::S_VELOCITY_A1]) wanted = W'(velocity_difference_i);
-    else if (wave[feltgate_map_pkg::S_OBSERVER_A1]) wanted = W'(observer_difference_i);
+    if (wave[feltgate_map_pkg::PARAM_AT_VELOCITY_A1]) wanted = W'(velocity_difference_i);
+    else if (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1]) wanted = W'(observer_difference_i);
     else if (of_distance) wanted = W'(distance_i);
     else if (of_velocity) wanted = W'(velocity_i);
-    else if (wave[feltgate_map_pkg::S_TORQUE_CONSTANT]) wanted = W'(current_q);
-    else if (wave[feltgate_map_pkg::S_CURRENT_SQUARE]) wanted = W'(estimate_q);
-    else if (wave[feltgate_map_pkg::S_OBSERVER_GAIN]) wanted = W'(tau_hat_i);
+    else if (wave[feltgate_map_pkg::PARAM_AT_TORQUE_CONSTANT]) wanted = W'(current_q);
+    else if (wave[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE]) wanted = W'(estimate_q);
+    else if (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_GAIN]) wanted = W'(tau_hat_i);
     else if (of_voltage) wanted = W'(voltage_q);
     else if (of_tau_ref) wanted = W'(tau_ref_i);
     else wanted = W'(limited_i);
@@ -91,15 +91,15 @@ module operands_proof (
       operand_is_the_schedules: assert (operand == wanted);
       parts_are_the_operand: assert (!(of_velocity && dob != wanted) && !(of_velocity && scene != wanted) &&
           !(of_velocity && control != wanted) && !(of_velocity && supervisor != wanted) &&
-          (!wave[feltgate_map_pkg::S_OBSERVER_A1] || dob == wanted) &&
-              (!wave[feltgate_map_pkg::S_TORQUE_CONSTANT] || dob == wanted) &&
+          (!wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1] || dob == wanted) &&
+              (!wave[feltgate_map_pkg::PARAM_AT_TORQUE_CONSTANT] || dob == wanted) &&
           (!of_distance || scene == wanted) && (!of_tau_ref || control == wanted) &&
-          (!wave[feltgate_map_pkg::S_OBSERVER_GAIN] || control == wanted) && (!of_voltage || (control == wanted &&
+          (!wave[feltgate_map_pkg::PARAM_AT_OBSERVER_GAIN] || control == wanted) && (!of_voltage || (control == wanted &&
               supervisor == wanted)) &&
-          (!(of_limited && limited_i != '0) || control == wanted) && (!wave[feltgate_map_pkg::S_CURRENT_SQUARE] ||
+          (!(of_limited && limited_i != '0) || control == wanted) && (!wave[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE] ||
               supervisor == wanted));
-      one_word_has_a_sign: assert (signed_word == wave[feltgate_map_pkg::S_OBSERVER_GAIN]);
-      squared_in_its_clock: assert (square == wave[feltgate_map_pkg::S_CURRENT_SQUARE] &&
+      one_word_has_a_sign: assert (signed_word == wave[feltgate_map_pkg::PARAM_AT_OBSERVER_GAIN]);
+      squared_in_its_clock: assert (square == wave[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE] &&
           estimate == (square ? estimate_q : '0));
       negative: cover (of_tau_ref && operand < 0);
     end

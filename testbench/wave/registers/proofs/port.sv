@@ -18,7 +18,7 @@ module port_proof (
     input logic        scene_slot_fetch_i,
     input logic [ 3:0] scene_i,
     input logic        region_high_i,
-    input logic        eased_i,
+    input logic        derated_i,
     input logic        testing_i,
     input logic [ 5:0] snap_slot_i,
     input logic        snap_valid_i,
@@ -82,12 +82,12 @@ module port_proof (
   initial past_ok_q = 1'b0;
   always_comb begin
     if (scene_slot_fetch_i) wanted = {scene_i, slot_fetch_i[4:0]};
-    else if (slot_fetch_i == 6'(feltgate_map_pkg::S_VOLTAGE_GAIN) && region_high_i)
-      wanted = 9'(feltgate_map_pkg::S_VOLTAGE_GAIN_HIGH);
-    else if (slot_fetch_i == 6'(feltgate_map_pkg::S_TORQUE_LIMIT) && testing_i)
-      wanted = 9'(feltgate_map_pkg::S_SELF_TEST_TORQUE);
-    else if (slot_fetch_i == 6'(feltgate_map_pkg::S_TORQUE_LIMIT) && eased_i)
-      wanted = 9'(feltgate_map_pkg::S_HOLD_LIMIT);
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN) && region_high_i)
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && testing_i)
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && derated_i)
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
     else wanted = {3'd0, slot_fetch_i};
   end
   (* hierconn *) wire [8:0] \u_dut.fetch_address ;

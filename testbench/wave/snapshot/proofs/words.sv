@@ -47,12 +47,12 @@ module words_proof (
   wire [8:0] tick_clock = 9'(\u_sequencer.clock_q );
 
   // The snapshot's words by their slots, which are clocks of the wave.
-  localparam logic [63:0] Own = (64'd1 << feltgate_map_pkg::R_STATUS) | (64'd1 << feltgate_map_pkg::R_FAULTS) |
-      (64'd1 << feltgate_map_pkg::R_POSITION) | (64'd1 << feltgate_map_pkg::R_TICK) |
-      (64'd1 << feltgate_map_pkg::R_INDEX) | (64'd1 << feltgate_map_pkg::R_ENCODER);
-  localparam logic [63:0] All = Own | (64'd1 << feltgate_map_pkg::R_VELOCITY) | (64'd1 << feltgate_map_pkg::R_TAU_HAT) |
-      (64'd1 << feltgate_map_pkg::R_TAU_REF) | (64'd1 << feltgate_map_pkg::R_CURRENT_REF) |
-      (64'd1 << feltgate_map_pkg::R_VOLTAGE) | (64'd1 << feltgate_map_pkg::R_DUTY);
+  localparam logic [63:0] Own = (64'd1 << feltgate_map_pkg::READ_AT_STATUS) | (64'd1 << feltgate_map_pkg::READ_AT_FAULTS) |
+      (64'd1 << feltgate_map_pkg::READ_AT_POSITION) | (64'd1 << feltgate_map_pkg::READ_AT_TICK) |
+      (64'd1 << feltgate_map_pkg::READ_AT_INDEX) | (64'd1 << feltgate_map_pkg::READ_AT_ENCODER);
+  localparam logic [63:0] All = Own | (64'd1 << feltgate_map_pkg::READ_AT_VELOCITY) | (64'd1 << feltgate_map_pkg::READ_AT_TAU_HAT) |
+      (64'd1 << feltgate_map_pkg::READ_AT_TAU_REF) | (64'd1 << feltgate_map_pkg::READ_AT_CURRENT_REF) |
+      (64'd1 << feltgate_map_pkg::READ_AT_VOLTAGE) | (64'd1 << feltgate_map_pkg::READ_AT_DUTY);
 
   `include "reset.svh"
 
@@ -82,10 +82,10 @@ module words_proof (
   always_ff @(posedge clk_i) begin
     wave_q   <= wave;
     due_q    <= (slots & All) != '0;
-    wanted_q <= wave[feltgate_map_pkg::R_STATUS] ? status_i : wave[feltgate_map_pkg::R_FAULTS] ? faults_i :
-                wave[feltgate_map_pkg::R_POSITION] ? position_i : wave[feltgate_map_pkg::R_TICK] ? tick_count :
-                wave[feltgate_map_pkg::R_INDEX] ? index_position_i :
-                wave[feltgate_map_pkg::R_ENCODER] ? {rejected_count_i, error_count_i} : operand_i;
+    wanted_q <= wave[feltgate_map_pkg::READ_AT_STATUS] ? status_i : wave[feltgate_map_pkg::READ_AT_FAULTS] ? faults_i :
+                wave[feltgate_map_pkg::READ_AT_POSITION] ? position_i : wave[feltgate_map_pkg::READ_AT_TICK] ? tick_count :
+                wave[feltgate_map_pkg::READ_AT_INDEX] ? index_position_i :
+                wave[feltgate_map_pkg::READ_AT_ENCODER] ? {rejected_count_i, error_count_i} : operand_i;
   end
   always_comb assume ((slots & Own) == '0 || operand_i == '0);
   logic [8:0] at;  // clock of the wave, or of the end of the one before

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Seeded defects: patches beside their tests, applied to copies of the product. docs/testing.md
 
-FILE is testbench/BLOCK/defects.diff, NAME a defect of it; without a NAME: all of them.
+FILE is testbench/ROOM/BLOCK/defects.diff, NAME a defect of it; without a NAME: all of them.
 
   defects.py copy FILE NAME --output DIR  the patched files, at their paths below DIR
   defects.py block BLOCK --defects FILE [NAME...] --sources S... --output OUT.sv

@@ -122,7 +122,7 @@ def copy_sources(root, design, folder):
     """
     is_path = isinstance(design, Path)
     package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
-    names = [f"{CELL_WRAPPER}.sv", *core_sources(root), *beside_sources(root)]
+    names = [*rtl_sources.cell_files(root), *core_sources(root), *beside_sources(root)]
     shutil.copy(package, folder / "feltgate_pkg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)

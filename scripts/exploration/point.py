@@ -21,6 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import interrupts  # noqa: E402
 import outputs  # noqa: E402
+import rtl_sources  # noqa: E402
 import synth_measure  # noqa: E402
 import synth_tools  # noqa: E402
 from exploration.design_text import design_text  # noqa: E402
@@ -153,7 +154,7 @@ def tools_in(folder):
 
 def synthesis_inputs(generated, folder, tools):
     """Copies the sources, writes the wrappers; commands that read the sources."""
-    names = [f"{synth_measure.CELL_WRAPPER}.sv", *synth_measure.core_sources(ROOT)]
+    names = [*rtl_sources.cell_files(ROOT), *synth_measure.core_sources(ROOT)]
     shutil.copy(generated / "feltgate_pkg.sv", folder)
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)

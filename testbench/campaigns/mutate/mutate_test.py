@@ -221,7 +221,7 @@ class Reasons(Scratch):
         self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")}) | {"number": 1}
 
     def listed(self, text):
-        self.put("testbench/b/mutants.toml", text)
+        self.put("testbench/wave/b/mutants.toml", text)
         return rtl.Listed(self.folder, "b")
 
     def test_where(self):
@@ -277,7 +277,7 @@ class Programs(Scratch):
 
     def setUp(self):
         super().setUp()
-        folder = "testbench/b/b_mutants.netlist"
+        folder = "testbench/wave/b/b_mutants.netlist"
         self.put(f"{folder}/test.json", '{"test": "b", "block": "b"}')
         mutants = [netlist.parse(LINE, {}) | {"number": n} for n in range(1, 5)]
         found = {"block": "b", "seed": 1, "own": False, "database": 9, "mutants": mutants}
@@ -286,7 +286,7 @@ class Programs(Scratch):
                  "*) echo mismatch at clock 3; exit 1;; esac")
 
     def say(self, script):
-        self.program = self.put_program("testbench/b/b_mutants", script)
+        self.program = self.put_program("testbench/wave/b/b_mutants", script)
 
     def call(self, *arguments):
         os.environ["FELTGATE_BUILD"] = str(self.folder)

@@ -41,10 +41,10 @@ endmodule
 class Catalogue(Scratch):
     def setUp(self):
         super().setUp()
-        self.put("testbench/b/proofs/proofs.toml", TOML)
-        self.put("testbench/b/proofs/p.sv", WRAPPER)
-        self.put("testbench/b/defects.diff", "== d\nIt breaks.\n")
-        self.put("rtl/b.sv", RTL)
+        self.put("testbench/wave/b/proofs/proofs.toml", TOML)
+        self.put("testbench/wave/b/proofs/p.sv", WRAPPER)
+        self.put("testbench/wave/b/defects.diff", "== d\nIt breaks.\n")
+        self.put("rtl/core/wave/b.sv", RTL)
 
     def refused(self, *said):
         with self.assertRaises(catalog.CatalogError) as error:
@@ -58,8 +58,8 @@ class Catalogue(Scratch):
         self.assertEqual(catalog.open_ports(self.folder, [proof]), {"b": []})
 
     def test_a_port_of_a_block_inside(self):
-        self.put("rtl/c.sv", RTL.replace("module b", "module c"))
-        toml = "testbench/b/proofs/proofs.toml"
+        self.put("rtl/core/wave/c.sv", RTL.replace("module b", "module c"))
+        toml = "testbench/wave/b/proofs/proofs.toml"
         self.put(toml, TOML.replace("y_o", "y_o c.x_i"))
         self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
                          {"b": [], "c": ["y_o"]})
@@ -75,7 +75,7 @@ class Catalogue(Scratch):
                          {"b": [], "n": ["x_i", "y_o"]})
 
     def test_a_port_in_no_property(self):
-        self.put("rtl/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
+        self.put("rtl/core/wave/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
         self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": ["z_i"]})
 
     def test_a_block_of_the_link_without_a_proof(self):
@@ -85,12 +85,12 @@ class Catalogue(Scratch):
                          {"b": [], "e": ["x_i", "y_o"]})
 
     def test_a_port_that_is_none(self):
-        self.put("rtl/b.sv", RTL.replace("x_i", "u_i"))
+        self.put("rtl/core/wave/b.sv", RTL.replace("x_i", "u_i"))
         with self.assertRaises(catalog.CatalogError):
             catalog.open_ports(self.folder, catalog.read(self.folder))
 
     def test_defects_beside_the_proof_come_first(self):
-        self.put("testbench/b/proofs/defects.diff", "== d\nIt breaks.\n")
+        self.put("testbench/wave/b/proofs/defects.diff", "== d\nIt breaks.\n")
         (proof,) = catalog.read(self.folder)
         self.assertEqual(proof.properties[0].defect.parent.parent.name, "proofs")
 
@@ -104,32 +104,32 @@ class Catalogue(Scratch):
             ("depth = 2", "depth = 2\nspeed = 1", "unknown key speed"),
         ):
             with self.subTest(said):
-                self.put("testbench/b/proofs/proofs.toml", TOML.replace(old, new))
-                self.refused("testbench/b/proofs/proofs.toml", said)
+                self.put("testbench/wave/b/proofs/proofs.toml", TOML.replace(old, new))
+                self.refused("testbench/wave/b/proofs/proofs.toml", said)
 
     def test_what_a_wrapper_includes(self):
         wrapper = "module p_proof;\n  `include \"own.svh\"\nendmodule\n"
-        self.put("testbench/b/proofs/p.sv", wrapper)
+        self.put("testbench/wave/b/proofs/p.sv", wrapper)
         self.refused("p.sv", "no own.svh beside it or in testbench/campaigns/prove")
         self.put("testbench/campaigns/prove/shared.svh",
                    "always_comb begin a: assert (1); c: cover (1); end\n")
-        self.put("testbench/b/proofs/own.svh", "`include \"shared.svh\"\n")
+        self.put("testbench/wave/b/proofs/own.svh", "`include \"shared.svh\"\n")
         (proof,) = catalog.read(self.folder)
         text = catalog.wrapper_text(self.folder, proof.wrapper)
         self.assertIn("a: assert (1)", text)
         self.assertNotIn("include", text)
 
     def test_an_assertion_that_nothing_is_said_of(self):
-        self.put("testbench/b/proofs/p.sv",
+        self.put("testbench/wave/b/proofs/p.sv",
                    WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
         self.refused("p.sv asserts b")
-        self.put("testbench/b/proofs/p.sv",
+        self.put("testbench/wave/b/proofs/p.sv",
                    WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
         self.assertEqual(len(catalog.read(self.folder)), 1)
 
     def test_without_a_cover(self):
-        self.put("testbench/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
-        self.put("testbench/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
+        self.put("testbench/wave/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
+        self.put("testbench/wave/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
         self.refused("no cover")
 
 
@@ -200,7 +200,7 @@ class Verdicts(unittest.TestCase):
 class Page(unittest.TestCase):
     def test_blocks_without_a_run_stay_as_they_were(self):
         proofs = [type("P", (), {"block": name, "key": f"{name}.p", "name": "p", "title": "t",
-                                 "assumes": (), "covers": {}, "properties": ()})
+                                 "wrapper": Path(f"testbench/wave/{name}/proofs/p.sv"), "assumes": (), "covers": {}, "properties": ()})
                   for name in ("a", "b")]
         entry = {"proof": "b.p", "design": "d", "k": 2, "base_seconds": 1.0,
                  "induction_seconds": 1.0, "covers": {}, "properties": []}

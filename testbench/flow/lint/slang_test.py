@@ -84,7 +84,7 @@ class Slang(unittest.TestCase):
 
     def test_cells_of_the_ecp5(self):
         cell = ROOT / "testbench/flow/synth/mult18x18d_model.sv"
-        files = [package("lever"), RTL / "mult18_ecp5.sv", cell, *core()]
+        files = [package("lever"), RTL / "core/wave/mult18_ecp5.sv", cell, *core()]
         # The cell's third operand stays open, as its manual says.
         options = ["-DFELTGATE_ECP5", "-Wno-unconnected-input-port"]
         self.assertEqual(lint("feltgate_core", *options, *files), "")

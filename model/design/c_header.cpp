@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The register map of a design as one C99 header. Documentation: docs/register-files.md
+// The register map as C99 headers: of all designs the addresses and fields, of each design the
+// conversions between words and SI units. Documentation: docs/register-files.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -75,6 +76,7 @@ void field(std::ostringstream& s, const std::string& word, const Field& f) {
 }
 
 void conversions(std::ostringstream& s, const HostWord& w) {
+  s << "\n";
   const std::string name = "FELTGATE_" + upper(w.name);
   const Format f = w.format;
   const double scale = std::ldexp(1.0, f.fraction);
@@ -93,33 +95,18 @@ void word(std::ostringstream& s, const HostWord& w) {
   const std::string name = upper(w.name);
   const std::string unit = w.number ? " [" + w.unit + "]" : "";
   s << fmt::format("\n#define FELTGATE_{} 0x{:03x}u", name, w.address) << comment(w.doc + unit);
-  if (w.number) conversions(s, w);
-  if (w.name == "control") {
-    s << fmt::format("#define FELTGATE_CONTROL_RESET 0x{:08x}u\n",
-                     static_cast<std::uint32_t>(w.reset));
-  }
   for (const Field& f : w.fields) field(s, name, f);
 }
 
 }  // namespace
 
-std::string c_header(const Elaborated& e) {
-  const Design& d = e.design;
+std::string c_map_header(const Elaborated& e) {
   const std::vector<HostWord> words = host_words(e);
   std::ostringstream s;
-  s << generated_banner("rtl/designs/" + d.name + ".toml and rtl/registers.toml", "")
-    << "// The register map of the design " << d.name << " for C99 and C++.\n"
-    << "#ifndef FELTGATE_H\n#define FELTGATE_H\n\n#include <stdint.h>\n"
-    << helpers << "\n/* The design. */\n"
-    << "#define FELTGATE_DESIGN_NAME \"" << d.name << "\"\n"
-    << "#define FELTGATE_CLOCK_HZ " << d.clock_hz << "\n#define FELTGATE_TICK_HZ " << d.tick_hz
-    << "\n#define FELTGATE_PWM_PERIOD " << d.pwm_period_clocks() << comment("[clock]")
-    << "#define FELTGATE_COUNT_RAD " << real_literal(d.count_rad())
-    << comment("one count; an angle in rad / FELTGATE_COUNT_RAD is in counts")
-    << "#define FELTGATE_SUPPLY_V " << real_literal(d.supply_v) << "\n"
-    << "\n/* Words by their address. NAME_WORD(value) is the word of a value in its unit, "
-       "NAME_VALUE(word) the value\n   of a word, NAME_DEFAULT and NAME_RESET what "
-       "configuration leaves there. */\n";
+  s << generated_banner("rtl/registers.toml", "")
+    << "// The register map of all designs for C99 and C++: addresses, fields, numbers.\n"
+    << "#ifndef FELTGATE_MAP_H\n#define FELTGATE_MAP_H\n\n#include <stdint.h>\n"
+    << helpers << "\n/* Words by their address. */\n";
   for (const HostWord& w : words) word(s, w);
   s << "\n/* What only the host's link has, no bus: docs/link.md. */\n";
   for (const HostWord& w : link_host_words(e.registers)) word(s, w);
@@ -136,6 +123,36 @@ std::string c_header(const Elaborated& e) {
             "FAULT_", "{}u", e.registers.faults);
   constants(s, "Numbers that fields and words refer to.", "", "{}", e.registers.constants);
   constants(s, "Of the link's format.", "LINK_FORMAT_", "{}", e.registers.link_constants);
+  s << "\n#endif\n";
+  return s.str();
+}
+
+std::string c_header(const Elaborated& e) {
+  const Design& d = e.design;
+  std::ostringstream s;
+  s << generated_banner("rtl/designs/" + d.name + ".toml and rtl/registers.toml", "")
+    << "// The design " << d.name << " for C99 and C++: values, formats, what a reset leaves.\n"
+    << "#ifndef FELTGATE_H\n#define FELTGATE_H\n\n#include \"feltgate_map.h\"\n"
+    << "\n/* The design. */\n"
+    << "#define FELTGATE_DESIGN_NAME \"" << d.name << "\"\n"
+    << "#define FELTGATE_CLOCK_HZ " << d.clock_hz << "\n#define FELTGATE_TICK_HZ " << d.tick_hz
+    << "\n#define FELTGATE_PWM_PERIOD " << d.pwm_period_clocks() << comment("[clock]")
+    << "#define FELTGATE_COUNT_RAD " << real_literal(d.count_rad())
+    << comment("one count; an angle in rad / FELTGATE_COUNT_RAD is in counts")
+    << "#define FELTGATE_SUPPLY_V " << real_literal(d.supply_v) << "\n"
+    << "\n/* NAME_WORD(value) is the word of a value in its unit, NAME_VALUE(word) the value of a "
+       "word, NAME_DEFAULT\n   and NAME_RESET what configuration leaves there. Units: "
+       "feltgate_map.h. */\n";
+  for (const HostWord& w : host_words(e)) {
+    if (w.number) conversions(s, w);
+    if (w.name == "control") {
+      s << fmt::format("\n#define FELTGATE_CONTROL_RESET 0x{:08x}u\n",
+                       static_cast<std::uint32_t>(w.reset));
+    }
+  }
+  for (const HostWord& w : link_host_words(e.registers)) {
+    if (w.number) conversions(s, w);
+  }
   s << "\n#endif\n";
   return s.str();
 }

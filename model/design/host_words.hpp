@@ -34,7 +34,9 @@ std::vector<HostWord> host_words(const Elaborated& e);
 /// The words that only the link has, named link_..., in the order of their addresses.
 std::vector<HostWord> link_host_words(const RegisterMap& map);
 
-/// Text of rtl/generated/NAME/feltgate.h.
+/// Text of rtl/generated/feltgate_map.h, which is the same for every design.
+std::string c_map_header(const Elaborated& e);
+/// Text of rtl/generated/NAME/feltgate.h, which includes feltgate_map.h.
 std::string c_header(const Elaborated& e);
 /// Text of rtl/generated/NAME/feltgate.rdl.
 std::string system_rdl(const Elaborated& e);

@@ -42,7 +42,7 @@ list(FILTER extremes_sources EXCLUDE REGEX "_(main|test|defects)\\.cpp$")
 add_library(feltgate_extreme_cases STATIC ${extremes_sources} "${extremes_wide}/wide.hpp")
 target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
 target_include_directories(feltgate_extreme_cases
-  PUBLIC "${FELTGATE_ROOT}/testbench/campaigns" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
+  PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
 target_link_libraries(feltgate_extreme_cases
   PUBLIC feltgate_rtl feltgate_loop feltgate_design feltgate_stability
   PRIVATE extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)

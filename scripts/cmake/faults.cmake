@@ -31,7 +31,7 @@ list(FILTER faults_sources EXCLUDE REGEX "_(main|test)\\.cpp$")
 add_library(feltgate_fault_campaign STATIC ${faults_sources} "${faults_flops}")
 target_compile_options(feltgate_fault_campaign PRIVATE ${FELTGATE_WARNINGS} -O2)
 target_include_directories(feltgate_fault_campaign
-  PUBLIC "${FELTGATE_ROOT}/testbench/campaigns" "${FELTGATE_ROOT}/testbench/common")
+  PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common")
 target_include_directories(feltgate_fault_campaign SYSTEM PUBLIC "${PROJECT_BINARY_DIR}/faults")
 target_link_libraries(feltgate_fault_campaign PUBLIC faults_core feltgate_engines feltgate_plant_files feltgate_traces
   PRIVATE nlohmann_json::nlohmann_json fmt::fmt)

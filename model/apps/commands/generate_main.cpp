@@ -72,10 +72,10 @@ constexpr const char* usage =
     "DIR/parameters.mem,\n"
     "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
     "a line per parameter: name, address, integer, exact value; and the register map for hosts:\n"
-    "DIR/feltgate.h (C), DIR/feltgate.rdl (SystemRDL), DIR/csr.csv (as of LiteX). --allow-coarse "
-    "lets a resolution "
-    "pass that\n"
-    "is coarser than a design for use must have; what cannot work is refused all the same.\n"
+    "DIR/feltgate.h with DIR/feltgate_map.h (C), DIR/feltgate.rdl (SystemRDL), DIR/csr.csv (as of\n"
+    "LiteX). --allow-coarse lets a resolution pass that is coarser than a design for use must "
+    "have;\n"
+    "what cannot work is refused all the same.\n"
     "  feltgate generate                                        after a change in rtl/designs\n"
     "  feltgate generate --design my_design.toml -o out          one design anywhere\n"
     "Exit code: 0 fine, 1 a file is stale, 2 a design or option that cannot be used.\n";
@@ -137,6 +137,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
   update(o.output / "parameters.mem", memory_text(e), false);
   update(o.output / "values.txt", values_text(e), false);
+  update(o.output / "feltgate_map.h", c_map_header(e), false);
   update_host_files(o.output, e, false);
 }
 
@@ -171,8 +172,10 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
         update(o.root / "rtl/generated" / name / "parameters.mem", memory_text(e), o.check_only);
     stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
     stale |= update_host_files(o.root / "rtl/generated" / name, e, o.check_only);
-    if (name == "lever")
+    if (name == "lever") {
       stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
+      stale |= update(o.root / "rtl/generated/feltgate_map.h", c_map_header(e), o.check_only);
+    }
   }
   return stale;
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A core on a bench. Documentation: docs/extremes.md
-#include "extremes/bench.hpp"
+#include "campaigns/extremes/bench.hpp"
 
 #include <cmath>
 #include <stdexcept>

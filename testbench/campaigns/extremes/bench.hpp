@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "extremes/case.hpp"
+#include "campaigns/extremes/case.hpp"
 #include "sim/loop/ensemble.hpp"
 
 namespace feltgate::extremes {

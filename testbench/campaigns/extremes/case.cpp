@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Verdicts and the list of all cases. Documentation: docs/extremes.md
-#include "extremes/case.hpp"
+#include "campaigns/extremes/case.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "extremes/table.hpp"
+#include "campaigns/extremes/table.hpp"
 
 namespace feltgate::extremes {
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Closed loops of the cases. Documentation: docs/extremes.md
-#include "extremes/closed_loop.hpp"
+#include "campaigns/extremes/closed_loop.hpp"
 
 #include <cmath>
 

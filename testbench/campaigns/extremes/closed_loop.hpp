@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "extremes/bench.hpp"
+#include "campaigns/extremes/bench.hpp"
 #include "sim/loop/loop.hpp"
 
 namespace feltgate::extremes {

@@ -3,7 +3,7 @@
 //
 // 24 hours of device time: no count is lost and no filter's bias grows. Documentation:
 // docs/extremes.md
-#include "extremes/day.hpp"
+#include "campaigns/extremes/day.hpp"
 
 #include <cmath>
 #include <functional>
@@ -11,7 +11,7 @@
 #include <mutex>
 #include <thread>
 
-#include "extremes/table.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "extremes/bench.hpp"
+#include "campaigns/extremes/bench.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 

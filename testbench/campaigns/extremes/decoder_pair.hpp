@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "extremes/bench.hpp"
-#include "quad_decoder/adapter.hpp"
+#include "campaigns/extremes/bench.hpp"
+#include "encoder/quad_decoder/adapter.hpp"
 
 namespace feltgate::extremes {
 

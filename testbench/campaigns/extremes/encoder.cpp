@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "extremes/decoder_pair.hpp"
-#include "extremes/table.hpp"
+#include "campaigns/extremes/decoder_pair.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {

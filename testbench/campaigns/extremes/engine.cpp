@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "extremes/engine_pair.hpp"
-#include "extremes/table.hpp"
-#include "machine/machine_programs.hpp"
+#include "campaigns/extremes/engine_pair.hpp"
+#include "campaigns/extremes/table.hpp"
+#include "engine/machine/machine_programs.hpp"
 
 namespace feltgate::extremes {
 

@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "engine/engine_adapter.hpp"
-#include "extremes/case.hpp"
+#include "campaigns/extremes/case.hpp"
+#include "engine/engine/engine_adapter.hpp"
 #include "lock_step.hpp"
 
 namespace feltgate::extremes {

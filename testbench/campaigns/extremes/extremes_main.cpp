@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "apps/commands/commands.hpp"
-#include "extremes/table.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "files/output_file.hpp"
 #include "files/toml/nearest.hpp"
 

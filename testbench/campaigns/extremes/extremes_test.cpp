@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "campaigns/extremes/table.hpp"
 #include "catch.hpp"
-#include "extremes/table.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 // 1 - 5e-6, coefficients at 0 and at their largest. Documentation: docs/extremes.md
 #include <cmath>
 
+#include "campaigns/extremes/bench.hpp"
+#include "campaigns/extremes/dead_band.hpp"
+#include "campaigns/extremes/lowpass_alone.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "design/design.hpp"
-#include "extremes/bench.hpp"
-#include "extremes/dead_band.hpp"
-#include "extremes/lowpass_alone.hpp"
-#include "extremes/table.hpp"
 #include "feltgate/largest.hpp"
 #include "files/toml/toml_reader.hpp"
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "extremes/closed_loop.hpp"
-#include "extremes/table.hpp"
+#include "campaigns/extremes/closed_loop.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {

@@ -5,8 +5,8 @@
 // ends this cycle, and the border in the published voltage gain. Documentation: docs/extremes.md
 #include <cmath>
 
-#include "extremes/closed_loop.hpp"
-#include "extremes/table.hpp"
+#include "campaigns/extremes/closed_loop.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The table of the cases. Documentation: docs/extremes.md
-#include "extremes/table.hpp"
+#include "campaigns/extremes/table.hpp"
 
 #include <fmt/format.h>
 

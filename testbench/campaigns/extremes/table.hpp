@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "extremes/case.hpp"
+#include "campaigns/extremes/case.hpp"
 
 namespace feltgate::extremes {
 

@@ -5,8 +5,8 @@
 // highest speed. Documentation: docs/extremes.md
 #include <cmath>
 
-#include "extremes/bench.hpp"
-#include "extremes/table.hpp"
+#include "campaigns/extremes/bench.hpp"
+#include "campaigns/extremes/table.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {

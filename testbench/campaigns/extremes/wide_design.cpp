@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The design `wide`: its Verilated core and its twin. Documentation: docs/extremes.md
-#include "extremes/wide_design.hpp"
+#include "campaigns/extremes/wide_design.hpp"
 
 #include <Vextremes_wide.h>
 

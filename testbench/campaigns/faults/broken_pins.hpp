@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "faults/outcome.hpp"
-#include "faults/world.hpp"
+#include "campaigns/faults/outcome.hpp"
+#include "campaigns/faults/world.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 

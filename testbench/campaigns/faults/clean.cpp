@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // False alarms. Documentation: docs/verification.md
-#include "faults/clean.hpp"
+#include "campaigns/faults/clean.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "faults/world.hpp"
+#include "campaigns/faults/world.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"

@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/commands.hpp"
-#include "faults/clean.hpp"
-#include "faults/record.hpp"
-#include "faults/world.hpp"
+#include "campaigns/faults/clean.hpp"
+#include "campaigns/faults/record.hpp"
+#include "campaigns/faults/world.hpp"
 
 namespace feltgate {
 

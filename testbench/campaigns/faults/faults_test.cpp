@@ -7,10 +7,10 @@
 #include <map>
 #include <string>
 
+#include "campaigns/faults/clean.hpp"
+#include "campaigns/faults/record.hpp"
+#include "campaigns/faults/world.hpp"
 #include "catch.hpp"
-#include "faults/clean.hpp"
-#include "faults/record.hpp"
-#include "faults/world.hpp"
 #include "feltgate/generated/causes.hpp"
 
 using namespace feltgate::faults;

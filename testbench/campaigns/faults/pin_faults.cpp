@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Faults at the pins and at the register port. Documentation: docs/verification.md
-#include "faults/pin_faults.hpp"
+#include "campaigns/faults/pin_faults.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <cmath>
 #include <optional>
 
-#include "faults/broken_pins.hpp"
-#include "faults/world.hpp"
+#include "campaigns/faults/broken_pins.hpp"
+#include "campaigns/faults/world.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"

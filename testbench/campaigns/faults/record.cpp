@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A fault as one line of JSON. Documentation: docs/verification.md
-#include "faults/record.hpp"
+#include "campaigns/faults/record.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "faults/world.hpp"
+#include "campaigns/faults/world.hpp"
 #include "feltgate/generated/causes.hpp"
 
 namespace feltgate::faults {

@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "faults/pin_faults.hpp"
-#include "faults/state_faults.hpp"
+#include "campaigns/faults/pin_faults.hpp"
+#include "campaigns/faults/state_faults.hpp"
 
 namespace feltgate::faults {
 

@@ -15,7 +15,7 @@
 
 #include <flops.hpp>
 
-#include "faults/outcome.hpp"
+#include "campaigns/faults/outcome.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "sim/engines/rtl_ports.hpp"

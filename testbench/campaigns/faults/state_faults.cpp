@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Bits of the core's state that flip for one clock. Documentation: docs/verification.md
-#include "faults/state_faults.hpp"
+#include "campaigns/faults/state_faults.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "faults/rtl_state.hpp"
-#include "faults/world.hpp"
+#include "campaigns/faults/rtl_state.hpp"
+#include "campaigns/faults/world.hpp"
 #include "random.hpp"
 
 namespace feltgate::faults {

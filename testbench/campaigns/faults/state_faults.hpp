@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "faults/outcome.hpp"
+#include "campaigns/faults/outcome.hpp"
 
 namespace feltgate::faults {
 

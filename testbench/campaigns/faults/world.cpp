@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The scenes, motor, lever and hands for the fault campaign. Documentation: docs/verification.md
-#include "faults/world.hpp"
+#include "campaigns/faults/world.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "faults/outcome.hpp"
+#include "campaigns/faults/outcome.hpp"
 #include "feltgate/core_ports.hpp"
 #include "sim/plant/plant.hpp"
 

@@ -12,8 +12,8 @@ namespace feltgate {
 
 /// Clocks, slots, addresses, bits and numbers of all designs.
 struct Map {
-  static constexpr int wave_length = 50;        ///< clocks; a tick is at least as long
-  static constexpr int first_wave_clock = 2;    ///< clock of the tick that is wave clock 0
+  static constexpr int wave_length = 50;       ///< clocks; a tick is at least as long
+  static constexpr int first_wave_clock = 2;  ///< clock of the tick that is wave clock 0
   static constexpr int multiplier_latency = 4;  ///< clocks from the operands to the product
   /// Bit n: slot n is read from the scene's bank.
   static constexpr std::uint64_t scene_slots = 0x44e;
@@ -22,45 +22,32 @@ struct Map {
   static constexpr std::uint64_t refused_while_armed = 0xc23ef78c083b0;
   static constexpr std::uint64_t ramps_while_armed = 0x100000001000000;
   static constexpr unsigned input_scenes = 0x4;
-  static constexpr int mode_open = 1;     ///< control.mode: open loop
+  static constexpr int mode_open = 1;  ///< control.mode: open loop
   static constexpr int mode_voltage = 2;  ///< control.mode: direct voltage
-  static constexpr int errors_borne =
-      7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
-  static constexpr int forgive_bits =
-      10;  ///< bits of the ticks after which one encoder error is forgiven
-  static constexpr int runaway_bits =
-      16;  ///< bits of the longest window of the wrong-polarity check [tick]
-  static constexpr int runaway_windows =
-      2;  ///< windows on end in which the speed must grow against the commanded current
+  static constexpr int errors_borne = 7;  ///< encoder errors that are borne, less one every 2^forgive_bits ticks
+  static constexpr int forgive_bits = 10;  ///< bits of the ticks after which one encoder error is forgiven
+  static constexpr int runaway_bits = 16;  ///< bits of the longest window of the wrong-polarity check [tick]
+  static constexpr int runaway_windows = 2;  ///< windows on end in which the speed must grow against the commanded current
   static constexpr int growth_bits = 5;  ///< fraction bits of the velocity whose growth is watched
-  static constexpr int self_test_unit_bits =
-      7;  ///< bits of the ticks in a unit of the self-test's times
+  static constexpr int self_test_unit_bits = 7;  ///< bits of the ticks in a unit of the self-test's times
   static constexpr int self_test_count_bits = 8;  ///< bits of these times
-  static constexpr int self_test_patience_bits =
-      17;  ///< bits of the ticks of which the second multiple ends the self-test's wait
+  static constexpr int self_test_patience_bits = 17;  ///< bits of the ticks of which the second multiple ends the self-test's wait
   static constexpr int self_test_counts = 2;  ///< counts that are an answer to the self-test
-  static constexpr int self_test_right =
-      1;  ///< what status.self_test says: the lever answered the right way
-  static constexpr int self_test_held = 2;    ///< it did not answer
+  static constexpr int self_test_right = 1;  ///< what status.self_test says: the lever answered the right way
+  static constexpr int self_test_held = 2;  ///< it did not answer
   static constexpr int self_test_moving = 3;  ///< it was not still for long enough to be asked
-  static constexpr int self_test_held_bit =
-      0;  ///< of self_test_arms: the scene begins though the lever is held
-  static constexpr int self_test_moving_bit =
-      1;  ///< of self_test_arms: the scene begins though the lever moves
+  static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
+  static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
-  static constexpr int one_channel_edges =
-      16;  ///< edges of one channel in a row from which it is chatter or a dead channel
+  static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
-  static constexpr int edge_unit_bits =
-      6;  ///< bits of the ticks in which the time between edges is counted
+  static constexpr int edge_unit_bits = 6;  ///< bits of the ticks in which the time between edges is counted
   static constexpr int edge_units = 19;  ///< so many of them without an edge end the row
-  static constexpr int chatter_unit_bits =
-      8;  ///< bits of the ticks in which the time of chatter is counted
+  static constexpr int chatter_unit_bits = 8;  ///< bits of the ticks in which the time of chatter is counted
   static constexpr int chatter_units = 20;  ///< chatter for so many of them is a dead channel
-  static constexpr int index_width_bits =
-      3;  ///< an index may be less than 2^index_width_bits counts wide
+  static constexpr int index_width_bits = 3;  ///< an index may be less than 2^index_width_bits counts wide
   static constexpr int hold_unit_bits = 10;  ///< bits of the ticks in which hold_time is counted
-  static constexpr int hold_bits = 13;       ///< bits of the longest hold_time
+  static constexpr int hold_bits = 13;  ///< bits of the longest hold_time
 
   /// Wave clocks in which a word, or a square, is on its bus.
   struct W {
@@ -647,9 +634,16 @@ struct Map {
   }
   /// All of them, built or not, in the order of their numbers.
   static constexpr std::string_view scene_names[] = {
-      "free",           "setpoint", "membrane",       "spring_compression",
-      "spring_tension", "damper",   "charge_attract", "charge_repel",
-      "wall",           "law"};
+      "free",
+      "setpoint",
+      "membrane",
+      "spring_compression",
+      "spring_tension",
+      "damper",
+      "charge_attract",
+      "charge_repel",
+      "wall",
+      "law"};
 
   /// Addresses of control and snapshot words, and bits of the words' fields.
   struct C {

@@ -147,7 +147,7 @@ def run(options):
         check_whole(everything, tests)
     if options.list:
         for test in tests:
-            print(f"{test.name}: rtl/{test.block}.sv, {test.program.name}")
+            print(f"{test.name}: {test.block}, {test.program.name}")
         return 0
     if not options.no_build:
         building.make("mutate", build, [test.program.name for test in tests], options.jobs)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The register map of a design for hosts and other tools: a C header, SystemRDL, and CSV as LiteX
+// The register map of a design for hosts and other tools: C headers, SystemRDL, and CSV as LiteX
 // writes it. Documentation: docs/register-files.md
 #pragma once
 

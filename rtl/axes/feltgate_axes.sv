@@ -92,7 +92,7 @@ module feltgate_axes #(
   end
   endgenerate
 
-  // State of each axis. All of these except asks come from registers.
+  // State of each axis. All of these except arm_requests come from registers.
   logic [AxisCount-1:0] arm_requests, ready, testing, faulty;
 
   // Register port. An axis that is not addressed gets an address without a word, which reads 0, so

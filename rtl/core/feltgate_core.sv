@@ -207,7 +207,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::LIMITER_W-1:0] limited;
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early;
-  logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late_term;
+  logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   assign paused = testing || axis_testing_i;
   scenes u_scenes (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -219,7 +219,7 @@ module feltgate_core #(
       .over_limit_i(over_limit),
       .law_torque_i(law_torque_i), .law_late_i(law_late_i), .law_o(law),
       .distance_o(distance), .square_o(square),
-      .early_term_o(scene_early), .late_term_o(scene_late_term)
+      .early_term_o(scene_early), .late_term_o(scene_late)
   );
 
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_early;
@@ -233,7 +233,7 @@ module feltgate_core #(
       .result_o(test_result), .trip_o(self_test_trip)
   );
 
-  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_early, control_late_term;
+  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] control_early, control_late;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   limiter u_limiter (
       .clk_i(clk_i),
@@ -243,7 +243,7 @@ module feltgate_core #(
       .torque_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1]), .voltage_i(wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW-1]),
       .duty_i(wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT-1]),
       .early_term_i(control_early | feltgate_pkg::LIMITER_INPUT_W'(scene_early | pulse_early)),
-      .late_term_i(control_late_term | feltgate_pkg::LIMITER_INPUT_W'(scene_late_term)),
+      .late_term_i(control_late | feltgate_pkg::LIMITER_INPUT_W'(scene_late)),
       .param_i(param),
       .limited_o(limited),
       .over_limit_o(over_limit)
@@ -269,7 +269,7 @@ module feltgate_core #(
       .product_i(control_product),
       .tau_ref_i(tau_ref_o),
       .early_term_o(control_early),
-      .late_term_o(control_late_term),
+      .late_term_o(control_late),
       .limited_i(limited), .over_limit_i(over_limit), .applied_o(applied),
       .region_high_o(region_high),
       .current_ref_o(current_ref_o),

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // FIFO of 16 events for the host, oldest first, in a RAM that is read with a clock, so a chip may
-// use block RAM. An event that comes while it is full is lost and counted. An event is counted and readable from two clocks after event_i on; while
-// count_o is 0 the outputs show what their place held before. docs/blocks/engine.md
+// use block RAM. An event that comes while it is full is lost and counted. An event is counted and
+// readable from two clocks after event_i on; while count_o is 0 the outputs show what their place
+// held before. docs/blocks/engine.md
 
 `default_nettype none
 

@@ -76,6 +76,10 @@ endmacro()
 # feltgate_tests_of(<variable> <block>): testbench/<room>/<block>.
 function(feltgate_tests_of variable block)
   file(GLOB folder "${FELTGATE_ROOT}/testbench/*/${block}")
+  list(LENGTH folder count)
+  if(NOT count EQUAL 1)
+    message(FATAL_ERROR "${block}: ${count} folders testbench/*/${block}")
+  endif()
   set(${variable} "${folder}" PARENT_SCOPE)
 endfunction()
 

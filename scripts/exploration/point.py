@@ -80,7 +80,7 @@ def sources_digest():
     if _sources is None:
         digest = hashlib.sha256(f"{OPTIMISE} {tool_version(compiler())}".encode())
         digest.update(f"{tool_version('verilator')} {synth_tools.version(yosys())}".encode())
-        paths = [*rtl_sources(), *ROOT.glob("rtl/core/**/*.sv"), *ROOT.glob("model/**/*.hpp")]
+        paths = [*core_rtl(), *ROOT.glob("rtl/core/**/*.sv"), *ROOT.glob("model/**/*.hpp")]
         paths += [ROOT / "model/studies/explore/point_main.cpp", Path(__file__)]
         paths += [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
         paths = [p for p in paths if "generated" not in p.parts]
@@ -102,7 +102,7 @@ def structure_key(package):
     return hashlib.sha256(f"{sources_digest()} {text}".encode()).hexdigest()[:16]
 
 
-def rtl_sources():
+def core_rtl():
     return [ROOT / "rtl" / name for name in synth_measure.core_sources(ROOT)]
 
 
@@ -117,7 +117,7 @@ def build_program(generated, folder):
     command = ["verilator", "--cc", "--prefix", "Vpoint", "--top-module", "feltgate_core"]
     command += ["--Mdir", rtl, "-O3", "--x-initial", "unique", "--x-assign", "unique"]
     command += ["--output-split", "0", "-Wno-fatal"]
-    run([*command, generated / "feltgate_pkg.sv", *rtl_sources()])
+    run([*command, generated / "feltgate_pkg.sv", *core_rtl()])
     joined = rtl / "all.cpp"
     names = sorted(p.name for p in rtl.glob("*.cpp"))
     joined.write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")

@@ -153,7 +153,7 @@ def read_proof(root, block, path, table):
 def read(root):
     """All proofs, block by block in the order of their names."""
     proofs = []
-    for path in sorted(root.glob("testbench/*/*/proofs/proofs.toml")):
+    for path in sorted(root.glob("testbench/*/*/proofs/proofs.toml"), key=lambda p: p.parents[1].name):
         block = path.parents[1].name
         try:
             tables = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -270,7 +270,8 @@ class EngineCrc {
   std::uint32_t sum_ = 0;
 };
 
-/// Twin of rtl/engine/engine_events.sv: a queue of 16 events that wait for the host.
+/// Twin of rtl/engine/engine_events.sv: a queue of 16 events that wait for the host. An event is
+/// counted a clock after it is kept.
 class EngineEvents {
  public:
   struct Event {
@@ -283,7 +284,7 @@ class EngineEvents {
   /// hardware.
   static constexpr std::size_t most_told = 65536;
 
-  int count = 0, lost = 0;  ///< events that wait; events that found no place, at most 255
+  int count = 0, lost = 0;  ///< events that are counted; that found no place, at most 255
   std::vector<Event> told;
 
   /// The contents of the queue's places stay.

@@ -239,6 +239,7 @@ class EngineRuns {
     for (auto e = events_.begin(); e != kept; ++e) {
       engine_.events_.clock(true, {e->number, e->value, ticks_.count_at(e->clock)}, false);
     }
+    // What is kept in the clock before base_ is not counted yet.
     const bool just_now = kept != events_.begin() && std::prev(kept)->clock == base_.clock - 1;
     if (base_.clock != before && !just_now) engine_.events_.count_last();
     events_.erase(events_.begin(), kept);

@@ -63,7 +63,7 @@ class RampLaw {
                    : quantise<N, Torque, Round::truncate, Overflow::wrap>(-held),
         over_limit);
   }
-  /// Sets the target; `beyond`: it was beyond the limit.
+  /// Sets the target; `over_limit`: it was beyond the limit.
   void aim(Torque target, bool over_limit) {
     target_ = target;
     limit_torque_ = armed_ && over_limit;

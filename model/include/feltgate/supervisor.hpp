@@ -374,7 +374,7 @@ class Supervisor {
   std::int32_t signal_ = 0;  ///< value to compare in the next clock
   bool too_fast_ = false;
   Runaway<D> runaway_;
-  std::uint32_t window_ticks_ = 0;  ///< the word polarity_ticks, as it was on the bus
+  std::uint32_t window_ticks_ = 0;  ///< polarity_ticks from the bus; the RTL keeps the comparison
   std::int64_t v_product_ = 0;
   Sum sum_ = Sum::from_raw(D::i2t_start);
   Nominal nominal_;

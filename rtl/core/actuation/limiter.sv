@@ -4,8 +4,8 @@
 // The core's one limiter: it saturates x to [-limit, limit]. The limit is the word on the parameter
 // bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
 // Torque, current, dead voltage, voltage and duty use it in turn. Without valid_i it only compares
-// x with a border: over_limit_o is valid, limited_o is 0. Latency: valid_i and early_term_i in clock t - 1,
-// late_term_i and the limit in t, limited_o (0 in all other clocks) and over_limit_o in t + 1.
+// x with a border: over_limit_o is valid, limited_o is 0. Latency: valid_i and early_term_i in clock
+// t - 1, late_term_i and the limit in t, limited_o (0 in all other clocks) and over_limit_o in t + 1.
 // docs/blocks/limiter.md
 
 `default_nettype none
@@ -17,7 +17,7 @@ module limiter (
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
     input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,  // one clock before x
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = ahead | late
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = early | late
     /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a limit has
     input  logic        [                             31:0] param_i,
     /* verilator lint_on UNUSEDSIGNAL */

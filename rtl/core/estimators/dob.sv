@@ -4,8 +4,8 @@
 // Disturbance observer: tau_hat = LPF(Ktn*I + g*Jn*w) - g*Jn*w, the load torque; positive tau_hat
 // opposes positive motor torque. Disarmed, the current counts as 0 and the filter output follows
 // its input: tau_hat is 0, and arming in motion makes no jump. Wave clocks: the block latches Ktn*I
-// in EVENT_AT_DRIVE_TORQUE, g*Jn*w in EVENT_AT_OBSERVER_INPUT, the filter's product in EVENT_AT_OBSERVER_STATE, and
-// tau_hat_o in EVENT_AT_TAU_HAT. docs/blocks/dob.md
+// in EVENT_AT_DRIVE_TORQUE, g*Jn*w in EVENT_AT_OBSERVER_INPUT, the filter's product in
+// EVENT_AT_OBSERVER_STATE, and tau_hat_o in EVENT_AT_TAU_HAT. docs/blocks/dob.md
 
 `default_nettype none
 

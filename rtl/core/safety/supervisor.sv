@@ -4,8 +4,8 @@
 // Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fourteen
 // fault causes itself; other blocks report theirs on trips_i. A fault is latched and
 // gates_enable_o falls one clock after the cause is seen; the gates are off a clock later. A limit
-// is compared in the clock PARAM_AT_* in which it is on the parameter bus, and acts in the next, EVENT_AT_*. Estimated current [1,8,8] A,
-// I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
+// is compared in the clock PARAM_AT_* in which it is on the parameter bus, and acts in the next,
+// EVENT_AT_*. Estimated current [1,8,8] A, I2t sum [0,31,2] A^2 tick. docs/blocks/supervisor.md
 `default_nettype none
 
 module supervisor (
@@ -117,8 +117,9 @@ module supervisor (
 
   // Two tick counters share an adder and a comparator: cause 3 uses them in the clock in which its
   // limit is on the bus, cause 5 in all others. A counter with its top bit set has reached every
-  // limit. A wrap of the kick counter before the first kick has no effect. Both results are
-  // registered: the way from the parameter RAM through the comparator is long.
+  // limit. A wrap of the kick counter before the first kick has no effect. For cause 3 both results
+  // are registered, because the way from the parameter RAM through the comparator is long:
+  // EVENT_AT_POLARITY is the clock after PARAM_AT_POLARITY_TICKS.
   localparam int RUNAWAY_W  = feltgate_map_pkg::RUNAWAY_BITS + 1;
   localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 

@@ -159,13 +159,13 @@ class Scripts(Bench):
             "bin/yosys-smtbmc",
             "bin/z3",
             "build/feltgate_faults",
-            "build/testbench/b/b_mutants",
+            "build/testbench/wave/b/b_mutants",
             "b_cover",
         ):
             self.path(name).parent.mkdir(parents=True, exist_ok=True)
             self.path(name).write_text(STAND_IN)
             self.path(name).chmod(0o755)
-        folder = self.path("build/testbench/b/b_mutants.netlist")
+        folder = self.path("build/testbench/wave/b/b_mutants.netlist")
         folder.mkdir()
         (folder / "test.json").write_text('{"test": "b", "block": "b"}')
         (folder / "mutants.json").write_text('{"seed": 1, "own": false, "database": 1, "mutants": []}')

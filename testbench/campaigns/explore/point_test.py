@@ -79,10 +79,10 @@ class Evaluation(unittest.TestCase):
             defect = ROOT / "testbench" / name
             folder = Path(self.folder.name, defect.name)
             copies = {p.name: p for p in patches.write_copies(defect, folder)}
-            sources = [copies.get(path.name, path) for path in point.rtl_sources()]
+            sources = [copies.get(path.name, path) for path in point.core_rtl()]
             with (
                 self.subTest(name),
-                mock.patch.object(point, "rtl_sources", return_value=sources),
+                mock.patch.object(point, "core_rtl", return_value=sources),
                 mock.patch.object(point, "_sources", None),
             ):
                 result = self.evaluate(changes)

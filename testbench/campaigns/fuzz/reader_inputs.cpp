@@ -123,6 +123,7 @@ void make_all(const design::Design& d, const design::RegisterMap& registers) {
   (void)values_text(e);
   (void)register_page(e);
   (void)c_header(e);
+  (void)c_map_header(e);
   (void)system_rdl(e);
   (void)csr_csv(e);
   (void)design_table(e);

@@ -88,7 +88,7 @@ std::string difference(const Vpair& pair, const feltgate::FeltgateCore<D>& twin,
   same("word_valid_o", out.word_valid);
   same("word_slot_o", out.word_slot);
   same("word_data_o", out.word_data);
-  same("arm_request_o", twin.asks(in));
+  same("arm_request_o", twin.arm_request(in));
   same("ready_o", twin.ready());
   same("testing_o", twin.testing());
   same("measured_o", twin.measured());

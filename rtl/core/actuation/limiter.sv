@@ -75,8 +75,8 @@ module limiter (
       else lower_q <= -limit;
     end
   end
-  assign limited_o = outside_q ? upper_q | lower_q : low_q;
-  assign over_limit_o  = outside_q || unfit_q;
+  assign limited_o    = outside_q ? upper_q | lower_q : low_q;
+  assign over_limit_o = outside_q || unfit_q;
 endmodule
 
 `default_nettype wire

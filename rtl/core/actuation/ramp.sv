@@ -20,8 +20,8 @@ module ramp (
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                      over_limit_i,
-    input  logic                                      frozen_i,  // 1: only toward 0, or to > 0
-    input  logic                                      derated_i,   // 1: the limit is hold_limit
+    input  logic                                      frozen_i,   // 1: only toward 0, or to > 0
+    input  logic                                      derated_i,  // 1: the limit is hold_limit
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts
     output logic                                      limit_ramp_o,    // the step acts

@@ -16,9 +16,9 @@ module hold_timer (
     input  logic [31:0] tick_count_i,
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic [31:0] param_i,
-    input  logic        moved_i,   // an encoder edge came in this tick
+    input  logic        moved_i,       // an encoder edge came in this tick
     input  logic        over_limit_i,  // one clock after the word hold_torque: |tau_ref| is above it
-    output logic        derated_o    // the torque limit is hold_limit
+    output logic        derated_o      // the torque limit is hold_limit
 );
   localparam int W = feltgate_map_pkg::HOLD_BITS;
   localparam int Hold = feltgate_map_pkg::EVENT_AT_HOLD;  // hold_time is on the bus

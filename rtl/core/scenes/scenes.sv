@@ -23,14 +23,14 @@ module scenes #(
     /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,  // counts
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-    input  logic                                             over_limit_i,    // from the limiter
+    input  logic                                             over_limit_i,  // from the limiter
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] law_torque_i,  // of a program; used if law_o
     input  logic                                             law_late_i,    // it counts as 0
     output logic                                             law_o,         // scene law selected
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // square the distance
-    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,     // one clock before its limit
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o       // with its limit
+    output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,  // one clock before its limit
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o    // with its limit
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -157,7 +157,7 @@ module scenes #(
   end else begin : gen_no_charge
     assign charge_plus  = '0;
     assign charge_minus = '0;
-    assign late_term_o       = '0;
+    assign late_term_o  = '0;
   end
 
   if (Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}]) begin : gen_wall
@@ -210,7 +210,7 @@ module scenes #(
     else width_q <= gap_q;
   end
   assign early_term_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
-                   feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(width_q);
+                        feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(width_q);
 
   // Inputs without a load if fewer scenes are built.
   logic unused;

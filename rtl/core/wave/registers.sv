@@ -50,7 +50,7 @@ module registers #(
   localparam logic [5:0] LOW  = 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN);
   localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
   localparam logic [5:0] FULL  = 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
-  localparam logic [5:0] EASED = 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
+  localparam logic [5:0] DERATED = 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
   localparam logic [5:0] TEST  = 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
 
   // The waiting write: its target (no bit set: nothing waits), address and data.
@@ -180,7 +180,7 @@ module registers #(
   assign derated = derated_i && slot_fetch_i == FULL;
   assign test = testing_i && slot_fetch_i == FULL;
   assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
-                       : {3'b000, high ? HIGH : test ? TEST : derated ? EASED : slot_fetch_i};
+                       : {3'b000, high ? HIGH : test ? TEST : derated ? DERATED : slot_fetch_i};
 
   always_ff @(posedge clk_i) fetch_q <= parameter_ram[fetch_address];
 

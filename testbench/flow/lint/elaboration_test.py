@@ -62,7 +62,7 @@ TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequ
 
 def rtl_of(top):
     if top != "core":
-        return [RTL / f"{TOPS[top]}.sv"]
+        return list(RTL.glob(f"core/**/{TOPS[top]}.sv"))
     listed = (RTL / "feltgate_core.f").read_text(encoding="utf-8").splitlines()
     return [RTL / n for n in listed if n and not n.startswith("//") and "_pkg" not in n]
 

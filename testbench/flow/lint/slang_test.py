@@ -91,7 +91,8 @@ class Slang(unittest.TestCase):
 
     def changed(self, name, old, new):
         """What slang says of the core with one change in a file."""
-        text = (RTL / name).read_text(encoding="utf-8")
+        (source,) = (path for path in core() if path.name == name)
+        text = source.read_text(encoding="utf-8")
         self.assertIn(old, text)
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder, name)

@@ -118,7 +118,7 @@ def sources(root, block, key):
     else:
         folder, pattern = Path(root, "rtl"), "*.sv"
     if block in EXTRA:
-        return sorted(folder.glob(pattern if key == "twin" or block == EXTRA[1] else "core/**/*.sv"))
+        return sorted(folder.glob(pattern) if pattern == "*.hpp" else (folder / "core").rglob(pattern))
     own = [path for path in folder.rglob(pattern) if path.stem == block]
     return [path for path in own if "generated" not in path.parts]
 

@@ -321,8 +321,9 @@ def check(root, write=False):
         found += check_lists(root, blocks, write)
     except block_results.ResultsError as error:
         found.append(str(error))
-    for name in rtl_sources.modules(root)[1]:
-        found.append(f"rtl/{rtl_sources.module_files(root)[name]}: the core does not instantiate it; do, or remove it")
+    ordered, lost = rtl_sources.modules(root)
+    for name in lost:
+        found.append(f"rtl/{ordered[name]}: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
     for page in sorted(root.glob("docs/**/*.md")):

@@ -246,6 +246,10 @@ class CheckBlocks(unittest.TestCase):
         found = [line for line in check_blocks.check(self.root) if "does not instantiate" in line]
         self.assertEqual(len(found), 1)
 
+    def test_a_room_that_nobody_has_put_in_order(self):
+        self.put("rtl/core/attic/gamma.sv", RTL.format("gamma", ""))
+        self.expect("testbench/attic/gamma/gamma_test.cpp: missing", "rtl/feltgate_core.f: stale")
+
     def test_a_cell_of_one_vendor_has_a_list_of_its_own(self):
         self.put("rtl/core/wave/mult18_ecp5.sv", "module mult18_ecp5;\nendmodule\n")
         check_blocks.check(self.root, write=True)

@@ -20,10 +20,10 @@ module axes_engine #(
     input  logic rst_ni,
 
     // Axes: axis n is bit n, or the n-th part from below.
-    input  logic [AxisCount-1:0] law_i,     // the axis is in the scene of laws
-    input  logic [AxisCount-1:0] arm_request_i,    // requests to arm, or to stay armed
+    input  logic [AxisCount-1:0] law_i,          // the axis is in the scene of laws
+    input  logic [AxisCount-1:0] arm_request_i,  // requests to arm, or to stay armed
     input  logic [AxisCount-1:0] armed_i,
-    input  logic [AxisCount-1:0] zeroed_i,  // one clock: the position becomes 0
+    input  logic [AxisCount-1:0] zeroed_i,       // one clock: the position becomes 0
     input  logic snapshot_i,                // one clock per tick
     input  logic measured_i,                // one clock per tick: the inputs below are new, held
     input  logic [31:0] tick_count_i,

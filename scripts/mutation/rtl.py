@@ -367,6 +367,7 @@ def show(test, number, root, proof_seconds):
         print(
             f"{kind}: {why}"
             if kind
-            else f"to list it with a reason: testbench/*/{test.block}/mutants.toml"
+            else "to list it with a reason: "
+            f"{rtl_sources.tests_of(root, test.block).relative_to(root)}/mutants.toml"
         )
     print(f"again: FELTGATE_MUTANT={number} {test.program}")

@@ -17,7 +17,8 @@ set_false_path -from [get_ports {UART_RX}]
 set_false_path -from [get_ports {ESTOP}]
 
 # Nobody outside has this clock, so these delays are a form. The encoder is asynchronous too, and passes two flip-flops.
-# What counts is that its channels arrive beside each other: its edges come 2.5 us apart at the highest speed, and the wires in here may take 0 to 5 ns.
+# What counts is that its channels arrive beside each other: its edges come 2.5 us apart at the highest speed, and the
+# wires in here may take 0 to 5 ns.
 # A false path and set_max_skew on the same pins would not do: older Quartus then sees no limit at all.
 set_input_delay -clock CLOCK_50 0.0 [get_ports {ENC_A ENC_B ENC_Z ENC_LOOP UART_RX}]
 set_max_delay -from [get_ports {ENC_A ENC_B ENC_Z}] 5.0

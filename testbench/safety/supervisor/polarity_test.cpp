@@ -77,6 +77,29 @@ TEST_CASE("supervisor: the speed grows against the commanded current, window aft
   s.play();
 }
 
+TEST_CASE("supervisor: a window has all its ticks, a hundred or thousands") {
+  for (const std::uint32_t ticks : {70u, 300u, 2500u}) {
+    Script s;
+    s.now.words.polarity_ticks = ticks;
+    const auto enough = static_cast<std::int32_t>(s.now.words.polarity_speed) + kRadS;
+    const auto current = static_cast<std::int32_t>(s.now.words.polarity_current) + 1;
+    s.arm();
+    s.now.velocity = 3 * kRadS;
+    s.ticks(2);
+    s.now.current_ref = -current;
+    s.ticks(1);
+    s.now.velocity += enough;
+    s.ticks(static_cast<int>(ticks));
+    s.now.velocity += enough;
+    s.ticks(static_cast<int>(ticks) - 1);
+    INFO(ticks << " ticks");
+    REQUIRE(s.out().gates_enable);
+    REQUIRE(s.clocks_to_fall(20 * kTick) == kPolarity);
+    REQUIRE(only(s, Fault::polarity));
+    s.play();
+  }
+}
+
 TEST_CASE("supervisor: a speed that stays or falls is no wrong polarity, whatever it is") {
   Script s;
   s.now.words.polarity_ticks = 3;

@@ -115,6 +115,23 @@ class Beside(Machine):
         self.assertEqual(self.start(*words).returncode, 0)
         self.assertEqual(sum(" install " in call for call in self.calls("apt-get")), 1)
 
+    def test_the_demo_starts_without_the_modules_that_come_beside(self):
+        """Its arguments cannot be checked before: numpy comes with matplotlib."""
+        shadow = self.repository / "shadow" / "numpy.py"
+        shadow.parent.mkdir()
+        shadow.write_text("raise ModuleNotFoundError(\"No module named 'numpy'\")\n", encoding="utf-8")
+        path = self.bin / "apt-get"
+        comes = f'case "$*" in *matplotlib*) rm -f {shadow} ;; esac\n'
+        slow = 'case "$*" in *matplotlib*) sleep 3 ;; esac\n'
+        (self.bin / "sleep").symlink_to("/usr/bin/sleep")
+        text = path.read_text(encoding="utf-8")
+        path.write_text(text.replace("#!/bin/sh\n", "#!/bin/sh\n" + slow + comes), encoding="utf-8")
+        done = self.start("--yes", "demo", "--jobs", "0", PYTHONPATH=str(shadow.parent))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertNotIn("ModuleNotFoundError", done.stderr)
+        self.assertIn("argument --jobs", done.stderr)
+        self.assertEqual([c.split()[3] for c in self.log() if c.startswith("ninja")], ["feltgate_run"])
+
     def test_a_launcher_that_ends_early_leaves_no_apt_behind(self):
         """An option that is refused before the build; apt is slow."""
         path = self.bin / "apt-get"

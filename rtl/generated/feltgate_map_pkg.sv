@@ -176,7 +176,7 @@ package feltgate_map_pkg;
   localparam int EVENT_AT_RAMP_EXCESS = 25;
   localparam int EVENT_AT_RAMP_CHANGE = 26;
   localparam int EVENT_AT_TAU_REF = 27;
-  localparam int EVENT_AT_APPLIED_TO_BUS = 26;
+  localparam int EVENT_AT_DIRECT_VOLTAGE_TO_BUS = 26;
   localparam int EVENT_AT_SET_ERROR = 31;
   localparam int EVENT_AT_SET_STEP = 32;
   localparam int EVENT_AT_DIRECT_VOLTAGE = 33;
@@ -239,7 +239,7 @@ package feltgate_map_pkg;
   localparam int EVENT_AT_DUTY_WORD = 46;
   localparam int EVENT_AT_SNAPSHOT = 47;
 
-  // Wave clocks in which the snapshot's words are on the operand bus.
+  // Wave clocks in which the snapshot takes its words, off the operand bus or by inputs of its own.
   localparam int READ_AT_TICK = 6;
   localparam int READ_AT_POSITION = 1;
   localparam int READ_AT_STATUS = 0;

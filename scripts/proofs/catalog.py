@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The proofs to make: testbench/ROOM/BLOCK/proofs/proofs.toml, one table per proof."""
 
+import fnmatch
 import re
 import tomllib
 from dataclasses import dataclass
@@ -173,7 +174,8 @@ def ports(root, block):
 
 def open_ports(root, proofs):
     """{block: its ports that no property names}, without the blocks of unproven.BLOCKS; clock and
-    reset are in all. A property names a port of a block inside as BLOCK.PORT."""
+    reset are in all. A property names a port of a block inside as BLOCK.PORT; a * in a name stands
+    for any letters (at_*: all strobes of steps)."""
     named = {}
     for proof in proofs:
         for entry in proof.properties:
@@ -185,8 +187,9 @@ def open_ports(root, proofs):
     for block in sorted(files.keys() - (unproven.BLOCKS.keys() - named.keys())):
         there = set(ports(root, block))
         strange = named.pop(block, set())
-        found[block] = sorted(there - strange - {"clk_i", "rst_ni"})
-        strange -= there
+        seen = {port for pattern in strange for port in fnmatch.filter(there, pattern)}
+        found[block] = sorted(there - seen - {"clk_i", "rst_ni"})
+        strange = {pattern for pattern in strange if not fnmatch.filter(there, pattern)}
         if strange:
             raise CatalogError(f"{block}: rtl/{files[block]} has no port {', '.join(sorted(strange))}")
     if named:

@@ -45,11 +45,8 @@ module de0_nano #(
   logic [3:0] scene;
   logic [7:0] inputs;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
-  // Not all bits of these are used here.
-  /* verilator lint_off UNUSEDSIGNAL */
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
-  /* verilator lint_on UNUSEDSIGNAL */
 
   panel_reset #(.HoldBits(DebounceBits)) u_reset (
     .clk_i(CLOCK_50),
@@ -116,6 +113,9 @@ module de0_nano #(
     .inputs_o(inputs),
     .lamps_o(LED)
   );
+
+  logic unused;
+  assign unused = ^{limits, position};  // not all of their bits are shown
 endmodule
 
 `default_nettype wire

@@ -40,11 +40,8 @@ module ulx3s #(
   logic [3:0] scene;
   logic [7:0] inputs;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
-  // Not all bits of these are used here.
-  /* verilator lint_off UNUSEDSIGNAL */
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
-  /* verilator lint_on UNUSEDSIGNAL */
 
   ulx3s_clock u_clock (
     .clk_25mhz_i(clk_25mhz),
@@ -120,6 +117,9 @@ module ulx3s #(
     .inputs_o(inputs),
     .lamps_o(led)
   );
+
+  logic unused;
+  assign unused = ^{limits, position};  // not all of their bits are shown
 endmodule
 
 `default_nettype wire

@@ -3,7 +3,7 @@
 //
 // The core's one limiter: it saturates x to [-limit, limit]. The limit is the word on the parameter
 // bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
-// Torque, current, dead voltage, voltage and duty use it in turn. Without valid_i it only compares
+// Torque, step of the voltage mode, current, dead voltage, voltage and duty use it in turn. Without valid_i it only compares
 // x with a border: over_limit_o is valid, limited_o is 0. Latency: valid_i and early_term_i in clock
 // t - 1, late_term_i and the limit in t, limited_o (0 in all other clocks) and over_limit_o in t + 1.
 // docs/blocks/limiter.md
@@ -18,9 +18,7 @@ module limiter (
     input  logic                                            duty_i,
     input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,  // one clock before x
     input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = early | late
-    /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a limit has
     input  logic        [                             31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic signed [      feltgate_pkg::LIMITER_W-1:0] limited_o,
     output logic                                            over_limit_o
 );
@@ -77,6 +75,9 @@ module limiter (
   end
   assign limited_o    = outside_q ? upper_q | lower_q : low_q;
   assign over_limit_o = outside_q || unfit_q;
+
+  logic unused;
+  assign unused = ^param_i;  // a limit may have fewer bits than a word
 endmodule
 
 `default_nettype wire

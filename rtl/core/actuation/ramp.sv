@@ -14,13 +14,14 @@ module ramp (
     input  logic                                      armed_i,
     input  logic        [                        3:0] scene_i,
     input  logic                                      restart_i,  // last clock of a tick: ramp from now on
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                      at_ramp_begin_i,
+    input  logic                                      at_ramp_excess_i,
+    input  logic                                      at_ramp_change_i,
+    input  logic                                      at_tau_ref_i,
     input  logic        [                       31:0] param_i,
     input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                      over_limit_i,
-    input  logic                                      frozen_i,   // 1: only toward 0, or to > 0
+    input  logic                                      frozen_i,   // 1: it may shrink; from below 0 also to any positive target
     input  logic                                      derated_i,  // 1: the limit is hold_limit
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts
@@ -30,7 +31,6 @@ module ramp (
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int W = feltgate_pkg::RAMP_W;
   localparam int Fine = feltgate_pkg::RAMP_F - feltgate_pkg::TORQUE_F;
-  localparam int Excess = feltgate_map_pkg::EVENT_AT_RAMP_EXCESS;  // the step's word is on the bus
 
   logic signed [W-1:0] ramp_q;
   assign tau_ref_o = ramp_q[W-1:Fine];
@@ -40,7 +40,7 @@ module ramp (
   logic signed [W:0] excess_q;
   logic      [W-2:0] step_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[Excess]) begin
+    if (at_ramp_excess_i) begin
       if (frozen_i) step_q <= '0;
       else if (param_i[W-1] || param_i[W-2:0] == '0) step_q <= (W - 1)'(1);
       else step_q <= param_i[W-2:0];
@@ -70,7 +70,7 @@ module ramp (
   assign overshoot = excess_q + change;
   assign reached  = overshoot[W] == down;
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]) begin
+    if (at_ramp_change_i) begin
       change_q <= change[W-1:0];
       carry_q  <= down || !stepping;
       stay_q   <= stepping && reached;
@@ -88,15 +88,15 @@ module ramp (
       limit_ramp_o <= 1'b0;
       limit_hold_o <= 1'b0;
     end else begin
-      if (wave_i[Excess]) limit_torque_o <= over_limit_i && armed_i;
-      if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]) scene_q <= scene_i;
-      if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]) limit_hold_o <= derated_i;
+      if (at_ramp_excess_i) limit_torque_o <= over_limit_i && armed_i;
+      if (at_ramp_begin_i) scene_q <= scene_i;
+      if (at_ramp_begin_i) limit_hold_o <= derated_i;
       if (restart_i) ramping_q <= 1'b1;
-      else if (wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN] &&
+      else if (at_ramp_begin_i &&
                (!armed_i || scene_i != scene_q || derated_i != limit_hold_o)) ramping_q <= 1'b1;
-      else if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF] && stay_q) ramping_q <= 1'b0;
-      if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF] && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
-      if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF]) limit_ramp_o <= stepping_q;
+      else if (at_tau_ref_i && stay_q) ramping_q <= 1'b0;
+      if (at_tau_ref_i && !stay_q) ramp_q <= ramp_q + change_q + W'({1'b0, carry_q});
+      if (at_tau_ref_i) limit_ramp_o <= stepping_q;
     end
   end
 

@@ -16,10 +16,27 @@ module torque_control (
     input  logic                                                   rst_ni,
     input  logic                                                   armed_i,
     input  logic        [                                     1:0] mode_i,  // 0 closed, 1 open loop, 2 voltage
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                                   product_is_emf_constant_i,
+    input  logic                                                   product_is_observer_gain_i,
+    input  logic                                                   at_border_i,
+    input  logic                                                   at_region_i,
+    input  logic                                                   param_is_voltage_setpoint_i,
+    input  logic                                                   product_is_voltage_to_current_i,
+    input  logic                                                   param_is_voltage_step_i,
+    input  logic                                                   product_is_torque_gain_i,
+    input  logic                                                   at_direct_voltage_i,
+    input  logic                                                   param_is_current_limit_i,
+    input  logic                                                   product_is_dead_voltage_slope_i,
+    input  logic                                                   at_current_i,
+    input  logic                                                   at_hold_size_i,
+    input  logic                                                   param_is_dead_voltage_i,
+    input  logic                                                   at_voltage_offset_i,
+    input  logic                                                   product_is_voltage_gain_i,
+    input  logic                                                   param_is_voltage_window_i,
+    input  logic                                                   at_voltage_i,
+    input  logic                                                   product_is_duty_gain_i,
+    input  logic                                                   at_duty_i,
     input  logic        [                                    31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [          feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_o,  // one clock before its limit
@@ -54,27 +71,14 @@ module torque_control (
   localparam int DeadDrop = TorqueF + feltgate_pkg::P_DEAD_VOLTAGE_SLOPE_F - VoltageF;
   localparam int GainDrop = CurrentF + feltgate_pkg::P_VOLTAGE_GAIN_F - VoltageF;
   localparam int DutyDrop = VoltageF + feltgate_pkg::P_DUTY_GAIN_F;
-  // Wave clocks: first of the products, then of the limits' words.
-  localparam int Emf = feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT;
-  localparam int TauHat = feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN;
-  localparam int Direct = feltgate_map_pkg::PRODUCT_AT_VOLTAGE_TO_CURRENT;
-  localparam int TauRef = feltgate_map_pkg::PRODUCT_AT_TORQUE_GAIN;
-  localparam int Slope = feltgate_map_pkg::PRODUCT_AT_DEAD_VOLTAGE_SLOPE;
-  localparam int Gain = feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN;
-  localparam int Duty = feltgate_map_pkg::PRODUCT_AT_DUTY_GAIN;
-  localparam int SetPoint = feltgate_map_pkg::PARAM_AT_VOLTAGE_SETPOINT;
-  localparam int SetStep = feltgate_map_pkg::PARAM_AT_VOLTAGE_STEP;
-  localparam int CurrentLimit = feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT;
-  localparam int DeadVoltage = feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE;
-  localparam int Window = feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW;
 
   localparam logic [1:0] Open = 2'(feltgate_map_pkg::MODE_OPEN);
   localparam logic [1:0] Voltage = 2'(feltgate_map_pkg::MODE_VOLTAGE);
 
-  logic direct, follows, ramps;
-  assign direct  = mode_i == Voltage;
-  assign follows = !direct && armed_i;
-  assign ramps   = direct && armed_i;
+  logic voltage_mode, torque_armed, voltage_armed;
+  assign voltage_mode  = mode_i == Voltage;
+  assign torque_armed = !voltage_mode && armed_i;
+  assign voltage_armed   = voltage_mode && armed_i;
 
   logic carry;
   rounding #(
@@ -94,53 +98,54 @@ module torque_control (
   assign applied   = AppliedSumW'(limited_i) + addend_q;
   assign applied_o = applied;
   always_ff @(posedge clk_i) begin
-    if (wave_i[Emf]) emf_q <= EmfW'(product_i >>> EmfDrop);
-    if (wave_i[SetStep] && ramps) addend_q <= AppliedSumW'(voltage_o);
-    else if (wave_i[Window] && armed_i) addend_q <= AppliedSumW'(emf_q);
-    else if (wave_i[DeadVoltage] && !EmfInLaw && !direct) addend_q <= -(AppliedSumW'(emf_q));
+    if (product_is_emf_constant_i) emf_q <= EmfW'(product_i >>> EmfDrop);
+    if (param_is_voltage_step_i && voltage_armed) addend_q <= AppliedSumW'(voltage_o);
+    else if (param_is_voltage_window_i && armed_i) addend_q <= AppliedSumW'(emf_q);
+    else if (param_is_dead_voltage_i && !EmfInLaw && !voltage_mode) addend_q <= -(AppliedSumW'(emf_q));
     else addend_q <= '0;
   end
 
   // Start values of the sums. At most one of them is not 0, so an OR combines them.
-  logic signed [VoltageSumW-1:0] fixed_q;
-  logic signed [CurrentSumW-1:0] kept_q;
+  logic signed [VoltageSumW-1:0] voltage_offset_q;
+  logic signed [CurrentSumW-1:0] current_of_tau_hat_q;
   logic                          fixes;
-  assign fixes = direct ? wave_i[feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE] : wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET];
+  assign fixes = voltage_mode ? at_direct_voltage_i : at_voltage_offset_i;
   always_ff @(posedge clk_i) begin
-    if (mode_i == Open || wave_i[CurrentLimit]) kept_q <= '0;
-    else if (wave_i[TauHat]) kept_q <= CurrentSumW'(product_i >>> TauHatDrop);
-    if (wave_i[Window]) fixed_q <= '0;
-    else if (fixes) fixed_q <= VoltageSumW'(applied);
+    if (mode_i == Open || param_is_current_limit_i) current_of_tau_hat_q <= '0;
+    else if (product_is_observer_gain_i) current_of_tau_hat_q <= CurrentSumW'(product_i >>> TauHatDrop);
+    if (param_is_voltage_window_i) voltage_offset_q <= '0;
+    else if (fixes) voltage_offset_q <= VoltageSumW'(applied);
   end
 
   // Each term is 0 outside its clock, so an OR forms the limiter's input. A register's synchronous
   // clear costs no logic, a multiplexer does. Disarmed, current and voltage are 0 at that input.
-  logic signed [ feltgate_pkg::TORQUE_W-1:0] border_q;
+  logic signed [ feltgate_pkg::TORQUE_W-1:0] compared_tau_ref_q;
   logic signed [feltgate_pkg::VOLTAGE_W : 0] error_q;
   logic signed [CurrentSumW-1:0] direct_q;
   logic signed [VoltageSumW-1:0] dead_q;
   logic signed [       SumW-1:0] base, product, sum_q;
   logic signed [   DutySumW-1:0] duty_q;
   logic                          less_emf;
-  assign less_emf = wave_i[Gain] && direct;
-  assign base    = SumW'(kept_q) | SumW'(fixed_q);
+  assign less_emf = product_is_voltage_gain_i && voltage_mode;
+  assign base    = SumW'(current_of_tau_hat_q) | SumW'(voltage_offset_q);
+  // Clock of torque_gain: the current of tau_ref; of voltage_gain: the voltage of the current.
   assign product = less_emf ? ~(SumW'(emf_q))
-                            : wave_i[Gain] ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
+                            : product_is_voltage_gain_i ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
   always_ff @(posedge clk_i) begin
-    if (!(wave_i[feltgate_map_pkg::EVENT_AT_BORDER] || wave_i[feltgate_map_pkg::EVENT_AT_HOLD_SIZE])) border_q <= '0;
-    else border_q <= tau_ref_i;
-    if (!(wave_i[Direct] && ramps)) direct_q <= '0;
+    if (!(at_border_i || at_hold_size_i)) compared_tau_ref_q <= '0;
+    else compared_tau_ref_q <= tau_ref_i;
+    if (!(product_is_voltage_to_current_i && voltage_armed)) direct_q <= '0;
     else direct_q <= CurrentSumW'(product_i >>> DirectDrop);
-    if (!(wave_i[Slope] && !direct)) dead_q <= '0;
+    if (!(product_is_dead_voltage_slope_i && !voltage_mode)) dead_q <= '0;
     else dead_q <= VoltageSumW'(product_i >>> DeadDrop);
-    if (!(wave_i[SetPoint] && ramps)) error_q <= '0;
+    if (!(param_is_voltage_setpoint_i && voltage_armed)) error_q <= '0;
     else error_q <= $signed(param_i[feltgate_pkg::VOLTAGE_W-1:0]) - voltage_o;
-    if (!((wave_i[TauRef] && follows) || (wave_i[Gain] && armed_i))) sum_q <= '0;
+    if (!((product_is_torque_gain_i && torque_armed) || (product_is_voltage_gain_i && armed_i))) sum_q <= '0;
     else sum_q <= product + base + SumW'({1'b0, less_emf});
-    if (!wave_i[Duty]) duty_q <= '0;
+    if (!product_is_duty_gain_i) duty_q <= '0;
     else duty_q <= DutySumW'(product_i >>> DutyDrop) + DutySumW'({1'b0, carry});
   end
-  assign early_term_o = Wide'(border_q) | Wide'(direct_q) | Wide'(dead_q);
+  assign early_term_o = Wide'(compared_tau_ref_q) | Wide'(direct_q) | Wide'(dead_q);
   assign late_term_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
 
   // The voltage saturates at the range of its port. The voltage at the motor is below the supply,
@@ -160,22 +165,25 @@ module torque_control (
       limit_duty_o    <= 1'b0;
     end else begin
       // The region of the voltage gain is decided before its word is fetched.
-      if (wave_i[feltgate_map_pkg::EVENT_AT_REGION]) region_high_o <= over_limit_i;
-      if (wave_i[feltgate_map_pkg::EVENT_AT_CURRENT]) begin
+      if (at_region_i) region_high_o <= over_limit_i;
+      if (at_current_i) begin
         current_ref_o   <= limited_i[feltgate_pkg::CURRENT_W-1:0];
         limit_current_o <= over_limit_i && armed_i;
       end
-      if (wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]) begin
+      if (at_voltage_i) begin
         voltage_o <= voltage_over ? {applied[AppliedSumW-1], {(VoltageW - 1) {~applied[AppliedSumW-1]}}}
                                   : applied[VoltageW-1:0];
         limit_voltage_o <= over_limit_i && armed_i;
       end
-      if (wave_i[feltgate_map_pkg::EVENT_AT_DUTY]) begin
+      if (at_duty_i) begin
         duty_o       <= limited_i[feltgate_pkg::DUTY_W-1:0];
         limit_duty_o <= over_limit_i;
       end
     end
   end
+
+  logic unused;
+  assign unused = ^param_i;  // a voltage has fewer bits than a word
 endmodule
 
 `default_nettype wire

@@ -10,10 +10,8 @@
 module encoder_monitor (
     input  logic        clk_i,
     input  logic        rst_ni,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
-    input  logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic        at_levels_i,
     input  logic [31:0] tick_count_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic [1:0]  levels_i,    // filtered levels of A (bit 0) and B
     input  logic        index_wrong_i,  // sticky: the count at an index does not fit
     input  logic [31:0] count_i,     // the decoder's count
@@ -33,7 +31,7 @@ module encoder_monitor (
   localparam int ChatterBits = feltgate_map_pkg::CHATTER_UNIT_BITS;
 
   logic sample, edge_unit, chatter_unit;
-  assign sample       = wave_i[feltgate_map_pkg::EVENT_AT_LEVELS];
+  assign sample       = at_levels_i;
   assign edge_unit    = tick_count_i[EdgeBits-1:0] == '0;
   assign chatter_unit = edge_unit && tick_count_i[ChatterBits-1:EdgeBits] == '0;
 
@@ -106,6 +104,9 @@ module encoder_monitor (
       flip_trip_o <= parity != parity_q && step_i == 2'd0 && !zeroed_q;
     end
   end
+
+  logic unused;
+  assign unused = ^tick_count_i;  // the block counts units of ticks
 endmodule
 
 `default_nettype wire

@@ -13,9 +13,13 @@ module dob (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
     input  logic                                                  armed_i,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0]       wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                                  at_drive_torque_i,
+    input  logic                                                  at_observer_input_i,
+    input  logic                                                  at_observer_difference_i,
+    input  logic                                                  at_observer_state_i,
+    input  logic                                                  at_observed_i,
+    input  logic                                                  at_observed_rounded_i,
+    input  logic                                                  at_tau_hat_i,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
     output logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] operand_o,
     output logic signed [feltgate_pkg::TORQUE_W-1:0]              tau_hat_o,   // Nm
@@ -45,18 +49,18 @@ module dob (
               (feltgate_pkg::ROUNDING == 2 && (beyond_half || observed_q[TorqueDrop]));
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_DRIVE_TORQUE]) begin
+    if (at_drive_torque_i) begin
       drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
     end
-    if (wave_i[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT]) begin
+    if (at_observer_input_i) begin
       inertia_q <= inertia;
       input_q   <= W'(drive_q) + W'(inertia);
     end
-    if (wave_i[feltgate_map_pkg::EVENT_AT_OBSERVED]) begin
+    if (at_observed_i) begin
       observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
     end
     // The highest dropped bit is the carry in; up masks it as the design's rounding says.
-    if (wave_i[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED]) begin
+    if (at_observed_rounded_i) begin
       rounded_q <= RoundedW'(observed_q >>> TorqueDrop) +
                    RoundedW'({1'b0, observed_q[TorqueDrop-1] && up});
     end
@@ -70,8 +74,8 @@ module dob (
   ) u_lowpass (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(wave_i[feltgate_map_pkg::EVENT_AT_OBSERVER_DIFFERENCE]),
-      .update_i(wave_i[feltgate_map_pkg::EVENT_AT_OBSERVER_STATE]),
+      .valid_i(at_observer_difference_i),
+      .update_i(at_observer_state_i),
       .follow_i(!armed_i),
       .x_i(input_q),
       .operand_o(operand_o),
@@ -86,7 +90,7 @@ module dob (
     if (!rst_ni) begin
       tau_hat_o   <= '0;
       saturated_o <= 1'b0;
-    end else if (wave_i[feltgate_map_pkg::EVENT_AT_TAU_HAT]) begin
+    end else if (at_tau_hat_i) begin
       tau_hat_o   <= rounded_q[TorqueW-1:0];
       saturated_o <= 1'b0;
       if (over) begin

@@ -34,9 +34,7 @@ module lowpass #(
 
   logic signed [Width-1:0] y_q;
 
-  /* verilator lint_off UNUSEDSIGNAL */  // the low bits are given up where the operand is narrower
   logic signed [Width:0] difference_q;
-  /* verilator lint_on UNUSEDSIGNAL */
   always_ff @(posedge clk_i) begin
     if (!valid_i) difference_q <= '0;
     else difference_q <= x_i - y_q;
@@ -46,9 +44,7 @@ module lowpass #(
   // {y,up} + {p,r}: the low bit carries exactly when the rounding bit r and up are set, so rounding
   // needs no second adder. With rounding to even, a tie goes up only from an odd sum.
   logic        [  Width:0] increment;
-  /* verilator lint_off UNUSEDSIGNAL */  // the bit that carries
   logic        [  Width:0] sum;
-  /* verilator lint_on UNUSEDSIGNAL */
   logic                    beyond_half, odd, up;
   assign increment = (Width + 1)'(product_i >>> (ProductDrop - 1));
   localparam logic [ProductW-1:0] Below = (ProductW'(1) << (ProductDrop - 1)) - ProductW'(1);
@@ -65,6 +61,9 @@ module lowpass #(
     end
   end
   assign y_o = y_q;
+
+  logic unused;
+  assign unused = ^{difference_q, sum};  // their lowest bits
 endmodule
 
 `default_nettype wire

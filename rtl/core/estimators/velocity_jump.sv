@@ -11,15 +11,12 @@
 module velocity_jump (
     input  logic                                            clk_i,
     input  logic                                            rst_ni,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock and the upper bits
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                            at_jump_i,
     input  logic signed [     feltgate_pkg::VELOCITY_W-1:0] velocity_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic                                            trip_o
 );
   localparam int W = feltgate_pkg::VELOCITY_W;
   localparam int Weight = W + feltgate_pkg::COEFFICIENT_BITS - feltgate_pkg::P_VELOCITY_A1_F;
-  localparam int Now = feltgate_map_pkg::EVENT_AT_JUMP;
 
   generate
   if (Weight >= 0 && Weight <= W - 2) begin : gen_compare
@@ -35,13 +32,15 @@ module velocity_jump (
         before_q <= '0;
         trip_o   <= 1'b0;
       end else begin
-        trip_o <= wave_i[Now] && !slow;
-        if (wave_i[Now]) before_q <= $signed(velocity_i[W-1:Weight]);
+        trip_o <= at_jump_i && !slow;
+        if (at_jump_i) before_q <= $signed(velocity_i[W-1:Weight]);
       end
     end
+    logic unused;
+    assign unused = ^velocity_i;
   end else begin : gen_none  // the filter may change by its whole range
     logic unused;
-    assign unused = ^{clk_i, rst_ni};
+    assign unused = ^{clk_i, rst_ni, at_jump_i, velocity_i};
     assign trip_o = 1'b0;
   end
   endgenerate

@@ -16,9 +16,11 @@ module velocity_n #(
 ) (
     input  logic                                                  clk_i,
     input  logic                                                  rst_ni,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0]       wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                                  at_sample_i,
+    input  logic                                                  at_travel_i,
+    input  logic                                                  at_velocity_raw_i,
+    input  logic                                                  at_velocity_difference_i,
+    input  logic                                                  at_velocity_i,
     input  logic signed [feltgate_pkg::TRAVEL_BITS-1:0]           travel_i,  // counts, wraps
     output logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] operand_o,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0]          product_i,
@@ -47,14 +49,14 @@ module velocity_n #(
   logic                       filled_q;
   logic signed [       T-1:0] travel_q, oldest_q, difference_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]) line[pointer_q] <= travel_q;
+    if (at_velocity_raw_i) line[pointer_q] <= travel_q;
     line_q <= line[pointer_q];
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       pointer_q <= '0;
       filled_q  <= 1'b0;
-    end else if (wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]) begin
+    end else if (at_velocity_difference_i) begin
       if (pointer_q == AddressW'(M1 - 1)) begin
         pointer_q <= '0;
         filled_q  <= 1'b1;
@@ -67,15 +69,15 @@ module velocity_n #(
   // No reset: the block RAM's output is late in the clock, so no logic may follow it.
   always_ff @(posedge clk_i) begin
     if (!filled_q) oldest_q <= '0;
-    else if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) oldest_q <= line_q;
+    else if (at_sample_i) oldest_q <= line_q;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       travel_q     <= '0;
       difference_q <= '0;
     end else begin
-      if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) travel_q <= travel_i;
-      if (wave_i[feltgate_map_pkg::EVENT_AT_TRAVEL]) difference_q <= travel_q - oldest_q;
+      if (at_sample_i) travel_q <= travel_i;
+      if (at_travel_i) difference_q <= travel_q - oldest_q;
     end
   end
 
@@ -105,7 +107,7 @@ module velocity_n #(
     if (!rst_ni) begin
       raw_q       <= '0;
       saturated_o <= 1'b0;
-    end else if (wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]) begin
+    end else if (at_velocity_raw_i) begin
       raw_q       <= raw;
       saturated_o <= 1'b0;
       if (over) begin
@@ -123,8 +125,8 @@ module velocity_n #(
   ) u_lowpass (
       .clk_i(clk_i),
       .rst_ni(rst_ni),
-      .valid_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]),
-      .update_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY]),
+      .valid_i(at_velocity_difference_i),
+      .update_i(at_velocity_i),
       .follow_i(1'b0),
       .x_i(raw_q),
       .operand_o(operand_o),

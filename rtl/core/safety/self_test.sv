@@ -15,11 +15,14 @@ module self_test (
     input  logic                                             direct_i,      // voltage mode: no test
     input  logic                                             waits_i,       // a lower axis tests first
     input  logic        [                               1:0] travel_i,      // counts, low bits
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits
     input  logic        [                              31:0] tick_count_i,
-    input  logic        [ feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                             at_sample_i,
+    input  logic                                             at_scene_rounded_i,
+    input  logic                                             at_self_test_quiet_i,
+    input  logic                                             at_self_test_over_i,
+    input  logic                                             at_self_test_turn_i,
+    input  logic                                             at_self_test_i,
     input  logic        [                              31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic                                             busy_o,        // the scene waits
     output logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]   early_term_o,       // +-beyond any limit, or 0
     output logic        [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] result_o,
@@ -28,8 +31,6 @@ module self_test (
   localparam int UnitBit = feltgate_map_pkg::SELF_TEST_UNIT_BITS;
   localparam int PatienceBit = feltgate_map_pkg::SELF_TEST_PATIENCE_BITS;
   localparam int CountW = feltgate_map_pkg::SELF_TEST_COUNT_BITS;
-  localparam int Turn = feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN;
-  localparam int Rounded = feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED;
   localparam int ResultW = feltgate_map_pkg::W_STATUS_SELF_TEST;
   localparam logic [ResultW-1:0] None = '0;
   localparam logic [ResultW-1:0] Right = ResultW'(feltgate_map_pkg::SELF_TEST_RIGHT);
@@ -42,7 +43,7 @@ module self_test (
     if (!rst_ni) begin
       now_q    <= '0;
       before_q <= '0;
-    end else if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) begin
+    end else if (at_sample_i) begin
       now_q    <= travel_i;
       before_q <= now_q;
     end
@@ -61,15 +62,15 @@ module self_test (
       quiet_q <= 1'b1;
       over_q  <= 1'b1;
     end else begin
-      if (wave_i[feltgate_map_pkg::EVENT_AT_SELF_TEST_QUIET]) quiet_q <= enough;
-      if (wave_i[feltgate_map_pkg::EVENT_AT_SELF_TEST_OVER]) over_q <= enough;
+      if (at_self_test_quiet_i) quiet_q <= enough;
+      if (at_self_test_over_i) over_q <= enough;
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       unit_q     <= 1'b0;
       patience_q <= 1'b0;
-    end else if (wave_i[Turn]) begin
+    end else if (at_self_test_turn_i) begin
       unit_q     <= tick_count_i[UnitBit];
       patience_q <= tick_count_i[PatienceBit];
     end
@@ -92,7 +93,7 @@ module self_test (
   assign net     = counts ? net_q + $signed({step[1], step[1], 1'b1}) : net_q;
   assign against = (first_q || second_q) && net == -End;
   assign failed  = rest_q && net_q != End;
-  assign trip_o  = wave_i[feltgate_map_pkg::EVENT_AT_SELF_TEST] && fail_q;
+  assign trip_o  = at_self_test_i && fail_q;
 
   logic runs;
   assign runs = armed_i && ((wait_q && !waits_i && still && !begins && !gives_up) || ((first_q || second_q) && !over_q));
@@ -102,7 +103,7 @@ module self_test (
       result_o <= None;
       late_q   <= 1'b0;
       fail_q   <= 1'b0;
-    end else if (wave_i[Turn]) begin
+    end else if (at_self_test_turn_i) begin
       // A pulse of 0 units (over_q: 0 >= 0) means no test.
       if (!armed_i) wait_q <= !over_q && !direct_i;
       else if (gives_up || begins) wait_q <= 1'b0;
@@ -120,7 +121,7 @@ module self_test (
 
   // No reset: the first wave while disarmed clears count_q, the wait state clears net_q.
   always_ff @(posedge clk_i) begin
-    if (wave_i[Turn]) begin
+    if (at_self_test_turn_i) begin
       if (!runs) count_q <= '0;
       else if (unit) count_q <= count_q + CountW'(1);
       if (wait_q) net_q <= '0;
@@ -135,8 +136,8 @@ module self_test (
       up_q   <= 1'b0;
       down_q <= 1'b0;
     end else begin
-      up_q   <= wave_i[Rounded] && armed_i && first_q;
-      down_q <= wave_i[Rounded] && armed_i && second_q;
+      up_q   <= at_scene_rounded_i && armed_i && first_q;
+      down_q <= at_scene_rounded_i && armed_i && second_q;
     end
   end
   assign early_term_o = {down_q, {(feltgate_pkg::SCENE_TORQUE_W - 1) {up_q}}};

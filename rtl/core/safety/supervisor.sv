@@ -23,11 +23,25 @@ module supervisor (
   input  logic               encoder_error_i,  // high in a clock with an illegal transition
   input  logic signed [feltgate_pkg::VELOCITY_W-1:0] velocity_i,     // rad/s, from EVENT_AT_VELOCITY + 1
   input  logic signed [feltgate_pkg::CURRENT_W-1:0]  current_ref_i,  // of the previous tick
-  /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-  input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+  input  logic               at_estimate_part_i,
+  input  logic               at_current_estimate_i,
+  input  logic               at_speed_size_i,
+  input  logic               param_is_overspeed_i,
+  input  logic               at_current_squared_i,
+  input  logic               at_nominal_i,
+  input  logic               at_speed_i,
+  input  logic               at_growth_size_i,
+  input  logic               param_is_i2t_budget_i,
+  input  logic               at_heat_i,
+  input  logic               at_strong_size_i,
+  input  logic               param_is_polarity_speed_i,
+  input  logic               param_is_polarity_current_i,
+  input  logic               param_is_polarity_ticks_i,
+  input  logic               at_polarity_i,
+  input  logic               param_is_watchdog_ticks_i,
+  input  logic               at_watchdog_i,
   input  logic        [31:0] param_i,
   input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
-  /* verilator lint_on UNUSEDSIGNAL */
   output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,
   output logic               armed_o,          // changes only at tick_i
   output logic               gates_enable_o,   // falls at once on a fault
@@ -98,21 +112,21 @@ module supervisor (
   assign over       = param_i[31] || {param_i[30:0], 1'b0} < twice_size;
 
   always_ff @(posedge clk_i) begin
-    if (!wave_i[feltgate_map_pkg::EVENT_AT_SPEED_SIZE]) speed_q <= '0;
+    if (!at_speed_size_i) speed_q <= '0;
     else speed_q <= velocity_i;
-    if (!wave_i[feltgate_map_pkg::EVENT_AT_GROWTH_SIZE]) gained_q <= '0;
+    if (!at_growth_size_i) gained_q <= '0;
     else gained_q <= gained;
-    if (!wave_i[feltgate_map_pkg::EVENT_AT_STRONG_SIZE]) current_q <= '0;
+    if (!at_strong_size_i) current_q <= '0;
     else current_q <= current_ref_i;
   end
 
   // Cause 2, over-speed: |velocity| > overspeed.
   logic too_fast_q;
 
-  assign speed_trip = wave_i[feltgate_map_pkg::EVENT_AT_SPEED] && too_fast_q;
+  assign speed_trip = at_speed_i && too_fast_q;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::PARAM_AT_OVERSPEED]) too_fast_q <= over;
+    if (param_is_overspeed_i) too_fast_q <= over;
   end
 
   // Two tick counters share an adder and a comparator: cause 3 uses them in the clock in which its
@@ -129,7 +143,7 @@ module supervisor (
   logic [RUNAWAY_W-1:0]  next_ticks_q;
   logic                  of_runaway, full, in_reach, expired, expired_q;
 
-  assign of_runaway = wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_TICKS];
+  assign of_runaway = param_is_polarity_ticks_i;
   assign ticks      = of_runaway ? KICKLESS_W'(runaway_ticks_q) : kickless_ticks_q;
   assign next_ticks = ticks + KICKLESS_W'(1);
   assign full       = of_runaway ? runaway_ticks_q[RUNAWAY_W-1] : kickless_ticks_q[KICKLESS_W-1];
@@ -151,18 +165,18 @@ module supervisor (
 
   assign against       = strong_q && gates_enable_o && (velocity_i[feltgate_pkg::VELOCITY_W-1] !=
                                                         current_ref_i[feltgate_pkg::CURRENT_W-1]);
-  assign polarity_trip = wave_i[feltgate_map_pkg::EVENT_AT_POLARITY] && against && expired_q && grows_q &&
+  assign polarity_trip = at_polarity_i && against && expired_q && grows_q &&
                          grown_q == '1;
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_SPEED])
+    if (param_is_polarity_speed_i)
       grows_q <= over && signal[31] == velocity_i[feltgate_pkg::VELOCITY_W-1];
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_CURRENT]) strong_q <= over;
+    if (param_is_polarity_current_i) strong_q <= over;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_POLARITY]) begin
+    if (at_polarity_i) begin
       if (against && !expired_q) runaway_ticks_q <= next_ticks_q;
       else begin
         runaway_ticks_q <= RUNAWAY_W'(1);
@@ -185,11 +199,11 @@ module supervisor (
   assign part_w = product_i[W_DROP+:PART_W];
 
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_ESTIMATE_PART]) part_v_q <= product_i[V_DROP+:PART_W];
+    if (at_estimate_part_i) part_v_q <= product_i[V_DROP+:PART_W];
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) current_estimate_o <= '0;
-    else if (wave_i[feltgate_map_pkg::EVENT_AT_CURRENT_ESTIMATE])
+    else if (at_current_estimate_i)
       current_estimate_o <= (PART_W + 1)'(part_v_q) - (PART_W + 1)'(part_w);
   end
 
@@ -209,10 +223,10 @@ module supervisor (
   logic                        too_hot_q;
 
   assign rest     = $signed({1'b0, sum_q}) - $signed((SUM_W + 1)'(nominal_q));
-  assign i2t_trip = wave_i[feltgate_map_pkg::EVENT_AT_HEAT] && too_hot_q;
+  assign i2t_trip = at_heat_i && too_hot_q;
 
   always_ff @(posedge clk_i) begin
-    if (!wave_i[feltgate_map_pkg::EVENT_AT_NOMINAL] || param_i[31]) nominal_q <= '0;
+    if (!at_nominal_i || param_i[31]) nominal_q <= '0;
     else nominal_q <= param_i[30:0];
   end
   always_ff @(posedge clk_i) begin
@@ -220,20 +234,20 @@ module supervisor (
     else cooled_q <= rest[SUM_W-1:0];
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::PARAM_AT_I2T_BUDGET]) too_hot_q <= sum_q >= SUM_W'(param_i);
+    if (param_is_i2t_budget_i) too_hot_q <= sum_q >= SUM_W'(param_i);
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_CURRENT_SQUARED])
+    if (at_current_squared_i)
       square_q <= (armed_o && !sum_q[SUM_W-1]) ? product_i[SQUARED_DROP+:SQUARED_W] : '0;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_HEAT]) sum_q <= cooled_q + SUM_W'(square_q);
+    if (at_heat_i) sum_q <= cooled_q + SUM_W'(square_q);
   end
 
   // Cause 5, host watchdog: watchdog_ticks ticks without a kick, from the first kick on.
   logic awake_q, silent_q;
 
-  assign watchdog_trip = wave_i[feltgate_map_pkg::EVENT_AT_WATCHDOG] && gates_enable_o && awake_q &&
+  assign watchdog_trip = at_watchdog_i && gates_enable_o && awake_q &&
                          silent_q;
 
   assign unkicked_o = feltgate_pkg::REQUIRE_WATCHDOG != 0 && !awake_q;
@@ -243,7 +257,7 @@ module supervisor (
     else if (kick_i) awake_q <= 1'b1;
   end
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::PARAM_AT_WATCHDOG_TICKS]) silent_q <= expired || param_i[31];
+    if (param_is_watchdog_ticks_i) silent_q <= expired || param_i[31];
   end
   always_ff @(posedge clk_i) begin
     if (tick_i) begin
@@ -360,6 +374,9 @@ module supervisor (
     end
   end
 
+
+  logic unused;
+  assign unused = ^product_i;  // the estimate takes its bits of a product
 endmodule
 
 `default_nettype wire

@@ -17,10 +17,16 @@ module scene_charge (
     input  logic                                            attract_i,  // selects, attracting
     input  logic                                            repel_i,    // selects, repelling
     input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                     [17:0] division_i,  // one-hot; bit 0: the square is on product_i; 1 to 17: the divider's clocks
+    input  logic                                            at_scene_distance_i,
+    input  logic                                            param_is_attract_strength_i,
+    input  logic                                            param_was_attract_strength_i,
+    input  logic                                            at_charge_width_limited_i,
+    input  logic                                            at_charge_core_i,
+    input  logic                                            product_is_attract_core_slope_i,
+    input  logic                                            product_is_repel_core_slope_i,
+    input  logic                                            after_charge_core_i,
     input  logic        [                             31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [   feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic                                            over_limit_i,   // from the limiter
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] plus_o,
@@ -35,11 +41,7 @@ module scene_charge (
   localparam int ForceW = 17;  // the quotient with its sign, [1,0,ChargeF]
   localparam int Up = (TorqueF > ChargeF) ? TorqueF - ChargeF : 0;
   localparam int Down = (TorqueF < ChargeF) ? ChargeF - TorqueF : 0;
-  localparam int Square = feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE;
-  localparam int Strength = feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH;
-  localparam int Core = feltgate_map_pkg::EVENT_AT_CHARGE_CORE;
-  localparam int First = Square + 1;  // first clock of the divider
-  localparam int Last = First + 16;
+  localparam int Last = 17;  // last clock of the divider
 
   logic select, minus_q;
   assign select = attract_i || repel_i;
@@ -57,26 +59,26 @@ module scene_charge (
   logic        busy_q, bring_q, fits, takes_q, saturated_q, huge;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) busy_q <= 1'b0;
-    else busy_q <= wave_i[First-1] || (busy_q && !wave_i[Last]);
+    else busy_q <= division_i[0] || (busy_q && !division_i[Last]);
   end
   // The strength's next bit, selected one clock ahead.
-  always_ff @(posedge clk_i) bring_q <= (rest_q & wave_i[Last-1:First-1]) != '0;
+  always_ff @(posedge clk_i) bring_q <= (rest_q & division_i[16:0]) != '0;
   assign difference = {2'b0, remainder_q, bring_q} - {1'b0, square_q};
   assign fits       = !difference[33];
   assign huge       = product_i[DistanceF+34:DistanceF+32] != '0;
   always_ff @(posedge clk_i) begin
-    if (wave_i[Strength]) preset_q <= param_i[31:17];
+    if (param_is_attract_strength_i) preset_q <= param_i[31:17];
     else preset_q <= '0;
-    if (wave_i[Strength]) begin
+    if (param_is_attract_strength_i) begin
       for (int k = 0; k < 17; k++) rest_q[k] <= param_i[16-k];  // the highest comes first
       minus_q <= attract_i != (!gap_i[GapW-1] && gap_i != '0);  // sgn(0) is +1
     end
-    takes_q     <= !wave_i[First-1];
-    saturated_q <= wave_i[First] && fits;
+    takes_q     <= !division_i[0];
+    saturated_q <= division_i[1] && fits;
     if (saturated_q) square_q <= '0;
-    else if (wave_i[First-1]) square_q <= {huge, product_i[DistanceF+:32]};
-    if (wave_i[Strength]) remainder_q <= '0;
-    else if (wave_i[Strength+1] || busy_q) begin
+    else if (division_i[0]) square_q <= {huge, product_i[DistanceF+:32]};
+    if (param_is_attract_strength_i) remainder_q <= '0;
+    else if (param_was_attract_strength_i || busy_q) begin
       remainder_q <= (fits && takes_q ? difference[30:0] : {remainder_q[29:0], bring_q}) | 31'(preset_q);
     end
   end
@@ -86,9 +88,9 @@ module scene_charge (
   logic signed [ForceW-1:0] outside_q;
   logic                     near_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[First]) quotient_q <= '0;
+    if (division_i[1]) quotient_q <= '0;
     else if (busy_q) quotient_q <= {quotient_q[14:0], fits};
-    if (!armed_i || !select || near_q || !busy_q || wave_i[First]) outside_q <= '0;
+    if (!armed_i || !select || near_q || !busy_q || division_i[1]) outside_q <= '0;
     else outside_q <= {(fits && minus_q) ? ~quotient_q : outside_q[ForceW-2:0], fits};
   end
   localparam int WideW = (TorqueW > ForceW) ? TorqueW : ForceW;
@@ -99,11 +101,11 @@ module scene_charge (
   // Core: |x| <= half-width; the limiter compares them. A half-width of 0 means no core.
   logic none_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH_LIMITED]) begin
+    if (at_charge_width_limited_i) begin
       none_q <= param_i[feltgate_pkg::LIMITER_W-1:0] == '0;
     end
-    if (wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]) near_q <= 1'b0;
-    else if (wave_i[Core]) near_q <= !over_limit_i && !none_q;
+    if (at_scene_distance_i) near_q <= 1'b0;
+    else if (at_charge_core_i) near_q <= !over_limit_i && !none_q;
   end
 
   // slope * -x attracts; its negative repels.
@@ -121,10 +123,10 @@ module scene_charge (
       .part_o(repel)
   );
   always_ff @(posedge clk_i) begin
-    if (!attract_i || (wave_i[Core+1] && !near_q)) plus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_ATTRACT_CORE_SLOPE]) plus_o <= attract;
-    if (!repel_i || (wave_i[Core+1] && !near_q)) minus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_REPEL_CORE_SLOPE]) minus_o <= repel;
+    if (!attract_i || (after_charge_core_i && !near_q)) plus_o <= '0;
+    else if (product_is_attract_core_slope_i) plus_o <= attract;
+    if (!repel_i || (after_charge_core_i && !near_q)) minus_o <= '0;
+    else if (product_is_repel_core_slope_i) minus_o <= repel;
   end
 
   logic unused;

@@ -10,9 +10,7 @@
 module scene_damper (
     input  logic                                         clk_i,
     input  logic                                         select_i,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock off the wave
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                         product_is_damper_damping_i,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] minus_o
 );
@@ -26,7 +24,7 @@ module scene_damper (
 
   always_ff @(posedge clk_i) begin
     if (!select_i) minus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_DAMPER_DAMPING]) minus_o <= part;
+    else if (product_is_damper_damping_i) minus_o <= part;
   end
 endmodule
 

@@ -14,25 +14,23 @@ module scene_membrane (
     input  logic                                     select_i,
     input  logic                                     gap_negative_i,  // sign of face - position
     input  logic                                     gap_zero_i,      // whole counts are 0
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                     param_is_membrane_lower_i,
+    input  logic                                     param_is_membrane_upper_i,
+    input  logic                                     param_was_membrane_upper_i,
+    input  logic                                     param_is_membrane_torque_i,
     input  logic        [                      31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic signed [feltgate_pkg::TORQUE_W-1:0] plus_o,   // lever came from above
     output logic signed [feltgate_pkg::TORQUE_W-1:0] minus_o   // lever came from below
 );
   localparam int W = feltgate_pkg::TORQUE_W;
-  localparam int Lower = feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER;
-  localparam int Upper = feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER;
-  localparam int Torque = feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE;
 
   logic below_q, above_q;
   always_ff @(posedge clk_i) begin
-    if (wave_i[Lower]) begin
+    if (param_is_membrane_lower_i) begin
       below_q <= !gap_negative_i &&
                  (!gap_zero_i || param_i[feltgate_pkg::SCENE_OFFSET_F-1:0] != '0);
     end
-    if (wave_i[Upper]) above_q <= gap_negative_i;
+    if (param_is_membrane_upper_i) above_q <= gap_negative_i;
   end
 
   // The side on which the lever was last outside is the side of entry.
@@ -43,7 +41,7 @@ module scene_membrane (
       side_q <= 1'b0;
     end else if (!select_i) begin
       seen_q <= 1'b0;
-    end else if (wave_i[Upper+1] && (below_q || above_q)) begin
+    end else if (param_was_membrane_upper_i && (below_q || above_q)) begin
       seen_q <= 1'b1;
       side_q <= above_q && !below_q;
     end
@@ -52,12 +50,12 @@ module scene_membrane (
   // A negative torque word counts as 0: it would drive the lever further in.
   logic engaged, refused;
   assign engaged = select_i && seen_q && !below_q && !above_q;
-  assign refused = wave_i[Torque] && param_i[W-1];
+  assign refused = param_is_membrane_torque_i && param_i[W-1];
   always_ff @(posedge clk_i) begin
     if (!engaged || !side_q || refused) plus_o <= '0;
-    else if (wave_i[Torque]) plus_o <= param_i[W-1:0];
+    else if (param_is_membrane_torque_i) plus_o <= param_i[W-1:0];
     if (!engaged || side_q || refused) minus_o <= '0;
-    else if (wave_i[Torque]) minus_o <= param_i[W-1:0];
+    else if (param_is_membrane_torque_i) minus_o <= param_i[W-1:0];
   end
 endmodule
 

@@ -10,18 +10,19 @@
 module scene_setpoint (
     input  logic                                     clk_i,
     input  logic                                     select_i,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clock and bits off the buses
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
+    input  logic                                     param_is_setpoint_torque_i,
     input  logic        [                      31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic signed [feltgate_pkg::TORQUE_W-1:0] plus_o
 );
   always_ff @(posedge clk_i) begin
     if (!select_i) plus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE]) begin
+    else if (param_is_setpoint_torque_i) begin
       plus_o <= param_i[feltgate_pkg::TORQUE_W-1:0];
     end
   end
+
+  logic unused;
+  assign unused = ^param_i;  // a torque has fewer bits than a word
 endmodule
 
 `default_nettype wire

@@ -13,9 +13,7 @@ module scene_spring (
     input  logic                                         tension_i,      // selects; at most one
     input  logic                                         compression_i,
     input  logic                                         behind_i,       // distance is negative
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                         product_is_scene_stiffness_i,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] plus_o
 );
@@ -29,7 +27,7 @@ module scene_spring (
 
   always_ff @(posedge clk_i) begin
     if (!tension_i && (!compression_i || behind_i)) plus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_SCENE_STIFFNESS]) plus_o <= part;
+    else if (product_is_scene_stiffness_i) plus_o <= part;
   end
 endmodule
 

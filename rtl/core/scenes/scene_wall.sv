@@ -12,9 +12,8 @@ module scene_wall (
     input  logic                                         clk_i,
     input  logic                                         select_i,
     input  logic                                         behind_i,  // distance is negative
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                         product_is_wall_stiffness_i,
+    input  logic                                         product_is_wall_damping_i,
     input  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] plus_o,    // spring
     output logic signed [feltgate_pkg::SCENE_PART_W-1:0] minus_o    // damper
@@ -45,14 +44,14 @@ module scene_wall (
   assign over     = negative && product_i[feltgate_pkg::PRODUCT_BITS-1:Top] != '1;
   always_ff @(posedge clk_i) begin
     if (!select_i || !behind_i) plus_o[W-1] <= 1'b0;
-    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS]) plus_o[W-1] <= negative;
-    if (!select_i || !behind_i || (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS] && over)) begin
+    else if (product_is_wall_stiffness_i) plus_o[W-1] <= negative;
+    if (!select_i || !behind_i || (product_is_wall_stiffness_i && over)) begin
       plus_o[W-2:0] <= '0;
-    end else if (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS]) begin
+    end else if (product_is_wall_stiffness_i) begin
       plus_o[W-2:0] <= spring[W-2:0];
     end
     if (!select_i || !behind_i) minus_o <= '0;
-    else if (wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_DAMPING]) minus_o <= damper;
+    else if (product_is_wall_damping_i) minus_o <= damper;
   end
 
   logic unused;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// All scenes, with one distance from the reference, one sum of their terms and one rounding. A
-// scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
+// Room: all scenes, with one distance from the reference, one sum of their terms and one rounding.
+// A scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
 // reference's word, for two clocks. The torque, rounded but not limited, is on early_term_o in the clock
 // before the torque limit's word, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
 // charge's distance, which the limiter compares with the core's half-width, and late_term_o shows
@@ -17,10 +17,8 @@ module scenes #(
     input  logic                                             rst_ni,
     input  logic                                             armed_i,
     input  logic        [                               3:0] scene_i,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks and bits off the buses
     input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                              31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] position_i,  // counts
     input  logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic                                             over_limit_i,  // from the limiter
@@ -30,7 +28,7 @@ module scenes #(
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // square the distance
     output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,  // one clock before its limit
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o    // with its limit
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o    // with its limit; charges only
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -38,9 +36,9 @@ module scenes #(
   localparam int OffsetF = feltgate_pkg::SCENE_OFFSET_F;
   localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
   localparam int Guard = feltgate_pkg::SCENE_GUARD_BITS;
-  localparam int Reference = feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE;
-  localparam int Sum = feltgate_map_pkg::EVENT_AT_SCENE_SUM;
-  localparam int Rounded = feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED;
+  localparam int AtDistance = feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE;
+  localparam int AtSum = feltgate_map_pkg::EVENT_AT_SCENE_SUM;
+  localparam int AtRounded = feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED;
 
   logic setpoint, membrane, compression, tension, damper, attract, repel, wall;
   assign setpoint    = Mask[{1'b0, feltgate_map_pkg::SCENE_SETPOINT}] &&
@@ -71,9 +69,9 @@ module scenes #(
   assign gap      = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
   assign fraction = param_i[OffsetF-1:0];
   always_ff @(posedge clk_i) begin
-    if (wave_i[Reference]) gap_q <= gap;
-    held_q <= wave_i[Reference];
-    if (wave_i[Reference]) distance_o <= {gap, square_o ? {OffsetF{1'b0}} : fraction};
+    if (wave_i[AtDistance]) gap_q <= gap;
+    held_q <= wave_i[AtDistance];
+    if (wave_i[AtDistance]) distance_o <= {gap, square_o ? {OffsetF{1'b0}} : fraction};
     else if (!held_q) distance_o <= '0;
   end
 
@@ -85,7 +83,7 @@ module scenes #(
     scene_setpoint u_setpoint (
         .clk_i(clk_i),
         .select_i(setpoint),
-        .wave_i(wave_i),
+        .param_is_setpoint_torque_i(wave_i[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE]),
         .param_i(param_i),
         .plus_o(setpoint_plus)
     );
@@ -100,7 +98,10 @@ module scenes #(
         .select_i(membrane),
         .gap_negative_i(gap[GapW-1]),
         .gap_zero_i(gap == '0),
-        .wave_i(wave_i),
+        .param_is_membrane_lower_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER]),
+        .param_is_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER]),
+        .param_was_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER+1]),
+        .param_is_membrane_torque_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE]),
         .param_i(param_i),
         .plus_o(membrane_plus),
         .minus_o(membrane_minus)
@@ -117,7 +118,7 @@ module scenes #(
         .tension_i(tension),
         .compression_i(compression),
         .behind_i(gap_q[GapW-1]),
-        .wave_i(wave_i),
+        .product_is_scene_stiffness_i(wave_i[feltgate_map_pkg::PRODUCT_AT_SCENE_STIFFNESS]),
         .product_i(product_i),
         .plus_o(spring_plus)
     );
@@ -129,7 +130,7 @@ module scenes #(
     scene_damper u_damper (
         .clk_i(clk_i),
         .select_i(damper),
-        .wave_i(wave_i),
+        .product_is_damper_damping_i(wave_i[feltgate_map_pkg::PRODUCT_AT_DAMPER_DAMPING]),
         .product_i(product_i),
         .minus_o(damper_minus)
     );
@@ -145,7 +146,15 @@ module scenes #(
         .attract_i(attract),
         .repel_i(repel),
         .gap_i(gap_q),
-        .wave_i(wave_i),
+        .division_i(wave_i[feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE+:18]),
+        .at_scene_distance_i(wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
+        .param_is_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),
+        .param_was_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH+1]),
+        .at_charge_width_limited_i(wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH_LIMITED]),
+        .at_charge_core_i(wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_CORE]),
+        .product_is_attract_core_slope_i(wave_i[feltgate_map_pkg::PRODUCT_AT_ATTRACT_CORE_SLOPE]),
+        .product_is_repel_core_slope_i(wave_i[feltgate_map_pkg::PRODUCT_AT_REPEL_CORE_SLOPE]),
+        .after_charge_core_i(wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_CORE+1]),
         .param_i(param_i),
         .product_i(product_i),
         .over_limit_i(over_limit_i),
@@ -165,7 +174,8 @@ module scenes #(
         .clk_i(clk_i),
         .select_i(wall),
         .behind_i(gap_q[GapW-1]),
-        .wave_i(wave_i),
+        .product_is_wall_stiffness_i(wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS]),
+        .product_is_wall_damping_i(wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_DAMPING]),
         .product_i(product_i),
         .plus_o(wall_plus),
         .minus_o(wall_minus)
@@ -182,7 +192,7 @@ module scenes #(
   assign plus  = spring_plus | charge_plus | wall_plus | (PartW'(membrane_plus) <<< Guard);
   assign minus = damper_minus | charge_minus | wall_minus | (PartW'(membrane_minus) <<< Guard);
   always_ff @(posedge clk_i) begin
-    if (wave_i[Sum]) sum_q <= (PartW + 1)'(plus) - (PartW + 1)'(minus);
+    if (wave_i[AtSum]) sum_q <= (PartW + 1)'(plus) - (PartW + 1)'(minus);
   end
 
   // A scene that subtracts its product (damper, repelling charge) gives the negative of the rounded
@@ -197,24 +207,24 @@ module scenes #(
   );
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] rounded_q;
   logic signed [                     TorqueW-1:0] word_q, law_q;  // already a torque: no rounding
-  logic signed [                        GapW-1:0] width_q;
+  logic signed [                        GapW-1:0] charge_distance_q;
   always_ff @(posedge clk_i) begin
-    if (!wave_i[Rounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
+    if (!wave_i[AtRounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
     else rounded_q <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard])) +
                       feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
-    if (!wave_i[Rounded] || !armed_i) word_q <= '0;
+    if (!wave_i[AtRounded] || !armed_i) word_q <= '0;
     else word_q <= setpoint_plus;
     if (!wave_i[feltgate_map_pkg::EVENT_AT_LAW_TORQUE] || !armed_i || !law_o || law_late_i) law_q <= '0;
     else law_q <= law_torque_i;
-    if (!wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH]) width_q <= '0;
-    else width_q <= gap_q;
+    if (!wave_i[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH]) charge_distance_q <= '0;
+    else charge_distance_q <= gap_q;
   end
   assign early_term_o = rounded_q | feltgate_pkg::SCENE_TORQUE_W'(word_q) |
-                        feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(width_q);
+                        feltgate_pkg::SCENE_TORQUE_W'(law_q) | feltgate_pkg::SCENE_TORQUE_W'(charge_distance_q);
 
   // Inputs without a load if fewer scenes are built.
   logic unused;
-  assign unused = ^{rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
+  assign unused = ^{wave_i, param_i, rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
 endmodule
 
 `default_nettype wire

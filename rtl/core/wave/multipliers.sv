@@ -11,17 +11,13 @@
 module multipliers (
     input  logic                                                  clk_i,
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] operand_i,  // the whole bus
-    /* verilator lint_off UNUSEDSIGNAL */  // where one multiplier is shared
     input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_i,
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] dob_i,
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] scene_i,
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] control_i,
     input  logic signed [    feltgate_pkg::MULTIPLIER_A_BITS-1:0] supervisor_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                                  signed_i,  // param_i is signed
-    /* verilator lint_off UNUSEDSIGNAL */  // as many bits as a coefficient has
     input  logic        [                                   31:0] param_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     input  logic                                                  square_distance_i,
     input  logic signed [                                   17:0] distance_i,  // one of them is 0
     input  logic                                                  square_estimate_i,
@@ -51,6 +47,8 @@ module multipliers (
     assign scene_product_o      = product;
     assign control_product_o    = product;
     assign supervisor_product_o = product;
+    logic unused;
+    assign unused = ^{velocity_i, dob_i, scene_i, control_i, supervisor_i, param_i};
   end else begin : gen_parallel
     // One multiplier per block, same timing: no operand uses the core's operand bus.
     mult u_velocity (
@@ -84,7 +82,7 @@ module multipliers (
         .product_o(supervisor_product_o)
     );
     logic unused;
-    assign unused = ^operand_i;
+    assign unused = ^{operand_i, param_i};
   end
   endgenerate
 endmodule

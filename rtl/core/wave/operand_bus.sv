@@ -9,9 +9,17 @@
 
 module operand_bus (
     input  logic                                                  clk_i,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic                                                  param_next_inverse_resistance_i,
+    input  logic                                                  param_next_emf_over_resistance_i,
+    input  logic                                                  param_next_torque_constant_i,
+    input  logic                                                  param_next_inertia_gain_i,
+    input  logic                                                  param_next_damper_damping_i,
+    input  logic                                                  param_next_current_square_i,
+    input  logic                                                  param_next_emf_constant_i,
+    input  logic                                                  param_next_observer_gain_i,
+    input  logic                                                  param_next_voltage_to_current_i,
+    input  logic                                                  param_next_torque_gain_i,
+    input  logic                                                  param_next_dead_voltage_slope_i,
     // These are 0 outside their clocks.
     input  logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference_i,
     input  logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference_i,
@@ -45,20 +53,20 @@ module operand_bus (
   // A value that is new in its first bus clock is gated by a select made one clock ahead. The other
   // values are copied one clock ahead.
   always_ff @(posedge clk_i) begin
-    take_velocity_q <= wave_i[feltgate_map_pkg::PARAM_AT_EMF_OVER_RESISTANCE-1] ||
-                       wave_i[feltgate_map_pkg::PARAM_AT_INERTIA_GAIN-1] ||
-                       wave_i[feltgate_map_pkg::PARAM_AT_DAMPER_DAMPING-1] ||
-                       wave_i[feltgate_map_pkg::PARAM_AT_EMF_CONSTANT-1];
-    take_tau_hat_q  <= wave_i[feltgate_map_pkg::PARAM_AT_OBSERVER_GAIN-1];
-    take_tau_ref_q  <= wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_GAIN-1] ||
-                       wave_i[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE_SLOPE-1];
-    if (!wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_CONSTANT-1]) current_q <= '0;
+    take_velocity_q <= param_next_emf_over_resistance_i ||
+                       param_next_inertia_gain_i ||
+                       param_next_damper_damping_i ||
+                       param_next_emf_constant_i;
+    take_tau_hat_q  <= param_next_observer_gain_i;
+    take_tau_ref_q  <= param_next_torque_gain_i ||
+                       param_next_dead_voltage_slope_i;
+    if (!param_next_torque_constant_i) current_q <= '0;
     else current_q <= current_ref_i;
-    if (!(wave_i[feltgate_map_pkg::PARAM_AT_INVERSE_RESISTANCE-1] ||
-          wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_TO_CURRENT-1])) voltage_q <= '0;
+    if (!(param_next_inverse_resistance_i ||
+          param_next_voltage_to_current_i)) voltage_q <= '0;
     else voltage_q <= voltage_i;
-    square_estimate_q <= wave_i[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE-1];
-    if (!wave_i[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE-1]) estimate_q <= '0;
+    square_estimate_q <= param_next_current_square_i;
+    if (!param_next_current_square_i) estimate_q <= '0;
     else estimate_q <= current_estimate_i;
   end
   assign velocity  = take_velocity_q ? velocity_i : '0;

@@ -208,9 +208,7 @@ module registers #(
     (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
     logic [31:0] snapshot_ram [0:127];
     logic        write_bank_q, frozen_q, read_bank;
-    /* verilator lint_off UNUSEDSIGNAL */  // the check stays behind
     logic [35:0] parameter_q;
-    /* verilator lint_on UNUSEDSIGNAL */
     logic [31:0] parameter_q2, snapshot_q, snapshot_q2;
     logic        at_snapshot;
     // Source of the addressed word: 1 parameter, 2 snapshot, 3 control, 0 none (reads 0).
@@ -228,6 +226,8 @@ module registers #(
     end
     always_ff @(posedge clk_i) snapshot_q <= snapshot_ram[{read_bank, reg_addr_i[5:0]}];
     always_ff @(posedge clk_i) parameter_q <= parameter_ram[reg_addr_i[8:0]];
+    logic unused;
+    assign unused = ^parameter_q;  // the check stays behind
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin

@@ -13,9 +13,18 @@ module snapshot #(
     input  logic               clk_i,
     input  logic               rst_ni,
     input  logic        [ 5:0] slot_fetch_i,
-    /* verilator lint_off UNUSEDSIGNAL */  // the block takes its own clocks off the wave
-    input  logic        [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
-    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic               read_status_i,
+    input  logic               read_position_i,
+    input  logic               read_tick_i,
+    input  logic               read_velocity_i,
+    input  logic               read_index_i,
+    input  logic               read_encoder_i,
+    input  logic               read_tau_hat_i,
+    input  logic               read_faults_i,
+    input  logic               read_tau_ref_i,
+    input  logic               read_current_ref_i,
+    input  logic               read_voltage_i,
+    input  logic               read_duty_i,
     input  logic        [31:0] status_i,
     input  logic        [31:0] faults_i,
     input  logic signed [31:0] position_i,
@@ -37,19 +46,19 @@ module snapshot #(
   if (ReadBack != 0) begin : gen_words
     logic [31:0] word;
     logic        valid;
-    assign word = (wave_i[feltgate_map_pkg::READ_AT_STATUS] ? status_i : '0) |
-                  (wave_i[feltgate_map_pkg::READ_AT_FAULTS] ? faults_i : '0) |
-                  (wave_i[feltgate_map_pkg::READ_AT_POSITION] ? position_i : '0) |
-                  (wave_i[feltgate_map_pkg::READ_AT_TICK] ? tick_count_i : '0) |
-                  (wave_i[feltgate_map_pkg::READ_AT_INDEX] ? index_position_i : '0) |
-                  (wave_i[feltgate_map_pkg::READ_AT_ENCODER] ? {rejected_count_i, error_count_i} : '0);
+    assign word = (read_status_i ? status_i : '0) |
+                  (read_faults_i ? faults_i : '0) |
+                  (read_position_i ? position_i : '0) |
+                  (read_tick_i ? tick_count_i : '0) |
+                  (read_index_i ? index_position_i : '0) |
+                  (read_encoder_i ? {rejected_count_i, error_count_i} : '0);
     assign valid =
-        wave_i[feltgate_map_pkg::READ_AT_STATUS] || wave_i[feltgate_map_pkg::READ_AT_FAULTS] ||
-        wave_i[feltgate_map_pkg::READ_AT_POSITION] || wave_i[feltgate_map_pkg::READ_AT_TICK] || wave_i[feltgate_map_pkg::READ_AT_INDEX] ||
-        wave_i[feltgate_map_pkg::READ_AT_ENCODER] || wave_i[feltgate_map_pkg::READ_AT_VELOCITY] ||
-        wave_i[feltgate_map_pkg::READ_AT_TAU_HAT] || wave_i[feltgate_map_pkg::READ_AT_TAU_REF] ||
-        wave_i[feltgate_map_pkg::READ_AT_CURRENT_REF] || wave_i[feltgate_map_pkg::READ_AT_VOLTAGE] ||
-        wave_i[feltgate_map_pkg::READ_AT_DUTY];
+        read_status_i || read_faults_i ||
+        read_position_i || read_tick_i || read_index_i ||
+        read_encoder_i || read_velocity_i ||
+        read_tau_hat_i || read_tau_ref_i ||
+        read_current_ref_i || read_voltage_i ||
+        read_duty_i;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         valid_o <= 1'b0;
@@ -66,7 +75,9 @@ module snapshot #(
   end else begin : gen_none
     logic unused;
     assign unused  = ^{clk_i, rst_ni, slot_fetch_i, operand_i, status_i, faults_i, position_i, tick_count_i,
-                       index_position_i, error_count_i, rejected_count_i};
+                       index_position_i, error_count_i, rejected_count_i, read_status_i, read_faults_i,
+                       read_position_i, read_tick_i, read_index_i, read_encoder_i, read_velocity_i,
+                       read_tau_hat_i, read_tau_ref_i, read_current_ref_i, read_voltage_i, read_duty_i};
     assign valid_o = 1'b0;
     assign slot_o  = '0;
     assign data_o  = '0;

@@ -10,6 +10,7 @@
 #include "../../estimators/lowpass/exact.hpp"
 #include "../limiter/shared_limiter.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "ramp_twin.hpp"
 
 namespace feltgate::test {
@@ -37,7 +38,7 @@ struct Adapter {
     rtl.armed_i = in.port.armed;
     rtl.restart_i = in.port.restart;
     rtl.scene_i = static_cast<std::uint8_t>(in.port.scene);
-    rtl.wave_i = in.port.wave;
+    FELTGATE_STROBES(rtl, in.port.wave, at, T, ramp_begin, ramp_excess, ramp_change, tau_ref);
     rtl.param_i = in.port.param;
     rtl.limited_i = port_bits<Design::f.limiter.width()>(in.port.limited);
     rtl.over_limit_i = in.port.over_limit;

@@ -17,6 +17,7 @@
 #include "../limiter/shared_limiter.hpp"
 #include "feltgate/generated/reader.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "torque_control_twin.hpp"
 
 namespace feltgate::test {
@@ -140,7 +141,12 @@ struct Adapter {
   static void set_ports(Vtorque_control& rtl, const Control::In& in) {
     rtl.armed_i = in.armed;
     rtl.mode_i = static_cast<std::uint8_t>(in.mode);
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave, at, T, border, region, direct_voltage, current, hold_size,
+                     voltage_offset, voltage, duty);
+    FELTGATE_STROBES(rtl, in.wave, param_is, W, voltage_setpoint, voltage_step, current_limit,
+                     dead_voltage, voltage_window);
+    FELTGATE_STROBES(rtl, in.wave, product_is, M, emf_constant, observer_gain, voltage_to_current,
+                     torque_gain, dead_voltage_slope, voltage_gain, duty_gain);
     rtl.param_i = in.param;
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
     rtl.tau_ref_i = port_bits<Torque::width>(in.tau_ref);

@@ -49,8 +49,8 @@ echo changed >"$MACHINE/var/lib/dpkg/status" """,
 [ "$1" = -v ] && exit 0
 [ "$1" = -n ] && shift
 exec "$@" """,
-    # The real one: the launcher runs the project's scripts with it.
-    "python3": 'exec "$REAL_PYTHON" "$@"',
+    # The real one: the launcher runs the project's scripts with it. Nothing is fetched from PyPI.
+    "python3": 'case "$*" in *"-m venv"*) exit 1 ;; esac\nexec "$REAL_PYTHON" "$@"',
     "cmake": """
 while [ $# -gt 0 ]; do
   case $1 in -B) build=$2 ;; -DPython3_EXECUTABLE=*) python=${1#*=} ;; esac

@@ -34,7 +34,7 @@ module dob_cover #(
 endmodule
 
 bind dob dob_cover #(.ObservedW(ObservedW), .TorqueDrop(TorqueDrop)) u_cover (
-  .rounds(wave_i[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED]), .shows(wave_i[feltgate_map_pkg::EVENT_AT_TAU_HAT]),
+  .rounds(at_observed_rounded_i), .shows(at_tau_hat_i),
   .negative(rounded_q[RoundedW-1]), .*);
 
 `default_nettype wire

@@ -33,6 +33,6 @@ module hold_timer_cover #(
                                       param_i == 32'(units_q) && !derated_o);
 endmodule
 
-bind hold_timer hold_timer_cover #(.W(W)) u_cover (.now(wave_i[Hold]), .*);
+bind hold_timer hold_timer_cover #(.W(W)) u_cover (.now(at_hold_i), .*);
 
 `default_nettype wire

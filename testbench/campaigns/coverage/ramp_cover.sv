@@ -55,7 +55,7 @@ module ramp_cover #(
 endmodule
 
 bind ramp ramp_cover #(.W(W)) u_cover (
-  .begins(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]), .moves(wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF]),
-  .changes(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]), .*);
+  .begins(at_ramp_begin_i), .moves(at_tau_ref_i),
+  .changes(at_ramp_change_i), .*);
 
 `default_nettype wire

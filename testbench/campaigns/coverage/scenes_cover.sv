@@ -58,6 +58,6 @@ module scenes_cover #(
 endmodule
 
 bind scenes scenes_cover #(.Mask(Mask), .Guard(Guard), .PartW(PartW), .TorqueW(TorqueW),
-                           .SceneTorqueW(feltgate_pkg::SCENE_TORQUE_W)) u_cover (.rounds(wave_i[Rounded]), .*);
+                           .SceneTorqueW(feltgate_pkg::SCENE_TORQUE_W)) u_cover (.rounds(wave_i[AtRounded]), .*);
 
 `default_nettype wire

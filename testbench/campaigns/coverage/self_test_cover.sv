@@ -48,6 +48,6 @@ module self_test_cover (
   rests:               cover property (@(posedge clk_i) disable iff (!rst_ni) turn && rest_q);
 endmodule
 
-bind self_test self_test_cover u_cover (.turn(wave_i[Turn]), .*);
+bind self_test self_test_cover u_cover (.turn(at_self_test_turn_i), .*);
 
 `default_nettype wire

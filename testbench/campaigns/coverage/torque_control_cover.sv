@@ -42,6 +42,6 @@ module torque_control_cover (
 endmodule
 
 bind torque_control torque_control_cover u_cover (
-  .shows(wave_i[0]), .region(wave_i[feltgate_map_pkg::EVENT_AT_REGION]), .applies(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]), .*);
+  .shows(product_is_emf_constant_i), .region(at_region_i), .applies(at_voltage_i), .*);
 
 `default_nettype wire

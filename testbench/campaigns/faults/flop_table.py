@@ -64,6 +64,11 @@ def rank(name):
     return (kind, -name.count("."), len(name), name)
 
 
+def in_its_block(name):
+    """Without the room of its block: a block's name says which."""
+    return re.sub(r"^u_[a-z]+\.(?=u_)", "", name)
+
+
 def flops(module, members):
     """[(name, member, first bit, width)], and names of flip-flops that the model does not keep."""
     nets = names_by_bits(module)
@@ -80,7 +85,7 @@ def flops(module, members):
             continue
         for bit in cell["connections"]["Q"]:
             choices = sorted((rank(n), n, bits) for bits in whole[bit] for n in nets[bits])
-            name, bits = choices[0][1], choices[0][2]
+            name, bits = in_its_block(choices[0][1]), choices[0][2]
             kept = [(n, bits_of, m) for _, n, bits_of in choices if (m := member(n, members))]
             if not kept:
                 lost.append(f"{name}[{bits.index(bit)}]")

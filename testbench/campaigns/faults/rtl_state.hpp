@@ -69,13 +69,13 @@ class RtlState {
   }
   void flip_parameter(int address, int bit) {
     rtl_->rootp
-        ->feltgate_core__DOT__u_registers__DOT__parameter_ram[static_cast<std::size_t>(address)] ^=
-        QData{1} << bit;
+        ->feltgate_core__DOT__u_wave__DOT__u_registers__DOT__parameter_ram[static_cast<std::size_t>(
+            address)] ^= QData{1} << bit;
     settle();
   }
   void flip_line(int address, int bit) {
-    auto& word =
-        rtl_->rootp->feltgate_core__DOT__u_velocity_n__DOT__line[static_cast<std::size_t>(address)];
+    auto& word = rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__u_velocity_n__DOT__line
+                     [static_cast<std::size_t>(address)];
     word = static_cast<SData>(word ^ (1u << bit));
     settle();
   }

@@ -41,14 +41,14 @@ void sort_in(StateBit* b) {
     }
     return is("position");
   }
-  if (begins(n, "position_o") || begins(n, "scene_position_q")) return is("position");
+  if (begins(n, "u_encoder.")) return is("position");
   if (begins(n, "u_velocity_n")) return is("velocity");
   if (begins(n, "u_dob")) return is("observer");
   if (begins(n, "u_scenes")) return is("scenes");
   if (begins(n, "u_pwm")) return is("pwm");
   if (begins(n, "u_supervisor")) return is("supervisor");
   if (begins(n, "u_sequencer")) return is("sequencer");
-  if (begins(n, "u_registers") || begins(n, "scene_q")) return is("words and control");
+  if (begins(n, "u_registers") || begins(n, "u_wave.scene_o")) return is("words and control");
   for (const char* monitor :
        {"u_encoder_monitor", "u_hold_timer", "u_self_test", "u_velocity_jump"}) {
     if (begins(n, monitor)) return is("monitors");

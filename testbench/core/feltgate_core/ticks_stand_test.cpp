@@ -55,7 +55,7 @@ class Core {
     in_.reg_write = false;
     tick();
   }
-  void stand() { rtl_->rootp->feltgate_core__DOT__u_sequencer__DOT__stand = 1; }
+  void stand() { rtl_->rootp->feltgate_core__DOT__u_wave__DOT__u_sequencer__DOT__stand = 1; }
 
  private:
   feltgate::RtlModel<Vfeltgate_core> rtl_;

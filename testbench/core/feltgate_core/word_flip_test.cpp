@@ -58,20 +58,23 @@ class Pair {
   }
   void flip(int address, int bit) {
     const auto at = static_cast<std::size_t>(address);
-    rtl_->rootp->feltgate_core__DOT__u_registers__DOT__parameter_ram[at] ^= QData{1} << bit;
+    rtl_->rootp->feltgate_core__DOT__u_wave__DOT__u_registers__DOT__parameter_ram[at] ^= QData{1}
+                                                                                         << bit;
     twin_.flip(address, bit);
   }
   void flip_control(int bit) {
     if (bit < D::C::control_width) {
-      rtl_->rootp->feltgate_core__DOT__u_registers__DOT__control_o ^= static_cast<SData>(1u << bit);
+      rtl_->rootp->feltgate_core__DOT__u_wave__DOT__u_registers__DOT__control_o ^=
+          static_cast<SData>(1u << bit);
     } else {
-      rtl_->rootp->feltgate_core__DOT__u_registers__DOT__held_check_q ^= 1u;
+      rtl_->rootp->feltgate_core__DOT__u_wave__DOT__u_registers__DOT__held_check_q ^= 1u;
     }
     twin_.flip_control(bit);
   }
   /// Flips a bit of the velocity's register, in the RTL only.
   void flip_velocity(int bit) {
-    auto& y = rtl_->rootp->feltgate_core__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
+    auto& y =
+        rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
     y ^= IData{1} << bit;
   }
   CoreOut rtl() const { return feltgate::read_outputs<D>(*rtl_); }

@@ -21,7 +21,8 @@ using Twin = EncoderMonitor;
 
 struct Adapter {
   static void drive(Vencoder_monitor& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, wave, tick_count, levels, index_wrong, count, zero, step, set_zero);
+    FELTGATE_DRIVE(rtl, in, tick_count, levels, index_wrong, count, zero, step, set_zero);
+    FELTGATE_STROBES(rtl, in.wave, at, T, levels);
   }
   template <class Check>
   static void compare(Check& check, const Vencoder_monitor& rtl, const Twin::Out& out) {

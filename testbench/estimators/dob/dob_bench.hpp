@@ -12,6 +12,7 @@
 #include "../lowpass/exact.hpp"
 #include "dob_twin.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 
 namespace feltgate::test {
 
@@ -47,7 +48,8 @@ inline void tick(Chain& chain, const Wave& w) {
 struct Adapter {
   static void drive(Vdob& rtl, const Twin::In& in) {
     rtl.armed_i = in.port.armed;
-    rtl.wave_i = in.port.wave;
+    FELTGATE_STROBES(rtl, in.port.wave, at, T, drive_torque, observer_input, observer_difference,
+                     observer_state, observed, observed_rounded, tau_hat);
     rtl.product_i = port_bits<53, std::uint64_t>(in.port.product);
   }
   template <class Check>

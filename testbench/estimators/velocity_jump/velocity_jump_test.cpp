@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "feltgate/lowpass.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "velocity_jump_twin.hpp"
 
 #include FELTGATE_DESIGN_HEADER
@@ -23,7 +24,7 @@ using Velocity = fixed_of<D::f.velocity.key()>;
 
 struct Adapter {
   static void drive(Vvelocity_jump& rtl, const Twin::In& in) {
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave, at, T, jump);
     rtl.velocity_i = static_cast<std::uint32_t>(in.velocity);
   }
   template <class Check>

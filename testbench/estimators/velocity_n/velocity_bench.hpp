@@ -13,6 +13,7 @@
 #include "../lowpass/exact.hpp"
 #include "feltgate/words.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "velocity_n_twin.hpp"
 
 namespace feltgate::test {
@@ -28,7 +29,8 @@ inline A1 design_a1() { return A1::from_raw(parameter(Design::A::velocity_a1).ra
 
 struct Adapter {
   static void drive(Vvelocity_n& rtl, const Twin::In& in) {
-    rtl.wave_i = in.port.wave;
+    FELTGATE_STROBES(rtl, in.port.wave, at, T, sample, travel, velocity_raw, velocity_difference,
+                     velocity);
     rtl.travel_i = port_bits<16, std::uint16_t>(in.port.travel);
     rtl.product_i = port_bits<53, std::uint64_t>(in.port.product);
   }

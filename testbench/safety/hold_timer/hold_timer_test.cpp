@@ -22,7 +22,8 @@ using Twin = HoldTimer;
 
 struct Adapter {
   static void drive(Vhold_timer& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, armed, wave, tick_count, param, moved, over_limit);
+    FELTGATE_DRIVE(rtl, in, armed, tick_count, param, moved, over_limit);
+    FELTGATE_STROBES(rtl, in.wave, at, T, hold_strong, hold);
   }
   template <class Check>
   static void compare(Check& check, const Vhold_timer& rtl, const Twin::Out& out) {

@@ -13,6 +13,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "lock_step.hpp"
+#include "ports.hpp"
 #include "self_test_twin.hpp"
 
 using namespace feltgate;
@@ -30,7 +31,8 @@ struct Adapter {
     rtl.waits_i = in.waits;
     rtl.travel_i = static_cast<std::uint8_t>(in.travel & 3);
     rtl.tick_count_i = in.tick_count;
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave, at, T, sample, scene_rounded, self_test_quiet, self_test_over,
+                     self_test_turn, self_test);
     rtl.param_i = in.param;
   }
   template <class Check>

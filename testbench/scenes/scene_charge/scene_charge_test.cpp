@@ -7,6 +7,7 @@
 
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
+#include "ports.hpp"
 #include "scene_charge_twin.hpp"
 
 using namespace feltgate;
@@ -32,7 +33,12 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
     rtl.attract_i = in.attract;
     rtl.repel_i = in.repel;
     rtl.gap_i = port_bits<19>(in.gap);
-    rtl.wave_i = in.wave;
+    rtl.division_i = (in.wave >> Map::M::charge_square) & 0x3ffff;
+    FELTGATE_STROBES(rtl, in.wave >> 1, after, T, charge_core);
+    FELTGATE_STROBES(rtl, in.wave, at, T, scene_distance, charge_width_limited, charge_core);
+    FELTGATE_STROBES(rtl, in.wave, param_is, W, attract_strength);
+    FELTGATE_STROBES(rtl, in.wave >> 1, param_was, W, attract_strength);
+    FELTGATE_STROBES(rtl, in.wave, product_is, M, attract_core_slope, repel_core_slope);
     rtl.param_i = in.param;
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
     rtl.over_limit_i = in.over_limit;

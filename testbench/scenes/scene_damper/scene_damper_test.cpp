@@ -8,6 +8,7 @@
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_damper.hpp"
+#include "ports.hpp"
 #include "scene_damper_twin.hpp"
 
 using namespace feltgate;
@@ -24,7 +25,7 @@ struct Block : BlockOf<Vscene_damper, SceneDamper<Design>> {
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.select_i = in.select;
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave, product_is, M, damper_damping);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
   }
   template <class Check>

@@ -24,7 +24,9 @@ struct Block : BlockOf<Vscene_membrane, SceneMembrane<Design>> {
     return {wave.scene == S::membrane, bus.face_gap < 0, bus.face_gap == 0, bus.wave, bus.param};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, select, gap_negative, gap_zero, wave, param);
+    FELTGATE_DRIVE(rtl, in, select, gap_negative, gap_zero, param);
+    FELTGATE_STROBES(rtl, in.wave, param_is, W, membrane_lower, membrane_upper, membrane_torque);
+    FELTGATE_STROBES(rtl, in.wave >> 1, param_was, W, membrane_upper);
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {

@@ -8,6 +8,7 @@
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_setpoint.hpp"
+#include "ports.hpp"
 #include "scene_setpoint_twin.hpp"
 
 using namespace feltgate;
@@ -23,7 +24,7 @@ struct Block : BlockOf<Vscene_setpoint, SceneSetpoint<Design>> {
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.select_i = in.select;
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave, param_is, W, setpoint_torque);
     rtl.param_i = in.param;
   }
   template <class Check>

@@ -24,7 +24,8 @@ struct Block : BlockOf<Vscene_spring, SceneSpring<Design>> {
             bus.wave, bus.product};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, tension, compression, behind, wave);
+    FELTGATE_DRIVE(rtl, in, tension, compression, behind);
+    FELTGATE_STROBES(rtl, in.wave, product_is, M, scene_stiffness);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
   }
   template <class Check>

@@ -10,6 +10,7 @@
 #include "../scenes/scene_bench.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_wall.hpp"
+#include "ports.hpp"
 #include "scene_wall_twin.hpp"
 
 using namespace feltgate;
@@ -28,7 +29,7 @@ struct Block : BlockOf<Vscene_wall, SceneWall<Design>> {
   static void drive(Rtl& rtl, const Twin::In& in) {
     rtl.select_i = in.select;
     rtl.behind_i = in.behind;
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave, product_is, M, wall_stiffness, wall_damping);
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
   }
   template <class Check>

@@ -11,6 +11,7 @@
 #include "catch.hpp"
 #include "lock_step.hpp"
 #include "operand_bus_twin.hpp"
+#include "ports.hpp"
 #include "unreset.hpp"
 
 using namespace feltgate;
@@ -35,7 +36,9 @@ std::int64_t bus(Word word) {
 struct Adapter {
   static void drive(Rtl& rtl, const Twin::In& in) {
     using Long = std::uint64_t;
-    rtl.wave_i = in.wave;
+    FELTGATE_STROBES(rtl, in.wave << 1, param_next, W, inverse_resistance, emf_over_resistance,
+                     torque_constant, inertia_gain, damper_damping, current_square, emf_constant,
+                     observer_gain, voltage_to_current, torque_gain, dead_voltage_slope);
     rtl.velocity_difference_i =
         port_bits<f.velocity_difference.width(), Long>(in.velocity_difference);
     rtl.observer_difference_i =

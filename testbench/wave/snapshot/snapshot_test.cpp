@@ -24,8 +24,10 @@ using Twin = Snapshot<READ_BACK != 0>;
 struct Adapter {
   static void drive(Vsnapshot& rtl, const Twin::In& in) {
     rtl.slot_fetch_i = static_cast<std::uint8_t>(in.slot_fetch);
-    FELTGATE_DRIVE(rtl, in, wave, status, faults, position, tick_count, index_position, error_count,
+    FELTGATE_DRIVE(rtl, in, status, faults, position, tick_count, index_position, error_count,
                    rejected_count, operand);
+    FELTGATE_STROBES(rtl, in.wave, read, R, status, position, tick, velocity, index, encoder,
+                     tau_hat, faults, tau_ref, current_ref, voltage, duty);
   }
   template <class Check>
   static void compare(Check& check, const Vsnapshot& rtl, const Twin::Out& out) {

@@ -187,7 +187,7 @@ struct Map {
     static constexpr int ramp_excess = 25;
     static constexpr int ramp_change = 26;
     static constexpr int tau_ref = 27;
-    static constexpr int applied_to_bus = 26;
+    static constexpr int direct_voltage_to_bus = 26;
     static constexpr int set_error = 31;
     static constexpr int set_step = 32;
     static constexpr int direct_voltage = 33;
@@ -251,7 +251,7 @@ struct Map {
     static constexpr int snapshot = 47;
   };
 
-  /// Wave clocks in which the snapshot's words are on the operand bus.
+  /// Wave clocks in which the snapshot takes its words, off the operand bus or by inputs of its own.
   struct R {
     static constexpr int tick = 6;
     static constexpr int position = 1;
@@ -353,7 +353,7 @@ struct Map {
     ramp_excess,
     read_faults,
     ramp_change,
-    applied_to_bus,
+    direct_voltage_to_bus,
     voltage_part,
     operand_voltage_to_current,
     tau_ref,
@@ -493,7 +493,7 @@ struct Map {
       {Step::ramp_excess, 25},
       {Step::read_faults, 26},
       {Step::ramp_change, 26},
-      {Step::applied_to_bus, 26},
+      {Step::direct_voltage_to_bus, 26},
       {Step::voltage_part, 26},
       {Step::operand_voltage_to_current, 27},
       {Step::tau_ref, 27},

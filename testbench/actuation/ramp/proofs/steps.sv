@@ -44,7 +44,10 @@ module steps_proof (
   logic limit_torque, limit_ramp, limit_hold;
   ramp u_dut (
       .*,
-      .wave_i(wave),
+      .at_ramp_begin_i(wave[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]),
+      .at_ramp_excess_i(wave[feltgate_map_pkg::EVENT_AT_RAMP_EXCESS]),
+      .at_ramp_change_i(wave[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]),
+      .at_tau_ref_i(wave[feltgate_map_pkg::EVENT_AT_TAU_REF]),
       .tau_ref_o(tau_ref),
       .limit_torque_o(limit_torque),
       .limit_ramp_o(limit_ramp),

@@ -8,7 +8,7 @@
 module limits_proof
 `include "with_limiter.svh"
 
-  wire signed [feltgate_pkg::CURRENT_SUM_W-1:0] kept = \u_dut.kept_q ;
+  wire signed [feltgate_pkg::CURRENT_SUM_W-1:0] kept = \u_dut.current_of_tau_hat_q ;
   localparam logic signed [feltgate_pkg::CURRENT_SUM_W-1:0] Kept = feltgate_pkg::CURRENT_SUM_W'(1) <<
       (feltgate_pkg::TORQUE_W + feltgate_pkg::COEFFICIENT_BITS - 1 -
        (feltgate_pkg::TORQUE_F + feltgate_pkg::P_OBSERVER_GAIN_F - feltgate_pkg::CURRENT_F));

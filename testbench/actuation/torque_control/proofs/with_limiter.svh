@@ -42,9 +42,29 @@
   logic signed [VoltageW-1:0] voltage;
   logic signed [DutyW-1:0] duty;
   logic over_limit, region_high, limit_current, limit_voltage, limit_duty;
+  wire [feltgate_map_pkg::WAVE_LENGTH-1:0] wave_seen = rst_ni ? wave : '0;  // as the sequencer's reset has it
   torque_control u_dut (
       .*,
-      .wave_i(rst_ni ? wave : '0),  // as the sequencer's reset has it
+      .product_is_emf_constant_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]),
+      .product_is_observer_gain_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN]),
+      .at_border_i(wave_seen[feltgate_map_pkg::EVENT_AT_BORDER]),
+      .at_region_i(wave_seen[feltgate_map_pkg::EVENT_AT_REGION]),
+      .param_is_voltage_setpoint_i(wave_seen[feltgate_map_pkg::PARAM_AT_VOLTAGE_SETPOINT]),
+      .product_is_voltage_to_current_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_TO_CURRENT]),
+      .param_is_voltage_step_i(wave_seen[feltgate_map_pkg::PARAM_AT_VOLTAGE_STEP]),
+      .product_is_torque_gain_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_TORQUE_GAIN]),
+      .at_direct_voltage_i(wave_seen[feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE]),
+      .param_is_current_limit_i(wave_seen[feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT]),
+      .product_is_dead_voltage_slope_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_DEAD_VOLTAGE_SLOPE]),
+      .at_current_i(wave_seen[feltgate_map_pkg::EVENT_AT_CURRENT]),
+      .at_hold_size_i(wave_seen[feltgate_map_pkg::EVENT_AT_HOLD_SIZE]),
+      .param_is_dead_voltage_i(wave_seen[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE]),
+      .at_voltage_offset_i(wave_seen[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]),
+      .product_is_voltage_gain_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN]),
+      .param_is_voltage_window_i(wave_seen[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]),
+      .at_voltage_i(wave_seen[feltgate_map_pkg::EVENT_AT_VOLTAGE]),
+      .product_is_duty_gain_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_DUTY_GAIN]),
+      .at_duty_i(wave_seen[feltgate_map_pkg::EVENT_AT_DUTY]),
       .early_term_o(early_term),
       .late_term_o(late_term),
       .limited_i(limited),
@@ -73,10 +93,10 @@
       .limited_o(limited),
       .over_limit_o(over_limit)
   );
-  (* hierconn *) wire signed [feltgate_pkg::VOLTAGE_SUM_W-1:0] \u_dut.fixed_q ;
-  (* hierconn *) wire signed [feltgate_pkg::CURRENT_SUM_W-1:0] \u_dut.kept_q ;
+  (* hierconn *) wire signed [feltgate_pkg::VOLTAGE_SUM_W-1:0] \u_dut.voltage_offset_q ;
+  (* hierconn *) wire signed [feltgate_pkg::CURRENT_SUM_W-1:0] \u_dut.current_of_tau_hat_q ;
   // What no reset clears is 0 once a wave has passed; the first one after a reset is never an armed one.
-  always_comb if (!rst_ni) assume (\u_dut.fixed_q == 0 && \u_dut.kept_q == 0);
+  always_comb if (!rst_ni) assume (\u_dut.voltage_offset_q == 0 && \u_dut.current_of_tau_hat_q == 0);
   (* hierconn *) wire signed [EmfW-1:0] \u_dut.emf_q ;
   wire signed [EmfW-1:0] emf = \u_dut.emf_q ;
 
@@ -119,7 +139,7 @@
   always_comb begin
     if (past_ok_q && rst_ni && was_q) begin
       inside_emf: assert (!began_q || emf == emf_then_q);
-      inside_fixed: assert (\u_dut.fixed_q == 0 || (phase_q > 9'(feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE) &&
+      inside_fixed: assert (\u_dut.voltage_offset_q == 0 || (phase_q > 9'(feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE) &&
                             phase_q <= 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW)));
     end
   end

@@ -15,26 +15,26 @@ module coherent_proof (
   (* hierconn *) wire \u_core.word_valid_o ;
   (* hierconn *) wire [5:0] \u_core.word_slot_o ;
   (* hierconn *) wire [31:0] \u_core.word_data_o ;
-  (* hierconn *) wire [11:0] \u_core.u_registers.reg_addr_i ;
-  (* hierconn *) wire \u_core.u_registers.to_parameter_q ;
-  (* hierconn *) wire \u_core.u_registers.to_control_q ;
-  (* hierconn *) wire \u_core.u_registers.to_command_q ;
-  (* hierconn *) wire [31:0] \u_core.u_registers.data_q ;
-  (* hierconn *) wire \u_core.u_registers.warm_q ;
-  (* hierconn *) wire \u_core.u_registers.snap_valid_i ;
-  (* hierconn *) wire [5:0] \u_core.u_registers.snap_slot_i ;
-  (* hierconn *) wire [31:0] \u_core.u_registers.snap_data_i ;
-  (* hierconn *) wire \u_core.u_registers.g_read.frozen_q ;
-  (* hierconn *) wire \u_core.u_registers.g_read.write_bank_q ;
-  (* hierconn *) wire \u_core.u_registers.g_read.read_bank ;
-  (* hierconn *) wire [31:0] \u_core.u_registers.g_read.snapshot_q ;
+  (* hierconn *) wire [11:0] \u_core.u_wave.u_registers.reg_addr_i ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.to_parameter_q ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.to_control_q ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.to_command_q ;
+  (* hierconn *) wire [31:0] \u_core.u_wave.u_registers.data_q ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.warm_q ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.snap_valid_i ;
+  (* hierconn *) wire [5:0] \u_core.u_wave.u_registers.snap_slot_i ;
+  (* hierconn *) wire [31:0] \u_core.u_wave.u_registers.snap_data_i ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.g_read.frozen_q ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.g_read.write_bank_q ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.g_read.read_bank ;
+  (* hierconn *) wire [31:0] \u_core.u_wave.u_registers.g_read.snapshot_q ;
   (* hierconn *) wire [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] \u_core.velocity_difference ;
   (* hierconn *) wire [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] \u_core.observer_difference ;
   (* hierconn *) wire [feltgate_pkg::SCENE_DISTANCE_W-1:0] \u_core.distance ;
   wire valid = \u_core.word_valid_o ;
   wire [31:0] data = \u_core.word_data_o ;
-  wire write_bank = \u_core.u_registers.g_read.write_bank_q ;
-  wire read_bank = \u_core.u_registers.g_read.read_bank ;
+  wire write_bank = \u_core.u_wave.u_registers.g_read.write_bank_q ;
+  wire read_bank = \u_core.u_wave.u_registers.g_read.read_bank ;
 
   // What the blocks that are cut are proven to do.
   logic [L-1:0] wave_q;
@@ -134,9 +134,9 @@ module coherent_proof (
     pin_q  <= pin;
     if (of_slot) word_q <= data;
     if (last && !frozen_q) shown_q <= of_slot ? data : word_q;
-    if (\u_core.u_registers.snap_valid_i && \u_core.u_registers.snap_slot_i == slot_q) begin
-      if (write_bank) bank_1_q <= \u_core.u_registers.snap_data_i ;
-      else bank_0_q <= \u_core.u_registers.snap_data_i ;
+    if (\u_core.u_wave.u_registers.snap_valid_i && \u_core.u_wave.u_registers.snap_slot_i == slot_q) begin
+      if (write_bank) bank_1_q <= \u_core.u_wave.u_registers.snap_data_i ;
+      else bank_0_q <= \u_core.u_wave.u_registers.snap_data_i ;
     end
   end
 
@@ -149,7 +149,7 @@ module coherent_proof (
     else if (clocks_q != 2'd3) clocks_q <= clocks_q + 2'd1;
   end
   always_ff @(posedge clk_i) begin
-    asked_q      <= \u_core.u_registers.reg_addr_i [5:0] == slot_q;
+    asked_q      <= \u_core.u_wave.u_registers.reg_addr_i [5:0] == slot_q;
     returned_q   <= read_bank ? bank_1_q : bank_0_q;
     read_q       <= mapped && shown_ok_q && reg_addr_i == (feltgate_map_pkg::A_SNAPSHOT | 12'(slot_q));
     read_q2      <= read_q;
@@ -158,7 +158,7 @@ module coherent_proof (
     read_word_q2 <= read_word_q;
     read_word_q3 <= read_word_q2;
   end
-  always_comb if (past_ok_q && asked_q) assume (\u_core.u_registers.g_read.snapshot_q == returned_q);
+  always_comb if (past_ok_q && asked_q) assume (\u_core.u_wave.u_registers.g_read.snapshot_q == returned_q);
 
   always_comb begin
     if (past_ok_q && rst_ni) begin
@@ -171,12 +171,12 @@ module coherent_proof (
       inside_stored: assert (!mapped || (stored_q == (phase_q > 10'(slot_q) + 10'(First + 1)) &&
                                          of_slot == (phase_q == 10'(slot_q) + 10'(First + 1))));
       inside_bank: assert (!stored_q || (write_bank ? bank_1_q : bank_0_q) == word_q);
-      inside_frozen: assert (\u_core.u_registers.g_read.frozen_q == frozen_q);
-      inside_taken: assert (\u_core.u_registers.to_parameter_q == to_parameter &&
-                            \u_core.u_registers.to_control_q == to_control &&
-                            \u_core.u_registers.to_command_q == to_command);
-      inside_data: assert (!busy || \u_core.u_registers.data_q == data_q);
-      inside_warm: assert (\u_core.u_registers.warm_q == (clocks_q != 2'd0));
+      inside_frozen: assert (\u_core.u_wave.u_registers.g_read.frozen_q == frozen_q);
+      inside_taken: assert (\u_core.u_wave.u_registers.to_parameter_q == to_parameter &&
+                            \u_core.u_wave.u_registers.to_control_q == to_control &&
+                            \u_core.u_wave.u_registers.to_command_q == to_command);
+      inside_data: assert (!busy || \u_core.u_wave.u_registers.data_q == data_q);
+      inside_warm: assert (\u_core.u_wave.u_registers.warm_q == (clocks_q != 2'd0));
       inside_shown: assert (!shown_ok_q || began_q);
       stores_the_position: cover (of_slot && slot_q == 6'(feltgate_map_pkg::READ_AT_POSITION) && data != 32'd0);
       stores_the_velocity: cover (of_slot && slot_q == 6'(feltgate_map_pkg::READ_AT_VELOCITY) && data[31]);

@@ -35,9 +35,9 @@
   localparam int ClockW = (N > 64) ? $clog2(N) : 6;
   (* hierconn *) wire \u_core.tick ;
   (* hierconn *) wire [L-1:0] \u_core.wave ;
-  (* hierconn *) wire [5:0] \u_core.slot_fetch ;
-  (* hierconn *) wire \u_core.scene_slot_fetch ;
-  (* hierconn *) wire [ClockW-1:0] \u_core.u_sequencer.clock_q ;
+  (* hierconn *) wire [5:0] \u_core.u_wave.slot_fetch ;
+  (* hierconn *) wire \u_core.u_wave.scene_slot_fetch ;
+  (* hierconn *) wire [ClockW-1:0] \u_core.u_wave.u_sequencer.clock_q ;
   wire [L-1:0] wave = \u_core.wave ;
 
   logic [9:0] phase_q;  // clock of the tick
@@ -57,10 +57,10 @@
   assign at   = (phase_q >= 10'(First)) ? phase_q - 10'(First) : phase_q + 10'(N - First);
   always_comb begin
     if (past_ok_q && rst_ni) begin
-      inside_phase: assert (10'(\u_core.u_sequencer.clock_q ) == phase_q && phase_q < 10'(N));
+      inside_phase: assert (10'(\u_core.u_wave.u_sequencer.clock_q ) == phase_q && phase_q < 10'(N));
       inside_tick: assert (\u_core.tick == last);
       inside_wave: assert (wave == (((phase_q >= 10'(First) || began_q) && at < 10'(L)) ? L'(1) << at : '0));
-      inside_slot: assert (\u_core.slot_fetch == ((phase_q < 10'd64) ? phase_q[5:0] : 6'd63) &&
-          \u_core.scene_slot_fetch == (phase_q < 10'd64 && feltgate_map_pkg::SCENE_SLOTS[phase_q[5:0]]));
+      inside_slot: assert (\u_core.u_wave.slot_fetch == ((phase_q < 10'd64) ? phase_q[5:0] : 6'd63) &&
+          \u_core.u_wave.scene_slot_fetch == (phase_q < 10'd64 && feltgate_map_pkg::SCENE_SLOTS[phase_q[5:0]]));
     end
   end

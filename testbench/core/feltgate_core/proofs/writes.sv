@@ -19,12 +19,12 @@ module writes_proof (
   localparam int Arm = feltgate_map_pkg::B_CONTROL_ARM;
 
   // Beside the shared ones: the address at the port, what the RAM returns, the control word.
-  (* hierconn *) wire [11:0] \u_core.u_registers.reg_addr_i ;
-  (* hierconn *) wire [35:0] \u_core.u_registers.g_read.parameter_q ;
+  (* hierconn *) wire [11:0] \u_core.u_wave.u_registers.reg_addr_i ;
+  (* hierconn *) wire [35:0] \u_core.u_wave.u_registers.g_read.parameter_q ;
   (* hierconn *) wire [ControlW-1:0] \u_core.control ;
   (* hierconn *) wire \u_core.arms ;
   wire [ControlW-1:0] control = \u_core.control ;
-  wire lands = \u_core.u_registers.lands ;
+  wire lands = \u_core.u_wave.u_registers.lands ;
 
   // What a parameter that waits must be refused for, and what a control word may not change.
   logic refuse, holds;
@@ -37,24 +37,24 @@ module writes_proof (
   logic wanted_q, wanted_q2, read_q, read_q2, read_q3;
   logic fetched_q, asked_q;  // what the RAM was asked for, by the registers' own address
   logic [31:0] read_word_q, read_word_q2, read_word_q3;
-  assign param = \u_core.u_torque_control.param_i ;
+  assign param = \u_core.u_actuation.u_torque_control.param_i ;
   always_comb begin
     wanted = {3'd0, (phase_q < 10'd64) ? phase_q[5:0] : 6'd63};
     if (phase_q < 10'd64 && feltgate_map_pkg::SCENE_SLOTS[phase_q[5:0]]) wanted = {scene, phase_q[4:0]};
     else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN) && \u_core.region_high )
       wanted = 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
-    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.testing )
+    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.testing_o )
       wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
     else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.derated )
       wanted = 9'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
   end
   always_ff @(posedge clk_i) begin
     address_q    <= address_q;
-    if (lands && \u_core.u_registers.address_q == address_q) word_q <= \u_core.u_registers.written [31:0];
+    if (lands && \u_core.u_wave.u_registers.address_q == address_q) word_q <= \u_core.u_wave.u_registers.written [31:0];
     word_then_q  <= word_q;
     word_then_q2 <= word_then_q;
-    fetched_q    <= \u_core.u_registers.fetch_address == address_q && !lands;
-    asked_q      <= \u_core.u_registers.reg_addr_i [8:0] == address_q && !lands;
+    fetched_q    <= \u_core.u_wave.u_registers.fetch_address == address_q && !lands;
+    asked_q      <= \u_core.u_wave.u_registers.reg_addr_i [8:0] == address_q && !lands;
     wanted_q     <= wanted == address_q;
     wanted_q2    <= wanted_q;
     read_q       <= reg_addr_i == 12'(address_q) && !lands;
@@ -65,8 +65,8 @@ module writes_proof (
     read_word_q3 <= read_word_q2;
   end
   always_comb begin
-    if (past_ok_q && fetched_q) assume (\u_core.u_registers.fetch_q [31:0] == word_then_q);
-    if (past_ok_q && asked_q) assume (\u_core.u_registers.g_read.parameter_q [31:0] == read_word_q);
+    if (past_ok_q && fetched_q) assume (\u_core.u_wave.u_registers.fetch_q [31:0] == word_then_q);
+    if (past_ok_q && asked_q) assume (\u_core.u_wave.u_registers.g_read.parameter_q [31:0] == read_word_q);
   end
 
   // The last clock: what the control word must be now, and the clocks since the reset, up to 3.
@@ -110,33 +110,33 @@ module writes_proof (
   always_comb begin
     if (past_ok_q && rst_ni) begin
       lands_once: assert (lands == (last && to_parameter && !refuse));
-      lands_as_taken: assert (!lands || (\u_core.u_registers.address_q == at_q[8:0] &&
-                                         \u_core.u_registers.written [31:0] == data_q));
+      lands_as_taken: assert (!lands || (\u_core.u_wave.u_registers.address_q == at_q[8:0] &&
+                                         \u_core.u_wave.u_registers.written [31:0] == data_q));
       waits_a_tick_at_most: assert (!busy || busy_q < 10'(N));
       commands_once: assert (
-          \u_core.u_supervisor.clear_faults_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
-          \u_core.u_quad_decoder.clear_error_i == (\u_core.u_supervisor.clear_faults_i && !\u_core.arm_request_o ) &&
-          \u_core.u_supervisor.kick_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
+          \u_core.u_safety.u_supervisor.clear_faults_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
+          \u_core.u_encoder.u_quad_decoder.clear_error_i == (\u_core.u_safety.u_supervisor.clear_faults_i && !\u_core.arm_request_o ) &&
+          \u_core.u_safety.u_supervisor.kick_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
       zero_once: assert (
           zeroed == (last && (zero_due_q || (to_command && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))) &&
-          \u_core.u_quad_decoder.set_zero_i == zeroed && \u_core.u_encoder_monitor.set_zero_i == zeroed);
+          \u_core.u_encoder.u_quad_decoder.set_zero_i == zeroed && \u_core.u_encoder.u_encoder_monitor.set_zero_i == zeroed);
       control_in_its_blocks: assert (
-          \u_core.u_torque_control.mode_i == control[feltgate_map_pkg::B_CONTROL_MODE+:2] &&
-          \u_core.u_self_test.direct_i == (\u_core.u_torque_control.mode_i == 2'(feltgate_map_pkg::MODE_VOLTAGE)) &&
-          \u_core.u_pwm.mode_i == control[feltgate_map_pkg::B_CONTROL_PWM_MODE] &&
-          \u_core.u_pwm.polarity_i == control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY] &&
-          \u_core.u_quad_decoder.polarity_i == control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] &&
-          \u_core.u_quad_decoder.filter_i == control[feltgate_map_pkg::B_CONTROL_FILTER+:4] &&
-          \u_core.u_scenes.scene_i == scene && \u_core.u_ramp.scene_i == scene);
-      inside_taken: assert (\u_core.u_registers.to_parameter_q == to_parameter &&
-                            \u_core.u_registers.to_control_q == to_control &&
-                            \u_core.u_registers.to_command_q == to_command);
-      inside_data: assert (!busy || (\u_core.u_registers.address_q == at_q[8:0] &&
-                                     \u_core.u_registers.data_q == data_q));
+          \u_core.u_actuation.u_torque_control.mode_i == control[feltgate_map_pkg::B_CONTROL_MODE+:2] &&
+          \u_core.u_safety.u_self_test.direct_i == (\u_core.u_actuation.u_torque_control.mode_i == 2'(feltgate_map_pkg::MODE_VOLTAGE)) &&
+          \u_core.u_actuation.u_pwm.mode_i == control[feltgate_map_pkg::B_CONTROL_PWM_MODE] &&
+          \u_core.u_actuation.u_pwm.polarity_i == control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY] &&
+          \u_core.u_encoder.u_quad_decoder.polarity_i == control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] &&
+          \u_core.u_encoder.u_quad_decoder.filter_i == control[feltgate_map_pkg::B_CONTROL_FILTER+:4] &&
+          \u_core.u_scenes.scene_i == scene && \u_core.u_actuation.u_ramp.scene_i == scene);
+      inside_taken: assert (\u_core.u_wave.u_registers.to_parameter_q == to_parameter &&
+                            \u_core.u_wave.u_registers.to_control_q == to_control &&
+                            \u_core.u_wave.u_registers.to_command_q == to_command);
+      inside_data: assert (!busy || (\u_core.u_wave.u_registers.address_q == at_q[8:0] &&
+                                     \u_core.u_wave.u_registers.data_q == data_q));
       inside_busy: assert (busy_q <= ((busy || phase_q != 10'd0) ? phase_q : 10'(N)));
-      inside_due: assert (\u_core.u_registers.disarm_o == disarm_due_q && \u_core.u_registers.stop_o == stop_due_q &&
-                          \u_core.u_registers.zero_q == zero_due_q);
-      inside_warm: assert (\u_core.u_registers.warm_q == (clocks_q != 2'd0) &&
+      inside_due: assert (\u_core.u_wave.u_registers.disarm_o == disarm_due_q && \u_core.u_wave.u_registers.stop_o == stop_due_q &&
+                          \u_core.u_wave.u_registers.zero_q == zero_due_q);
+      inside_warm: assert (\u_core.u_wave.u_registers.warm_q == (clocks_q != 2'd0) &&
                            (began_q || 10'(clocks_q) == ((phase_q < 10'd3) ? phase_q : 10'd3)) &&
                            (!began_q || clocks_q == 2'd3));
       if (clocks_q != 2'd0) begin
@@ -148,10 +148,10 @@ module writes_proof (
       if (wave != '0 && at <= 10'(feltgate_map_pkg::EVENT_AT_WATCHDOG)) begin
         word_in_its_clock: assert (!wanted_q2 || param == word_then_q2);
       end
-      one_bus: assert (\u_core.u_scenes.param_i == param && \u_core.u_limiter.param_i == param &&
-                       \u_core.u_ramp.param_i == param && \u_core.u_supervisor.param_i == param &&
-                       \u_core.u_self_test.param_i == param && \u_core.u_hold_timer.param_i == param &&
-                       \u_core.u_multipliers.param_i == param);
+      one_bus: assert (\u_core.u_scenes.param_i == param && \u_core.u_actuation.u_limiter.param_i == param &&
+                       \u_core.u_actuation.u_ramp.param_i == param && \u_core.u_safety.u_supervisor.param_i == param &&
+                       \u_core.u_safety.u_self_test.param_i == param && \u_core.u_safety.u_hold_timer.param_i == param &&
+                       \u_core.u_wave.u_multipliers.param_i == param);
       if (clocks_q == 2'd3) reads_what_landed: assert (!read_q3 || rdata == read_word_q3);
       fetches: cover (wave[3] && wanted_q2 && param != 32'd0);
       waits: cover (busy && reg_write_i && phase_q == 10'd4);

@@ -35,6 +35,7 @@ module rows_proof (
   logic moved, chatters, trip, index_trip, flip_trip;
   encoder_monitor u_dut (
       .*,
+      .at_levels_i(wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]),
       .tick_count_i(ticks_q),
       .flip_trip_o(flip_trip),
       .moved_o(moved),

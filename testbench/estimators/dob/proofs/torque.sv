@@ -31,7 +31,13 @@ module torque_proof (
   logic saturated;
   dob u_dut (
       .*,
-      .wave_i(wave),
+      .at_drive_torque_i(wave[feltgate_map_pkg::EVENT_AT_DRIVE_TORQUE]),
+      .at_observer_input_i(wave[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT]),
+      .at_observer_difference_i(wave[feltgate_map_pkg::EVENT_AT_OBSERVER_DIFFERENCE]),
+      .at_observer_state_i(wave[feltgate_map_pkg::EVENT_AT_OBSERVER_STATE]),
+      .at_observed_i(wave[feltgate_map_pkg::EVENT_AT_OBSERVED]),
+      .at_observed_rounded_i(wave[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED]),
+      .at_tau_hat_i(wave[feltgate_map_pkg::EVENT_AT_TAU_HAT]),
       .operand_o(operand),
       .tau_hat_o(tau_hat),
       .saturated_o(saturated)

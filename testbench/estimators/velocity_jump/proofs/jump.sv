@@ -37,6 +37,7 @@ module jump_proof (
   logic trip;
   velocity_jump u_dut (
       .*,
+      .at_jump_i(wave_i[feltgate_map_pkg::EVENT_AT_JUMP]),
       .trip_o(trip)
   );
   (* hierconn *) wire signed [feltgate_pkg::P_VELOCITY_A1_F-feltgate_pkg::COEFFICIENT_BITS-1:0] \u_dut.gen_compare.before_q ;

@@ -24,7 +24,11 @@ module window_proof (
   logic saturated;
   velocity_n u_dut (
       .*,
-      .wave_i(wave),
+      .at_sample_i(wave[feltgate_map_pkg::EVENT_AT_SAMPLE]),
+      .at_travel_i(wave[feltgate_map_pkg::EVENT_AT_TRAVEL]),
+      .at_velocity_raw_i(wave[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]),
+      .at_velocity_difference_i(wave[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]),
+      .at_velocity_i(wave[feltgate_map_pkg::EVENT_AT_VELOCITY]),
       .operand_o(operand),
       .velocity_o(velocity),
       .saturated_o(saturated)

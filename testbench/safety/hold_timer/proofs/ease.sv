@@ -23,6 +23,8 @@ module ease_proof (
   logic derated;
   hold_timer u_dut (
       .*,
+      .at_hold_strong_i(wave_i[feltgate_map_pkg::EVENT_AT_HOLD_STRONG]),
+      .at_hold_i(wave_i[feltgate_map_pkg::EVENT_AT_HOLD]),
       .derated_o(derated)
   );
   (* hierconn *) wire [Bits-1:0] \u_dut.units_q ;

@@ -48,7 +48,12 @@ module pulses_proof (
   self_test u_dut (
       .*,
       .tick_count_i(ticks_q),
-      .wave_i(wave),
+      .at_sample_i(wave[feltgate_map_pkg::EVENT_AT_SAMPLE]),
+      .at_scene_rounded_i(wave[feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED]),
+      .at_self_test_quiet_i(wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_QUIET]),
+      .at_self_test_over_i(wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_OVER]),
+      .at_self_test_turn_i(wave[feltgate_map_pkg::EVENT_AT_SELF_TEST_TURN]),
+      .at_self_test_i(wave[feltgate_map_pkg::EVENT_AT_SELF_TEST]),
       .busy_o(busy),
       .early_term_o(early_term),
       .result_o(result),

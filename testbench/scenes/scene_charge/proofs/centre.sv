@@ -55,7 +55,15 @@ module centre_proof (
   logic signed [TorqueW-1:0] outside;
   scene_charge u_dut (
       .*,
-      .wave_i(wave),
+      .division_i(wave[feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE+:18]),
+      .at_scene_distance_i(wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
+      .param_is_attract_strength_i(wave[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),
+      .param_was_attract_strength_i(wave[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH+1]),
+      .at_charge_width_limited_i(wave[feltgate_map_pkg::EVENT_AT_CHARGE_WIDTH_LIMITED]),
+      .at_charge_core_i(wave[feltgate_map_pkg::EVENT_AT_CHARGE_CORE]),
+      .product_is_attract_core_slope_i(wave[feltgate_map_pkg::PRODUCT_AT_ATTRACT_CORE_SLOPE]),
+      .product_is_repel_core_slope_i(wave[feltgate_map_pkg::PRODUCT_AT_REPEL_CORE_SLOPE]),
+      .after_charge_core_i(wave[feltgate_map_pkg::EVENT_AT_CHARGE_CORE+1]),
       .plus_o(plus),
       .minus_o(minus),
       .outside_o(outside)

@@ -30,7 +30,10 @@ module faces_proof (
   logic signed [W-1:0] plus, minus;
   scene_membrane u_dut (
       .*,
-      .wave_i(wave),
+      .param_is_membrane_lower_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER]),
+      .param_is_membrane_upper_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER]),
+      .param_was_membrane_upper_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER+1]),
+      .param_is_membrane_torque_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE]),
       .plus_o(plus),
       .minus_o(minus)
   );

@@ -26,14 +26,19 @@ module terms_proof (
 
   logic signed [TorqueW-1:0] setpoint;
   logic signed [W-1:0] spring, damper, wall, brake;
-  scene_setpoint u_setpoint (.clk_i(clk_i), .select_i(select_i), .wave_i(wave_i), .param_i(param_i), .plus_o(setpoint));
+  scene_setpoint u_setpoint (.clk_i(clk_i), .select_i(select_i), .param_is_setpoint_torque_i(wave_i[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE]),
+                            .param_i(param_i), .plus_o(setpoint));
   scene_spring u_spring (
       .*,
+      .product_is_scene_stiffness_i(wave_i[feltgate_map_pkg::PRODUCT_AT_SCENE_STIFFNESS]),
       .plus_o(spring)
   );
-  scene_damper u_damper (.clk_i(clk_i), .select_i(select_i), .wave_i(wave_i), .product_i(product_i), .minus_o(damper));
+  scene_damper u_damper (.clk_i(clk_i), .select_i(select_i), .product_is_damper_damping_i(wave_i[feltgate_map_pkg::PRODUCT_AT_DAMPER_DAMPING]),
+                         .product_i(product_i), .minus_o(damper));
   scene_wall u_wall (
       .*,
+      .product_is_wall_stiffness_i(wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_STIFFNESS]),
+      .product_is_wall_damping_i(wave_i[feltgate_map_pkg::PRODUCT_AT_WALL_DAMPING]),
       .plus_o(wall),
       .minus_o(brake)
   );

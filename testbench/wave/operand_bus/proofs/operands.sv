@@ -52,7 +52,17 @@ module operands_proof (
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate;
   operand_bus u_dut (
       .*,
-      .wave_i(wave),
+      .param_next_inverse_resistance_i(wave[feltgate_map_pkg::PARAM_AT_INVERSE_RESISTANCE-1]),
+      .param_next_emf_over_resistance_i(wave[feltgate_map_pkg::PARAM_AT_EMF_OVER_RESISTANCE-1]),
+      .param_next_torque_constant_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_CONSTANT-1]),
+      .param_next_inertia_gain_i(wave[feltgate_map_pkg::PARAM_AT_INERTIA_GAIN-1]),
+      .param_next_damper_damping_i(wave[feltgate_map_pkg::PARAM_AT_DAMPER_DAMPING-1]),
+      .param_next_current_square_i(wave[feltgate_map_pkg::PARAM_AT_CURRENT_SQUARE-1]),
+      .param_next_emf_constant_i(wave[feltgate_map_pkg::PARAM_AT_EMF_CONSTANT-1]),
+      .param_next_observer_gain_i(wave[feltgate_map_pkg::PARAM_AT_OBSERVER_GAIN-1]),
+      .param_next_voltage_to_current_i(wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_TO_CURRENT-1]),
+      .param_next_torque_gain_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_GAIN-1]),
+      .param_next_dead_voltage_slope_i(wave[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE_SLOPE-1]),
       .operand_o(operand),
       .dob_o(dob),
       .scene_o(scene),

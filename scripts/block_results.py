@@ -25,6 +25,7 @@ from pathlib import Path
 
 from command_line import Refused
 import outputs
+import rtl_sources
 
 SCHEMA = "feltgate-results/1"
 FOLDER = "docs/verification"
@@ -119,7 +120,8 @@ def sources(root, block, key):
         folder, pattern = Path(root, "rtl"), "*.sv"
     if block in EXTRA:
         return sorted(folder.glob(pattern) if pattern == "*.hpp" else (folder / "core").rglob(pattern))
-    own = [path for path in folder.rglob(pattern) if path.stem == block]
+    names = {block, *(rtl_sources.WIRED_ROOMS if block == rtl_sources.CORE else ())}
+    own = sorted(path for path in folder.rglob(pattern) if path.stem in names)
     return [path for path in own if "generated" not in path.parts]
 
 

@@ -13,9 +13,9 @@ PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
 NEEDS = {"axes": "engine", "link": "axes"}  # a folder whose blocks instantiate those of another
 # Rooms of the core below rtl/core, in the order of the data; the tests have the same: testbench/ROOM/BLOCK.
 ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
-# Rooms whose module only wires its blocks; the room scenes is a block itself.
+# Rooms that connect their blocks, with little of their own; the room scenes is a block itself.
 WIRED_ROOMS = tuple(room for room in ROOMS if room != "scenes")
-# Without a twin and a test of their own: one is elaborated, never clocked; of a room the core's are those.
+# Without a twin and a test of their own: one is elaborated, never clocked; a room is tested by the core's test.
 NO_BLOCKS = ("feltgate_checks", *WIRED_ROOMS)
 
 

@@ -39,6 +39,7 @@ function(feltgate_mutants test block sources libraries)
             --sources ${sources} ${parameters} --count ${FELTGATE_MUTANTS} --seed ${FELTGATE_MUTANT_SEED}
             --output "${folder}/${block}.sv"
     DEPENDS ${sources} "${FELTGATE_WRITE_MUTANTS}" "${FELTGATE_ROOT}/scripts/mutation/netlist.py"
+            "${FELTGATE_ROOT}/scripts/rtl_sources.py"
             "${FELTGATE_ROOT}/scripts/seeded_defects/block.py"
     COMMENT "Making mutants of ${test}" VERBATIM)
   # Packages for the types of the ports. Yosys' Verilog is not written to please a linter.

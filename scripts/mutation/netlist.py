@@ -27,7 +27,7 @@ MOST_OF_DATABASE = 0.6
 LEFT_OUT = ("CLK", "RD_CLK", "WR_CLK", "RD_EN", "RD_ARST", "RD_SRST", "clk_i")
 # Not `memory -nomap`: its ports would read X for a word that is being written.
 FLAT = ["flatten", "opt -full", "memory_collect", "opt_clean -purge"]
-# Rooms are wires of the core; the blocks in them stay modules. With parameters their names are
+# Rooms belong to the core; the blocks in them stay modules. With parameters their names are
 # $paramod\\NAME\\... or $paramod$...\\NAME; a pattern of Yosys takes no backslash.
 ROOMS = " ".join(f"{r} $paramod*?{r} $paramod*?{r}?*" for r in rtl_sources.WIRED_ROOMS)
 LAYERED = [

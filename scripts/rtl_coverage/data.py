@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from command_line import Refused
+import rtl_sources
 
 LINE = re.compile(r"^C '(.*)' (\d+)$")
 PAGES = {"line": "line", "branch": "branch", "toggle": "toggle", "user": "cover"}
@@ -65,7 +66,10 @@ def point_of(root, entry):
     if kind is None or is_points != (kind == "cover"):
         return None
     name = entry["o"] + (generated_index(entry["h"]) if is_points else "")
-    return Point(path.stem.removesuffix(POINTS), kind, file, int(entry["l"]), int(entry["n"]), name)
+    block = path.stem.removesuffix(POINTS)
+    if block in rtl_sources.WIRED_ROOMS:
+        block = rtl_sources.CORE
+    return Point(block, kind, file, int(entry["l"]), int(entry["n"]), name)
 
 
 def read(root, file):

@@ -24,7 +24,7 @@ module safety (
     input  logic                                              disarm_i,
     input  logic                                              clear_faults_i,
     input  logic                                              kick_i,          // the host is alive
-    output logic                                              clear_o,         // clear_faults_i while nobody requests arming
+    output logic                                              clear_o,         // clear_faults_i while this axis does not request arming
     // Other axes
     input  logic                                              axis_fault_i,
     input  logic                                              axis_silent_i,
@@ -35,7 +35,7 @@ module safety (
     // What is watched
     input  logic        [ feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,        // causes of other rooms, by bit
     input  logic                                              illegal_i,       // encoder: both channels changed
-    input  logic                                              moved_i,         // encoder: an edge in this tick
+    input  logic                                              moved_i,         // encoder: an edge since the tick before
     input  logic        [                                1:0] travel_i,        // counts, lowest bits
     input  logic signed [       feltgate_pkg::VELOCITY_W-1:0] velocity_i,      // rad/s
     input  logic signed [        feltgate_pkg::CURRENT_W-1:0] current_ref_i,   // A

@@ -374,7 +374,6 @@ module supervisor (
     end
   end
 
-
   logic unused;
   assign unused = ^product_i;  // the estimate takes its bits of a product
 endmodule

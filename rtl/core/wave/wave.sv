@@ -35,7 +35,7 @@ module wave #(
     output logic                                             restart_o,           // ramp from the next tick on
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_o,            // bit n: cause n, one clock
     // Choice of words, and the words of the snapshot that are no operands
-    input  logic                                             locked_i,            // armed: some words cannot change
+    input  logic                                             locked_i,            // armed, or in the clock that arms: some words cannot change
     input  logic                                             region_high_i,
     input  logic                                             derated_i,
     input  logic                                             testing_i,

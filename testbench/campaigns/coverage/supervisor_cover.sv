@@ -76,6 +76,6 @@ module supervisor_cover (
 endmodule
 
 bind supervisor supervisor_cover u_cover (
-  .cooled_negative(param_is_i2t_budget_i && rest < 0), .*);
+  .cooled_negative(param_is_i2t_budget_i && rest < 0), .*);  // the clock of EVENT_AT_COOLED
 
 `default_nettype wire

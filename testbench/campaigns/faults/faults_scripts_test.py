@@ -67,7 +67,9 @@ class Results(unittest.TestCase):
         blocks = {"dob", "lowpass", "registers", "scene_charge", "velocity_n"}
         for register, block in (("u_dob.u_lowpass.y_o", "lowpass"), ("u_dob.drive_q", "dob"),
                                 ("u_scenes.gen_charge.u_charge.rest_q", "scene_charge"),
-                                ("scene_q", "feltgate_core"), ("parameter overspeed", "registers"),
+                                ("u_wave.scene_o", "feltgate_core"),
+                                ("u_encoder.position_o", "feltgate_core"),
+                                ("parameter overspeed", "registers"),
                                 ("velocity line", "velocity_n")):
             self.assertEqual(results.block_of(state(register), blocks), block)
 

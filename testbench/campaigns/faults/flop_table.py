@@ -17,6 +17,7 @@ import tempfile
 from pathlib import Path
 
 TOP = "feltgate_core"
+ROOMS = ("encoder", "estimators", "actuation", "safety", "wave")
 
 
 def sources(root, design):
@@ -66,7 +67,7 @@ def rank(name):
 
 def in_its_block(name):
     """Without the room of its block: a block's name says which."""
-    return re.sub(r"^u_[a-z]+\.(?=u_)", "", name)
+    return re.sub(rf"^u_({'|'.join(ROOMS)})\.(?=u_)", "", name)
 
 
 def flops(module, members):

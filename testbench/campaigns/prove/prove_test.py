@@ -68,6 +68,15 @@ class Catalogue(Scratch):
             with self.assertRaisesRegex(catalog.CatalogError, said):
                 catalog.open_ports(self.folder, catalog.read(self.folder))
 
+    def test_ports_of_a_kind(self):
+        self.put("rtl/core/wave/b.sv", RTL.replace("x_i,", "x_i,\n  input logic at_z_i,\n  input logic at_w_i,"))
+        toml = "testbench/wave/b/proofs/proofs.toml"
+        self.put(toml, TOML.replace("y_o", "y_o at_*"))
+        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": []})
+        self.put(toml, TOML.replace("y_o", "y_o param_is_*"))
+        with self.assertRaisesRegex(catalog.CatalogError, r"no port param_is_\*"):
+            catalog.open_ports(self.folder, catalog.read(self.folder))
+
     def test_a_block_of_a_folder_that_no_property_names(self):
         self.put("rtl/link/n.sv", RTL.replace("module b", "module n"))
         self.put("rtl/core/feltgate_checks.sv", RTL.replace("module b", "module feltgate_checks"))

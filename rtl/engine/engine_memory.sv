@@ -19,7 +19,7 @@ module engine_memory #(
     input  logic [      8:0] write_address_i,
     input  logic [Width-1:0] data_i
 );
-  (* no_rw_check *)
+  (* no_rw_check, ram_style = "block", ramstyle = "no_rw_check" *)
   logic [Width-1:0] words[0:511];
 
   initial begin

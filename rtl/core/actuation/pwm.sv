@@ -173,11 +173,11 @@ module pwm #(
   endgenerate
 
   // The gates: four registers with one asynchronous clear. They drive only the pins, so the tool
-  // can place them in the I/O cells.
+  // can place them in the I/O cells (Quartus reads useioff; for ECP5 docs/boards/ulx3s.md).
   logic       clear;
   logic [1:0] ready;
-  logic [1:0] gate_hi_q = 2'b00;  // off at power-up, before any reset
-  logic [1:0] gate_lo_q = 2'b00;
+  (* useioff = 1 *) logic [1:0] gate_hi_q = 2'b00;  // off at power-up, before any reset
+  (* useioff = 1 *) logic [1:0] gate_lo_q = 2'b00;
 
   assign clear = !rst_ni || clear_i;
   assign ready = {2{enable_i}} & ~changes & elapsed;

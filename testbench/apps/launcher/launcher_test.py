@@ -122,7 +122,9 @@ class Beside(Machine):
         shadow.write_text("raise ModuleNotFoundError(\"No module named 'numpy'\")\n", encoding="utf-8")
         path = self.bin / "apt-get"
         comes = f'case "$*" in *matplotlib*) rm -f {shadow} ;; esac\n'
-        slow = 'case "$*" in *matplotlib*) sleep 3 ;; esac\n'
+        # Apt ends when the build has begun.
+        waits = 'while ! grep -q ^ninja "$MACHINE/log"; do sleep 0.1; done'
+        slow = f'case "$*" in *matplotlib*) {waits} ;; esac\n'
         (self.bin / "sleep").symlink_to("/usr/bin/sleep")
         text = path.read_text(encoding="utf-8")
         path.write_text(text.replace("#!/bin/sh\n", "#!/bin/sh\n" + slow + comes), encoding="utf-8")
@@ -136,7 +138,7 @@ class Beside(Machine):
         """An option that is refused before the build; apt is slow."""
         path = self.bin / "apt-get"
         (self.bin / "sleep").symlink_to("/usr/bin/sleep")
-        slow = 'case "$*" in *matplotlib*) sleep 2; echo "apt ended" >>"$MACHINE/log" ;; esac\n'
+        slow = 'case "$*" in *matplotlib*) sleep 8; echo "apt ended" >>"$MACHINE/log" ;; esac\n'
         text = path.read_text(encoding="utf-8")
         path.write_text(text.replace("#!/bin/sh\n", "#!/bin/sh\n" + slow), encoding="utf-8")
         done = self.start("--yes", "demo", "--no-such-option")

@@ -120,8 +120,7 @@ def sources(root, block, key):
         folder, pattern = Path(root, "rtl"), "*.sv"
     if block in EXTRA:
         return sorted(folder.glob(pattern) if pattern == "*.hpp" else (folder / "core").rglob(pattern))
-    names = {block, *(rtl_sources.WIRED_ROOMS if block == rtl_sources.CORE else ())}
-    own = sorted(path for path in folder.rglob(pattern) if path.stem in names)
+    own = sorted(p for p in folder.rglob(pattern) if rtl_sources.measured_as(p.stem) == block)
     return [path for path in own if "generated" not in path.parts]
 
 

@@ -8,7 +8,7 @@ docs/blocks/<b>.md (scene_* blocks may share a folder of testbench/scenes), at l
 page that links the others. The twin is the class with the block's name. It is in
 model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
 law that it evaluates, if any, is in the former.
-Further checks: no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
+Further checks: a strobe is connected to the clock of its name, no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
 and the lists made from the blocks are up to date: docs/blocks.md with the results of
 docs/verification, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
@@ -37,6 +37,17 @@ NO_LIBFMT = ("model/include/", "model/sim/engines/", "model/sim/reference/")
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"
+# Strobes of a block, docs/blocks/feltgate_core.md: the clock of each kind.
+STROBES = {
+    "at": "EVENT_AT_{}",
+    "after": "EVENT_AT_{}+1",
+    "param_is": "PARAM_AT_{}",
+    "param_next": "PARAM_AT_{}-1",
+    "param_was": "PARAM_AT_{}+1",
+    "product_is": "PRODUCT_AT_{}",
+    "read": "READ_AT_{}",
+}
+STROBE = re.compile(rf"\.({'|'.join(STROBES)})_(\w+)_i\(\w+\[([^\]]+)\]\)")
 
 
 @dataclass(frozen=True)
@@ -314,6 +325,19 @@ def check_lists(root, blocks, write):
             yield f"{path}: stale; {MEND_LIST}"
 
 
+def check_strobes(root):
+    """A strobe is connected to the clock of its name, in the rooms and around the blocks in proofs."""
+    files = [*root.glob("rtl/core/**/*.sv"), *root.glob("testbench/**/proofs/*.sv*")]
+    for path in sorted(files):
+        text = path.read_text(encoding="utf-8")
+        for found in STROBE.finditer(text):
+            kind, name, clock = found.groups()
+            wanted = STROBES[kind].format(name.upper())
+            if clock != f"feltgate_map_pkg::{wanted}":
+                line = text.count("\n", 0, found.start()) + 1
+                yield f"{path.relative_to(root)}:{line}: {kind}_{name}_i at {clock}; connect {wanted}"
+
+
 def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
@@ -330,6 +354,7 @@ def check(root, write=False):
         if page != root / "docs/blocks.md":  # its links are the siblings, checked above
             found += check_links(root, page.relative_to(root))
     found += check_defects(root)
+    found += check_strobes(root)
     found += check_lengths(root)
     found += check_formatting(root)
     return found

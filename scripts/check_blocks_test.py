@@ -56,6 +56,16 @@ class CheckBlocks(unittest.TestCase):
         for word in words:
             self.assertTrue(any(word in line for line in found), found)
 
+    def test_a_strobe_of_another_clock(self):
+        proof, block = "testbench/wave/alpha/proofs/p.sv", "rtl/core/wave/alpha.sv"
+        self.put(proof, "\n      .at_x_i(wave[feltgate_map_pkg::EVENT_AT_Y]),\n")
+        self.expect(f"{proof}:2: at_x_i at feltgate_map_pkg::EVENT_AT_Y; connect EVENT_AT_X")
+        self.put(proof, ".after_x_i(w[feltgate_map_pkg::EVENT_AT_X+1])")
+        self.assertEqual(check_blocks.check(self.root), [])
+        text = (self.root / block).read_text(encoding="utf-8")
+        self.put(block, text + "// .param_next_x_i(wave[feltgate_map_pkg::PARAM_AT_X])\n")
+        self.expect("param_next_x_i at feltgate_map_pkg::PARAM_AT_X; connect PARAM_AT_X-1")
+
     def test_lists(self):
         table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
         self.assertIn("| wave | alpha | [alpha.sv](../rtl/core/wave/alpha.sv) |", table)

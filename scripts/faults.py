@@ -207,8 +207,7 @@ def report(options, root, faults, seconds):
 
         outputs.write_whole(options.picture, picture.draw(faults, options.picture.suffix[1:]))
     if options.update:
-        blocks = {path.stem for path in (root / "rtl/core").rglob("*.sv")}
-        blocks -= {*rtl_sources.WIRED_ROOMS}
+        blocks = {rtl_sources.measured_as(path.stem) for path in (root / "rtl/core").rglob("*.sv")}
         found = results.per_block(faults, blocks)
         if seconds:  # of all faults; what a block's share of it is nobody knows
             found.setdefault("feltgate_core", {})["seconds"] = round(seconds)

@@ -30,6 +30,11 @@ def instantiated(text, names):
     return [name for name in dict.fromkeys(found) if name in names]
 
 
+def measured_as(module):
+    """The block whose results, coverage and mutants those of a module's own lines are: of a room the core."""
+    return CORE if module in WIRED_ROOMS else module
+
+
 def room_of(path):
     """The room of a file below rtl/: of core/scenes/x.sv scenes, of core/x.sv core, of link/x.sv link."""
     return path.split("/")[-2]

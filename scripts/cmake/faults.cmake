@@ -23,7 +23,7 @@ add_custom_command(OUTPUT "${faults_flops}"
   COMMAND ${Python3_EXECUTABLE} -B "${faults_folder}/flop_table.py" --root "${FELTGATE_ROOT}" --design lever
           --yosys "${FELTGATE_YOSYS}" --model Vfaults --header "${faults_model}/Vfaults___024root.h"
           --output "${faults_flops}"
-  DEPENDS "${faults_model}/all.cpp" "${faults_folder}/flop_table.py"
+  DEPENDS "${faults_model}/all.cpp" "${faults_folder}/flop_table.py" "${FELTGATE_ROOT}/scripts/rtl_sources.py"
   COMMENT "Naming the flip-flops of the core" VERBATIM)
 
 file(GLOB faults_sources CONFIGURE_DEPENDS "${faults_folder}/*.cpp")

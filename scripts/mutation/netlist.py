@@ -16,8 +16,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from command_line import Refused
 import rtl_sources
+from command_line import Refused
 from crew import Crew
 from seeded_defects.block import Head
 
@@ -28,7 +28,7 @@ LEFT_OUT = ("CLK", "RD_CLK", "WR_CLK", "RD_EN", "RD_ARST", "RD_SRST", "clk_i")
 # Not `memory -nomap`: its ports would read X for a word that is being written.
 FLAT = ["flatten", "opt -full", "memory_collect", "opt_clean -purge"]
 # Rooms belong to the core; the blocks in them stay modules. With parameters their names are
-# $paramod\\NAME\\... or $paramod$...\\NAME; a pattern of Yosys takes no backslash.
+# $paramod\NAME\... or $paramod$...\NAME; a pattern of Yosys takes no backslash.
 ROOMS = " ".join(f"{r} $paramod*?{r} $paramod*?{r}?*" for r in rtl_sources.WIRED_ROOMS)
 LAYERED = [
     "setattr -mod -set keep_hierarchy 1 *",

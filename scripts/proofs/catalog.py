@@ -186,10 +186,9 @@ def open_ports(root, proofs):
     files = rtl_sources.module_files(root)
     for block in sorted(files.keys() - (unproven.BLOCKS.keys() - named.keys())):
         there = set(ports(root, block))
-        strange = named.pop(block, set())
-        seen = {port for pattern in strange for port in fnmatch.filter(there, pattern)}
-        found[block] = sorted(there - seen - {"clk_i", "rst_ni"})
-        strange = {pattern for pattern in strange if not fnmatch.filter(there, pattern)}
+        matches = {pattern: fnmatch.filter(there, pattern) for pattern in named.pop(block, ())}
+        found[block] = sorted(there.difference(*matches.values(), ("clk_i", "rst_ni")))
+        strange = {pattern for pattern, ports_of in matches.items() if not ports_of}
         if strange:
             raise CatalogError(f"{block}: rtl/{files[block]} has no port {', '.join(sorted(strange))}")
     if named:

@@ -6,10 +6,9 @@ missing here, prove.scripts fails. Documentation: docs/proofs.md"""
 import rtl_sources
 
 # Blocks of which no port is in a property: how they are tested instead.
-WIRES = "the proofs of feltgate_core go through it"
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
-    **dict.fromkeys(rtl_sources.WIRED_ROOMS, WIRES),
+    **dict.fromkeys(rtl_sources.WIRED_ROOMS, "the proofs of feltgate_core go through it"),
 }
 ENGINE = (
     "not how an instruction gets its words; proven are what it gives, what programs may write, "

@@ -66,9 +66,7 @@ def point_of(root, entry):
     if kind is None or is_points != (kind == "cover"):
         return None
     name = entry["o"] + (generated_index(entry["h"]) if is_points else "")
-    block = path.stem.removesuffix(POINTS)
-    if block in rtl_sources.WIRED_ROOMS:
-        block = rtl_sources.CORE
+    block = rtl_sources.measured_as(path.stem.removesuffix(POINTS))
     return Point(block, kind, file, int(entry["l"]), int(entry["n"]), name)
 
 

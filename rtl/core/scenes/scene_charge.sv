@@ -17,7 +17,7 @@ module scene_charge (
     input  logic                                            attract_i,  // selects, attracting
     input  logic                                            repel_i,    // selects, repelling
     input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
-    input  logic                                     [17:0] division_i,  // one-hot; bit 0: the square is on product_i; 1 to 17: the divider's clocks
+    input  logic        [                             17:0] division_i,  // one-hot clocks: the square on product_i, 17 of the divider
     input  logic                                            at_scene_distance_i,
     input  logic                                            param_is_attract_strength_i,
     input  logic                                            param_was_attract_strength_i,

@@ -146,7 +146,7 @@ module scenes #(
         .attract_i(attract),
         .repel_i(repel),
         .gap_i(gap_q),
-        .division_i(wave_i[feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE+:18]),
+        .division_i(wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1:feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE]),
         .at_scene_distance_i(wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
         .param_is_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),
         .param_was_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH+1]),

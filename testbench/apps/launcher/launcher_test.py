@@ -122,8 +122,9 @@ class Beside(Machine):
         shadow.write_text("raise ModuleNotFoundError(\"No module named 'numpy'\")\n", encoding="utf-8")
         path = self.bin / "apt-get"
         comes = f'case "$*" in *matplotlib*) rm -f {shadow} ;; esac\n'
-        # Apt ends when the build has begun.
-        waits = 'while ! grep -q ^ninja "$MACHINE/log"; do sleep 0.1; done'
+        # Apt ends when the build has begun, or is not going to.
+        begun = 'grep -q ^ninja "$MACHINE/log" && break; sleep 1'
+        waits = f"for n in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do {begun}; done"
         slow = f'case "$*" in *matplotlib*) {waits} ;; esac\n'
         (self.bin / "sleep").symlink_to("/usr/bin/sleep")
         text = path.read_text(encoding="utf-8")

@@ -16,8 +16,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOP = "feltgate_core"
-ROOMS = ("encoder", "estimators", "actuation", "safety", "wave")
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
+import rtl_sources  # noqa: E402
+
+TOP = rtl_sources.CORE
 
 
 def sources(root, design):
@@ -67,7 +69,7 @@ def rank(name):
 
 def in_its_block(name):
     """Without the room of its block: a block's name says which."""
-    return re.sub(rf"^u_({'|'.join(ROOMS)})\.(?=u_)", "", name)
+    return re.sub(rf"^u_({'|'.join(rtl_sources.WIRED_ROOMS)})\.(?=u_)", "", name)
 
 
 def flops(module, members):

@@ -32,11 +32,7 @@ struct SupervisorAdapter {
     rtl.velocity_i = static_cast<std::uint32_t>(in.velocity);
     rtl.current_ref_i = port_bits<kCurrentBits>(in.current_ref);
     FELTGATE_DRIVE(rtl, in, trips, axis_silent, axis_blocked, param);
-    FELTGATE_STROBES(rtl, in.wave, at, T, estimate_part, current_estimate, speed_size,
-                     current_squared, nominal, speed, growth_size, heat, strong_size, polarity,
-                     watchdog);
-    FELTGATE_STROBES(rtl, in.wave, param_is, W, overspeed, i2t_budget, polarity_speed,
-                     polarity_current, polarity_ticks, watchdog_ticks);
+    drive_strobes(rtl, in.wave);
     rtl.product_i = port_bits<kProductBits, std::uint64_t>(in.product);
   }
   static void at_edge(Vsupervisor& rtl) { rtl.stop_i = 0; }  // the pulse ends before the edge

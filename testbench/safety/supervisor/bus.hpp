@@ -7,6 +7,7 @@
 
 #include "../../wave/sequencer/sequencer_twin.hpp"
 #include "feltgate/supervisor.hpp"
+#include "ports.hpp"
 #include "random.hpp"
 #ifdef DESIGN_PAPER
 #include "feltgate/generated/paper.hpp"
@@ -71,6 +72,15 @@ struct Scenario {
     return words;
   }
 };
+
+/// Drives the strobes of a Verilated supervisor.
+template <class Rtl>
+void drive_strobes(Rtl& rtl, std::uint64_t wave) {
+  FELTGATE_STROBES(rtl, wave, at, T, estimate_part, current_estimate, speed_size, current_squared,
+                   nominal, speed, growth_size, heat, strong_size, polarity, watchdog);
+  FELTGATE_STROBES(rtl, wave, param_is, W, overspeed, i2t_budget, polarity_speed, polarity_current,
+                   polarity_ticks, watchdog_ticks);
+}
 
 /// Turns a scenario into the inputs of one clock. The buses carry noise in the clocks of other
 /// blocks.

@@ -10,7 +10,6 @@
 #include "bus.hpp"
 #include "catch.hpp"
 #include "mismatch.hpp"
-#include "ports.hpp"
 #include "sim/engines/rtl_model.hpp"
 
 using namespace feltgate::test;
@@ -59,11 +58,7 @@ class Pair {
     rtl_->trips_i = 0;
     rtl_->velocity_i = static_cast<std::uint32_t>(in.velocity);
     rtl_->current_ref_i = port_bits<Design::f.current.width()>(in.current_ref);
-    FELTGATE_STROBES((*rtl_), in.wave, at, T, estimate_part, current_estimate, speed_size,
-                     current_squared, nominal, speed, growth_size, heat, strong_size, polarity,
-                     watchdog);
-    FELTGATE_STROBES((*rtl_), in.wave, param_is, W, overspeed, i2t_budget, polarity_speed,
-                     polarity_current, polarity_ticks, watchdog_ticks);
+    drive_strobes(*rtl_, in.wave);
     rtl_->param_i = in.param;
     rtl_->product_i = port_bits<Design::product_bits, std::uint64_t>(in.product);
   }

@@ -55,7 +55,7 @@ module centre_proof (
   logic signed [TorqueW-1:0] outside;
   scene_charge u_dut (
       .*,
-      .division_i(wave[feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE+:18]),
+      .division_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1:feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE]),
       .at_scene_distance_i(wave[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
       .param_is_attract_strength_i(wave[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),
       .param_was_attract_strength_i(wave[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH+1]),

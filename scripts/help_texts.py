@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""docs/commands: what --help prints, so that ./feltgate can print it before anything is built.
+"""docs/commands.md: what --help prints, so that ./feltgate can print it before anything is built.
 
   ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes \\
     feltgate_host feltgate_board && scripts/help_texts.py --write
@@ -16,7 +16,12 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-COMMANDS = ROOT / "docs/commands"
+PAGE = ROOT / "docs/commands.md"
+HEAD = """# Commands
+
+What `--help` prints of each command and verb. `./feltgate` prints these texts before anything is
+built. [help_texts.py](../scripts/help_texts.py) writes this page.
+"""
 # Layout differs between versions of argparse and CLI11; the committed texts are Debian 12's.
 EXACT = (3, 11)
 WIDTH = "100"
@@ -52,11 +57,11 @@ def commands(build):
     programs = ("bench", "extremes", "host", "board")
     own |= {name: [build / f"feltgate_{name}"] for name in programs}
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
-    found["mutate--twin"] = [*own["mutate"], "--twin"]
+    found["mutate --twin"] = [*own["mutate"], "--twin"]
     for verb in host_verbs():
-        found[f"host-{verb}"] = [*own["host"], "PORT", verb]
+        found[f"host {verb}"] = [*own["host"], "PORT", verb]
     for verb in VERBS:
-        found[f"explore-{verb}"] = [build / "feltgate", "explore", verb]
+        found[f"explore {verb}"] = [build / "feltgate", "explore", verb]
     return found
 
 
@@ -86,18 +91,40 @@ def same(committed, now, exact):
     return committed == now if exact else words(committed) == words(now)
 
 
-def stale(folder, texts, exact):
+def committed(page=PAGE):
+    """{name of the text: text} of a page."""
+    return {name: "".join(lines) for name, _, lines in lines_of(page)}
+
+
+def lines_of(page=PAGE):
+    """(name, number of the first line, lines with their ends) of each text of a page."""
+    name, found = None, None
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(True), 1):
+        if line.startswith("```"):
+            if found:
+                yield found
+            found = None if found else (name, number + 1, [])
+        elif found:
+            found[2].append(line)
+        elif line.startswith("## "):
+            name = line[3:].strip()
+
+
+def page_of(texts):
+    blocks = (f"\n## {name}\n\n```text\n{texts[name]}```\n" for name in sorted(texts))
+    return HEAD + "".join(blocks)
+
+
+def stale(page, texts, exact):
     """Complaints, one line each and the lines that differ."""
+    there = committed(page)
     for name, now in texts.items():
-        path = folder / f"{name}.txt"
-        committed = path.read_text(encoding="utf-8") if path.exists() else ""
-        if not same(committed, now, exact):
-            yield f"{path.name}: stale; scripts/help_texts.py --write"
-            both = committed.splitlines(), now.splitlines()
+        if not same(there.get(name, ""), now, exact):
+            yield f"{page.name}, {name}: stale; scripts/help_texts.py --write"
+            both = there.get(name, "").splitlines(), now.splitlines()
             yield from difflib.unified_diff(*both, "committed", "now", lineterm="", n=0)
-    for path in sorted(folder.glob("*.txt")):
-        if path.stem not in texts:
-            yield f"{path.name}: there is no such command; delete the file"
+    for name in there.keys() - texts.keys():
+        yield f"{page.name}, {name}: there is no such command; scripts/help_texts.py --write"
 
 
 def main():
@@ -112,12 +139,11 @@ def main():
         except (OSError, ValueError) as error:
             wrong.append(str(error))
     if options.write:
-        COMMANDS.mkdir(exist_ok=True)
-        for name, text in texts.items():
-            (COMMANDS / f"{name}.txt").write_text(text, encoding="utf-8")
+        if not wrong:
+            PAGE.write_text(page_of(texts), encoding="utf-8")
     elif not wrong:
-        wrong += stale(COMMANDS, texts, sys.version_info[:2] == EXACT)
-    print("\n".join(wrong) or f"{len(texts)} texts in {COMMANDS}", file=sys.stderr)
+        wrong += stale(PAGE, texts, sys.version_info[:2] == EXACT)
+    print("\n".join(wrong) or f"{len(texts)} texts in {PAGE}", file=sys.stderr)
     return 1 if wrong else 0
 
 

@@ -8,6 +8,8 @@ import unittest
 
 from machine import ROOT, Machine
 
+import help_texts
+
 BUILD_PACKAGES = ("python3", "cmake", "ninja-build", "g++", "verilator")
 
 LABELS = {"name": "LABELS", "value": ["unit"]}
@@ -156,8 +158,7 @@ class Help(Machine):
             for words in ((name, "--help"), (name, "-h"), ("help", name)):
                 done = self.start(*words)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                committed = ROOT / f"docs/commands/{name}.txt"
-                self.assertEqual(done.stdout, committed.read_text(encoding="utf-8"))
+                self.assertEqual(done.stdout, help_texts.committed()[name])
         self.assertEqual(self.log(), [])
         self.assertFalse((self.repository / "build").exists())
 

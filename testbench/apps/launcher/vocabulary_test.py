@@ -14,9 +14,10 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, environment, ran  # noqa: E402
+from testing import ROOT, environment, ran  # noqa: E402, I001
 
-HELP = ROOT / "docs/commands"
+import help_texts  # noqa: E402
+
 PROGRAMS = Path(sys.argv.pop()) if len(sys.argv) > 1 else None
 
 # What an option's value is called, wherever the option is.
@@ -47,10 +48,9 @@ def options(text):
 
 class HelpTest(unittest.TestCase):
     def texts(self):
-        texts = sorted(HELP.glob("*.txt"))
+        texts = sorted(help_texts.committed().items())
         self.assertGreater(len(texts), 15)
-        # A verb comes after "-", an option after "-" too: mutate--twin.
-        return [(re.sub("-(-?)", r" \1\1", p.stem), p.read_text(encoding="utf-8")) for p in texts]
+        return texts
 
     def test_every_help_has_an_example_and_exit_codes(self):
         for command, text in self.texts():

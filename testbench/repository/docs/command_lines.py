@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The command lines that the pages show: in fenced blocks, inline where they start a program, and
-in the help texts of docs/commands.
+in the help texts of docs/commands.md.
 
 A line of a block ends where two blanks or a # begin its explanation. `feltgate run` alone, inline,
 only names a subcommand.
@@ -12,7 +12,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+import help_texts
 import pages
+
 
 PROGRAMS = ("feltgate", "cmake", "ctest", "ninja", "pip", "python", "python3", "parallel")
 PROGRAMS += ("sbatch", "cp", "mv", "git", "source", "sudo", "apt-get", "g++", "c++")
@@ -65,16 +67,17 @@ def of_code(code):
             yield Line(f"{one.page}:{one.line}", part.strip())
 
 
-def help_lines(path):
-    """The examples of a help text; lines with brackets are its usage."""
-    for number, text in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-        if text.startswith(" ") and "[" not in text:
-            yield pages.Code(Path("docs/commands") / path.name, number, text.strip(), "")
+def help_lines(page):
+    """The examples of the help texts; lines with brackets are their usage."""
+    for _, first, lines in help_texts.lines_of(page):
+        for number, text in enumerate(lines, first):
+            if text.startswith(" ") and "[" not in text:
+                yield pages.Code(Path("docs") / page.name, number, text.strip(), "")
 
 
-def all_lines(root=pages.ROOT):
-    for path in sorted(root.glob("docs/commands/*.txt")):
-        yield from of_code(help_lines(path))
+def all_lines():
+    root = pages.ROOT
+    yield from of_code(help_lines(help_texts.PAGE))
     for page in pages.pages(root):
         code, _ = pages.parts(page, root)
         yield from of_code(code)

@@ -20,7 +20,8 @@ import tempfile
 import time
 from pathlib import Path
 
-import command_lines
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "scripts"))
+import command_lines  # noqa: E402
 import command_rules
 import sandbox
 

@@ -7,7 +7,7 @@ Yosys makes a netlist of each block and changes one bit at one pin of one cell: 
 inverted by another bit. 400 such mutants of a block (60 % of what there is where that is less) are
 in one netlist behind its ports, Verilated once and chosen at run time; the block's own test program
 runs in lock-step with the twin until it notices. What survives is proven to be the same circuit
-(yosys-abc), is listed in testbench/ROOM/BLOCK/mutants.toml with the reason, or is a gap in the test.
+(yosys-abc), is listed in testbench/campaigns/mutate/rtl.toml with the reason, or is a gap in the test.
 --show prints one mutant with its lines of source, cell and fate, and inputs for which it differs.
 Method, results and what this does not say: docs/verification.md
 

@@ -15,7 +15,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import interrupts
-import rtl_sources
 from command_line import say
 from crew import Crew
 
@@ -69,16 +68,19 @@ def tests(build):
     return found
 
 
+LISTED = Path("testbench/campaigns/mutate/rtl.toml")
+
+
 class Listed:
-    """testbench/ROOM/BLOCK/mutants.toml: survivors that were looked at, with the reason."""
+    """Survivors of a block that were looked at, with the reason: its entries in rtl.toml."""
 
     def __init__(self, root, block):
-        path = rtl_sources.tests_of(root, block) / "mutants.toml"
+        path = root / LISTED
         self.root = root
         self.entries = []
         if path.exists():
             try:
-                self.entries = tomllib.loads(path.read_text(encoding="utf-8")).get("survivor", [])
+                self.entries = tomllib.loads(path.read_text(encoding="utf-8")).get(block, [])
                 for entry in self.entries:
                     for key in PATTERNS & entry.keys():
                         re.compile(entry[key])
@@ -367,7 +369,6 @@ def show(test, number, root, proof_seconds):
         print(
             f"{kind}: {why}"
             if kind
-            else "to list it with a reason: "
-            f"{rtl_sources.tests_of(root, test.block).relative_to(root)}/mutants.toml"
+            else f"to list it with a reason: {LISTED}, [[{test.block}]]"
         )
     print(f"again: FELTGATE_MUTANT={number} {test.program}")

@@ -221,7 +221,7 @@ class Reasons(Scratch):
         self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")}) | {"number": 1}
 
     def listed(self, text):
-        self.put("testbench/wave/b/mutants.toml", text)
+        self.put(rtl.LISTED, text)
         return rtl.Listed(self.folder, "b")
 
     def test_where(self):
@@ -229,7 +229,7 @@ class Reasons(Scratch):
                          ["rtl/b.sv:1: one", "rtl/b.sv:2: assign w = a + 1;"])
 
     def test_every_key_must_fit(self):
-        whole = ('[[survivor]]\nline = "w = a + 1"\nwire = "w"\npin = "[$]add[.]Y"\nbits = [3]\n'
+        whole = ('[[b]]\nline = "w = a + 1"\nwire = "w"\npin = "[$]add[.]Y"\nbits = [3]\n'
                  'modes = ["cnot1"]\nkind = "gap"\nwhy = "x"\n')
         self.assertEqual(self.listed(whole).entry(self.mutant), ("gap", "x"))
         for key, other in (("w = a", "v = a"), ('wire = "w"', 'wire = "v"'), ("add", "sub"),
@@ -241,15 +241,15 @@ class Reasons(Scratch):
                      'kind = "gap"\nwhy = "x"\nlin = "x"\n', 'why = "x"\nline = "x"\n',
                      'kind = "other"\nwhy = "x"\nline = "x"\n'):
             with self.assertRaises(rtl.MutateError):
-                self.listed(f"[[survivor]]\n{text}")
-        for text in ("[[survivor]\n", '[[survivor]]\nkind = "gap"\nwhy = "x"\nwire = "a["\n'):
-            with self.assertRaisesRegex(rtl.MutateError, "mutants.toml"):
+                self.listed(f"[[b]]\n{text}")
+        for text in ("[[b]\n", '[[b]]\nkind = "gap"\nwhy = "x"\nwire = "a["\n'):
+            with self.assertRaisesRegex(rtl.MutateError, "rtl.toml"):
                 self.listed(text)
 
     def test_figures(self):
         test = rtl.Test("b", "b", self.folder, self.folder / "b_mutants", 1, 100,
                         [self.mutant | {"number": n} for n in range(1, 6)])
-        gap = '[[survivor]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n'
+        gap = '[[b]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n'
         row = rtl.Row(test, self.listed(gap))
         row.fates = {1: rtl.KILLED, 2: rtl.HANGS, 3: rtl.SURVIVES, 4: rtl.SURVIVES, 5: rtl.KILLED}
         row.proofs = {3: (equivalence.EQUIVALENT, ""),

@@ -7,8 +7,8 @@
   timing_diagram.py --check docs/images/tick.json     status 1 when that file is stale
 
 It supports the part of WaveDrom that our diagrams use: lanes with name, wave (0 1 . x = 2 to 9) and
-data; empty lanes; head.text, head.tock, foot.text. config.wrap, which WaveDrom ignores, breaks a
-long diagram into rows of that many periods.
+data; empty lanes; head.text, head.tock, foot.text; config.hscale. config.wrap, which WaveDrom ignores,
+breaks a long diagram into rows of that many periods.
 """
 
 import argparse
@@ -41,15 +41,15 @@ def text(x, y, words, size=10, anchor="middle", more=""):
     )
 
 
-def draw_lane(lane, y, first, last):
+def draw_lane(lane, y, first, last, names, cell):
     """One lane of one row, periods first to last."""
-    out = [text(NAMES - 8, y + HIGH / 2 + 4, lane.get("name", ""), 11, "end")]
+    out = [text(names - 8, y + HIGH / 2 + 4, lane.get("name", ""), 11, "end")]
     before = None
     for start, end, level, label in segments(lane):
         start, end = max(start, first), min(end, last)
         if start >= end:
             continue
-        left, width = NAMES + (start - first) * CELL, (end - start) * CELL
+        left, width = names + (start - first) * cell, (end - start) * cell
         if level in "01":
             edge = y if level == "1" else y + HIGH
             if before not in (None, edge):
@@ -75,31 +75,34 @@ def svg(diagram):
             raise ValueError(f"lane {lane['name']!r}: {len(lane['wave'])} periods, not {total}")
     wrap = diagram.get("config", {}).get("wrap", total)
     head, foot = diagram.get("head", {}), diagram.get("foot", {})
+    cell = CELL * diagram.get("config", {}).get("hscale", 1)
+    names = max(NAMES, MARGIN + 6 * max(len(lane.get("name", "")) for lane in lanes))
     out, y = [], MARGIN
     if "text" in head:
-        out.append(text(NAMES, y + 12, head["text"], 13, "start", 'font-weight="bold"'))
+        out.append(text(names, y + 12, head["text"], 13, "start", 'font-weight="bold"'))
         y += 24
     for first in range(0, total, wrap):
         last, top = min(first + wrap, total), y
         if "tock" in head:
             for at in range(first, last):
-                x = NAMES + (at - first + 0.5) * CELL
+                x = names + (at - first + 0.5) * cell
                 out.append(text(x, y + 11, head["tock"] + at, 9, more='fill="#555"'))
             y += 18
         bottom = y + LANE * len(lanes) - (LANE - HIGH)
         grid = "".join(
-            f"M{NAMES + at * CELL} {top + 14}V{bottom}" for at in range(last - first + 1)
+            f"M{names + at * cell} {top + 14}V{bottom}" for at in range(last - first + 1)
         )
         out.append(f'<path d="{grid}" stroke="#ddd" stroke-dasharray="2 2"/>')
         for lane in lanes:
             if lane:
-                out += draw_lane(lane, y, first, last)
+                out += draw_lane(lane, y, first, last, names, cell)
             y += LANE
         y += 14
     if "text" in foot:
-        out.append(text(NAMES, y + 4, foot["text"], 10, "start", 'fill="#555"'))
+        out.append(text(names, y + 4, foot["text"], 10, "start", 'fill="#555"'))
         y += 14
-    width, height = NAMES + min(wrap, total) * CELL + MARGIN, y
+    words = 5 * max(len(foot.get("text", "")), len(head.get("text", "")))
+    width, height = names + max(min(wrap, total) * cell, words) + MARGIN, y
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
         f'viewBox="0 0 {width} {height}" font-family="Helvetica, Arial, sans-serif">\n'

@@ -89,8 +89,9 @@ module core_tb;
              compare_read ? rdata : expected[31:0]};
   end
 
-  integer file, got, clocks, mismatches;
-  reg [8*200-1:0] path;
+  // With +vcd=FILE +first=CLOCK the tick after this clock is written as a VCD, for the drawings of the blocks' clocks.
+  integer file, got, clocks, mismatches, first;
+  reg [8*200-1:0] path, vcd;
   initial begin
     if (!$value$plusargs("vectors=%s", path)) begin
       $display("usage: vvp core_tb.vvp +vectors=FILE");
@@ -98,6 +99,8 @@ module core_tb;
     end
     file = $fopen(path, "r");
     compare_read = 1'b0;
+    if (!$value$plusargs("first=%d", first)) first = -1;
+    if ($value$plusargs("vcd=%s", vcd)) $dumpfile(vcd);
     clocks = 0;
     mismatches = 0;
     #1 rst_n = 1'b0;
@@ -108,6 +111,8 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
+      if (clocks == first) $dumpvars(0, dut);
+      if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;
       #1;

@@ -8,7 +8,7 @@ docs/blocks/<b>.md (scene_* blocks may share a folder of testbench/scenes), at l
 page that links the others. The twin is the class with the block's name. It is in
 model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
 law that it evaluates, if any, is in the former.
-Further checks: a strobe is connected to the clock of its name, no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
+Further checks: a strobe is connected to the clock of its name, what a page draws is in the RTL, no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
 and the lists made from the blocks are up to date: docs/blocks.md with the results of
 docs/verification, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
@@ -137,6 +137,17 @@ def check_block(root, block):
             # A link to the test's folder is as good.
             if not {path, path.parent} & links:
                 yield f"{block.doc}: no link to {path}; link it in the first lines"
+
+
+def check_drawing(root, block):
+    """Each port and register in the drawings of a page is in the RTL of the block or of its parts."""
+    page = root / block.doc
+    text = page.read_text(encoding="utf-8") if page.exists() else ""
+    files = [root / block.rtl] if block.rtl.parts[1] == "core" else (root / block.rtl).parent.glob("*.sv")
+    names = set(re.findall(r"\w+", "".join(path.read_text(encoding="utf-8") for path in files)))
+    for drawing in re.findall(r"^```mermaid\n(.*?)^```", text, re.S | re.M):
+        for name in sorted({*re.findall(r"\b\w+_(?:n?[io]|q[0-9]?)\b", drawing)} - names):
+            yield f"{block.doc}: {name} of the drawing is not in the RTL; correct the drawing"
 
 
 def check_defects(root):
@@ -350,6 +361,7 @@ def check(root, write=False):
         found.append(f"rtl/{ordered[name]}: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
+        found += check_drawing(root, block)
     for page in sorted(root.glob("docs/**/*.md")):
         if page != root / "docs/blocks.md":  # its links are the siblings, checked above
             found += check_links(root, page.relative_to(root))

@@ -66,6 +66,11 @@ class CheckBlocks(unittest.TestCase):
         self.put(block, text + "// .param_next_x_i(wave[feltgate_map_pkg::PARAM_AT_X])\n")
         self.expect("param_next_x_i at feltgate_map_pkg::PARAM_AT_X; connect PARAM_AT_X-1")
 
+    def test_a_drawing_of_another_port(self):
+        page = (self.root / "docs/blocks/alpha.md").read_text(encoding="utf-8")
+        self.put("docs/blocks/alpha.md", page + '```mermaid\nflowchart LR\n  x(["gone_i"])\n```\n')
+        self.expect("docs/blocks/alpha.md: gone_i of the drawing is not in the RTL")
+
     def test_lists(self):
         table = (self.root / "docs/blocks.md").read_text(encoding="utf-8")
         self.assertIn("| wave | alpha | [alpha.sv](../rtl/core/wave/alpha.sv) |", table)

@@ -19,7 +19,7 @@ namespace feltgate::claims {
 namespace {
 
 std::string number(double x, const std::string& unit) {
-  return fmt::format("{:.4g}{}{}", x, unit.empty() || unit == "%" ? "" : " ", unit);
+  return fmt::format("{:.4g}{}{}", x, unit.empty() ? "" : " ", unit);
 }
 
 /// The figures of a column, each with its name.
@@ -150,16 +150,22 @@ RunResult Lab::run(Scenario s, const plant::Parameters& plant, const std::string
   return run_scenario(s, plant, options);
 }
 
-const std::vector<std::string>& papers() {
-  static const std::vector<std::string> all{
-      "A. G. Rodríguez Ramírez, M. Nandayapa, O. O. Vergara Villegas, F. García Luna, *Haptic "
-      "Augmentation Towards a Smart Learning Environment: The Haptic Lever Design*",
-      "*Virtual Reality Haptics*, a wearable device for the wrist, on a virtual drum kit",
-      "A. Aranzola, B. Wong, C. Cementon, S. Li, *Haptic Hunt: a pantograph rendering of complex "
-      "shapes* (2026)",
-      "A. Sadirova, H. H.-V. Nguyen, M. Imad, S. Ramkumar, *TouchWorld: Haptic Exploration of "
-      "AI-Generated 3D Environments* (2026)",
-      "A report on DIMPLE, the ERGOS device and a texture study (March to September 2008)"};
+const std::vector<Paper>& papers() {
+  static const std::vector<Paper> all{
+      {"The Haptic Lever",
+       "A. G. Rodríguez Ramírez, M. Nandayapa, O. O. Vergara Villegas, F. García Luna, *Haptic "
+       "Augmentation Towards a Smart Learning Environment: The Haptic Lever Design*"},
+      {"A wrist device",
+       "*Virtual Reality Haptics*: a wearable haptic device, shown on a virtual drum kit"},
+      {"Haptic Hunt",
+       "A. Aranzola, B. Wong, C. Cementon, S. Li, *Haptic Hunt: a pantograph rendering of complex "
+       "shapes*, 2026"},
+      {"TouchWorld",
+       "A. Sadirova, H. H.-V. Nguyen, M. Imad, S. Ramkumar, *TouchWorld: Haptic Exploration of "
+       "AI-Generated 3D Environments*, 2026"},
+      {"DIMPLE and textures",
+       "a report on work from March to September 2008: DIMPLE, the ERGOS device, bowing with six "
+       "degrees of freedom, textures"}};
   return all;
 }
 
@@ -186,14 +192,15 @@ std::string json(const std::vector<Answer>& answers) {
   j["claims"] = nlohmann::ordered_json::array();
   for (const Answer& row : answers) {
     const Claim& c = row.claim;
-    nlohmann::ordered_json claim{{"name", row.source.name},
-                                 {"paper", papers()[static_cast<std::size_t>(row.source.paper)]},
-                                 {"where", c.where},
-                                 {"claim", c.says},
-                                 {"verdict", name_of(c.verdict())},
-                                 {"why", c.why},
-                                 {"closed_form", c.formula},
-                                 {"simulation", c.simulation}};
+    nlohmann::ordered_json claim{
+        {"name", row.source.name},
+        {"paper", papers()[static_cast<std::size_t>(row.source.paper)].title},
+        {"where", c.where},
+        {"claim", c.says},
+        {"verdict", name_of(c.verdict())},
+        {"why", c.why},
+        {"closed_form", c.formula},
+        {"simulation", c.simulation}};
     claim["figures"] = nlohmann::ordered_json::array();
     for (const Figure& f : c.figures) {
       nlohmann::ordered_json figure{{"what", f.what},
@@ -237,9 +244,9 @@ board. A dash: no simulation can judge the claim, for the reason beside it. The 
 )";
   for (std::size_t paper = 0; paper < papers().size(); ++paper) {
     out += fmt::format(
-        "\n## {}\n\n| claim | where | closed form | simulation | verdict |\n"
+        "\n## {}\n\n{}\n\n| claim | where | closed form | simulation | verdict |\n"
         "|---|---|---|---|---|\n",
-        papers()[paper]);
+        papers()[paper].title, papers()[paper].source);
     for (const Answer& row : answers) {
       if (static_cast<std::size_t>(row.source.paper) != paper) continue;
       const Claim& c = row.claim;

@@ -80,7 +80,11 @@ struct Source {
   int paper;  ///< index in papers()
   Claim (*work_out)(const Lab&);
 };
-const std::vector<std::string>& papers();
+struct Paper {
+  const char* title;
+  const char* source;
+};
+const std::vector<Paper>& papers();
 const std::vector<Source>& sources();
 /// The rows of the Haptic Lever, and of the other four papers; sources() has both.
 std::vector<Source> haptic_lever();

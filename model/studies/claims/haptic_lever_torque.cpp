@@ -119,7 +119,8 @@ Claim kv_border(const Lab& lab) {
   Claim c{"III.C.2, Table 4",
           "two regions of operation, with a gain each",
           "(0.95 - 1.25) 0.15 Nm / Ktn times Kt / R of the 24 V winding",
-          "`paper`, locked lever, no dead time, the set-point raised by one LSB across 0.15 Nm",
+          "`paper`, locked lever, no dead time, the set-point raised by one LSB across 0.15 Nm; a "
+          "step of the PWM is 0.69 mNm",
           "at the border the torque falls while the user pushes deeper",
           {}};
   c.asks("change of the torque as the reference rises", "mNm",

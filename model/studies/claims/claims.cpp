@@ -18,22 +18,27 @@ namespace feltgate::claims {
 
 namespace {
 
-std::string number(double x, const std::string& unit) {
-  return fmt::format("{:.4g}{}{}", x, unit.empty() ? "" : " ", unit);
-}
-
 /// The figures of a column, each with its name.
-std::string listed(const Claim& c, double Figure::*column) {
+std::string listed(const Claim& c, double Figure::*column, int digits) {
   std::string out;
   for (const Figure& f : c.figures) {
     if (std::isnan(f.*column)) continue;
-    out += fmt::format("{}{}: {}", out.empty() ? "" : "; ", f.what, number(f.*column, f.unit));
+    out += fmt::format("{}{}: {:.{}g}{}{}", out.empty() ? "" : "; ", f.what, f.*column, digits,
+                       f.unit.empty() ? "" : " ", f.unit);
   }
   return out;
 }
 
 std::string joined(const std::string& how, const std::string& figures) {
   return figures.empty() ? how : how + ". " + figures;
+}
+
+std::string closed_form(const Claim& c) {
+  return joined(c.formula, listed(c, &Figure::formula, 5));
+}
+
+std::string simulation(const Claim& c) {
+  return joined(c.simulation, listed(c, &Figure::simulated, 4));
 }
 
 nlohmann::ordered_json or_null(double x) {
@@ -164,7 +169,7 @@ const std::vector<Paper>& papers() {
        "A. Sadirova, H. H.-V. Nguyen, M. Imad, S. Ramkumar, *TouchWorld: Haptic Exploration of "
        "AI-Generated 3D Environments*, 2026"},
       {"DIMPLE and textures",
-       "a report on work from March to September 2008: DIMPLE, the ERGOS device, bowing with six "
+       "A report on work from March to September 2008: DIMPLE, the ERGOS device, bowing with six "
        "degrees of freedom, textures"}};
   return all;
 }
@@ -182,9 +187,7 @@ std::string text(const Answer& row) {
   const Claim& c = row.claim;
   return fmt::format(
       "{}: {}\n  claim       {} ({})\n  closed form {}\n  simulation  {}\n  why         {}\n\n",
-      row.source.name, name_of(c.verdict()), c.says, c.where,
-      joined(c.formula, listed(c, &Figure::formula)),
-      joined(c.simulation, listed(c, &Figure::simulated)), c.why);
+      row.source.name, name_of(c.verdict()), c.says, c.where, closed_form(c), simulation(c), c.why);
 }
 
 std::string json(const std::vector<Answer>& answers) {
@@ -236,6 +239,8 @@ board. A dash: no simulation can judge the claim, for the reason beside it. The 
 - **holds if**: they do under the condition of the last column, which the paper does not state;
 - **cannot be had**: not with the paper's own numbers, or a number is missing.
 
+The figures of a column stand behind its text, each with its name and unit.
+
 ```
 ./feltgate claims                       every claim, as text
 ./feltgate claims window half_nm_of_7_a only these
@@ -251,8 +256,7 @@ board. A dash: no simulation can judge the claim, for the reason beside it. The 
       if (static_cast<std::size_t>(row.source.paper) != paper) continue;
       const Claim& c = row.claim;
       out += fmt::format("| `{}`: {} | {} | {} | {} | **{}**{} {} |\n", row.source.name, c.says,
-                         c.where, joined(c.formula, listed(c, &Figure::formula)),
-                         joined(c.simulation, listed(c, &Figure::simulated)), name_of(c.verdict()),
+                         c.where, closed_form(c), simulation(c), name_of(c.verdict()),
                          c.verdict() == Verdict::holds_if ? "" : ":", c.why);
     }
   }

@@ -66,12 +66,13 @@ Claim quaternion(const Lab&) {
   const Quaternion q = product(device, inverse(object));
   Claim c{
       "4, eq. 1",
-      "qd qo^-1 gives the torque without a singularity; qd^-1 qo does not",
+      "qd qo^-1 gives the torque; qd^-1 qo resulted in a singularity",
       "The last three elements of qd qo^-1 are the axis times sin(phi/2): the torque is 2 k "
       "sin(phi/2), k phi for small angles",
       "a ball on that spring with damping, from 90° about x towards 90° about z; the axis itself "
       "in `./feltgate run gimbal`",
-      "the other order has no singularity either: it is the same error with the other sign and "
+      "the other order does fail, but it has no singularity: it is the same error with the other "
+      "sign and "
       "in the device's frame, so in the frame of the world it pushes away. The flip at 360° is a "
       "missing sign of the first element",
       {}};

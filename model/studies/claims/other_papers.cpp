@@ -34,7 +34,7 @@ Claim noise_not_rate(const Lab& lab) {
           "noise",
           "a host's wall of 0.2 Nm/deg at 144 Hz on `lever` and `p24`, a hand leaning on its face; "
           "0.05 degrees of noise are ours",
-          "it does, with a hand on the lever, whose damping is above K T / 2",
+          "it does, with a hand on the lever, whose 0.065 Nm s/rad are above K T / 2",
           {}};
   c.asks("rms without noise", "mNm", none, quiet, at_most(0.1));
   c.asks("rms with noise", "mNm", none, noisy, at_least(1));

@@ -45,9 +45,10 @@ Claim border(const Lab&) {
     c.asks(fmt::format("bv {:g} Ns/m at {:g} kHz", w.bv, w.hz / 1e3), "N/m", bound(w.bv, 1 / w.hz),
            stability::stiffest(loop(w.bv, 1 / w.hz)), near(w.n_m, 0.005 * w.n_m));
   }
-  c.explains("206 with 10 g", "N/m", none,
+  c.explains("206 N/m with 10 g", "N/m", none,
              stability::stiffest(loop(virtual_b, millisecond_s, 0.01)));
-  c.explains("with 1 kg", "N/m", none, stability::stiffest(loop(virtual_b, millisecond_s, 1)));
+  c.explains("206 N/m with 1 kg", "N/m", none,
+             stability::stiffest(loop(virtual_b, millisecond_s, 1)));
   return c;
 }
 
@@ -185,7 +186,8 @@ Claim force_shading(const Lab&) {
           "sqrt(1 - s²) of the slope, shading sqrt(1 - 2 c s² + c² (2 + cos h)/3)",
           "a row of pixels in the engine's words, slopes to 0.2, sideways force against the smooth "
           "curve's",
-          "a bump has about 8 facets: 35 % of the slope's error, 41 % of the force's. With 16 it "
+          "a bump has about 8 facets (to 6 %): 35 % of the slope's error, 41 % of the force's. "
+          "With 16 it "
           "is 66 and 70 %",
           {}};
   c.asks_if("reduction, 8 facets", "%", reduction_pct(8), simulated(8), near(36, 6));

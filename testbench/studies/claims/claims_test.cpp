@@ -271,8 +271,8 @@ TEST_CASE("claims: each row has its verdict, and each of its figures the value w
     INFO(answers()[i].source.name);
     CHECK(answers()[i].source.name == std::string(e.name));
     CHECK(name_of(c.verdict()) == std::string(e.verdict));
-    REQUIRE(c.figures.size() == e.figures.size());
-    for (std::size_t f = 0; f < c.figures.size(); ++f) {
+    CHECK(c.figures.size() == e.figures.size());
+    for (std::size_t f = 0; f < std::min(c.figures.size(), e.figures.size()); ++f) {
       INFO(c.figures[f].what << ": closed form " << c.figures[f].formula << ", simulated "
                              << c.figures[f].simulated);
       CHECK(right(c.figures[f], e.figures[f]));

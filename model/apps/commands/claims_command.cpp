@@ -60,6 +60,7 @@ int run_claims(const ClaimsArguments& a) {
     outputs.say(claims::page(answers));
   } else {
     for (const claims::Answer& answer : answers) outputs.say(claims::text(answer));
+    outputs.say(claims::summary(answers));
   }
   if (json != nullptr) json->write(claims::json(answers));
   outputs.commit();

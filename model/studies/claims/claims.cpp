@@ -224,6 +224,17 @@ std::string json(const std::vector<Answer>& answers) {
   return files::json_text(j);
 }
 
+std::string summary(const std::vector<Answer>& answers) {
+  int holds = 0, holds_if = 0;
+  for (const Answer& answer : answers) {
+    holds += answer.claim.verdict() == Verdict::holds;
+    holds_if += answer.claim.verdict() == Verdict::holds_if;
+  }
+  const auto all = static_cast<int>(answers.size());
+  return fmt::format("{} claims: {} hold, {} hold under a condition, {} cannot be had.\n", all,
+                     holds, holds_if, all - holds - holds_if);
+}
+
 std::string page(const std::vector<Answer>& answers) {
   std::string out = R"(# What five papers claim, and what their own numbers say
 
@@ -239,7 +250,8 @@ board. A dash: no simulation can judge the claim, for the reason beside it. The 
 - **holds if**: they do under the condition of the last column, which the paper does not state;
 - **cannot be had**: not with the paper's own numbers, or a number is missing.
 
-The figures of a column stand behind its text, each with its name and unit.
+The figures of a column stand behind its text, each with its name and unit: 2-core x86_64 VM, 2026-11-26, 8 s of
+processor time.
 
 ```
 ./feltgate claims                       every claim, as text
@@ -247,6 +259,7 @@ The figures of a column stand behind its text, each with its name and unit.
 ./feltgate claims --json claims.json    the same for a program
 ```
 )";
+  out += "\n" + summary(answers);
   for (std::size_t paper = 0; paper < papers().size(); ++paper) {
     out += fmt::format(
         "\n## {}\n\n{}\n\n| claim | where | closed form | simulation | verdict |\n"

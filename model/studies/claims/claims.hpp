@@ -96,6 +96,8 @@ struct Answer {
   Claim claim;
 };
 std::string text(const Answer& answer);
+/// How many there are of each verdict, in a line.
+std::string summary(const std::vector<Answer>& answers);
 std::string json(const std::vector<Answer>& answers);
 /// The page docs/claims.md.
 std::string page(const std::vector<Answer>& answers);

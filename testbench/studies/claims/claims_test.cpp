@@ -318,6 +318,7 @@ TEST_CASE("claims: the page is up to date, and the JSON has every row") {
   std::string off = now;
   off.replace(off.find("391.68"), 6, "396.68");
   CHECK(stale(off, now) == "396.68: 391.68");
+  CHECK(summary(answers()) == "31 claims: 7 hold, 15 hold under a condition, 9 cannot be had.\n");
   const auto j = nlohmann::json::parse(json(answers()));
   CHECK(j["schema"] == "feltgate-claims/1");
   REQUIRE(j["claims"].size() == expected().size());

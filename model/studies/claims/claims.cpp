@@ -254,9 +254,9 @@ The figures of a column stand behind its text, each with its name and unit: 2-co
 processor time.
 
 ```
-./feltgate claims                       every claim, as text
-./feltgate claims window half_nm_of_7_a only these
-./feltgate claims --json claims.json    the same for a program
+./feltgate claims                          every claim, as text
+./feltgate claims window half_nm_of_7_a    only these
+./feltgate claims --json claims.json       the same for a program
 ```
 )";
   out += "\n" + summary(answers);

@@ -41,7 +41,7 @@ REPLAY_SCENE = "damper"
 # Further scenes of devices that others show already, and long ones.
 ALL_ONLY = (
     *("wall_tracked", "ceiling_tracked", "end_stops_thrown", "material_fabric", "material_water"),
-    *("coupled_levers_drag", "coupled_levers_free"),
+    *("material_object", "coupled_levers_drag", "coupled_levers_free"),
     *("pantograph_wall", "pantograph_wall_filtered"),  # over a minute each
 )
 

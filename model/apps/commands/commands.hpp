@@ -27,6 +27,7 @@ void add_stability(CLI::App& app, int* exit_code);
 void add_rates(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
 void add_budget(CLI::App& app, int* exit_code);
+void add_claims(CLI::App& app, int* exit_code);
 void add_law(CLI::App& app, int* exit_code);
 void add_shape(CLI::App& app, int* exit_code);
 void add_texture(CLI::App& app, int* exit_code);

@@ -75,6 +75,10 @@ std::unique_ptr<RealChain> make(Kind kind, const Tuning& t) {
 
 /// Bits of the observer's state.
 constexpr int observer_bits = FedLever::f.observer.width();
+/// Of the observer (Ktn*I, g*Jn*w, a1), and from the torque to the current.
+constexpr int shared_multiplications = 3 + 1;
+/// LUT4 equivalents of the blocks, measured (scripts/synth_budget.toml, lever).
+constexpr int dob_lut4 = 253, lowpass_lut4 = 102;
 
 constexpr double step_nm = 0.2;
 constexpr double wall_damping_nm_s_rad = 0.005;
@@ -161,20 +165,28 @@ const char* name_of(Kind kind) {
   throw std::invalid_argument("no such controller");
 }
 
+namespace {
+
+template <class Law>
+Size with_law(int low_passes) {
+  return {shared_multiplications + Law::multiplications, observer_bits + Law::state_bits,
+          dob_lut4 + low_passes * lowpass_lut4, dob_lut4};
+}
+
+}  // namespace
+
 Size size_of(Kind kind) {
-  // Ktn*I, g*Jn*w and a1 of the observer, the last product tau_ref or u to current.
   switch (kind) {
     case Kind::observer:
-      return {5, observer_bits, 253, 253};
+      return {shared_multiplications + 1, observer_bits, dob_lut4, dob_lut4};
     case Kind::feed_forward:
       return {1, 0, 0, 0};
     case Kind::pi:
-      return {6, observer_bits + PiLaw<FedLever, Fixed>::state_bits, 253 + 102, 253};
+      return with_law<PiLaw<FedLever, Fixed>>(1);
     case Kind::pid:
-      return {8, observer_bits + PidWithDerivative<FedLever, Fixed>::state_bits, 253 + 2 * 102,
-              253};
+      return with_law<PidWithDerivative<FedLever, Fixed>>(2);
     case Kind::reaction:
-      return {6, observer_bits + ReactionLaw<FedLever, Fixed>::state_bits, 253 + 102, 253};
+      return with_law<ReactionLaw<FedLever, Fixed>>(1);
   }
   throw std::invalid_argument("no such controller");
 }

@@ -70,12 +70,12 @@ std::string report_text(const Report& r) {
   borders("largest wall, pressed, Nm/rad", &Row::border_nm_rad);
   borders("largest wall, a hand leans on it, Nm/rad", &Row::held_border_nm_rad);
   s += line(r, "multiplications a tick",
-            [](const Row& row) { return std::to_string(size_of(row.kind).multiplications); });
+            [](const Row& row) { return fmt::format("{}", size_of(row.kind).multiplications); });
   s += line(r, "bits of state",
-            [](const Row& row) { return std::to_string(size_of(row.kind).state_bits); });
+            [](const Row& row) { return fmt::format("{}", size_of(row.kind).state_bits); });
   s += line(r, "LUT4 eq", [](const Row& row) {
     const Size size = size_of(row.kind);
-    if (size.lut4 == size.measured) return std::to_string(size.lut4);
+    if (size.lut4 == size.measured) return fmt::format("{}", size.lut4);
     return fmt::format("{} + about {}", size.measured, size.lut4 - size.measured);
   });
   s += "\n" + head(r, "fixed point");

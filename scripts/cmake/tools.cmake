@@ -58,6 +58,11 @@ target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_rates PRIVATE
   FELTGATE_VERSION="${PROJECT_VERSION}")
 
+# The observer beside other controllers.
+feltgate_library(feltgate_controllers studies/controllers feltgate_stability feltgate_loop)
+target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
+target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
+
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
   Boost::headers)
@@ -153,7 +158,7 @@ endif()
 
 list(REMOVE_ITEM tool_sources ${run_names})
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_budget feltgate_claims feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_design
+  feltgate_rtl feltgate_files feltgate_budget feltgate_claims feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
   feltgate_command_line nlohmann_json::nlohmann_json)
 target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 

@@ -83,6 +83,18 @@ int run_script(const std::string& name, const std::vector<std::string>& words, s
   return files::run_program(script_words(name, words), fileno(out));
 }
 
+int draw_from_json(const std::string& name, const std::string& json, const std::string& picture,
+                   const files::Outputs& outputs) {
+  const std::string data =
+      (fs::temp_directory_path() / fmt::format("{}_{}.json", name, getpid())).string();
+  files::OutputFile numbers("--output", data);
+  numbers.write(json);
+  numbers.commit();
+  const int status = run_script(name, {data, picture}, outputs.text());
+  fs::remove(data);
+  return status == 0 ? exit_ok : status < exit_signal ? exit_unusable : status;
+}
+
 std::string repository() {
   const char* root = std::getenv("FELTGATE_ROOT");
   return root != nullptr ? root : FELTGATE_SOURCE_DIR;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "design/design.hpp"
+#include "files/output_file.hpp"
 
 namespace feltgate {
 
@@ -25,6 +26,7 @@ void add_import(CLI::App& app, int* exit_code);
 void add_design(CLI::App& app, int* exit_code);
 void add_stability(CLI::App& app, int* exit_code);
 void add_rates(CLI::App& app, int* exit_code);
+void add_controllers(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
 void add_budget(CLI::App& app, int* exit_code);
 void add_claims(CLI::App& app, int* exit_code);
@@ -51,6 +53,11 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code)
 
 /// Runs scripts/NAME with `words` as arguments and stdout to `out`; returns its exit code.
 int run_script(const std::string& name, const std::vector<std::string>& words, std::FILE* out);
+
+/// Draws `json` by scripts/NAME, which gets its file and that of the picture; returns exit_ok or
+/// the exit code of this command.
+int draw_from_json(const std::string& name, const std::string& json, const std::string& picture,
+                   const files::Outputs& outputs);
 
 /// The design point of this name, elaborated against the register map.
 design::Elaborated elaborated_design(const std::string& name);

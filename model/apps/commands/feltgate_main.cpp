@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   add_trim(app, &exit_code);
   add_stability(app, &exit_code);
   add_rates(app, &exit_code);
+  add_controllers(app, &exit_code);
   add_scripts(app, &exit_code);
   return run_command_line(app, argc, argv, exit_code);
 }

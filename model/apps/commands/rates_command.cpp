@@ -3,7 +3,6 @@
 //
 // feltgate rates. Documentation: docs/rates.md
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -184,15 +183,8 @@ int run(const RatesArguments& a) {
   if (json != nullptr) json->write(text);
   if (csv != nullptr) csv->write(rates::reports_csv(reports));
   if (picture != nullptr) {
-    // The picture is drawn from a temporary file.
-    const std::string data =
-        (fs::temp_directory_path() / fmt::format("feltgate_rates_{}.json", getpid())).string();
-    files::OutputFile numbers("--output", data);
-    numbers.write(text);
-    numbers.commit();
-    const int status = run_script("rates_picture.py", {data, picture->named()}, outputs.text());
-    fs::remove(data);
-    if (status != 0) return status < exit_signal ? exit_unusable : status;
+    const int status = draw_from_json("rates_picture.py", text, picture->named(), outputs);
+    if (status != exit_ok) return status;
   }
   outputs.commit();
   return mismatches == 0 ? exit_ok : exit_failed;

@@ -84,8 +84,10 @@ class ChainTick {
   /// Sets the torque that a program asks for [Nm]; call it before render().
   void program(Torque torque) { scenes_.program(torque); }
   /// Stage 4: current, voltage and duty.
-  void drive(bool armed, Mode mode) {
-    control_.tick(words_, armed, mode, tau_ref(), tau_hat(), velocity());
+  void drive(bool armed, Mode mode) { drive(armed, mode, tau_ref()); }
+  /// The same for another torque than the scene's, such as that of a controller around it.
+  void drive(bool armed, Mode mode, Torque asked) {
+    control_.tick(words_, armed, mode, asked, tau_hat(), velocity());
   }
 
   Velocity velocity() const { return estimator_.velocity; }

@@ -18,11 +18,13 @@ namespace feltgate {
 /// Throws std::invalid_argument when it does not fit, with the range.
 std::int64_t quantise_parameter(const ParameterInfo& info, double value);
 
-template <class D, class N>
+/// C: what computes a tick, with the interface of ControlChain.
+template <class D, class N, class C = ControlChain<D, N>>
 class Chain : public RealChain {
  public:
   explicit Chain(const char* name) : name_(name) { reset(); }
   const char* name() const override { return name_; }
+  C& control() { return chain_; }
 
   void reset() override {
     chain_.reset();
@@ -49,7 +51,7 @@ class Chain : public RealChain {
   }
 
   void program(double torque_nm) override {
-    using Torque = typename ControlChain<D, N>::Torque;
+    using Torque = typename C::Torque;
     if constexpr (N::is_fixed) {
       chain_.program(Torque::from_raw(std::llround(std::ldexp(torque_nm, D::f.torque.fraction))));
     } else {
@@ -106,7 +108,7 @@ class Chain : public RealChain {
   }
 
   const char* name_;
-  ControlChain<D, N> chain_;
+  C chain_;
   mutable ChainOut out_;  // made from the chain when first asked for after a tick
   mutable bool made_ = false;
   ChainRaw raw_;

@@ -28,7 +28,7 @@ double largest(const design::Word& w) {
 BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
     : design_(design),
       wall_(s.wall),
-      chain_(make_real_chain(design.design.name, s.chain)),
+      chain_(s.made_chain ? s.made_chain() : make_real_chain(design.design.name, s.chain)),
       plant_(s.plant, s.plant.effects, plant::drive_of(design_named(design.design.name)), s.hand),
       count_rad_(design.design.count_rad()),
       pwm_ticks_(design.design.pwm_period_clocks() / design.design.clocks_per_tick()),
@@ -82,11 +82,16 @@ double swing_rad(double stiffness_nm_rad) { return 0.6 * press_nm / stiffness_nm
 
 Growth swing(const design::Elaborated& design, const plant::Parameters& plant, const Wall& wall,
              const std::string& chain, double expected_rad_s) {
-  const double depth_rad = press_nm / wall.stiffness_nm_rad;
   BitLoopSetting s;
   s.chain = chain;
   s.wall = wall;
   s.plant = plant;
+  return swing(design, s, expected_rad_s);
+}
+
+Growth swing(const design::Elaborated& design, BitLoopSetting s, double expected_rad_s) {
+  const Wall wall = s.wall;
+  const double depth_rad = press_nm / wall.stiffness_nm_rad;
   s.hand.start_rad = depth_rad - swing_rad(wall.stiffness_nm_rad);
   plant::HandPhase press;
   press.kind = plant::HandPhase::Kind::kTorque;

@@ -21,6 +21,8 @@ namespace feltgate::stability {
 
 struct BitLoopSetting {
   std::string chain = "fixed";  ///< kind of make_real_chain()
+  /// Makes the chain instead, if given; its design has the addresses of the one that is built in.
+  std::function<std::unique_ptr<RealChain>()> made_chain;
   Wall wall;
   plant::Parameters plant;
   plant::Hand hand;
@@ -38,10 +40,12 @@ class BitLoop {
   void tick();
 
   std::int64_t ticks() const { return k_; }
+  const plant::Observables& seen() const { return plant_.observables(); }
   double theta_rad() const { return plant_.observables().theta_rad; }
   double omega_rad_s() const { return plant_.observables().omega_rad_s; }
   double motor_torque_nm() const { return plant_.observables().motor_torque_mean_nm; }
   double tau_ref_nm() const { return chain_->out().tau_ref_nm; }
+  double tau_hat_nm() const { return chain_->out().tau_hat_nm; }
   std::int32_t position() const { return position_; }
 
   /// A host's wall: torque from the position and velocity that the host has read, rad and rad/s.
@@ -72,6 +76,8 @@ double swing_rad(double stiffness_nm_rad);
 /// A hand presses with a constant torque; the lever starts off its resting depth and swings.
 Growth swing(const design::Elaborated& design, const plant::Parameters& plant, const Wall& wall,
              const std::string& chain, double expected_rad_s);
+/// The same with chain, plant and wall of a setting; its hand is not used.
+Growth swing(const design::Elaborated& design, BitLoopSetting setting, double expected_rad_s);
 
 /// Largest stiffness whose swing does not grow, by bisection to 0.5 %, around `near`.
 /// NaN where no border was found within a factor 2 of it.

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The disturbance observer beside feed-forward, PI, PID and a reaction-torque observer: the same
+// plant, voltage law and experiments for all. Documentation: docs/controllers.md
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "design/design.hpp"
+#include "sim/loop/figures.hpp"
+#include "sim/plant/parameters.hpp"
+#include "studies/controllers/torque_laws.hpp"
+#include "studies/stability/bit_loop.hpp"
+
+namespace feltgate::controllers {
+
+enum class Kind { observer, feed_forward, pi, pid, reaction };
+constexpr std::array<Kind, 5> kinds{Kind::observer, Kind::feed_forward, Kind::pi, Kind::pid,
+                                    Kind::reaction};
+const char* name_of(Kind kind);
+
+/// Size of a controller: what it needs beside the velocity estimate and the voltage law.
+struct Size {
+  int multiplications = 0;  ///< a tick, from velocity and tau_ref to the current
+  int state_bits = 0;
+  int lut4 = 0;      ///< ECP5 LUT4 equivalents, measured and estimated
+  int measured = 0;  ///< of it measured by synthesis
+};
+Size size_of(Kind kind);
+
+/// The paper's Jn*Kp, a share of 1 would be feed-forward.
+constexpr double paper_share = 0.78336;
+
+/// Design `lever` with its constants, the two plants, and lines of the encoder other than its own.
+struct Bench {
+  design::Elaborated design;
+  plant::Parameters plant;   ///< with friction, dead voltage and dead time
+  plant::Parameters linear;  ///< without: for borders and closed forms
+};
+/// The friction is that of `plant`, if it has any.
+Tuning tuning_of(const Bench& bench, const plant::Parameters& plant);
+/// Numbers of lines that a chain exists for; the first is that of `lever`.
+constexpr std::array<int, 4> encoder_lines{1024, 500, 2500, 10000};
+/// A controller's chain, in fixed point or double. Throws std::invalid_argument for other lines.
+std::unique_ptr<RealChain> make_chain(Kind kind, bool fixed, const Tuning& tuning,
+                                      int lines = 1024);
+
+/// One experiment: a controller, a plant, a hand.
+struct Trial {
+  Kind kind = Kind::observer;
+  bool fixed = true;
+  plant::Parameters plant;
+  plant::Hand hand;
+  int lines = 1024;
+  stability::Wall wall{};  ///< the core's, where no torque is given
+};
+/// Runs for `seconds`; `reference` gives the torque at a time, empty: the wall does. `look` sees
+/// the loop after every tick.
+void run(const Bench& bench, const Trial& trial, double seconds,
+         const std::function<double(double time_s)>& reference,
+         const std::function<void(double time_s, const stability::BitLoop&)>& look);
+
+/// Motor torque after a step of tau_ref to 0.2 Nm with the lever locked.
+StepResponse stall_step(const Bench& bench, Kind kind, bool fixed, const plant::Parameters& plant,
+                        std::vector<double>* trace_nm = nullptr);
+/// Inertia that a hand feels which pushes the free, frictionless lever with a step of 0.02 Nm, as a
+/// multiple of the lever's own: push over mean acceleration from 10 to 20 ms.
+double felt_inertia(const Bench& bench, Kind kind, bool fixed);
+
+/// What the hand feels of a step of tau_ref to 0.2 Nm, from 10 to 150 ms.
+struct Held {
+  double error_rms_pct = 0, error_max_pct = 0;  ///< of the torque at the grip, in % of the step
+};
+/// A hand with its mass and damping and a stiffness; `inertia_ratio` is Jn/J.
+Held held_step(const Bench& bench, Kind kind, bool fixed, double stiffness_nm_rad,
+               double inertia_ratio = 1.0, std::vector<double>* trace_nm = nullptr);
+
+/// Motor torque, rms around its mean, with tau_ref = 0.1 Nm, while a hand at rest trembles (8 Hz,
+/// 0.5 mrad) over an edge of the encoder.
+double tremor_noise_nm(const Bench& bench, Kind kind, bool fixed, int lines);
+
+/// The stiffest wall that is tried, Nm/rad: the wall's word ends at 80.
+constexpr double stiffest_nm_rad = 64;
+/// Largest wall that does not make the pressed lever swing, Nm/rad; 0: no wall. Damping 0.005
+/// Nm s/rad, frictionless. `inertia_ratio` is Jn/J.
+double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio = 1.0);
+/// The same while a hand (0.55 kg, 1.35 Nm/rad) leans on the wall, with friction: the swing stays
+/// under three counts.
+double held_border(const Bench& bench, Kind kind, bool fixed);
+
+/// A figure in fixed point and in double.
+struct Pair {
+  double fixed = 0, real = 0;
+};
+struct Row {
+  Kind kind = Kind::observer;
+  Pair settling_ms, error_pct, error_r_pct, error_kt_pct;  ///< at stall
+  Pair felt_inertia, noise_nm, border_nm_rad, held_border_nm_rad;
+  std::vector<Held> held;                             ///< for each of `stiffness_nm_rad`
+  std::vector<Held> inertia;                          ///< for each of `inertia_ratios`, at 2 Nm/rad
+  std::vector<double> borders;                        ///< for each of `inertia_ratios`
+  std::vector<double> noise_of;                       ///< for each of `noise_lines`
+  std::vector<double> stall_trace_nm, held_trace_nm;  ///< motor at stall, grip at 2 Nm/rad
+};
+constexpr std::array<double, 6> stiffness_nm_rad{0, 1, 2, 5, 10, 20};
+constexpr std::array<double, 4> inertia_ratios{0.5, 1, 2, 4};
+constexpr std::array<int, 4> noise_lines{500, 1024, 2500, 10000};
+constexpr double stall_trace_s = 1e-4, held_trace_s = 1e-3;  ///< sampling of the traces
+
+struct Report {
+  std::vector<Row> rows;
+};
+/// All experiments with all controllers. `progress` gets the completed share; it may be empty.
+Report measure(const Bench& bench, const std::function<void(double)>& progress = {});
+
+/// The tables as Markdown, as they stand in docs/controllers.md.
+std::string report_text(const Report& report);
+std::string report_json(const Report& report);
+
+}  // namespace feltgate::controllers

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Draws the comparison of controllers from the JSON of feltgate controllers; it only draws.
+
+  feltgate controllers -o docs/images/controllers.svg        calls it
+  feltgate controllers --json all.json && scripts/controllers_picture.py all.json all.svg
+
+Documentation: docs/controllers.md
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import interrupts
+from outputs import write_whole
+from reports import plots
+
+COLOURS = {
+    "observer": "#0072b2",
+    "feed-forward": "#008a64",
+    "PI": "#b23a00",
+    "PID": "#b04a8b",
+    "reaction observer": "#7d4bb5",
+}
+DASHES = {"PI": (0, (4, 3)), "reaction observer": (0, (4, 3))}
+STALL_MS = 10
+CAPTION = (
+    "Top: motor torque after a step of 0.2 Nm, lever locked; PI lies on the observer, the reaction "
+    "observer on feed-forward. Middle: the largest wall that does not swing when the "
+    "lever is pressed into it, over the ratio of nominal and true inertia; 0 is none of 1 Nm/rad. "
+    "Bottom: motor torque while a hand at rest trembles, by the encoder. Fixed point, simulation."
+)
+
+
+def style(name):
+    return {"color": COLOURS[name], "linestyle": DASHES.get(name, "-"), "linewidth": 1.2}
+
+
+def picture(data):
+    title = "A disturbance observer beside what one would use instead"
+    figure, (step, border, noise) = plots.stacked(title, [1.9, 1.7, 1.7], apart=2)
+    for one in data["controllers"]:
+        name = one["name"]
+        values = [1e3 * v for v in one["stall_nm"]]
+        times = [1e3 * data["stall_trace_s"] * i for i in range(len(values))]
+        step.plot(times, values, label=name, **style(name))
+        ratios = one["inertia_ratios"]
+        x, y = [r["ratio"] for r in ratios], [r["border_nm_rad"] for r in ratios]
+        border.plot(x, y, marker="o", markersize=4, **style(name))
+        x, y = ([e[key] for e in one["encoders"]] for key in ("lines", "noise_nm"))
+        noise.plot(x, [1e3 * v for v in y], marker="o", markersize=4, **style(name))
+    step.set_xlim(0, STALL_MS)
+    step.set_xlabel("after the step, ms")
+    step.set_ylabel("motor torque, mNm")
+    step.legend(loc="lower right", ncols=2)
+    for axis, ticks in ((border, (0.5, 1, 2, 4)), (noise, (500, 1024, 2500, 10000))):
+        axis.set_xscale("log")
+        axis.set_xticks(ticks, [f"{t:g}" for t in ticks])
+        axis.minorticks_off()
+    border.set_xlabel("nominal over true inertia")
+    border.set_ylabel("largest wall, Nm/rad")
+    noise.set_xlabel("lines of the encoder")
+    noise.set_ylabel("noise, mNm rms")
+    noise.set_ylim(bottom=0)
+    return plots.finish(figure, "controllers", CAPTION)
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(
+        prog="controllers_picture.py", description=__doc__.splitlines()[0]
+    )
+    parser.add_argument("json", type=Path, help="what feltgate controllers --json wrote")
+    parser.add_argument("svg", type=Path, help="picture to be written")
+    arguments = parser.parse_args(argv)
+    interrupts.end_on_signals()
+    try:
+        data = json.loads(arguments.json.read_text(encoding="utf-8"))
+        if data.get("schema") != "feltgate-controllers/1":
+            raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-controllers/1'")
+        write_whole(arguments.svg, picture(data).svg)
+    except (OSError, ValueError, KeyError) as error:
+        print(f"controllers_picture: {arguments.json}: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt as interrupt:
+        sys.exit(interrupts.tell("controllers", interrupt))

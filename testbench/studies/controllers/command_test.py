@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate controllers as a user calls it: its tables are those of the page, JSON and picture are
+whole, and the PID of the page, as a law, settles like the command's PID."""
+
+import json
+import os
+import re
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
+from testing import BUILD, Scratch, ran, text_of  # noqa: E402
+
+PROGRAM, WITH_ENGINE = BUILD / "feltgate", BUILD / "feltgate_lever_law"
+PAGE = "docs/controllers.md"
+SCENE = """title = "PID at stall"
+about = "A law keeps a torque by a PID on tau_hat."
+duration_s = 0.06
+[core]
+scene = "law"
+law = "./pid.law"
+arm_s = 0.002
+[parameters]
+wanted = 0.0
+[[event]]
+at_s = 0.02
+set = { wanted = 0.2 }
+step_nm = 0.2
+[hand]
+[[hand.phase]]
+kind = "locked"
+"""
+
+
+class Controllers(Scratch):
+    def call(self, *words, program=PROGRAM):
+        environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
+        return ran(program, *words, cwd=self.folder, env=environment)
+
+    def test_page_json_and_picture(self):
+        done = self.call("controllers", "--json", "a.json", "-o", "a.svg")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for table in done.stdout.split("\n\n"):
+            self.assertIn(table.strip(), text_of(PAGE), f"{PAGE} is stale: paste this table")
+        data = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
+        self.assertEqual(data["schema"], "feltgate-controllers/1")
+        of = {one["name"]: one for one in data["controllers"]}
+        self.assertEqual(
+            list(of), ["observer", "feed-forward", "PI", "PID", "reaction observer"]
+        )
+        budget = tomllib.loads(text_of("scripts/synth_budget.toml"))["figures"]["lever"]
+        dob, lowpass = (budget[b]["lut4_equivalents"] for b in ("dob", "lowpass"))
+        for name, filters in (("observer", 0), ("PI", 1), ("PID", 2), ("reaction observer", 1)):
+            self.assertEqual(of[name]["lut4_measured"], dob)
+            self.assertEqual(of[name]["lut4_equivalents"], dob + filters * lowpass)
+        # PI is the observer at stall, to a clock of the duty; 1.73 mNm.
+        pairs = zip(of["PI"]["stall_nm"], of["observer"]["stall_nm"], strict=True)
+        self.assertLess(max(abs(a - b) for a, b in pairs), 2e-3)
+        self.assertGreater(len(of["PI"]["stall_nm"]), 350)
+        # What the page says in words.
+        observer, forward = of["observer"], of["feed-forward"]
+        walls = [one["border_nm_rad"]["fixed"] for one in (observer, forward)]
+        self.assertAlmostEqual(walls[0] / walls[1], 1.32, delta=0.05)
+        for i, more in ((0, False), (1, True), (2, True), (3, True)):
+            pair = [one["inertia_ratios"][i]["border_nm_rad"] for one in (observer, forward)]
+            self.assertEqual(pair[0] > pair[1], more)
+        svg = (self.folder / "a.svg").read_text(encoding="utf-8")
+        for word in (*of, "largest wall, Nm/rad", "motor torque, mNm", "noise, mNm rms"):
+            self.assertIn(word, svg)
+            self.assertIn(word, text_of("docs/images/controllers.svg"))
+
+    def test_the_law_of_the_page(self):
+        (law,) = re.findall(r"```law\n(.*?)```", text_of(PAGE), re.S)
+        self.put("pid.law", law)
+        self.put("pid.toml", SCENE)
+        done = self.call(
+            *("run", "pid.toml", "--design", "lever_law", "--engine", "twin,double"),
+            *("--json", "b.json"),
+            program=WITH_ENGINE,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        figures = json.loads((self.folder / "b.json").read_text(encoding="utf-8"))["figures"]
+        # 6.98 ms by partial fractions, a run of the law and the last clock of the duty later.
+        self.assertAlmostEqual(figures["torque_settling_ms.0"], 7.4, delta=0.2)
+        self.assertLess(abs(figures["final_error_pct.0"]), 0.5)
+
+    def test_bad_input_is_told_in_a_line(self):
+        for words, told in (
+            (("lever",), "lever"),
+            (("-o", "none/a.svg"), "none"),
+            (("-o", "-"), "--output"),
+            (("--json", "none/a.json"), "none"),
+        ):
+            with self.subTest(words=words):
+                done = self.call("controllers", *words)
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn(told, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -42,9 +42,6 @@ std::vector<claims::Source> chosen(const std::vector<std::string>& names) {
 
 int run_claims(const ClaimsArguments& a) {
   const auto sources = chosen(a.names);
-  if (a.markdown && !a.names.empty()) {
-    throw std::invalid_argument("--markdown is the whole page; leave the claims' names away");
-  }
   const claims::Lab lab(repository());
   files::Outputs outputs;
   files::OutputFile* json = outputs.open("--json", a.json);
@@ -83,7 +80,8 @@ void add_claims(CLI::App& app, int* exit_code) {
       "Exit code: 0 whatever the verdicts, 2 unusable input.");
   sub->add_option("claim", a->names, "claims; all when none is named")->type_name("CLAIM");
   sub->add_option("--json", a->json, "the table as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_flag("--markdown", a->markdown, "print the page docs/claims.md instead");
+  sub->add_flag("--markdown", a->markdown,
+                "print the page docs/claims.md instead, of these claims");
   sub->callback([a, exit_code] { *exit_code = run_claims(*a); });
 }
 

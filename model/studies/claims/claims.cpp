@@ -260,18 +260,20 @@ processor time.
 ```
 )";
   out += "\n" + summary(answers);
-  for (std::size_t paper = 0; paper < papers().size(); ++paper) {
-    out += fmt::format(
-        "\n## {}\n\n{}\n\n| claim | where | closed form | simulation | verdict |\n"
-        "|---|---|---|---|---|\n",
-        papers()[paper].title, papers()[paper].source);
-    for (const Answer& row : answers) {
-      if (static_cast<std::size_t>(row.source.paper) != paper) continue;
-      const Claim& c = row.claim;
-      out += fmt::format("| `{}`: {} | {} | {} | {} | **{}**{} {} |\n", row.source.name, c.says,
-                         c.where, closed_form(c), simulation(c), name_of(c.verdict()),
-                         c.verdict() == Verdict::holds_if ? "" : ":", c.why);
+  int paper = -1;  // the answers are in the order of the papers
+  for (const Answer& row : answers) {
+    if (row.source.paper != paper) {
+      paper = row.source.paper;
+      const Paper& p = papers()[static_cast<std::size_t>(paper)];
+      out += fmt::format(
+          "\n## {}\n\n{}\n\n| claim | where | closed form | simulation | verdict |\n"
+          "|---|---|---|---|---|\n",
+          p.title, p.source);
     }
+    const Claim& c = row.claim;
+    out += fmt::format("| `{}`: {} | {} | {} | {} | **{}**{} {} |\n", row.source.name, c.says,
+                       c.where, closed_form(c), simulation(c), name_of(c.verdict()),
+                       c.verdict() == Verdict::holds_if ? "" : ":", c.why);
   }
   return out;
 }

@@ -99,7 +99,7 @@ std::string text(const Answer& answer);
 /// How many there are of each verdict, in a line.
 std::string summary(const std::vector<Answer>& answers);
 std::string json(const std::vector<Answer>& answers);
-/// The page docs/claims.md.
+/// The page docs/claims.md, of these answers.
 std::string page(const std::vector<Answer>& answers);
 
 }  // namespace feltgate::claims

@@ -52,7 +52,7 @@ RULES = (
     # Scenes of a law, which the launcher gives a design with an engine.
     Rule(
         r"feltgate run (bowed_string|ceiling|collision|drums|end_stops|end_stops_thrown|flywheel"
-        r"|graded_membrane|material_(?:fields|stick_slip|stone)|moved_detents|pendulum"
+        r"|graded_membrane|material_(?:fields|object|stick_slip|stone)|moved_detents|pendulum"
         r"|scroll_wheel|turn_switch)",
         "BY",
         r"scene.\1.lever_law",
@@ -66,6 +66,8 @@ RULES = (
     Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),
     Rule(r"feltgate rates", "BY", "rates.command"),
     Rule(r"feltgate controllers", "BY", "controllers.command"),
+    Rule(r"feltgate claims window", "WHOLE"),
+    Rule(r"feltgate claims", "MORE", "recognition"),
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench(?: --quick)?$", "BY", "bench.command"),
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),

@@ -44,7 +44,7 @@ struct FedLever : Lever {
   static constexpr std::array<ParameterInfo, parameter_count> parameters = fed_parameters();
 };
 
-/// Another encoder: the window of the velocity estimator is as long as a power of two allows.
+/// Another encoder: a window of the velocity estimator whose gain is 2^shift, near that of `lever`.
 template <int Lines>
 struct WithLines : FedLever {
   static constexpr int shift = Lines >= 2500 ? 0 : 2;

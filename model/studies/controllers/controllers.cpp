@@ -44,7 +44,7 @@ struct FedLever : Lever {
   static constexpr std::array<ParameterInfo, parameter_count> parameters = fed_parameters();
 };
 
-/// Another encoder: the window of the velocity estimator is as long as a power of two allows.
+/// Another encoder: a window of the velocity estimator whose gain is 2^shift, near that of `lever`.
 template <int Lines>
 struct WithLines : FedLever {
   static constexpr int shift = Lines >= 2500 ? 0 : 2;
@@ -324,9 +324,11 @@ double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio) {
   });
 }
 
-double held_border(const Bench& bench, Kind kind, bool fixed) {
+double held_border(const Bench& bench, Kind kind, bool fixed, double damping) {
   constexpr double from_s = 0.1, to_s = 0.15, hand_nm_rad = 1.35, hand_rad = 0.15;
   plant::HandPhase lean = holding(bench, hand_nm_rad);
+  lean.impedance.damping_ns_m *= damping;
+  lean.impedance.grip_damping_ns_m *= damping;
   lean.profile = {{plant::Segment::Kind::kStep, 1.0, hand_rad}};
   return largest([&](double stiffness) {
     const double depth_rad = hand_nm_rad * hand_rad / (hand_nm_rad + stiffness);
@@ -362,6 +364,7 @@ Report measure(const Bench& bench, const std::function<void(double)>& progress) 
     row.noise_nm = pair([&](bool f) { return tremor_noise_nm(bench, k, f, 1024); });
     row.border_nm_rad = pair([&](bool f) { return border(bench, k, f); });
     row.held_border_nm_rad = pair([&](bool f) { return held_border(bench, k, f); });
+    row.light_border_nm_rad = pair([&](bool f) { return held_border(bench, k, f, light_damping); });
     for (const double stiffness : stiffness_nm_rad) {
       row.held.push_back(held_step(bench, k, true, stiffness));
     }

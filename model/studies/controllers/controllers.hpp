@@ -90,8 +90,8 @@ constexpr double stiffest_nm_rad = 64;
 /// Nm s/rad, frictionless. `inertia_ratio` is Jn/J.
 double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio = 1.0);
 /// The same while a hand (0.55 kg, 1.35 Nm/rad) leans on the wall, with friction: the swing stays
-/// under three counts.
-double held_border(const Bench& bench, Kind kind, bool fixed);
+/// under three counts. `damping` scales that of the hand and its grip.
+double held_border(const Bench& bench, Kind kind, bool fixed, double damping = 1.0);
 
 /// A figure in fixed point and in double.
 struct Pair {
@@ -101,12 +101,14 @@ struct Row {
   Kind kind = Kind::observer;
   Pair settling_ms, error_pct, error_r_pct, error_kt_pct;  ///< at stall
   Pair felt_inertia, noise_nm, border_nm_rad, held_border_nm_rad;
-  std::vector<Held> held;                             ///< for each of `stiffness_nm_rad`
-  std::vector<Held> inertia;                          ///< for each of `inertia_ratios`, at 2 Nm/rad
-  std::vector<double> borders;                        ///< for each of `inertia_ratios`
-  std::vector<double> noise_of;                       ///< for each of `noise_lines`
+  Pair light_border_nm_rad;      ///< held, with `light_damping` of the hand's damping
+  std::vector<Held> held;        ///< for each of `stiffness_nm_rad`
+  std::vector<Held> inertia;     ///< for each of `inertia_ratios`, at 2 Nm/rad
+  std::vector<double> borders;   ///< for each of `inertia_ratios`
+  std::vector<double> noise_of;  ///< for each of `noise_lines`
   std::vector<double> stall_trace_nm, held_trace_nm;  ///< motor at stall, grip at 2 Nm/rad
 };
+constexpr double light_damping = 0.1;
 constexpr std::array<double, 6> stiffness_nm_rad{0, 1, 2, 5, 10, 20};
 constexpr std::array<double, 4> inertia_ratios{0.5, 1, 2, 4};
 constexpr std::array<int, 4> noise_lines{500, 1024, 2500, 10000};

@@ -69,6 +69,7 @@ std::string report_text(const Report& r) {
   };
   borders("largest wall, pressed, Nm/rad", &Row::border_nm_rad);
   borders("largest wall, a hand leans on it, Nm/rad", &Row::held_border_nm_rad);
+  borders("the same, a tenth of the hand's damping", &Row::light_border_nm_rad);
   s += line(r, "multiplications a tick",
             [](const Row& row) { return fmt::format("{}", size_of(row.kind).multiplications); });
   s += line(r, "bits of state",
@@ -120,6 +121,7 @@ std::string report_json(const Report& r) {
              {"noise_nm", pair_json(row.noise_nm)},
              {"border_nm_rad", pair_json(row.border_nm_rad)},
              {"held_border_nm_rad", pair_json(row.held_border_nm_rad)},
+             {"light_border_nm_rad", pair_json(row.light_border_nm_rad)},
              {"multiplications", size.multiplications},
              {"state_bits", size.state_bits},
              {"lut4_equivalents", size.lut4},

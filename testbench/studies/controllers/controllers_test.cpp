@@ -246,6 +246,9 @@ TEST_CASE("controllers: borders as by eigenvalues; PI and PID have none") {
   CHECK(border(b, Kind::pid, true) == 0);
   // The lever under PI at Jn > J runs away; at half of it a soft wall holds.
   CHECK(border(b, Kind::pi, true, 0.5) > 1);
+  // A hand's damping is what makes it hold.
+  CHECK(held_border(b, Kind::pi, true) == stiffest_nm_rad);
+  CHECK(held_border(b, Kind::pi, true, 0.02) < 2);
 }
 
 TEST_CASE("controllers: friction that the observer sees is no reaction") {

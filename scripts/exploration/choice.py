@@ -10,8 +10,9 @@ Documentation: docs/choose.md
 import math
 from dataclasses import dataclass
 
-CUTOFFS = {"velocity.cutoff_rad_s": "velocity_a1", "observer.cutoff_rad_s": "observer_a1"}
+CUTOFF, OBSERVER = "velocity.cutoff_rad_s", "observer.cutoff_rad_s"
 BEFORE, AFTER = "front", "bound_holds"  # the columns of the table between these are the design's
+NOT_ASKED = "left out, see below"
 MORE = 5  # alternatives that are shown
 
 
@@ -50,18 +51,17 @@ def word(cutoff_rad_s, tick_hz):
 
 def designs(rows, base):
     """({cut-off of the velocity: row}, {why the others are left out: how many}) of the table's rows.
-    `base` is the parsed design file of `lever`: what differs from it in register values alone runs
-    in the built programs."""
-    tick_hz = base["clock"]["tick_hz"]
-    own = {key: base[key.split(".")[0]][key.split(".")[1]] for key in CUTOFFS}
+    `base` is the parsed design file of `lever`: with another cut-off of the velocity it runs in the
+    built programs, by a register. The observer stays that of `lever`, which only displays."""
+    tick_hz, own = base["clock"]["tick_hz"], base["velocity"]["cutoff_rad_s"]
 
-    def octave(key, value):
-        return math.frexp(word(value, tick_hz))[1] == math.frexp(word(own[key], tick_hz))[1]
+    def octave(cutoff):
+        return math.frexp(word(cutoff, tick_hz))[1]
 
     kept, left = {}, {}
     for row in rows:
         change = settings(row)
-        cutoffs = {key: float(change.get(key, own[key])) for key in CUTOFFS}
+        cutoff = float(change.get(CUTOFF, own))
         why = ""
         if row["status"] != "ok" or row["mismatches"] != "0":
             why = "not measured"
@@ -69,17 +69,13 @@ def designs(rows, base):
             why = "too coarse for use"
         elif row["stable"] != "True":
             why = "unstable around p24"
-        elif set(change) - set(CUTOFFS):
-            why = "another tick, window, format or list of scenes: a structure to be built"
-        elif not all(octave(key, value) for key, value in cutoffs.items()):
-            why = "a cut-off beyond the register's format: a structure to be built"
-        cutoff = cutoffs["velocity.cutoff_rad_s"]
-        if not why and cutoff in kept:
+        elif set(change) - {CUTOFF, OBSERVER}:
+            why = "another tick, window, format or list of scenes, which no built program has (preset exact)"
+        elif octave(cutoff) != octave(own):
+            why = "a cut-off beyond the register of `lever`, which no built program has (preset fast)"
+        elif cutoff in kept:
             why = "another cut-off of the observer alone, which no torque feels"
-            # The observer of the base goes first: a name is better than a file.
-            if cutoffs["observer.cutoff_rad_s"] == own["observer.cutoff_rad_s"]:
-                kept[cutoff] = row
-        elif not why:
+        else:
             kept[cutoff] = row
         if why:
             left[why] = left.get(why, 0) + 1
@@ -103,7 +99,7 @@ def error_of(parts, largest_nm):
 
 def error_parts(row, counts, rounding, plant):
     """Of one rate: counts alone, what the rate adds to it, the rounding behind the law, and the plant
-    that is left out; (rms, worst) each but the row of `feltgate rates`."""
+    that is left out; (rms, worst) each but the row of `feltgate rates`, None where no command says."""
     rate = [
         max(0.0, row["error_rms_nm"] - counts[0]),
         max(0.0, row["error_max_nm"] - counts[1]),
@@ -111,14 +107,15 @@ def error_parts(row, counts, rounding, plant):
     named = (
         ("encoder and velocity estimate", counts, "rates: counts alone"),
         ("rate and bits of the law", rate, "rates: this rate, less the counts"),
-        ("rounding behind the law", rounding, "run: measured rms, proven worst"),
+        ("rounding behind the law", rounding, "run: proven, for any motion as fast"),
         ("plant effects left out", plant, "trim: own and unseen motions"),
         ("simulation engine twin", (0.0, 0.0), "the RTL's bits, verified below"),
     )
-    return [
-        {"part": part, "rms_nm": value[0], "worst_nm": value[1], "from": source}
-        for part, value, source in named
-    ]
+    told = []
+    for part, value, source in named:
+        rms, worst = value or (0.0, 0.0)
+        told.append({"part": part, "rms_nm": rms, "worst_nm": worst, "from": source if value else NOT_ASKED})
+    return told
 
 
 def summed(parts, key):
@@ -182,9 +179,11 @@ def broken(one, wishes):
         add("margin", wishes["margin"], None, one["margin_by"], 10.0)
     if wishes["latency"] is not None and not latency["ms"] <= wishes["latency"]:
         add("latency", wishes["latency"], latency["ms"], largest(latency, "ms"), latency["ms"] / wishes["latency"])
-    for what, needed, there in one["chips"].get(wishes["chip"], []):
-        if needed > there:
-            add("chip", wishes["chip"], f"{needed} of {there} {what}", what, needed / there)
+    short = [row for row in one["chips"].get(wishes["chip"], []) if row[1] > row[2]]
+    if short:
+        most = max(short, key=lambda row: row[1] / row[2])
+        lacks = ", ".join(f"{needed} of {there} {what}" for what, needed, there in short)
+        add("chip", wishes["chip"], lacks, most[0], most[1] / most[2])
     if one["broken"]:
         add("the scene's expectations", None, "; ".join(one["broken"]), "the bits", 10.0)
     return found
@@ -200,9 +199,10 @@ def distance(one, wishes, stated_only=False):
 
 
 def measures(one):
-    """Less is better."""
+    """Less is better. A slower law leaves clocks of the engine to others."""
     margin = one["margin"]["margin"] if one["margin"] else 0.0
-    return one["error"]["share"], -margin, one["latency"]["ms"], one["gates"]["lut4_equivalents"]
+    gates = one["gates"]["lut4_equivalents"]
+    return one["error"]["share"], -margin, one["latency"]["ms"], gates, one["rate_hz"]
 
 
 def order(objective):
@@ -245,5 +245,7 @@ def why_not(all_of, best, wishes):
         nearest = b if None in others else min(others, key=lambda x: x["excess"])
         told = {key: value for key, value in b.items() if key != "excess"}
         told |= {"stated": b["wish"] in wishes["stated"], "alone": None in others}
+        if b["wish"] == "chip":
+            told["fits"] = [n for n, rows in best["chips"].items() if all(r[1] <= r[2] for r in rows)]
         found.append(told | {"best": nearest["is"], "best_by": nearest["by"]})
     return found

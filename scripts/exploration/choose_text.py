@@ -104,7 +104,9 @@ def why_not(told):
         asked = "" if w["asked"] is None else f" {of_wish(w['wish'], w['asked'])}"
         lines.append(f"NOT MET  {w['wish'].replace('_', ' ')}{asked} ({kind}): {of_wish(w['wish'], w['is'])}, by {w['by']}")
         if w["alone"]:
-            lines.append("         another alternative meets it, but not the other wishes or the objective")
+            lines.append("         another alternative meets it, but not the other wishes")
+        elif w["wish"] == "chip":
+            lines.append(f"         it fits: {', '.join(w['fits']) or 'none of these chips'}")
         elif w["wish"] != "the scene's expectations":
             lines.append(f"         the best of all measured: {of_wish(w['wish'], w['best'])}, by {w['best_by']}")
     if lines:

@@ -8,11 +8,13 @@ Documentation: docs/choose.md
 import csv
 import difflib
 import json
+import os
 import shlex
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import building
 import command_line
 import interrupts
 from command_line import Refused
@@ -22,9 +24,8 @@ from exploration.design_text import design_text
 NAME = "choose"
 TABLE = "vectors/spaces/trade.csv"
 BENCH = "docs/images/bench.json"
-RATES = "490,1000,10000,40000,100000"
+RATES = {"law": "490,1000,10000,40000,100000", "block": "1000,10000"}  # the fastest is always added
 TICK_HZ = 1_000_000  # of `lever`
-PLANT_SHARE = 0.5  # of the wished error may be lost by effects that are left out
 
 
 class Programs:
@@ -37,6 +38,8 @@ class Programs:
     def ask(self, command, *words, codes=(0, 1)):
         """The JSON of a command; what it refuses is refused here, in its words."""
         program = command_line.build_folder() / self.name
+        if not program.exists():
+            raise Refused(f"{program} is not built; start this as ./feltgate choose, which builds it")
         self.count += 1
         answer = self.folder / f"{command}{self.count}.json"
         words = [program, command, *map(str, words), "--json", answer]
@@ -71,6 +74,10 @@ class Question:
             raise Refused(f"{self.path}: there is no law {self.law}; name one in rtl/laws, or a file")
         if self.device:
             programs.name = f"feltgate_{self.device}_law"
+            # The launcher builds the program of a scene's device; it does not know that of a law.
+            build = command_line.build_folder()
+            if (build / "build.ninja").exists() and self.path.stem != given and self.path != Path(given):
+                building.make(NAME, build, [programs.name], os.cpu_count())
 
     def _find(self, given, root, programs):
         """(path of the scene, whether it was made for a law)."""
@@ -105,6 +112,9 @@ class Question:
     def of_block(self):
         return self.law is None
 
+    def kind(self):
+        return "block" if self.of_block() else "law"
+
     def uses_velocity(self, report):
         """Whether the velocity estimator is in the torque."""
         if report["damping_nm_s_rad"] > 0:
@@ -112,20 +122,21 @@ class Question:
         return self.law is not None and "velocity" in self.law.read_text(encoding="utf-8")
 
 
-def with_design(question, cutoffs):
-    """The scene on a design that differs from `lever` in these cut-offs alone."""
+def with_design(question, change):
+    """The scene on a design that differs from `lever` in its cut-off of the velocity alone."""
     scene = made_scene.moved(question.scene, question.path.parent)
     if question.law:
         scene["core"]["law"] = str(question.law.resolve())
-    words = {choice.CUTOFFS[key]: choice.word(value, TICK_HZ) for key, value in cutoffs.items()}
+    words = {"velocity_a1": choice.word(value, TICK_HZ) for value in change.values()}
     return made_scene.with_values(scene, **words)
 
 
 def rounding_part(programs, scene, design):
-    """(rms, worst) of the rounding behind the law: measured, and proven for this motion if it can be."""
+    """(rms, worst) of the rounding behind the law: the proven bound of this motion for both, which
+    holds at every rate; the measured worst where there is none."""
     run = programs.ask("run", scene, "--design", design, "--engine", "twin,quad", "--quiet")
     errors = run["engines"]["twin"]["torque_nm"]
-    return errors["rms_error"], max(errors["bound"] or 0.0, errors["max_error"])
+    return (max(errors["bound"] or 0.0, errors["max_error"]),) * 2
 
 
 def plant_part(trim, largest_nm):
@@ -167,8 +178,8 @@ class Choosing:
         """The scene on the built design: rates and plant beside each other."""
         ask, q = self.programs.ask, self.question
         with ThreadPoolExecutor(2) as pool:
-            rates = pool.submit(ask, "rates", q.path, "--rate", RATES, "--quiet")
-            share = f"{PLANT_SHARE * self.wishes['torque_error']:.6g}"
+            rates = pool.submit(ask, "rates", q.path, "--rate", RATES[q.kind()], "--quiet")
+            share = f"{self.wishes['torque_error']:.6g}"
             if q.of_block():
                 words = ("--tolerance", share, "-o", self.programs.folder / "trimmed.toml")
                 trim = pool.submit(ask, "trim", q.path, *words, "--jobs", "1", "--quiet")
@@ -193,7 +204,7 @@ class Choosing:
         if self.question.device:
             left = {"for one lever: a device has a design of its own": len(self.table)}
             kept = {own: kept[own]}
-        elif any(name in self.question.scene.get("parameters", {}) for name in choice.CUTOFFS.values()):
+        elif "velocity_a1" in self.question.scene.get("parameters", {}):
             left["the scene sets the cut-off itself"] = len(kept) - 1
             kept = {own: kept[own]}
         self.designs_left, self.own = left, own
@@ -208,15 +219,15 @@ class Choosing:
             if cutoff == self.own:
                 scene, report = q.path, self.report
             else:
-                text = made_scene.toml_text([], with_design(q, {"velocity.cutoff_rad_s": cutoff}))
+                text = made_scene.toml_text([], with_design(q, {choice.CUTOFF: cutoff}))
                 scene = programs.put(f"{q.name}_{cutoff:g}.toml", text)
-                rates = TICK_HZ if q.of_block() else RATES  # a block has one rate
+                rates = TICK_HZ if q.of_block() else RATES["law"]  # a block has one rate
                 report = programs.ask("rates", scene, "--rate", rates, "--quiet")["scenes"][0]
             return report, rounding_part(programs, scene, self.design)
 
         if q.device:
             self.leave_out("rounding behind the law", "not measured apart for several axes")
-            return {self.own: (self.report, (0.0, 0.0))}
+            return {self.own: (self.report, None)}
         if same:
             return dict.fromkeys(kept, one(self.own))
         with ThreadPoolExecutor(2) as pool:
@@ -232,7 +243,7 @@ class Choosing:
         rates = ",".join(f"{r['rate_hz']:.9g}" for r in self.report["rates"])
         found = {}
         for cutoff in kept:
-            text = design_text(command_line.root(), {"base": "lever", "set": {"velocity.cutoff_rad_s": cutoff}})
+            text = design_text(command_line.root(), {"base": "lever", "set": {choice.CUTOFF: cutoff}})
             file = self.programs.put(f"cutoff_{cutoff:g}.toml", text)
             words = ("--linear-plant", self.plant, "--damping", damping, "--rate", rates)
             told = self.programs.ask("stability", file, *words, "--no-bits", "--no-experiments")
@@ -264,7 +275,7 @@ class Choosing:
         kept = self.kept_designs()
         self.own_row = kept[self.own]
         variants, borders = self.variants(kept), self.borders(kept)
-        plant = plant_part(self.trim, self.largest_nm) if self.trim else (0.0, 0.0)
+        plant = plant_part(self.trim, self.largest_nm) if self.trim else None
         cells = self.budget["figures"]["lever"]["core without read-back, inferred"]
         cells_per_lut4 = cells["cyclone_cells"] / cells["lut4_equivalents"]
         engine = ("engine", self.budget["figures"]["lever"]["axes_engine"])
@@ -285,7 +296,7 @@ class Choosing:
                 found.append({
                     "design": self.design if cutoff == self.own else f"{self.design}_{cutoff:g}",
                     "cutoff_rad_s": cutoff,
-                    "set": {} if cutoff == self.own else choice.settings(row),
+                    "set": {} if cutoff == self.own else {choice.CUTOFF: cutoff},
                     "table_id": row["id"],
                     "by": by,
                     "rate_hz": rate["rate_hz"],
@@ -314,7 +325,7 @@ class Choosing:
 
     def scene_of(self, best):
         """The scene with the choice's plant and the values of its design."""
-        scene = with_design(self.question, {key: float(v) for key, v in best["set"].items()})
+        scene = with_design(self.question, best["set"])
         if self.trim:
             trimmed = tomllib.loads((self.programs.folder / "trimmed.toml").read_text(encoding="utf-8"))
             scene |= {key: trimmed[key] for key in ("bridge", "step_clocks", "effects") if key in trimmed}

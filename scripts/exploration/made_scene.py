@@ -68,7 +68,8 @@ def moved(value, folder):
 
 def with_values(scene, **values):
     """The scene with these parameters; what it sets itself stays."""
-    return scene | {"parameters": values | scene.get("parameters", {})}
+    all_of = values | scene.get("parameters", {})
+    return scene | ({"parameters": all_of} if all_of else {})
 
 
 def cut(scene, seconds):

@@ -65,6 +65,7 @@ RULES = (
     Rule(r"feltgate stability .*--no-bits", "WHOLE"),
     Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),
     Rule(r"feltgate rates", "BY", "rates.command"),
+    Rule(r"feltgate choose", "BY", "choose.command"),
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench(?: --quick)?$", "BY", "bench.command"),
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),

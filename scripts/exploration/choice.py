@@ -70,9 +70,9 @@ def designs(rows, base):
         elif row["stable"] != "True":
             why = "unstable around p24"
         elif set(change) - {CUTOFF, OBSERVER}:
-            why = "another tick, window, format or list of scenes, which no built program has (preset exact)"
+            why = "another tick, window, format or list of scenes: in no built program (preset exact)"
         elif octave(cutoff) != octave(own):
-            why = "a cut-off beyond the register of `lever`, which no built program has (preset fast)"
+            why = "a cut-off beyond the register of `lever`: in no built program (preset fast)"
         elif cutoff in kept:
             why = "another cut-off of the observer alone, which no torque feels"
         else:
@@ -107,7 +107,7 @@ def error_parts(row, counts, rounding, plant):
     named = (
         ("encoder and velocity estimate", counts, "rates: counts alone"),
         ("rate and bits of the law", rate, "rates: this rate, less the counts"),
-        ("rounding behind the law", rounding, "run: proven, for any motion as fast"),
+        ("rounding behind the law", rounding, "run: measured and proven worst"),
         ("plant effects left out", plant, "trim: own and unseen motions"),
         ("simulation engine twin", (0.0, 0.0), "the RTL's bits, verified below"),
     )
@@ -122,13 +122,13 @@ def summed(parts, key):
     return {"parts": parts, key: total(parts, key)}
 
 
-def margin_of(row, fastest, factor):
-    """From the fastest rate on `lever` to this rate and this design; None: there is none."""
-    if row.get("margin") is None or fastest.get("margin") is None:
+def margin_of(at_fastest, at_rate, of_design):
+    """From the fastest rate on `lever` to this rate and this design; None where one is not known."""
+    steps = (at_fastest, at_rate, of_design)
+    if None in steps:
         return None
-    steps = [fastest["margin"], row["margin"], row["margin"] * factor]
     names = ("at the fastest rate", "this rate", "cut-off of the velocity")
-    values = [steps[0], steps[1] - steps[0], steps[2] - steps[1]]
+    values = (steps[0], steps[1] - steps[0], steps[2] - steps[1])
     return summed([{"part": p, "margin": v} for p, v in zip(names, values, strict=True)], "margin")
 
 
@@ -171,14 +171,16 @@ def broken(one, wishes):
 
     error, margin, latency = one["error"], one["margin"], one["latency"]
     if not error["share"] <= wishes["torque_error"]:
-        by = largest(error, "rms_nm")
-        add("torque_error", wishes["torque_error"], error["share"], by, error["share"] / wishes["torque_error"])
+        asked, is_now = wishes["torque_error"], error["share"]
+        add("torque_error", asked, is_now, largest(error, "rms_nm"), is_now / asked)
     if margin is not None and not margin["margin"] >= wishes["margin"]:
-        add("margin", wishes["margin"], margin["margin"], one["margin_by"], wishes["margin"] / max(margin["margin"], 1e-9))
+        asked, is_now = wishes["margin"], margin["margin"]
+        add("margin", asked, is_now, one["margin_by"], asked / max(is_now, 1e-9))
     if margin is None and "margin" in wishes["stated"]:
         add("margin", wishes["margin"], None, one["margin_by"], 10.0)
     if wishes["latency"] is not None and not latency["ms"] <= wishes["latency"]:
-        add("latency", wishes["latency"], latency["ms"], largest(latency, "ms"), latency["ms"] / wishes["latency"])
+        asked, is_now = wishes["latency"], latency["ms"]
+        add("latency", asked, is_now, largest(latency, "ms"), is_now / asked)
     short = [row for row in one["chips"].get(wishes["chip"], []) if row[1] > row[2]]
     if short:
         most = max(short, key=lambda row: row[1] / row[2])

@@ -149,7 +149,7 @@ def picture(told):
     from reports import plots
 
     shown = told["front"][::-1]
-    height = 0.35 + 0.3 * len(shown)
+    height = 1.2 + 0.25 * len(shown)
     figure, axes = plots.stacked(f"{told['scene']}: the choice is at the top", [height] * 3, apart=3, width=6.4)
     names = [f"{o['design']}, {o['by']}, {rate(o['rate_hz'])}" for o in shown]
     shades = ("#0072b2", "#b23a00", "#8c96a0", "#008a64", "#7d4bb5")
@@ -163,7 +163,7 @@ def picture(told):
             axis.barh(names, width, left=at, height=0.6, color=shades[i % 5], label=part["part"])
             at = [a + w for a, w in zip(at, width, strict=True)]
         axis.set_xlabel(label)
-        axis.legend(fontsize=6, ncols=2, loc="upper center", bbox_to_anchor=(0.4, -0.35 - 0.5 / height))
+        axis.legend(fontsize=6, ncols=2, loc="upper right", bbox_to_anchor=(1.0, -0.45 / height))
     margins = [o["margin"]["margin"] if o["margin"] else 0.0 for o in shown]
     axes[2].barh(names, margins, height=0.6, color="#6db8ec")
     axes[2].axvline(1, color="#d55e00", linewidth=0.8)

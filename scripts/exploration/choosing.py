@@ -87,7 +87,7 @@ class Question:
         if given.endswith(".toml") or given in scenes:
             found = scenes.get(given, path)
             if not found.is_file():
-                raise Refused(f"{given}: there is no such file; give a scene file or a name in vectors/scenes")
+                raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes")
             return found, False
         law = laws.get(given) or (path if given.endswith(".law") else None)
         if law is None:
@@ -122,21 +122,13 @@ class Question:
         return self.law is not None and "velocity" in self.law.read_text(encoding="utf-8")
 
 
-def with_design(question, change):
-    """The scene on a design that differs from `lever` in its cut-off of the velocity alone."""
-    scene = made_scene.moved(question.scene, question.path.parent)
-    if question.law:
-        scene["core"]["law"] = str(question.law.resolve())
-    words = {"velocity_a1": choice.word(value, TICK_HZ) for value in change.values()}
-    return made_scene.with_values(scene, **words)
-
-
 def rounding_part(programs, scene, design):
-    """(rms, worst) of the rounding behind the law: the proven bound of this motion for both, which
-    holds at every rate; the measured worst where there is none."""
+    """(rms, worst) of the rounding behind the law. The rms at any rate: the measured one, and the
+    worst of the ticks for which a bound is proven. The worst: the bound, or what exceeds it outside."""
     run = programs.ask("run", scene, "--design", design, "--engine", "twin,quad", "--quiet")
     errors = run["engines"]["twin"]["torque_nm"]
-    return (max(errors["bound"] or 0.0, errors["max_error"]),) * 2
+    rms = errors["rms_error"] + (errors["max_error_in_bounds"] or 0.0)
+    return min(rms, errors["max_error"]), max(errors["bound"] or 0.0, errors["max_error"])
 
 
 def plant_part(trim, largest_nm):
@@ -175,25 +167,21 @@ class Choosing:
         self.left_out.append({"part": part, "why": why})
 
     def measure(self):
-        """The scene on the built design: rates and plant beside each other."""
+        """First the plant, then the scene at all rates on what is left of it."""
         ask, q = self.programs.ask, self.question
-        with ThreadPoolExecutor(2) as pool:
-            rates = pool.submit(ask, "rates", q.path, "--rate", RATES[q.kind()], "--quiet")
+        if q.of_block():
+            self.path = self.programs.folder / f"{q.name}_trimmed.toml"
             share = f"{self.wishes['torque_error']:.6g}"
-            if q.of_block():
-                words = ("--tolerance", share, "-o", self.programs.folder / "trimmed.toml")
-                trim = pool.submit(ask, "trim", q.path, *words, "--jobs", "1", "--quiet")
-            self.report = rates.result()["scenes"][0]
-            if q.of_block():
-                self.trim = trim.result()
-            else:
-                why = "several axes" if q.device else "a law"
-                self.leave_out(
-                    "plant effects", f"`feltgate trim` takes no scene with {why}: all of them stay on"
-                )
+            self.trim = ask("trim", q.path, "--tolerance", share, "-o", self.path, "--quiet")
+            self.scene = q.scene | tomllib.loads(self.path.read_text(encoding="utf-8"))
+        else:
+            why = "several axes" if q.device else "a law"
+            told = f"`feltgate trim` takes no scene with {why}: all of them stay on"
+            self.leave_out("plant effects", told)
+            self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
+            self.scene["core"]["law"] = str(q.law.resolve())
+        self.report = ask("rates", self.path, "--rate", RATES[q.kind()], "--quiet")["scenes"][0]
         self.largest_nm = self.report["largest_nm"]
-        if not any(r["error_rms_nm"] is not None for r in self.report["rates"]):
-            raise Refused(f"{q.path}: no tick in which the law acts on an armed motor: nothing to choose by")
         if self.report["counts_alone_rms_nm"] is None or self.largest_nm <= 0:
             raise Refused(f"{q.path}: the law asks for no torque on this motion; give a scene that meets it")
 
@@ -217,9 +205,9 @@ class Choosing:
 
         def one(cutoff):
             if cutoff == self.own:
-                scene, report = q.path, self.report
+                scene, report = self.path, self.report
             else:
-                text = made_scene.toml_text([], with_design(q, {choice.CUTOFF: cutoff}))
+                text = made_scene.toml_text([], self.scene_of({choice.CUTOFF: cutoff}))
                 scene = programs.put(f"{q.name}_{cutoff:g}.toml", text)
                 rates = TICK_HZ if q.of_block() else RATES["law"]  # a block has one rate
                 report = programs.ask("rates", scene, "--rate", rates, "--quiet")["scenes"][0]
@@ -234,7 +222,7 @@ class Choosing:
             return dict(zip(kept, pool.map(one, kept), strict=True))
 
     def borders(self, kept):
-        """{cut-off: {rate: (border by eigenvalues, delay of the actuator)}} of a wall with the law's damping."""
+        """{cut-off: border by eigenvalues at each rate} of a wall with the law's damping."""
         q, damping = self.question, f"{self.report['damping_nm_s_rad']:.9g}"
         if q.device:
             self.leave_out("delay of PWM and winding", "`feltgate stability` takes one lever")
@@ -275,6 +263,7 @@ class Choosing:
         kept = self.kept_designs()
         self.own_row = kept[self.own]
         variants, borders = self.variants(kept), self.borders(kept)
+        self.found_borders = borders
         plant = plant_part(self.trim, self.largest_nm) if self.trim else None
         cells = self.budget["figures"]["lever"]["core without read-back, inferred"]
         cells_per_lut4 = cells["cyclone_cells"] / cells["lut4_equivalents"]
@@ -289,10 +278,9 @@ class Choosing:
                     continue
                 same = [(r["by"], r["ticks"]) for r in self.report["rates"]]
                 i = same.index((rate["by"], rate["ticks"]))
-                ours, factor = self.report["rates"][i], 1.0
-                if borders and borders[self.own][i]:
-                    factor = borders[cutoff][i] / borders[self.own][i]
+                margin = self.margin(borders, cutoff, i)
                 gates = choice.gates_of(self.core(row), engine if by == "engine" else None)
+                parts = choice.error_parts(rate, counts, rounding, plant)
                 found.append({
                     "design": self.design if cutoff == self.own else f"{self.design}_{cutoff:g}",
                     "cutoff_rad_s": cutoff,
@@ -302,9 +290,9 @@ class Choosing:
                     "rate_hz": rate["rate_hz"],
                     "ticks": rate["ticks"],
                     "clocks": [rate.get("clocks_used", 0), rate.get("clocks_available", 0)],
-                    "error": choice.error_of(choice.error_parts(rate, counts, rounding, plant), self.largest_nm),
-                    "margin": choice.margin_of(ours, self.report["rates"][-1], factor),
-                    "margin_by": self.margin_by(ours),
+                    "error": choice.error_of(parts, self.largest_nm),
+                    "margin": margin,
+                    "margin_by": self.margin_by(margin),
                     "latency": choice.latency_of(rate, self.delays(row)),
                     "gates": gates,
                     "chips": {n: choice.fit(c, gates, cells_per_lut4) for n, c in choice.CHIPS.items()},
@@ -312,24 +300,37 @@ class Choosing:
                     "cpu_s_per_s": rate["cpu_s_per_s"],
                 })  # fmt: skip
         if not found:
-            raise Refused(f"{self.question.path}: a fault opens the gates at every rate; see `feltgate rates`")
+            path = self.question.path
+            raise Refused(f"{path}: a fault opens the gates at every rate; see `feltgate rates`")
         return found
 
-    def margin_by(self, rate):
+    def margin(self, borders, cutoff, i):
+        """Of one lever by the borders of the whole plant, which may have more than the trimmed one."""
+        rates, stiffness = self.report["rates"], self.report["stiffness_nm_rad"]
+        if rates[i].get("border_of") == "stiffness" and borders:
+            values = (borders[self.own][-1], borders[self.own][i], borders[cutoff][i])
+            return choice.margin_of(*(value / stiffness for value in values))
+        if self.trim and rates[-1].get("border_of") == "damping":
+            whole = self.programs.ask("rates", self.question.path, "--rate", TICK_HZ, "--quiet")
+            rates[-1]["margin"] = whole["scenes"][0]["rates"][-1]["margin"]
+        own = rates[i].get("margin") if cutoff == self.own else None
+        return choice.margin_of(rates[-1].get("margin"), own, own)
+
+    def margin_by(self, margin):
         notes = [n for n in self.report["notes"] if n.startswith("no margin")]
-        if rate.get("margin") is None:
+        last = self.report["rates"][-1]
+        if margin is None and last.get("border_of") == "damping":
+            return "no margin: that of a law's damping is known for the cut-off of `lever` alone"
+        if margin is None:
             return notes[0] if notes else "no margin: the motion met the law nowhere stiff"
-        fastest = self.report["rates"][-1].get("margin") or 0.0
+        fastest = margin["parts"][0]["margin"]
         held = "the rate" if fastest >= self.wishes["margin"] else "the law's own stiffness and damping"
         return f"{held}: {fastest:.3g} at the fastest"
 
-    def scene_of(self, best):
-        """The scene with the choice's plant and the values of its design."""
-        scene = with_design(self.question, best["set"])
-        if self.trim:
-            trimmed = tomllib.loads((self.programs.folder / "trimmed.toml").read_text(encoding="utf-8"))
-            scene |= {key: trimmed[key] for key in ("bridge", "step_clocks", "effects") if key in trimmed}
-        return scene
+    def scene_of(self, change):
+        """The scene on what is left of the plant, on `lever` with these cut-offs."""
+        words = {"velocity_a1": choice.word(value, TICK_HZ) for value in change.values()}
+        return made_scene.with_values(self.scene, **words)
 
     def design_file(self, best):
         """A file for `feltgate stability`: `lever` with the cut-offs of the choice."""
@@ -341,7 +342,7 @@ class Choosing:
         speeds = {n: e["simulated_s_per_s"]["median"] for n, e in bench["engines"].items()}
         errors = {n: e.get("torque_error_nm", {"max": 0.0})["max"] for n, e in bench["engines"].items()}
         told = {"engine": "twin", "core_times_faster_than_rtl": speeds["twin_event"] / speeds["rtl"]}
-        told |= {"double_times_faster_in_the_core": speeds["double"] and speeds["double"] / speeds["twin_event"]}
+        told |= {"double_times_faster_in_the_core": speeds["double"] / speeds["twin_event"]}
         told |= {"double_loses_nm": errors["twin_event"], "bench": f"{bench['machine']}, {bench['date']}"}
         if self.trim:
             full, least = self.trim["full"], self.trim["trimmed"]
@@ -355,12 +356,13 @@ class Choosing:
         """Of a scene of the core: the slowest rate at which a host's law would meet error and margin."""
         if not self.question.of_block():
             return None
-        plant = plant_part(self.trim, self.largest_nm)
-        for row in self.report["rates"]:
+        plant, borders = plant_part(self.trim, self.largest_nm), self.found_borders
+        stiffness = self.report["stiffness_nm_rad"]
+        for i, row in enumerate(self.report["rates"]):
             if row["by"] == "block" or row["error_rms_nm"] is None:
                 continue
             share = (row["error_rms_nm"] + plant[0]) / self.largest_nm
-            margin = row.get("margin")
+            margin = borders[self.own][i] / stiffness if row.get("border_of") == "stiffness" else None
             if share <= self.wishes["torque_error"] and (margin is None or margin >= self.wishes["margin"]):
                 return row["rate_hz"]
         return None

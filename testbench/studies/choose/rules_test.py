@@ -32,7 +32,9 @@ def wishes(objective=None, **stated):
     return aims | stated | {"stated": list(stated), "objective": objective}
 
 
-SLOW, MIDDLE, FAST = one(1e3, 0.009, 1.5, 0.9, 3000), one(1e4, 0.005, 4.0, 0.3, 3000), one(1e6, 0.004, 5.0, 0.2, 3100)
+SLOW = one(1e3, 0.009, 1.5, 0.9, 3000)
+MIDDLE = one(1e4, 0.005, 4.0, 0.3, 3000)
+FAST = one(1e6, 0.004, 5.0, 0.2, 3100)
 ALL = [SLOW, MIDDLE, FAST]
 
 
@@ -70,8 +72,8 @@ class Choice(unittest.TestCase):
 
     def test_nan_is_no_wish_met(self):
         nothing = float("nan")
-        for broken in (one(1e3, nothing, 5.0, 0.1, 1), one(1e3, 0.001, nothing, 0.1, 1), one(1e3, 0.001, 5.0, nothing, 1)):
-            self.assertTrue(choice.broken(broken, wishes(latency=1.0, margin=2.0)))
+        for figures in ((nothing, 5.0, 0.1), (0.001, nothing, 0.1), (0.001, 5.0, nothing)):
+            self.assertTrue(choice.broken(one(1e3, *figures, 1), wishes(latency=1.0, margin=2.0)))
 
     def test_no_margin_breaks_the_wish_and_not_the_aim(self):
         without = one(1e3, 0.001, None, 0.1, 1)
@@ -132,7 +134,8 @@ class Written(Scratch):
         self.assertEqual(made_scene.cut(scene, 2.0), scene)
 
     def test_a_law_gets_one_rate(self):
-        self.assertEqual(made_scene.law_at("# a\n# b\nout torque = 1 Nm\n", 1e4), "# a\n# b\nrate = 10000 Hz\nout torque = 1 Nm\n")
+        told = made_scene.law_at("# a\n# b\nout torque = 1 Nm\n", 1e4)
+        self.assertEqual(told, "# a\n# b\nrate = 10000 Hz\nout torque = 1 Nm\n")
         self.assertEqual(made_scene.law_at("# a\nrate = 40 kHz # b\nout", 1e4), "# a\nrate = 10000 Hz  # b\nout")
 
 

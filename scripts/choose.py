@@ -16,7 +16,7 @@ from pathlib import Path
 import command_line
 import outputs
 from exploration import choice, choose_text, made_scene
-from exploration.choosing import NAME, Choosing, Programs, Question
+from exploration.choosing import NAME, Choosing, Programs, Question, named
 from exploration.design_text import design_text
 
 SCHEMA = "feltgate-choose/1"
@@ -100,6 +100,10 @@ def arguments_of(words):
     options = parser.parse_args(words)
     outputs.check(parser, json=options.json)
     outputs.check_folder(parser, "--output", options.output)
+    try:
+        named(options.scene)
+    except command_line.Refused as error:
+        parser.error(str(error))
     return options
 
 

@@ -114,7 +114,8 @@ def error_parts(row, counts, rounding, plant):
     told = []
     for part, value, source in named:
         rms, worst = value or (0.0, 0.0)
-        told.append({"part": part, "rms_nm": rms, "worst_nm": worst, "from": source if value else NOT_ASKED})
+        source = source if value else NOT_ASKED
+        told.append({"part": part, "rms_nm": rms, "worst_nm": worst, "from": source})
     return told
 
 
@@ -200,19 +201,28 @@ def distance(one, wishes, stated_only=False):
     )
 
 
+def alike(lut4_equivalents):
+    """The tools' own choices change an area by tens: what differs by less is the same."""
+    return round(lut4_equivalents / 50)
+
+
 def measures(one):
     """Less is better. A slower law leaves clocks of the engine to others."""
     margin = one["margin"]["margin"] if one["margin"] else 0.0
-    gates = one["gates"]["lut4_equivalents"]
+    gates = alike(one["gates"]["lut4_equivalents"])
     return one["error"]["share"], -margin, one["latency"]["ms"], gates, one["rate_hz"]
 
 
 def order(objective):
     """What the choice is by: the objective first, then gates, the slowest law, and the error."""
     keys = {"fastest": lambda o: o["latency"]["ms"], "stiffest": lambda o: measures(o)[1]}
-    gates = lambda o: o["gates"]["lut4_equivalents"]  # noqa: E731
-    first = keys.get(objective, gates)
-    return lambda o: (first(o), gates(o), o["rate_hz"], o["error"]["share"], o["cutoff_rad_s"])
+
+    def sorted_by(one):
+        gates = alike(one["gates"]["lut4_equivalents"])
+        first = keys[objective](one) if objective in keys else gates
+        return first, gates, one["rate_hz"], one["error"]["share"], one["cutoff_rad_s"]
+
+    return sorted_by
 
 
 def choose(all_of, wishes):

@@ -42,7 +42,8 @@ def simulation(told):
     else:
         faster = sim["full_cpu_s_per_s"] / sim["cpu_s_per_s"]
         off = ", ".join(sim["effects_off"]) or "nothing"
-        lines.append(f"plant       left out: {off}; steps of {sim['step_clocks']} clocks; {faster:.3g} times faster")
+        step = f"steps of {sim['step_clocks']} clocks; {faster:.3g} times faster"
+        lines.append(f"plant       left out: {off}; {step}")
     return lines
 
 
@@ -82,7 +83,7 @@ def chips(told):
 
 
 def front(told):
-    lines = ["", f"front: {len(told['front'])} of {told['measured']} measured; nothing measured beats them all"]
+    lines = ["", f"front: {len(told['front'])} of {told['measured']} measured"]
     lines.append(f"  {'':<54}{'error':>8}{'margin':>9}{'latency':>10}{'LUT4 eq':>9}")
     for one in told["front"]:
         margin = f"{one['margin']['margin']:.3g}" if one["margin"] else "-"
@@ -92,7 +93,8 @@ def front(told):
             f"{one['latency']['ms']:7.3g} ms{one['gates']['lut4_equivalents']:9}"
         )
     left = told["designs"]["left_out"]
-    lines.append(f"of the {told['designs']['in_table']} designs of the table were left out: {sum(left.values())}")
+    whole = told["designs"]["in_table"]
+    lines.append(f"left out of the {whole} designs of the table: {sum(left.values())}")
     lines += [f"  {count:4} {why}" for why, count in left.items()]
     return lines
 
@@ -102,13 +104,15 @@ def why_not(told):
     for w in told["why_not"]:
         kind = "wish" if w["stated"] else "aim, not asked for"
         asked = "" if w["asked"] is None else f" {of_wish(w['wish'], w['asked'])}"
-        lines.append(f"NOT MET  {w['wish'].replace('_', ' ')}{asked} ({kind}): {of_wish(w['wish'], w['is'])}, by {w['by']}")
+        name, value = w["wish"].replace("_", " "), of_wish(w["wish"], w["is"])
+        lines.append(f"NOT MET  {name}{asked} ({kind}): {value}, by {w['by']}")
         if w["alone"]:
             lines.append("         another alternative meets it, but not the other wishes")
         elif w["wish"] == "chip":
             lines.append(f"         it fits: {', '.join(w['fits']) or 'none of these chips'}")
         elif w["wish"] != "the scene's expectations":
-            lines.append(f"         the best of all measured: {of_wish(w['wish'], w['best'])}, by {w['best_by']}")
+            best = of_wish(w["wish"], w["best"])
+            lines.append(f"         the best of all measured: {best}, by {w['best_by']}")
     if lines:
         lines.append("         the choice above is the nearest to all wishes")
     return ["", *lines] if lines else []
@@ -116,7 +120,8 @@ def why_not(told):
 
 def verified(told):
     v = told["verified"]
-    lines = ["", f"verified in RTL and twin: {v['clocks']} clocks of lock-step, {v['rtl_s']:g} s of the scene"]
+    ran = f"{v['clocks']} clocks of lock-step, {v['rtl_s']:g} s of the scene"
+    lines = ["", f"verified in RTL and twin: {ran}"]
     for c in v["checks"]:
         limit = "not known" if c["limit"] is None else f"{c['limit']:.4g}"
         mark = "ok" if c["holds"] else "NOT KEPT"
@@ -126,17 +131,23 @@ def verified(told):
 
 def text(told):
     asked, one = told["asked"], told["choice"]
-    where = f"device {asked['device']}, {asked['axes']} axes" if "device" in asked else f"plant {asked['plant']}"
-    slope = f"at its steepest {asked['stiffness_nm_rad']:.4g} Nm/rad with {asked['damping_nm_s_rad']:.4g} Nm s/rad"
-    lines = [f"{told['scene']}: {told['title']}", f"law {told['law']}, to {asked['largest_nm']:.3g} Nm; {slope}; {where}"]
+    where = f"plant {asked.get('plant')}"
+    if "device" in asked:
+        where = f"device {asked['device']}, {asked['axes']} axes"
+    stiff, damping = asked["stiffness_nm_rad"], asked["damping_nm_s_rad"]
+    slope = f"at its steepest {stiff:.4g} Nm/rad with {damping:.4g} Nm s/rad"
+    lines = [f"{told['scene']}: {told['title']}"]
+    lines.append(f"law {told['law']}, to {asked['largest_nm']:.3g} Nm; {slope}; {where}")
     if told["made_motion"]:
         lines.append("a law has no motion: a hand sweeps 0.8 rad to both sides; give a scene for yours")
     lines += ["", f"CHOICE      {in_words(one)}"]
     if one["by"] == "engine":
         lines.append(f"            a run takes {one['clocks'][0]} of {one['clocks'][1]} clocks of the engine")
-    lines += [*simulation(told), *sums(one, asked["largest_nm"]), *chips(told), *front(told), *why_not(told)]
+    lines += [*simulation(told), *sums(one, asked["largest_nm"])]
+    lines += [*chips(told), *front(told), *why_not(told)]
     if told["slowest_for_a_host"]:
-        lines += ["", f"a host may compute the same force from {rate(told['slowest_for_a_host'])} on, within these aims"]
+        slowest = rate(told["slowest_for_a_host"])
+        lines += ["", f"a host may compute the same force from {slowest} on, within these aims"]
     lines += verified(told)
     for left in told["left_out"]:
         lines.append(f"left out: {left['part']}: {left['why']}")
@@ -150,11 +161,13 @@ def picture(told):
 
     shown = told["front"][::-1]
     height = 1.2 + 0.25 * len(shown)
-    figure, axes = plots.stacked(f"{told['scene']}: the choice is at the top", [height] * 3, apart=3, width=6.4)
+    title = f"{told['scene']}: the choice is at the top"
+    figure, axes = plots.stacked(title, [height] * 3, apart=3, width=6.4)
     names = [f"{o['design']}, {o['by']}, {rate(o['rate_hz'])}" for o in shown]
+    share = 100 / told["asked"]["largest_nm"]
     shades = ("#0072b2", "#b23a00", "#8c96a0", "#008a64", "#7d4bb5")
     for axis, of, key, factor, label in (
-        (axes[0], "error", "rms_nm", 100 / told["asked"]["largest_nm"], "error of the torque, rms, % of its largest"),
+        (axes[0], "error", "rms_nm", share, "error of the torque, rms, % of its largest"),
         (axes[1], "latency", "ms", 1.0, "latency, ms"),
     ):
         at = [0.0] * len(shown)

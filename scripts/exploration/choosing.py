@@ -57,6 +57,26 @@ class Programs:
         return path
 
 
+def named(given):
+    """(path of a scene, None) or (None, path of a law)."""
+    root, path = command_line.root(), Path(given)
+    scenes = {p.stem: p for p in root.glob("vectors/scenes/*.toml")}
+    laws = {p.stem: p for p in root.glob("rtl/laws/*.law")}
+    scene = scenes.get(given) or (path if given.endswith(".toml") else None)
+    law = laws.get(given) or (path if given.endswith(".law") else None)
+    found = scene or law
+    if found is None:
+        near = difflib.get_close_matches(given, [*scenes, *laws], 1)
+        mend = f"did you mean {near[0]}? " if near else ""
+        raise Refused(
+            f'"{given}" is neither a scene nor a law; {mend}Give a name in vectors/scenes or rtl/laws, '
+            "or the path of a .toml or .law file"
+        )
+    if not found.is_file():
+        raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes or rtl/laws")
+    return (scene, None) if scene else (None, law)
+
+
 class Question:
     """A scene, read; for a law without one, the scene in which a hand sweeps it."""
 
@@ -81,24 +101,11 @@ class Question:
 
     def _find(self, given, root, programs):
         """(path of the scene, whether it was made for a law)."""
-        scenes = {p.stem: p for p in sorted(root.glob("vectors/scenes/*.toml"))}
-        laws = {p.stem: p for p in sorted(root.glob("rtl/laws/*.law"))}
-        path = Path(given)
-        if given.endswith(".toml") or given in scenes:
-            found = scenes.get(given, path)
-            if not found.is_file():
-                raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes")
-            return found, False
-        law = laws.get(given) or (path if given.endswith(".law") else None)
-        if law is None:
-            near = difflib.get_close_matches(given, [*scenes, *laws], 1)
-            mend = f"did you mean {near[0]}? " if near else ""
-            raise Refused(
-                f'"{given}" is neither a scene nor a law; {mend}Give a name in vectors/scenes or rtl/laws, '
-                "or the path of a .toml or .law file"
-            )
-        for scene in scenes.values():  # a shipped law is felt where a scene renders it
-            if given in laws and f'\nlaw = "{given}"' in scene.read_text(encoding="utf-8"):
+        scene, law = named(given)
+        if scene:
+            return scene, False
+        for scene in sorted(root.glob("vectors/scenes/*.toml")):  # one that renders a shipped law
+            if law.stem == given and f'\nlaw = "{given}"' in scene.read_text(encoding="utf-8"):
                 return scene, False
         told = programs.ask("law", law)
         if any(o["axis"] > 0 for o in told["outputs"]):

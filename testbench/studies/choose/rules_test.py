@@ -151,6 +151,8 @@ class Refused(Scratch):
             (("wall", "--fastest", "--smallest"), "not allowed with"),
             (("wall", "--json", self.folder / "none/a.json"), "no folder"),
             (("wall", "-o", Path(__file__)), "is no folder"),
+            (("wal",), "did you mean wall?"),
+            (("none.toml",), "no such file"),
         ):
             with self.subTest(words):
                 status, out, err = called(choose.main, *words, "--only-arguments")
@@ -161,8 +163,6 @@ class Refused(Scratch):
         broken = self.put("broken.toml", "title = ")
         lawless = self.put("lawless.toml", '[core]\nscene = "law"\nlaw = "gone.law"\n')
         for given, said in (
-            ("wal", "did you mean wall?"),
-            ("none.toml", "no such file"),
             (broken, "not a scene file"),
             (lawless, "there is no law"),
         ):

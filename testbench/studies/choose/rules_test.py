@@ -113,6 +113,10 @@ class Designs(unittest.TestCase):
         self.assertEqual(len(self.rows), 286)
         self.assertEqual(len(kept) + sum(left.values()), 286)
         self.assertEqual(sorted(kept), [500.0, 600.0, 700.0, 950.0])
+        said = {word: sum(n for why, n in left.items() if word in why) for word in ("coarse", "unstable")}
+        coarse = [r for r in self.rows if r["coarse"] == "True"]
+        unstable = [r for r in self.rows if r["coarse"] != "True" and r["stable"] != "True"]
+        self.assertEqual(said, {"coarse": len(coarse), "unstable": len(unstable)})
 
     def test_kept_are_fit_for_use_and_only_differ_in_registers(self):
         kept, _ = choice.designs(self.rows, self.base)

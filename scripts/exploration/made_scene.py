@@ -77,7 +77,7 @@ def cut(scene, seconds):
     if scene["duration_s"] <= seconds:
         return scene
     events = [e for e in scene.get("event", []) if e["at_s"] < seconds]
-    short = {key: value for key, value in scene.items() if key not in ("expect", "event")}
+    short = {key: v for key, v in scene.items() if key not in ("expect", "event", "rest")}
     return short | {"duration_s": seconds} | ({"event": events} if events else {})
 
 

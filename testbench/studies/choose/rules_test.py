@@ -134,6 +134,7 @@ class Written(Scratch):
 
     def test_a_cut_scene_has_no_later_events(self):
         scene = {"duration_s": 2.0, "event": [{"at_s": 0.1}, {"at_s": 1.0}], "expect": [{}]}
+        scene["rest"] = {"from_s": 1.5}
         self.assertEqual(made_scene.cut(scene, 0.5), {"duration_s": 0.5, "event": [{"at_s": 0.1}]})
         self.assertEqual(made_scene.cut(scene, 2.0), scene)
 

@@ -7,6 +7,7 @@ Documentation: docs/choose.md
 
 import csv
 import difflib
+import itertools
 import json
 import os
 import shlex
@@ -32,7 +33,7 @@ class Programs:
     """The C++ program, its answers as JSON."""
 
     def __init__(self, folder, quiet):
-        self.folder, self.quiet, self.count = Path(folder), quiet, 0
+        self.folder, self.quiet, self.numbers = Path(folder), quiet, itertools.count()
         self.name = "feltgate_lever_law"
 
     def ask(self, command, *words, codes=(0, 1)):
@@ -40,8 +41,7 @@ class Programs:
         program = command_line.build_folder() / self.name
         if not program.exists():
             raise Refused(f"{program} is not built; start this as ./feltgate choose, which builds it")
-        self.count += 1
-        answer = self.folder / f"{command}{self.count}.json"
+        answer = self.folder / f"{command}{next(self.numbers)}.json"
         words = [program, command, *map(str, words), "--json", answer]
         if not self.quiet:
             command_line.say(NAME, shlex.join([command, *map(str, words[2:-2])]))

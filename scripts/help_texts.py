@@ -52,7 +52,7 @@ def commands(build):
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
     }
-    scripts = ("faults", "prove", "mutate", "coverage", "page", "product")
+    scripts = ("choose", "faults", "prove", "mutate", "coverage", "page", "product")
     own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
     programs = ("bench", "extremes", "host", "board")
     own |= {name: [build / f"feltgate_{name}"] for name in programs}

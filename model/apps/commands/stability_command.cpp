@@ -4,6 +4,7 @@
 // feltgate stability. Documentation: docs/stability.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -59,9 +60,44 @@ void refuse_scene(const std::string& name) {
                   path.stem().string()));
 }
 
-int run(const StabilityArguments& a) {
+/// Whether two designs differ at most in what registers hold.
+bool same_structure(const design::Elaborated& a, const design::Elaborated& b) {
+  const design::Design &x = a.design, &y = b.design;
+  const auto same = [](const design::Word& v, const design::Word& w) {
+    return v.parameter.name == w.parameter.name && v.format == w.format;
+  };
+  return x.clock_hz == y.clock_hz && x.tick_hz == y.tick_hz && x.m1 == y.m1 && x.n == y.n &&
+         a.velocity_gain == b.velocity_gain && x.lines == y.lines && x.pwm_hz == y.pwm_hz &&
+         x.voltage_law == y.voltage_law && x.velocity == y.velocity && x.torque == y.torque &&
+         x.current == y.current && x.voltage == y.voltage && x.rounding == y.rounding &&
+         x.observer_fraction == y.observer_fraction && x.coefficient_bits == y.coefficient_bits &&
+         std::equal(a.words.begin(), a.words.end(), b.words.begin(), b.words.end(), same);
+}
+
+/// The design of a name, or of a file. The chain of a file is that of a built-in design of the same
+/// structure with the file's values in its registers. A file without one has no bits.
+design::Elaborated design_of(const StabilityArguments& a) {
   const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
-  const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")), registers);
+  const auto read = [&](const std::string& name) {
+    return elaborate(design::read_design(find_file(name, "rtl/designs")), registers);
+  };
+  const bool file = a.design.find('/') != std::string::npos || fs::path(a.design).has_extension();
+  if (!file) return read(built_design(a.design));
+  design::Elaborated e = read(a.design);
+  if (a.no_bits && a.no_experiments) return e;
+  for (const std::string& name : design_names()) {
+    if (!same_structure(e, read(name))) continue;
+    e.design.name = name;
+    return e;
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: no design in this program has its formats, tick and window, so its bits "
+                  "cannot run; add --no-bits --no-experiments for the eigenvalues alone",
+                  a.design));
+}
+
+int run(const StabilityArguments& a) {
+  const auto e = design_of(a);
   const auto linear = plant::read_plant_file(find_file(a.linear, "vectors/plants"));
   const auto full = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
   files::Outputs outputs;
@@ -113,7 +149,9 @@ void add_stability(CLI::App& app, int* exit_code) {
       "  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments\n"
       "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing spans 8 counts),\n"
       "1 otherwise, 2 unusable input. docs/stability.md explains every column.");
-  sub->add_option("design", a->design, "design that was built in, by its name in rtl/designs")
+  sub->add_option("design", a->design,
+                  "design that was built in, by its name in rtl/designs; or a file, whose bits are "
+                  "those of a built-in design of the same structure with its cut-offs")
       ->capture_default_str()
       ->type_name("DESIGN");
   sub->add_option("--linear-plant", a->linear,
@@ -139,7 +177,6 @@ void add_stability(CLI::App& app, int* exit_code) {
       ->type_name("DIR");
   sub->callback([a, exit_code] {
     refuse_scene(a->design);
-    a->design = built_design(a->design);
     *exit_code = run(*a);
   });
 }

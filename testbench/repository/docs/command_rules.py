@@ -68,6 +68,7 @@ RULES = (
     Rule(r"feltgate controllers", "BY", "controllers.command"),
     Rule(r"feltgate claims window", "WHOLE"),
     Rule(r"feltgate claims", "MORE", "recognition"),
+    Rule(r"feltgate choose", "BY", "choose.command"),
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench(?: --quick)?$", "BY", "bench.command"),
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),

@@ -1,0 +1,375 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""What `feltgate choose` asks the other commands about a scene, and the alternatives that follow.
+
+Documentation: docs/choose.md
+"""
+
+import csv
+import difflib
+import itertools
+import json
+import os
+import shlex
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import building
+import command_line
+import interrupts
+from command_line import Refused
+from exploration import choice, made_scene
+from exploration.design_text import design_text
+
+NAME = "choose"
+TABLE = "vectors/spaces/trade.csv"
+BENCH = "docs/images/bench.json"
+RATES = {"law": "490,1000,10000,40000,100000", "block": "1000,10000"}  # the fastest is always added
+TICK_HZ = 1_000_000  # of `lever`
+
+
+class Programs:
+    """The C++ program, its answers as JSON."""
+
+    def __init__(self, folder, quiet):
+        self.folder, self.quiet, self.numbers = Path(folder), quiet, itertools.count()
+        self.name = "feltgate_lever_law"
+
+    def ask(self, command, *words, codes=(0, 1)):
+        """The JSON of a command; what it refuses is refused here, in its words."""
+        program = command_line.build_folder() / self.name
+        if not program.exists():
+            raise Refused(f"{program} is not built; start this as ./feltgate choose, which builds it")
+        answer = self.folder / f"{command}{next(self.numbers)}.json"
+        words = [program, command, *map(str, words), "--json", answer]
+        if not self.quiet:
+            command_line.say(NAME, shlex.join([command, *map(str, words[2:-2])]))
+        done = interrupts.run(words, **interrupts.CAPTURED)
+        if done.returncode not in codes or not answer.exists():
+            said = (done.stderr or done.stdout).strip().removeprefix("feltgate: ")
+            raise Refused(said or f"{command} ended with {done.returncode}")
+        return json.loads(answer.read_text(encoding="utf-8"))
+
+    def put(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+
+def named(given):
+    """(path of a scene, None) or (None, path of a law)."""
+    root, path = command_line.root(), Path(given)
+    scenes = {p.stem: p for p in root.glob("vectors/scenes/*.toml")}
+    laws = {p.stem: p for p in root.glob("rtl/laws/*.law")}
+    scene = scenes.get(given) or (path if given.endswith(".toml") else None)
+    law = laws.get(given) or (path if given.endswith(".law") else None)
+    found = scene or law
+    if found is None:
+        near = difflib.get_close_matches(given, [*scenes, *laws], 1)
+        mend = f"did you mean {near[0]}? " if near else ""
+        raise Refused(
+            f'"{given}" is neither a scene nor a law; {mend}Give a name in vectors/scenes or rtl/laws, '
+            "or the path of a .toml or .law file"
+        )
+    if not found.is_file():
+        raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes or rtl/laws")
+    return (scene, None) if scene else (None, law)
+
+
+class Question:
+    """A scene, read; for a law without one, the scene in which a hand sweeps it."""
+
+    def __init__(self, given, programs):
+        root = command_line.root()
+        self.path, self.made = self._find(given, root, programs)
+        try:
+            self.scene = tomllib.loads(self.path.read_text(encoding="utf-8"))
+            self.law = made_scene.law_path(root, self.path, self.scene)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+            raise Refused(f"{self.path}: not a scene file: {error}; docs/scenes.md explains one") from error
+        self.device = self.scene.get("device")
+        self.name = self.path.stem
+        if self.law and not self.law.is_file():
+            raise Refused(f"{self.path}: there is no law {self.law}; name one in rtl/laws, or a file")
+        if self.device:
+            programs.name = f"feltgate_{self.device}_law"
+            # The launcher builds the program of a scene's device; it does not know that of a law.
+            build = command_line.build_folder()
+            if (build / "build.ninja").exists() and self.path.stem != given and self.path != Path(given):
+                building.make(NAME, build, [programs.name], os.cpu_count())
+
+    def _find(self, given, root, programs):
+        """(path of the scene, whether it was made for a law)."""
+        scene, law = named(given)
+        if scene:
+            return scene, False
+        for scene in sorted(root.glob("vectors/scenes/*.toml")):  # one that renders a shipped law
+            if law.stem == given and f'\nlaw = "{given}"' in scene.read_text(encoding="utf-8"):
+                return scene, False
+        told = programs.ask("law", law)
+        if any(o["axis"] > 0 for o in told["outputs"]):
+            raise Refused(
+                f"{given}: a law of several axes, and a law file names no device; write a scene with "
+                "device = and law = (docs/scenes.md) and give its path"
+            )
+        text = made_scene.SWEEP.format(name=law.stem, law=law.resolve())
+        return programs.put(f"{law.stem}.toml", text), True
+
+    def of_block(self):
+        return self.law is None
+
+    def kind(self):
+        return "block" if self.of_block() else "law"
+
+    def uses_velocity(self, report):
+        """Whether the velocity estimator is in the torque."""
+        if report["damping_nm_s_rad"] > 0:
+            return True
+        return self.law is not None and "velocity" in self.law.read_text(encoding="utf-8")
+
+
+def rounding_part(programs, scene, design):
+    """(rms, worst) of the rounding behind the law. The rms at any rate: the measured one, and the
+    worst of the ticks for which a bound is proven. The worst: the bound, or what exceeds it outside."""
+    run = programs.ask("run", scene, "--design", design, "--engine", "twin,quad", "--quiet")
+    errors = run["engines"]["twin"]["torque_nm"]
+    rms = errors["rms_error"] + (errors["max_error_in_bounds"] or 0.0)
+    return min(rms, errors["max_error"]), max(errors["bound"] or 0.0, errors["max_error"])
+
+
+def plant_part(trim, largest_nm):
+    """(rms, worst) of what the left-out effects change in the torque, over all motions tried."""
+    motions = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
+    worst = {key: max(m["torque"][key] for m in motions) for key in ("rms", "peak")}
+    return worst["rms"] * largest_nm, worst["peak"] * largest_nm
+
+
+def linear_plant(question):
+    """The scene's plant as the margins of `feltgate rates` take it: linear, its viscous friction on."""
+    name = question.scene.get("plant", "p24")
+    own = "/" in name or name.endswith(".toml")
+    path = Path(name) if own else command_line.root() / "vectors/plants" / f"{name}.toml"
+    plant = tomllib.loads(path.read_text(encoding="utf-8"))
+    on = ("inductance", "back_emf", "viscous")
+    plant["effects"] = {key: key in on for key in plant["effects"]}
+    plant["motor"]["dead_voltage_v"] = plant["supply"]["diode_drop_v"] = 0.0
+    return made_scene.toml_text(["Linear, with viscous friction."], plant)
+
+
+class Choosing:
+    """What the commands found out about a question, and the alternatives that follow."""
+
+    def __init__(self, question, programs, wishes):
+        self.question, self.programs, self.wishes = question, programs, wishes
+        root = command_line.root()
+        self.base = tomllib.loads((root / "rtl/designs/lever.toml").read_text(encoding="utf-8"))
+        with open(root / TABLE, newline="", encoding="utf-8") as file:
+            self.table = list(csv.DictReader(file))
+        self.budget = tomllib.loads((root / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
+        self.design = "lever" if question.of_block() else f"{question.device or 'lever'}_law"
+        self.left_out, self.trim = [], None
+
+    def leave_out(self, part, why):
+        self.left_out.append({"part": part, "why": why})
+
+    def measure(self):
+        """First the plant, then the scene at all rates on what is left of it."""
+        ask, q = self.programs.ask, self.question
+        if q.of_block():
+            self.path = self.programs.folder / f"{q.name}_trimmed.toml"
+            share = f"{self.wishes['torque_error']:.6g}"
+            self.trim = ask("trim", q.path, "--tolerance", share, "-o", self.path, "--quiet")
+            self.scene = q.scene | tomllib.loads(self.path.read_text(encoding="utf-8"))
+        else:
+            why = "several axes" if q.device else "a law"
+            told = f"`feltgate trim` takes no scene with {why}: all of them stay on"
+            self.leave_out("plant effects", told)
+            self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
+            self.scene["core"]["law"] = str(q.law.resolve())
+        self.report = ask("rates", self.path, "--rate", RATES[q.kind()], "--quiet")["scenes"][0]
+        self.largest_nm = self.report["largest_nm"]
+        if self.report["counts_alone_rms_nm"] is None or self.largest_nm <= 0:
+            raise Refused(f"{q.path}: the law asks for no torque on this motion; give a scene that meets it")
+
+    def kept_designs(self):
+        """{cut-off: row of the table}, or the device's own design alone."""
+        kept, left = choice.designs(self.table, self.base)
+        own = self.base["velocity"]["cutoff_rad_s"]
+        if self.question.device:
+            left = {"for one lever: a device has a design of its own": len(self.table)}
+            kept = {own: kept[own]}
+        elif "velocity_a1" in self.question.scene.get("parameters", {}):
+            left["the scene sets the cut-off itself"] = len(kept) - 1
+            kept = {own: kept[own]}
+        self.designs_left, self.own = left, own
+        return kept
+
+    def variants(self, kept):
+        """{cut-off: (report, rounding)}: runs again where the velocity is in the torque."""
+        q, programs = self.question, self.programs
+        same = not q.uses_velocity(self.report)
+
+        def one(cutoff):
+            if cutoff == self.own:
+                scene, report = self.path, self.report
+            else:
+                text = made_scene.toml_text([], self.scene_of({choice.CUTOFF: cutoff}))
+                scene = programs.put(f"{q.name}_{cutoff:g}.toml", text)
+                rates = TICK_HZ if q.of_block() else RATES["law"]  # a block has one rate
+                report = programs.ask("rates", scene, "--rate", rates, "--quiet")["scenes"][0]
+            return report, rounding_part(programs, scene, self.design)
+
+        if q.device:
+            self.leave_out("rounding behind the law", "not measured apart for several axes")
+            return {self.own: (self.report, None)}
+        if same:
+            return dict.fromkeys(kept, one(self.own))
+        with ThreadPoolExecutor(2) as pool:
+            return dict(zip(kept, pool.map(one, kept), strict=True))
+
+    def borders(self, kept):
+        """{cut-off: border by eigenvalues at each rate} of a wall with the law's damping."""
+        q, damping = self.question, f"{self.report['damping_nm_s_rad']:.9g}"
+        if q.device:
+            self.leave_out("delay of PWM and winding", "`feltgate stability` takes one lever")
+            return {}
+        self.plant = self.programs.put("linear_viscous.toml", linear_plant(q))
+        rates = ",".join(f"{r['rate_hz']:.9g}" for r in self.report["rates"])
+        found = {}
+        for cutoff in kept:
+            text = design_text(command_line.root(), {"base": "lever", "set": {choice.CUTOFF: cutoff}})
+            file = self.programs.put(f"cutoff_{cutoff:g}.toml", text)
+            words = ("--linear-plant", self.plant, "--damping", damping, "--rate", rates)
+            told = self.programs.ask("stability", file, *words, "--no-bits", "--no-experiments")
+            self.actuator_s = told["actuator_delay_s"]
+            found[cutoff] = [b["eigenvalues_nm_rad"] for b in told["borders"]]
+        return found
+
+    def core(self, row):
+        """(what, gates) of a design's core."""
+        if self.question.device:
+            name = f"{self.report['axes']} axes, registered"
+            return f"core, {name}", self.budget["figures"]["lever"][name]
+        if self.question.of_block():
+            return "core, nine scenes", row
+        alone = self.budget["scene_sets"]["lever"]["setpoint"]
+        more = int(row["lut4_equivalents"]) - int(self.own_row["lut4_equivalents"])
+        return "core, set-point alone", alone | {"lut4_equivalents": alone["lut4_equivalents"] + more}
+
+    def delays(self, row):
+        parts = {"core: from the sample to the duty": float(row["latency_us"]) / 1e6}
+        if not self.question.device:
+            parts["PWM and winding"] = self.actuator_s
+        if self.question.uses_velocity(self.report):
+            parts["velocity estimate"] = float(row["delay_s"])
+        return {"clock_hz": self.base["clock"]["clock_hz"], "parts": parts}
+
+    def alternatives(self):
+        """All of them, as the JSON has them."""
+        kept = self.kept_designs()
+        self.own_row = kept[self.own]
+        variants, borders = self.variants(kept), self.borders(kept)
+        self.found_borders = borders
+        plant = plant_part(self.trim, self.largest_nm) if self.trim else None
+        cells = self.budget["figures"]["lever"]["core without read-back, inferred"]
+        cells_per_lut4 = cells["cyclone_cells"] / cells["lut4_equivalents"]
+        engine = ("engine", self.budget["figures"]["lever"]["axes_engine"])
+        by = "block" if self.question.of_block() else "engine"
+        found = []
+        for cutoff, row in kept.items():
+            report, rounding = variants[cutoff]
+            counts = (report["counts_alone_rms_nm"], report["counts_alone_max_nm"])
+            for rate in report["rates"]:
+                if rate["by"] != by or rate["error_rms_nm"] is None or rate["fault"]:
+                    continue
+                same = [(r["by"], r["ticks"]) for r in self.report["rates"]]
+                i = same.index((rate["by"], rate["ticks"]))
+                margin = self.margin(borders, cutoff, i)
+                gates = choice.gates_of(self.core(row), engine if by == "engine" else None)
+                parts = choice.error_parts(rate, counts, rounding, plant)
+                found.append({
+                    "design": self.design if cutoff == self.own else f"{self.design}_{cutoff:g}",
+                    "cutoff_rad_s": cutoff,
+                    "set": {} if cutoff == self.own else {choice.CUTOFF: cutoff},
+                    "table_id": row["id"],
+                    "by": by,
+                    "rate_hz": rate["rate_hz"],
+                    "ticks": rate["ticks"],
+                    "clocks": [rate.get("clocks_used", 0), rate.get("clocks_available", 0)],
+                    "error": choice.error_of(parts, self.largest_nm),
+                    "margin": margin,
+                    "margin_by": self.margin_by(margin),
+                    "latency": choice.latency_of(rate, self.delays(row)),
+                    "gates": gates,
+                    "chips": {n: choice.fit(c, gates, cells_per_lut4) for n, c in choice.CHIPS.items()},
+                    "broken": rate.get("broken", []),
+                    "cpu_s_per_s": rate["cpu_s_per_s"],
+                })  # fmt: skip
+        if not found:
+            path = self.question.path
+            raise Refused(f"{path}: a fault opens the gates at every rate; see `feltgate rates`")
+        return found
+
+    def margin(self, borders, cutoff, i):
+        """Of one lever by the borders of the whole plant, which may have more than the trimmed one."""
+        rates, stiffness = self.report["rates"], self.report["stiffness_nm_rad"]
+        if rates[i].get("border_of") == "stiffness" and borders:
+            values = (borders[self.own][-1], borders[self.own][i], borders[cutoff][i])
+            return choice.margin_of(*(value / stiffness for value in values))
+        if self.trim and rates[-1].get("border_of") == "damping":
+            whole = self.programs.ask("rates", self.question.path, "--rate", TICK_HZ, "--quiet")
+            rates[-1]["margin"] = whole["scenes"][0]["rates"][-1]["margin"]
+        own = rates[i].get("margin") if cutoff == self.own else None
+        return choice.margin_of(rates[-1].get("margin"), own, own)
+
+    def margin_by(self, margin):
+        notes = [n for n in self.report["notes"] if n.startswith("no margin")]
+        last = self.report["rates"][-1]
+        if margin is None and last.get("border_of") == "damping":
+            return "no margin: that of a law's damping is known for the cut-off of `lever` alone"
+        if margin is None:
+            return notes[0] if notes else "no margin: the motion met the law nowhere stiff"
+        fastest = margin["parts"][0]["margin"]
+        held = "the rate" if fastest >= self.wishes["margin"] else "the law's own stiffness and damping"
+        return f"{held}: {fastest:.3g} at the fastest"
+
+    def scene_of(self, change):
+        """The scene on what is left of the plant, on `lever` with these cut-offs."""
+        words = {"velocity_a1": choice.word(value, TICK_HZ) for value in change.values()}
+        return made_scene.with_values(self.scene, **words)
+
+    def design_file(self, best):
+        """A file for `feltgate stability`: `lever` with the cut-offs of the choice."""
+        return self.programs.folder / f"cutoff_{best['cutoff_rad_s']:g}.toml"
+
+    def simulation(self, best):
+        """The engine: the fastest whose bits are the RTL's, by the committed benchmark."""
+        bench = json.loads((command_line.root() / BENCH).read_text(encoding="utf-8"))
+        speeds = {n: e["simulated_s_per_s"]["median"] for n, e in bench["engines"].items()}
+        errors = {n: e.get("torque_error_nm", {"max": 0.0})["max"] for n, e in bench["engines"].items()}
+        told = {"engine": "twin", "core_times_faster_than_rtl": speeds["twin_event"] / speeds["rtl"]}
+        told |= {"double_times_faster_in_the_core": speeds["double"] / speeds["twin_event"]}
+        told |= {"double_loses_nm": errors["twin_event"], "bench": f"{bench['machine']}, {bench['date']}"}
+        if self.trim:
+            full, least = self.trim["full"], self.trim["trimmed"]
+            told |= {"effects_off": least["effects_off"], "step_clocks": least["step_clocks"]}
+            told |= {"cpu_s_per_s": least["cpu_s_per_s"], "full_cpu_s_per_s": full["cpu_s_per_s"]}
+        else:
+            told |= {"effects_off": None, "step_clocks": None, "cpu_s_per_s": best["cpu_s_per_s"]}
+        return told
+
+    def for_a_host(self):
+        """Of a scene of the core: the slowest rate at which a host's law would meet error and margin."""
+        if not self.question.of_block():
+            return None
+        plant, borders = plant_part(self.trim, self.largest_nm), self.found_borders
+        stiffness = self.report["stiffness_nm_rad"]
+        for i, row in enumerate(self.report["rates"]):
+            if row["by"] == "block" or row["error_rms_nm"] is None:
+                continue
+            share = (row["error_rms_nm"] + plant[0]) / self.largest_nm
+            margin = borders[self.own][i] / stiffness if row.get("border_of") == "stiffness" else None
+            if share <= self.wishes["torque_error"] and (margin is None or margin >= self.wishes["margin"]):
+                return row["rate_hz"]
+        return None

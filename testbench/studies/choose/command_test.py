@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate choose as a user calls it, on short scenes: the sum against awk's own, RTL beside the twin,
+a device of two axes, a law of one's own, a wish that cannot be, and what is refused."""
+
+import json
+import math
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
+from testing import BUILD, ROOT, Scratch, called, ran  # noqa: E402
+
+import choose  # noqa: E402
+from exploration import choice  # noqa: E402
+
+PROGRAM = BUILD / "feltgate_lever_law"
+SCENE = """title = "Short"
+about = "A wall for some milliseconds."
+duration_s = 0.06
+[core]
+scene = "wall"
+arm_s = 0.001
+[parameters]
+wall_contact = 5
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "minimum_jerk", duration_s = 0.06, to_rad = 0.08 }]
+"""
+LEVERS = """title = "Short levers"
+about = "Two levers parted for some milliseconds."
+duration_s = 0.03
+device = "two_levers"
+[core]
+scene = "law"
+law = "coupled_levers"
+arm_s = 0.001
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "ramp", duration_s = 0.03, to_rad = 0.05 }]
+[[expect]]
+figure = "faults"
+high = 0
+"""
+LAW = "# a soft spring\nparam k = 1 Nm/rad in 0.5 .. 2 Nm/rad\nout torque = -k * position\n"
+SPRING = """title = "Spring"
+about = "A spring by a law file."
+duration_s = 0.06
+[core]
+scene = "law"
+law = "spring.law"
+arm_s = 0.001
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "minimum_jerk", duration_s = 0.06, to_rad = 0.3 }]
+"""
+# The sum once more, in another language and by another formula: what counts and rate leave together
+# is the larger of the two.
+AWK = "BEGIN { sum = counts > row ? counts : row; printf \"%.12g\", sum + rounding + plant }"
+
+
+class Chosen(Scratch):
+    def call(self, status, *words):
+        found, out, err = called(choose.main, *words, "-o", self.folder / "out")
+        self.assertEqual(found, status, err)
+        return json.loads((self.folder / "out/choose.json").read_text(encoding="utf-8")), out
+
+    def ask(self, command, *words):
+        """The program's own answer."""
+        done = ran(PROGRAM, command, *words, "--quiet", "--json", self.folder / "a.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
+
+    def kept(self, told, *names):
+        checks = {c["what"]: c for c in told["verified"]["checks"]}
+        for name in ("mismatches between RTL and twin", "torque error, rms, Nm", *names):
+            self.assertTrue(checks[name]["holds"], name)
+        self.assertEqual(checks["mismatches between RTL and twin"]["measured"], 0)
+        self.assertGreater(told["verified"]["clocks"], 100_000)
+        return checks
+
+    def awk(self, **values):
+        words = [word for name, value in values.items() for word in ("-v", f"{name}={value!r}")]
+        return float(subprocess.run(["awk", *words, AWK], capture_output=True, text=True, check=True).stdout)
+
+    def test_a_scene_and_its_sum(self):
+        scene = self.put("short.toml", SCENE)
+        told, out = self.call(0, scene, "--margin", "2", "--torque-error", "20%")
+        self.assertEqual((told["schema"], told["choice"]["by"]), ("feltgate-choose/1", "block"))
+        checks = self.kept(told, "margin on the chain's bits", "rounding in the RTL, worst, Nm")
+        # The same by the commands themselves.
+        trim = self.ask("trim", scene, "--tolerance", "20%")
+        trimmed = self.folder / "out/short.toml"
+        (rates,) = self.ask("rates", trimmed, "--rate", "1000000")["scenes"]
+        row = rates["rates"][-1]
+        run = self.ask("run", trimmed, "--engine", "twin,quad")["engines"]["twin"]["torque_nm"]
+        losses = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
+        rounding_rms = min(run["rms_error"] + run["max_error_in_bounds"], run["max_error"])
+        error = told["choice"]["error"]
+        for of, peak, key, rounding in (
+            ("rms", "rms", "rms_nm", rounding_rms),
+            ("max", "peak", "worst_nm", max(run["bound"], run["max_error"])),
+        ):
+            wanted = self.awk(
+                counts=rates[f"counts_alone_{of}_nm"],
+                row=row[f"error_{of}_nm"],
+                rounding=rounding,
+                plant=max(m["torque"][peak] for m in losses) * rates["largest_nm"],
+            )
+            self.assertAlmostEqual(error[key], wanted, delta=1e-9 * wanted, msg=key)
+        self.assertAlmostEqual(error["share"], error["rms_nm"] / rates["largest_nm"])
+        # The margin is that of the whole plant, whatever was left out of it: its parts as a product.
+        (whole,) = self.ask("rates", scene, "--rate", "1000000")["scenes"]
+        parts = [p["margin"] for p in told["choice"]["margin"]["parts"]]
+        factors = [sum(parts[: i + 1]) / sum(parts[:i]) for i in (1, 2)]
+        product = parts[0] * math.prod(factors)
+        self.assertAlmostEqual(told["choice"]["margin"]["margin"], product, places=9)
+        self.assertAlmostEqual(parts[0] / whole["rates"][-1]["margin"], 1, delta=0.01)
+        bits = checks["margin on the chain's bits"]["measured"]
+        self.assertAlmostEqual(bits / product, 1, delta=0.05)
+        # Two more alternatives that lever's program runs, and all of the table are accounted for.
+        self.assertEqual(told["measured"], 4)
+        self.assertEqual(sum(told["designs"]["left_out"].values()) + 4, told["designs"]["in_table"])
+        self.assertTrue(2 <= len(told["front"]) <= 5)
+        # Its files go on: the scene runs, trimmed, and the page of commands names them.
+        self.assertIn(str(self.folder / "out/short.toml"), out)
+        self.assertIn("<svg", (self.folder / "out/choose.svg").read_text(encoding="utf-8")[:100])
+        again = self.ask("run", trimmed, "--engine", "twin")
+        self.assertEqual(sorted(again["effects_off"]), sorted(told["simulation"]["effects_off"]))
+
+    def test_two_axes_say_what_is_left_out(self):
+        scene = self.put("levers.toml", LEVERS)
+        told, out = self.call(0, scene, "--torque-error", "50%", "--rtl-seconds", "0.003")
+        self.kept(told)
+        self.assertEqual(told["asked"]["axes"], 2)
+        self.assertGreater(told["choice"]["margin"]["margin"], 1)
+        for part in ("plant effects", "rounding behind the law", "delay of PWM and winding"):
+            self.assertIn(part, [left["part"] for left in told["left_out"]])
+            self.assertIn(f"left out: {part}", out)
+        self.assertEqual(told["choice"]["gates"]["mult18"], 6)
+
+    def test_a_law_of_ones_own_at_the_rate_that_was_chosen(self):
+        self.put("spring.law", LAW)
+        scene = self.put("spring.toml", SPRING)
+        told, _ = self.call(0, scene, "--torque-error", "20%", "--margin", "5", "--rtl-seconds", "0.003")
+        checks = self.kept(told, "margin on the chain's bits")
+        one = told["choice"]
+        # The slowest that meets the wish, and the next slower does not.
+        (rates,) = self.ask("rates", scene, "--rate", "490,1000,10000,40000,100000")["scenes"]
+        able = [r["rate_hz"] for r in rates["rates"] if r["margin"] >= 5]
+        self.assertEqual(one["rate_hz"], min(able))
+        self.assertLess(min(r["margin"] for r in rates["rates"]), 5)
+        self.assertGreaterEqual(checks["margin on the chain's bits"]["measured"], 5 * 0.95)
+        law = (self.folder / "out/spring.law").read_text(encoding="utf-8")
+        self.assertIn(f"rate = {one['rate_hz']:.9g} Hz", law)
+
+    def test_a_wish_that_cannot_be(self):
+        scene = self.put("short.toml", SCENE)
+        words = ("--margin", "900", "--latency", "5", "--rtl-seconds", "0.01")
+        told, out = self.call(1, scene, "--torque-error", "20%", *words)
+        (why,) = told["why_not"]
+        self.assertEqual((why["wish"], why["stated"], why["alone"]), ("margin", True, False))
+        self.assertIn("NOT MET  margin 900 (wish)", out)
+        # The nearest: the stiffest of all.
+        self.assertEqual(why["is"], max(o["margin"]["margin"] for o in told["front"]))
+        self.assertEqual(why["is"], told["choice"]["margin"]["margin"])
+        # Its cut-off is not lever's: the design is a file, its bits are the RTL's.
+        self.assertEqual(told["choice"]["design"], "lever_950")
+        self.kept(told, "margin on the chain's bits")
+
+    def test_a_law_of_several_axes_needs_a_scene(self):
+        law = self.put("two.law", "out torque = 0 Nm\nout torque[1] = -(1 Nm/rad) * position[1]\n")
+        bad = self.put("bad.law", "out torque = 1 m\n")
+        for given, said in ((law, "no device"), (bad, "bad.law:1"), ("free_lever", "free_lever")):
+            status, out, err = called(choose.main, given, "-o", self.folder / "out", "--quiet")
+            self.assertEqual((status, out), (2, ""), err)
+            self.assertIn(said, err)
+            self.assertFalse((self.folder / "out").exists())
+
+
+class Border(Scratch):
+    def test_the_bits_of_a_file_have_its_cut_off(self):
+        text = (ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8")
+        file = self.put("quick.toml", text.replace("cutoff_rad_s = 500.0", "cutoff_rad_s = 950.0", 1))
+        exact = self.put("exact.toml", text.replace("current = [1, 5, 16]", "current = [1, 5, 17]"))
+        words = ("--rate", "1000000", "--damping", "0.01", "--no-experiments")
+        words += ("--json", self.folder / "a.json")
+
+        def border(design, status=0):
+            done = ran(PROGRAM, "stability", design, *words)
+            self.assertEqual(done.returncode, status, done.stderr)
+            return json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["borders"][0]
+
+        own, quick = border("lever"), border(file)
+        self.assertGreater(quick["eigenvalues_nm_rad"], 1.1 * own["eigenvalues_nm_rad"])
+        for found in (own, quick):
+            self.assertAlmostEqual(found["bits_nm_rad"] / found["eigenvalues_nm_rad"], 1, delta=0.02)
+        done = ran(PROGRAM, "stability", exact, *words)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("add --no-bits --no-experiments", done.stderr)
+        self.assertEqual(ran(PROGRAM, "stability", exact, "--no-bits", *words).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -44,14 +44,13 @@ module velocity_mt #(
   endgenerate
 
   // Edges. Two counts in one clock, which no decoder gives, end what is known.
-  logic [PlaceW-1:0] travel_q, place, place_q;  // an edge is named by the larger of its two counts
+  logic [PlaceW-1:0] travel_q;
   logic [       1:0] change;
   logic              moved, jumped, up, up_q, turned;
   assign change = travel_i[1:0] - travel_q[1:0];
   assign moved  = change[0];
   assign jumped = change == 2'b10;
   assign up     = !change[1];
-  assign place  = up ? travel_i[PlaceW-1:0] : travel_q;
 
   logic [StampW-1:0] now_q, newest_q, age;
   logic [PlaceW-1:0] run_q;      // counts since the run's first edge: without a turn, rest or jump
@@ -68,7 +67,6 @@ module velocity_mt #(
       now_q     <= '0;
       travel_q  <= '0;
       newest_q  <= '0;
-      place_q   <= '0;
       up_q      <= 1'b0;
       run_q     <= '0;
       resting_q <= 1'b1;
@@ -79,7 +77,6 @@ module velocity_mt #(
       travel_q <= travel_i[PlaceW-1:0];
       if (moved) begin
         newest_q  <= now_q;
-        place_q   <= place;
         up_q      <= up;
         resting_q <= 1'b0;
         if (turned) run_q <= '0;
@@ -116,70 +113,67 @@ module velocity_mt #(
   end
   endgenerate
 
-  logic [StampW-1:0] stamps[2**PlaceW];
+  logic [StampW-1:0] stamps[2**PlaceW];  // of the edge that led to a count; a run does not ask for others
   logic [StampW-1:0] stamp_q;
   logic [PlaceW-1:0] counts, oldest;
   logic              partial;
   assign partial = run_q < PlaceW'(4);
   assign counts  = partial ? run_q : PlaceW'(4) << doublings_q;
-  assign oldest  = up_q ? place_q - counts : place_q + counts;
+  assign oldest  = up_q ? travel_q - counts : travel_q + counts;
   always_ff @(posedge clk_i) begin
-    if (moved) stamps[place] <= now_q;
+    if (moved) stamps[travel_i[PlaceW-1:0]] <= now_q;
     stamp_q <= stamps[oldest];
   end
 
   // Division: with an edge in the tick, counts over the span; else 1.5 counts over the age.
-  logic                   begun_q, negative_next_q, three_q;
-  logic [            3:0] shift_q;
+  logic                  begun_q, ended_q, over_q, negative_next_q, three_q;
+  logic [           3:0] shift_q;
   logic [ QuotientW-1:0] left_q;
-  logic [   DividendW-1:0] dividend;
-  logic [     StampW-1:0] remainder_q;
-  logic [ MagnitudeW-1:0] quotient_q, magnitude_q;
-  logic [     StampW  :0] doubled, difference;
-  logic                   over_q, ended_q, negative_q, limited_q;
+  logic [ DividendW-1:0] dividend;
+  logic [    StampW-1:0] remainder_q;
+  logic [MagnitudeW-1:0] quotient_q;
+  logic [    StampW  :0] doubled, difference;
   assign dividend   = DividendW'(three_q ? 3 * Half : Half) << shift_q;
   assign doubled    = {remainder_q, quotient_q[MagnitudeW-1]};
   assign difference = doubled - {1'b0, divisor_q};
   assign span_known = left_q == QuotientW'(MagnitudeW);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      value_q         <= 1'b0;
-      zero_q          <= 1'b0;
-      negative_next_q <= 1'b0;
-      three_q         <= 1'b0;
-      shift_q         <= '0;
-      divisor_q       <= '0;
-      remainder_q     <= '0;
-      quotient_q      <= '0;
-      begun_q         <= 1'b0;
-      left_q          <= '0;
-      over_q          <= 1'b0;
-      ended_q         <= 1'b0;
+      begun_q <= 1'b0;
+      left_q  <= '0;
+      ended_q <= 1'b0;
     end else begin
       begun_q <= at_sample_i;
       ended_q <= left_q == QuotientW'(1) && !at_sample_i;
-      if (at_sample_i) begin
-        value_q         <= fresh_q;
-        zero_q          <= fresh_q ? run_q == '0 : resting_q || aged;
-        negative_next_q <= !up_q;
-        three_q         <= !fresh_q || run_q == PlaceW'(3);
-        shift_q         <= !fresh_q ? 4'd0 : !partial ? 4'd3 + 4'(doublings_q) : run_q[1:0] == 2'd2 ? 4'd2 : 4'd1;
-        divisor_q       <= fresh_q ? newest_q : age;
-        left_q          <= '0;
-      end else if (begun_q) begin
-        if (value_q) divisor_q <= divisor_q - stamp_q;
-        {remainder_q, quotient_q} <= dividend;
-        left_q <= QuotientW'(MagnitudeW);
-      end else if (left_q != '0) begin
-        if (span_known) over_q <= remainder_q >= divisor_q;
-        remainder_q <= difference[StampW] ? doubled[StampW-1:0] : difference[StampW-1:0];
-        quotient_q  <= {quotient_q[MagnitudeW-2:0], !difference[StampW]};
-        left_q      <= left_q - 1'b1;
-      end
+      if (at_sample_i) left_q <= '0;
+      else if (begun_q) left_q <= QuotientW'(MagnitudeW);
+      else if (left_q != '0) left_q <= left_q - 1'b1;
     end
+  end
+  // Written before they are read.
+  always_ff @(posedge clk_i) begin
+    if (at_sample_i) begin
+      value_q         <= fresh_q;
+      zero_q          <= fresh_q ? run_q == '0 : resting_q || aged;
+      negative_next_q <= !up_q;
+      three_q         <= !fresh_q || run_q == PlaceW'(3);
+      shift_q         <= !fresh_q ? 4'd0 : !partial ? 4'd3 + 4'(doublings_q) : run_q[1:0] == 2'd2 ? 4'd2 : 4'd1;
+      divisor_q       <= fresh_q ? newest_q : age;
+    end else if (begun_q && value_q) begin
+      divisor_q <= divisor_q - stamp_q;
+    end
+    if (begun_q) begin
+      {remainder_q, quotient_q} <= dividend;
+    end else begin
+      remainder_q <= difference[StampW] ? doubled[StampW-1:0] : difference[StampW-1:0];
+      quotient_q  <= {quotient_q[MagnitudeW-2:0], !difference[StampW]};
+    end
+    if (span_known) over_q <= remainder_q >= divisor_q;
   end
 
   // Held between edges; what the division gives is a new value, or an upper bound of the one that is held.
+  logic [MagnitudeW-1:0] magnitude_q;
+  logic                  negative_q, limited_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       magnitude_q <= '0;

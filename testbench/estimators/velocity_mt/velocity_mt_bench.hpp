@@ -129,6 +129,103 @@ struct RandomMotion {
   }
 };
 
+constexpr double kCountRad = Design::count_rad;
+
+/// Where the edges of an encoder are, in counts: edge p lies at p + offset[p mod 4].
+struct Encoder {
+  double offset[4];
+  double per_line = 0;  ///< rms of what each line adds
+
+  static constexpr Encoder ideal() { return {{0, 0, 0, 0}}; }
+  /// High for 45 % of a cycle, the channels 90 + 20 or 90 - 20 degrees apart: cells of 0.58 to 1.42
+  /// counts.
+  static constexpr Encoder cheap(int side = 1) {
+    const double phase = side * 4.0 * 20 / 360, duty = 4 * -0.05;
+    return {{0, phase, duty, duty + phase}};
+  }
+  double edge(std::int64_t p) const {
+    double at = static_cast<double>(p) + offset[p & 3];
+    if (per_line > 0) {
+      Random line(static_cast<std::uint64_t>(p >> 2) + 100000);
+      double sum = -6;
+      for (int k = 0; k < 12; ++k) sum += std::ldexp(static_cast<double>(line.bits() >> 11), -53);
+      at += per_line * sum;
+    }
+    return at;
+  }
+};
+
+/// A twin behind an encoder that is moved; ticks of 50 clocks.
+template <class Block>
+struct Moved {
+  explicit Moved(const Encoder& e) : encoder(e), below(e.edge(0)), above(e.edge(1)) {
+    twin.reset();
+  }
+
+  /// Calls each(t) in every tick, once raw and filtered velocity are new. angle(t) in rad, from
+  /// about 0.
+  template <class Angle, class Each>
+  void run(double end_s, const Angle& angle, const Each& each) {
+    std::int64_t operand = 0;
+    for (std::int64_t clock = 0, phase = 0;; ++clock, phase = phase == kTick - 1 ? 0 : phase + 1) {
+      const double t = static_cast<double>(clock) / Design::clock_hz;
+      if (t >= end_s) return;
+      if (phase == 0) sampled(clock);
+      move(angle(t) / kCountRad + 0.5, clock);
+      typename Block::In in;
+      in.wave = std::uint64_t{1} << phase;
+      in.travel = wrapped_travel(count);
+      if (phase == Map::W::velocity_a1) operand = twin.out().operand;
+      if (phase == Map::T::velocity) in.product = operand * design_a1().raw();
+      twin.clock(in);
+      if (phase == Map::T::velocity + 1) each(t);
+    }
+  }
+
+  static constexpr std::int64_t kTick = 50;
+  Encoder encoder;
+  double below, above;
+  Block twin;
+  std::int64_t count = 0, last_edge = 0, edges = 0;
+  int direction = 0;
+  bool turned = false;
+  // Up to the sample before the last one: what the raw velocity is of.
+  std::int64_t edges_seen = 0, age_seen = 0;
+  int direction_seen = 0;
+  bool turned_seen = false;
+
+ private:
+  struct Sample {
+    std::int64_t edges = 0, age = 0;
+    int direction = 0;
+    bool turned = false;
+  } newest_;
+
+  void move(double at, std::int64_t clock) {
+    if (at >= above) {
+      stepped(1, clock);
+    } else if (at < below) {
+      stepped(-1, clock);
+    }
+  }
+  void stepped(int step, std::int64_t clock) {
+    count += step;
+    below = encoder.edge(count);
+    above = encoder.edge(count + 1);
+    turned = step == -direction;
+    direction = step;
+    last_edge = clock;
+    ++edges;
+  }
+  void sampled(std::int64_t clock) {
+    edges_seen = newest_.edges;
+    age_seen = newest_.age;
+    direction_seen = newest_.direction;
+    turned_seen = newest_.turned;
+    newest_ = {edges, clock - last_edge, direction, turned};
+  }
+};
+
 struct Tally {
   std::int64_t ticks = 0, values = 0, saturated = 0, lowered = 0, standstill = 0, partial = 0,
                turned = 0, longest = 0, negative = 0, stopped = 0;

@@ -75,7 +75,7 @@ class VelocityMt {
   struct Live {
     std::array<std::uint32_t, kPlaces> stamps{};
     std::uint32_t now = 0, newest = 0;
-    unsigned travel = 0, place = 0, run = 0;
+    unsigned travel = 0, run = 0;
     int doublings = 0;
     bool up = false, resting = true, still = false, fresh = false;
   };
@@ -104,8 +104,7 @@ class VelocityMt {
       } else if (live_.run < kLongest) {
         ++live_.run;
       }
-      live_.place = up ? place : live_.travel;
-      live_.stamps[live_.place] = live_.newest = live_.now;
+      live_.stamps[place] = live_.newest = live_.now;
       live_.up = up;
       live_.resting = false;
       live_.fresh = true;
@@ -122,7 +121,7 @@ class VelocityMt {
   void sample() {
     const std::uint32_t age = (live_.now - live_.newest) & kStampMask;
     const unsigned counted = live_.run < 4 ? live_.run : 4U << live_.doublings;
-    const unsigned oldest = (live_.up ? live_.place - counted : live_.place + counted) % kPlaces;
+    const unsigned oldest = (live_.up ? live_.travel - counted : live_.travel + counted) % kPlaces;
     task_.value = live_.fresh;
     task_.zero = live_.fresh ? live_.run == 0 : live_.resting || aged(age);
     task_.negative = !live_.up;

@@ -146,7 +146,7 @@ struct Encoder {
   double edge(std::int64_t p) const {
     double at = static_cast<double>(p) + offset[p & 3];
     if (per_line > 0) {
-      Random line(static_cast<std::uint64_t>(p >> 2) + 100000);
+      Random line(static_cast<std::uint64_t>((p >> 2) + 100000) * 7919);  // apart: no shared draws
       double sum = -6;
       for (int k = 0; k < 12; ++k) sum += std::ldexp(static_cast<double>(line.bits() >> 11), -53);
       at += per_line * sum;
@@ -175,6 +175,7 @@ struct Moved {
       typename Block::In in;
       in.wave = std::uint64_t{1} << phase;
       in.travel = wrapped_travel(count);
+      if (phase == 0) sampled_count = count;
       if (phase == Map::W::velocity_a1) operand = twin.out().operand;
       if (phase == Map::T::velocity) in.product = operand * design_a1().raw();
       twin.clock(in);
@@ -186,7 +187,7 @@ struct Moved {
   Encoder encoder;
   double below, above;
   Block twin;
-  std::int64_t count = 0, last_edge = 0, edges = 0;
+  std::int64_t count = 0, sampled_count = 0, last_edge = 0, edges = 0;
   int direction = 0;
   bool turned = false;
   // Up to the sample before the last one: what the raw velocity is of.

@@ -3,8 +3,8 @@
 //
 // M/T velocity over whole encoder cycles: counts between two edges of one kind, divided by the clocks between them,
 // then low-pass filtered. Between edges it is at most 1.5 counts over the time since the last one; after 2^(StampW-3)
-// clocks without an edge it is 0 before the low-pass, after 2^(StampW-1) behind it. Latency: edges up to EVENT_AT_SAMPLE are in the raw velocity of the next tick.
-// Formats: travel [1,15,0] counts, wraps; velocity in rad/s, format set by the design. docs/blocks/velocity_mt.md
+// clocks without an edge 0 before the low-pass, after 2^(StampW-1) behind it. Latency: edges up to EVENT_AT_SAMPLE are
+// in the next tick's raw. Formats: travel [1,15,0] counts, wraps; velocity rad/s, the design's. docs/blocks/velocity_mt.md
 
 `default_nettype none
 

@@ -36,5 +36,6 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/estimators/velocity_mt.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

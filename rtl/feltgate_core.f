@@ -36,3 +36,4 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/estimators/velocity_mt.sv

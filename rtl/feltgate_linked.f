@@ -36,6 +36,7 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/estimators/velocity_mt.sv
 generated/feltgate_engine_pkg.sv
 engine/engine_alu.sv
 engine/engine_memory.sv

@@ -55,13 +55,15 @@ BAD = (
     ("core", "VELOCITY_SHIFT", 10, "the_velocity_must_have_room_for_its_counts"),
     ("core", "VELOCITY_DIFFERENCE_W", 34, "the_widths_of_a_lowpass_must_nest"),
     ("core", "DUTY_W", 14, "DUTY_must_be_the_13_bits_of_the_bridge"),
+    ("velocity_mt", "VELOCITY_F", 39, "the_time_stamps_must_hold_the_window"),
 )
 WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
-TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer"}
+TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer",
+        "velocity_mt": "velocity_mt"}
 
 
 def rtl_of(top):
-    if top != "core":
+    if top not in ("core", "velocity_mt"):
         return list(RTL.glob(f"core/**/{TOPS[top]}.sv"))
     listed = (RTL / "feltgate_core.f").read_text(encoding="utf-8").splitlines()
     return [RTL / n for n in listed if n and not n.startswith("//") and "_pkg" not in n]

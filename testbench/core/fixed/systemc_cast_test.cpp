@@ -4,14 +4,27 @@
 // narrow() and the exact operators against SystemC's sc_fix / sc_ufix: every value of the small
 // casts, 425 600 random wide casts, and sums, differences and products of wide words.
 // Documentation: docs/fixed-point.md
+#include <cstdint>
+
 #include "cast_matrix.hpp"
 #include "catch.hpp"
-#include "systemc_value.hpp"
+#include "feltgate/fixed.hpp"
+#include "studies/bench/systemc_numbers.hpp"
 
 namespace {
 
 using namespace feltgate;
 using namespace feltgate::test;
+
+/// raw * 2^-fraction as SystemC's unbounded fixed-point value, exactly.
+sc_dt::sc_fxval systemc_value(int128_t raw, int fraction) {
+  const auto high = static_cast<std::int64_t>(raw >> 63);
+  const auto low = static_cast<std::int64_t>(raw & ones<int128_t>(63));
+  sc_dt::sc_fxval value(static_cast<sc_dt::int64>(high));
+  value <<= 63;
+  value += sc_dt::sc_fxval(static_cast<sc_dt::int64>(low));
+  return fraction >= 0 ? value >> fraction : value << -fraction;
+}
 
 /// One SystemC variable of the target's format, reused for every value of a cast.
 template <class Number>

@@ -1,3 +1,0 @@
-# SPDX-License-Identifier: Apache-2.0
-# SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The parts of feltgate prove: docs/proofs.md"""

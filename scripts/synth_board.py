@@ -21,6 +21,8 @@ import synth_path
 from synth_tools import ToolError, Tools, version
 
 GATES = 4
+# The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
+GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
 GATE_CELL = ("SRMODE ASYNC", "OUTREG.REGSET RESET", "OUTREG.OUTREGMODE FF", "LSRMUX LSR")
 # EP4CE22F17C6: logic elements, blocks of 9216 bits, multipliers of 18 by 18 bits.
@@ -108,12 +110,12 @@ class TangNano9k:
     """Gowin GW1NR-9C. A design of rtl/designs gets the clock that the board's PLL makes of 27 MHz."""
 
     chip, packed, clock_hz = "GW1NR-9C", "fs", 54_000_000
-    there = {"lut4": 8640, "ff": 6480, "mult18": 20, "bram": 26}
-    names = ("LUT4", "flip-flops", "MULT18X18", "BSRAM")
+    there = {"lut4_equivalents": 8640, "ff": 6480, "mult18": 20, "bram": 26}
+    names = ("LUT4 equivalents", "flip-flops", "MULT18X18", "BSRAM")
     registered = False
 
     def synthesize(self, tools, read):
-        return gowin_figures(tools.synthesize_gowin("board", "tang_nano_9k", read))
+        return synth_measure.gowin_figures(tools.synthesize_gowin("board", "tang_nano_9k", read))
 
     def write_netlist(self, tools):
         tools.write_netlist("board", f"select -assert-count {GATES} {GOWIN_GATES}")
@@ -157,6 +159,10 @@ def measure_routed(tools, board, steps, read, seeds, hz):
     return figures, by_speed[-1][1]
 
 
+def output_of(options):
+    return options.output or Path(f"{options.board}.{ROUTED[options.board].packed}")
+
+
 def main_routed(tools, read, options, seeds):
     board, hz = options.board, clock_hz(tools.folder)
     steps = ROUTED[board]
@@ -176,7 +182,7 @@ def main_routed(tools, read, options, seeds):
     if not closed:
         print("synth: no bitstream; lower clock_hz of the design", file=sys.stderr)
         return figures, False
-    output = options.output or Path(f"{board}.{steps.packed}")
+    output = output_of(options)
     outputs.write_whole(output, steps.pack(tools, best).read_bytes())
     print(f"wrote {output} (seed {best})", file=sys.stderr)
     return figures, True
@@ -229,5 +235,9 @@ def run(options, root, progress):
         main = main_routed if steps else main_de0_nano
         figures, fine = main(tools, read, options, seeds)
         progress("")
+        if steps and steps.clock_hz and seeds and fine and Path(design).parent == folder / "design":
+            beside = output_of(options).with_suffix(".toml")
+            outputs.write_whole(beside, Path(design).read_text(encoding="utf-8"))
+            print(f"wrote {beside}, its design, for feltgate host --design", file=sys.stderr)
     used = {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
     return {name: {f"board {options.board}": figures}}, used, fine

@@ -100,13 +100,18 @@ class Tools:
         script = [f"read_rtlil {name}.il", *commands, "autoname", "blackbox =A:whitebox"]
         self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
 
-    def write_simulation(self, top, read, models):
-        """TOP's ECP5 netlist as netlist.v, module TOP_netlist, with the models of its cells."""
-        self.synthesize_ecp5("mapped", top, read)
+    def write_simulation(self, top, read, models, family="ecp5"):
+        """TOP's netlist as netlist.v, module TOP_netlist, with the models of its cells."""
+        if family == "gowin":
+            self.synthesize_gowin("mapped", top, read)
+        else:
+            self.synthesize_ecp5("mapped", top, read)
         script = ["read_rtlil mapped.il", "blackbox =A:whitebox", f"rename {top} {top}_netlist"]
         script += [f"select {top}_netlist", "write_verilog -noattr -selected mapped.v"]
         self.run_yosys("mapped_v", script, ["mapped.v"])
         cells = "lattice/cells_sim_ecp5.v" if self.is_wasm() else "ecp5/cells_sim.v"
+        if family == "gowin":
+            cells = "gowin/cells_sim.v"
         script = [f"read_verilog +/{cells}", *(f"read_verilog -overwrite -sv {m}" for m in models)]
         script += ["read_verilog mapped.v", f"hierarchy -check -top {top}_netlist", "proc"]
         script += ["flatten", "opt -fast", "opt_clean -purge", "write_verilog -noattr netlist.v"]

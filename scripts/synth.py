@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Area and speed of the core and its blocks on ECP5, and their cells on Cyclone IV E; bitstreams of boards.
+"""Area and speed of the core and its blocks on ECP5, cells on Cyclone IV E, bitstreams of boards.
 
 Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
 Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
@@ -10,7 +10,7 @@ Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has 
   feltgate synth                                   all blocks of both designs, against the budget
   feltgate synth --design lever --block core --json core.json
   feltgate synth --board ulx3s --design my.toml    a bitstream, where the timing closes
-  feltgate synth --board tang_nano_9k              the same for a Gowin GW1NR-9C: design lever at 54 MHz
+  feltgate synth --board tang_nano_9k              the same for Gowin: design lever at 54 MHz
   feltgate synth --board de0_nano                  how full its chip would be
 """
 

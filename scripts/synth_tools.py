@@ -107,6 +107,8 @@ class Tools:
         else:
             self.synthesize_ecp5("mapped", top, read)
         script = ["read_rtlil mapped.il", "blackbox =A:whitebox", f"rename {top} {top}_netlist"]
+        if family == "gowin":  # names of the mapping, a hundred letters long
+            script += [f"rename -hide {top}_netlist/*"]
         script += [f"select {top}_netlist", "write_verilog -noattr -selected mapped.v"]
         self.run_yosys("mapped_v", script, ["mapped.v"])
         cells = "lattice/cells_sim_ecp5.v" if self.is_wasm() else "ecp5/cells_sim.v"

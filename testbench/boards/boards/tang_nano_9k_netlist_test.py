@@ -66,7 +66,7 @@ class Netlist(unittest.TestCase):
             os.environ["VERILATOR"], "--cc", "--exe", "--build", "-j", "2", "--prefix", "Vpair", "--top-module", "pair",
             "--Mdir", folder / "made", "-Wno-fatal", "-Wno-lint", "-Wno-style", "-Wno-UNOPTFLAT",
             "--x-initial", "0", "--x-assign", "0", "-O3", "--output-split", "20000", "--output-split-cfuncs", "500",
-            "-CFLAGS", flags, package, *generated, *rtl, *link, *boards, stub, *made, *tests,
+            "-CFLAGS", flags, package, *rtl, *generated, *link, *boards, stub, *made, *tests,
         )
         return run(folder / "made/Vpair")
 

@@ -188,10 +188,10 @@ class StandIns(unittest.TestCase):
 
 
 class Bitstream(unittest.TestCase):
-    # Clock [MHz], what the file has near its beginning, and its least size.
+    # Clock [MHz], what the file has near its beginning (of the Gowin the chip's IDCODE 0x1100481b), and its least size.
     BOARDS = {
         "ulx3s": (50, rb"Part: LFE5U-85F-6CABGA381", 100_000),
-        "tang_nano_9k": (54, rb"^//Part Number: GW1NR-LV9QN88PC6/I5", 1_000_000),
+        "tang_nano_9k": (54, rb"^00000110[01]{24}00010001000000000100100000011011$", 1_000_000),
     }
 
     def setUp(self):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Area and speed of the core and its blocks on ECP5, and their cells on Cyclone IV E.
+"""Area and speed of the core and its blocks on ECP5, cells on Cyclone IV E, bitstreams of boards.
 
 Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
 Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
@@ -10,6 +10,7 @@ Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has 
   feltgate synth                                   all blocks of both designs, against the budget
   feltgate synth --design lever --block core --json core.json
   feltgate synth --board ulx3s --design my.toml    a bitstream, where the timing closes
+  feltgate synth --board tang_nano_9k              the same for Gowin: design lever at 54 MHz
   feltgate synth --board de0_nano                  how full its chip would be
 """
 
@@ -44,7 +45,7 @@ def arguments():
     parser.add_argument("--for", dest="scenes", metavar="SCENE[,SCENE...]", help=what, **add)
     what = "the whole of a board instead of the blocks; docs/boards"
     parser.add_argument("--board", choices=synth_board.BOARDS, help=what)
-    what = "the bitstream of --board ulx3s; default ulx3s.bit"
+    what = "the bitstream of --board ulx3s or tang_nano_9k; default ulx3s.bit, tang_nano_9k.fs"
     command_line.add_path(parser, "-o", "--output", what=what)
     parser.add_argument("--seeds", metavar="N[,N...]", default="1,2,3", help="of nextpnr; default 1,2,3")
     command_line.add_path(parser, "--json", what="write the figures here")
@@ -57,8 +58,8 @@ def arguments():
     outputs.check(parser, json=options.json, output=options.output)
     if options.board and (options.block or options.scenes or len(options.design or []) > 1):
         parser.error("--board takes one --design, and neither --block nor --for")
-    if options.output and options.board != "ulx3s":
-        parser.error("-o is the bitstream of --board ulx3s, the only one that is made here")
+    if options.output and options.board not in synth_board.ROUTED:
+        parser.error(f"-o is the bitstream of --board {' or '.join(synth_board.ROUTED)}; no other is made here")
     if not re.fullmatch(r"\d+(,\d+)*", options.seeds):
         parser.error(f"--seeds {options.seeds}: wants whole numbers with commas between, as 1,2,3")
     return options

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Whole boards for `feltgate synth --board`: the ULX3S to its bitstream, the DE0-Nano as cells of its chip.
+"""Whole boards for `feltgate synth --board`: ULX3S and Tang Nano 9K to a bitstream, the DE0-Nano as cells.
 
-Documentation: docs/boards/ulx3s.md, docs/boards/de0_nano.md
+Documentation: docs/boards/ulx3s.md, docs/boards/tang_nano_9k.md, docs/boards/de0_nano.md
 """
 
 import os
@@ -20,8 +20,9 @@ import synth_measure
 import synth_path
 from synth_tools import ToolError, Tools, version
 
-BOARDS = ("ulx3s", "de0_nano")
 GATES = 4
+# The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
+GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
 GATE_CELL = ("SRMODE ASYNC", "OUTREG.REGSET RESET", "OUTREG.OUTREGMODE FF", "LSRMUX LSR")
 # EP4CE22F17C6: logic elements, blocks of 9216 bits, multipliers of 18 by 18 bits.
@@ -47,6 +48,20 @@ def clock_hz(folder):
     return int(re.search(r"\bCLOCK_HZ = (\d+);", text).group(1))
 
 
+def with_clock(root, design, hz, folder):
+    """A design of rtl/designs with another clock as a file of its own; a user's own file as it is."""
+    path = root / f"rtl/designs/{design}.toml"
+    if hz is None or not path.is_file():
+        return design
+    text, count = re.subn(r"^clock_hz = [\d_]+", f"clock_hz = {hz:_}", path.read_text(encoding="utf-8"), flags=re.M)
+    if count != 1:
+        raise ToolError(f"{path} has {count} lines clock_hz; give one")
+    folder.mkdir(parents=True, exist_ok=True)
+    changed = folder / f"{design}_{hz // 1_000_000}mhz.toml"
+    changed.write_text(text, encoding="utf-8")
+    return str(changed)
+
+
 def gate_cells(text):
     """How many I/O cells of nextpnr's configuration have the register of a gate."""
     cells = {}
@@ -56,20 +71,77 @@ def gate_cells(text):
     return sum(all(wanted in settings for wanted in GATE_CELL) for settings in cells.values())
 
 
-def measure_ulx3s(tools, read, seeds, hz):
-    """Figures and the seed of the fastest result; the configurations are in the folder."""
-    figures = synth_measure.ecp5_figures(tools.synthesize_ecp5("board", "ulx3s", read))
+class Ulx3s:
+    """ECP5: the steps to a bitstream, and what it has of what is counted."""
+
+    chip, packed, clock_hz = "LFE5U-85F", "bit", None
+    there = {"lut4_equivalents": 83640, "ff": 83640, "mult18": 156, "bram": 208}
+    names = ("LUT4 equivalents", "flip-flops", "MULT18X18D", "DP16KD")
+    registered = True
+
+    def synthesize(self, tools, read):
+        return synth_measure.ecp5_figures(tools.synthesize_ecp5("board", "ulx3s", read))
+
+    def write_netlist(self, tools):
+        # The gates' registers into the I/O cells: nextpnr reads it from the cell.
+        tools.write_netlist(
+            "board",
+            "select -set gates w:gate_?_?? %ci1 t:TRELLIS_FF %i",
+            f"select -assert-count {GATES} @gates",
+            'setattr -set syn_useioff 1 -set ioff_dir "output" @gates',
+        )
+
+    def route(self, tools, seed, _):
+        return tools.route_board("board", seed, "ulx3s.lpf")
+
+    def check(self, tools, seed):
+        """A line about the gates' registers, or ToolError where they are not what they have to be."""
+        configuration = tools.folder / f"board_{seed}.config"
+        found = gate_cells(configuration.read_text(encoding="utf-8"))
+        if found != GATES:
+            raise ToolError(f"{found} of {GATES} gates leave from a register in an I/O cell: {configuration}")
+        return f"gate registers in I/O cells, cleared without a clock: {found} of {GATES}"
+
+    def pack(self, tools, seed):
+        return tools.pack(f"board_{seed}")
+
+
+class TangNano9k:
+    """Gowin GW1NR-9C. A design of rtl/designs gets the clock that the board's PLL makes of 27 MHz."""
+
+    chip, packed, clock_hz = "GW1NR-9C", "fs", 54_000_000
+    there = {"lut4_equivalents": 8640, "ff": 6480, "mult18": 20, "bram": 26}
+    names = ("LUT4 equivalents", "flip-flops", "MULT18X18", "BSRAM")
+    registered = False
+
+    def synthesize(self, tools, read):
+        return synth_measure.gowin_figures(tools.synthesize_gowin("board", "tang_nano_9k", read))
+
+    def write_netlist(self, tools):
+        tools.write_netlist("board", f"select -assert-count {GATES} {GOWIN_GATES}")
+
+    def route(self, tools, seed, mhz):
+        return tools.route_gowin("board", seed, "tang_nano_9k.cst", mhz)
+
+    def check(self, _tools, _seed):
+        return f"gate registers cleared without a clock: {GATES} of {GATES}; in the fabric, not in I/O cells"
+
+    def pack(self, tools, seed):
+        return tools.pack_gowin(f"board_{seed}")
+
+
+ROUTED = {"ulx3s": Ulx3s(), "tang_nano_9k": TangNano9k()}
+BOARDS = (*ROUTED, "de0_nano")
+
+
+def measure_routed(tools, board, steps, read, seeds, hz):
+    """Figures and the seed of the fastest result; the results of all are in the folder."""
+    figures = steps.synthesize(tools, read)
     if not seeds:
         return figures, None
-    # The gates' registers into the I/O cells: nextpnr reads it from the cell.
-    tools.write_netlist(
-        "board",
-        "select -set gates w:gate_?_?? %ci1 t:TRELLIS_FF %i",
-        f"select -assert-count {GATES} @gates",
-        'setattr -set syn_useioff 1 -set ioff_dir "output" @gates',
-    )
+    steps.write_netlist(tools)
     with ThreadPoolExecutor(max_workers=2) as pool:
-        reports = list(pool.map(lambda seed: tools.route_board("board", seed, "ulx3s.lpf"), seeds))
+        reports = list(pool.map(lambda seed: steps.route(tools, seed, hz / 1e6), seeds))
     by_speed = sorted(zip(reports, seeds), key=lambda pair: synth_path.fmax(pair[0]))
     speeds = [round(synth_path.fmax(report), 1) for report, _ in by_speed]
     slowest = by_speed[0][0]
@@ -79,24 +151,24 @@ def measure_ulx3s(tools, read, seeds, hz):
         "fmax_min_mhz": speeds[0],
         "fmax_max_mhz": speeds[-1],
         "clock_mhz": hz / 1e6,
-        "critical_path": synth_path.describe(slowest, netlist, "ulx3s", "u_"),
+        "critical_path": synth_path.describe(slowest, netlist, board, "u_"),
     }
-    wanted = next(iter(slowest["fmax"].values()))["constraint"]
+    wanted = synth_path.clock(slowest)["constraint"]
     if abs(wanted - hz / 1e6) > 0.01:
         raise ToolError(f"the PLL gives {wanted} MHz, the design wants {hz / 1e6:g} MHz")
     return figures, by_speed[-1][1]
 
 
-def main_ulx3s(tools, read, options, seeds):
-    hz = clock_hz(tools.folder)
-    figures, best = measure_ulx3s(tools, read, seeds, hz)
-    rows = [
-        ("LUT4 equivalents", figures["lut4_equivalents"], 83640),
-        ("flip-flops", figures["ff"], 83640),
-        ("MULT18X18D", figures["mult18"], 156),
-        ("DP16KD", figures["bram"], 208),
-    ]
-    print_rows("LFE5U-85F", rows)
+def output_of(options):
+    return options.output or Path(f"{options.board}.{ROUTED[options.board].packed}")
+
+
+def main_routed(tools, read, options, seeds):
+    board, hz = options.board, clock_hz(tools.folder)
+    steps = ROUTED[board]
+    figures, best = measure_routed(tools, board, steps, read, seeds, hz)
+    rows = [(name, figures[key], there) for name, (key, there) in zip(steps.names, steps.there.items())]
+    print_rows(steps.chip, rows)
     if best is None:
         return figures, True
     closed = figures["fmax_min_mhz"] >= hz / 1e6
@@ -106,16 +178,12 @@ def main_ulx3s(tools, read, options, seeds):
         f"timing {'closes in all' if closed else 'DOES NOT CLOSE in all'}"
     )
     print(f"critical path of the slowest: {figures['critical_path']}")
-    configuration = tools.folder / f"board_{best}.config"
-    found = gate_cells(configuration.read_text(encoding="utf-8"))
-    if found != GATES:
-        raise ToolError(f"{found} of {GATES} gates leave from a register in an I/O cell: {configuration}")
-    print(f"gate registers in I/O cells, cleared without a clock: {found} of {GATES}")
+    print(steps.check(tools, best))
     if not closed:
         print("synth: no bitstream; lower clock_hz of the design", file=sys.stderr)
         return figures, False
-    output = options.output or Path("ulx3s.bit")
-    outputs.write_whole(output, tools.pack(f"board_{best}").read_bytes())
+    output = output_of(options)
+    outputs.write_whole(output, steps.pack(tools, best).read_bytes())
     print(f"wrote {output} (seed {best})", file=sys.stderr)
     return figures, True
 
@@ -138,9 +206,6 @@ def main_de0_nano(tools, read, options, seeds):
     return figures, True
 
 
-MAINS = {"ulx3s": main_ulx3s, "de0_nano": main_de0_nano}
-
-
 def print_rows(chip, rows):
     print(f"of {chip}")
     for name, used, there in rows:
@@ -159,13 +224,20 @@ def run(options, root, progress):
         tools = Tools(folder)
         if seeds and options.board == "ulx3s" and tools.nextpnr is None:
             raise ToolError("no nextpnr-ecp5: run ./feltgate synth, which fetches it, or --no-route")
+        steps = ROUTED.get(options.board)
+        design = with_clock(root, design, steps and steps.clock_hz, folder / "design")
         package = design_package.package_of(root, design, folder / "design")
-        target = synth_measure.Target("board", options.board, registered=options.board == "ulx3s")
+        target = synth_measure.Target("board", options.board, registered=bool(steps) and steps.registered)
         names = sources(root, options.board, package, folder)
         read = synth_measure.read_commands(names, target)
         progress(f"{options.board}, design {name}: synthesis, then seeds {options.seeds}")
         print(f"{options.board}, design {name}; nothing of this ran on a board")
-        figures, fine = MAINS[options.board](tools, read, options, seeds)
+        main = main_routed if steps else main_de0_nano
+        figures, fine = main(tools, read, options, seeds)
         progress("")
+        if steps and steps.clock_hz and seeds and fine and Path(design).parent == folder / "design":
+            beside = output_of(options).with_suffix(".toml")
+            outputs.write_whole(beside, Path(design).read_text(encoding="utf-8"))
+            print(f"wrote {beside}, its design, for feltgate host --design", file=sys.stderr)
     used = {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
     return {name: {f"board {options.board}": figures}}, used, fine

@@ -197,6 +197,20 @@ def ecp5_figures(cells):
     }
 
 
+def gowin_figures(cells):
+    """A carry (ALU) takes the place of a LUT, a RAM16SDP4 those of eight, as nextpnr counts them."""
+    luts = sum(cells.get(f"LUT{inputs}", 0) for inputs in (1, 2, 3, 4))
+    alus = cells.get("ALU", 0)
+    return {
+        "lut4": luts,
+        "alu": alus,
+        "lut4_equivalents": luts + alus + 8 * cells.get("RAM16SDP4", 0),
+        "ff": sum(count for name, count in cells.items() if name.startswith("DFF")),
+        "mult18": cells.get("MULT18X18", 0),
+        "bram": sum(cells.get(name, 0) for name in ("DPB", "DPX9B", "SDPB", "SDPX9B", "SP", "SPX9")),
+    }
+
+
 def cyclone_figures(cells):
     return {
         "cyclone_cells": cells.get("cycloneive_lcell_comb", 0) + cells.get("$not", 0),

@@ -6,13 +6,21 @@ import json
 import re
 
 # Yosys' autoname builds a name from a neighbour's by such suffixes; it may be quite another signal.
-MADE_UP = re.compile(r"_(?:TRELLIS_FF|LUT4|CCU2C|MULT18X18D|DP16KD|PFUMX|L6MUX21)(?:_|$)|\$")
-OUTPUTS = {"TRELLIS_FF": r"Q$", "MULT18X18D": r"P\d+$", "DP16KD": r"DO[AB]\d+$"}
+MADE_UP = re.compile(
+    r"_(?:TRELLIS_FF|LUT[1-4]|CCU2C|MULT18X18D?|DP16KD|PFUMX|L6MUX21|DFF[A-Z]*|ALU)(?:_|$)|\$"
+)
+OUTPUTS = {"MULT18X18D": r"P\d+$", "DP16KD": r"DO[AB]\d+$"}
+REGISTER = re.compile(r"TRELLIS_FF$|DFF[A-Z]*$")
+
+
+def clock(report):
+    """What the report has of the one clock."""
+    return next(iter(report["fmax"].values()))
 
 
 def fmax(report):
     """MHz of the one clock."""
-    return next(iter(report["fmax"].values()))["achieved"]
+    return clock(report)["achieved"]
 
 
 def signal_names(netlist, prefix="u_dut."):
@@ -36,13 +44,14 @@ def cell_label(cell, netlist, names):
     if not found:
         return "?"
     for port, bits in found["connections"].items():
-        if re.match(OUTPUTS.get(found["type"], "$."), port) and bits and bits[0] in names:
+        output = "Q$" if REGISTER.match(found["type"]) else OUTPUTS.get(found["type"], "$.")
+        if re.match(output, port) and bits and bits[0] in names:
             return names[bits[0]].removeprefix("u_dut.")
     source = found.get("attributes", {}).get("src", "")
     place = re.match(r"(\w+\.sv):(\d+)", source)
     if place and place.group(1).endswith("_speed.sv"):
         return "the wrapper"
-    if place and found["type"] == "TRELLIS_FF":
+    if place and REGISTER.match(found["type"]):
         return f"{place.group(1)}:{place.group(2)}"
     return cell.removeprefix("u_dut.")
 
@@ -55,7 +64,7 @@ def describe(report, netlist_path, top="speed_top", prefix="u_dut."):
     routing = sum(step["delay"] for step in steps if step["type"] == "routing")
     total = sum(step["delay"] for step in steps)
     cells = [step["from"]["cell"] for step in steps if step["type"] == "logic"]
-    carries = [cell for cell in cells if "$CCU2_COMB" in cell]
+    carries = [cell for cell in cells if "$CCU2_COMB" in cell or re.search(r"_ALU_|_ALULC", cell)]
     start, end = (
         cell_label(step[way]["cell"], netlist, names)
         for step, way in ((steps[0], "from"), (steps[-1], "to"))

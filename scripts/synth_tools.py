@@ -18,6 +18,7 @@ from command_line import Refused
 import interrupts
 
 DEVICE = ("--85k", "--package", "CABGA381", "--speed", "6")
+GOWIN_PART, GOWIN_FAMILY = "GW1NR-LV9QN88PC6/I5", "GW1N-9C"
 TARGET_MHZ = 200
 
 
@@ -99,13 +100,20 @@ class Tools:
         script = [f"read_rtlil {name}.il", *commands, "autoname", "blackbox =A:whitebox"]
         self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
 
-    def write_simulation(self, top, read, models):
-        """TOP's ECP5 netlist as netlist.v, module TOP_netlist, with the models of its cells."""
-        self.synthesize_ecp5("mapped", top, read)
+    def write_simulation(self, top, read, models, family="ecp5"):
+        """TOP's netlist as netlist.v, module TOP_netlist, with the models of its cells."""
+        if family == "gowin":
+            self.synthesize_gowin("mapped", top, read)
+        else:
+            self.synthesize_ecp5("mapped", top, read)
         script = ["read_rtlil mapped.il", "blackbox =A:whitebox", f"rename {top} {top}_netlist"]
+        if family == "gowin":  # names of the mapping, a hundred letters long
+            script += [f"rename -hide {top}_netlist/*"]
         script += [f"select {top}_netlist", "write_verilog -noattr -selected mapped.v"]
         self.run_yosys("mapped_v", script, ["mapped.v"])
         cells = "lattice/cells_sim_ecp5.v" if self.is_wasm() else "ecp5/cells_sim.v"
+        if family == "gowin":
+            cells = "gowin/cells_sim.v"
         script = [f"read_verilog +/{cells}", *(f"read_verilog -overwrite -sv {m}" for m in models)]
         script += ["read_verilog mapped.v", f"hierarchy -check -top {top}_netlist", "proc"]
         script += ["flatten", "opt -fast", "opt_clean -purge", "write_verilog -noattr netlist.v"]
@@ -140,6 +148,41 @@ class Tools:
         command = [packer, "--compress", f"{name}.config", f"{name}.bit"]
         self.run(command, f"{name}_pack", [f"{name}.bit"])
         return self.folder / f"{name}.bit"
+
+    def synthesize_gowin(self, name, top, read):
+        """Synthesizes TOP for the GW1NR-9C; returns its cell counts. NAME.il as with synthesize_ecp5()."""
+        script = [
+            *read,
+            f"synth_gowin -top {top} -family gw1n -nowidelut -run begin:check",
+            f"tee -q -o {name}.stat stat -json -top {top}",
+            f"write_rtlil {name}.il",
+        ]
+        self.run_yosys(name, script, [f"{name}.stat", f"{name}.il"])
+        return cell_counts(self.folder / f"{name}.stat")
+
+    def route_gowin(self, name, seed, constraints, mhz):
+        """As route_board(), for the GW1NR-9C; NAME_SEED.json is there, what pack_gowin() takes."""
+        nextpnr = find("nextpnr-himbaechel-gowin")
+        if nextpnr is None:
+            raise ToolError("no nextpnr-himbaechel-gowin: run ./feltgate synth, which fetches it, or --no-route")
+        stem = f"{name}_{seed}"
+        outputs = [f"{stem}.report", f"{stem}.json"]
+        for output in outputs:
+            (self.folder / output).unlink(missing_ok=True)
+        command = [nextpnr, "--device", GOWIN_PART, "--vopt", f"family={GOWIN_FAMILY}"]
+        command += ["--vopt", f"cst={constraints}", "--freq", f"{mhz:g}", "--timing-allow-fail"]
+        command += ["--seed", str(seed), "-q", "--json", f"{name}.json"]
+        command += ["--report", outputs[0], "--write", outputs[1]]
+        self.run(command, stem, outputs)
+        return json.loads((self.folder / outputs[0]).read_text(encoding="utf-8"))
+
+    def pack_gowin(self, name):
+        """NAME.json as NAME.fs, what the FPGA loads."""
+        packer = find("gowin_pack")
+        if packer is None:
+            raise ToolError("no gowin_pack; run ./feltgate synth, which fetches it")
+        self.run([packer, "-d", GOWIN_FAMILY, "-o", f"{name}.fs", f"{name}.json"], f"{name}_pack", [f"{name}.fs"])
+        return self.folder / f"{name}.fs"
 
     def ports(self, top, read):
         """(name, direction, width) of every port of TOP."""

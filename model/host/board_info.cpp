@@ -35,6 +35,8 @@ std::string BoardInfo::board_name() const {
       return "DE0-Nano";
     case 2:
       return "ULX3S";
+    case 3:
+      return "Tang Nano 9K";
     default:
       return fmt::format("board {}", board);
   }

@@ -274,7 +274,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_LINK_LAST_WRITE_SEQUENCE 0x1008u  /* sequence of the last write that was taken; 0x100: none since the reset */
 
-#define FELTGATE_LINK_BOARD 0x1009u  /* 0 other, 1 DE0-Nano, 2 ULX3S */
+#define FELTGATE_LINK_BOARD 0x1009u  /* 0 other, 1 DE0-Nano, 2 ULX3S, 3 Tang Nano 9K */
 
 #define FELTGATE_LINK_INPUTS 0x100au  /* the board's inputs, its page says which */
 

@@ -6,6 +6,7 @@ mistakes are seeded into a copy one at a time.
 
 import csv
 import re
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -40,6 +41,54 @@ def read_ports(text, board):
         bits = [name] if msb is None else [f"{name}[{i}]" for i in range(int(lsb), int(msb) + 1)]
         ports.update((bit, way) for bit in bits)
     return ports
+
+
+# Beginnings of the inputs that have to read high while their wire is open: no edge, not plugged in, stop.
+PULLED_UP = ("enc_", "estop", "sw_n", "key_n", "reset_n", "ftdi_txd", "uart_rx")
+
+
+def placement(texts, board, kind, key, sources, places, settings, pull):
+    """One line for everything that is wrong with where the ports are and what their pins are set to, as
+    'what; mend'. `kind` is the file that places them, `key` what it places them at, `places` and
+    `settings` what it says: lists of (port, place) and (port, {name: value}); `pull` is the name of pulls."""
+    pins, ports = read_pins(texts["pins"], key), read_ports(texts["sv"], board)
+    found = []
+    for place, row in pins.items():
+        named = row["sources"].split()
+        if len(set(named)) < 2 or not set(named) <= sources:
+            found.append(f"pins: {row['signal']}, {place} has the sources {named}; two are needed")
+    for what, counts in (
+        ("port", Counter(port for port, _ in places)),
+        (key, Counter(place for _, place in places)),
+    ):
+        found += [f"{kind}: {what} {n} is used {c} times; once" for n, c in counts.items() if c > 1]
+    for port in {port for port, _ in places} | {port for port, _ in settings}:
+        if port not in ports:
+            found.append(f"{kind}: {port} is no port of {board}.sv; remove it or name the port")
+    where, how = dict(places), dict(settings)
+    by_signal = {row["signal"]: place for place, row in pins.items()}
+    for port, way in ports.items():
+        row = pins.get(where.get(port))
+        if row is None:
+            found.append(f"{kind}: port {port} is at {where.get(port)}, which is not in pins.csv")
+            continue
+        if {"in": "input", "out": "output"}.get(row["direction"], way) != way:
+            found.append(f"{kind}: {port} is an {way}, {row['signal']} is not; move it")
+        if port in by_signal and by_signal[port] != row[key]:
+            found.append(f"{kind}: {port} is at {row[key]}, the board has it at {by_signal[port]}")
+        if port not in by_signal and row["place"] == "on board":
+            found.append(f"{kind}: {port} is at {row['signal']}, which is on the board; use a header")
+        setting, standard = how.get(port, {}), row.get("io", "LVCMOS33")
+        if setting.get("IO_TYPE") != standard:
+            found.append(f"{kind}: {port} has IO_TYPE {setting.get('IO_TYPE')}; {standard}")
+        if port.startswith(PULLED_UP) and setting.get(pull) != "UP":
+            found.append(f"{kind}: {port} is not pulled up; open, it has to read high")
+        if port.startswith("gate_") and setting.get(pull) != "DOWN":
+            found.append(f"{kind}: {port} is not pulled down; an open gate would be on")
+        line = f"| `{port}` | {row['signal']} | {row[key]} | {row['place']} |"
+        if line not in texts["doc"]:
+            found.append(f"doc: no row '{line}'; correct the table")
+    return found
 
 
 class PinsTests:

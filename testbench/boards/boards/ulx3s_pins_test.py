@@ -12,11 +12,9 @@ Documentation: docs/boards/ulx3s.md
 
 import re
 import unittest
-from collections import Counter
 
-from board_pins import PinsTests, files_of, read_pins, read_ports
+from board_pins import PinsTests, files_of, placement, read_pins, read_ports
 
-PULLED_UP = ("enc_a", "enc_b", "enc_z", "enc_loop", "estop", "ftdi_txd")
 SOURCES = set("ABCD")
 
 
@@ -33,44 +31,8 @@ def read_lpf(text):
 
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
-    pins, ports = read_pins(texts["pins"], "site"), read_ports(texts["sv"], "ulx3s")
     sites, settings = read_lpf(texts["lpf"])
-    found = []
-    for site, row in pins.items():
-        named = row["sources"].split()
-        if len(set(named)) < 2 or not set(named) <= SOURCES:
-            found.append(f"pins: {row['signal']}, {site} has the sources {named}; two are needed")
-    for kind, counts in (
-        ("port", Counter(port for port, _ in sites)),
-        ("site", Counter(site for _, site in sites)),
-    ):
-        found += [f"lpf: {kind} {n} is used {c} times; once" for n, c in counts.items() if c > 1]
-    for port in {port for port, _ in sites} | {port for port, _ in settings}:
-        if port not in ports:
-            found.append(f"lpf: {port} is no port of ulx3s.sv; remove it or name the port")
-    where, how = dict(sites), dict(settings)
-    by_signal = {row["signal"]: site for site, row in pins.items()}
-    for port, way in ports.items():
-        row = pins.get(where.get(port))
-        if row is None:
-            found.append(f"lpf: port {port} is at {where.get(port)}, which is not in pins.csv")
-            continue
-        if {"in": "input", "out": "output"}.get(row["direction"], way) != way:
-            found.append(f"lpf: {port} is an {way}, {row['signal']} is not; move it")
-        if port in by_signal and by_signal[port] != row["site"]:
-            found.append(f"lpf: {port} is at {row['site']}, the board has it at {by_signal[port]}")
-        if port not in by_signal and not row["signal"].startswith("g"):
-            found.append(f"lpf: {port} is at {row['signal']}, which is on the board; use a header")
-        setting = how.get(port, {})
-        if setting.get("IO_TYPE") != "LVCMOS33":
-            found.append(f"lpf: {port} has IO_TYPE {setting.get('IO_TYPE')}; LVCMOS33")
-        if port in PULLED_UP and setting.get("PULLMODE") != "UP":
-            found.append(f"lpf: {port} is not pulled up; an open wire would be no stop")
-        if port.startswith("gate_") and setting.get("PULLMODE") != "DOWN":
-            found.append(f"lpf: {port} is not pulled down; an open gate would be on")
-        line = f"| `{port}` | {row['signal']} | {row['site']} | {row['place']} |"
-        if line not in texts["doc"]:
-            found.append(f"doc: no row '{line}'; correct the table")
+    found = placement(texts, "ulx3s", "lpf", "site", SOURCES, sites, settings, "PULLMODE")
     if 'FREQUENCY PORT "clk_25mhz" 25 MHZ;' not in texts["lpf"]:
         found.append("lpf: clk_25mhz has not its 25 MHz; nextpnr takes the PLL's clock from it")
     return found
@@ -95,7 +57,7 @@ class Ulx3s(PinsTests, unittest.TestCase):
          "the board has it at E8"),
         ("lpf", GATE, GATE.replace("DOWN", "UP"), "not pulled down"),
         ("lpf", 'IOBUF PORT "estop" PULLMODE=UP', 'IOBUF PORT "estop" PULLMODE=DOWN',
-         "no stop"),
+         "not pulled up"),
         ("lpf", f"{GATE} IO_TYPE=LVCMOS33", f"{GATE} IO_TYPE=LVCMOS25", "IO_TYPE LVCMOS25"),
         ("lpf", "25 MHZ", "50 MHZ", "not its 25 MHz"),
         ("pins", "gp[0],B11,J1 pin 5+,inout,A B C", "gp[0],B11,J1 pin 5+,inout,A",

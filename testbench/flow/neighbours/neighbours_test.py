@@ -137,6 +137,11 @@ class Fusesoc(Neighbours):
         self.assertIn("--85k", makefile)
         self.assertIn("CABGA381", makefile)
 
+    def test_tang_nano_9k(self):
+        status, said, work = self.fusesoc("tang_nano_9k", "--setup")
+        self.assertEqual(status, 0, said)
+        self.assertIn("rtl/boards/tang_nano_9k/tang_nano_9k.cst", self.listed(work, "tang_nano_9k"))
+
 
 class Cocotb(Neighbours):
     def example(self, root):

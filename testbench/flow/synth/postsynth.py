@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Makes what a post-synthesis lock-step needs: netlist.v, the ECP5 netlist of a block as Yosys maps
+"""Makes what a post-synthesis lock-step needs: netlist.v, the netlist of a block or board as Yosys maps
 it, with the cells' models flattened in (neither Verilator nor Icarus reads Yosys' cells_sim.v), and
 pair.sv, which drives netlist and RTL alike. Called by testbench/flow/synth/CMakeLists.txt.
 
@@ -20,9 +20,12 @@ import synth_measure  # noqa: E402
 from seeded_defects import patches  # noqa: E402
 from synth_tools import ToolError, Tools  # noqa: E402
 
-CLOCKS = ("clk_i", "rst_ni", "clk_25mhz")
+BOARD_CLOCKS = ("clk_25mhz", "clk_27mhz")  # clk in pair.sv
+CLOCKS = ("clk_i", "rst_ni", *BOARD_CLOCKS)
 MODELS = ("mult18x18d_model.sv", "dp16kd_model.sv")
-PLL = "EHXPLLL.sv"
+GOWIN_MODELS = ("gowin_cells_model.sv",)
+# The stub of a board's PLL; the family is that of Tools.write_simulation().
+BOARDS = {"ulx3s": ("EHXPLLL.sv", "ecp5", MODELS), "tang_nano_9k": ("rPLL.sv", "gowin", GOWIN_MODELS)}
 
 
 def pair(block, ports, parameters):
@@ -31,7 +34,9 @@ def pair(block, ports, parameters):
     outs = [p for p in ports if p[1] == "output"]
     instances = []
     for kind, module in (("rtl", f"{block} #({parameters})"), ("netlist", f"{block}_netlist")):
-        pins = [f".{name}({name})" for name, _, _ in ports if name in CLOCKS]
+        pins = [
+            f".{name}({'clk' if name in BOARD_CLOCKS else name})" for name, _, _ in ports if name in CLOCKS
+        ]
         for word, some in (("in_i", ins), (f"{kind}_o", outs)):
             start = 0
             for name, _, width in some:
@@ -39,9 +44,9 @@ def pair(block, ports, parameters):
                 start += width
         instances.append(f"  {module} u_{kind} ({', '.join(pins)});")
     n_in, n_out = sum(p[2] for p in ins), sum(p[2] for p in outs)
-    of_board = any(name == CLOCKS[-1] for name, _, _ in ports)
+    of_board = any(name in BOARD_CLOCKS for name, _, _ in ports)
     # A block without a reset has the pin all the same: the test drives it.
-    clocks = CLOCKS[-1] if of_board else ", ".join(CLOCKS[:-1])
+    clocks = "clk" if of_board else "clk_i, rst_ni"
     head = (
         f"module pair (input logic {clocks}, input logic [{n_in - 1}:0] in_i, "
         f"output logic [{n_out - 1}:0] rtl_o, netlist_o);"
@@ -71,28 +76,29 @@ def change_defaults(path, values):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=Path, required=True)
-    parser.add_argument("--design", required=True)
+    parser.add_argument("--design", required=True, help="its name, or the path of its package")
     parser.add_argument("--block")
-    parser.add_argument("--board", choices=synth_board.BOARDS, help="instead of a block")
+    parser.add_argument("--board", choices=BOARDS, help="instead of a block")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--registered", action="store_true", help="MULT18X18D with its registers")
     parser.add_argument("--parameter", action="append", default=[], help="of RTL and netlist")
     parser.add_argument("--defect", nargs=2, metavar=("FILE", "NAME"), help="of the netlist alone")
     options = parser.parse_args()
-    block, output, models = options.board or options.block, options.output, MODELS
+    block, output = options.board or options.block, options.output
+    pll, family, models = BOARDS.get(options.board, (None, "ecp5", MODELS))
+    design = Path(options.design) if options.design.endswith(".sv") else options.design
     output.mkdir(parents=True, exist_ok=True)
     try:
         tools = Tools(output)
         target = synth_measure.Target(block, block, registered=options.registered)
         if options.board:
-            sources = synth_board.sources(options.root, block, options.design, output)
-            models = (*MODELS, PLL)
-            stub = options.root / "testbench/boards/boards/stub" / PLL
-            (output / PLL).write_text(stub.read_text(encoding="utf-8"), encoding="utf-8")
+            sources = synth_board.sources(options.root, block, design, output)
+            stub = options.root / "testbench/boards/boards/stub" / pll
+            (output / pll).write_text(stub.read_text(encoding="utf-8"), encoding="utf-8")
         else:
-            sources = synth_measure.copy_sources(options.root, options.design, output)
+            sources = synth_measure.copy_sources(options.root, design, output)
         read = synth_measure.read_commands(sources, target)
-        for model in MODELS:
+        for model in models:
             (output / model).write_text(
                 (Path(__file__).parent / model).read_text(encoding="utf-8"), encoding="utf-8"
             )
@@ -106,7 +112,7 @@ def main():
         elif block.startswith("scene_") or values:
             read = [*read, f"hierarchy {change} -top {block}"]
         ports = tools.ports(block, read)
-        tools.write_simulation(block, read, models)
+        tools.write_simulation(block, read, (*models, pll) if pll else models, family)
     except (ToolError, patches.DefectError) as error:
         print(error, file=sys.stderr)
         return 1

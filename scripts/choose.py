@@ -22,6 +22,7 @@ from exploration.design_text import design_text
 SCHEMA = "feltgate-choose/1"
 RTL_SECONDS = {"block": 1.5, "law": 0.4, "axes": 0.15}  # by default: half a minute of one core
 SAME = 1e-9  # sums of the same numbers in another order
+LEAST_ARMED_S = 0.001  # of the scene, in RTL
 AGREES = 0.05  # bits and eigenvalues, as `feltgate stability` demands
 EPILOG = """SCENE is a name in vectors/scenes or a path; LAW a name in rtl/laws or the path of a law file of
 your own, which a hand then sweeps. Without a wish the aims are 1% and a margin of 2. The answer is
@@ -31,7 +32,7 @@ verified: RTL and twin in lock-step, the error, and the margin on the chain's bi
 
   feltgate choose wall
   feltgate choose detent --torque-error 5% --margin 4 --fastest
-  feltgate choose coupled_levers --chip up5k           a device with several axes
+  feltgate choose coupled_levers --chip gw1nr-9        a device with several axes
   feltgate choose my.law --latency 2 -o out            out/ gets scene, law, design, JSON, picture
   feltgate choose wall --margin 8                      cannot be: says why, and the nearest
 
@@ -159,6 +160,13 @@ class Files:
         return found
 
 
+def armed_check(scene, seconds):
+    """Before it is armed, RTL and twin agree about a torque of 0: that verifies nothing."""
+    armed_s = max(seconds - scene["core"].get("arm_s", 0.0), 0.0)
+    said = {"what": "RTL armed, at least, s", "measured": armed_s, "limit": LEAST_ARMED_S}
+    return said | {"holds": armed_s >= LEAST_ARMED_S}
+
+
 def verified(choosing, files, best, seconds):
     """The choice in RTL and twin: [{what, measured, limit, holds}], and what was run."""
     q, ask = choosing.question, choosing.programs.ask
@@ -177,6 +185,7 @@ def verified(choosing, files, best, seconds):
     finally:
         short.unlink()
     check("mismatches between RTL and twin", run["mismatches"], 0, run["mismatches"] == 0)
+    checks.append(armed_check(files.scene, seconds))
     rates = ask("rates", files.scene_path, "--rate", f"{best['rate_hz']:.9g}", "--quiet")["scenes"][0]
     row = next(r for r in rates["rates"] if r["by"] == best["by"] and r["ticks"] == best["ticks"])
     rms, worst = row["error_rms_nm"], row["error_max_nm"]

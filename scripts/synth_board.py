@@ -236,8 +236,10 @@ def run(options, root, progress):
         figures, fine = main(tools, read, options, seeds)
         progress("")
         if steps and steps.clock_hz and seeds and fine and Path(design).parent == folder / "design":
-            beside = output_of(options).with_suffix(".toml")
-            outputs.write_whole(beside, Path(design).read_text(encoding="utf-8"))
+            beside, text = output_of(options).with_suffix(".toml"), Path(design).read_text(encoding="utf-8")
+            if beside.exists() and beside.read_text(encoding="utf-8") != text:
+                beside = beside.with_suffix(".design.toml")  # a file of the user's own is not replaced
+            outputs.write_whole(beside, text)
             print(f"wrote {beside}, its design, for feltgate host --design", file=sys.stderr)
     used = {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
     return {name: {f"board {options.board}": figures}}, used, fine

@@ -67,9 +67,9 @@ def named(given):
     found = scene or law
     if found is None:
         near = difflib.get_close_matches(given, [*scenes, *laws], 1)
-        mend = f"did you mean {near[0]}? " if near else ""
+        mend = f"did you mean {near[0]}? Or " if near else ""
         raise Refused(
-            f'"{given}" is neither a scene nor a law; {mend}Give a name in vectors/scenes or rtl/laws, '
+            f'"{given}" is neither a scene nor a law; {mend}give a name in vectors/scenes or rtl/laws, '
             "or the path of a .toml or .law file"
         )
     if not found.is_file():

@@ -212,7 +212,8 @@ Claim alternative_to_pid(const Lab& lab) {
           "sees its own command: the torque changes with 1/R and Kt, and it does not",
           "`torque_step` to 0.2 Nm, `paper`, plant `p24` with another R and Kt",
           "R and Kt stay those of the calibration, near 0.2 Nm. An integrator on a measured "
-          "current would take both errors away. PI and PID on the estimate do not: "
+          "current would take that of R away, and leave that of Kt. PI and PID on the estimate "
+          "take none: "
           "[controllers](controllers.md)",
           {}};
   c.asks("torque, R +20 %", "%", 100 * (1 / 1.2 - 1), error(warm, torque), near(0, 2));

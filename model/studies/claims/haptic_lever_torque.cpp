@@ -43,7 +43,7 @@ Claim half_nm_of_7_a(const Lab& lab) {
       "III.A, III.C.2",
       "±0.5 Nm due to the 7 A that the power source can deliver",
       "7 A times 0.0605; the 24 V winding needs 0.5 / 0.0302 A at R I + 0.34 V, and a bridge "
-      "takes V I / 24 V from the source",
+      "takes V I / 24 V from the source; a source of 4 A is taken at the voltage of 0.5 Nm",
       "`spring_tension`, held at its limit, `lever` with `supply_limit = true`: mean of 0.1 s",
       "the 7 A are the source's. In the motor they would be 0.42 Nm. So the limit of the supply "
       "never acts in `spring_tension`, and the torque is 0.5 Nm with it and without; a source "

@@ -50,7 +50,7 @@ Claim ceiling(const Lab& lab) {
   Claim c{
       "Fig. 5; Conclusion & Next Steps",
       "a ceiling of 700 N/m works; instability is noticeable above 800 N/m",
-      "T = k d² jitters by up to 2 k d l times the noise, of which smoothing leaves 0.577; nothing "
+      "T = k d² jitters by about 2 k d l times the noise, of which smoothing leaves 0.577; nothing "
       "sets 700 or 800 apart",
       "a host's wall as stiff as these ceilings are 10 mm deep on a stick of 0.3 m (both ours), "
       "144 Hz, smoothed",

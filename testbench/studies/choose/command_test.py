@@ -173,6 +173,13 @@ class Chosen(Scratch):
         self.assertEqual(told["choice"]["design"], "lever_950")
         self.kept(told, "margin on the chain's bits")
 
+    def test_rtl_that_was_hardly_armed_verifies_nothing(self):
+        scene = {"core": {"arm_s": 0.05}}
+        for seconds, armed, holds in ((0.001, 0, False), (0.0505, 0.0005, False), (0.06, 0.01, True)):
+            check = choose.armed_check(scene, seconds)
+            self.assertAlmostEqual(check["measured"], armed)
+            self.assertEqual(check["holds"], holds)
+
     def test_a_law_of_several_axes_needs_a_scene(self):
         law = self.put("two.law", "out torque = 0 Nm\nout torque[1] = -(1 Nm/rad) * position[1]\n")
         bad = self.put("bad.law", "out torque = 1 m\n")

@@ -245,9 +245,7 @@ def answer_of(options, folder):
     told["files"] += [str(picture), str(files.folder / "choose.json")]
     whole = json.dumps(told, indent=1) + "\n"
     outputs.write_whole(files.folder / "choose.json", whole)
-    if options.json:
-        outputs.write_whole(options.json, whole)
-    return told
+    return told, whole
 
 
 def main(words):
@@ -257,9 +255,14 @@ def main(words):
 
     def work():
         with tempfile.TemporaryDirectory(prefix="feltgate-choose-") as folder:
-            told = answer_of(options, folder)
+            told, whole = answer_of(options, folder)
         if not options.quiet:
-            print(choose_text.text(told))
+            print(choose_text.text(told), flush=True)
+        if options.json:
+            try:
+                outputs.write_whole(options.json, whole)
+            except OSError as error:
+                raise command_line.Refused(f"--json {options.json}: {error.strerror}; give another file") from error
         unmet = [w for w in told["why_not"] if w["stated"]]
         unverified = [c for c in told["verified"]["checks"] if not c["holds"]]
         return 1 if unmet or unverified else 0

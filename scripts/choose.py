@@ -8,6 +8,7 @@ docs/choose.md
 """
 
 import json
+import re
 import sys
 import tempfile
 import tomllib
@@ -140,7 +141,14 @@ class Files:
         if best["set"]:
             self.design_path = self.folder / f"{best['design']}.toml"
             point = {"base": choosing.design, "set": best["set"]}
-            self._put(self.design_path, design_text(command_line.root(), point))
+            self._put(self.design_path, self._named(design_text(command_line.root(), point), point))
+
+    @staticmethod
+    def _named(text, point):
+        """The design's text with a head and a description of its own, not those of its base."""
+        what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
+        text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)
+        return re.sub(r"^description = .*$", lambda _: f"description = {json.dumps(what)}", text, count=1, flags=re.M)
 
     def _put(self, path, text):
         outputs.write_whole(path, text)

@@ -171,6 +171,9 @@ class Chosen(Scratch):
         self.assertEqual(why["is"], told["choice"]["margin"]["margin"])
         # Its cut-off is not lever's: the design is a file, its bits are the RTL's.
         self.assertEqual(told["choice"]["design"], "lever_950")
+        design = (self.folder / "out/lever_950.toml").read_text(encoding="utf-8")
+        self.assertIn('description = "lever with velocity.cutoff', design)
+        self.assertNotIn("default", design.split("[")[0])
         self.kept(told, "margin on the chain's bits")
 
     def test_rtl_that_was_hardly_armed_verifies_nothing(self):

@@ -246,7 +246,7 @@ A row for each claim: where it stands, its closed form with the paper's own numb
 it. *Simulation* is the twin of the core in closed loop with the plant, unless the row says otherwise; nothing ran on a
 board. A dash: no simulation can judge the claim, for the reason beside it. The verdict is computed from the figures:
 
-- **holds**: closed form and simulation give what the paper says, for what the last column names;
+- **holds**: closed form and simulation give what the paper says;
 - **holds if**: they do under the condition of the last column, which the paper does not state;
 - **cannot be had**: not with the paper's own numbers, or a number is missing.
 

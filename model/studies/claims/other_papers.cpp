@@ -34,11 +34,11 @@ Claim noise_not_rate(const Lab& lab) {
           "noise",
           "a host's wall of 0.2 Nm/deg at 144 Hz on `lever` and `p24`, a hand leaning on its face; "
           "0.05 degrees of noise are ours",
-          "it does, with a hand on the lever, whose 0.065 Nm s/rad are above K T / 2",
+          "a hand is on the lever, whose 0.065 Nm s/rad are above K T / 2",
           {}};
-  c.asks("rms without noise", "mNm", none, quiet, at_most(0.1));
-  c.asks("rms with noise", "mNm", none, noisy, at_least(1));
-  c.asks("share left by smoothing", "", std::sqrt(0.5 / 1.5), smooth / noisy, at_most(0.7));
+  c.asks_if("rms without noise", "mNm", none, quiet, at_most(0.1));
+  c.asks_if("rms with noise", "mNm", none, noisy, at_least(1));
+  c.asks_if("share left by smoothing", "", std::sqrt(0.5 / 1.5), smooth / noisy, at_most(0.7));
   c.explains("K T / 2", "Nm s/rad", soft_nm_rad / (2 * tracker_hz));
   return c;
 }

@@ -8,7 +8,6 @@
 """
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
@@ -118,15 +117,11 @@ def main():
     parser.add_argument("json", type=Path, help="what feltgate bench --json wrote")
     parser.add_argument("svg", type=Path, help="picture to be written")
     arguments = parser.parse_args()
-    try:
-        data = json.loads(arguments.json.read_text(encoding="utf-8"))
-        if data.get("schema") != "feltgate-bench/1":
-            raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-bench/1'")
+
+    def draw(data):
         write_whole(arguments.svg, picture(data))
-    except (OSError, ValueError, KeyError) as error:
-        print(f"bench_picture: {arguments.json}: {error}", file=sys.stderr)
-        return 2
-    return 0
+
+    return plots.draw_figures(arguments.json, "feltgate-bench/1", draw)
 
 
 if __name__ == "__main__":

@@ -125,6 +125,11 @@ def window(block, ports, starts):
     return max(found, key=lambda w: sum(len(set(v[w[0] : w[2]])) > 1 for v in ports.values()), default=None)
 
 
+def is_event(wave, k):
+    """Whether something happens in period k of a lane: an edge, a new word, a word that is used."""
+    return wave[k] == "5" or (wave[k] not in ".x" and wave[k] != wave[k - 1])
+
+
 def drawing(block, ports, starts):
     found = window(block, ports, starts)
     if found is None:
@@ -135,22 +140,22 @@ def drawing(block, ports, starts):
     lanes = []
     for side in ("_i", "_o"):
         for (name, width), values in sorted(cut.items(), key=lambda item: order(*item)):
-            if not name.endswith(side) or name == "wave_i":
+            if not name.endswith(side) or name == "wave_i":  # the clocks themselves
                 continue
-            drawn = lane(name, width, values, strobes)
-            if drawn:
-                lanes.append(drawn)
+            one = lane(name, width, values, strobes)
+            if one:
+                lanes.append(one)
         if side == "_i" and lanes:
             lanes.append({})
-    busy = [k for k in range(1, last - first) if any(l and l["wave"][k] not in ".x" and
-            l["wave"][k] != l["wave"][k - 1] or l and l["wave"][k] == "5" for l in lanes)]
+    drawn = list(filter(None, lanes))
+    busy = [k for k in range(1, last - first) if any(is_event(one["wave"], k) for one in drawn)]
     if not busy:
         return None
     low, high = max(0, busy[0] - 1), min(last - first, busy[-1] + 2)
-    for l in filter(None, lanes):
-        shape = re.sub(r"\.", "=", l["wave"][low]) + l["wave"][low + 1 : high]
-        l["data"] = [""] * sum(c in "=57" for c in shape)
-        l["wave"] = re.sub(r"([01x])\1+", lambda same: same[1].ljust(len(same[0]), "."), shape)
+    for one in drawn:
+        shape = one["wave"][low].replace(".", "=") + one["wave"][low + 1 : high]
+        one["data"] = [""] * sum(c in "=57" for c in shape)
+        one["wave"] = re.sub(r"([01x])\1+", lambda same: same[1].ljust(len(same[0]), "."), shape)
     unit = "clocks from the edge" if block in EDGES else "clocks of the wave"
     foot = "green: a new value; blue: the block uses the word on the bus; hatched: it does not"
     return svg({
@@ -166,21 +171,25 @@ def main():
     parser.add_argument("vcd", type=Path)
     parser.add_argument("--check", action="store_true", help="only compare")
     options = parser.parse_args()
-    ports, starts = read_vcd(options.vcd, modules_by_instance(ROOT))
-    wrong, made = [], 0
-    for block, lanes in sorted(ports.items()):
-        drawn = drawing(block, lanes, starts)
-        path = IMAGES / f"{block}.svg"
-        if drawn is None:
-            wrong += [f"{path}: no port of the block changes"] if path.exists() else []
-            continue
-        made += 1
-        if not options.check:
-            IMAGES.mkdir(exist_ok=True)
-            path.write_text(drawn, encoding="utf-8")
-        elif not path.exists() or path.read_text(encoding="utf-8") != drawn:
-            wrong.append(f"{path.relative_to(ROOT)}: stale; scripts/block_clocks.py {options.vcd.resolve()} writes it")
-    print("\n".join(wrong) or f"{made} drawings in {IMAGES.relative_to(ROOT)}")
+    try:
+        ports, starts = read_vcd(options.vcd, modules_by_instance(ROOT))
+    except OSError as error:
+        print(f"{options.vcd}: {error.strerror}; the test icarus.block_clocks makes it", file=sys.stderr)
+        return 2
+    drawings = {block: drawing(block, lanes, starts) for block, lanes in ports.items()}
+    drawings = {f"{block}.svg": drawn for block, drawn in sorted(drawings.items()) if drawn}
+    there = {path.name: path.read_text(encoding="utf-8") for path in IMAGES.glob("*.svg")}
+    wrong = []
+    if options.check:
+        differ = sorted(n for n in {*there, *drawings} if there.get(n) != drawings.get(n))
+        wrong = [f"{IMAGES.relative_to(ROOT)}/{n}: stale; scripts/block_clocks.py {options.vcd.resolve()} writes it" for n in differ]
+    else:
+        IMAGES.mkdir(exist_ok=True)
+        for name, drawn in drawings.items():
+            (IMAGES / name).write_text(drawn, encoding="utf-8")
+        for name in there.keys() - drawings.keys():
+            (IMAGES / name).unlink()
+    print("\n".join(wrong) or f"{len(drawings)} drawings in {IMAGES.relative_to(ROOT)}")
     return 1 if wrong else 0
 
 

@@ -10,7 +10,6 @@ Documentation: docs/controllers.md
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -76,15 +75,11 @@ def main(argv=None):
     parser.add_argument("svg", type=Path, help="picture to be written")
     arguments = parser.parse_args(argv)
     interrupts.end_on_signals()
-    try:
-        data = json.loads(arguments.json.read_text(encoding="utf-8"))
-        if data.get("schema") != "feltgate-controllers/1":
-            raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-controllers/1'")
+
+    def draw(data):
         write_whole(arguments.svg, picture(data).svg)
-    except (OSError, ValueError, KeyError) as error:
-        print(f"controllers_picture: {arguments.json}: {error}", file=sys.stderr)
-        return 2
-    return 0
+
+    return plots.draw_figures(arguments.json, "feltgate-controllers/1", draw)
 
 
 if __name__ == "__main__":

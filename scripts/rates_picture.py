@@ -11,7 +11,6 @@ Documentation: docs/rates.md
 """
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
@@ -153,10 +152,8 @@ def main(argv=None):
     parser.add_argument("--each", action="store_true", help="rates.svg and one for each scene")
     arguments = parser.parse_args(argv)
     interrupts.end_on_signals()
-    try:
-        data = json.loads(arguments.json.read_text(encoding="utf-8"))
-        if data.get("schema") != "feltgate-rates/1":
-            raise ValueError(f"schema is {data.get('schema')!r}, not 'feltgate-rates/1'")
+
+    def draw_all(data):
         scenes = data["scenes"]
         if not scenes:
             raise ValueError("no scene was measured")
@@ -165,10 +162,8 @@ def main(argv=None):
                 write_whole(arguments.svg / f"{made.name}.svg", made.svg)
         else:
             write_whole(arguments.svg, picture(scenes).svg)
-    except (OSError, ValueError, KeyError) as error:
-        print(f"rates_picture: {arguments.json}: {error}", file=sys.stderr)
-        return 2
-    return 0
+
+    return plots.draw_figures(arguments.json, "feltgate-rates/1", draw_all)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,9 @@ where they agree. Documentation: docs/figures.md
 
 import base64
 import io
+import json
 import re
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -173,3 +175,17 @@ def at_least(axes, span):
     if high - low < span:
         middle = 0.5 * (low + high)
         axes.set_ylim(middle - span / 2, middle + span / 2)
+
+
+def draw_figures(path, schema, draw):
+    """Gives the JSON of a command, if it has this schema, to `draw`. The exit code: 2 and a line
+    that names the file where it cannot be read, drawn or written."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        if data.get("schema") != schema:
+            raise ValueError(f"schema is {data.get('schema')!r}, not {schema!r}")
+        draw(data)
+    except (OSError, ValueError, KeyError) as error:
+        print(f"{Path(sys.argv[0]).stem}: {path}: {error}", file=sys.stderr)
+        return 2
+    return 0

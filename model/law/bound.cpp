@@ -176,8 +176,10 @@ class Bounds {
       second->lo = middle;
       const double share = (middle - first->lo) / sides(whole)[s]->width();
       ranges_.narrow_by_sums(&a.cell);
-      ranges_.narrow_by_sums(&b.cell);
       a.facts = facts(a.cell);
+      // The score is at least this: the other half cannot make this side the best one.
+      if (found && worst(a.facts) - 1e-9 * share >= best) continue;
+      ranges_.narrow_by_sums(&b.cell);
       b.facts = facts(b.cell);
       const double score = std::max(worst(a.facts), worst(b.facts)) +
                            1e-3 * std::min(worst(a.facts), worst(b.facts)) - 1e-9 * share;

@@ -161,8 +161,8 @@ template <class Read>
 Compiled settled(const Read& read, const Target& target) {
   double rate = static_cast<double>(target.tick_hz);
   try {
-    const Law law = read(0.0);
-    if (law.rate_hz > 0) return compile(law, target);
+    // The file has its own rate, or nothing in it depends on the rate.
+    return compile(read(0.0), target);
   } catch (const LawError&) {
     // Reading succeeds now if only the rate was missing. If the file has an own rate, the first
     // error stands.

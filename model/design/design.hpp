@@ -23,8 +23,11 @@ struct Design {
   std::int64_t clock_hz = 0, tick_hz = 0;
   int lines = 0, filter_samples = 0, encoder_polarity = 0;
   bool has_index = false;
-  int m1 = 0, n = 0;
+  int m1 = 0, n = 0;        ///< of the N-method; 0 with M/T
   bool exact_gain = false;  ///< the quantised exact factor replaces 2^n
+  bool mt = false;          ///< velocity by M/T over whole cycles
+  double mt_window_s = 0;   ///< of a shorter span twice the cycles are taken
+  int mt_cycles = 1;        ///< at most; a power of two
   double velocity_cutoff_rad_s = 0;
   double observer_cutoff_rad_s = 0, torque_constant_nm_a = 0, inertia_kg_m2 = 0;
   double kp_1_kg_m2 = 0, torque_limit_nm = 0, current_limit_a = 0, ramp_nm_s = 0;
@@ -79,6 +82,9 @@ struct Design {
   double count_rad() const;
   /// The exact factor of the N-method, 2*pi/(Er*Tp*m1) in rad/s per count.
   double velocity_gain_rad_s() const;
+  int mt_window_clocks() const;
+  /// Refuses M/T for `what`, which knows the N-method alone.
+  void needs_n_method(const std::string& what) const;
   /// Throws config::ConfigError at the line of "section.key".
   [[noreturn]] void fail(const std::string& key, const std::string& what,
                          const std::string& mend) const;

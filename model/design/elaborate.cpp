@@ -85,6 +85,8 @@ void check_resolution(const Elaborated& e) {
   guard("formats.observer_fraction", e.word("observer_a1"), d.observer_fraction, d.torque.fraction);
 }
 
+double pi_over(double n) { return 3.14159265358979323846 / n; }
+
 void check_widths(const Elaborated& e) {
   const Design& d = e.design;
   const Formats& f = e.formats;
@@ -97,7 +99,15 @@ void check_widths(const Elaborated& e) {
   if (d.torque.integer < 0) {
     d.fail("formats.torque", "a charge pushes with up to 1 Nm", "use at least 0 integer bits");
   }
-  if (d.velocity.integer - (d.exact_gain ? 0 : d.n) > fabric::travel_bits - 1) {
+  if (d.mt) {
+    // The dividend of velocity_mt.sv: up to 8 half counts of each cycle, 26 bits of time stamps.
+    const double half =
+        std::ldexp(pi_over(4.0 * d.lines) * static_cast<double>(d.clock_hz), d.velocity.fraction);
+    if (half * 8 * d.mt_cycles >= std::ldexp(1.0, 25 + d.velocity.width())) {
+      d.fail("formats.velocity", "the quotient of M/T has more bits than the velocity",
+             "use more integer bits, or less velocity.cycles");
+    }
+  } else if (d.velocity.integer - (d.exact_gain ? 0 : d.n) > fabric::travel_bits - 1) {
     d.fail("formats.velocity", "no count reaches the velocity's top bits",
            "use fewer integer bits");
   }

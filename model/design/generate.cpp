@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <sstream>
 
@@ -141,6 +142,13 @@ std::vector<Constant> further(const Design& d) {
       {"engine_max_age", d.engine_max_age_ticks(), "ticks without a fresh torque that are borne"}};
 }
 
+std::vector<Constant> of_estimator(const Design& d) {
+  return {{"mt_counts", d.mt ? 4 * d.lines : 0,
+           "velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method"},
+          {"mt_window", d.mt_window_clocks(), "clocks: of a shorter span twice the cycles"},
+          {"mt_doublings", std::ilogb(d.mt_cycles), "the span has at most 2^n cycles"}};
+}
+
 }  // namespace
 
 std::uint32_t design_crc(const Elaborated& e) {
@@ -148,6 +156,10 @@ std::uint32_t design_crc(const Elaborated& e) {
   for (const Constant& c : constants(e)) text += fmt::format("{} {}\n", c.name, c.value);
   if (e.design.axes != 1 || e.design.engine) {
     for (const Constant& c : further(e.design)) text += fmt::format("{} {}\n", c.name, c.value);
+  }
+  if (e.design.mt) {
+    for (const Constant& c : of_estimator(e.design))
+      text += fmt::format("{} {}\n", c.name, c.value);
   }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
@@ -168,8 +180,10 @@ std::string systemverilog_package(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const Constant& c : further(e.design)) {
-    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
+  for (const auto& list : {further(e.design), of_estimator(e.design)}) {
+    for (const Constant& c : list) {
+      s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
+    }
   }
   s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
     << ";  // where the chain rounds: 0 half up, 1 floor, 2 convergent\n";
@@ -223,8 +237,10 @@ std::string cpp_header(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const Constant& c : further(d)) {
-    s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
+  for (const auto& list : {further(d), of_estimator(d)}) {
+    for (const Constant& c : list) {
+      s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
+    }
   }
   s << "  static constexpr Round rounding = Round::" << rounding(d.rounding).name
     << ";  // where the chain rounds\n";

@@ -81,6 +81,25 @@ std::string register_page(const Elaborated& e) {
   return s.str();
 }
 
+namespace {
+
+/// How far the N-method's gain is from the exact factor.
+std::string gain_text(const Elaborated& e) {
+  const double gain = e.rad_s_per_count() / e.design.velocity_gain_rad_s();
+  std::string text = fmt::format("\nvelocity gain error (against 2 pi/(Er Tp m1)): {:+.4f} %\n",
+                                 100.0 * (gain - 1));
+  constexpr double far = 0.02;
+  if (std::abs(gain - 1.0) > far) {
+    text += fmt::format(
+        "  every velocity is wrong by that much: 2^n is far from the exact factor;\n"
+        "  {}: write velocity.gain = \"exact\" instead of velocity.n\n",
+        e.design.path);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string design_table(const Elaborated& e) {
   std::ostringstream s;
   s << "design " << e.design.name << ": " << e.design.description << "\n\n";
@@ -100,20 +119,15 @@ std::string design_table(const Elaborated& e) {
     s << fmt::format("{:<24} {:<13} {:>6} {:>14.6g} {:>12.4g}\n", name, format_text(f), f.width(),
                      std::ldexp(1.0, f.integer), std::ldexp(1.0, -f.fraction));
   }
-  const double two_pi = 6.283185307179586;
-  const double gain = e.rad_s_per_count() * e.design.m1 * 4.0 * e.design.lines /
-                      (two_pi * static_cast<double>(e.design.tick_hz));
-  s << fmt::format(
-      "\nvelocity gain error (against 2 pi/(Er Tp m1)): {:+.4f} %\n"
-      "latency, sampled position to duty register: {} of {} clocks per tick\n",
-      100.0 * (gain - 1.0), latency_clocks, e.design.clocks_per_tick());
-  constexpr double far = 0.02;
-  if (std::abs(gain - 1.0) > far) {
+  if (e.design.mt) {
     s << fmt::format(
-        "  every velocity is wrong by that much: 2^n is far from the exact factor;\n"
-        "  {}: write velocity.gain = \"exact\" instead of velocity.n\n",
-        e.design.path);
+        "\nvelocity: M/T over whole encoder cycles, {:g} us or more, up to {} cycles\n",
+        1e6 * e.design.mt_window_s, e.design.mt_cycles);
+  } else {
+    s << gain_text(e);
   }
+  s << fmt::format("latency, sampled position to duty register: {} of {} clocks per tick\n",
+                   latency_clocks, e.design.clocks_per_tick());
   return s.str();
 }
 

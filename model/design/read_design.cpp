@@ -170,6 +170,43 @@ void read_self_test(config::TomlReader& r, Design& d) {
   }
 }
 
+/// Reads [velocity]: the N-method, or M/T.
+void read_velocity(config::TomlReader& r, Design& d) {
+  d.mt = r.has("estimator") && r.choice("estimator", {"n_method", "mt"}) == 1;
+  const char* const others[] = {"m1", "n", "gain", "window_s", "cycles"};
+  for (const char* key : others) {
+    const bool of_mt = key == others[3] || key == others[4];
+    if (of_mt == d.mt || !r.has(key)) continue;
+    r.fail(
+        key, fmt::format("velocity.{} is of the {}", key, of_mt ? "estimator mt" : "N-method"),
+        d.mt ? "leave it out, or estimator = \"mt\"" : "leave it out, or write estimator = \"mt\"");
+  }
+  if (d.mt) {
+    if (r.has("window_s")) d.mt_window_s = r.number("window_s", {0.0, 0.02});
+    if (r.has("cycles")) d.mt_cycles = static_cast<int>(r.integer("cycles", 1, 128));
+    if ((d.mt_cycles & (d.mt_cycles - 1)) != 0) {
+      r.fail("cycles", fmt::format("{} cycles are no power of two", d.mt_cycles),
+             "write 1, 2, 4 and so on, up to 128");
+    }
+    // Bounds of velocity_mt.sv: its time stamps have 26 bits.
+    if (d.mt_window_clocks() >= 1 << 21) {
+      r.fail("window_s", "the window is 2^21 clocks or longer", "shorten it");
+    }
+  } else {
+    d.m1 = static_cast<int>(r.integer("m1", 1, 1534));
+    // If the tick rate is not near 1 MHz, no power of two is near the exact factor.
+    d.exact_gain = r.has("gain");
+    if (d.exact_gain) {
+      if (r.has("n")) r.fail("n", "velocity.n and velocity.gain exclude each other", "keep one");
+      if (r.text("gain") != "exact")
+        r.fail("gain", "velocity.gain takes only \"exact\"", "write gain = \"exact\", or n");
+    } else {
+      d.n = static_cast<int>(r.integer("n", 0, 12));
+    }
+  }
+  d.velocity_cutoff_rad_s = r.number("cutoff_rad_s", kCutoff);
+}
+
 /// Reads [engine]: programs that compute the torque of the scene law.
 void read_engine(config::TomlReader& r, Design& d) {
   d.engine = true;
@@ -219,6 +256,16 @@ double Design::velocity_gain_rad_s() const {
   return count_rad() * static_cast<double>(tick_hz) / m1;
 }
 
+int Design::mt_window_clocks() const {
+  return static_cast<int>(std::lround(mt_window_s * static_cast<double>(clock_hz)));
+}
+
+void Design::needs_n_method(const std::string& what) const {
+  if (!mt) return;
+  fail("velocity.estimator", what + " knows the N-method alone",
+       "take estimator = \"n_method\" for it");
+}
+
 double Design::count_rad() const { return 2.0 * pi / (4.0 * lines); }
 
 Design read_design(const std::string& path) {
@@ -260,19 +307,7 @@ Design design_of(const toml::table& root, const std::string& path) {
              "leave index out, or take an encoder of 2^n lines, 16 or more");
     }
   });
-  section("velocity", [&](config::TomlReader& r) {
-    d.m1 = static_cast<int>(r.integer("m1", 1, 1534));
-    // If the tick rate is not near 1 MHz, no power of two is near the exact factor.
-    d.exact_gain = r.has("gain");
-    if (d.exact_gain) {
-      if (r.has("n")) r.fail("n", "velocity.n and velocity.gain exclude each other", "keep one");
-      if (r.text("gain") != "exact")
-        r.fail("gain", "velocity.gain takes only \"exact\"", "write gain = \"exact\", or n");
-    } else {
-      d.n = static_cast<int>(r.integer("n", 0, 12));
-    }
-    d.velocity_cutoff_rad_s = r.number("cutoff_rad_s", kCutoff);
-  });
+  section("velocity", [&](config::TomlReader& r) { read_velocity(r, d); });
   section("observer", [&](config::TomlReader& r) {
     d.observer_cutoff_rad_s = r.number("cutoff_rad_s", kCutoff);
     d.torque_constant_nm_a = r.number("torque_constant_nm_a", {1e-5, 10.0});

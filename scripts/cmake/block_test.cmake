@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_block_test(<block> [WITH_DEFECTS] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
+# feltgate_block_test(<block> [WITH_DEFECTS | DEFECT_FILE <file>] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
 # verilates the RTL of the block, links it with testbench/<room>/<block>/<block>_test.cpp and with the TESTS in
 # the same folder, and adds the CTest <test> (default <block>, labels unit and lockstep).
 # WITH_DEFECTS: also <test>.<defect> (label mutation) for each defect in the folder's defects.diff, which passes only when an
-# assertion fails, and mutate.<test>, a share of the block's mutants.
+# assertion fails, and mutate.<test>, a share of the block's mutants. DEFECT_FILE: those of another file, without mutants.
 # ROUNDING is another value of the package's constant. SOURCES are relative to the repository. PARAMS
 # go to the RTL, DEFINES to the test. <test>_cover is the same test on RTL with coverage counters.
 # docs/testing.md
@@ -67,7 +67,7 @@ function(feltgate_rounding_package variable package mode)
 endfunction()
 
 function(feltgate_block_test block)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;NAME;DESIGN;PACKAGE;ROUNDING" "SOURCES;PARAMS;DEFINES;LIBRARIES;TESTS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_DEFECTS" "DEFECTS;DEFECT_FILE;NAME;DESIGN;PACKAGE;ROUNDING" "SOURCES;PARAMS;DEFINES;LIBRARIES;TESTS")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "feltgate_block_test(${block}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -127,12 +127,17 @@ function(feltgate_block_test block)
   feltgate_cover_program(${arg_NAME} ${block} "${package};${sources}"
     LIBRARIES ${arg_LIBRARIES} PARAMS ${arg_PARAMS})
   if(arg_WITH_DEFECTS)
-    feltgate_verilate_defects(${arg_NAME}_defects_rtl ${block} "${package}" "${sources}" ${arg_PARAMS})
+    set(arg_DEFECT_FILE "${folder}/defects.diff")
+  endif()
+  if(arg_DEFECT_FILE)
+    feltgate_verilate_defects(${arg_NAME}_defects_rtl ${block} "${package}" "${sources}" FILE "${arg_DEFECT_FILE}" ${arg_PARAMS})
     add_executable(${arg_NAME}_defects $<TARGET_OBJECTS:${arg_NAME}_object>)
     target_link_libraries(${arg_NAME}_defects PRIVATE
       feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_defects_rtl)
     feltgate_same_class(${arg_NAME}_defects ${block} ${arg_NAME}_rtl ${arg_NAME}_defects_rtl)
-    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects FILE "${folder}/defects.diff")
+    feltgate_defect_tests(${arg_NAME} ${arg_NAME}_defects FILE "${arg_DEFECT_FILE}")
+  endif()
+  if(arg_WITH_DEFECTS)
     feltgate_mutants(${arg_NAME} ${block} "${package};${sources}" "${arg_LIBRARIES}" ${arg_PARAMS})
   endif()
 endfunction()

@@ -83,12 +83,16 @@ function(feltgate_tests_of variable block)
   set(${variable} "${folder}" PARENT_SCOPE)
 endfunction()
 
-# feltgate_verilate_defects(<target> <block> <package> <sources> [verilator arguments...]): a library
+# feltgate_verilate_defects(<target> <block> <package> <sources> [FILE f] [verilator arguments...]): a library
 # with the class V<block>, which is what the environment variable FELTGATE_DEFECT names: the block with
 # one of its defects, or with none. Copies of the block side by side, of which one has a clock.
 function(feltgate_verilate_defects target block package sources)
+  cmake_parse_arguments(PARSE_ARGV 4 arg "" "FILE" "")
   feltgate_tests_of(folder ${block})
   set(file "${folder}/defects.diff")
+  if(arg_FILE)
+    set(file "${arg_FILE}")
+  endif()
   feltgate_defect_names(names "${file}")
   set(copies "${CMAKE_CURRENT_BINARY_DIR}/${target}.sv")
   add_custom_command(OUTPUT "${copies}"
@@ -100,7 +104,7 @@ function(feltgate_verilate_defects target block package sources)
   # A defect may leave signals unused; what does not elaborate is an error. Flat: modules that stay are
   # members of the class.
   feltgate_verilate(${target} ${block} "${package};${sources};${copies}"
-    -Wno-fatal -Wno-lint -Wno-style --trace-depth 1 --flatten ${ARGN})
+    -Wno-fatal -Wno-lint -Wno-style --trace-depth 1 --flatten ${arg_UNPARSED_ARGUMENTS})
   target_compile_options(${target} PRIVATE -O1)
   target_link_libraries(${target} PUBLIC feltgate_chosen_defect)
 endfunction()

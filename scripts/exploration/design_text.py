@@ -69,4 +69,7 @@ def design_text(root, point):
     off = {} if header(lines, "self_test") is None else {"self_test.mode": "off"}
     for key, value in (off | point["set"]).items():
         put(lines, key, value)
+    if point["set"].get("velocity.estimator") == "mt":  # then these are refused
+        of_n_method = {key_line(lines, "velocity", key) for key in ("m1", "n", "gain")}
+        lines = [line for i, line in enumerate(lines) if i not in of_n_method]
     return "\n".join(lines) + "\n"

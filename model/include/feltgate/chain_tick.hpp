@@ -13,6 +13,7 @@
 #include "feltgate/generated/map.hpp"
 #include "feltgate/scenes.hpp"
 #include "feltgate/torque_control.hpp"
+#include "feltgate/velocity_mt.hpp"
 #include "feltgate/velocity_n.hpp"
 #include "feltgate/words.hpp"
 
@@ -65,9 +66,22 @@ class ChainTick {
 
   /// Stage 1: velocity from the travel.
   void estimate(std::int16_t travel) {
+    static_assert(!measures_spans<D>, "M/T needs the clocks of the edges: take FeltgateCore");
     const std::int16_t counts = travel_difference(travel, line_.oldest());
     line_.push(travel);
     estimator_.tick(words_, counts);
+  }
+  /// Stage 1 of a design with the M/T estimator, fixed only: from what its edges told.
+  template <class Meter>
+  void estimate_from(const Meter& meter) {
+    using Raw = typename Velocity::raw_type;
+    const auto raw = Velocity::from_raw(static_cast<Raw>(meter.raw()));
+    estimator_.limit = meter.limited();
+    if (meter.follows(velocity().raw())) {
+      estimator_.velocity = raw;
+    } else {
+      estimator_.filter(words_, raw);
+    }
   }
   /// Fixed only: raw input of the velocity's low-pass in a tick with this travel.
   std::int64_t velocity_input(std::int16_t travel) const {

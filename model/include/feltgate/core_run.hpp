@@ -180,6 +180,7 @@ template <class D, bool ReadBack>
 template <bool Read, class OnSnapshot>
 void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   Stretch s = stretch(0, D::clocks_per_tick);
+  wave_.watch(0, D::clocks_per_tick, decoder_.out().travel);
   core_steps::for_each_step(0, D::clocks_per_tick, [&](Step step) {
     take_in<Read>(s, step, in, decoder_.out(), on_snapshot);
   });
@@ -225,8 +226,12 @@ template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
   const QuadDecoder::In d = decoder_inputs(in, false, false);
   for (int c = from; c < to; ++c) {
-    if (decoder_.settled(d)) return to;
+    if (decoder_.settled(d)) {
+      wave_.watch(c, to, decoder_.out().travel);
+      return to;
+    }
     if (c > from && decoder_.out().illegal) return c;
+    wave_.watch(c, c + 1, decoder_.out().travel);
     decoder_.clock(d);
   }
   return to;

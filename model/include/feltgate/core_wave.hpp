@@ -26,6 +26,12 @@ class CoreWave {
     sampled_travel_ = 0;
     limits_ = 0;
     relief_ = {};
+    meter_ = {};
+  }
+
+  /// The clocks [from, to) of a tick with the decoder's travel held; before their steps.
+  void watch(int from, int to, std::uint16_t travel) {
+    if constexpr (measures_spans<D>) meter_.pass(from, to, static_cast<std::int16_t>(travel));
   }
 
   /// Outputs of the encoder monitor and the hold timer; they act from the next step on.
@@ -55,7 +61,11 @@ class CoreWave {
         set(Map::L::hold, relief_.derated);
         break;
       case Step::velocity_raw:
-        chain_.estimate(sampled_travel_);
+        if constexpr (measures_spans<D>) {
+          chain_.estimate_from(meter_);
+        } else {
+          chain_.estimate(sampled_travel_);
+        }
         set(Map::L::velocity, chain_.limit_velocity());
         break;
       case Step::velocity:
@@ -100,8 +110,14 @@ class CoreWave {
   std::int32_t voltage() const { return static_cast<std::int32_t>(chain_.control().voltage.raw()); }
   std::int16_t duty() const { return static_cast<std::int16_t>(chain_.control().duty.raw()); }
   /// Raw input of the velocity's low-pass for this travel; the next velocity lies between it and
-  /// the present one.
-  std::int64_t velocity_input(std::int16_t travel) const { return chain_.velocity_input(travel); }
+  /// the present one. With M/T it is of the edges before, whatever the travel: a magnitude.
+  std::int64_t velocity_input(std::int16_t travel) const {
+    if constexpr (measures_spans<D>) {
+      return meter_.largest();
+    } else {
+      return chain_.velocity_input(travel);
+    }
+  }
   /// Whether the torque reference exceeds the word at this address, compared as the limiter does.
   bool beyond(int address) const {
     using Law = LimiterLaw<D, Fixed>;
@@ -132,6 +148,7 @@ class CoreWave {
   }
 
   ChainTick<D, Fixed> chain_;
+  typename MeterOf<D>::type meter_;
   std::int16_t sampled_travel_ = 0;
   std::uint16_t limits_ = 0;  ///< all bits except gates_closed
   Relief relief_;

@@ -57,6 +57,7 @@ class FeltgateCore {
   /// Advances one clock with these inputs.
   void clock(const In& in) {
     catch_up();
+    wave_.watch(clock_, clock_ + 1, decoder_.out().travel);
     const bool tick = clock_ == D::clocks_per_tick - 1;
     const std::uint8_t scene = wanted_scene(in);
     const bool zero = tick && registers_.sets_zero();

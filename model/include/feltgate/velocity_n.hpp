@@ -72,9 +72,14 @@ struct EstimatorStep {
   void tick(const W& w, std::int16_t counts) {
     using Law = VelocityLaw<D, N>;
     limit = false;
-    const auto raw = Law::raw(counts, &limit);
+    filter(w, Law::raw(counts, &limit));
+  }
+
+  /// The low-pass alone. `raw`: its input.
+  template <class W>
+  void filter(const W& w, typename VelocityLaw<D, N>::Velocity raw) {
     constexpr int a1 = D::P::velocity_a1.key();
-    velocity = Law::Filter::template step<a1>(raw, velocity, w.velocity_a1());
+    velocity = VelocityLaw<D, N>::Filter::template step<a1>(raw, velocity, w.velocity_a1());
   }
 };
 

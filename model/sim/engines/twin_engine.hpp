@@ -114,10 +114,16 @@ class TwinEngine : public ClockedEngine {
 /// kind.
 template <class D>
 std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
-  if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
-  if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
-  if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
-  if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
+  if constexpr (measures_spans<D>) {
+    throw std::invalid_argument("chain \"" + kind + "\" of design " + D::name +
+                                ": M/T needs the clocks of the edges, which a chain by ticks does "
+                                "not have; choose the engines twin, rtl or lockstep");
+  } else {
+    if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
+    if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
+    if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
+    if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
+  }
   throw std::invalid_argument("chain \"" + kind +
                               "\" is unknown; choose fixed, float, double or quad");
 }

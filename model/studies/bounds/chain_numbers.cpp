@@ -33,6 +33,7 @@ bool ChainNumbers::built(const std::string& scene) const {
 }
 
 ChainNumbers chain_numbers(const design::Elaborated& e) {
+  e.design.needs_n_method("the error bound");
   ChainNumbers c;
   c.design = e.design.name;
   c.formats = e.formats;

@@ -97,6 +97,7 @@ Eigen::MatrixXd plant_change(const plant::Parameters& p, double damping_nm_s_rad
 }
 
 LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters& p) {
+  e.design.needs_n_method("the linear model of the loop");
   const auto word = [&](const char* name) { return e.word(name).quantised(); };
   LinearLoop m;
   m.tick_s = e.design.tick_s();

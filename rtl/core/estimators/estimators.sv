@@ -27,18 +27,36 @@ module estimators (
 
   logic velocity_saturated, velocity_jumped, tau_hat_saturated;
 
-  velocity_n u_velocity_n (
-      .clk_i(clk_i), .rst_ni(rst_ni),
-      .at_sample_i(wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]),
-      .at_travel_i(wave_i[feltgate_map_pkg::EVENT_AT_TRAVEL]),
-      .at_velocity_raw_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]),
-      .at_velocity_difference_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]),
-      .at_velocity_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY]),
-      .travel_i(travel_i), .operand_o(velocity_difference_o),
-      .product_i(velocity_product_i),
-      .velocity_o(velocity_o),
-      .saturated_o(velocity_saturated)
-  );
+  generate
+  if (feltgate_pkg::MT_COUNTS == 0) begin : g_n_method
+    velocity_n u_velocity_n (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .at_sample_i(wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]),
+        .at_travel_i(wave_i[feltgate_map_pkg::EVENT_AT_TRAVEL]),
+        .at_velocity_raw_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]),
+        .at_velocity_difference_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]),
+        .at_velocity_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY]),
+        .travel_i(travel_i), .operand_o(velocity_difference_o),
+        .product_i(velocity_product_i),
+        .velocity_o(velocity_o),
+        .saturated_o(velocity_saturated)
+    );
+  end else begin : g_mt
+    velocity_mt #(
+        .Counts(feltgate_pkg::MT_COUNTS), .Window(feltgate_pkg::MT_WINDOW), .Doublings(feltgate_pkg::MT_DOUBLINGS)
+    ) u_velocity_mt (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .at_sample_i(wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]),
+        .at_velocity_raw_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_RAW]),
+        .at_velocity_difference_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY_DIFFERENCE]),
+        .at_velocity_i(wave_i[feltgate_map_pkg::EVENT_AT_VELOCITY]),
+        .travel_i(travel_i), .operand_o(velocity_difference_o),
+        .product_i(velocity_product_i),
+        .velocity_o(velocity_o),
+        .saturated_o(velocity_saturated)
+    );
+  end
+  endgenerate
 
   velocity_jump u_velocity_jump (
       .clk_i(clk_i), .rst_ni(rst_ni),

@@ -188,6 +188,17 @@ module velocity_mt #(
     end
   end
 
+  // Only from a velocity whose step to 0 does not trip velocity_jump, which has the same weight.
+  localparam int Weight = W + feltgate_pkg::COEFFICIENT_BITS - feltgate_pkg::P_VELOCITY_A1_F;
+  logic slow;
+  generate
+  if (Weight >= 0 && Weight <= W - 2) begin : g_slow
+    assign slow = velocity_o[W-1:Weight] == {(W - Weight) {velocity_o[W-1]}};
+  end else begin : g_any
+    assign slow = 1'b1;
+  end
+  endgenerate
+
   logic signed [W-1:0] raw_q;
   logic                follow_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -197,7 +208,7 @@ module velocity_mt #(
       saturated_o <= 1'b0;
     end else if (at_velocity_raw_i) begin
       raw_q       <= negative_q ? -$signed({1'b0, magnitude_q}) : $signed({1'b0, magnitude_q});
-      follow_q    <= still_q;
+      follow_q    <= still_q && slow;
       saturated_o <= limited_q;
     end
   end

@@ -33,6 +33,9 @@ package feltgate_pkg;
   localparam int AXES = 1;  // motors with an encoder each
   localparam int ENGINE = 0;  // 1: programs give the torque of the scene law
   localparam int ENGINE_MAX_AGE = 0;  // ticks without a fresh torque that are borne
+  localparam int MT_COUNTS = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
+  localparam int MT_WINDOW = 0;  // clocks: of a shorter span twice the cycles
+  localparam int MT_DOUBLINGS = 0;  // the span has at most 2^n cycles
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h4fece5a6;  // by which a host knows the design
 

@@ -229,7 +229,7 @@ struct Moved {
 
 struct Tally {
   std::int64_t ticks = 0, values = 0, saturated = 0, lowered = 0, standstill = 0, partial = 0,
-               turned = 0, longest = 0, negative = 0, stopped = 0;
+               turned = 0, longest = 0, negative = 0, stopped = 0, followed = 0, fast_rests = 0;
   quad worst_raw = 0, worst = 0, largest = 0;  // rad/s
 };
 
@@ -274,8 +274,15 @@ struct Reference {
   static constexpr std::int64_t kRest = std::int64_t{1} << (Velocity::stamp_bits - 3);
   static constexpr std::int64_t kMost = (std::int64_t{1} << (Design::f.velocity.width() - 1)) - 1;
 
+  /// Of the bits above, which velocity_jump compares, a step may change one by one: 2 rad/s.
+  static constexpr std::int64_t kSlow = std::int64_t{1}
+                                        << (Design::f.velocity.width() + Design::coefficient_bits -
+                                            Design::P::velocity_a1.fraction);
+
   void filter() {
-    if (follows) {
+    tally->fast_rests += follows && (y < -kSlow || y >= kSlow);
+    if (follows && y >= -kSlow && y < kSlow) {
+      ++tally->followed;
       y = 0;
       exact_y = 0;
       return;

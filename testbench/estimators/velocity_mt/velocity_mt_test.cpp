@@ -35,9 +35,10 @@ TEST_CASE("velocity_mt: random motion, gaps and resets") {
             scaled_clocks(1'000'000), {3'000}, Reference{&tally});
   INFO("ticks " << tally.ticks << ", values " << tally.values << ", saturated " << tally.saturated
                 << ", lowered " << tally.lowered << ", standstill " << tally.standstill
-                << ", stopped " << tally.stopped << ", of part of a cycle " << tally.partial
-                << ", turned " << tally.turned << ", of the most cycles " << tally.longest
-                << ", negative " << tally.negative);
+                << ", stopped " << tally.stopped << ", still faster than it may step "
+                << tally.fast_rests << ", stepped to 0 " << tally.followed
+                << ", of part of a cycle " << tally.partial << ", turned " << tally.turned
+                << ", of the most cycles " << tally.longest << ", negative " << tally.negative);
   CHECK(tally.values > tally.ticks / 100);
   CHECK(tally.saturated > 100);
   CHECK(tally.saturated < tally.values / 2);
@@ -49,6 +50,8 @@ TEST_CASE("velocity_mt: random motion, gaps and resets") {
   CHECK(tally.negative > tally.values / 5);
   CHECK((tally.standstill > 10 || kRest > kScale));
   CHECK((tally.stopped > 10 || kRest > kScale));
+  CHECK((tally.fast_rests > 10 || kRest > kScale));
+  CHECK((tally.followed > 10 || kRest > kScale));
   // Real arithmetic on the same edges: an LSB is cut off the raw velocity, the filter rounds.
   const quad unit = lsb(Design::f.velocity.fraction);
   const quad raw_bound = unit + 1024 * lsb(36);
@@ -125,7 +128,7 @@ TEST_CASE("velocity_mt: to standstill under 1.5 counts over the age, then 0, and
   double before = 0, last = 0, zero_at = 0;
   std::int64_t above = 0, rises = 0;
   m.run(
-      stop + 5 * rest_s, [&](double t) { return speed * std::fmin(t, stop); },
+      stop + 5 * rest_s + 0.01, [&](double t) { return speed * std::fmin(t, stop); },
       [&](double t) {
         const double raw = raw_rad_s(m);
         if (t < stop) return;

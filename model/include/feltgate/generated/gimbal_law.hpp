@@ -47,6 +47,9 @@ struct GimbalLaw {
   static constexpr int axes = 3;  // motors with an encoder each
   static constexpr int engine = 1;  // 1: programs give the torque of the scene law
   static constexpr int engine_max_age = 1000;  // ticks without a fresh torque that are borne
+  static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
+  static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
+  static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0xd8ba5b53;  // by which a host knows the design
 

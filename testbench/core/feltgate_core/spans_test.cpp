@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The core's twin with velocity_mt, from event to event against clock by clock: random runs, long
+// rests after which stamps wrap, and what calm() may promise. Documentation:
+// docs/blocks/velocity_mt.md
+#include "../system/skip_compare.hpp"
+#include "core_stimulus.hpp"
+
+#include FELTGATE_DESIGN_HEADER
+
+namespace {
+
+using namespace feltgate;
+using D = FELTGATE_DESIGN;
+using Core = FeltgateCore<D>;
+
+constexpr std::int64_t kStampClocks = std::int64_t{1} << 26;
+
+CoreIn at_count(std::uint32_t count) {
+  const unsigned phase = count & 3u;
+  CoreIn in;
+  in.encoder = {phase >= 2, phase == 1 || phase == 2, false};
+  return in;
+}
+
+/// Both twins; moves `counts` counts, `clocks` clocks each.
+struct Pair {
+  Core by_clock, by_event;
+  std::uint32_t count = 0;
+  std::int64_t ticks = 0;
+
+  void hold(std::int64_t clocks) {
+    const CoreIn in = at_count(count);
+    for (std::int64_t k = 0; k < clocks; ++k) by_clock.clock(in);
+    by_event.run(in, clocks, [this] { ++ticks; });
+    REQUIRE(by_clock.out() == by_event.out());
+  }
+  void move(int counts, std::int64_t clocks) {
+    for (int k = 0; k < counts; ++k) {
+      ++count;
+      hold(clocks);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("spans: from event to event is as clock by clock") {
+  static_assert(measures_spans<D>);
+  for (const std::uint64_t seed : {31u, 32u}) {
+    test::compare_by_event<D>(test::CoreStimulus<D>(seed), seed, test::scaled_clocks(6'000'000),
+                              40'000);
+    test::compare_by_event<D>(test::CoreStimulus<D>(seed), seed + 2, test::scaled_clocks(2'000'000),
+                              40);
+  }
+}
+
+TEST_CASE("spans: a long rest ends at exactly 0, and stamps that have wrapped are none") {
+  Pair p;
+  p.move(40, 5'000);
+  const std::int64_t moving = p.by_event.out().velocity;
+  CHECK(moving > 0);
+  p.hold(kStampClocks / 8 + 2 * D::clocks_per_tick);
+  CHECK(p.by_event.out().velocity < moving / 500);
+  p.hold(kStampClocks * 3 / 8);
+  CHECK(p.by_event.out().velocity == 0);
+  // As long as the stamps take to come round, less what an edge of the run before is old.
+  p.hold(kStampClocks / 2 - 100'000);
+  p.move(1, 50'000);
+  CHECK(p.by_event.out().velocity == 0);
+  p.move(8, 5'000);
+  CHECK(p.by_event.out().velocity > 0);
+}
+
+TEST_CASE("spans: calm() and may_trip() see the velocity that edges have told") {
+  // From rest: one input of the low-pass is enough for a speed above the limit, and a tick before
+  // it is known.
+  Core core;
+  CoreIn in;
+  const auto write = [&](int address, std::uint32_t word) {
+    in.reg_addr = static_cast<std::uint16_t>(address);
+    in.reg_wdata = word;
+    in.reg_write = true;
+    core.clock(in);
+    in.reg_write = false;
+    for (int k = 0; k < 2 * D::clocks_per_tick - 1; ++k) core.clock(in);
+  };
+  write(D::A::self_test_pulse, 0);
+  write(D::A::overspeed, (1u << D::f.velocity.fraction) / 100);
+  in.arm = true;
+  for (int k = 0; k < 4 * D::clocks_per_tick; ++k) core.clock(in);
+  REQUIRE(core.out().gates_enable);
+  bool calm = true, may_trip = false;
+  std::int64_t ticks = 0, calm_ticks = 0;
+  for (; core.out().gates_enable && ticks < 100; ++ticks) {
+    REQUIRE(core.clock_of_tick() == 0);
+    in.encoder = at_count(static_cast<std::uint32_t>(ticks / 10)).encoder;
+    calm = core.calm(in, 40);
+    may_trip = core.may_trip(in);
+    calm_ticks += calm;
+    for (int k = 0; k < D::clocks_per_tick; ++k) core.clock(in);
+  }
+  CHECK(core.out().faults == fault_bit(Fault::speed));
+  CHECK(calm_ticks > ticks / 2);
+  CHECK_FALSE(calm);
+  CHECK(may_trip);
+}

@@ -7,6 +7,7 @@ core/encoder/encoder_monitor.sv
 core/encoder/encoder.sv
 core/estimators/lowpass.sv
 core/estimators/velocity_n.sv
+core/estimators/velocity_mt.sv
 core/estimators/velocity_jump.sv
 core/estimators/dob.sv
 core/estimators/estimators.sv
@@ -36,4 +37,3 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
-core/estimators/velocity_mt.sv

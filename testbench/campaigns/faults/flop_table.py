@@ -68,8 +68,8 @@ def rank(name):
 
 
 def in_its_block(name):
-    """Without the room of its block: a block's name says which."""
-    return re.sub(rf"^u_({'|'.join(rtl_sources.WIRED_ROOMS)})\.(?=u_)", "", name)
+    """Without the room of its block, and the choice that it is of: a block's name says which."""
+    return re.sub(rf"^u_({'|'.join(rtl_sources.WIRED_ROOMS)})\.(g_\w+\.)?(?=u_)", "", name)
 
 
 def flops(module, members):

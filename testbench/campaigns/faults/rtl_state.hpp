@@ -74,8 +74,9 @@ class RtlState {
     settle();
   }
   void flip_line(int address, int bit) {
-    auto& word = rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__u_velocity_n__DOT__line
-                     [static_cast<std::size_t>(address)];
+    auto& word =
+        rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__g_n_method__DOT__u_velocity_n__DOT__line
+            [static_cast<std::size_t>(address)];
     word = static_cast<SData>(word ^ (1u << bit));
     settle();
   }

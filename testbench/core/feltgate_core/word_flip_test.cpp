@@ -74,7 +74,8 @@ class Pair {
   /// Flips a bit of the velocity's register, in the RTL only.
   void flip_velocity(int bit) {
     auto& y =
-        rtl_->rootp->feltgate_core__DOT__u_estimators__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
+        rtl_->rootp
+            ->feltgate_core__DOT__u_estimators__DOT__g_n_method__DOT__u_velocity_n__DOT__u_lowpass__DOT__y_q;
     y ^= IData{1} << bit;
   }
   CoreOut rtl() const { return feltgate::read_outputs<D>(*rtl_); }

@@ -70,7 +70,14 @@ TEST_CASE("keys: missing, unknown, mistyped, out of range", "[reader]") {
        {"n = 2 ", "gain = \"exact\"\nn = 2 ", "n = 2 ",
         "velocity.n and velocity.gain exclude each other; keep one"},
        {"m1 = 386", "m1 = 386\nm2 = 5", "m2 = 5",
-        "key \"m2\" is unknown in [velocity]; remove it or use one of: cutoff_rad_s, gain, m1, n"},
+        "key \"m2\" is unknown in [velocity]; remove it or use one of: cutoff_rad_s, cycles, "
+        "estimator, gain, m1, n, window_s"},
+       {"m1 = 386", "estimator = \"pll\"\nm1 = 386", "estimator",
+        "\"estimator\" = \"pll\" is not known; it must be one of n_method, mt"},
+       {"m1 = 386", "estimator = \"mt\"\nm1 = 386", "m1 = 386",
+        "velocity.m1 is of the N-method; leave it out, or estimator = \"mt\""},
+       {"m1 = 386", "m1 = 386\ncycles = 4", "cycles = 4",
+        "velocity.cycles is of the estimator mt; leave it out, or write estimator = \"mt\""},
        {"[pwm]", "[pvm]", "#", "key \"pwm\" is missing in the design; add it"},
        {"[clock]", "speed = 1\n[clock]", "speed = 1",
         "key \"speed\" is unknown in the design; remove it or use one of: "},
@@ -144,6 +151,39 @@ TEST_CASE("values that do not belong together", "[reader]") {
         "\"torque\" has less than two bits; raise I or F"},
        {"torque = [1, 4, 16]", "torque = [1, 4, 99]", "torque = [1, 4, 99",
         "\"torque\" is not an integer of its range; it must be from -64 to 64"}});
+}
+
+TEST_CASE("the M/T estimator: its keys, its constants, and what knows the N-method alone",
+          "[reader]") {
+  const std::string lever = file_text(design_path("lever"));
+  const auto with = [&](const std::string& keys) {
+    const auto from = lever.find("m1 = 767"), to = lever.find("cutoff_rad_s", from);
+    return std::string(lever).replace(from, to - from, "estimator = \"mt\"\n" + keys);
+  };
+  CHECK(design_error(with("")) == "no error");
+  CHECK(
+      contains(design_error(with("cycles = 6\n")), "6 cycles are no power of two; write 1, 2, 4"));
+  CHECK(contains(design_error(with("cycles = 256\n")), "it must be from 1 to 128"));
+  CHECK(contains(design_error(with("window_s = 0.03\n")), "it must be from 0 to 0.02"));
+  std::string narrow = replaced(with("cycles = 128\n"), "[1, 10, 21]", "[1, 3, 21]");
+  narrow = replaced(replaced(narrow, "lines = 1024", "lines = 16"), "_rad_s = 613.6", "_rad_s = 7");
+  narrow = replaced(narrow, "pulse_ms = 5.0", "pulse_ms = 50.0");
+  CHECK(contains(design_error(narrow), "the quotient of M/T has more bits than the velocity"));
+
+  const Elaborated e = elaborate(
+      design_from_text(with("window_s = 386e-6\ncycles = 16\n"), "a.toml"), shipped_registers());
+  const std::string package = systemverilog_package(e);
+  for (const char* line : {"int MT_COUNTS = 4096;", "int MT_WINDOW = 19300;",
+                           "int MT_DOUBLINGS = 4;", "int M1 = 0;"}) {
+    CHECK(contains(package, line));
+  }
+  CHECK(contains(systemverilog_package(shipped("lever")), "int MT_COUNTS = 0;"));
+  const Elaborated cycle = elaborate(design_from_text(with(""), "a.toml"), shipped_registers());
+  CHECK(design_crc(e) != design_crc(cycle));
+  CHECK(
+      contains(design_table(e), "M/T over whole encoder cycles, 386 us or more, up to 16 cycles"));
+  CHECK_THROWS_AS(e.design.needs_n_method("it"), config::ConfigError);
+  CHECK_NOTHROW(shipped("lever").design.needs_n_method("it"));
 }
 
 TEST_CASE("an engine and several axes", "[reader]") {

@@ -105,7 +105,7 @@ void check_widths(const Elaborated& e) {
         std::ldexp(pi_over(4.0 * d.lines) * static_cast<double>(d.clock_hz), d.velocity.fraction);
     if (half * 8 * d.mt_cycles >= std::ldexp(1.0, 25 + d.velocity.width())) {
       d.fail("formats.velocity", "the quotient of M/T has more bits than the velocity",
-             "use more integer bits, or less velocity.cycles");
+             "use more integer bits, or fewer velocity.cycles");
     }
   } else if (d.velocity.integer - (d.exact_gain ? 0 : d.n) > fabric::travel_bits - 1) {
     d.fail("formats.velocity", "no count reaches the velocity's top bits",

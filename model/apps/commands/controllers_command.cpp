@@ -15,6 +15,7 @@ namespace {
 
 struct ControllersArguments {
   std::string json, picture;
+  bool estimators = false;
 };
 
 int run(const ControllersArguments& a) {
@@ -29,11 +30,19 @@ int run(const ControllersArguments& a) {
   const controllers::Bench bench{elaborated_design("lever"), plant::read_plant_file(plant),
                                  plant::read_plant_file(linear)};
   Progress progress("controllers", false);
-  const controllers::Report report =
-      controllers::measure(bench, [&progress](double done) { progress.update(done); });
-  progress.finish();
-  outputs.say(controllers::report_text(report));
-  const std::string text = controllers::report_json(report);
+  const auto update = [&progress](double done) { progress.update(done); };
+  std::string text;
+  if (a.estimators) {
+    const auto rows = controllers::measure_estimators(bench, update);
+    progress.finish();
+    outputs.say(controllers::estimators_text(rows));
+    text = controllers::estimators_json(rows);
+  } else {
+    const controllers::Report report = controllers::measure(bench, update);
+    progress.finish();
+    outputs.say(controllers::report_text(report));
+    text = controllers::report_json(report);
+  }
   if (json != nullptr) json->write(text);
   if (picture != nullptr) {
     const int status = draw_from_json("controllers_picture.py", text, picture->named(), outputs);
@@ -58,9 +67,14 @@ void add_controllers(CLI::App& app, int* exit_code) {
       "also with R +20 % and Kt -50 %; a push on the free lever; a hand of 0 to 20 Nm/rad; Jn/J\n"
       "from 0.5 to 4; encoders of 500 to 10000 lines; the largest wall that does not swing.\n"
       "It prints Markdown tables, in ten seconds.\n"
+      "With --estimators instead: feed-forward with the N-method and with M/T, walls, noise, "
+      "drag.\n"
       "  feltgate controllers\n"
+      "  feltgate controllers --estimators\n"
       "  feltgate controllers --json all.json -o all.svg\n"
       "Exit code: 0 measured, 2 unusable input. docs/controllers.md explains every row.");
+  sub->add_flag("--estimators", a->estimators,
+                "velocity estimators around the lever instead: docs/blocks/velocity_mt.md");
   sub->add_option("-o,--output", a->picture, "the comparison as a picture, SVG")->type_name("FILE");
   sub->add_option("--json", a->json, "all figures and step responses as JSON")->type_name("FILE");
   sub->callback([a, exit_code] { *exit_code = run(*a); });

@@ -27,6 +27,7 @@ struct ChainIn {
   int mode = 0;
   bool restart = false;  ///< the torque may jump, so it ramps
   Relief relief{};       ///< from the encoder's monitor and the hold timer of the core
+  int edge_clock = 0;    ///< clocks from the tick before to the last change; for M/T alone
 };
 
 struct ChainOut {

@@ -5,6 +5,9 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include "studies/budget/budget.hpp"
@@ -128,5 +131,17 @@ class DesignBudget : public Budget {
   Coverage coverage_;
   std::vector<BudgetRow> rows_;
 };
+
+/// Throws std::invalid_argument for a design whose velocity is not by the N-method.
+template <class D>
+std::unique_ptr<Budget> make_design_budget() {
+  if constexpr (measures_spans<D>) {
+    throw std::invalid_argument(std::string("design ") + D::name +
+                                ": the error budget knows the N-method alone; take a design with "
+                                "velocity.estimator = \"n_method\"");
+  } else {
+    return std::make_unique<DesignBudget<D>>();
+  }
+}
 
 }  // namespace feltgate::bounds

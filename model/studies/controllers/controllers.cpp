@@ -9,40 +9,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "feltgate/generated/lever.hpp"
 #include "sim/reference/chain.hpp"
+#include "studies/controllers/fed_lever.hpp"
 
 namespace feltgate::controllers {
 
 namespace {
-
-/// Wide enough for an observer that is fed back; `lever` feeds none back.
-constexpr Format observer_gain{1, 3, 14};
-
-constexpr BaseFormats fed(BaseFormats b) {
-  b.observer_gain = observer_gain;
-  return b;
-}
-
-constexpr std::size_t parameter_count = sizeof(Lever::parameters) / sizeof(ParameterInfo);
-constexpr std::array<ParameterInfo, parameter_count> fed_parameters() {
-  std::array<ParameterInfo, parameter_count> all{};
-  for (std::size_t i = 0; i < parameter_count; ++i) {
-    all[i] = Lever::parameters[i];
-    if (all[i].address == Lever::A::observer_gain) all[i].format = observer_gain;
-  }
-  return all;
-}
-
-/// Design `lever` with that word.
-struct FedLever : Lever {
-  struct P : Lever::P {
-    static constexpr Format observer_gain = controllers::observer_gain;
-  };
-  static constexpr BaseFormats base = fed(Lever::base);
-  static constexpr Formats f = derive(base);
-  static constexpr std::array<ParameterInfo, parameter_count> parameters = fed_parameters();
-};
 
 /// Another encoder: a window of the velocity estimator whose gain is 2^shift, near that of `lever`.
 template <int Lines>
@@ -289,14 +261,14 @@ Held held_step(const Bench& bench, Kind kind, bool fixed, double stiffness_nm_ra
 }
 
 double tremor_noise_nm(const Bench& bench, Kind kind, bool fixed, int lines) {
-  constexpr double hz = 8.0, amplitude_rad = 5e-4, from_s = 0.05, to_s = from_s + 1.0 / hz;
+  constexpr double from_s = 0.05, to_s = from_s + 1.0 / tremor_hz;
   plant::HandPhase tremor;
   tremor.kind = plant::HandPhase::Kind::kPrescribed;
   plant::Segment sine;
   sine.kind = plant::Segment::Kind::kSine;
   sine.duration_s = 1.0;
-  sine.amplitude = amplitude_rad;
-  sine.frequency_hz = hz;
+  sine.amplitude = tremor_rad;
+  sine.frequency_hz = tremor_hz;
   tremor.profile = {sine};
   Trial trial{kind, fixed, bench.plant, hand_of(tremor, 0.0), lines};
   double sum = 0, squares = 0, count = 0;
@@ -312,16 +284,20 @@ double tremor_noise_nm(const Bench& bench, Kind kind, bool fixed, int lines) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * (sum / count)));
 }
 
-double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio) {
-  stability::BitLoopSetting s;
-  s.plant = with_inertia_ratio(bench.linear, inertia_ratio);
-  const Tuning tuning = tuning_of(bench, s.plant);
-  s.made_chain = [&] { return make_chain(kind, fixed, tuning); };
+double pressed_border(const Bench& bench, stability::BitLoopSetting s) {
   return largest([&](double stiffness) {
     s.wall = {stiffness, wall_damping_nm_s_rad};
     const double expected_rad_s = std::sqrt(stiffness / s.plant.lever.inertia_kg_m2);
     return stability::swing(bench.design, s, expected_rad_s).rate_1_s <= 0;
   });
+}
+
+double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio) {
+  stability::BitLoopSetting s;
+  s.plant = with_inertia_ratio(bench.linear, inertia_ratio);
+  const Tuning tuning = tuning_of(bench, s.plant);
+  s.made_chain = [&] { return make_chain(kind, fixed, tuning); };
+  return pressed_border(bench, s);
 }
 
 double held_border(const Bench& bench, Kind kind, bool fixed, double damping) {

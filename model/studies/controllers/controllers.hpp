@@ -80,8 +80,9 @@ struct Held {
 Held held_step(const Bench& bench, Kind kind, bool fixed, double stiffness_nm_rad,
                double inertia_ratio = 1.0, std::vector<double>* trace_nm = nullptr);
 
-/// Motor torque, rms around its mean, with tau_ref = 0.1 Nm, while a hand at rest trembles (8 Hz,
-/// 0.5 mrad) over an edge of the encoder.
+constexpr double tremor_hz = 8, tremor_rad = 5e-4;
+/// Motor torque, rms around its mean, with tau_ref = 0.1 Nm, while a hand at rest trembles over an
+/// edge of the encoder.
 double tremor_noise_nm(const Bench& bench, Kind kind, bool fixed, int lines);
 
 /// The stiffest wall that is tried, Nm/rad: the wall's word ends at 80.
@@ -89,6 +90,8 @@ constexpr double stiffest_nm_rad = 64;
 /// Largest wall that does not make the pressed lever swing, Nm/rad; 0: no wall. Damping 0.005
 /// Nm s/rad, frictionless. `inertia_ratio` is Jn/J.
 double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio = 1.0);
+/// The same with the chain and the plant of a setting; its wall and its hand are not used.
+double pressed_border(const Bench& bench, stability::BitLoopSetting setting);
 /// The same while a hand (0.55 kg, 1.35 Nm/rad) leans on the wall, with friction: the swing stays
 /// under three counts. `damping` scales that of the hand and its grip.
 double held_border(const Bench& bench, Kind kind, bool fixed, double damping = 1.0);
@@ -119,6 +122,32 @@ struct Report {
 };
 /// All experiments with all controllers. `progress` gets the completed share; it may be empty.
 Report measure(const Bench& bench, const std::function<void(double)>& progress = {});
+
+/// Rms around the mean.
+struct Noise {
+  double hat_nm = 0;    ///< of tau_hat
+  double motor_nm = 0;  ///< of the motor's torque, which feed-forward asks for
+};
+constexpr std::array<double, 2> estimator_speeds_rad_s{1, 10};
+/// A velocity estimator in design `lever`, whose observer is displayed only unless it says so.
+struct EstimatorRow {
+  std::string name;
+  double border_nm_rad = 0, border_observer_nm_rad = 0;  ///< as border()
+  /// tau_ref = 0.1 Nm: while a hand at rest trembles, and at each of estimator_speeds_rad_s.
+  std::array<Noise, estimator_speeds_rad_s.size() + 1> good, irregular;  ///< lines of the encoder
+  /// A hand swings the free lever by 0.5 rad at 2 Hz: its torque, and the shares in phase with
+  /// speed and acceleration, the latter over the lever's inertia.
+  double drag_rms_nm = 0, drag_nm_s_rad = 0, drag_inertia = 0;
+};
+int estimator_count();
+/// Throws std::invalid_argument for a number of no estimator.
+std::unique_ptr<RealChain> make_estimator_chain(int estimator, bool observer, const Tuning& tuning);
+EstimatorRow measure_estimator(const Bench& bench, int estimator);
+std::vector<EstimatorRow> measure_estimators(const Bench& bench,
+                                             const std::function<void(double)>& progress = {});
+/// A Markdown table, as it stands in docs/blocks/velocity_mt.md.
+std::string estimators_text(const std::vector<EstimatorRow>& rows);
+std::string estimators_json(const std::vector<EstimatorRow>& rows);
 
 /// The tables as Markdown, as they stand in docs/controllers.md.
 std::string report_text(const Report& report);

@@ -9,9 +9,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "design/design.hpp"
+#include "sim/plant/encoder.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/reference/real_chain.hpp"
 #include "studies/stability/linear_loop.hpp"
@@ -28,6 +31,9 @@ struct BitLoopSetting {
   plant::Hand hand;
   /// Nothing in the voltage law but gains: dead voltage 0, one region, limits as far as words go.
   bool linear = true;
+  /// The plant's encoder, with its irregular lines and the clocks of its edges, which M/T needs;
+  /// else counts are exact at each tick.
+  bool encoder = false;
 };
 
 /// The loop; the wall's face is at 0 rad and the wall extends above it.
@@ -60,6 +66,8 @@ class BitLoop {
   Wall wall_;
   std::unique_ptr<RealChain> chain_;
   plant::Plant plant_;
+  std::optional<plant::Encoder> encoder_;
+  std::vector<EncoderEvent> edges_;
   HostLaw host_;
   double count_rad_;
   int pwm_ticks_, pwm_clocks_, clocks_per_tick_, setpoint_address_;

@@ -167,7 +167,7 @@ TEST_CASE("the M/T estimator: its keys, its constants, and what knows the N-meth
   CHECK(contains(design_error(with("window_s = 0.03\n")), "it must be from 0 to 0.02"));
   std::string narrow = replaced(with("cycles = 128\n"), "[1, 10, 21]", "[1, 3, 21]");
   narrow = replaced(replaced(narrow, "lines = 1024", "lines = 16"), "_rad_s = 613.6", "_rad_s = 7");
-  narrow = replaced(narrow, "pulse_ms = 5.0", "pulse_ms = 50.0");
+  narrow = replaced(narrow, "pulse_ms = 5.0", "pulse_ms = 32.0");
   CHECK(contains(design_error(narrow), "the quotient of M/T has more bits than the velocity"));
 
   const Elaborated e = elaborate(

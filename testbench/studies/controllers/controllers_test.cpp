@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/random.hpp"
@@ -138,6 +139,14 @@ int products_of() {
   (void)law.tick(0.1, 0.05, 0.2);
   return Counted::products;
 }
+
+/// Of the estimators of the study.
+enum : int { kPaper, kLever, kCycle, kWindow, kFast };
+
+/// `lever` with the study's M/T over 386 us.
+struct Spans : Lever {
+  static constexpr int m1 = 0, mt_counts = 4096, mt_window = 19300, mt_doublings = 4;
+};
 
 }  // namespace
 
@@ -299,4 +308,60 @@ TEST_CASE("controllers: multiplications and bits are those of the laws") {
   CHECK(size_of(Kind::observer).multiplications == 1 + 4);
   CHECK(size_of(Kind::feed_forward).multiplications == 1);
   CHECK(size_of(Kind::observer).state_bits == Lever::f.observer.width());
+}
+
+TEST_CASE("estimators: the chain with M/T is the core's twin, bit by bit") {
+  const Bench b = bench();
+  const auto chain = make_estimator_chain(kWindow, false, tuning_of(b, b.plant));
+  FeltgateCore<Spans> core;
+  CoreIn pins;
+  ChainIn in;
+  SplitMix64 random(5);
+  constexpr int clocks = Lever::clocks_per_tick;
+  constexpr int sample = Map::first_wave_clock + Map::T::sample;
+  std::int64_t changes_at = -1, count = 0, moved = 0, negative = 0;
+  int per_edge = 0, way = 1, left = 10;
+  for (std::int64_t tick = 0; tick < 300'000; ++tick) {
+    // One edge or none from this sample to the next.
+    int edge = -1;
+    if (left-- == 0) {
+      left = 200 + static_cast<int>(random.below(8'000));
+      per_edge = random.below(5) == 0 ? 0 : 2 + static_cast<int>(random.below(300));
+      if (random.below(3) == 0) way = -way;
+    }
+    if (per_edge != 0 && random.below(static_cast<std::uint64_t>(per_edge)) == 0) {
+      edge = static_cast<int>(random.below(clocks));
+    }
+    const auto step = [&](std::int64_t clock) {
+      if (clock == changes_at) {
+        count += way;
+        const auto phase = static_cast<unsigned>(count) & 3u;
+        pins.encoder = {phase >= 2, phase == 1 || phase == 2, false};
+      }
+      core.clock(pins);
+    };
+    for (int c = 0; c < sample; ++c) step(tick * clocks + c);
+    in.position = static_cast<std::int32_t>(count);
+    in.travel = static_cast<std::int16_t>(count);
+    chain->tick(in);
+    in.edge_clock = edge < 0 ? 0 : edge;
+    changes_at = edge < 0 ? -1 : tick * clocks + sample + edge;
+    for (int c = sample; c < clocks; ++c) step(tick * clocks + c);
+    REQUIRE(chain->raw()->velocity == core.out().velocity);
+    moved += core.out().velocity != 0;
+    negative += core.out().velocity < 0;
+  }
+  CHECK(moved > 200'000);
+  CHECK(negative > 50'000);
+  CHECK_THROWS_AS(make_estimator_chain(estimator_count(), false, {}), std::invalid_argument);
+}
+
+TEST_CASE("estimators: walls, noise and drag as closed forms and as the other studies have them") {
+  const Bench b = bench();
+  const EstimatorRow lever = measure_estimator(b, kLever), fast = measure_estimator(b, kFast);
+  // The same loop with counts that are exact at each tick.
+  CHECK(lever.border_nm_rad == Approx(border(b, Kind::feed_forward, true)).epsilon(0.04));
+  CHECK(lever.border_observer_nm_rad == Approx(border(b, Kind::observer, true)).epsilon(0.04));
+  CHECK(1e3 * lever.good[0].motor_nm ==
+        Approx(1e3 * tremor_noise_nm(b, Kind::feed_forward, true, 1024)).epsilon(0.1));
 }

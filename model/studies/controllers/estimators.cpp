@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Velocity estimators around the lever: the N-method and M/T, all else equal. Documentation:
+// docs/blocks/velocity_mt.md
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "feltgate/velocity_mt.hpp"
+#include "files/json_text.hpp"
+#include "sim/loop/drag.hpp"
+#include "sim/loop/rest.hpp"
+#include "sim/reference/chain.hpp"
+#include "studies/controllers/controllers.hpp"
+#include "studies/controllers/fed_lever.hpp"
+
+namespace feltgate::controllers {
+
+namespace {
+
+/// The N-method of another window and gain.
+template <int M1, int Shift>
+struct ByCounts : FedLever {
+  static constexpr int m1 = M1, velocity_shift = Shift;
+};
+
+/// M/T; a low-pass of up to 2^-A1Below times the tick rate.
+template <int Window, int Doublings, int A1Below>
+struct BySpans : FedLever {
+  static constexpr int m1 = 0, mt_counts = 4096, mt_window = Window, mt_doublings = Doublings;
+  static constexpr Format a1{0, -A1Below, 17 + A1Below};
+  struct P : FedLever::P {
+    static constexpr Format velocity_a1 = a1;
+  };
+  static constexpr auto parameters = with_format(FedLever::parameters, A::velocity_a1, a1);
+};
+
+/// The chain with M/T, which gets the clocks of the edges from its loop. A tick takes what the
+/// edges up to the sample before have told, as the core does. Of several edges in a tick the last
+/// one is exact, and the others are a clock apart.
+template <class D, class N>
+class SpanChain : public ChainTick<D, N> {
+ public:
+  void reset() {
+    ChainTick<D, N>::reset();
+    this->words().reset();
+    meter_ = {};
+    travel_ = 0;
+    begun_ = false;
+  }
+  void tick(const ChainIn& in) {
+    if (in.restart) this->restart();
+    if (!begun_) start_ = in.travel;  // the decoder counts from 0 at power-up
+    begun_ = true;
+    const std::int16_t travel = travel_difference(in.travel, start_);
+    const int way = travel_difference(travel, travel_), edges = std::abs(way);
+    int at = 0;
+    for (int k = 1; k <= edges; ++k) {
+      const int edge = std::max(at, in.edge_clock - (edges - k));
+      advance(at, edge);
+      at = edge;
+      travel_ = static_cast<std::int16_t>(travel_ + (way < 0 ? -1 : 1));
+    }
+    advance(at, D::clocks_per_tick);
+    this->estimate_from(meter_);
+    this->observe(in.armed);
+    this->render(in.armed, in.scene, in.position, in.relief);
+    this->drive(in.armed, static_cast<Mode>(in.mode));
+  }
+
+ private:
+  void advance(int from, int to) {
+    constexpr int clocks = D::clocks_per_tick;
+    constexpr int begin = Map::first_wave_clock + Map::T::velocity_raw + 1;
+    const int a = from + begin, b = to + begin;
+    meter_.pass(a, std::min(b, clocks), travel_);
+    meter_.pass(std::max(a, clocks) - clocks, b - clocks, travel_);
+  }
+
+  typename MeterOf<D>::type meter_;
+  std::int16_t travel_ = 0, start_ = 0;
+  bool begun_ = false;
+};
+
+template <class D>
+std::unique_ptr<RealChain> tuned(double cutoff_rad_s, bool observer, const Tuning& t) {
+  std::unique_ptr<RealChain> chain;
+  if constexpr (measures_spans<D>) {
+    chain = std::make_unique<Chain<D, Fixed, SpanChain<D, Fixed>>>("M/T");
+  } else {
+    chain = std::make_unique<Chain<D, Fixed>>("N-method");
+  }
+  chain->set_parameter(D::A::velocity_a1, -std::expm1(-cutoff_rad_s * t.tick_s));
+  if (observer) {
+    chain->set_parameter(D::A::torque_gain, t.share / t.torque_constant_nm_a);
+    chain->set_parameter(D::A::observer_gain, (1 - t.share) / t.torque_constant_nm_a);
+  }
+  return chain;
+}
+
+struct Estimator {
+  const char* name;
+  double cutoff_rad_s;
+  std::unique_ptr<RealChain> (*make)(double cutoff_rad_s, bool observer, const Tuning&);
+};
+constexpr Estimator kEstimators[] = {
+    {"N-method, m1 = 386, n = 2 (`paper`), 500 rad/s", 500, tuned<ByCounts<386, 2>>},
+    {"N-method, m1 = 767, n = 1 (`lever`), 500 rad/s", 500, tuned<ByCounts<767, 1>>},
+    {"M/T, one cycle, 500 rad/s", 500, tuned<BySpans<0, 0, 10>>},
+    {"M/T, 386 µs, 500 rad/s", 500, tuned<BySpans<19300, 4, 10>>},
+    {"M/T, 386 µs, 2000 rad/s", 2000, tuned<BySpans<19300, 4, 8>>}};
+
+plant::Hand moved_by(plant::Segment segment) {
+  segment.duration_s = 10;
+  plant::HandPhase phase;
+  phase.kind = plant::HandPhase::Kind::kPrescribed;
+  phase.profile = {segment};
+  plant::Hand hand;
+  hand.phases = {phase};
+  return hand;
+}
+
+plant::Segment sine(double amplitude_rad, double hz) {
+  plant::Segment s;
+  s.kind = plant::Segment::Kind::kSine;
+  s.amplitude = amplitude_rad;
+  s.frequency_hz = hz;
+  return s;
+}
+
+plant::Segment ramp(double rad_s) {
+  plant::Segment s;
+  s.kind = plant::Segment::Kind::kRamp;
+  s.to = 10 * rad_s;
+  return s;
+}
+
+/// Runs a hand's motion with a torque reference; look(loop) after each tick from `from_s` on.
+template <class Look>
+void run_hand(const Bench& bench, stability::BitLoopSetting s, const plant::Hand& hand,
+              double reference_nm, double from_s, double to_s, Look look) {
+  const design::Design& d = bench.design.design;
+  s.hand = hand;
+  s.linear = false;
+  s.wall.scene_ticks = d.pwm_period_clocks() / d.clocks_per_tick();
+  stability::BitLoop loop(bench.design, s);
+  loop.set_host([reference_nm](double, double) { return reference_nm; });
+  const auto ticks = [&d](double seconds) {
+    return std::llround(seconds * static_cast<double>(d.tick_hz));
+  };
+  while (loop.ticks() < ticks(to_s)) {
+    loop.tick();
+    if (loop.ticks() > ticks(from_s)) look(loop);
+  }
+}
+
+Noise noise(const Bench& bench, const stability::BitLoopSetting& s, const plant::Segment& motion,
+            double reference_nm, double to_s) {
+  feltgate::Spread hat, motor;
+  run_hand(bench, s, moved_by(motion), reference_nm, 0.05, to_s, [&](const auto& loop) {
+    hat.add(loop.tau_hat_nm());
+    motor.add(loop.motor_torque_nm());
+  });
+  return {hat.rms(), motor.rms()};
+}
+
+}  // namespace
+
+int estimator_count() { return static_cast<int>(std::size(kEstimators)); }
+
+std::unique_ptr<RealChain> make_estimator_chain(int estimator, bool observer, const Tuning& t) {
+  if (estimator < 0 || estimator >= estimator_count()) {
+    throw std::invalid_argument("controllers: no such estimator");
+  }
+  const Estimator& k = kEstimators[estimator];
+  return k.make(k.cutoff_rad_s, observer, t);
+}
+
+EstimatorRow measure_estimator(const Bench& bench, int estimator) {
+  EstimatorRow row;
+  row.name = kEstimators[estimator].name;
+  const Tuning tuning = tuning_of(bench, bench.plant);
+  stability::BitLoopSetting s;
+  s.encoder = true;
+  s.plant = bench.linear;
+  for (const bool observer : {false, true}) {
+    s.made_chain = [&, observer] { return make_estimator_chain(estimator, observer, tuning); };
+    (observer ? row.border_observer_nm_rad : row.border_nm_rad) = pressed_border(bench, s);
+  }
+  s.made_chain = [&] { return make_estimator_chain(estimator, false, tuning); };
+  s.plant = bench.plant;
+  for (const bool irregular : {false, true}) {
+    s.plant.effects.encoder_imperfect = irregular;
+    auto& of = irregular ? row.irregular : row.good;
+    of[0] = noise(bench, s, sine(tremor_rad, tremor_hz), 0.1, 0.05 + 1 / tremor_hz);
+    for (std::size_t k = 0; k < estimator_speeds_rad_s.size(); ++k) {
+      of[k + 1] = noise(bench, s, ramp(estimator_speeds_rad_s[k]), 0.1, 0.35);
+    }
+  }
+  s.plant.effects.encoder_imperfect = false;
+  // A period from turn to turn.
+  Drag drag;
+  double before_rad_s = 0;
+  run_hand(bench, s, moved_by(sine(0.5, 2)), 0, 0.125, 0.625, [&](const auto& loop) {
+    const plant::Observables& now = loop.seen();
+    drag.step(bench.design.design.tick_s(), now.hand_torque_nm, before_rad_s, now.omega_rad_s);
+    before_rad_s = now.omega_rad_s;
+  });
+  std::map<std::string, double> figures;
+  drag.tell(figures);
+  row.drag_rms_nm = figures["drag_rms_nm"];
+  row.drag_nm_s_rad = figures["drag_damping_nm_s_rad"];
+  row.drag_inertia = figures["drag_inertia_kg_m2"] / bench.plant.lever.inertia_kg_m2;
+  return row;
+}
+
+std::vector<EstimatorRow> measure_estimators(const Bench& bench,
+                                             const std::function<void(double)>& progress) {
+  std::vector<EstimatorRow> rows;
+  for (int k = 0; k < estimator_count(); ++k) {
+    rows.push_back(measure_estimator(bench, k));
+    if (progress) progress(static_cast<double>(k + 1) / estimator_count());
+  }
+  return rows;
+}
+
+std::string estimators_text(const std::vector<EstimatorRow>& rows) {
+  std::string s = "| |", rule = "|---|";
+  for (const EstimatorRow& r : rows) {
+    s += fmt::format(" {} |", r.name);
+    rule += "---|";
+  }
+  s += "\n" + rule + "\n";
+  const auto line = [&](const std::string& what, const auto& cell) {
+    s += "| " + what + " |";
+    for (const EstimatorRow& r : rows) s += " " + cell(r) + " |";
+    s += "\n";
+  };
+  const auto wall = [](double nm_rad) {
+    return nm_rad >= stiffest_nm_rad ? fmt::format("over {:g}", stiffest_nm_rad)
+                                     : fmt::format("{:.1f}", nm_rad);
+  };
+  line("largest wall, pressed, Nm/rad", [&](const auto& r) { return wall(r.border_nm_rad); });
+  line("the same, observer fed back",
+       [&](const auto& r) { return wall(r.border_observer_nm_rad); });
+  const auto noises = [&](const char* what, double Noise::*figure) {
+    for (std::size_t k = 0; k < estimator_speeds_rad_s.size() + 1; ++k) {
+      const std::string when =
+          k == 0 ? "at rest" : fmt::format("at {:g} rad/s", estimator_speeds_rad_s[k - 1]);
+      line(fmt::format("{}, {}, mNm rms", what, when), [&](const auto& r) {
+        return fmt::format("{:.2f} / {:.2f}", 1e3 * (r.good[k].*figure),
+                           1e3 * (r.irregular[k].*figure));
+      });
+    }
+  };
+  noises("tau_hat", &Noise::hat_nm);
+  noises("motor torque", &Noise::motor_nm);
+  line("drag of the free lever, mNm rms",
+       [](const auto& r) { return fmt::format("{:.2f}", 1e3 * r.drag_rms_nm); });
+  line("its damping, mNm s/rad",
+       [](const auto& r) { return fmt::format("{:.3f}", 1e3 * r.drag_nm_s_rad); });
+  line("its inertia / J", [](const auto& r) { return fmt::format("{:.3f}", r.drag_inertia); });
+  return s;
+}
+
+std::string estimators_json(const std::vector<EstimatorRow>& rows) {
+  nlohmann::ordered_json j{{"schema", "feltgate-estimators/1"},
+                           {"version", FELTGATE_VERSION},
+                           {"speeds_rad_s", estimator_speeds_rad_s},
+                           {"estimators", nlohmann::ordered_json::array()}};
+  const auto noises = [](const auto& of, double Noise::*figure) {
+    std::vector<double> all;
+    for (const Noise& n : of) all.push_back(n.*figure);
+    return all;
+  };
+  for (const EstimatorRow& r : rows) {
+    j["estimators"].push_back({{"name", r.name},
+                               {"border_nm_rad", r.border_nm_rad},
+                               {"border_observer_nm_rad", r.border_observer_nm_rad},
+                               {"tau_hat_good_nm", noises(r.good, &Noise::hat_nm)},
+                               {"tau_hat_irregular_nm", noises(r.irregular, &Noise::hat_nm)},
+                               {"motor_good_nm", noises(r.good, &Noise::motor_nm)},
+                               {"motor_irregular_nm", noises(r.irregular, &Noise::motor_nm)},
+                               {"drag_rms_nm", r.drag_rms_nm},
+                               {"drag_nm_s_rad", r.drag_nm_s_rad},
+                               {"drag_inertia", r.drag_inertia}});
+  }
+  return files::json_text(j);
+}
+
+}  // namespace feltgate::controllers

@@ -104,10 +104,9 @@ class Step {
   std::vector<double>* trace_;
 };
 
-/// The largest stiffness that `holds`: doubled from 1 Nm/rad on, then between two to 3 %; 0 where
-/// 1 Nm/rad does not hold.
-double largest(const std::function<bool(double)>& holds) {
-  double low = 1.0;
+/// The largest stiffness that `holds`: doubled from `low` on, Nm/rad, then between two to 3 %; 0
+/// where `low` does not hold.
+double largest(const std::function<bool(double)>& holds, double low = 1.0) {
   if (!holds(low)) return 0.0;
   double high = 2.0 * low;
   while (high <= stiffest_nm_rad && holds(high)) low = high, high *= 2.0;
@@ -284,12 +283,13 @@ double tremor_noise_nm(const Bench& bench, Kind kind, bool fixed, int lines) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * (sum / count)));
 }
 
-double pressed_border(const Bench& bench, stability::BitLoopSetting s) {
-  return largest([&](double stiffness) {
+double pressed_border(const Bench& bench, stability::BitLoopSetting s, double from_nm_rad) {
+  const auto holds = [&](double stiffness) {
     s.wall = {stiffness, wall_damping_nm_s_rad};
     const double expected_rad_s = std::sqrt(stiffness / s.plant.lever.inertia_kg_m2);
     return stability::swing(bench.design, s, expected_rad_s).rate_1_s <= 0;
-  });
+  };
+  return largest(holds, from_nm_rad);
 }
 
 double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio) {

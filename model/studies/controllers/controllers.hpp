@@ -90,8 +90,10 @@ constexpr double stiffest_nm_rad = 64;
 /// Largest wall that does not make the pressed lever swing, Nm/rad; 0: no wall. Damping 0.005
 /// Nm s/rad, frictionless. `inertia_ratio` is Jn/J.
 double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio = 1.0);
-/// The same with the chain and the plant of a setting; its wall and its hand are not used.
-double pressed_border(const Bench& bench, stability::BitLoopSetting setting);
+/// The same with the chain and the plant of a setting, whose wall and hand are not used; 0: not
+/// even `from_nm_rad`.
+double pressed_border(const Bench& bench, stability::BitLoopSetting setting,
+                      double from_nm_rad = 1.0);
 /// The same while a hand (0.55 kg, 1.35 Nm/rad) leans on the wall, with friction: the swing stays
 /// under three counts. `damping` scales that of the hand and its grip.
 double held_border(const Bench& bench, Kind kind, bool fixed, double damping = 1.0);
@@ -125,8 +127,8 @@ Report measure(const Bench& bench, const std::function<void(double)>& progress =
 
 /// Rms around the mean.
 struct Noise {
-  double hat_nm = 0;    ///< of tau_hat
-  double motor_nm = 0;  ///< of the motor's torque, which feed-forward asks for
+  double hat_nm = 0;    ///< of tau_hat, feed-forward
+  double motor_nm = 0;  ///< of the motor's torque, observer fed back
 };
 constexpr std::array<double, 2> estimator_speeds_rad_s{1, 10};
 /// A velocity estimator in design `lever`, whose observer is displayed only unless it says so.
@@ -135,8 +137,8 @@ struct EstimatorRow {
   double border_nm_rad = 0, border_observer_nm_rad = 0;  ///< as border()
   /// tau_ref = 0.1 Nm: while a hand at rest trembles, and at each of estimator_speeds_rad_s.
   std::array<Noise, estimator_speeds_rad_s.size() + 1> good, irregular;  ///< lines of the encoder
-  /// A hand swings the free lever by 0.5 rad at 2 Hz: its torque, and the shares in phase with
-  /// speed and acceleration, the latter over the lever's inertia.
+  /// A hand swings the free lever by 0.5 rad at 2 Hz: its torque; and of the linear plant the
+  /// shares in phase with speed and acceleration, the latter over the lever's inertia.
   double drag_rms_nm = 0, drag_nm_s_rad = 0, drag_inertia = 0;
 };
 int estimator_count();

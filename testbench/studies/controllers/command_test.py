@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""feltgate controllers as a user calls it: its tables are those of the page, JSON and picture are
+"""feltgate controllers as a user calls it: its tables are those of the pages, JSON and picture are
 whole, and the PID of the page, as a law, settles like the command's PID."""
 
 import json
@@ -72,6 +72,28 @@ class Controllers(Scratch):
             self.assertIn(word, svg)
             self.assertIn(word, text_of("docs/images/controllers.svg"))
 
+    def test_the_estimators(self):
+        done = self.call("controllers", "--estimators", "--json", "c.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = "docs/blocks/velocity_mt.md"
+        self.assertIn(done.stdout.strip(), text_of(page), f"{page} is stale: paste this table")
+        data = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
+        self.assertEqual(data["schema"], "feltgate-estimators/1")
+        paper, lever, faster, cycle, window, mt = data["estimators"]
+        # What the page says in words.
+        self.assertGreater(mt["border_nm_rad"], 1.15 * lever["border_nm_rad"])
+        self.assertGreater(mt["border_observer_nm_rad"], 1.4 * lever["border_observer_nm_rad"])
+        self.assertGreater(faster["border_nm_rad"], mt["border_nm_rad"])
+        self.assertLess(window["border_nm_rad"], lever["border_nm_rad"])
+        self.assertEqual(cycle["border_nm_rad"], window["border_nm_rad"])
+        for noise in ("tau_hat_good_nm", "tau_hat_irregular_nm"):
+            self.assertLess(mt[noise][1], paper[noise][1] / 40)
+            self.assertLess(mt[noise][1], lever[noise][1] / 30)
+        self.assertGreater(mt["tau_hat_irregular_nm"][2], 2 * lever["tau_hat_irregular_nm"][2])
+        self.assertLess(mt["tau_hat_irregular_nm"][2], paper["tau_hat_irregular_nm"][2])
+        drags = [one["drag_rms_nm"] for one in data["estimators"]]
+        self.assertLess(max(drags) - min(drags), 1e-5)
+
     def test_the_law_of_the_page(self):
         (law,) = re.findall(r"```law\n(.*?)```", text_of(PAGE), re.S)
         self.put("pid.law", law)
@@ -93,6 +115,7 @@ class Controllers(Scratch):
             (("-o", "none/a.svg"), "none"),
             (("-o", "-"), "--output"),
             (("--json", "none/a.json"), "none"),
+            (("--estimators", "-o", "a.svg"), "--output"),
         ):
             with self.subTest(words=words):
                 done = self.call("controllers", *words)

@@ -117,7 +117,8 @@ int design_for_plant(const DesignArguments& a, const design::RegisterMap& regist
 
 int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
   const auto e = elaborate(design::read_design(find_file(a.name, "rtl/designs")), registers);
-  std::string text = design_table(e) + "\n" + bound_table(bounds::error_bounds(e));
+  std::string text = design_table(e);
+  if (!e.design.mt) text += "\n" + bound_table(bounds::error_bounds(e));
   if (!a.plant.empty()) {
     const auto p = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
     stability::refuse_unstable(e, p);

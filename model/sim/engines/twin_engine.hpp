@@ -117,7 +117,7 @@ std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
   if constexpr (measures_spans<D>) {
     throw std::invalid_argument("chain \"" + kind + "\" of design " + D::name +
                                 ": M/T needs the clocks of the edges, which a chain by ticks does "
-                                "not have; choose the engines twin, rtl or lockstep");
+                                "not have; choose the engines rtl,twin");
   } else {
     if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
     if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");

@@ -40,6 +40,8 @@ bool comparable(const EngineChoice& choice) {
 // motion of the run.
 template <class Options, class Run, class BoundsUpTo>
 RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsUpTo&& up_to) {
+  // A chain in real arithmetic has no clocks of edges.
+  if (e.design.mt && options.engine == "all") options.engine = "rtl,twin";
   if (!comparable(choose_engines(options.engine))) return run();
   const bounds::Coverage coverage(up_to(hardly_any_rad_s), bounds::chain_numbers(e));
   options.coverage = &coverage;

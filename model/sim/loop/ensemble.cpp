@@ -141,6 +141,7 @@ void Ensemble::fill(Row& row, const Snapshot& s) const {
 }
 
 void Ensemble::watch_velocity(std::int16_t travel) {
+  if (design().m1 == 0) return;  // M/T has no window
   const bool full = window_.size() == static_cast<std::size_t>(design().m1);
   const std::int16_t oldest = full ? window_.front() : std::int16_t{0};
   if (full) window_.pop_front();

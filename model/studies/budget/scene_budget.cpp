@@ -80,6 +80,7 @@ bool SceneBudget::holds() const {
 SceneBudget scene_budget(const design::Elaborated& e, const Scenario& scenario,
                          const plant::Parameters& plant, std::uint64_t seed,
                          const std::function<void(double)>& progress) {
+  e.design.needs_n_method("the error budget");
   // The replay takes about twice the time of the loop.
   constexpr double loop_share = 0.3;
   Recorder recorder;

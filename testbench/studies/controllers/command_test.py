@@ -94,6 +94,22 @@ class Controllers(Scratch):
         drags = [one["drag_rms_nm"] for one in data["estimators"]]
         self.assertLess(max(drags) - min(drags), 1e-5)
 
+    def test_a_design_with_mt(self):
+        text = re.sub(r"^(m1|n) = .*\n", "", text_of("rtl/designs/lever.toml"), flags=re.M)
+        keys = 'estimator = "mt"\nwindow_s = 386e-6\ncycles = 16'
+        path = self.put("spans.toml", text.replace("[velocity]", f"[velocity]\n{keys}"))
+        done = self.call("design", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("M/T over whole encoder cycles, 386 us or more, up to 16", done.stdout)
+        for words in (
+            ("design", path, "--plant", "p24"),
+            ("stability", path, "--no-bits", "--no-experiments"),
+        ):
+            with self.subTest(words=words):
+                done = self.call(*words)
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn("knows the N-method alone; take estimator", done.stderr)
+
     def test_the_law_of_the_page(self):
         (law,) = re.findall(r"```law\n(.*?)```", text_of(PAGE), re.S)
         self.put("pid.law", law)

@@ -355,6 +355,7 @@ class Choosing:
             full, least = self.trim["full"], self.trim["trimmed"]
             told |= {"effects_off": least["effects_off"], "step_clocks": least["step_clocks"]}
             told |= {"cpu_s_per_s": least["cpu_s_per_s"], "full_cpu_s_per_s": full["cpu_s_per_s"]}
+            told["faster"] = self.trim["faster"]
         else:
             told |= {"effects_off": None, "step_clocks": None, "cpu_s_per_s": best["cpu_s_per_s"]}
         return told

@@ -107,8 +107,14 @@ TEST_CASE("a trimmed scene holds on motions that the search did not see") {
     const Scenario s = scene(name);
     trim::Options options;
     options.tolerance = 0.02;
+    options.timed_runs = 3;
     const trim::Report r = trim::trim(s, p24(), options);
     INFO(name);
+    REQUIRE(r.faster.size() == 3);
+    CHECK(r.faster[0] <= r.faster[1]);
+    CHECK(r.faster[1] <= r.faster[2]);
+    CHECK(r.faster[0] > 2);
+    CHECK(r.times_faster() == r.faster[1]);
     CHECK(r.holds);
     CHECK(r.smaller());
     CHECK(r.own.worst() <= options.tolerance);
@@ -141,6 +147,7 @@ TEST_CASE("a set that is too loose is refused, and mended by the final check") {
   INFO("without back-EMF: " << own << " on the own motion, " << unseen << " on others");
   REQUIRE(unseen > 1.2 * own);
   options.share = 1;  // nothing kept back for other motions
+  options.timed_runs = 1;
   options.tolerance = 0.95 * unseen;
   const trim::Report r = trim::trim(sweep, p24(), options);
   CHECK(r.holds);

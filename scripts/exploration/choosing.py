@@ -86,7 +86,10 @@ class Question:
         try:
             self.scene = tomllib.loads(self.path.read_text(encoding="utf-8"))
             self.law = made_scene.law_path(root, self.path, self.scene)
-        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        except KeyError as error:
+            missing = f"it has no table [{error.args[0]}]"
+            raise Refused(f"{self.path}: not a scene file: {missing}; docs/scenes.md explains one") from error
+        except (OSError, ValueError, TypeError, AttributeError) as error:
             raise Refused(f"{self.path}: not a scene file: {error}; docs/scenes.md explains one") from error
         self.device = self.scene.get("device")
         self.name = self.path.stem

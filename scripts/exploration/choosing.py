@@ -179,21 +179,35 @@ class Choosing:
     def measure(self):
         """First the plant, then the scene at all rates on what is left of it."""
         ask, q = self.programs.ask, self.question
-        if q.of_block():
-            self.path = self.programs.folder / f"{q.name}_trimmed.toml"
-            share = f"{self.wishes['torque_error']:.6g}"
-            self.trim = ask("trim", q.path, "--tolerance", share, "-o", self.path, "--quiet")
-            self.scene = q.scene | tomllib.loads(self.path.read_text(encoding="utf-8"))
+        self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
+        trimmed = self.programs.folder / f"{q.name}_trimmed.toml"
+        share = f"{self.wishes['torque_error']:.6g}"
+        self.trim = ask("trim", q.path, "--tolerance", share, "-o", trimmed, "--quiet")
+        if trimmed.is_file():
+            effects = tomllib.loads(trimmed.read_text(encoding="utf-8"))
+            self.path, self.scene = trimmed, self.scene | effects
         else:
-            why = "several axes" if q.device else "a law"
-            told = f"`feltgate trim` takes no scene with {why}: all of them stay on"
+            self.trim = None
+            told = "`feltgate trim` finds none that the wished error allows: all of them stay on"
             self.leave_out("plant effects", told)
-            self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
+        if q.law:
             self.scene["core"]["law"] = str(q.law.resolve())
         self.report = ask("rates", self.path, "--rate", RATES[q.kind()], "--quiet")["scenes"][0]
+        if q.device and self.path != q.path:
+            self.margins_of_the_whole()
         self.largest_nm = self.report["largest_nm"]
         if self.report["counts_alone_rms_nm"] is None or self.largest_nm <= 0:
             raise Refused(f"{q.path}: the law asks for no torque on this motion; give a scene that meets it")
+
+    def margins_of_the_whole(self):
+        """Of several axes: where trimming took a part of the linear loop, the margins are those with it."""
+        own, off = self.trim["full"]["effects_off"], self.trim["trimmed"]["effects_off"]
+        if not {"inductance", "back_emf", "viscous"} & (set(off) - set(own)):
+            return
+        rates = RATES[self.question.kind()]
+        whole = self.programs.ask("rates", self.question.path, "--rate", rates, "--quiet")["scenes"][0]
+        for row, full in zip(self.report["rates"], whole["rates"], strict=True):
+            row["margin"] = full["margin"]
 
     def kept_designs(self):
         """{cut-off: row of the table}, or the device's own design alone."""

@@ -68,6 +68,7 @@ RULES = (
     Rule(r"feltgate rates", "BY", "rates.command"),
     Rule(r"feltgate controllers", "BY", "controllers.command"),
     Rule(r"feltgate claims window", "WHOLE"),
+    Rule(r"feltgate claims --markdown", "BY", "claims_test"),
     Rule(r"feltgate claims", "MORE", "recognition"),
     Rule(r"feltgate choose", "BY", "choose.command"),
     Rule(r"feltgate extremes", "MORE", "--list"),

@@ -193,21 +193,22 @@ class Choosing:
         if q.law:
             self.scene["core"]["law"] = str(q.law.resolve())
         self.report = ask("rates", self.path, "--rate", RATES[q.kind()], "--quiet")["scenes"][0]
-        if q.device and self.path != q.path:
+        if self.path != q.path:
             self.margins_of_the_whole()
         self.largest_nm = self.report["largest_nm"]
         if self.report["counts_alone_rms_nm"] is None or self.largest_nm <= 0:
             raise Refused(f"{q.path}: the law asks for no torque on this motion; give a scene that meets it")
 
     def margins_of_the_whole(self):
-        """Of several axes: where trimming took a part of the linear loop, the margins are those with it."""
+        """Where trimming took a part of the linear loop, margins without borders are those with it."""
         own, off = self.trim["full"]["effects_off"], self.trim["trimmed"]["effects_off"]
-        if not {"inductance", "back_emf", "viscous"} & (set(off) - set(own)):
+        borders = not self.question.device and self.report["rates"][-1].get("border_of") == "stiffness"
+        if borders or not {"inductance", "back_emf", "viscous"} & (set(off) - set(own)):
             return
         rates = RATES[self.question.kind()]
         whole = self.programs.ask("rates", self.question.path, "--rate", rates, "--quiet")["scenes"][0]
         for row, full in zip(self.report["rates"], whole["rates"], strict=True):
-            row["margin"] = full["margin"]
+            row["margin"] = full.get("margin")
 
     def kept_designs(self):
         """{cut-off: row of the table}, or the device's own design alone."""
@@ -329,22 +330,19 @@ class Choosing:
         return found
 
     def margin(self, borders, cutoff, i):
-        """Of one lever by the borders of the whole plant, which may have more than the trimmed one."""
+        """Of a stiff law on one lever by the borders of the whole plant, else as `feltgate rates` has it."""
         rates, stiffness = self.report["rates"], self.report["stiffness_nm_rad"]
         if rates[i].get("border_of") == "stiffness" and borders:
             values = (borders[self.own][-1], borders[self.own][i], borders[cutoff][i])
             return choice.margin_of(*(value / stiffness for value in values))
-        if self.trim and rates[-1].get("border_of") == "damping":
-            whole = self.programs.ask("rates", self.question.path, "--rate", TICK_HZ, "--quiet")
-            rates[-1]["margin"] = whole["scenes"][0]["rates"][-1]["margin"]
         own = rates[i].get("margin") if cutoff == self.own else None
         return choice.margin_of(rates[-1].get("margin"), own, own)
 
     def margin_by(self, margin):
         notes = [n for n in self.report["notes"] if n.startswith("no margin")]
         last = self.report["rates"][-1]
-        if margin is None and last.get("border_of") == "damping":
-            return "no margin: that of a law's damping is known for the cut-off of `lever` alone"
+        if margin is None and last.get("border_of") in ("damping", "torque"):
+            return "no margin: that of the law's damping or states is known for the cut-off of `lever` alone"
         if margin is None:
             return notes[0] if notes else "no margin: the motion met the law nowhere stiff"
         fastest = margin["parts"][0]["margin"]

@@ -35,6 +35,13 @@ class CurrentSense {
     constexpr int overcurrent_clocks() const { return divider * ((hits + 3) << fast_log2) + 7; }
     /// Clocks from the edge that launches a bit to the result in which it is the last.
     constexpr int latency_clocks() const { return divider + 7; }
+    /// Clocks from a strobe to the centre of its window, and from there to the result, both for a
+    /// modulator that shows a current two of its clocks later. The first is that of a strobe in the
+    /// clock before one that takes a bit; it is up to divider - 1 clocks more.
+    constexpr int centre_clocks() const { return divider * (3 * (1 << decimation_log2) - 3) / 2; }
+    constexpr int delay_clocks() const {
+      return divider * (3 * (1 << decimation_log2) + 3) / 2 + 7;
+    }
   };
   struct In {
     bool data = false;           ///< of the modulator

@@ -40,17 +40,42 @@ using Bench = LockStep<Vcurrent_sense, CurrentSense, Adapter>;
 
 /// Second-order modulator with one bit: y = x two clocks ago + the second difference of its error.
 struct Modulator {
-  double first = 0, second = 0, largest_error = 0;
+  double first = 0, second = 0, largest_error = 0, squares = 0;
+  std::int64_t bits = 0;
+  double rms_error() const { return std::sqrt(squares / static_cast<double>(bits)); }
   bool next(double x) {
     const bool bit = second >= 0;
     const double y = bit ? 1 : -1;
     largest_error = std::fmax(largest_error, std::fabs(y - second));
+    squares += (y - second) * (y - second);
+    ++bits;
     second += first - 2 * y;
     first += x - y;
     // Beyond its range its states are held, as by the amplifiers' supplies.
-    first = std::fmax(-4, std::fmin(4, first));
-    second = std::fmax(-8, std::fmin(8, second));
+    first = std::fmax(-10, std::fmin(10, first));
+    second = std::fmax(-20, std::fmin(20, second));
     return bit;
+  }
+};
+
+/// The twin with bits from a function of the modulator clocks since the reset.
+struct Fed {
+  CurrentSense twin;
+  CurrentSense::In in{};
+  std::int64_t clock = 0, bits = 0;
+  bool was_high = false;
+
+  explicit Fed(const CurrentSense::Parameters& parameters = kSense) : twin(parameters) {}
+
+  /// One clock; true if it launched a bit.
+  template <class Bit>
+  bool step(const Bit& bit) {
+    twin.clock(in);
+    ++clock;
+    const bool rose = twin.out().modulator_clock && !was_high;
+    was_high = twin.out().modulator_clock;
+    if (rose) in.data = bit(bits++);
+    return rose;
   }
 };
 

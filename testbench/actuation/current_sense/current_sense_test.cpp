@@ -48,29 +48,6 @@ TEST_CASE("current_sense: all streams, strobes, arming, clears and resets") {
   CHECK(tally.saturated_low > 10);
 }
 
-namespace {
-
-/// The twin with bits from a function of the modulator clocks since the reset.
-struct Fed {
-  CurrentSense twin{kSense};
-  CurrentSense::In in{};
-  std::int64_t clock = 0, bits = 0;
-  bool was_high = false;
-
-  /// One clock; true if it launched a bit.
-  template <class Bit>
-  bool step(const Bit& bit) {
-    twin.clock(in);
-    ++clock;
-    const bool rose = twin.out().modulator_clock && !was_high;
-    was_high = twin.out().modulator_clock;
-    if (rose) in.data = bit(bits++);
-    return rose;
-  }
-};
-
-}  // namespace
-
 TEST_CASE("current_sense: one bit at every place gives the response of three boxes") {
   const int decimation = 1 << kSense.decimation_log2;
   const std::vector<std::int64_t> response = sinc3_response(decimation);

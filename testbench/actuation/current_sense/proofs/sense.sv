@@ -153,28 +153,33 @@ module sense_proof (
   end
 
   // The third differences of both filters, in one step.
-  logic [W-1:0] one_q, two_q, three_q, wanted_q, one, two;
-  logic [FastW-1:0] fast_one_q, fast_two_q, fast_three_q, fast_wanted_q, fast_one, fast_two;
+  logic [W-1:0] one_q, two_q, three_q, last_two_q, last_three_q, wanted_q, one, two;
+  logic [FastW-1:0] fast_one_q, fast_two_q, fast_three_q, fast_last_two_q, fast_last_three_q, fast_wanted_q;
+  logic [FastW-1:0] fast_one, fast_two;
   assign one      = third - one_q;
   assign two      = one - two_q;
   assign fast_one = FastW'(third) - fast_one_q;
   assign fast_two = fast_one - fast_two_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {one_q, two_q, three_q, wanted_q}                     <= '0;
-      {fast_one_q, fast_two_q, fast_three_q, fast_wanted_q} <= '0;
+      {one_q, two_q, three_q, last_two_q, last_three_q, wanted_q}                               <= '0;
+      {fast_one_q, fast_two_q, fast_three_q, fast_last_two_q, fast_last_three_q, fast_wanted_q} <= '0;
     end else begin
       if (steps[0]) begin
         one_q    <= third;
         two_q    <= one;
         three_q  <= two;
-        wanted_q <= two - three_q;
+        last_two_q   <= two_q;
+        last_three_q <= three_q;
+        wanted_q     <= two - three_q;
       end
       if (fast_steps[0]) begin
         fast_one_q    <= FastW'(third);
         fast_two_q    <= fast_one;
         fast_three_q  <= fast_two;
-        fast_wanted_q <= fast_two - fast_three_q;
+        fast_last_two_q   <= fast_two_q;
+        fast_last_three_q <= fast_three_q;
+        fast_wanted_q     <= fast_two - fast_three_q;
       end
     end
   end
@@ -352,10 +357,12 @@ module sense_proof (
                               (whole_q[5:3] == '0 || \u_dut.aligned_q2 == ((aligned_q & whole_q & 7'h38) != '0)));
       inside_combs: assert (
           steps[1] ? {\u_dut.comb_q , \u_dut.delay_q , \u_dut.delay_q2 , \u_dut.delay_q3 } ==
-                     {two_q, two_q - three_q, three_q - wanted_q, one_q} :
+                     {two_q, last_two_q, last_three_q, one_q} :
           steps[2] ? {\u_dut.comb_q , \u_dut.delay_q , \u_dut.delay_q2 , \u_dut.delay_q3 } ==
-                     {three_q, three_q - wanted_q, one_q, two_q} :
+                     {three_q, last_three_q, one_q, two_q} :
                      {\u_dut.delay_q , \u_dut.delay_q2 , \u_dut.delay_q3 } == {one_q, two_q, three_q});
+      inside_wanted: assert (wanted_q == three_q - last_three_q && three_q == two_q - last_two_q &&
+          fast_wanted_q == fast_three_q - fast_last_three_q && fast_three_q == fast_two_q - fast_last_two_q);
       inside_results: assert (results_q < 10'(3 * Average) && \u_dut.count_q == results_q[7:0] &&
                               \u_dut.settled_q == (results_q[9:8] != '0));
       inside_sum: assert (28'(\u_dut.sum_q ) == sum_q + 28'sd128 && sum_q <= most && sum_q >= -most);
@@ -368,9 +375,9 @@ module sense_proof (
                                  fast_known_q == \u_dut.fast_samples_q + 2'(\u_dut.fast_samples_q != 2'd3));
       inside_fast_combs: assert (
           fast_steps[1] ? {\u_dut.fast_comb_q , \u_dut.fast_delay_q , \u_dut.fast_delay_q2 , \u_dut.fast_delay_q3 } ==
-                          {fast_two_q, fast_two_q - fast_three_q, fast_three_q - fast_wanted_q, fast_one_q} :
+                          {fast_two_q, fast_last_two_q, fast_last_three_q, fast_one_q} :
           fast_steps[2] ? {\u_dut.fast_comb_q , \u_dut.fast_delay_q , \u_dut.fast_delay_q2 , \u_dut.fast_delay_q3 } ==
-                          {fast_three_q, fast_three_q - fast_wanted_q, fast_one_q, fast_two_q} :
+                          {fast_three_q, fast_last_three_q, fast_one_q, fast_two_q} :
                           {\u_dut.fast_delay_q , \u_dut.fast_delay_q2 , \u_dut.fast_delay_q3 } ==
                           {fast_one_q, fast_two_q, fast_three_q});
       inside_fast_since: assert (!began_q || (fast_known_q == 2'd3 && \u_dut.fast_samples_q == 2'd3 &&

@@ -58,6 +58,30 @@ Noise noise(const CurrentSense::Parameters& p) {
   return found;
 }
 
+/// Of the fast filter, whose results are on no port: its response over the bits at the same
+/// currents.
+Noise fast_noise(const CurrentSense::Parameters& p) {
+  const std::vector<std::int64_t> response = sinc3_response(1 << p.fast_log2);
+  Noise found;
+  for (int k = 0; k < 400; ++k) {
+    const double level = kRange * (2 * std::fmod((k + 0.5) * 0.6180339887498949, 1.0) - 1);
+    Modulator modulator;
+    std::vector<bool> bits;
+    for (int n = 0; n < 1000; ++n) bits.push_back(modulator.next(level));
+    for (std::size_t first = 200; first + response.size() <= bits.size(); first += 8) {
+      std::int64_t sum = -p.fast_full_scale();
+      for (std::size_t j = 0; j < response.size(); ++j) sum += bits[first + j] ? response[j] : 0;
+      const double error =
+          kFullScaleA *
+          (static_cast<double>(sum) / static_cast<double>(p.fast_full_scale()) - level);
+      found.squares += error * error;
+      found.worst = larger(found.worst, std::fabs(error));
+      ++found.results;
+    }
+  }
+  return found;
+}
+
 // Ripple of `lever` at 50 kHz: 24 V, 82 uH, duty 0.29.
 constexpr int kPeriod = 1000;  // clocks
 constexpr double kDuty = 0.29, kRippleA = 24 * kDuty * (1 - kDuty) / (82e-6 * 50e3);
@@ -156,6 +180,12 @@ TEST_CASE("current_sense: noise is that of the closed form, ripple is not aliase
   // The middle of the window on that of the high pulse, and of the low one: with the modulator's
   // clock half of it is what can be met. Then a quarter of a period beside it.
   const CurrentSense::Parameters p{};
+  const Noise fast = fast_noise(p);
+  CHECK(fast.worst < 0.2 * kFullScaleA);
+  CHECK(fast.worst > fast.rms());
+  figures += fmt::format("| 8, fast | {:.0f} | {:.0f} | {:.0f} | - | {:.0f} | - |\n",
+                         1e3 * kFullScaleA / static_cast<double>(p.fast_full_scale()),
+                         1e3 * fast.rms(), 1e3 * fast.worst, kClockHz / (p.divider << p.fast_log2));
   const int high = kPeriod / 2 - p.centre_clocks(), low = kPeriod - p.centre_clocks();
   const int early = p.divider / 2;
   const Bias of_high = ripple(high - early), of_low = ripple(low - early);

@@ -49,11 +49,9 @@ module current_sense #(
   generate
   if (!(Divider >= 3 && Divider <= 16 && DecimationLog2 >= 5 && DecimationLog2 <= 7 && FastLog2 >= 3 &&
         FastLog2 <= 4 && Hits >= 1 && OffsetLog2 >= 1 && OffsetLog2 <= 12 && StuckClocks >= 2 &&
-        OffsetLimit >= 1 && OffsetLimit < 2 ** (3 * DecimationLog2 - 2))) begin : g_check
-    the_parameters_must_be_in_their_ranges missing ();
-  end
-  if (Divider * (Hits + 3) * 2 ** FastLog2 + 7 > feltgate_pkg::CLOCK_HZ / 200000) begin : g_check_time
-    an_over_current_must_be_latched_within_5_us missing ();
+        OffsetLimit >= 1 && OffsetLimit < 2 ** (3 * DecimationLog2 - 2) &&
+        Divider * (Hits + 3) * 2 ** FastLog2 + 7 <= feltgate_pkg::CLOCK_HZ / 200000)) begin : g_check
+    an_over_current_must_be_latched_within_5_us_and_all_parameters_be_in_range missing ();
   end
   endgenerate
 

@@ -66,7 +66,9 @@ TEST_CASE("current_sense: one bit at every place gives the response of three box
       if (!fed.twin.out().valid) continue;
       ++results;
       // The bit that was launched latency_clocks() ago; the first edge is that of clock 1.
-      const std::int64_t newest = (fed.clock - 1 - kSense.latency_clocks()) / kSense.divider;
+      const std::int64_t launched = fed.clock - 1 - kSense.latency_clocks();
+      wrong += launched % kSense.divider != 0;
+      const std::int64_t newest = launched / kSense.divider;
       const std::int64_t j = newest - one;
       const bool inside = j >= 0 && j < static_cast<std::int64_t>(response.size());
       const std::int64_t wanted = inside ? response[static_cast<std::size_t>(j)] : 0;

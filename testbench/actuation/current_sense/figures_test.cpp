@@ -154,7 +154,7 @@ void check_page(const std::string& figures) {
 TEST_CASE("current_sense: noise is that of the closed form, ripple is not aliased", "[figures]") {
   std::string figures =
       "| decimation | LSB, mA | noise rms, mA | greatest error, mA | its bound, mA | results a "
-      "second | centre of the window to the result, us |\n|---|---|---|---|---|---|---|\n";
+      "second | centre of the window to the result, µs |\n|---|---|---|---|---|---|---|\n";
   for (const int log2 : {5, 6, 7}) {
     CurrentSense::Parameters p;
     p.decimation_log2 = log2;

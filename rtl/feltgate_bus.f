@@ -37,5 +37,6 @@ core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
 core/estimators/velocity_mt.sv
+core/actuation/current_sense.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

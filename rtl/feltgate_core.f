@@ -37,3 +37,4 @@ core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
 core/estimators/velocity_mt.sv
+core/actuation/current_sense.sv

@@ -17,8 +17,8 @@ ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
 WIRED_ROOMS = tuple(room for room in ROOMS if room != "scenes")
 # Without a twin and a test of their own: one is elaborated, never clocked; a room is tested by the core's test.
 NO_BLOCKS = ("feltgate_checks", *WIRED_ROOMS)
-# Blocks with the ports of another, for a core of one's own: the core does not instantiate them.
-DROP_INS = ("velocity_mt",)
+# Blocks for a core of one's own, which the core does not instantiate: with the ports of another, or not wired yet.
+DROP_INS = ("velocity_mt", "current_sense")
 
 
 def code_only(text):

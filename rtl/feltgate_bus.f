@@ -37,5 +37,6 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/current_sense.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

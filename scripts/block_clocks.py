@@ -22,21 +22,23 @@ ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs/images/blocks"
 INSTANCE = re.compile(r"^\s*(\w+)\s*(?:#\s*\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", re.M)
 # Blocks that do not follow the wave: the port whose edge is drawn.
-EDGES = {"quad_decoder": "a_i", "pwm": "gate_a_hi_o", "registers": "reg_write_i"}
+EDGES = {"quad_decoder": "a_i", "pwm": "gate_a_hi_o", "registers": "reg_write_i",
+         "current_sense": "valid_o"}
 BEFORE, AFTER = 3, 40  # clocks around such an edge
+LATE = {"current_sense": 15}  # clocks before it, of blocks that answer late
 BUSES = {"param_i": "param_", "product_i": "product_", "operand_i": "read_"}  # drawn where these strobes are
 RESETS = ("clk_i", "rst_ni")
 
 
 def modules_by_instance(root):
-    """{name of an instance: its module} of the core."""
+    """{name of an instance: its module} of the core, and of blocks that the testbench has beside it."""
     found = {}
     for path in rtl_sources.core_files(root):
         code = rtl_sources.code_only((root / "rtl" / path).read_text(encoding="utf-8"))
         for module, instance in INSTANCE.findall(code):
             if module not in rtl_sources.NO_BLOCKS:
                 found.setdefault(instance, module)
-    return found
+    return {**found, **{f"u_{name}": name for name in rtl_sources.DROP_INS}}
 
 
 def read_vcd(path, modules):
@@ -118,8 +120,9 @@ def window(block, ports, starts):
     length = len(next(iter(ports.values())))
     if block in EDGES:
         seen = next(v for (name, _), v in ports.items() if name == EDGES[block])
-        edges = [k for k in range(BEFORE, length - AFTER) if {seen[k - 1], seen[k]} == {"0", "1"}]
-        found = [(k - BEFORE, k, k + AFTER) for k in edges]
+        before = LATE.get(block, BEFORE)
+        edges = [k for k in range(before, length - AFTER) if {seen[k - 1], seen[k]} == {"0", "1"}]
+        found = [(k - before, k, k + AFTER) for k in edges]
     else:
         found = [(a, a, b) for a, b in zip(starts, starts[1:])]
     return max(found, key=lambda w: sum(len(set(v[w[0] : w[2]])) > 1 for v in ports.values()), default=None)

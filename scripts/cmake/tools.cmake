@@ -41,7 +41,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS)
   feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
   target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
 endforeach()
-feltgate_library(feltgate_trim studies/trim feltgate_engines feltgate_loop)
+feltgate_library(feltgate_trim studies/trim feltgate_engines feltgate_loop feltgate_axes_loop)
 
 # Where the constants of design and plant differ.
 feltgate_library(feltgate_constants studies/stability ONLY "/constants\\.cpp$" feltgate_plant_files feltgate_design)

@@ -86,7 +86,10 @@ class Question:
         try:
             self.scene = tomllib.loads(self.path.read_text(encoding="utf-8"))
             self.law = made_scene.law_path(root, self.path, self.scene)
-        except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        except KeyError as error:
+            missing = f"it has no table [{error.args[0]}]"
+            raise Refused(f"{self.path}: not a scene file: {missing}; docs/scenes.md explains one") from error
+        except (OSError, ValueError, TypeError, AttributeError) as error:
             raise Refused(f"{self.path}: not a scene file: {error}; docs/scenes.md explains one") from error
         self.device = self.scene.get("device")
         self.name = self.path.stem
@@ -176,21 +179,36 @@ class Choosing:
     def measure(self):
         """First the plant, then the scene at all rates on what is left of it."""
         ask, q = self.programs.ask, self.question
-        if q.of_block():
-            self.path = self.programs.folder / f"{q.name}_trimmed.toml"
-            share = f"{self.wishes['torque_error']:.6g}"
-            self.trim = ask("trim", q.path, "--tolerance", share, "-o", self.path, "--quiet")
-            self.scene = q.scene | tomllib.loads(self.path.read_text(encoding="utf-8"))
+        self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
+        trimmed = self.programs.folder / f"{q.name}_trimmed.toml"
+        share = f"{self.wishes['torque_error']:.6g}"
+        self.trim = ask("trim", q.path, "--tolerance", share, "-o", trimmed, "--quiet")
+        if trimmed.is_file():
+            effects = tomllib.loads(trimmed.read_text(encoding="utf-8"))
+            self.path, self.scene = trimmed, self.scene | effects
         else:
-            why = "several axes" if q.device else "a law"
-            told = f"`feltgate trim` takes no scene with {why}: all of them stay on"
+            self.trim = None
+            told = "`feltgate trim` finds none that the wished error allows: all of them stay on"
             self.leave_out("plant effects", told)
-            self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
+        if q.law:
             self.scene["core"]["law"] = str(q.law.resolve())
         self.report = ask("rates", self.path, "--rate", RATES[q.kind()], "--quiet")["scenes"][0]
+        if self.path != q.path:
+            self.margins_of_the_whole()
         self.largest_nm = self.report["largest_nm"]
         if self.report["counts_alone_rms_nm"] is None or self.largest_nm <= 0:
             raise Refused(f"{q.path}: the law asks for no torque on this motion; give a scene that meets it")
+
+    def margins_of_the_whole(self):
+        """Where trimming took a part of the linear loop, margins without borders are those with it."""
+        own, off = self.trim["full"]["effects_off"], self.trim["trimmed"]["effects_off"]
+        borders = not self.question.device and self.report["rates"][-1].get("border_of") == "stiffness"
+        if borders or not {"inductance", "back_emf", "viscous"} & (set(off) - set(own)):
+            return
+        rates = RATES[self.question.kind()]
+        whole = self.programs.ask("rates", self.question.path, "--rate", rates, "--quiet")["scenes"][0]
+        for row, full in zip(self.report["rates"], whole["rates"], strict=True):
+            row["margin"] = full.get("margin")
 
     def kept_designs(self):
         """{cut-off: row of the table}, or the device's own design alone."""
@@ -312,22 +330,19 @@ class Choosing:
         return found
 
     def margin(self, borders, cutoff, i):
-        """Of one lever by the borders of the whole plant, which may have more than the trimmed one."""
+        """Of a stiff law on one lever by the borders of the whole plant, else as `feltgate rates` has it."""
         rates, stiffness = self.report["rates"], self.report["stiffness_nm_rad"]
         if rates[i].get("border_of") == "stiffness" and borders:
             values = (borders[self.own][-1], borders[self.own][i], borders[cutoff][i])
             return choice.margin_of(*(value / stiffness for value in values))
-        if self.trim and rates[-1].get("border_of") == "damping":
-            whole = self.programs.ask("rates", self.question.path, "--rate", TICK_HZ, "--quiet")
-            rates[-1]["margin"] = whole["scenes"][0]["rates"][-1]["margin"]
         own = rates[i].get("margin") if cutoff == self.own else None
         return choice.margin_of(rates[-1].get("margin"), own, own)
 
     def margin_by(self, margin):
         notes = [n for n in self.report["notes"] if n.startswith("no margin")]
         last = self.report["rates"][-1]
-        if margin is None and last.get("border_of") == "damping":
-            return "no margin: that of a law's damping is known for the cut-off of `lever` alone"
+        if margin is None and last.get("border_of") in ("damping", "torque"):
+            return "no margin: that of the law's damping or states is known for the cut-off of `lever` alone"
         if margin is None:
             return notes[0] if notes else "no margin: the motion met the law nowhere stiff"
         fastest = margin["parts"][0]["margin"]
@@ -355,6 +370,7 @@ class Choosing:
             full, least = self.trim["full"], self.trim["trimmed"]
             told |= {"effects_off": least["effects_off"], "step_clocks": least["step_clocks"]}
             told |= {"cpu_s_per_s": least["cpu_s_per_s"], "full_cpu_s_per_s": full["cpu_s_per_s"]}
+            told["faster"] = self.trim["faster"]
         else:
             told |= {"effects_off": None, "step_clocks": None, "cpu_s_per_s": best["cpu_s_per_s"]}
         return told

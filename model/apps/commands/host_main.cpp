@@ -6,6 +6,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
@@ -28,11 +30,22 @@ int guarded(const std::function<int()>& run) {
   }
 }
 
+/// The usage of a verb names the port, which comes before it.
+class UsageWithPort : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    constexpr std::string_view program = "feltgate host";
+    if (app->get_parent() != nullptr) name.insert(program.size(), " PORT");
+    return CLI::Formatter::make_usage(app, name);
+  }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"feltgate host: a board on a serial port, or one that feltgate board simulates"};
   app.name("feltgate host");
+  app.formatter(std::make_shared<UsageWithPort>());
   app.footer(
       "  feltgate host /dev/ttyUSB0 info                       what is there, and how it is\n"
       "  feltgate host /dev/ttyUSB0 set torque_limit=0.1Nm     in units\n"

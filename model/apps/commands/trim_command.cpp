@@ -4,6 +4,7 @@
 // feltgate trim. Documentation: docs/trim.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <memory>
@@ -13,11 +14,15 @@
 
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
+#include "apps/commands/run_output.hpp"
 #include "feltgate/largest.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "sim/engines/axes_cores.hpp"
+#include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/plant_file.hpp"
+#include "studies/rates/rates.hpp"
 #include "studies/trim/scene_file.hpp"
 #include "studies/trim/trim.hpp"
 
@@ -59,11 +64,27 @@ std::string today() {
   return text;
 }
 
-std::vector<std::string> off(const Scenario& scene, const trim::Model& model) {
-  Scenario s = scene;
+/// A scene to be trimmed, with what the texts say of it.
+struct Trimmed {
+  Scenario scene;     ///< of a device: without plant and hand
+  std::string plant;  ///< or device
+  trim::Subject subject;
+};
+
+/// What is off in `model`: what the scene itself leaves out, and what was trimmed.
+std::vector<std::string> off(const Trimmed& t, const trim::Model& model) {
+  Scenario s = t.scene;
   s.effects = model.effects;
-  s.switched = model.gates;
-  return effects_off(s);
+  s.switched = model.gates || s.plant.empty();  // a device has mean voltages at any time
+  std::vector<std::string> names = effects_off(s);
+  const auto has = [](const std::vector<std::string>& all, const std::string& name) {
+    return std::find(all.begin(), all.end(), name) != all.end();
+  };
+  const std::vector<std::string> left = t.subject.parts(model);
+  for (const std::string& part : t.subject.parts(t.subject.full)) {
+    if (part != "dead_time" && !has(left, part) && !has(names, part)) names.push_back(part);
+  }
+  return names;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -90,14 +111,20 @@ std::string verdict(const trim::PartReport& p) {
   return "stays";
 }
 
-std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+/// How many times faster the trimmed model is, with the spread of the runs.
+std::string faster_text(const trim::Report& r) {
+  return fmt::format("{:.3g} times (median of {} runs, {:.3g} to {:.3g})", r.times_faster(),
+                     r.faster.size(), r.faster.front(), r.faster.back());
+}
+
+std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments& a) {
   std::ostringstream s;
   for (const std::string& b : r.trimmed_run.broken) s << "trimmed, not as expected: " << b << "\n";
-  s << "scene " << scene.name << ", design " << a.options.design << ", plant " << scene.plant
-    << "\n"
+  s << "scene " << t.scene.name << ", design " << a.options.design
+    << (t.scene.plant.empty() ? ", device " : ", plant ") << t.plant << "\n"
     << fmt::format("tolerance {:.3g} % of peak and of rms, means over {:.3g} ms\n",
                    100 * a.options.tolerance, a.window_ms)
-    << "full model: " << joined(trim::parts_of(scene, r.full))
+    << "full model: " << joined(t.subject.parts(r.full))
     << fmt::format(", {} clocks a step: {:.3g} s of CPU time per simulated second\n\n",
                    r.full.step_clocks, cost(r.full_run))
     << "left out                torque %      position %         force %     saves\n"
@@ -106,7 +133,7 @@ std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArgu
     s << fmt::format("{:<18}", p.name.c_str()) << difference_text(p.alone)
       << fmt::format("  {:6.1f} %  ", 100 * p.saves) << verdict(p) << "\n";
   }
-  s << "\neffects off: " << joined(off(scene, r.trimmed)) << "\n"
+  s << "\neffects off: " << joined(off(t, r.trimmed)) << "\n"
     << fmt::format("step: {} clocks\n", r.trimmed.step_clocks) << "own motion        "
     << difference_text(r.own) << "\n";
   for (const trim::UnseenReport& u : r.unseen) {
@@ -114,10 +141,11 @@ std::string text_of(const trim::Report& r, const Scenario& scene, const TrimArgu
       << fmt::format("  way x{:.2f}, speed x{:.2f}, seed {}\n", u.amplitude, u.speed,
                      static_cast<unsigned long long>(u.seed));
   }
-  s << fmt::format(
-      "states of the plant {} -> {}; CPU per simulated second {:.3g} -> {:.3g} s, {:.3g} times\n",
-      r.full_run.states, r.trimmed_run.states, cost(r.full_run), cost(r.trimmed_run),
-      cost(r.full_run) / cost(r.trimmed_run));
+  if (r.full_run.states > 0) {
+    s << fmt::format("states of the plant {} -> {}; ", r.full_run.states, r.trimmed_run.states);
+  }
+  s << fmt::format("CPU per simulated second {:.3g} -> {:.3g} s\nfaster: {}\n", cost(r.full_run),
+                   cost(r.trimmed_run), faster_text(r));
   if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
   s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
@@ -128,24 +156,29 @@ Json difference_json(const trim::Difference& d) {
   return {{"torque", loss(d.torque)}, {"position", loss(d.position)}, {"force", loss(d.force)}};
 }
 
-Json model_json(const Scenario& scene, const trim::Model& model, const trim::Felt& felt) {
-  return {{"effects_off", off(scene, model)},
+Json model_json(const Trimmed& t, const trim::Model& model, const trim::Felt& felt) {
+  return {{"effects_off", off(t, model)},
           {"step_clocks", model.step_clocks},
           {"plant_states", felt.states},
           {"cpu_s_per_s", cost(felt)}};
 }
 
-std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+std::string json_of(const trim::Report& r, const Trimmed& t, const TrimArguments& a) {
   Json j{{"schema", "feltgate-trim/1"},
          {"version", FELTGATE_VERSION},
          {"date", today()},
-         {"scene", scene.name},
+         {"scene", t.scene.name},
          {"design", a.options.design},
-         {"plant", scene.plant},
+         {"plant", t.plant},
          {"tolerance", a.options.tolerance},
          {"window_s", a.options.window_s},
-         {"full", model_json(scene, r.full, r.full_run)},
-         {"trimmed", model_json(scene, r.trimmed, r.trimmed_run)},
+         {"full", model_json(t, r.full, r.full_run)},
+         {"trimmed", model_json(t, r.trimmed, r.trimmed_run)},
+         {"faster",
+          {{"median", r.times_faster()},
+           {"least", r.faster.front()},
+           {"most", r.faster.back()},
+           {"runs", r.faster.size()}}},
          {"own_motion", difference_json(r.own)},
          {"parts", Json::array()},
          {"unseen", Json::array()},
@@ -169,27 +202,21 @@ std::string json_of(const trim::Report& r, const Scenario& scene, const TrimArgu
   return files::json_text(j);
 }
 
-std::string comment_of(const trim::Report& r, const Scenario& scene, const TrimArguments& a) {
+std::string comment_of(const trim::Report& r, const Trimmed& t, const TrimArguments& a) {
   std::ostringstream s;
   double worst = r.own.worst();
   for (const trim::UnseenReport& u : r.unseen) worst = larger(worst, u.difference.worst());
-  s << "Written on " << today() << " by: feltgate trim " << scene.name << " --design "
+  s << "Written on " << today() << " by: feltgate trim " << t.scene.name << " --design "
     << a.options.design << " --tolerance " << a.tolerance << "\n"
-    << "effects off: " << joined(off(scene, r.trimmed)) << "\n"
+    << "effects off: " << joined(off(t, r.trimmed)) << "\n"
     << fmt::format(
-           "Within {:.3g} % of the full model on its own motion and on {} others, {:.3g} times "
-           "faster.",
-           100 * worst, r.unseen.size(), cost(r.full_run) / cost(r.trimmed_run));
+           "Within {:.3g} % of the full model on its own motion and on {} others; faster by {}.",
+           100 * worst, r.unseen.size(), faster_text(r));
   return s.str();
 }
 
-int run_trim(TrimArguments& a) {
-  a.options.tolerance = share_of(a.tolerance);
-  a.options.window_s = 1e-3 * a.window_ms;
-  Scenario scene = read_scenario(find_file(a.scene, "vectors/scenes"));
-  require_no_law(scene, "trim");
-  resolve_amounts(scene, design_named(a.options.design));
-  if (!a.plant.empty()) scene.plant = a.plant;
+/// Cuts the scene after --duration.
+void cut(Scenario& scene, const TrimArguments& a) {
   constexpr double fewest_windows = 10;  // fewer say nothing of a scene
   if (a.duration_s > 0 && a.duration_s < fewest_windows * a.options.window_s) {
     throw std::invalid_argument(fmt::format(
@@ -205,26 +232,82 @@ int run_trim(TrimArguments& a) {
     scene.duration_s = a.duration_s;
     scene.expectations.clear();
   }
+}
+
+/// Makes the law, compiled once; empty for a scene that renders none.
+trim::LawMaker law_of(const Scenario& scene, const DesignInfo& design, int axes) {
+  if (scene.law.empty()) return {};
+  const std::string path = law_file(scene);
+  law::Target target = law::target_of(design);
+  target.axes = axes;
+  return [compiled = law::compile_file(path, target), path, design, axes] {
+    return axes > 1 ? make_axes_law(compiled, path, design, axes)
+                    : make_scene_law(compiled, design);
+  };
+}
+
+Trimmed trimmed_lever(const std::string& path, TrimArguments& a, files::Outputs& outputs) {
+  Scenario scene = read_scenario(path);
+  if (!scene.law.empty() && a.options.design == "lever") a.options.design = "lever_law";
+  const DesignInfo& design = design_named(a.options.design);
+  const trim::LawMaker law = law_of(scene, design, 1);
+  const std::unique_ptr<SceneLaw> own = law ? law() : nullptr;
+  resolve_amounts(scene, design, own.get());
+  if (!a.plant.empty()) scene.plant = a.plant;
+  cut(scene, a);
   const std::string plant_path = find_file(scene.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);
-  files::Outputs outputs;
-  outputs.reads(scene.path);
   outputs.reads(plant_path);
   for (const auto& phase : scene.hand.phases) outputs.reads(phase.trace.file);
+  const std::string name = scene.plant;
+  trim::Subject subject = trim::lever_subject(scene, plant, a.options, law);
+  return {std::move(scene), name, std::move(subject)};
+}
+
+Trimmed trimmed_device(const std::string& path, TrimArguments& a, files::Outputs& outputs) {
+  if (!a.plant.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "--plant is for scenes of one lever, and {} names a device; leave it out", path));
+  }
+  AxesScene scene = read_axes_scene(
+      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  if (a.options.design == "lever") a.options.design = rates::axes_design(scene);
+  const AxesDesignMakers* made = find_axes_design(a.options.design);
+  if (made == nullptr) {
+    throw std::invalid_argument(fmt::format(
+        "{}: design {} is not in this program; leave --design out", path, a.options.design));
+  }
+  const DesignInfo design = made->info();
+  const trim::LawMaker law = law_of(scene.scenario, design, axes_of(scene));
+  if (!law) throw std::invalid_argument(path + ": a device of several axes needs a law");
+  resolve_amounts(scene.scenario, design, law().get());
+  cut(scene.scenario, a);
+  outputs.reads(scene.device_path);
+  return {scene.scenario, device_of(scene), trim::axes_subject(scene, a.options, law)};
+}
+
+int run_trim(TrimArguments& a) {
+  a.options.tolerance = share_of(a.tolerance);
+  a.options.window_s = 1e-3 * a.window_ms;
+  const std::string path = find_file(a.scene, "vectors/scenes");
+  files::Outputs outputs;
+  outputs.reads(path);
+  const Trimmed t =
+      names_device(path) ? trimmed_device(path, a, outputs) : trimmed_lever(path, a, outputs);
   outputs.reads(find_file(a.options.design, "rtl/designs"));
   files::OutputFile* output = outputs.open("--output", a.output);
   files::OutputFile* json = outputs.open("--json", a.json);
-  Progress progress("trim " + scene.name + " on " + a.options.design, a.quiet);
+  Progress progress("trim " + t.scene.name + " on " + a.options.design, a.quiet);
   a.options.progress = [&progress](double done) { progress.update(done); };
-  const trim::Report report = trim::trim(scene, plant, a.options);
+  const trim::Report report = trim::trim(t.subject, a.options);
   progress.finish();
 
-  if (json != nullptr) json->write(json_of(report, scene, a));
-  if (!a.quiet) outputs.say(text_of(report, scene, a));
+  if (json != nullptr) json->write(json_of(report, t, a));
+  if (!a.quiet) outputs.say(text_of(report, t, a));
   const bool found = report.holds && report.smaller() && report.trimmed_run.broken.empty();
   if (output != nullptr) {
     if (found) {
-      output->write(trim::scene_text(scene, report.trimmed, comment_of(report, scene, a)));
+      output->write(trim::scene_text(t.scene, report.trimmed, comment_of(report, t, a)));
     } else {
       output->discard();
     }
@@ -246,6 +329,7 @@ void add_trim(CLI::App& app, int* exit_code) {
       "are "
       "kept within the\ntolerance on the scene's own motion and on others (docs/trim.md).\n"
       "  feltgate trim membrane                           one percent\n"
+      "  feltgate trim coupled_levers                     a device: its effects alone\n"
       "  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml\n"
       "Exit code: 0 a smaller model was found, 1 nothing can be left out or an expectation is "
       "broken,\n2 unusable input.");

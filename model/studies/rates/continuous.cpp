@@ -19,6 +19,7 @@ namespace {
 
 constexpr double rounding_nm_rad = 1e-6;  ///< no more than that is no stiffness
 constexpr int look_every = 20;            ///< runs between two looks at the slope
+constexpr int look_at_place_every = 500;  ///< the same for laws with states: a look costs more
 constexpr double speed_step_rad_s = 1e-3, observed_step_nm = 1e-4;
 /// Causes for which the torque is not that of the law.
 constexpr int left_out =
@@ -167,6 +168,18 @@ void Continuous::look() {
   steepest_nm_ = here_nm;
 }
 
+void Continuous::look_at_place() {
+  Place here{seen_[0].position_rad, seen_[0].velocity_rad_s, seen_[0].tau_hat_nm, {}, {}};
+  for (std::size_t i = 0; i < law_.states.size(); ++i) here.states.push_back(true_.state(i));
+  for (std::size_t i = 0; i < law_.parameters.size(); ++i) {
+    here.parameters.push_back(true_.parameter(i));
+  }
+  const auto linear = linearised(law_, here, setting_.count_rad);
+  if (!linear || std::fabs(probe(seen_)[0]) >= setting_.limit_nm) return;
+  here.steepness_nm_rad = stability::steepness_nm_rad(*linear, setting_.run_s);
+  if (here.steepness_nm_rad > 1.001 * place_.steepness_nm_rad) place_ = here;
+}
+
 void Continuous::place(const Row* rows) {
   if (placed_) return;
   placed_ = true;
@@ -197,7 +210,9 @@ void Continuous::tick(const Row* rows) {
       seen_[n] = {r.theta_rad - axes_[n].zero_rad, r.omega_rad_s, r.tau_hat_nm};
       counted_[n] = {r.position_rad, r.velocity_rad_s, r.tau_hat_nm};
     }
-    if (setting_.slope && runs_++ % look_every == 0) look();
+    if (setting_.slope && runs_ % look_every == 0) look();
+    if (setting_.place && runs_ % look_at_place_every == 0) look_at_place();
+    ++runs_;
     if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
     run(true_, seen_, &Axis::ideal_nm);
   }

@@ -14,6 +14,7 @@
 #include "sim/loop/columns.hpp"
 #include "sim/loop/figures.hpp"
 #include "sim/loop/scenario.hpp"
+#include "studies/rates/linearise.hpp"
 
 namespace feltgate::rates {
 
@@ -51,11 +52,13 @@ class Continuous {
     std::size_t axes = 1;
     double count_rad = 0;
     double limit_nm = 0;  ///< of the torque reference of each axis
+    double run_s = 1e-6;  ///< from run to run
     int every = 1;        ///< ticks between two runs: 1, except for laws whose states count runs
     bool slope = false;   ///< search the steepest place
     /// Inertia of several axes at these angles, kg m^2: the steepest place is the one with the
     /// fastest oscillation.
     std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> inertia;
+    bool place = false;  ///< search the place of a law of one axis with states that is steepest
     bool floor = false;  ///< also run the law from the counts
   };
   /// The law must outlive this.
@@ -77,6 +80,8 @@ class Continuous {
   /// of the core: no rate can reduce it.
   const ErrorFigure& floor() const { return floor_; }
   const Slope& slope() const { return slope_; }
+  /// The steepest place, by steepness_nm_rad(); its steepness is 0 where none was found.
+  const Place& steepest_place() const { return place_; }
   double largest_nm() const { return largest_nm_; }  ///< largest limited torque of any axis
 
  private:
@@ -102,6 +107,7 @@ class Continuous {
   /// slope; notes jumps.
   bool smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow);
   void look();
+  void look_at_place();
 
   const law::Law& law_;
   std::vector<Change> changes_;
@@ -118,6 +124,7 @@ class Continuous {
   bool observes_ = false;                  ///< the law reads tau_hat
   ErrorFigure error_, floor_;
   Slope slope_;
+  Place place_;
 };
 
 }  // namespace feltgate::rates

@@ -20,7 +20,8 @@ Margin::Of kind(const Slope& slope, double least_nm_rad) {
 }
 
 /// Finds the border: `stable` tests a ratio; the stable ratios are those from 0 up to the border.
-Margin search(Margin::Of of, const Slope& slope, const std::function<bool(double)>& stable) {
+/// `own`: what the ratio scales.
+Margin search(Margin::Of of, double own, const std::function<bool(double)>& stable) {
   Margin m;
   m.of = of;
   double low = 1, high = 1;
@@ -36,8 +37,12 @@ Margin search(Margin::Of of, const Slope& slope, const std::function<bool(double
     (stable(middle) ? low : high) = middle;
   }
   m.ratio = low;
-  m.border = low * (of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad);
+  m.border = low * own;
   return m;
+}
+
+double scaled(Margin::Of of, const Slope& slope) {
+  return of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad;
 }
 
 }  // namespace
@@ -46,7 +51,7 @@ Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_t
               int delay_ticks) {
   const Margin::Of of = kind(slope, least_stiffness_nm_rad);
   if (of == Margin::Of::none) return {};
-  return search(of, slope, [&](double ratio) {
+  return search(of, scaled(of, slope), [&](double ratio) {
     stability::Wall wall{least_stiffness_nm_rad, slope.damping_nm_s_rad, scene_ticks, delay_ticks};
     if (of == Margin::Of::stiffness) {
       wall.stiffness_nm_rad = ratio * slope.stiffness_nm_rad;
@@ -57,6 +62,15 @@ Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_t
   });
 }
 
+Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law,
+              double steepness_nm_rad, int scene_ticks, int delay_ticks) {
+  return search(Margin::Of::torque, steepness_nm_rad, [&](double ratio) {
+    const auto all =
+        stability::poles(model, law, ratio, least_stiffness_nm_rad, scene_ticks, delay_ticks);
+    return all.front().real() < 0;
+  });
+}
+
 Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks) {
   const Margin::Of of = kind(slope, next_to_none_nm_rad);
@@ -64,7 +78,7 @@ Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int sce
   // Along a wall, and where two levers turn together, nothing holds an angle.
   const auto axes = slope.damping.rows();
   const Eigen::MatrixXd held = next_to_none_nm_rad * Eigen::MatrixXd::Identity(axes, axes);
-  return search(of, slope, [&](double ratio) {
+  return search(of, scaled(of, slope), [&](double ratio) {
     stability::AxesWall wall{held, slope.damping, slope.observed, scene_ticks, delay_ticks};
     if (of == Margin::Of::stiffness) {
       wall.stiffness_nm_rad += ratio * slope.stiffness;

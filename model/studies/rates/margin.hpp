@@ -6,13 +6,15 @@
 
 #include "studies/rates/continuous.hpp"
 #include "studies/stability/axes_linear_loop.hpp"
+#include "studies/stability/law_loop.hpp"
 #include "studies/stability/linear_loop.hpp"
 
 namespace feltgate::rates {
 
 struct Margin {
-  enum class Of { stiffness, damping, none } of = Of::none;
-  double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping
+  enum class Of { stiffness, damping, torque, none } of = Of::none;
+  double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping; of a
+                      ///< law with states the largest stable steepness_nm_rad() at its place
   double ratio = 0;   ///< border divided by the law's value; at 1 the loop oscillates for ever
 };
 
@@ -22,6 +24,10 @@ struct Margin {
 /// torque, at most `scene_ticks`.
 Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks);
+
+/// The margin of a law with states at a place: it scales the whole torque.
+Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law,
+              double steepness_nm_rad, int scene_ticks, int delay_ticks);
 
 /// The same for several axes: it scales the whole matrix of the stiffness, or of the damping.
 Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,

@@ -58,8 +58,7 @@ class LeverSweep : public Sweep {
     sweep(std::move(fast), block_ != nullptr ? 1 : 0);
     if (block_ != nullptr) run_block();
     if (keeps_time(source_)) {
-      report_.notes.emplace_back(
-          "no margin: the law's springs and masses are states, not its slope");
+      margins_by_states();
     } else if (scene_.tracker) {
       report_.notes.emplace_back("no margin: the tracker, its noise and its delay are in the loop");
     } else {
@@ -84,6 +83,7 @@ class LeverSweep : public Sweep {
   void run(const Scenario& scene, const std::string& design, SceneLaw* law, RateRow row) {
     Continuous::Setting set = setting(scene);
     set.slope = set.floor = row.block || (block_ == nullptr && last());
+    set.place = set.floor && keeps_time(source_);
     // A law's parameter is what its word says, so its rounding is no error.
     Continuous continuous(
         continuous_law_,
@@ -108,6 +108,7 @@ class LeverSweep : public Sweep {
     row.fault = first_fault(result.felt.faults);
     if (row.fault.empty()) note_stale(result.law_stale);
     row.cpu_s_per_s = cpu_s(scene, design, law) / result.simulated_s;
+    if (set.place) place_ = continuous.steepest_place();
     add(std::move(row), continuous, set);
   }
 
@@ -123,18 +124,46 @@ class LeverSweep : public Sweep {
   }
 
   /// Enables the lever's linear friction, which plant files contain for such studies.
-  void margins() {
+  stability::LoopModel linear_loop() {
     plant::Parameters plant = plant_;
     plant.effects = scene_.effects;
     plant.effects.viscous = true;
     const stability::LoopModel model = stability::make_model(e_, plant);
     report_.damping_nm_s_rad = model.damping_nm_s_rad;
+    return model;
+  }
+
+  /// Of a law whose springs and masses are states: at its steepest place, as it runs at each rate.
+  void margins_by_states() {
+    if (!continuous_law_.lines.empty()) {
+      report_.notes.emplace_back("no margin: the law has a delay line");
+      return;
+    }
+    if (place_.steepness_nm_rad <= 0) {
+      report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
+      return;
+    }
+    const stability::LoopModel model = linear_loop();
+    for (RateRow& r : report_.rows) {
+      const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
+      const auto linear = linearised(law, place_, design_.count_rad);
+      if (!linear) continue;
+      r.margin = margin(model, *linear, place_.steepness_nm_rad, r.ticks, delay_of(r));
+    }
+    report_.notes.emplace_back(
+        "the margin is that of the law's torque, with its states, at its steepest place; the "
+        "border is its torque per angle there, the largest at 5, 50 and 500 Hz");
+  }
+
+  void margins() {
+    const stability::LoopModel model = linear_loop();
     for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
   }
 
   Scenario scene_, of_law_;
   const plant::Parameters& plant_;
   const BlockLaw* block_;
+  Place place_;
 };
 
 }  // namespace

@@ -66,7 +66,17 @@ std::string clocks_text(const RateRow& r) {
 }
 
 const char* margin_kind(const Margin& m) {
-  return m.of == Margin::Of::stiffness ? "stiffness" : m.of == Margin::Of::damping ? "damping" : "";
+  switch (m.of) {
+    case Margin::Of::stiffness:
+      return "stiffness";
+    case Margin::Of::damping:
+      return "damping";
+    case Margin::Of::torque:
+      return "torque";
+    case Margin::Of::none:
+      break;
+  }
+  return "";
 }
 
 /// Against the fastest, the last.

@@ -155,6 +155,7 @@ Continuous::Setting Sweep::setting(const Scenario& scene) const {
   setting.limit_nm =
       limit != scene.parameters.end() ? limit->second : design_.find("torque_limit")->si;
   setting.every = every_;
+  setting.run_s = every_ / static_cast<double>(design_.tick_hz);
   return setting;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "sim/axes_loop/axes_scene.hpp"
 #include "sim/loop/scenario.hpp"
 
 namespace feltgate::trim {
@@ -24,5 +25,19 @@ struct Motion {
 /// the set-points of torque and voltage are scaled by the amplitude. The same seed gives the same
 /// motion; consecutive seeds go round far and near, fast and slow.
 Motion perturbed(const Scenario& scene, const plant::Parameters& plant, std::uint64_t seed);
+
+/// A scene of a device.
+struct AxesMotion {
+  AxesScene scene;
+  double amplitude = 1, speed = 1;  ///< factors against the scene's own
+};
+
+/// The same for a device. The way is 0.9 to 1.1 times as long, because a linkage has an end; only
+/// levers and slides start elsewhere. A plane's host stays as it is.
+AxesMotion perturbed(const AxesScene& scene, std::uint64_t seed);
+
+/// Whether an impedance holds it.
+bool has_mass(const plant::Hand& hand);
+bool has_mass(const DeviceSetup& device);
 
 }  // namespace feltgate::trim

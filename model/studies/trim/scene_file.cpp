@@ -83,16 +83,25 @@ std::string scene_text(const Scenario& scene, const Model& model, const std::str
     }
   }
 
+  const toml::node* law = lines.root().at_path("core.law").node();
+  if (law != nullptr &&
+      (scene.law.find('/') != std::string::npos || fs::path(scene.law).extension() == ".law")) {
+    const fs::path at = fs::absolute(scene.path).parent_path() / scene.law;
+    lines.replace(*law, "\"" + at.string() + "\"");
+  }
+
   std::ostringstream text;
   std::istringstream words(comment);
   for (std::string line; std::getline(words, line);) {
     text << (line.empty() ? "#" : "# ") << line << "\n";
   }
   std::ostringstream keys;
-  const bool path = scene.plant.find('/') != std::string::npos;
-  keys << "plant = \"" << (path ? fs::absolute(scene.plant).string() : scene.plant) << "\"\n"
-       << "bridge = \"" << (model.gates ? "switched" : "averaged") << "\"\n"
-       << "step_clocks = " << model.step_clocks << "\n";
+  if (!scene.plant.empty()) {  // of one lever
+    const bool path = scene.plant.find('/') != std::string::npos;
+    keys << "plant = \"" << (path ? fs::absolute(scene.plant).string() : scene.plant) << "\"\n"
+         << "bridge = \"" << (model.gates ? "switched" : "averaged") << "\"\n"
+         << "step_clocks = " << model.step_clocks << "\n";
+  }
   text << lines.text(keys.str()) << "\n[effects]\n";
   for (const plant::EffectName& e : plant::effect_names) {
     text << e.name << " = " << (model.effects.*e.flag ? "true" : "false") << "\n";

@@ -6,13 +6,14 @@
 
 #include <string>
 
-#include "studies/trim/felt_difference.hpp"
+#include "studies/trim/subject.hpp"
 
 namespace feltgate::trim {
 
 /// Text of the scene file `scene.path` with bridge, step and effects of `model`, and the plant that
-/// scene.plant names. The rest of the text is unchanged, but recordings in the original's folder
-/// get their full path. `comment` comes first, with # before each line.
+/// scene.plant names; of a device with the effects alone. The rest of the text is unchanged, but
+/// recordings and laws in the original's folder get their full path. `comment` comes first, with #
+/// before each line.
 std::string scene_text(const Scenario& scene, const Model& model, const std::string& comment);
 
 }  // namespace feltgate::trim

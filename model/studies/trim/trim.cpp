@@ -11,27 +11,32 @@
 #include <thread>
 
 #include "feltgate/largest.hpp"
-#include "studies/trim/motions.hpp"
 
 namespace feltgate::trim {
 
 namespace {
 
-constexpr const char* gates = "gates";
 // Whole ticks from 50 on: there the twin needs no single clocks.
 constexpr int steps_clocks[] = {250, 200, 150, 100, 50, 25, 10, 5, 2};
 constexpr int averaged_step_clocks = 50;
 
+bool equal(const Model& a, const Model& b) {
+  return a.gates == b.gates && a.step_clocks == b.step_clocks &&
+         std::all_of(
+             std::begin(plant::effect_names), std::end(plant::effect_names),
+             [&](const plant::EffectName& e) { return a.effects.*e.flag == b.effects.*e.flag; });
+}
+
 struct Job {
-  const Motion* motion;
+  const Course* course;
   Model model;
 };
 
 /// Runs models on motions, several at a time, and counts what that costs.
 class Runner {
  public:
-  Runner(const Options& options, int expected_full_runs)
-      : options_(options), expected_(expected_full_runs) {}
+  Runner(const Options& options, const Model& full, int expected_full_runs)
+      : options_(options), full_(full), expected_(expected_full_runs) {}
 
   std::vector<Felt> run(const std::vector<Job>& jobs) {
     std::vector<Felt> felt(jobs.size());
@@ -40,8 +45,7 @@ class Runner {
     const auto work = [&] {
       for (std::size_t i = next++; i < jobs.size(); i = next++) {
         try {
-          felt[i] = feel(jobs[i].motion->scene, jobs[i].motion->plant, options_.design,
-                         jobs[i].model, options_.window_s);
+          felt[i] = jobs[i].course->feel(jobs[i].model);
         } catch (...) {
           const std::lock_guard<std::mutex> lock(mutex_);
           failure = std::current_exception();
@@ -57,81 +61,83 @@ class Runner {
     if (failure) std::rethrow_exception(failure);
     return felt;
   }
-  Felt run(const Motion& motion, const Model& model) { return run({{&motion, model}}).front(); }
+  Felt run(const Course& course, const Model& model) { return run({{&course, model}}).front(); }
 
   int runs = 0;
   double cpu_s = 0;
 
  private:
-  // Models in fine steps take nearly all of the time, so they alone are the progress.
+  // The full model's runs take most of the time, so they alone are the progress.
   void note(const Job& job, const Felt& felt) {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++runs;
     cpu_s += felt.cpu_s;
-    if (job.model.step_clocks < averaged_step_clocks) ++full_runs_;
+    if (equal(job.model, full_)) ++full_runs_;
     if (!options_.progress) return;
     const double done = static_cast<double>(full_runs_) / expected_;
     options_.progress(done < 1 ? done : 0.99);
   }
 
   const Options& options_;
+  const Model full_;
   int expected_;
   int full_runs_ = 0;
   std::mutex mutex_;
 };
 
-bool has_mass(const Scenario& scene) {
-  const auto& phases = scene.hand.phases;
-  return std::any_of(phases.begin(), phases.end(), [](const plant::HandPhase& p) {
-    return p.kind == plant::HandPhase::Kind::kImpedance;
-  });
-}
-
-bool equal(const Model& a, const Model& b) {
-  return a.gates == b.gates && a.step_clocks == b.step_clocks &&
-         std::all_of(
-             std::begin(plant::effect_names), std::end(plant::effect_names),
-             [&](const plant::EffectName& e) { return a.effects.*e.flag == b.effects.*e.flag; });
-}
-
 /// One motion, its full model's run, and how far a model is from it.
 struct Reference {
-  Motion motion;
+  Course course;
   Felt full;
 };
 
 class Search {
  public:
-  Search(const Scenario& scene, const plant::Parameters& plant, const Options& options)
-      : scene_(scene),
-        plant_(plant),
+  Search(const Subject& subject, const Options& options)
+      : subject_(subject),
         options_(options),
-        runner_(options, 1 + options.unseen),
-        own_{{scene, plant}, {}} {
-    out_.full = out_.trimmed = full_model(scene, plant, options.full_step_clocks);
+        runner_(options, subject.full, options.unseen + options.timed_runs),
+        own_{subject.own, {}} {
+    out_.full = out_.trimmed = subject.full;
   }
 
   Report run() {
-    own_.full = out_.full_run = runner_.run(own_.motion, out_.full);
-    drop_gates();
+    own_.full = out_.full_run = runner_.run(own_.course, out_.full);
+    if (out_.full.gates) drop_gates();
     drop_effects();
     coarsen();
     final_check();
-    out_.trimmed_run = runner_.run(own_.motion, out_.trimmed);
+    out_.trimmed_run = runner_.run(own_.course, out_.trimmed);
     out_.own = compare(own_.full, out_.trimmed_run);
+    time_both();
     out_.runs = runner_.runs;
     out_.cpu_s = runner_.cpu_s;
     return out_;
   }
 
  private:
+  // The CPU time of a run varies by tens of percent on a busy machine: medians of several.
+  void time_both() {
+    std::vector<double> full{out_.full_run.cpu_s}, trimmed{out_.trimmed_run.cpu_s};
+    for (int i = 1; i < options_.timed_runs; ++i) {
+      full.push_back(runner_.run(own_.course, out_.full).cpu_s);
+      trimmed.push_back(runner_.run(own_.course, out_.trimmed).cpu_s);
+    }
+    for (std::size_t i = 0; i < full.size(); ++i) out_.faster.push_back(full[i] / trimmed[i]);
+    for (std::vector<double>* times : {&full, &trimmed, &out_.faster}) {
+      std::sort(times->begin(), times->end());
+    }
+    out_.full_run.cpu_s = full[full.size() / 2];
+    out_.trimmed_run.cpu_s = trimmed[trimmed.size() / 2];
+  }
+
   bool fits(double loss) const { return loss <= options_.share * options_.tolerance; }
 
   void drop_gates() {
     Model averaged = out_.trimmed;
     set_part(averaged, gates, false);
     averaged.step_clocks = averaged_step_clocks;
-    const Felt felt = runner_.run(own_.motion, averaged);
+    const Felt felt = runner_.run(own_.course, averaged);
     PartReport part;
     part.name = gates;
     part.alone = compare(own_.full, felt);
@@ -147,14 +153,14 @@ class Search {
 
   // Each effect alone, twice, since these runs are short and their time is asked for.
   std::vector<PartReport> leave_out_each() {
-    std::vector<std::string> names = parts_of(scene_, out_.trimmed);
+    std::vector<std::string> names = subject_.parts(out_.trimmed);
     names.erase(std::remove(names.begin(), names.end(), gates), names.end());
     std::vector<Job> jobs;
     const int times = out_.trimmed.gates ? 1 : 2;
     for (int k = 0; k < times; ++k) {
-      jobs.push_back({&own_.motion, out_.trimmed});
+      jobs.push_back({&own_.course, out_.trimmed});
       for (const std::string& name : names) {
-        jobs.push_back({&own_.motion, out_.trimmed});
+        jobs.push_back({&own_.course, out_.trimmed});
         set_part(jobs.back().model, name, false);
       }
     }
@@ -186,7 +192,7 @@ class Search {
         set_part(without, part.name, false);
         // Errors that cancel on this motion need not on another: the sum of all alone counts too.
         part.so_far = larger(sum_ + part.alone.worst(),
-                             compare(own_.full, runner_.run(own_.motion, without)).worst());
+                             compare(own_.full, runner_.run(own_.course, without)).worst());
         part.dropped = fits(part.so_far);
         if (part.dropped) {
           out_.trimmed = without;
@@ -202,7 +208,7 @@ class Search {
       if (step <= out_.trimmed.step_clocks) return;
       Model coarse = out_.trimmed;
       coarse.step_clocks = step;
-      const double loss = compare(own_.full, runner_.run(own_.motion, coarse)).worst();
+      const double loss = compare(own_.full, runner_.run(own_.course, coarse)).worst();
       if (!fits(loss)) continue;
       out_.trimmed = coarse;
       out_.step_loss = loss;
@@ -235,15 +241,15 @@ class Search {
     for (int k = 0; k < options_.unseen; ++k) {
       UnseenReport u;
       u.seed = options_.seed + motions.size();
-      Motion m = perturbed(scene_, plant_, u.seed);
-      u.amplitude = m.amplitude;
-      u.speed = m.speed;
+      Course other = subject_.other(u.seed);
+      u.amplitude = other.amplitude;
+      u.speed = other.speed;
       out_.unseen.push_back(u);
-      motions.push_back({std::move(m), {}});
+      motions.push_back({std::move(other), {}});
     }
     std::vector<Job> jobs;
     for (std::size_t i = first; i < motions.size(); ++i) {
-      jobs.push_back({&motions[i].motion, out_.full});
+      jobs.push_back({&motions[i].course, out_.full});
     }
     std::vector<Felt> felt = runner_.run(jobs);
     for (std::size_t i = first; i < motions.size(); ++i)
@@ -252,7 +258,7 @@ class Search {
 
   std::vector<Difference> differences(const std::vector<Reference>& motions, const Model& model) {
     std::vector<Job> jobs;
-    for (const Reference& r : motions) jobs.push_back({&r.motion, model});
+    for (const Reference& r : motions) jobs.push_back({&r.course, model});
     const std::vector<Felt> felt = runner_.run(jobs);
     std::vector<Difference> all;
     for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -282,7 +288,7 @@ class Search {
     std::vector<Return> all;
     const auto finer = std::find_if(std::begin(steps_clocks), std::end(steps_clocks),
                                     [this](int step) { return step < out_.trimmed.step_clocks; });
-    if (finer != std::end(steps_clocks) && *finer >= options_.full_step_clocks) {
+    if (finer != std::end(steps_clocks) && *finer >= out_.full.step_clocks) {
       all.push_back({out_.trimmed, nullptr});
       all.back().model.step_clocks = *finer;
     }
@@ -290,7 +296,7 @@ class Search {
       if (!part->dropped) continue;
       all.push_back({out_.trimmed, &*part});
       set_part(all.back().model, part->name, true);
-      if (part->name == gates) all.back().model.step_clocks = options_.full_step_clocks;
+      if (part->name == gates) all.back().model.step_clocks = out_.full.step_clocks;
     }
     return all;
   }
@@ -319,8 +325,7 @@ class Search {
     return true;
   }
 
-  const Scenario& scene_;
-  const plant::Parameters& plant_;
+  const Subject& subject_;
   const Options& options_;
   Runner runner_;
   Reference own_;
@@ -332,44 +337,15 @@ class Search {
 
 bool Report::smaller() const { return !equal(full, trimmed); }
 
-Model full_model(Scenario scene, const plant::Parameters& plant, int step_clocks) {
-  plant::Effects everything = plant.effects;
-  for (const plant::EffectName& e : plant::effect_names) {
-    if (e.flag != &plant::Effects::viscous) everything.*e.flag = true;
-  }
-  resolve_effects(scene, everything);
-  return {scene.effects, true, step_clocks};
-}
-
-std::vector<std::string> parts_of(const Scenario& scene, const Model& model) {
-  std::vector<std::string> parts;
-  if (model.gates) parts.emplace_back(gates);
-  for (const plant::EffectName& e : plant::effect_names) {
-    // Gates that switch contain their dead time.
-    if (e.flag == &plant::Effects::dead_time && model.gates) continue;
-    if (e.flag == &plant::Effects::hand_dynamics && !has_mass(scene)) continue;
-    if (model.effects.*e.flag) parts.emplace_back(e.name);
-  }
-  return parts;
-}
-
-void set_part(Model& model, const std::string& part, bool on) {
-  if (part == gates) model.gates = on;
-  for (const plant::EffectName& e : plant::effect_names) {
-    if (part == e.name) model.effects.*e.flag = on;
-  }
-}
-
-std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Parameters& plant,
-                                       const Model& full, const Model& model,
+std::vector<UnseenReport> check_unseen(const Subject& subject, const Model& model,
                                        const Options& options,
                                        const std::vector<std::uint64_t>& seeds) {
-  Runner runner(options, static_cast<int>(seeds.size()));
-  std::vector<Motion> motions;
-  for (const std::uint64_t seed : seeds) motions.push_back(perturbed(scene, plant, seed));
+  Runner runner(options, subject.full, static_cast<int>(seeds.size()));
+  std::vector<Course> motions;
+  for (const std::uint64_t seed : seeds) motions.push_back(subject.other(seed));
   std::vector<Job> jobs;
-  for (const Motion& m : motions) {
-    jobs.push_back({&m, full});
+  for (const Course& m : motions) {
+    jobs.push_back({&m, subject.full});
     jobs.push_back({&m, model});
   }
   const std::vector<Felt> felt = runner.run(jobs);
@@ -381,7 +357,8 @@ std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Param
   return all;
 }
 
-Report trim(const Scenario& scene, const plant::Parameters& plant, const Options& options) {
-  return Search(scene, plant, options).run();
+Report trim(const Subject& subject, const Options& options) {
+  return Search(subject, options).run();
 }
+
 }  // namespace feltgate::trim

@@ -6,26 +6,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "studies/trim/felt_difference.hpp"
+#include "studies/trim/subject.hpp"
 
 namespace feltgate::trim {
-
-struct Options {
-  std::string design = "lever";
-  double tolerance = 0.01;  ///< of the full model's peak and of its rms, in (0, 1]
-  /// Share of the tolerance that search and final check use, as other motions may lose more.
-  double share = 0.75;
-  double window_s = 1e-3;    ///< length of the means that are compared
-  int full_step_clocks = 5;  ///< of the full model
-  int unseen = 4;            ///< motions of the final check, 1 or more
-  std::uint64_t seed = 1;    ///< of these motions
-  int threads = 2;
-  std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
-};
 
 /// A removable part of the model: "gates" or the name of an effect.
 struct PartReport {
@@ -53,25 +39,20 @@ struct Report {
   std::vector<PartReport> parts;  ///< in the order in which they were tried
   Difference own;                 ///< of the trimmed model on the scene's own motion
   std::vector<UnseenReport> unseen;
-  Felt full_run, trimmed_run;  ///< on the scene's own motion
-  double step_loss = 0;        ///< worst loss of the set in the coarsest step, on the own motion
+  Felt full_run, trimmed_run;  ///< on the scene's own motion; cpu_s is the median of timed_runs
+  /// CPU time of the full model over that of the trimmed one, one run after the other; ascending.
+  std::vector<double> faster;
+  double step_loss = 0;  ///< worst loss of the set in the coarsest step, on the own motion
   int runs = 0;
-  double cpu_s = 0;    ///< of all runs together
-  bool holds = false;  ///< the trimmed model is within the tolerance on all motions
-  bool smaller() const;
+  double cpu_s = 0;      ///< of all runs together
+  bool holds = false;    ///< the trimmed model is within the tolerance on all motions
+  bool smaller() const;  ///< something is left out, or the step is coarser
+  /// The median of `faster`.
+  double times_faster() const { return faster[faster.size() / 2]; }
 };
 
-/// The full model of the scene: gates, and every effect that the scene does not switch off. Of the
-/// two frictions, `viscous` is used only if scene or plant has it. Reads the scene's file.
-Model full_model(Scenario scene, const plant::Parameters& plant, int step_clocks);
-
-/// Parts of `model` that are computed for this scene.
-std::vector<std::string> parts_of(const Scenario& scene, const Model& model);
-void set_part(Model& model, const std::string& part, bool on);
-
 /// Losses of `model` on motions made with these seeds, one report per motion.
-std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Parameters& plant,
-                                       const Model& full, const Model& model,
+std::vector<UnseenReport> check_unseen(const Subject& subject, const Model& model,
                                        const Options& options,
                                        const std::vector<std::uint64_t>& seeds);
 
@@ -81,6 +62,6 @@ std::vector<UnseenReport> check_unseen(const Scenario& scene, const plant::Param
 /// checked on unseen motions against the same; while that fails, a finer step, an effect or the
 /// gates are put back: the first with which it holds, or what mends most. Then the check is
 /// repeated on fresh motions. Throws as run_scenario does.
-Report trim(const Scenario& scene, const plant::Parameters& plant, const Options& options);
+Report trim(const Subject& subject, const Options& options);
 
 }  // namespace feltgate::trim

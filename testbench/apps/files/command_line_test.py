@@ -37,11 +37,12 @@ class CommandLine(Bench):
         self.assert_refused(process, *said)
         self.assert_only()
 
+    def test_trim_of_a_device_has_no_plant(self):
+        self.refused("trim", "coupled_levers", "--plant", "p24", said=("--plant is for scenes of one lever",))
+
     def test_a_law_where_none_is_taken(self):
-        for command in ("trim", "budget"):
-            with self.subTest(command):
-                said = f"detent.toml:11: `feltgate {command}` takes no scene with a law"
-                self.refused(command, "detent", said=(said, "`feltgate run` runs its scene"))
+        said = "detent.toml:11: `feltgate budget` takes no scene with a law"
+        self.refused("budget", "detent", said=(said, "`feltgate run` runs its scene"))
         self.refused("replay", "x.vec", "--scene", "law", said=("--scene law", "loads no program"))
 
     def test_numbers(self):

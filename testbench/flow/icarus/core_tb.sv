@@ -79,6 +79,29 @@ module core_tb;
       .word_data_o(word_data)
   );
 
+  // Beside the core, for its drawing alone: the block that the core does not have, with any bits.
+  wire sense_clock;
+  reg [6:0] sense_bits = 7'd1;
+  current_sense u_current_sense (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .modulator_clock_o(sense_clock),
+      .data_i(sense_bits[0]),
+      .strobe_i(clocks % 1000 == 0),
+      .armed_i(armed),
+      .clear_i(1'b0),
+      .threshold_i(8'd200),
+      .current_o(),
+      .valid_o(),
+      .aligned_o(),
+      .overcurrent_o(),
+      .calibrated_o(),
+      .offset_fault_o(),
+      .stuck_o(),
+      .saturated_o()
+  );
+  always @(posedge sense_clock) sense_bits <= {sense_bits[5:0], sense_bits[6] ^ sense_bits[5]};
+
   // Read data are left out until the host has read: a RAM that was never written holds X.
   logic compare_read;
   always @* begin
@@ -111,7 +134,7 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
-      if (clocks == first) $dumpvars(0, dut);
+      if (clocks == first) $dumpvars(0, dut, u_current_sense);
       if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;

@@ -56,10 +56,11 @@ BAD = (
     ("core", "VELOCITY_DIFFERENCE_W", 34, "the_widths_of_a_lowpass_must_nest"),
     ("core", "DUTY_W", 14, "DUTY_must_be_the_13_bits_of_the_bridge"),
     ("velocity_mt", "VELOCITY_F", 39, "the_time_stamps_must_hold_the_window"),
+    ("current_sense", "CLOCK_HZ", 39_000_000, "an_over_current_must_be_latched_within_5_us_and"),
 )
 WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
 TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer",
-        "velocity_mt": "velocity_mt"}
+        "velocity_mt": "velocity_mt", "current_sense": "current_sense"}
 
 
 def rtl_of(top):

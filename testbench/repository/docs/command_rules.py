@@ -60,6 +60,7 @@ RULES = (
     Rule(r"feltgate (?:run|replay|import|budget|design|law|shape|texture)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
+    Rule(r"feltgate trim (detent|coupled_levers)$", "BY", "choose.command"),
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
     Rule(r"feltgate stability .*--rate", "WHOLE"),
     Rule(r"feltgate stability .*--no-bits", "WHOLE"),
@@ -67,6 +68,7 @@ RULES = (
     Rule(r"feltgate rates", "BY", "rates.command"),
     Rule(r"feltgate controllers", "BY", "controllers.command"),
     Rule(r"feltgate claims window", "WHOLE"),
+    Rule(r"feltgate claims --markdown", "BY", "claims_test"),
     Rule(r"feltgate claims", "MORE", "recognition"),
     Rule(r"feltgate choose", "BY", "choose.command"),
     Rule(r"feltgate extremes", "MORE", "--list"),

@@ -139,7 +139,9 @@ class Chosen(Scratch):
         self.kept(told)
         self.assertEqual(told["asked"]["axes"], 2)
         self.assertGreater(told["choice"]["margin"]["margin"], 1)
-        for part in ("plant effects", "rounding behind the law", "delay of PWM and winding"):
+        self.assertIn("supply_limit", told["simulation"]["effects_off"])
+        self.assertNotIn("dead_time", told["simulation"]["effects_off"])
+        for part in ("rounding behind the law", "delay of PWM and winding"):
             self.assertIn(part, [left["part"] for left in told["left_out"]])
             self.assertIn(f"left out: {part}", out)
         self.assertEqual(told["choice"]["gates"]["mult18"], 6)

@@ -169,6 +169,7 @@ class Refused(Scratch):
         lawless = self.put("lawless.toml", '[core]\nscene = "law"\nlaw = "gone.law"\n')
         for given, said in (
             (broken, "not a scene file"),
+            (self.put("bare.toml", 'name = "x"\n'), "it has no table [core]"),
             (lawless, "there is no law"),
         ):
             with self.subTest(given):

@@ -29,7 +29,7 @@ Scenario scene(const std::string& name) {
 plant::Parameters p24() { return plant::read_plant_file(kRoot + "/vectors/plants/p24.toml"); }
 
 trim::Model averaged(const Scenario& s, int step_clocks = 250) {
-  trim::Model model = trim::full_model(s, p24(), step_clocks);
+  trim::Model model = trim::full_model(s, p24().effects, step_clocks);
   model.gates = false;
   return model;
 }
@@ -81,7 +81,7 @@ TEST_CASE("what a run leaves out is neither computed nor a state of its plant") 
     CHECK(felt.states == with.states - c.states);
     seen.emplace_back(c.part);
   }
-  CHECK(seen == trim::parts_of(push, all));  // no part without a test
+  CHECK(seen == trim::parts_of(all, true));  // no part without a test
 
   // Fewer steps are fewer evaluations; gates that switch contain their dead time.
   const trim::Felt fine = trim::feel(push, p24(), "lever", averaged(push, 50), kWindow_s);
@@ -94,11 +94,11 @@ TEST_CASE("what a run leaves out is neither computed nor a state of its plant") 
 TEST_CASE("the full model makes the torque that the averaged one makes") {
   Scenario sweep = scene("sweep");
   sweep.duration_s = 0.06;
-  const trim::Model full = trim::full_model(sweep, p24(), 5);
+  const trim::Model full = trim::full_model(sweep, p24().effects, 5);
   CHECK(full.effects.supply_limit);
   const trim::Felt gates = trim::feel(sweep, p24(), "lever", full, kWindow_s);
   const trim::Felt mean = trim::feel(sweep, p24(), "lever", averaged(sweep, 50), kWindow_s);
-  CHECK(*std::max_element(gates.torque_nm.begin(), gates.torque_nm.end()) > 0.15);
+  CHECK(*std::max_element(gates.torque[0].means().begin(), gates.torque[0].means().end()) > 0.15);
   CHECK(trim::compare(gates, mean).worst() < 0.02);
 }
 
@@ -107,8 +107,14 @@ TEST_CASE("a trimmed scene holds on motions that the search did not see") {
     const Scenario s = scene(name);
     trim::Options options;
     options.tolerance = 0.02;
-    const trim::Report r = trim::trim(s, p24(), options);
+    options.timed_runs = 3;
+    const trim::Report r = trim::trim(trim::lever_subject(s, p24(), options), options);
     INFO(name);
+    REQUIRE(r.faster.size() == 3);
+    CHECK(r.faster[0] <= r.faster[1]);
+    CHECK(r.faster[1] <= r.faster[2]);
+    CHECK(r.faster[0] > 2);
+    CHECK(r.times_faster() == r.faster[1]);
     CHECK(r.holds);
     CHECK(r.smaller());
     CHECK(r.own.worst() <= options.tolerance);
@@ -119,8 +125,8 @@ TEST_CASE("a trimmed scene holds on motions that the search did not see") {
     CHECK(r.trimmed_run.states < r.full_run.states);
     CHECK(r.trimmed_run.evaluations.inductance < r.full_run.evaluations.inductance);
     // Seeds far from those of the search and of its own check: all four quarters.
-    const auto others =
-        trim::check_unseen(s, p24(), r.full, r.trimmed, options, {100, 101, 102, 103});
+    const auto others = trim::check_unseen(trim::lever_subject(s, p24(), options), r.trimmed,
+                                           options, {100, 101, 102, 103});
     CHECK(worst_of(others) <= options.tolerance);
     CHECK(worst_of(others) > 0);
   }
@@ -128,7 +134,6 @@ TEST_CASE("a trimmed scene holds on motions that the search did not see") {
 
 TEST_CASE("a set that is too loose is refused, and mended by the final check") {
   const Scenario sweep = scene("sweep");
-  const trim::Model full = trim::full_model(sweep, p24(), 5);
   // The back-EMF as the scene's own motion shows it; a faster hand shows more.
   trim::Model without = averaged(sweep, 50);
   const trim::Felt with_emf = trim::feel(sweep, p24(), "lever", without, kWindow_s);
@@ -136,13 +141,14 @@ TEST_CASE("a set that is too loose is refused, and mended by the final check") {
   const double own =
       trim::compare(with_emf, trim::feel(sweep, p24(), "lever", without, kWindow_s)).worst();
   trim::Options options;
-  const double unseen =
-      worst_of(trim::check_unseen(sweep, p24(), full, without, options, {1, 2, 3, 4}));
+  const trim::Subject subject = trim::lever_subject(sweep, p24(), options);
+  const double unseen = worst_of(trim::check_unseen(subject, without, options, {1, 2, 3, 4}));
   INFO("without back-EMF: " << own << " on the own motion, " << unseen << " on others");
   REQUIRE(unseen > 1.2 * own);
   options.share = 1;  // nothing kept back for other motions
+  options.timed_runs = 1;
   options.tolerance = 0.95 * unseen;
-  const trim::Report r = trim::trim(sweep, p24(), options);
+  const trim::Report r = trim::trim(subject, options);
   CHECK(r.holds);
   CHECK(std::any_of(r.unseen.begin(), r.unseen.end(),
                     [](const trim::UnseenReport& u) { return u.searched; }));
@@ -152,10 +158,10 @@ TEST_CASE("a set that is too loose is refused, and mended by the final check") {
                     [](const trim::PartReport& p) { return p.put_back; }));
   // Nothing at all is within no tolerance: the full model is the answer.
   trim::Model nothing = averaged(sweep);
-  for (const std::string& part : trim::parts_of(sweep, nothing)) {
+  for (const std::string& part : subject.parts(nothing)) {
     trim::set_part(nothing, part, false);
   }
-  CHECK(worst_of(trim::check_unseen(sweep, p24(), full, nothing, options, {1, 2, 3, 4})) > 0.5);
+  CHECK(worst_of(trim::check_unseen(subject, nothing, options, {1, 2, 3, 4})) > 0.5);
 }
 
 TEST_CASE("the trimmed scene is a scene file that says what is off") {

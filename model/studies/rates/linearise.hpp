@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A law with states as a linear law near a place of its run. Documentation: docs/rates.md
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "law/evaluate.hpp"
+#include "studies/stability/law_loop.hpp"
+
+namespace feltgate::rates {
+
+/// Where a law was in a run: its inputs, states and parameters, SI.
+struct Place {
+  double position_rad = 0, velocity_rad_s = 0, tau_hat_nm = 0;
+  std::vector<double> states, parameters;
+  double steepness_nm_rad = 0;
+};
+
+/// The derivative of a law of one axis there, without states that are whole numbers or phases,
+/// which stay. Nothing where the law has a jump within a count, or a delay line.
+std::optional<stability::LinearLaw> linearised(const law::Law& law, const Place& place,
+                                               double count_rad);
+
+}  // namespace feltgate::rates

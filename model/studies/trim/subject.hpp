@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What trim() works on: a scene of one lever, or of a device with several axes, as motions that run
+// with any model of the plant. Documentation: docs/trim.md
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/axes_loop/axes_scene.hpp"
+#include "sim/loop/loop.hpp"
+#include "studies/trim/felt_difference.hpp"
+
+namespace feltgate::trim {
+
+struct Options {
+  std::string design = "lever";
+  double tolerance = 0.01;  ///< of the full model's peak and of its rms, in (0, 1]
+  /// Share of the tolerance that search and final check use, as other motions may lose more.
+  double share = 0.75;
+  double window_s = 1e-3;    ///< length of the means that are compared
+  int full_step_clocks = 5;  ///< of the full model of one lever
+  int unseen = 4;            ///< motions of the final check, 1 or more
+  int timed_runs = 5;        ///< of both models, for Report::faster; 1 or more
+  std::uint64_t seed = 1;    ///< of these motions
+  int threads = 2;
+  std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
+};
+
+/// The part "gates": gates that switch.
+constexpr const char* gates = "gates";
+
+/// The simulated effects of a scene's plant, and the step.
+struct Model {
+  plant::Effects effects;
+  bool gates = true;  ///< true: the four gates switch; false: the mean voltage of the duty
+  int step_clocks = 5;
+};
+
+/// A motion, at a share of the scene's own way and speed; feel() may run in several threads.
+struct Course {
+  double amplitude = 1, speed = 1;
+  std::function<Felt(const Model& model)> feel;
+};
+
+/// A scene and its other motions.
+struct Subject {
+  Model full;
+  std::function<std::vector<std::string>(const Model&)> parts;  ///< computed in a model
+  Course own;
+  std::function<Course(std::uint64_t seed)> other;
+};
+
+/// Makes the law of the scene; empty: it has none. Every run has a law of its own.
+using LawMaker = std::function<std::unique_ptr<SceneLaw>()>;
+
+/// Runs `scene` on the twin of `design` with the effects and step of `model`. Throws as
+/// run_scenario does.
+Felt feel(const Scenario& scene, const plant::Parameters& plant, const std::string& design,
+          const Model& model, double window_s, const LawMaker& law = {});
+
+/// The full model of the scene: gates, and every effect that the scene does not switch off. Of the
+/// two frictions, `viscous` is used only if scene or plant has it. Reads the scene's file.
+Model full_model(Scenario scene, const plant::Effects& of_plant, int step_clocks);
+
+/// Parts of `model` that are computed: "gates", or the name of an effect; `has_mass`: whether a
+/// hand of the scene has a mass.
+std::vector<std::string> parts_of(const Model& model, bool has_mass);
+void set_part(Model& model, const std::string& part, bool on);
+
+Subject lever_subject(const Scenario& scene, const plant::Parameters& plant, const Options& options,
+                      const LawMaker& law = {});
+/// The loop of several axes has mean voltages and steps of 250 clocks: only effects are parts.
+Subject axes_subject(const AxesScene& scene, const Options& options, const LawMaker& law);
+
+}  // namespace feltgate::trim

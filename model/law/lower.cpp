@@ -84,7 +84,8 @@ int BackEnd::largest_fraction(NodeId id, double unit, double size) const {
     throw Refused(node(id).place, "the range of this has no end",
                   "limit what it is made of, e.g. with clamp or a larger lower end of a divisor");
   }
-  if (size == 0) return 30;
+  // A product with 0 has a size of some 1e-324, because intervals are rounded outwards.
+  if (size < 1e-100) return 30;
   const double limit = 2147483647.0 * (1 - 1.0 / 512) - 8;
   return static_cast<int>(std::floor(std::log2(limit * unit / size)));
 }

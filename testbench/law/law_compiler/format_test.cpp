@@ -40,6 +40,18 @@ TEST_CASE("no format is taken that holds no value of a phase") {
       "out torque = a * f(clamp(q, 0, 2)) + 0.01 Nm * (count + w) * sgn(q)\n");
 }
 
+TEST_CASE("a product with a value that is always 0 has a format") {
+  // Its range is 0 and what intervals are rounded by: 5e-324.
+  const Compiled c = compile_text(
+      "let near = clamp(position, -1, 1)\nlet a = if position > 0.1 then 1 + near else 0.5\n"
+      "let b = if position > 0.2 then near else clamp(position, -2, 1)\n"
+      "out torque = 1 Nm * clamp(0.25 + a * b * min(0.3 + abs(near), near - near), -4, 4)\n",
+      "x.law", Target{});
+  CHECK(c.bound.unproven.empty());
+  CHECK(c.bound.output[0] < 1e-4);
+  CHECK(measure(c, 1, 5000).output[0] <= c.bound.output[0] + 1e-8);
+}
+
 TEST_CASE("tables get the segments that they ask for, or are refused") {
   const auto with = [](const std::string& a, const std::string& b) {
     return "table f(x) on [0, 3] = x^2 / 9 with " + a + " segments\n" +

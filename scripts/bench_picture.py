@@ -121,7 +121,7 @@ def main():
     def draw(data):
         write_whole(arguments.svg, picture(data))
 
-    return plots.draw_figures(arguments.json, "feltgate-bench/1", draw)
+    return plots.draw_figures(arguments.json, ["feltgate-bench/1"], draw)
 
 
 if __name__ == "__main__":

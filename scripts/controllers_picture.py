@@ -4,6 +4,7 @@
 """Draws the comparison of controllers from the JSON of feltgate controllers; it only draws.
 
   feltgate controllers -o docs/images/controllers.svg        calls it
+  feltgate controllers --estimators -o estimators.svg        the velocity estimators instead
   feltgate controllers --json all.json && scripts/controllers_picture.py all.json all.svg
 
 Documentation: docs/controllers.md
@@ -67,6 +68,46 @@ def picture(data):
     return plots.finish(figure, "controllers", CAPTION)
 
 
+ESTIMATORS_CAPTION = (
+    "The velocity estimators in `lever`, all else equal. Top: the largest wall that does not swing when the lever is "
+    "pressed into it, with feed-forward and with the observer fed back. Bottom: noise of tau_hat behind an encoder "
+    "with irregular lines, at rest and at 1 and 10 rad/s; 0.1 stands for less. Fixed point, simulation."
+)
+LEAST_MNM = 0.1  # on the logarithmic axis
+
+
+def estimators_picture(data):
+    """Walls, and noise of tau_hat, of each estimator, as bars."""
+    title = "Which velocity: the N-method or M/T over whole cycles"
+    figure, (wall, noise) = plots.stacked(title, [2.2, 2.6], apart=2)
+    names = [e["name"].replace("`", "") for e in data["estimators"]]
+    names[2] = f"{names[1].rsplit(',', 1)[0]}, 2000 rad/s"  # "the same" in the table
+    rows = range(len(names))
+    walls = (("border_nm_rad", "feed-forward"), ("border_observer_nm_rad", "observer fed back"))
+    for k, (key, label) in enumerate(walls):
+        values = [e[key] for e in data["estimators"]]
+        colour = COLOURS[label.split()[0]]
+        wall.barh([r + 0.2 - 0.4 * k for r in rows], values, 0.38, label=label, color=colour)
+    wall.set_xlim(0, 58)  # room for the legend
+    motions = ["at rest", *(f"at {w:g} rad/s" for w in data["speeds_rad_s"])]
+    for k, label in enumerate(motions):
+        values = [max(1e3 * e["tau_hat_irregular_nm"][k], LEAST_MNM) for e in data["estimators"]]
+        colour = ("#b23a00", "#0072b2", "#7d4bb5")[k]
+        noise.barh([r + 0.27 - 0.27 * k for r in rows], values, 0.25, label=label, color=colour)
+    noise.set_xscale("log")
+    noise.set_xlim(LEAST_MNM, 300)
+    for axis, text in ((wall, "largest wall, Nm/rad"), (noise, "noise of tau_hat, mNm rms")):
+        place = "center right" if axis is wall else "lower right"
+        axis.set_yticks(list(rows), names, fontsize=7)
+        axis.invert_yaxis()
+        axis.set_xlabel(text)
+        axis.legend(loc=place, fontsize=7)
+    return plots.finish(figure, "estimators", ESTIMATORS_CAPTION)
+
+
+SCHEMAS = {"feltgate-controllers/1": picture, "feltgate-estimators/1": estimators_picture}
+
+
 def main(argv=None):
     parser = argparse.ArgumentParser(
         prog="controllers_picture.py", description=__doc__.splitlines()[0]
@@ -77,9 +118,9 @@ def main(argv=None):
     interrupts.end_on_signals()
 
     def draw(data):
-        write_whole(arguments.svg, picture(data).svg)
+        write_whole(arguments.svg, SCHEMAS[data["schema"]](data).svg)
 
-    return plots.draw_figures(arguments.json, "feltgate-controllers/1", draw)
+    return plots.draw_figures(arguments.json, SCHEMAS, draw)
 
 
 if __name__ == "__main__":

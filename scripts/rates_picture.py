@@ -163,7 +163,7 @@ def main(argv=None):
         else:
             write_whole(arguments.svg, picture(scenes).svg)
 
-    return plots.draw_figures(arguments.json, "feltgate-rates/1", draw_all)
+    return plots.draw_figures(arguments.json, ["feltgate-rates/1"], draw_all)
 
 
 if __name__ == "__main__":

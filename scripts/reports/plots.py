@@ -177,13 +177,13 @@ def at_least(axes, span):
         axes.set_ylim(middle - span / 2, middle + span / 2)
 
 
-def draw_figures(path, schema, draw):
-    """Gives the JSON of a command, if it has this schema, to `draw`. The exit code: 2 and a line
+def draw_figures(path, schemas, draw):
+    """Gives the JSON of a command, if it has one of these schemas, to `draw`. The exit code: 2 and a line
     that names the file where it cannot be read, drawn or written."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
-        if data.get("schema") != schema:
-            raise ValueError(f"schema is {data.get('schema')!r}, not {schema!r}")
+        if data.get("schema") not in schemas:
+            raise ValueError(f"schema is {data.get('schema')!r}, not {' or '.join(schemas)}")
         draw(data)
     except (OSError, ValueError, KeyError) as error:
         print(f"{Path(sys.argv[0]).stem}: {path}: {error}", file=sys.stderr)

@@ -73,13 +73,9 @@ void add_controllers(CLI::App& app, int* exit_code) {
       "  feltgate controllers --estimators\n"
       "  feltgate controllers --json all.json -o all.svg\n"
       "Exit code: 0 measured, 2 unusable input. docs/controllers.md explains every row.");
-  CLI::Option* flag =
-      sub->add_flag("--estimators", a->estimators,
-                    "velocity estimators around the lever instead: docs/blocks/velocity_mt.md");
-  CLI::Option* picture =
-      sub->add_option("-o,--output", a->picture, "the comparison as a picture, SVG")
-          ->type_name("FILE");
-  picture->excludes(flag);
+  sub->add_flag("--estimators", a->estimators,
+                "velocity estimators around the lever instead: docs/blocks/velocity_mt.md");
+  sub->add_option("-o,--output", a->picture, "the comparison as a picture, SVG")->type_name("FILE");
   sub->add_option("--json", a->json, "all figures and step responses as JSON")->type_name("FILE");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }

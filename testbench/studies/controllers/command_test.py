@@ -73,7 +73,7 @@ class Controllers(Scratch):
             self.assertIn(word, text_of("docs/images/controllers.svg"))
 
     def test_the_estimators(self):
-        done = self.call("controllers", "--estimators", "--json", "c.json")
+        done = self.call("controllers", "--estimators", "--json", "c.json", "-o", "c.svg")
         self.assertEqual(done.returncode, 0, done.stderr)
         page = "docs/blocks/velocity_mt.md"
         self.assertIn(done.stdout.strip(), text_of(page), f"{page} is stale: paste this table")
@@ -91,6 +91,9 @@ class Controllers(Scratch):
             self.assertLess(mt[noise][1], lever[noise][1] / 30)
         self.assertGreater(mt["tau_hat_irregular_nm"][2], 2 * lever["tau_hat_irregular_nm"][2])
         self.assertLess(mt["tau_hat_irregular_nm"][2], paper["tau_hat_irregular_nm"][2])
+        drawn = [(self.folder / "c.svg").read_text(encoding="utf-8"), text_of("docs/images/estimators.svg")]
+        for word in ("M/T, one cycle, 500 rad/s", "at 10 rad/s", "observer fed back", "largest wall, Nm/rad"):
+            self.assertTrue(all(word in svg for svg in drawn), word)
         drags = [one["drag_rms_nm"] for one in data["estimators"]]
         self.assertLess(max(drags) - min(drags), 1e-5)
 
@@ -131,7 +134,6 @@ class Controllers(Scratch):
             (("-o", "none/a.svg"), "none"),
             (("-o", "-"), "--output"),
             (("--json", "none/a.json"), "none"),
-            (("--estimators", "-o", "a.svg"), "--output"),
         ):
             with self.subTest(words=words):
                 done = self.call("controllers", *words)

@@ -75,7 +75,10 @@ int run_axes_scene(const std::string& path, const RunArguments& a) {
   options.seed = a.seed;
   options.law = law.get();
   files::Outputs outputs;
-  for (const std::string& read : {path, scene.device_path}) outputs.reads(read);
+  for (const std::string& read : {path, scene.device_path, law_file(scene.scenario)}) {
+    outputs.reads(read);
+  }
+  for (const std::string& read : hand_files(scene)) outputs.reads(read);
   files::OutputFile* json = outputs.open("--json", a.json);
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);

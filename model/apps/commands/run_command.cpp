@@ -155,6 +155,7 @@ int run(const RunArguments& a) {
   outputs.reads(scene_path);
   outputs.reads(plant_path);
   for (const auto& phase : scenario.hand.phases) outputs.reads(phase.trace.file);
+  if (law) outputs.reads(law_file(scenario));
   outputs.reads(find_file(a.design, "rtl/designs"));
   outputs.folder("--report", a.report, "report.html");
   files::OutputFile* json = outputs.open("--json", a.json);

@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 struct TrimArguments {
   std::string scene, plant, output, json, tolerance = "1%";
   double window_ms = 1e3 * felt_window_s, duration_s = 0;
-  bool quiet = false;
+  bool quiet = false, full_step = false;
   trim::Options options;
 };
 
@@ -146,6 +146,11 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
   }
   s << fmt::format("CPU per simulated second {:.3g} -> {:.3g} s\nfaster: {}\n", cost(r.full_run),
                    cost(r.trimmed_run), faster_text(r));
+  for (const trim::Felt* run : {&r.full_run, &r.trimmed_run}) {
+    if (run->fault.empty()) continue;
+    s << (run == &r.full_run ? "full model" : "trimmed") << ": a fault opens the gates, "
+      << run->fault << "\n";
+  }
   if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
   s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
@@ -209,6 +214,7 @@ std::string comment_of(const trim::Report& r, const Trimmed& t, const TrimArgume
   s << "Written on " << today() << " by: feltgate trim " << t.scene.name << " --design "
     << a.options.design << " --tolerance " << a.tolerance << "\n"
     << "effects off: " << joined(off(t, r.trimmed)) << "\n"
+    << (a.duration_s > 0 ? fmt::format("On its first {:g} s. ", a.duration_s) : "")
     << fmt::format(
            "Within {:.3g} % of the full model on its own motion and on {} others; faster by {}.",
            100 * worst, r.unseen.size(), faster_text(r));
@@ -240,6 +246,7 @@ trim::LawMaker law_of(const Scenario& scene, const DesignInfo& design, int axes)
   const std::string path = law_file(scene);
   law::Target target = law::target_of(design);
   target.axes = axes;
+  if (axes == 1) (void)make_scene_law(path, design);  // refuses a law of several axes
   return [compiled = law::compile_file(path, target), path, design, axes] {
     return axes > 1 ? make_axes_law(compiled, path, design, axes)
                     : make_scene_law(compiled, design);
@@ -259,30 +266,34 @@ Trimmed trimmed_lever(const std::string& path, TrimArguments& a, files::Outputs&
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   outputs.reads(plant_path);
   for (const auto& phase : scene.hand.phases) outputs.reads(phase.trace.file);
+  if (law) outputs.reads(law_file(scene));
   const std::string name = scene.plant;
   trim::Subject subject = trim::lever_subject(scene, plant, a.options, law);
   return {std::move(scene), name, std::move(subject)};
 }
 
 Trimmed trimmed_device(const std::string& path, TrimArguments& a, files::Outputs& outputs) {
-  if (!a.plant.empty()) {
+  const char* of_lever = !a.plant.empty() ? "--plant" : a.full_step ? "--full-step" : nullptr;
+  if (of_lever != nullptr) {
     throw std::invalid_argument(fmt::format(
-        "--plant is for scenes of one lever, and {} names a device; leave it out", path));
+        "{} is for scenes of one lever, and {} names a device; leave it out", of_lever, path));
   }
   AxesScene scene = read_axes_scene(
       path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
   if (a.options.design == "lever") a.options.design = rates::axes_design(scene);
   const AxesDesignMakers* made = find_axes_design(a.options.design);
   if (made == nullptr) {
-    throw std::invalid_argument(fmt::format(
-        "{}: design {} is not in this program; leave --design out", path, a.options.design));
+    throw std::invalid_argument(
+        fmt::format("{}: {} is no design of a device in this program; leave --design out", path,
+                    a.options.design));
   }
   const DesignInfo design = made->info();
   const trim::LawMaker law = law_of(scene.scenario, design, axes_of(scene));
   if (!law) throw std::invalid_argument(path + ": a device of several axes needs a law");
   resolve_amounts(scene.scenario, design, law().get());
   cut(scene.scenario, a);
-  outputs.reads(scene.device_path);
+  for (const std::string& read : {scene.device_path, law_file(scene.scenario)}) outputs.reads(read);
+  for (const std::string& read : hand_files(scene)) outputs.reads(read);
   return {scene.scenario, device_of(scene), trim::axes_subject(scene, a.options, law)};
 }
 
@@ -310,6 +321,12 @@ int run_trim(TrimArguments& a) {
       output->write(trim::scene_text(t.scene, report.trimmed, comment_of(report, t, a)));
     } else {
       output->discard();
+      if (!a.quiet) {
+        outputs.say(fmt::format("{} is not written: {}\n", a.output,
+                                report.trimmed_run.broken.empty()
+                                    ? "nothing can be left out"
+                                    : "an expectation of the scene is broken"));
+      }
     }
   }
   outputs.commit();
@@ -365,7 +382,8 @@ void add_trim(CLI::App& app, int* exit_code) {
       ->check(checks::whole(1, 64));
   old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
   sub->add_flag("--quiet", a->quiet, "print nothing");
-  sub->callback([a, exit_code] {
+  sub->callback([a, sub, exit_code] {
+    a->full_step = sub->count("--full-step") > 0;
     a->options.design = built_design(a->options.design);
     *exit_code = run_trim(*a);
   });

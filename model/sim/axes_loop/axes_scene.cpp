@@ -121,6 +121,20 @@ const std::string& device_of(const AxesScene& scene) {
                     scene.device);
 }
 
+std::vector<std::string> hand_files(const AxesScene& scene) {
+  std::vector<std::string> files;
+  const auto add = [&files](const auto& hands) {
+    for (const plant::Hand& hand : hands) {
+      for (const plant::HandPhase& phase : hand.phases) {
+        if (!phase.trace.file.empty()) files.push_back(phase.trace.file);
+      }
+    }
+  };
+  if (const auto* levers = std::get_if<TwoLeversSetup>(&scene.device)) add(levers->hand);
+  if (const auto* stylus = std::get_if<StylusSetup>(&scene.device)) add(stylus->hand);
+  return files;
+}
+
 std::vector<std::string> speed_jumps(const AxesScene& scene) {
   std::vector<std::string> all;
   const auto* levers = std::get_if<TwoLeversSetup>(&scene.device);

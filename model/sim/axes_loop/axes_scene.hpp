@@ -63,6 +63,9 @@ AxesScene read_axes_scene(const std::string& path,
 int axes_of(const AxesScene& scene);
 const std::string& device_of(const AxesScene& scene);
 
+/// Recordings that its hands follow.
+std::vector<std::string> hand_files(const AxesScene& scene);
+
 /// Jumps in the speed that a hand on one of two levers imposes: loop/speed_jumps.hpp.
 std::vector<std::string> speed_jumps(const AxesScene& scene);
 

@@ -44,7 +44,9 @@ class AxesSweep : public Sweep {
     report_.axes = axes_of(scene_);
     report_.simulated_s = scene_.scenario.duration_s;
     sweep(std::move(fast), 0);
-    if (keeps_time(source_)) {
+    if (!continuous_law_.lines.empty()) {
+      report_.notes.emplace_back("no margin: the law has a delay line");
+    } else if (keeps_time(source_)) {
       report_.notes.emplace_back(
           "no margin: the law's springs and masses are states, not its slope");
     } else {

@@ -17,9 +17,9 @@ namespace feltgate::rates {
 
 namespace {
 
-constexpr double rounding_nm_rad = 1e-6;  ///< no more than that is no stiffness
-constexpr int look_every = 20;            ///< runs between two looks at the slope
-constexpr int look_at_place_every = 500;  ///< the same for laws with states: a look costs more
+constexpr double rounding_nm_rad = 1e-6;    ///< no more than that is no stiffness
+constexpr int look_every = 20;              ///< runs between two looks at the slope
+constexpr double look_at_place_s = 0.5e-3;  ///< the same for places: a look costs more
 constexpr double speed_step_rad_s = 1e-3, observed_step_nm = 1e-4;
 /// Causes for which the torque is not that of the law.
 constexpr int left_out =
@@ -176,8 +176,7 @@ void Continuous::look_at_place() {
   }
   const auto linear = linearised(law_, here, setting_.count_rad);
   if (!linear || std::fabs(probe(seen_)[0]) >= setting_.limit_nm) return;
-  here.steepness_nm_rad = stability::steepness_nm_rad(*linear, setting_.run_s);
-  if (here.steepness_nm_rad > 1.001 * place_.steepness_nm_rad) place_ = here;
+  places_.note(here, *linear, setting_.run_s);
 }
 
 void Continuous::place(const Row* rows) {
@@ -211,7 +210,8 @@ void Continuous::tick(const Row* rows) {
       counted_[n] = {r.position_rad, r.velocity_rad_s, r.tau_hat_nm};
     }
     if (setting_.slope && runs_ % look_every == 0) look();
-    if (setting_.place && runs_ % look_at_place_every == 0) look_at_place();
+    const auto every = std::max<std::int64_t>(1, std::llround(look_at_place_s / setting_.run_s));
+    if (setting_.places && runs_ % every == 0) look_at_place();
     ++runs_;
     if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
     run(true_, seen_, &Axis::ideal_nm);

@@ -58,8 +58,8 @@ class Continuous {
     /// Inertia of several axes at these angles, kg m^2: the steepest place is the one with the
     /// fastest oscillation.
     std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> inertia;
-    bool place = false;  ///< search the place of a law of one axis with states that is steepest
-    bool floor = false;  ///< also run the law from the counts
+    bool places = false;  ///< search the places of a law of one axis
+    bool floor = false;   ///< also run the law from the counts
   };
   /// The law must outlive this.
   Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting);
@@ -80,8 +80,7 @@ class Continuous {
   /// of the core: no rate can reduce it.
   const ErrorFigure& floor() const { return floor_; }
   const Slope& slope() const { return slope_; }
-  /// The steepest place, by steepness_nm_rad(); its steepness is 0 where none was found.
-  const Place& steepest_place() const { return place_; }
+  const Places& places() const { return places_; }
   double largest_nm() const { return largest_nm_; }  ///< largest limited torque of any axis
 
  private:
@@ -124,7 +123,7 @@ class Continuous {
   bool observes_ = false;                  ///< the law reads tau_hat
   ErrorFigure error_, floor_;
   Slope slope_;
-  Place place_;
+  Places places_;
 };
 
 }  // namespace feltgate::rates

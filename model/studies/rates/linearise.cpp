@@ -5,7 +5,9 @@
 #include "studies/rates/linearise.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace feltgate::rates {
 
@@ -64,6 +66,39 @@ class Law {
 
 }  // namespace
 
+void Places::note(const Place& place, const stability::LinearLaw& law, double period_s) {
+  const stability::Steepness s = stability::steepness(law, period_s);
+  const double values[] = {s.spring_nm_rad[0], s.spring_nm_rad[1], s.spring_nm_rad[2],
+                           s.most_nm_rad};
+  if (law.a.rows() > 0) any_states_ = true;
+  int here = -1;
+  for (int i = 0; i < 4; ++i) {
+    if (!(values[i] > 1.001 * best_[i])) continue;
+    best_[i] = values[i];
+    if (here < 0) {
+      here = static_cast<int>(all_.size());
+      all_.push_back(place);
+      all_.back().most_nm_rad = s.most_nm_rad;
+    }
+    of_[i] = here;
+  }
+  if (here < 0) return;
+  // Only places that are still the first of something are kept.
+  std::vector<Place> kept;
+  int now[4] = {-1, -1, -1, -1};
+  for (int p = 0; p < static_cast<int>(all_.size()); ++p) {
+    bool wanted = false;
+    for (int i = 0; i < 4; ++i) {
+      if (of_[i] != p) continue;
+      wanted = true;
+      now[i] = static_cast<int>(kept.size());
+    }
+    if (wanted) kept.push_back(all_[static_cast<std::size_t>(p)]);
+  }
+  all_ = kept;
+  std::copy(std::begin(now), std::end(now), std::begin(of_));
+}
+
 std::optional<stability::LinearLaw> linearised(const law::Law& law, const Place& place,
                                                double count_rad) {
   if (!law.lines.empty() || law.outputs.size() != 1) return {};
@@ -75,13 +110,15 @@ std::optional<stability::LinearLaw> linearised(const law::Law& law, const Place&
     const auto slope = [&](double h) -> Eigen::VectorXd {
       return (function.after(which, h) - function.after(which, -h)) / (2 * h);
     };
-    const double h = function.step(which, count_rad);
-    const Eigen::VectorXd wide = slope(h), narrow = slope(h / 16);
-    // A slope is the same over a sixteenth of the step; at a jump it is not.
-    if (!((wide - narrow).cwiseAbs().maxCoeff() <= 0.05 * wide.cwiseAbs().maxCoeff() + 1e-9)) {
-      return {};
+    // A slope is the same over a sixteenth of the step; at a jump it is not, however short the
+    // step.
+    bool smooth = false;
+    for (double h = function.step(which, count_rad); !smooth; h /= 16) {
+      const Eigen::VectorXd wide = slope(h), narrow = slope(h / 16);
+      smooth = (wide - narrow).cwiseAbs().maxCoeff() <= 0.05 * wide.cwiseAbs().maxCoeff() + 1e-9;
+      all.col(k) = narrow;
+      if (!smooth && h < 1e-4 * function.step(which, count_rad)) return {};
     }
-    all.col(k) = narrow;
   }
   stability::LinearLaw out;
   out.d = all.row(0).head(3);

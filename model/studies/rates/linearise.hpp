@@ -16,7 +16,22 @@ namespace feltgate::rates {
 struct Place {
   double position_rad = 0, velocity_rad_s = 0, tau_hat_nm = 0;
   std::vector<double> states, parameters;
-  double steepness_nm_rad = 0;
+  double most_nm_rad = 0;  ///< stability::Steepness there
+};
+
+/// Places of a motion where the law may be nearest to its border: those with the stiffest spring at
+/// 5, 50 and 500 Hz, and that with the most torque per angle.
+class Places {
+ public:
+  void note(const Place& place, const stability::LinearLaw& law, double period_s);
+  const std::vector<Place>& all() const { return all_; }
+  bool any_states() const { return any_states_; }  ///< some law there has states in the loop
+
+ private:
+  std::vector<Place> all_;
+  double best_[4] = {};
+  int of_[4] = {-1, -1, -1, -1};  ///< places in all_, which may be the same
+  bool any_states_ = false;
 };
 
 /// The derivative of a law of one axis there, without states that are whole numbers or phases,

@@ -57,10 +57,12 @@ class LeverSweep : public Sweep {
     if (block_ != nullptr) report_.block_gates = block_->gates;
     sweep(std::move(fast), block_ != nullptr ? 1 : 0);
     if (block_ != nullptr) run_block();
-    if (keeps_time(source_)) {
-      margins_by_states();
+    if (!continuous_law_.lines.empty()) {
+      report_.notes.emplace_back("no margin: the law has a delay line");
     } else if (scene_.tracker) {
       report_.notes.emplace_back("no margin: the tracker, its noise and its delay are in the loop");
+    } else if (places_.any_states() || keeps_time(source_)) {
+      margins_by_states();
     } else {
       margins();
     }
@@ -83,7 +85,7 @@ class LeverSweep : public Sweep {
   void run(const Scenario& scene, const std::string& design, SceneLaw* law, RateRow row) {
     Continuous::Setting set = setting(scene);
     set.slope = set.floor = row.block || (block_ == nullptr && last());
-    set.place = set.floor && keeps_time(source_);
+    set.places = set.floor;
     // A law's parameter is what its word says, so its rounding is no error.
     Continuous continuous(
         continuous_law_,
@@ -108,7 +110,7 @@ class LeverSweep : public Sweep {
     row.fault = first_fault(result.felt.faults);
     if (row.fault.empty()) note_stale(result.law_stale);
     row.cpu_s_per_s = cpu_s(scene, design, law) / result.simulated_s;
-    if (set.place) place_ = continuous.steepest_place();
+    if (set.places) places_ = continuous.places();
     add(std::move(row), continuous, set);
   }
 
@@ -133,26 +135,26 @@ class LeverSweep : public Sweep {
     return model;
   }
 
-  /// Of a law whose springs and masses are states: at its steepest place, as it runs at each rate.
+  /// Of a law whose springs and masses are states, as it runs at each rate.
   void margins_by_states() {
-    if (!continuous_law_.lines.empty()) {
-      report_.notes.emplace_back("no margin: the law has a delay line");
-      return;
-    }
-    if (place_.steepness_nm_rad <= 0) {
+    if (places_.all().empty()) {
       report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
       return;
     }
     const stability::LoopModel model = linear_loop();
     for (RateRow& r : report_.rows) {
       const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
-      const auto linear = linearised(law, place_, design_.count_rad);
-      if (!linear) continue;
-      r.margin = margin(model, *linear, place_.steepness_nm_rad, r.ticks, delay_of(r));
+      for (const Place& place : places_.all()) {
+        const auto linear = linearised(law, place, design_.count_rad);
+        if (!linear) continue;
+        const Margin m = margin(model, *linear, place.most_nm_rad, r.ticks, delay_of(r));
+        if (r.margin.of == Margin::Of::none || m.ratio < r.margin.ratio) r.margin = m;
+      }
     }
     report_.notes.emplace_back(
-        "the margin is that of the law's torque, with its states, at its steepest place; the "
-        "border is its torque per angle there, the largest at 5, 50 and 500 Hz");
+        "the margin is that of the law's whole torque with its states, the least of up to four "
+        "places of the motion; the border is the torque per angle there, the largest at 5, 50 and "
+        "500 Hz, times the margin");
   }
 
   void margins() {
@@ -163,7 +165,7 @@ class LeverSweep : public Sweep {
   Scenario scene_, of_law_;
   const plant::Parameters& plant_;
   const BlockLaw* block_;
-  Place place_;
+  Places places_;
 };
 
 }  // namespace

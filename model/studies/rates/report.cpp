@@ -96,10 +96,13 @@ namespace {
 
 /// One lever: error, margin, clocks and time.
 std::string lever_table(const Report& r) {
-  const bool damper = !r.rows.empty() && r.rows.back().margin.of == Margin::Of::damping;
+  const Margin::Of of = r.rows.empty() ? Margin::Of::none : r.rows.back().margin.of;
   std::string s = fmt::format(
       "\n{:<17}  {:^19}  {:^18}  {:^16}  {:>5}\n{:<17}  {:>9} {:>9}  {:>9} {:>8}  {:>16}  {:>5}\n",
-      "torque renewed", "torque error, mNm", damper ? "border Nms/rad" : "border Nm/rad",
+      "torque renewed", "torque error, mNm",
+      of == Margin::Of::damping  ? "border Nms/rad"
+      : of == Margin::Of::torque ? "torque/angle Nm/rad"
+                                 : "border Nm/rad",
       "engine clocks", "CPU", "at", "rms", "worst", "", "margin", "of a run", "time");
   for (const RateRow& row : r.rows) {
     s += fmt::format("{:<9} {:<7}  {}  {}  {:>16}  {:>5.2f}\n", rate_text(row.rate_hz),

@@ -86,7 +86,7 @@ Law read(const LawSource& source, double rate_hz) {
 
 bool keeps_time(const LawSource& source) {
   // dt is folded into constants.
-  const Law a = read(source, 1000), b = read(source, 1024);
+  const Law a = read(source, 1e6), b = read(source, 1.024e6);
   const auto same = [](const law::Node& x, const law::Node& y) {
     return x.op == y.op && x.value == y.value && x.arguments == y.arguments;
   };

@@ -56,17 +56,6 @@ Scenario fitted(Scenario scene, const law::Image& image) {
   return scene;
 }
 
-std::string first_fault(const std::map<std::string, Acted>& faults) {
-  const Acted* first = nullptr;
-  std::string text;
-  for (const auto& [name, acted] : faults) {
-    if (first != nullptr && acted.first_s >= first->first_s) continue;
-    first = &acted;
-    text = fmt::format("{} at {:.3g} s", name, acted.first_s);
-  }
-  return text;
-}
-
 Sweep::Sweep(LawSource source, DesignInfo design, const design::Elaborated& e,
              const Options& options)
     : source_(std::move(source)),

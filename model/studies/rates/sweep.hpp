@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/loop/felt.hpp"
+#include "sim/loop/first_fault.hpp"
 #include "studies/rates/rates.hpp"
 
 namespace feltgate::rates {
@@ -63,8 +64,5 @@ class Sweep {
 /// Fits the scene's values to an image. At another rate the LSB of a parameter may differ, so its
 /// range may end up to one LSB earlier; values beyond that end are moved to it.
 Scenario fitted(Scenario scene, const law::Image& image);
-
-/// The earliest of the faults, with its time; empty if there is none.
-std::string first_fault(const std::map<std::string, Acted>& faults);
 
 }  // namespace feltgate::rates

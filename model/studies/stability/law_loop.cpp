@@ -63,10 +63,11 @@ LinearLaw in_loop(const LinearLaw& law) {
   return out;
 }
 
-double steepness_nm_rad(const LinearLaw& law, double period_s) {
+Steepness steepness(const LinearLaw& law, double period_s) {
   using Complex = std::complex<double>;
   const Eigen::Index n = law.a.rows();
-  double most = 0;
+  Steepness out;
+  double* spring = out.spring_nm_rad;
   for (const double hz : {5.0, 50.0, 500.0}) {
     const Complex rate(0, 2 * 3.141592653589793 * hz), z = std::exp(rate * period_s);
     // Of an angle that swings with this frequency, and its velocity.
@@ -77,9 +78,10 @@ double steepness_nm_rad(const LinearLaw& law, double period_s) {
       const Eigen::VectorXcd x = of_z.partialPivLu().solve(law.b.cast<Complex>() * u);
       nm_rad += (law.c.cast<Complex>() * x)(0, 0);
     }
-    most = std::max(most, std::abs(nm_rad));
+    *spring++ = -nm_rad.real();
+    out.most_nm_rad = std::max(out.most_nm_rad, std::abs(nm_rad));
   }
-  return most;
+  return out;
 }
 
 std::vector<Pole> poles(const LoopModel& m, const LinearLaw& law, double gain, double held_nm_rad,

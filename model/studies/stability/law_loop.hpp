@@ -24,8 +24,13 @@ struct LinearLaw {
 /// itself has an eigenvalue of 1, which says nothing of the loop.
 LinearLaw in_loop(const LinearLaw& law);
 
-/// Largest magnitude of torque per angle at 5, 50 and 500 Hz, Nm/rad, for runs every `period_s`.
-double steepness_nm_rad(const LinearLaw& law, double period_s);
+/// Torque per angle at 5, 50 and 500 Hz, Nm/rad.
+struct Steepness {
+  double spring_nm_rad[3] = {};  ///< part in phase with the angle, against it: of a spring positive
+  double most_nm_rad = 0;        ///< the largest magnitude, a damper's included
+};
+/// For runs every `period_s`.
+Steepness steepness(const LinearLaw& law, double period_s);
 
 /// Poles nearest to growth of the loop in which the law's torque counts `gain` times; a spring of
 /// `held_nm_rad` holds the lever. `renewal` as in Wall: scene_ticks and delay_ticks.

@@ -9,6 +9,7 @@
 #include "sim/axes_loop/axes_columns.hpp"
 #include "sim/axes_loop/axes_run.hpp"
 #include "sim/engines/axes_cores.hpp"
+#include "sim/loop/first_fault.hpp"
 #include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 
@@ -70,6 +71,9 @@ Felt feel(const AxesScene& scene, const Options& options, const Model& model, co
   felt.cpu_s = thread_cpu_s() - begin;
   felt.simulated_s = result.simulated_s;
   felt.broken = result.broken;
+  for (const AxisFigures& axis : result.axes) {
+    if (felt.fault.empty()) felt.fault = first_fault(axis.faults);
+  }
   return felt;
 }
 

@@ -46,6 +46,7 @@ struct Felt {
   std::size_t states = 0;           ///< of the plant; of several axes not counted
   plant::Evaluations evaluations;   ///< of one lever
   std::vector<std::string> broken;  ///< expectations of the scene that do not hold
+  std::string fault;                ///< the first that opened the gates, with its time; or none
 };
 
 /// Largest and rms difference over the windows, relative to the reference's largest magnitude and

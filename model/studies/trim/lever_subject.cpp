@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/loop/first_fault.hpp"
 #include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 
@@ -54,6 +55,7 @@ Felt feel(const Scenario& scene, const plant::Parameters& plant, const std::stri
   felt.states = run.plant_states;
   felt.evaluations = run.evaluations;
   felt.broken = run.broken;
+  felt.fault = first_fault(run.felt.faults);
   return felt;
 }
 

@@ -60,7 +60,7 @@ class Lines {
       if (n == first) out += keys + "\n";
       if (!gone_[n - 1]) out += lines_[n - 1] + "\n";
     }
-    return out;
+    return first > lines_.size() ? out + keys : out;  // without tables, or with inline ones alone
   }
 
  private:
@@ -69,25 +69,40 @@ class Lines {
   std::vector<bool> gone_;
 };
 
+/// A TOML string.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
 }  // namespace
 
 std::string scene_text(const Scenario& scene, const Model& model, const std::string& comment) {
   Lines lines(scene.path);
   for (const char* key : {"step_clocks", "bridge", "plant", "effects"}) lines.remove(key);
-  if (const toml::array* phases = lines.root()["hand"]["phase"].as_array()) {
-    const fs::path folder = fs::absolute(scene.path).parent_path();
+  const fs::path folder = fs::absolute(scene.path).parent_path();
+  for (const char* table : {"hand", "met"}) {
+    const toml::array* phases = lines.root()[table]["phase"].as_array();
+    if (phases == nullptr) continue;
     for (const toml::node& phase : *phases) {
       const toml::node* file = phase.is_table() ? phase.as_table()->get("file") : nullptr;
       if (file == nullptr || !file->is_string()) continue;
-      lines.replace(*file, "\"" + (folder / file->value_or(std::string())).string() + "\"");
+      lines.replace(*file, quoted((folder / file->value_or(std::string())).string()));
     }
   }
-
+  const toml::node* device = lines.root().get("device");
+  const std::string name = device == nullptr ? "" : device->value_or(std::string());
+  if (name.find('/') != std::string::npos) {
+    lines.replace(*device, quoted(fs::absolute(name).string()));
+  }
   const toml::node* law = lines.root().at_path("core.law").node();
   if (law != nullptr &&
       (scene.law.find('/') != std::string::npos || fs::path(scene.law).extension() == ".law")) {
-    const fs::path at = fs::absolute(scene.path).parent_path() / scene.law;
-    lines.replace(*law, "\"" + at.string() + "\"");
+    lines.replace(*law, quoted((folder / scene.law).string()));
   }
 
   std::ostringstream text;
@@ -98,7 +113,7 @@ std::string scene_text(const Scenario& scene, const Model& model, const std::str
   std::ostringstream keys;
   if (!scene.plant.empty()) {  // of one lever
     const bool path = scene.plant.find('/') != std::string::npos;
-    keys << "plant = \"" << (path ? fs::absolute(scene.plant).string() : scene.plant) << "\"\n"
+    keys << "plant = " << quoted(path ? fs::absolute(scene.plant).string() : scene.plant) << "\n"
          << "bridge = \"" << (model.gates ? "switched" : "averaged") << "\"\n"
          << "step_clocks = " << model.step_clocks << "\n";
   }

@@ -57,8 +57,8 @@ std::vector<UnseenReport> check_unseen(const Subject& subject, const Model& mode
                                        const std::vector<std::uint64_t>& seeds);
 
 /// Greedy removal. First the gates; then every effect alone, out of the model that is left; then,
-/// the most time saved per loss first, each is left out for good when the set stays within the
-/// share of the tolerance on the scene's own motion; then the coarsest step that does. The set is
+/// the least loss first, each is left out for good when the set stays within the share of the
+/// tolerance on the scene's own motion; then the coarsest step that does. The set is
 /// checked on unseen motions against the same; while that fails, a finer step, an effect or the
 /// gates are put back: the first with which it holds, or what mends most. Then the check is
 /// repeated on fresh motions. Throws as run_scenario does.

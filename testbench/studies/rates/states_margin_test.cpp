@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Margins of laws with states: against the wall's, a filter's closed form, and the core's bits.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -38,6 +40,28 @@ LawSource filtered(const std::string& frequency, const std::string& more = "") {
 }
 
 Place at(double stiffness_nm) { return {0.01, 0, 0, {0.01}, {stiffness_nm}, stiffness_nm}; }
+
+/// The margins that `feltgate rates` gives for this law where a hand turns the lever to 0.3 rad.
+Report measured(const std::string& law) {
+  const std::string path = built + "/places_margin.toml";
+  std::ofstream(path)
+      << "title = \"places\"\nabout = \"-\"\nduration_s = 0.2\nplant = \"linear\"\n[core]\n"
+         "scene = \"law\"\nlaw = \"x\"\narm_s = 0.01\n[effects]\nviscous = true\n"
+         "[[hand.phase]]\nkind = \"prescribed\"\nmotion = [{ kind = \"hold\", duration_s = 0.02 "
+         "}, { kind = \"minimum_jerk\", duration_s = 0.15, to_rad = 0.3 }]\n";
+  Scenario scene = read_scenario(path);
+  std::remove(path.c_str());
+  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
+  resolve_effects(scene, p.effects);
+  Options options;
+  options.rates_hz = {};
+  return measure(scene, {"x.law", law}, p, law_core(), options);
+}
+
+double margin_of(const std::string& law) {
+  const Report r = measured(law);
+  return r.rows.back().margin.of == Margin::Of::none ? -1 : r.rows.back().margin.ratio;
+}
 
 /// Growth of the swing of a lever that a hand lets go at 0.05 rad: last tenths over the first.
 double swing_growth(const LawSource& source, double stiffness_nm) {
@@ -98,11 +122,11 @@ TEST_CASE("a law is linear at a place: by its filter, its formula and its signs"
   CHECK(linear->c[0] == Approx(-0.5 * (1 - share)));
   CHECK(linear->d[0] == Approx(-0.5 * share));
   // At 5 Hz the filter passes all but 1.4 %.
-  CHECK(stability::steepness_nm_rad(*linear, 1 / 40e3) == Approx(0.4931).epsilon(1e-3));
+  CHECK(stability::steepness(*linear, 1 / 40e3).most_nm_rad == Approx(0.4931).epsilon(1e-3));
   // A damper of 0.002 Nms/rad has that times the angular frequency.
   stability::LinearLaw damper{Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 3), Eigen::RowVectorXd(0)};
   damper.d << 0, -0.002, 0;
-  CHECK(stability::steepness_nm_rad(damper, 1e-6) == Approx(0.002 * 2 * 3.14159265 * 500));
+  CHECK(stability::steepness(damper, 1e-6).most_nm_rad == Approx(0.002 * 2 * 3.14159265 * 500));
   // What no torque shows, and what turns by itself, is not in the loop.
   const std::string beside =
       "phase angle = 0 in 0 .. 1\nnext angle = angle + 100 Hz * dt\n"
@@ -134,4 +158,39 @@ TEST_CASE("a filtered spring ends where the closed form says, and where the bits
   // Within 5 % of the core's bits.
   CHECK(swing_growth(source, 0.95 * found.border) < 1);
   CHECK(swing_growth(source, 1.05 * found.border) > 1);
+}
+
+TEST_CASE("the margin of a law with states is that of its worst place, however it is written") {
+  // A damper before 0.15 rad has the most torque per angle, a wall beyond 0.28 the least margin.
+  const double two_places = margin_of(
+      "rate = 40 kHz\nlet x = lowpass(position, 1.5 kHz)\nlet v = lowpass(velocity, 1.5 kHz)\n"
+      "out torque = if position < 0.15 then -0.02 Nm s * v else if position < 0.28 then 0 Nm "
+      "else -15 Nm * (x - 0.28)\n");
+  const double wall =
+      margin_of("rate = 40 kHz\nout torque = -15 Nm * (lowpass(position, 1.5 kHz) - 0.28)\n");
+  CHECK(two_places == Approx(wall).epsilon(0.01));
+  CHECK(wall < 1);
+  // A filter by hand, of the same share, in a state of any range.
+  const double share = 1 - std::exp(-2 * 3.14159265358979323846 * 64 / 40e3);
+  const auto by_hand = [&](const std::string& end) {
+    return margin_of(
+        fmt::format("rate = 40 kHz\nstate y = 0 in -{0} .. {0}\n"
+                    "let z = y + {1:.15g} * (position - y)\nnext y = clamp(z, -{0}, {0})\n"
+                    "out torque = -1 Nm * z\n",
+                    end, share));
+  };
+  const double filter = margin_of("rate = 40 kHz\nout torque = -1 Nm * lowpass(position, 64 Hz)\n");
+  CHECK(filter < 1);
+  CHECK(by_hand("1") == Approx(filter).epsilon(0.02));
+  CHECK(by_hand("1000") == Approx(filter).epsilon(0.02));
+  // Where no torque is stable there is no border: a spring that pushes away.
+  CHECK(margin_of("rate = 40 kHz\nout torque = 1 Nm * lowpass(position, 64 Hz)\n") == 0);
+  // Filters of any frequency that the law's own rate allows.
+  CHECK(margin_of("rate = 40 kHz\nout torque = -1 Nm * lowpass(position, 4 kHz)\n") > 0);
+  // A delay line counts runs, with or without dt.
+  const Report line = measured(
+      "rate = 40 kHz\nline past[200] in -4 .. 4\nnext past = clamp(position, -4, 4)\n"
+      "out torque = -1 Nm * past[200]\n");
+  CHECK(line.rows.back().margin.of == Margin::Of::none);
+  CHECK(line.notes.front() == "no margin: the law has a delay line");
 }

@@ -66,7 +66,7 @@ Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law
               double steepness_nm_rad, int scene_ticks, int delay_ticks) {
   return search(Margin::Of::torque, steepness_nm_rad, [&](double ratio) {
     const auto all =
-        stability::poles(model, law, ratio, least_stiffness_nm_rad, scene_ticks, delay_ticks);
+        stability::poles(model, law, ratio, next_to_none_nm_rad, scene_ticks, delay_ticks);
     return all.front().real() < 0;
   });
 }

@@ -4,6 +4,7 @@
 // Margins of laws with states: against the wall's, a filter's closed form, and the core's bits.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -192,5 +193,6 @@ TEST_CASE("the margin of a law with states is that of its worst place, however i
       "rate = 40 kHz\nline past[200] in -4 .. 4\nnext past = clamp(position, -4, 4)\n"
       "out torque = -1 Nm * past[200]\n");
   CHECK(line.rows.back().margin.of == Margin::Of::none);
-  CHECK(line.notes.front() == "no margin: the law has a delay line");
+  CHECK(std::count(line.notes.begin(), line.notes.end(), "no margin: the law has a delay line") ==
+        1);
 }

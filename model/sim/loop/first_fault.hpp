@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "sim/loop/felt.hpp"
+#include "felt.hpp"
 
 namespace feltgate {
 

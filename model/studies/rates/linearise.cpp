@@ -5,9 +5,7 @@
 #include "studies/rates/linearise.hpp"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace feltgate::rates {
 
@@ -68,35 +66,14 @@ class Law {
 
 void Places::note(const Place& place, const stability::LinearLaw& law, double period_s) {
   const stability::Steepness s = stability::steepness(law, period_s);
-  const double values[] = {s.spring_nm_rad[0], s.spring_nm_rad[1], s.spring_nm_rad[2],
-                           s.most_nm_rad};
   if (law.a.rows() > 0) any_states_ = true;
-  int here = -1;
-  for (int i = 0; i < 4; ++i) {
-    if (!(values[i] > 1.001 * best_[i])) continue;
-    best_[i] = values[i];
-    if (here < 0) {
-      here = static_cast<int>(all_.size());
-      all_.push_back(place);
-      all_.back().most_nm_rad = s.most_nm_rad;
-    }
-    of_[i] = here;
+  const double values[] = {s.spring_nm_rad[1], s.most_nm_rad};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Best& best = best_[i];
+    if (!(values[i] > 1.001 * best.value)) continue;
+    best = {values[i], place};
+    best.place.most_nm_rad = s.most_nm_rad;
   }
-  if (here < 0) return;
-  // Only places that are still the first of something are kept.
-  std::vector<Place> kept;
-  int now[4] = {-1, -1, -1, -1};
-  for (int p = 0; p < static_cast<int>(all_.size()); ++p) {
-    bool wanted = false;
-    for (int i = 0; i < 4; ++i) {
-      if (of_[i] != p) continue;
-      wanted = true;
-      now[i] = static_cast<int>(kept.size());
-    }
-    if (wanted) kept.push_back(all_[static_cast<std::size_t>(p)]);
-  }
-  all_ = kept;
-  std::copy(std::begin(now), std::end(now), std::begin(of_));
 }
 
 std::optional<stability::LinearLaw> linearised(const law::Law& law, const Place& place,

@@ -19,18 +19,23 @@ struct Place {
   double most_nm_rad = 0;  ///< stability::Steepness there
 };
 
-/// Places of a motion where the law may be nearest to its border: those with the stiffest spring at
-/// 5, 50 and 500 Hz, and that with the most torque per angle.
+/// The place of a motion where a law of one axis is the stiffest spring at 50 Hz; where it is
+/// nowhere a spring, that with the most torque per angle.
 class Places {
  public:
   void note(const Place& place, const stability::LinearLaw& law, double period_s);
-  const std::vector<Place>& all() const { return all_; }
+  /// nullptr: none was noted that has a torque.
+  const Place* steepest() const {
+    return best_[0].value > 0 ? &best_[0].place : best_[1].value > 0 ? &best_[1].place : nullptr;
+  }
   bool any_states() const { return any_states_; }  ///< some law there has states in the loop
 
  private:
-  std::vector<Place> all_;
-  double best_[4] = {};
-  int of_[4] = {-1, -1, -1, -1};  ///< places in all_, which may be the same
+  struct Best {
+    double value = 0;
+    Place place;
+  };
+  Best best_[2];
   bool any_states_ = false;
 };
 

@@ -137,24 +137,29 @@ class LeverSweep : public Sweep {
 
   /// Of a law whose springs and masses are states, as it runs at each rate.
   void margins_by_states() {
-    if (places_.all().empty()) {
+    const Place* place = places_.steepest();
+    if (place == nullptr) {
       report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
       return;
     }
     const stability::LoopModel model = linear_loop();
     for (RateRow& r : report_.rows) {
       const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
-      for (const Place& place : places_.all()) {
-        const auto linear = linearised(law, place, design_.count_rad);
-        if (!linear) continue;
-        const Margin m = margin(model, *linear, place.most_nm_rad, r.ticks, delay_of(r));
-        if (r.margin.of == Margin::Of::none || m.ratio < r.margin.ratio) r.margin = m;
+      const auto linear = linearised(law, *place, design_.count_rad);
+      if (!linear) continue;
+      const Margin m = margin(model, *linear, place->most_nm_rad, r.ticks, delay_of(r));
+      if (m.ratio > 0) {
+        r.margin = m;
+      } else {
+        note_once(
+            "where there is a - for the margin, no torque is stable at that place, not even a "
+            "ten-thousandth: the law pushes away there, or the rate is far too low");
       }
     }
     report_.notes.emplace_back(
-        "the margin is that of the law's whole torque with its states, the least of up to four "
-        "places of the motion; the border is the torque per angle there, the largest at 5, 50 and "
-        "500 Hz, times the margin");
+        "the margin is that of the law's whole torque with its states, at the place of the motion "
+        "where it is the stiffest spring at 50 Hz; the border is the torque per angle there, the "
+        "largest at 5, 50 and 500 Hz, times the margin");
   }
 
   void margins() {

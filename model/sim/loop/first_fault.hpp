@@ -4,8 +4,7 @@
 // The first of a run's faults in words. Documentation: docs/safety.md
 #pragma once
 
-#include <fmt/format.h>
-
+#include <cstdio>
 #include <map>
 #include <string>
 
@@ -20,7 +19,9 @@ inline std::string first_fault(const std::map<std::string, Acted>& faults) {
   for (const auto& [name, acted] : faults) {
     if (first != nullptr && acted.first_s >= first->first_s) continue;
     first = &acted;
-    text = fmt::format("{} at {:.3g} s", name, acted.first_s);
+    char at[32];
+    std::snprintf(at, sizeof at, " at %.3g s", acted.first_s);
+    text = name + at;
   }
   return text;
 }

@@ -82,7 +82,7 @@ std::vector<std::string> off(const Trimmed& t, const trim::Model& model) {
   };
   const std::vector<std::string> left = t.subject.parts(model);
   for (const std::string& part : t.subject.parts(t.subject.full)) {
-    if (part != "dead_time" && !has(left, part) && !has(names, part)) names.push_back(part);
+    if (!has(left, part) && !has(names, part)) names.push_back(part);
   }
   return names;
 }

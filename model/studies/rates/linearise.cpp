@@ -67,7 +67,7 @@ class Law {
 void Places::note(const Place& place, const stability::LinearLaw& law, double period_s) {
   const stability::Steepness s = stability::steepness(law, period_s);
   if (law.a.rows() > 0) any_states_ = true;
-  const double values[] = {s.spring_nm_rad[1], s.most_nm_rad};
+  const double values[] = {s.spring_nm_rad, s.most_nm_rad};
   for (std::size_t i = 0; i < 2; ++i) {
     Best& best = best_[i];
     if (!(values[i] > 1.001 * best.value)) continue;

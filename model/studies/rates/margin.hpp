@@ -14,7 +14,7 @@ namespace feltgate::rates {
 struct Margin {
   enum class Of { stiffness, damping, torque, none } of = Of::none;
   double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping; of a
-                      ///< law with states the largest stable steepness_nm_rad() at its place
+                      ///< law with states the largest stable torque per angle at its place
   double ratio = 0;   ///< border divided by the law's value; at 1 the loop oscillates for ever
 };
 

@@ -67,7 +67,6 @@ Steepness steepness(const LinearLaw& law, double period_s) {
   using Complex = std::complex<double>;
   const Eigen::Index n = law.a.rows();
   Steepness out;
-  double* spring = out.spring_nm_rad;
   for (const double hz : {5.0, 50.0, 500.0}) {
     const Complex rate(0, 2 * 3.141592653589793 * hz), z = std::exp(rate * period_s);
     // Of an angle that swings with this frequency, and its velocity.
@@ -78,7 +77,7 @@ Steepness steepness(const LinearLaw& law, double period_s) {
       const Eigen::VectorXcd x = of_z.partialPivLu().solve(law.b.cast<Complex>() * u);
       nm_rad += (law.c.cast<Complex>() * x)(0, 0);
     }
-    *spring++ = -nm_rad.real();
+    if (hz == 50.0) out.spring_nm_rad = -nm_rad.real();
     out.most_nm_rad = std::max(out.most_nm_rad, std::abs(nm_rad));
   }
   return out;

@@ -26,8 +26,8 @@ LinearLaw in_loop(const LinearLaw& law);
 
 /// Torque per angle at 5, 50 and 500 Hz, Nm/rad.
 struct Steepness {
-  double spring_nm_rad[3] = {};  ///< part in phase with the angle, against it: of a spring positive
-  double most_nm_rad = 0;        ///< the largest magnitude, a damper's included
+  double spring_nm_rad = 0;  ///< at 50 Hz, against the angle and in phase with it: a spring's
+  double most_nm_rad = 0;    ///< the largest magnitude of the three, a damper's included
 };
 /// For runs every `period_s`.
 Steepness steepness(const LinearLaw& law, double period_s);

@@ -246,8 +246,9 @@ trim::LawMaker law_of(const Scenario& scene, const DesignInfo& design, int axes)
   const std::string path = law_file(scene);
   law::Target target = law::target_of(design);
   target.axes = axes;
-  if (axes == 1) (void)make_scene_law(path, design);  // refuses a law of several axes
-  return [compiled = law::compile_file(path, target), path, design, axes] {
+  law::Compiled compiled = law::compile_file(path, target);
+  if (axes == 1) require_one_torque(compiled, path);
+  return [compiled = std::move(compiled), path, design, axes] {
     return axes > 1 ? make_axes_law(compiled, path, design, axes)
                     : make_scene_law(compiled, design);
   };

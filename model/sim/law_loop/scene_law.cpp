@@ -127,8 +127,7 @@ class CompiledSceneLaw : public SceneLaw {
 
 }  // namespace
 
-std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design) {
-  law::Compiled law = law::compile_file(path, law::target_of(design));
+void require_one_torque(const law::Compiled& law, const std::string& path) {
   for (const law::Output& o : law.law.outputs) {
     if (o.axis == 0) continue;
     throw std::invalid_argument(fmt::format(
@@ -137,6 +136,11 @@ std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignIn
         "device = \"{}\"; `feltgate law {}` measures laws of several axes",
         path, o.place.line, o.axis, law.law.outputs.size() > 2 ? "gimbal" : "two_levers", path));
   }
+}
+
+std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design) {
+  law::Compiled law = law::compile_file(path, law::target_of(design));
+  require_one_torque(law, path);
   return make_scene_law(std::move(law), design);
 }
 std::unique_ptr<SceneLaw> make_scene_law(law::Compiled law, const DesignInfo& design) {

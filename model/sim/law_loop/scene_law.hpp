@@ -16,6 +16,9 @@
 
 namespace feltgate {
 
+/// Refuses a law with a torque for a second axis, which a loop of one lever cannot run:
+/// std::invalid_argument with `path`, the line and the mend.
+void require_one_torque(const law::Compiled& law, const std::string& path);
 /// Compiles the law of a file for a design. Throws law::LawError, law::Refused, and
 /// std::invalid_argument for a law of several axes, which a loop of one lever cannot run.
 std::unique_ptr<SceneLaw> make_scene_law(const std::string& path, const DesignInfo& design);

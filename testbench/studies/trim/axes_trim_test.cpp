@@ -193,6 +193,16 @@ TEST_CASE("a law on one lever is felt, and its file found from the trimmed scene
   detent.path = std::string(FELTGATE_BUILD_DIR) + "/own_detent.toml";
   std::ofstream(detent.path) << "duration_s = 1\n[core]\nscene = \"law\"\nlaw = \"laws/own.law\"\n";
   const std::string text = trim::scene_text(detent, averaged, "made by a test");
+  // A quote in a name, and a device and a trace of [met] beside the file.
+  detent.law = "a\"b.law";
+  std::ofstream(detent.path) << "device = \"dev/mine.toml\"\ncore = { scene = \"law\", law = "
+                                "\"x\" }\nmet = { phase = [ { file = \"t.csv\" } ] }\n";
+  const std::string inlined = trim::scene_text(detent, averaged, "made by a test");
+  for (const char* part : {"law = \"/", "a\\\"b.law\"", "device = \"/", "/t.csv\"",
+                           "plant = \"p24\"", "step_clocks = 250", "bridge = \"averaged\""}) {
+    INFO(part);
+    CHECK(inlined.find(part) != std::string::npos);
+  }
   std::remove(detent.path.c_str());
   CHECK(text.find("law = \"" + std::string(FELTGATE_BUILD_DIR) + "/laws/own.law\"") !=
         std::string::npos);

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "feltgate/generated/paper.hpp"
 #include "feltgate/velocity_mt.hpp"
 #include "files/json_text.hpp"
 #include "sim/loop/drag.hpp"
@@ -35,15 +36,16 @@ struct WithCutoff : FedLever {
 };
 constexpr int kTo977 = 10, kTo3906 = 8;  // rad/s
 
-/// The N-method of another window and gain.
-template <int M1, int Shift, int A1Below>
+/// The N-method with the window and the gain of another design.
+template <class Of, int A1Below>
 struct ByCounts : WithCutoff<A1Below> {
-  static constexpr int m1 = M1, velocity_shift = Shift;
+  static constexpr int m1 = Of::m1, velocity_shift = Of::velocity_shift;
 };
 
-template <int Window, int Doublings, int A1Below>
+template <int WindowUs, int Doublings, int A1Below>
 struct BySpans : WithCutoff<A1Below> {
-  static constexpr int m1 = 0, mt_counts = 4096, mt_window = Window, mt_doublings = Doublings;
+  static constexpr int m1 = 0, mt_counts = Lever::index_counts, mt_doublings = Doublings;
+  static constexpr int mt_window = static_cast<int>(WindowUs * (Lever::clock_hz / 1'000'000));
 };
 
 /// The chain with M/T, which gets the clocks of the edges from its loop. A tick takes what the
@@ -115,12 +117,12 @@ struct Estimator {
   std::unique_ptr<RealChain> (*make)(double cutoff_rad_s, bool observer, const Tuning&);
 };
 constexpr Estimator kEstimators[] = {
-    {"N-method, m1 = 386, n = 2 (`paper`), 500 rad/s", 500, tuned<ByCounts<386, 2, kTo977>>},
-    {"N-method, m1 = 767, n = 1 (`lever`), 500 rad/s", 500, tuned<ByCounts<767, 1, kTo977>>},
-    {"the same, 2000 rad/s", 2000, tuned<ByCounts<767, 1, kTo3906>>},
+    {"N-method, m1 = 386, n = 2 (`paper`), 500 rad/s", 500, tuned<ByCounts<Paper, kTo977>>},
+    {"N-method, m1 = 767, n = 1 (`lever`), 500 rad/s", 500, tuned<ByCounts<Lever, kTo977>>},
+    {"the same, 2000 rad/s", 2000, tuned<ByCounts<Lever, kTo3906>>},
     {"M/T, one cycle, 500 rad/s", 500, tuned<BySpans<0, 0, kTo977>>},
-    {"M/T, 386 µs, 500 rad/s", 500, tuned<BySpans<19300, 4, kTo977>>},
-    {"M/T, 386 µs, 2000 rad/s", 2000, tuned<BySpans<19300, 4, kTo3906>>}};
+    {"M/T, 386 µs, 500 rad/s", 500, tuned<BySpans<386, 4, kTo977>>},
+    {"M/T, 386 µs, 2000 rad/s", 2000, tuned<BySpans<386, 4, kTo3906>>}};
 
 plant::Hand moved_by(plant::Segment segment) {
   segment.duration_s = 10;

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from outputs import write_whole
 from reports import plots
 
-# What a user takes each engine for, and where its label stands.
+# What a user takes each back-end for, and where its label stands.
 PURPOSE = {
     "rtl": "the check: every pin of the RTL",
     "twin_clock": "pins, without Verilator",

@@ -33,7 +33,7 @@ EXEMPT = {*rtl_sources.CELL_WRAPPERS, *rtl_sources.NO_BLOCKS}
 SKIPPED_FOLDERS = {".git", "build", "generated", "__pycache__"}
 BOARD_DESIGN = "lever"
 # Headers that users of the library compile, who need no libfmt; they print integers only.
-NO_LIBFMT = ("model/include/", "model/sim/engines/", "model/sim/reference/")
+NO_LIBFMT = ("model/include/", "model/sim/backends/", "model/sim/reference/")
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 // Within 0.2 s a hand pushes a motor's lever with 0.2 Nm against a spring of 0.5 Nm/rad.
 #include <cstdio>
-#include "feltgate/engines/make_device.hpp"
+#include "feltgate/backends/make_device.hpp"
 #include "feltgate/plant/drive.hpp"
 #include "feltgate/plant/plant.hpp"
 #include "feltgate/plant/plant_file.hpp"

@@ -33,7 +33,7 @@ target_compile_options(feltgate_fault_campaign PRIVATE ${FELTGATE_WARNINGS} -O2)
 target_include_directories(feltgate_fault_campaign
   PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common")
 target_include_directories(feltgate_fault_campaign SYSTEM PUBLIC "${PROJECT_BINARY_DIR}/faults")
-target_link_libraries(feltgate_fault_campaign PUBLIC faults_core feltgate_engines feltgate_plant_files feltgate_traces
+target_link_libraries(feltgate_fault_campaign PUBLIC faults_core feltgate_backends feltgate_plant_files feltgate_traces
   PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
 
 feltgate_program(feltgate_faults ""

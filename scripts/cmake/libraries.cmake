@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # The libraries for users: feltgate::core (headers, no dependency) and feltgate::sim with its parts.
-# Of these, feltgate::plant and feltgate::engines read no file. docs/library.md
+# Of these, feltgate::plant and feltgate::backends read no file. docs/library.md
 include_guard(GLOBAL)
 
 # Twin, laws, generated designs.
@@ -28,7 +28,7 @@ endif()
 find_path(FELTGATE_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
 
 # In the source tree a room of headers is model/sim/<room>; its users write feltgate/<room>/x.hpp.
-set(FELTGATE_ROOMS engines loop plant reference systemc traces)
+set(FELTGATE_ROOMS backends loop plant reference systemc traces)
 set(FELTGATE_STAGED_INCLUDE "${PROJECT_BINARY_DIR}/include")
 file(MAKE_DIRECTORY "${FELTGATE_STAGED_INCLUDE}/feltgate")
 foreach(room IN LISTS FELTGATE_ROOMS)
@@ -117,7 +117,7 @@ else()
   feltgate_sim_library(traces sim/traces EXCEPT "/sigrok")
 endif()
 
-include(engines)
+include(backends)
 feltgate_sim_library(loop sim/loop
   feltgate_registry feltgate_plant_files feltgate_traces feltgate_bounds feltgate_units)
 # Laws in a loop: the engine's image, and the law in real numbers beside it.
@@ -137,7 +137,7 @@ endforeach()
 
 add_library(feltgate_sim INTERFACE)
 target_link_libraries(feltgate_sim INTERFACE
-  feltgate_engines feltgate_loop feltgate_linkage_files feltgate_gimbal_files)
+  feltgate_backends feltgate_loop feltgate_linkage_files feltgate_gimbal_files)
 feltgate_export(sim)
 
 # sc_modules of twin and motor: headers. SystemC itself is looked for by who links them.

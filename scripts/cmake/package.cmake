@@ -36,7 +36,7 @@ if(FELTGATE_SIM)
       FILES_MATCHING PATTERN "*.hpp"
       PATTERN "ensemble.hpp" EXCLUDE
       PATTERN "scenario_bounds.hpp" EXCLUDE
-      PATTERN "make_engines.hpp" EXCLUDE PATTERN "lock_step_engine.hpp" EXCLUDE
+      PATTERN "make_backends.hpp" EXCLUDE PATTERN "lock_step_backend.hpp" EXCLUDE
       PATTERN "lock_step_core.hpp" EXCLUDE PATTERN "make_axes_cores.hpp" EXCLUDE
       PATTERN "make_twin_axes.hpp" EXCLUDE
       PATTERN "plant_table.hpp" EXCLUDE PATTERN "rtl_*.hpp" EXCLUDE)

@@ -19,10 +19,10 @@ foreach(design IN LISTS FELTGATE_PRESETS)
   if(design IN_LIST FELTGATE_AXES_PRESETS)
     set(template design_axes_preset.cpp.in)
   endif()
-  feltgate_for_design(${template} "${PROJECT_BINARY_DIR}/engines/${design}_preset.cpp")
+  feltgate_for_design(${template} "${PROJECT_BINARY_DIR}/backends/${design}_preset.cpp")
   # Tests of a device link its objects too.
-  add_library(preset_${design} OBJECT "${PROJECT_BINARY_DIR}/engines/${design}_preset.cpp")
-  target_compile_options(preset_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+  add_library(preset_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_preset.cpp")
+  target_compile_options(preset_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(preset_${design} PRIVATE ${libraries} core_${design})
   add_executable(feltgate_${design}
     $<TARGET_OBJECTS:preset_${design}> $<TARGET_OBJECTS:feltgate> $<TARGET_OBJECTS:feltgate_run_parts>)

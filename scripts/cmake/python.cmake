@@ -65,13 +65,13 @@ feltgate_unity(feltgate_python)
 target_compile_options(feltgate_python PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_python PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 target_include_directories(feltgate_python PRIVATE "${PROJECT_BINARY_DIR}/designs")
-target_link_libraries(feltgate_python PRIVATE feltgate_engines feltgate_loop fmt::fmt)
+target_link_libraries(feltgate_python PRIVATE feltgate_backends feltgate_loop fmt::fmt)
 
 # Designs beyond lever and paper, loaded when one is used.
 pybind11_add_module(feltgate_python_designs MODULE NO_EXTRAS
   "${FELTGATE_ROOT}/model/apps/python/designs/module.cpp" ${extra_sources})
 set_target_properties(feltgate_python_designs PROPERTIES OUTPUT_NAME _designs)
-target_compile_options(feltgate_python_designs PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+target_compile_options(feltgate_python_designs PRIVATE ${FELTGATE_BACKEND_OPTIONS})
 target_include_directories(feltgate_python_designs PRIVATE "${PROJECT_BINARY_DIR}/designs")
 foreach(source IN LISTS extra_sources)
   get_filename_component(folder "${source}" DIRECTORY)

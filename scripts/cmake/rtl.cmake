@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # feltgate_rtl: the Verilated core of each design, alone and in lock-step with its twin. A program that
-# links it gets the engines "rtl" and "lockstep" from make_engine().
+# links it gets the engines "rtl" and "lockstep" from make_backend().
 include_guard(GLOBAL)
 include(verilate)
 
@@ -25,22 +25,22 @@ function(feltgate_core_of design top sources)
   set(${sources} ${FELTGATE_${files}_SOURCES} PARENT_SCOPE)
 endfunction()
 
-add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/sim/engines/rtl_engines.cpp")
+add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/sim/backends/rtl_backends.cpp")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
   feltgate_core_of(${design} top sources)
   feltgate_verilate(core_${design} ${top}
     "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${sources}"
     CLASS Vcore_${design} FASTEST)
-  feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
-  add_library(rtl_${design} OBJECT "${PROJECT_BINARY_DIR}/engines/${design}_rtl.cpp")
-  target_compile_options(rtl_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+  feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
+  add_library(rtl_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
+  target_compile_options(rtl_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(rtl_${design} PRIVATE feltgate_model core_${design} fmt::fmt)
   target_sources(feltgate_rtl PRIVATE $<TARGET_OBJECTS:rtl_${design}>)
   target_link_libraries(feltgate_rtl PUBLIC core_${design})
 endforeach()
-target_link_libraries(feltgate_rtl PUBLIC feltgate_engines PRIVATE fmt::fmt)
-target_include_directories(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/engines")
-target_compile_options(feltgate_rtl PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+target_link_libraries(feltgate_rtl PUBLIC feltgate_backends PRIVATE fmt::fmt)
+target_include_directories(feltgate_rtl PRIVATE "${PROJECT_BINARY_DIR}/backends")
+target_compile_options(feltgate_rtl PRIVATE ${FELTGATE_BACKEND_OPTIONS})
 # An archive's member is linked where something asks for it: this asks for the registration.
-target_link_options(feltgate_rtl INTERFACE "LINKER:--undefined=feltgate_rtl_engines")
+target_link_options(feltgate_rtl INTERFACE "LINKER:--undefined=feltgate_rtl_backends")

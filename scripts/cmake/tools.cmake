@@ -34,20 +34,20 @@ endfunction()
 # What the programs of design points share; scripts/exploration/point.py compiles the rest.
 feltgate_library(feltgate_explore studies/explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget studies/budget feltgate_engines feltgate_loop)
-target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines")
+feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop)
+target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
-  feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
-  target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/engines/${design}_budget.cpp")
+  feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
+  target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
 endforeach()
-feltgate_library(feltgate_trim studies/trim feltgate_engines feltgate_loop feltgate_axes_loop)
+feltgate_library(feltgate_trim studies/trim feltgate_backends feltgate_loop feltgate_axes_loop)
 
 # Where the constants of design and plant differ.
 feltgate_library(feltgate_constants studies/stability ONLY "/constants\\.cpp$" feltgate_plant_files feltgate_design)
 # Eigen's own warnings are not ours: its headers are system headers.
 feltgate_library(feltgate_stability studies/stability EXCEPT "/constants\\.cpp$"
-  feltgate_constants feltgate_engines Eigen3::Eigen)
+  feltgate_constants feltgate_backends Eigen3::Eigen)
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 set_source_files_properties("${FELTGATE_ROOT}/model/studies/stability/eigenvalues.cpp" PROPERTIES COMPILE_OPTIONS -O1)
 
@@ -75,7 +75,7 @@ set_target_properties(feltgate_calibrate PROPERTIES UNITY_BUILD OFF)
 target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
-feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_engines feltgate_loop feltgate_design feltgate_law_loop
+feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_backends feltgate_loop feltgate_design feltgate_law_loop
   feltgate_axes_loop feltgate_shape)
 # Presets of several axes, for `feltgate rates` of all scenes.
 set(FELTGATE_AXES_PRESETS "")
@@ -95,10 +95,10 @@ foreach(design fast lever_law ${FELTGATE_AXES_PRESETS})
   if(design IN_LIST FELTGATE_AXES_PRESETS)
     set(template design_axes_twin.cpp.in)
   endif()
-  feltgate_for_design(${template} "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
+  feltgate_for_design(${template} "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
   # Objects: what registers the engine stays in every program that takes them.
-  add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/engines/${design}_twin.cpp")
-  target_compile_options(twin_${design} PRIVATE ${FELTGATE_ENGINE_OPTIONS})
+  add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
+  target_compile_options(twin_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(twin_${design} PRIVATE feltgate_registry fmt::fmt)
 endforeach()
 set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law>)
@@ -145,12 +145,12 @@ feltgate_program(feltgate_twin run_main.cpp ${run_libraries})
 feltgate_program(feltgate_run run_main.cpp ${run_libraries} core_lever)
 foreach(program feltgate_twin feltgate_run)
   target_sources(${program} PRIVATE $<TARGET_OBJECTS:feltgate_run_parts> $<TARGET_OBJECTS:design_lever>
-    "${FELTGATE_ROOT}/model/sim/engines/built_in_designs.cpp")
-  target_include_directories(${program} PRIVATE "${PROJECT_BINARY_DIR}/engines/lever_alone")
+    "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp")
+  target_include_directories(${program} PRIVATE "${PROJECT_BINARY_DIR}/backends/lever_alone")
 endforeach()
 target_sources(feltgate_run PRIVATE $<TARGET_OBJECTS:rtl_lever>
-  "${FELTGATE_ROOT}/model/sim/engines/rtl_engines.cpp")
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/engines/lever_alone/designs.inc"
+  "${FELTGATE_ROOT}/model/sim/backends/rtl_backends.cpp")
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/lever_alone/designs.inc"
   CONTENT "FELTGATE_DESIGN(lever)\n")
 if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_twin feltgate_run PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -174,7 +174,7 @@ file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/c
   "${FELTGATE_ROOT}/model/apps/commands/host/*.cpp")
 feltgate_program(feltgate_host
   "host_main.cpp;${host_sources}"
-  feltgate_command_line feltgate_files feltgate_engines feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json)
+  feltgate_command_line feltgate_files feltgate_backends feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json)
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)

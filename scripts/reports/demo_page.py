@@ -167,7 +167,7 @@ def tables(demo):
     text = page.paragraph(
         "Each scene in closed loop with a modelled motor, lever and hand; each recording of a real "
         "encoder whole. Errors are against the same chain in 113-bit arithmetic on the same "
-        "sampled counts; speed is simulated seconds per second spent in an engine. Everything is "
+        "sampled counts; speed is simulated seconds per second spent in a back-end. Everything is "
         "simulation: nothing ran on a board."
     )
     text += contents(demo)

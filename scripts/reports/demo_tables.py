@@ -17,7 +17,7 @@ NOT_RUN = page.Cell('<span class="bad">did not run</span>')
 
 
 def fixed(summary):
-    """Figures of the first engine in fixed point."""
+    """Figures of the first back-end in fixed point."""
     engines = summary["engines"]
     return next((engines[name] for name in FIXED if name in engines), {})
 
@@ -168,7 +168,7 @@ def all_errors(demo):
 
 
 def speeds(demo):
-    """Simulated seconds per second of every run and engine."""
+    """Simulated seconds per second of every run and back-end."""
     there = ran(demo, demo.scenes + demo.replays)
     engines = [
         name

@@ -55,7 +55,7 @@ def torque_error(summary):
 
 
 def compared(clocks, mismatches):
-    """The first number: clocks and mismatches; None mismatches where only one engine ran."""
+    """The first number: clocks and mismatches; None mismatches where only one back-end ran."""
     if mismatches is None:
         return Headline(
             f"{clocks:,}", "clocks computed", "RTL and twin were not compared: --engine all"

@@ -37,13 +37,13 @@ def mark_faults(axes, time, faults):
 
 
 def lead(summary):
-    """The engine whose signals have no name before them: the one that drives the motor."""
+    """The back-end whose signals have no name before them: the one that drives the motor."""
     name = next(iter(summary["engines"]), "rtl")
     return ENGINE_NAMES.get(name, name)
 
 
 def exact(summary, csv, signal):
-    """Values of the engine that the others are compared with; None where there is none."""
+    """Values of the back-end that the others are compared with; None where there is none."""
     return csv.get(f"{summary.get('reference')}_{signal}")
 
 

@@ -84,7 +84,7 @@ def engine_table(summary):
 
 
 def steps_of(summary):
-    """Step responses of the engine that drove the motor."""
+    """Step responses of the back-end that drove the motor."""
     for name in ENGINES:
         steps = summary["engines"].get(name, {}).get("step_responses")
         if steps:
@@ -133,5 +133,5 @@ def inside(summary, drawn):
     parts = [page.bullets(facts(summary)), page.pictures(drawn)]
     parts.append(page.fold("Torque steps", step_table(summary)))
     parts.append(page.fold("What the scene expects", felt_section.table(summary)))
-    parts.append(page.fold("Errors and speed of each engine", engine_table(summary)))
+    parts.append(page.fold("Errors and speed of each back-end", engine_table(summary)))
     return "\n".join(parts)

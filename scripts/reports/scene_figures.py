@@ -57,7 +57,7 @@ def draw_zoom(axis, csv, v, engine):
 
 
 def leader(run):
-    """The engine that drove the lever."""
+    """The back-end that drove the lever."""
     return "rtl" if "rtl" in run.summary["engines"] else "twin"
 
 

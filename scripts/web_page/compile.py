@@ -26,10 +26,10 @@ HEADERS = {
 FOLDERS = ("apps/page", "sim/plant", "files/toml", "design", "law", "sim/law_loop")
 FILES = (
     "sim/axes_loop/plane_host.cpp",
-    "sim/engines/built_in_designs.cpp",
-    "sim/engines/engine.cpp",
+    "sim/backends/built_in_designs.cpp",
+    "sim/backends/backend.cpp",
     "sim/loop/ensemble.cpp",
-    "sim/loop/engine_choice.cpp",
+    "sim/loop/backend_choice.cpp",
     "sim/loop/run_host.cpp",
     "sim/loop/step_plan.cpp",
     "studies/shape/rhombus.cpp",
@@ -62,10 +62,10 @@ def type_of(design):
 
 def engines(root, designs, folder):
     """Writes what CMake writes for a native build: an engine a design, and their list."""
-    template = (root / "scripts/cmake/design_engines.cpp.in").read_text(encoding="utf-8")
+    template = (root / "scripts/cmake/design_backends.cpp.in").read_text(encoding="utf-8")
     written = []
     for design in designs:
-        path = folder / f"{design}_engines.cpp"
+        path = folder / f"{design}_backends.cpp"
         text = template.replace("@design@", design).replace("@type@", type_of(design))
         path.write_text(text, encoding="utf-8")
         written.append(path)

@@ -15,7 +15,7 @@
 
 #include "mismatch.hpp"
 #include "random.hpp"
-#include "sim/engines/rtl_model.hpp"
+#include "sim/backends/rtl_model.hpp"
 
 namespace feltgate::test {
 

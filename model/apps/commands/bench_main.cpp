@@ -72,19 +72,19 @@ int run(const Arguments& a) {
   if (!a.quiet) outputs.say(bench::text(result, works, c));
   outputs.commit();
   if (result.divergence.empty()) return exit_ok;
-  fmt::print(stderr, "feltgate: integer engines differ: {}\n", result.divergence);
+  fmt::print(stderr, "feltgate: integer back-ends differ: {}\n", result.divergence);
   return exit_failed;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"feltgate bench: the same scenes through every engine, time against error"};
+  CLI::App app{"feltgate bench: the same scenes through every back-end, time against error"};
   app.name("feltgate bench");
   app.footer(
       "Scenes run once in closed loop; what reached the core is recorded and then given to every\n"
       "engine. Errors are against 113 bits on the same counts. Times are CPU time, in interleaved\n"
-      "repetitions: median and ends. Engines:\n"
+      "repetitions: median and ends. Back-ends:\n"
       "  rtl         the Verilated RTL, every pin in every clock\n"
       "  twin_clock  the C++ twin, every pin in every clock\n"
       "  twin_event  the same from event to event\n"
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
       "  feltgate bench --quick                half a minute; rougher\n"
       "  feltgate bench --json bench.json      for programs; docs/bench.md has the keys\n"
       "  feltgate bench --engine rtl,twin_event --scene membrane\n"
-      "A missed goal is printed and is no error. Exit code: 0 the integer engines agree, 1 they "
+      "A missed goal is printed and is no error. Exit code: 0 the integer back-ends agree, 1 they "
       "do\n"
       "not, 2 unusable input.");
   Arguments a;

@@ -19,7 +19,7 @@
 #include "design/design.hpp"
 #include "files/output_file.hpp"
 #include "host/board/serve.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/plant/plant_file.hpp"
 
 namespace {

@@ -19,8 +19,8 @@
 #include "design/design.hpp"
 #include "files/program.hpp"
 #include "files/toml/nearest.hpp"
-#include "sim/engines/axes_cores.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/axes_cores.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace fs = std::filesystem;
 

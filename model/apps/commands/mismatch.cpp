@@ -29,8 +29,8 @@ std::string waveform_path(const SessionResult& r) {
 
 }  // namespace
 
-void show_mismatch(const SessionResult& r, EngineOptions options,
-                   const std::function<void(const EngineOptions& again)>& run) {
+void show_mismatch(const SessionResult& r, BackendOptions options,
+                   const std::function<void(const BackendOptions& again)>& run) {
   if (r.mismatches == 0) return;
   constexpr Clock before = 200, after = 20;
   files::OutputFile waveform("waveform", waveform_path(r));

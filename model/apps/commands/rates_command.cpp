@@ -16,7 +16,7 @@
 #include "files/output_file.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/axes_loop/axes_run.hpp"
-#include "sim/engines/axes_cores.hpp"
+#include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/plant_file.hpp"

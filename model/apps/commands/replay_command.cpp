@@ -126,7 +126,7 @@ int replay(ReplayArguments& a) {
   const design::Elaborated elaborated = elaborated_design(a.design);
   std::optional<CsvWriter> rows;
   if (csv != nullptr) {
-    rows.emplace(csv->handle(), row_columns(false, choose_engines(a.engine).names()));
+    rows.emplace(csv->handle(), row_columns(false, choose_backends(a.engine).names()));
     const Clock ticks = length * elaborated.design.tick_hz / how.clock_hz;
     options.row_every = a.every > 0 ? a.every : sane_every(ticks);
     options.row = [&rows](const Row& r) { rows->add(r); };
@@ -141,9 +141,9 @@ int replay(ReplayArguments& a) {
   if (json != nullptr) json->write(run_json(result, labels));
   if (!a.quiet) outputs.say(run_text(result, labels));
   outputs.commit();
-  show_mismatch(result, options, [&](const EngineOptions& same) {
+  show_mismatch(result, options, [&](const BackendOptions& same) {
     ReplayOptions again;
-    static_cast<EngineOptions&>(again) = same;
+    static_cast<BackendOptions&>(again) = same;
     again.scene = options.scene;
     again.most_clocks = same.fst_to + 1;
     const auto source_again = traces::open(a.trace.path, how);
@@ -157,7 +157,7 @@ int replay(ReplayArguments& a) {
 void add_replay(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<ReplayArguments>();
   CLI::App* sub =
-      app.add_subcommand("replay", "open loop on an encoder recording, through every engine");
+      app.add_subcommand("replay", "open loop on an encoder recording, through every back-end");
   sub->footer(
       "  feltgate replay hand.sr --probes XA,XB\n"
       "  feltgate replay axis.sr --step 5 --dir 6\n"
@@ -169,7 +169,7 @@ void add_replay(CLI::App& app, int* exit_code) {
   sub->add_option("--design", a->design, "design point in rtl/designs")
       ->type_name("DESIGN")
       ->capture_default_str();
-  sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
+  sub->add_option("--engine", a->engine, backend_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option("--scene", a->scene, "torque law that the core renders meanwhile")
       ->type_name("SCENE")
       ->capture_default_str();
@@ -178,7 +178,7 @@ void add_replay(CLI::App& app, int* exit_code) {
       ->transform(checks::seconds());
   old_spelling(sub, "--seconds", a->seconds, checks::seconds());
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
+  sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
       ->check(checks::whole(1, 1'000'000'000))

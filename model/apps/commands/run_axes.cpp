@@ -17,7 +17,7 @@
 #include "apps/commands/run_laws.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
-#include "sim/engines/axes_cores.hpp"
+#include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 
@@ -99,10 +99,10 @@ int run_axes_scene(const std::string& path, const RunArguments& a) {
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  show_mismatch(result, options, [&](const EngineOptions& same) {
+  show_mismatch(result, options, [&](const BackendOptions& same) {
     const std::unique_ptr<SceneLaw> from_start = law_of(scene, design);
     AxesRunOptions again;
-    static_cast<EngineOptions&>(again) = same;
+    static_cast<BackendOptions&>(again) = same;
     again.law = from_start.get();
     AxesScene shorter = scene;
     shorter.scenario = cut_after(scene.scenario, result, same.fst_to + 1 - result.homing_clocks);

@@ -174,7 +174,7 @@ int run(const RunArguments& a) {
   if (fst != nullptr) options.fst = fst->named();
   if (record != nullptr) options.record = record->handle();
   const design::Elaborated elaborated = elaborated_design(a.design);
-  const std::vector<Column> columns = row_columns(true, choose_engines(a.engine).names());
+  const std::vector<Column> columns = row_columns(true, choose_backends(a.engine).names());
   std::vector<CsvWriter> writers;
   if (csv != nullptr) writers.emplace_back(csv->handle(), columns);
   // The report reads files, so outputs to stdout or a device are also written to a file for it.
@@ -233,10 +233,10 @@ int run(const RunArguments& a) {
   if (a.quiet) {
     for (const std::string& line : result.broken) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  show_mismatch(result, options, [&](const EngineOptions& same) {
+  show_mismatch(result, options, [&](const BackendOptions& same) {
     const std::unique_ptr<SceneLaw> from_start = law_of(scenario, design);
     RunOptions again;
-    static_cast<EngineOptions&>(again) = same;
+    static_cast<BackendOptions&>(again) = same;
     again.law = from_start.get();
     run_scenario(cut_after(scenario, result, same.fst_to + 1), plant, again);
   });
@@ -265,7 +265,7 @@ void add_run(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
-  sub->add_option("--engine", a->engine, engine_help)->type_name("ENGINES")->capture_default_str();
+  sub->add_option("--engine", a->engine, backend_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option(
          "--set", a->set,
          "parameter to set before arming, in its unit or with one: wall_stiffness=0.1Nm/deg; may "
@@ -277,7 +277,7 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV")
       ->type_name("DIR");
   sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_option("--csv", a->csv, "a row per tick, the columns of every engine (docs/json.md)")
+  sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
       ->check(checks::whole(1, 1'000'000'000))

@@ -33,7 +33,7 @@ Json step_json(const StepFigures& s) {
   return step;
 }
 
-Json engine_json(const EngineFigures& e, const RunResult& r) {
+Json backend_json(const BackendFigures& e, const RunResult& r) {
   Json j = Json::object();
   if (e.compared) {
     j["velocity_rad_s"] = error_json(e.velocity_rad_s);
@@ -115,7 +115,7 @@ std::string run_json(const RunResult& r, const RunLabels& labels) {
                    {"illegal", r.position.illegal},
                    {"reversals", r.position.reversals}};
   if (!r.reference.empty()) j["reference"] = r.reference;
-  for (const EngineFigures& e : r.engines) j["engines"][e.name] = engine_json(e, r);
+  for (const BackendFigures& e : r.engines) j["engines"][e.name] = backend_json(e, r);
   j["felt"] = felt_json(r);
   if (r.law_stale.seconds > 0) {
     j["law_stale"] = {{"seconds", r.law_stale.seconds}, {"first_s", r.law_stale.first_s}};

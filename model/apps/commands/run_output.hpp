@@ -15,7 +15,7 @@
 namespace feltgate {
 
 /// Help texts of options that run and replay share.
-constexpr const char* engine_help =
+constexpr const char* backend_help =
     "rtl, twin, float (binary32), double (binary64), quad (binary128), several with commas between "
     "them, or all: RTL and twin in lock-step, the others beside";
 constexpr const char* every_help =
@@ -37,7 +37,7 @@ struct RunLabels {
 /// The JSON object, pretty-printed.
 std::string run_json(const RunResult& result, const RunLabels& labels);
 
-/// The same as text for a terminal: what ran, the engines if there are several, what was felt.
+/// The same as text for a terminal: what ran, the back-ends if there are several, what was felt.
 std::string run_text(const RunResult& result, const RunLabels& labels);
 
 /// The last part of that text: what was felt.
@@ -52,8 +52,8 @@ std::string expectation_lines(const std::vector<Expected>& all);
 
 /// If RTL and twin differed, repeats the run, which is deterministic, with a waveform of the clocks
 /// around the first mismatch, and prints where it is. `run` gets the options of the run with it.
-void show_mismatch(const SessionResult& result, EngineOptions options,
-                   const std::function<void(const EngineOptions& again)>& run);
+void show_mismatch(const SessionResult& result, BackendOptions options,
+                   const std::function<void(const BackendOptions& again)>& run);
 /// The scene of that run, ended after so many clocks, without expectations.
 Scenario cut_after(Scenario scenario, const SessionResult& result, Clock clocks);
 

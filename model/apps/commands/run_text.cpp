@@ -15,7 +15,7 @@ namespace feltgate {
 
 namespace {
 
-std::string engine_line(const EngineFigures& e, double simulated_s) {
+std::string engine_line(const BackendFigures& e, double simulated_s) {
   const double speed = e.busy_s > 0 ? simulated_s / e.busy_s : 0;
   if (!e.compared) {
     return fmt::format("{:<8} {:>14} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9.3g}x\n", e.name, "-",
@@ -38,7 +38,7 @@ std::string bound_lines(const RunResult& r) {
                        told(2));
   };
   std::string text = line("bound", &FeltError::bound);
-  for (const EngineFigures& e : r.engines) {
+  for (const BackendFigures& e : r.engines) {
     if (!is_core(e) || e.uncovered == 0) continue;
     text += line("in it", &FeltError::max_error_in_bounds);
     text += fmt::format(
@@ -57,7 +57,7 @@ std::string engine_table(const RunResult& r) {
   std::string text = fmt::format("\n{:<8} {:>14} {:>12} {:>12} {:>12} {:>12} {:>12} {:>10}\n",
                                  "engine", "velocity max", "rms rad/s", "tau_hat max", "rms Nm",
                                  "command max", "rms Nm", "speed");
-  for (const EngineFigures& e : r.engines) text += engine_line(e, r.simulated_s);
+  for (const BackendFigures& e : r.engines) text += engine_line(e, r.simulated_s);
   if (r.reference.empty()) return text + "errors: none, for without double or quad among them\n";
   text += fmt::format(
       "errors against {} on the same sampled counts; \"command\" is the torque that the core "
@@ -72,7 +72,7 @@ std::string engine_table(const RunResult& r) {
 }
 
 std::string step_table(const RunResult& r) {
-  for (const EngineFigures& e : r.engines) {
+  for (const BackendFigures& e : r.engines) {
     if (e.steps.empty()) continue;
     std::string text =
         fmt::format("\n{:<10} {:>16} {:>16} {:>12} {:>14} {:>16}\n", "step Nm", "tau_hat settles",

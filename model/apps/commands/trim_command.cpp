@@ -18,7 +18,7 @@
 #include "feltgate/largest.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
-#include "sim/engines/axes_cores.hpp"
+#include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/plant_file.hpp"

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "law/host_machine.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::page {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "feltgate/largest.hpp"
-#include "sim/engines/fnv1a.hpp"
+#include "sim/backends/fnv1a.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/plant/drive.hpp"
 
@@ -46,7 +46,7 @@ void add(Fnv1a& hash, const Snapshot& s) {
 
 LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
     : plant_(plant, plant.effects, plant::drive_of(design_named(design)), plant::Hand{}),
-      core_(design, EngineChoice{"twin", {"double"}, false}, 1, plant_.encoder().pins(),
+      core_(design, BackendChoice{"twin", {"double"}, false}, 1, plant_.encoder().pins(),
             Waveform{}),
       clock_hz_(static_cast<double>(core_.design().clock_hz)),
       plan_(plan_for(plant, core_.design())),
@@ -235,25 +235,25 @@ std::vector<ScriptRow> follow_script(const std::string& design, const plant::Par
 }
 
 std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
-  const auto engine = make_engine(design, "twin");
-  engine->reset(1, inputs.pins);
-  engine->keep_gate_times(false);
+  const auto backend = make_backend(design, "twin");
+  backend->reset(1, inputs.pins);
+  backend->keep_gate_times(false);
   Fnv1a hash;
   std::size_t edge = 0, write = 0;
   const auto note = [&] {
-    for (const Snapshot& s : engine->snapshots()) add(hash, s);
+    for (const Snapshot& s : backend->snapshots()) add(hash, s);
   };
-  while (engine->now() < inputs.clocks) {
-    const Clock now = engine->now();
+  while (backend->now() < inputs.clocks) {
+    const Clock now = backend->now();
     while (write < inputs.writes.size() && inputs.writes[write].clock <= now) {
-      engine->write(inputs.writes[write].address, inputs.writes[write].data);
+      backend->write(inputs.writes[write].address, inputs.writes[write].data);
       ++write;
     }
-    Clock until = std::min(inputs.clocks, now + engine->design().pwm_period);
+    Clock until = std::min(inputs.clocks, now + backend->design().pwm_period);
     if (write < inputs.writes.size()) until = std::min(until, inputs.writes[write].clock);
     std::size_t last = edge;
     while (last < inputs.edges.size() && inputs.edges[last].clock < until) ++last;
-    engine->advance(until - now, inputs.edges.data() + edge, inputs.edges.data() + last);
+    backend->advance(until - now, inputs.edges.data() + edge, inputs.edges.data() + last);
     edge = last;
     note();
   }

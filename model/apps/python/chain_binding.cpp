@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain of one design in one arithmetic for Python: counts in, arrays out.
-// Documentation: docs/python.md, docs/engines.md
+// Documentation: docs/python.md, docs/backends.md
 #include "apps/python/bindings.hpp"
 #include "apps/python/design_names.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/reference/real_chain.hpp"
 
 namespace feltgate::python {

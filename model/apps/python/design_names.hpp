@@ -7,7 +7,7 @@
 #include <string>
 
 #include "design/design.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::python {
 

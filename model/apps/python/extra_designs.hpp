@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/python/arrays.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/reference/real_chain.hpp"
 
 namespace feltgate::python {
@@ -28,7 +28,7 @@ inline const DesignMakers& loaded(const std::string& name) {
   throw std::logic_error("feltgate._designs has no " + name + "; install the package again");
 }
 
-/// Registers these designs for make_engine() and make_real_chain(); returns their names.
+/// Registers these designs for make_backend() and make_real_chain(); returns their names.
 inline std::vector<std::string> add_extra_designs() {
   std::vector<std::string> names;
 #define FELTGATE_DESIGN(name)                                                      \

@@ -5,7 +5,7 @@
 #include "apps/python/bindings.hpp"
 #include "apps/python/errors.hpp"
 #include "apps/python/extra_designs.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::python {
 

@@ -8,7 +8,7 @@
 
 #include "apps/python/bindings.hpp"
 #include "files/toml/toml_reader.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant_table.hpp"
 

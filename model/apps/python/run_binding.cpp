@@ -55,7 +55,7 @@ py::dict run(Scenario scenario, const PyPlant& plant, const What& what,
   options.engine = what.engines;
   options.seed = what.seed;
   options.row_every = what.every;
-  RowArrays rows(true, choose_engines(what.engines).names(), what.rows(scenario.duration_s));
+  RowArrays rows(true, choose_backends(what.engines).names(), what.rows(scenario.duration_s));
   options.row = [&rows](const Row& r) { rows.add(r); };
   options.progress = progress_for(progress);
   const auto e = what.elaborated();
@@ -88,7 +88,7 @@ py::dict replay(const PyRecording& recording, const What& what, const std::strin
   options.seed = what.seed;
   options.row_every = what.every;
   const auto length = static_cast<double>(recording.edges.length);
-  RowArrays rows(false, choose_engines(what.engines).names(),
+  RowArrays rows(false, choose_backends(what.engines).names(),
                  what.rows(length / static_cast<double>(clock_hz)));
   options.row = [&rows](const Row& r) { rows.add(r); };
   options.progress = [tell = progress_for(progress), length](Clock done) {
@@ -118,7 +118,8 @@ void bind_runs(py::module_& m) {
         py::arg("duration_s"), py::arg("hand"), py::arg("progress"));
   m.def("replay", &replay, py::arg("recording"), py::arg("what"), py::arg("scene"), py::arg("arm"),
         py::arg("progress"));
-  m.def("engine_names", [](const std::string& engines) { return choose_engines(engines).names(); });
+  m.def("backend_names",
+        [](const std::string& engines) { return choose_backends(engines).names(); });
 }
 
 }  // namespace feltgate::python

@@ -37,7 +37,7 @@ py::dict error_dict(const ErrorFigure& e) {
   return out;
 }
 
-py::dict engine_dict(const EngineFigures& e, const RunResult& r) {
+py::dict backend_dict(const BackendFigures& e, const RunResult& r) {
   py::dict out;
   if (e.compared && e.name != r.reference) {
     py::dict errors;
@@ -116,7 +116,7 @@ py::dict result_dict(const RunResult& r) {
   out["simulated_s"] = r.simulated_s;
   out["reference"] = r.reference.empty() ? py::object(py::none()) : py::str(r.reference);
   py::dict engines;
-  for (const EngineFigures& e : r.engines) engines[e.name.c_str()] = engine_dict(e, r);
+  for (const BackendFigures& e : r.engines) engines[e.name.c_str()] = backend_dict(e, r);
   out["engines"] = engines;
   out["felt"] = felt_dict(r);
   out["figures"] = r.figures;

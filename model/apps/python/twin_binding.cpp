@@ -8,7 +8,7 @@
 #include "apps/python/bindings.hpp"
 #include "apps/python/design_names.hpp"
 #include "feltgate/while_armed.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/traces/phase.hpp"
 
 namespace feltgate::python {
@@ -16,19 +16,19 @@ namespace {
 
 class PyTwin {
  public:
-  explicit PyTwin(const std::string& design) : engine_(make_engine(design, "twin")) { reset(); }
+  explicit PyTwin(const std::string& design) : backend_(make_backend(design, "twin")) { reset(); }
 
-  const DesignInfo& design() const { return engine_->design(); }
+  const DesignInfo& design() const { return backend_->design(); }
   void reset() {
-    engine_->reset(1, traces::pins_at(0));
-    engine_->keep_gate_times(false);
+    backend_->reset(1, traces::pins_at(0));
+    backend_->keep_gate_times(false);
     count_ = 0;
     asked_ = false;
   }
   void set(const std::string& name, double value) {
     const ParameterInfo& info = parameter_of(design(), name);
     if (asked_ && while_armed(info.address, 0) == WhileArmed::refused) refuse(name);
-    engine_->write(info.address, static_cast<std::uint32_t>(quantise_parameter(info, value)));
+    backend_->write(info.address, static_cast<std::uint32_t>(quantise_parameter(info, value)));
   }
   /// The host's control word: what is rendered, and whether.
   void control(const std::string& scene, const std::string& mode, bool arm) {
@@ -36,12 +36,12 @@ class PyTwin {
     if (asked_ && arm && mode_bits != mode_) refuse("the mode");
     asked_ = arm;
     mode_ = mode_bits;
-    engine_->write(design().control_address, control_word(design(), number, mode_bits, arm));
+    backend_->write(design().control_address, control_word(design(), number, mode_bits, arm));
   }
   void clear_faults() {
-    engine_->write(design().command_address, 1u << design().command.clear_faults);
+    backend_->write(design().command_address, 1u << design().command.clear_faults);
   }
-  void stop(bool pressed) { engine_->stop(pressed); }
+  void stop(bool pressed) { backend_->stop(pressed); }
   std::int64_t count() const { return count_; }
 
   py::dict run(const py::array_t<std::int64_t, py::array::c_style>& counts) {
@@ -59,8 +59,8 @@ class PyTwin {
       for (std::size_t i = 0; i < size; ++i) {
         if (i % 100'000 == 99'999) check_interrupt();
         move(wanted[i]);
-        engine_->advance(design().clocks_per_tick, edges_.data(), edges_.data() + edges_.size());
-        for (const Snapshot& s : engine_->snapshots()) keep(all, s);
+        backend_->advance(design().clocks_per_tick, edges_.data(), edges_.data() + edges_.size());
+        for (const Snapshot& s : backend_->snapshots()) keep(all, s);
       }
     }
     return take(all);
@@ -107,7 +107,7 @@ class PyTwin {
     const std::int64_t steps = std::abs(wanted - count_), turn = wanted > count_ ? 1 : -1;
     for (std::int64_t k = 1; k <= steps; ++k) {
       count_ += turn;
-      edges_.push_back({engine_->now() + k * most_steps() / steps,
+      edges_.push_back({backend_->now() + k * most_steps() / steps,
                         traces::pins_at(static_cast<unsigned>(count_ & 3))});
     }
   }
@@ -144,7 +144,7 @@ class PyTwin {
     return out;
   }
 
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<Backend> backend_;
   bool asked_ = false;  ///< to be armed
   int mode_ = 0;
   std::int64_t count_ = 0;

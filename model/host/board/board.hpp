@@ -11,7 +11,7 @@
 #include "feltgate/random.hpp"
 #include "host/board/core.hpp"
 #include "host/board/recording.hpp"
-#include "sim/engines/fnv1a.hpp"
+#include "sim/backends/fnv1a.hpp"
 #include "sim/loop/step_plan.hpp"
 #include "sim/plant/plant.hpp"
 

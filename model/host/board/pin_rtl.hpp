@@ -10,8 +10,8 @@
 #include "feltgate/generated/link.hpp"
 #include "feltgate/uart_line.hpp"
 #include "host/board/core.hpp"
-#include "sim/engines/rtl_model.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_model.hpp"
+#include "sim/backends/rtl_ports.hpp"
 
 namespace feltgate::board {
 

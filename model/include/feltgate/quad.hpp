@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The type Quad: IEEE binary128 under one name on every machine. Documentation: docs/engines.md
+// The type Quad: IEEE binary128 under one name on every machine. Documentation: docs/backends.md
 #pragma once
 
 #include <cfloat>

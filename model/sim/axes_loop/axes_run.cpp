@@ -14,8 +14,8 @@
 #include <type_traits>
 
 #include "files/toml/toml_reader.hpp"
+#include "sim/axes_loop/axes_backends.hpp"
 #include "sim/axes_loop/axes_columns.hpp"
-#include "sim/axes_loop/axes_engines.hpp"
 #include "sim/axes_loop/hand_work.hpp"
 #include "sim/axes_loop/homing.hpp"
 #include "sim/axes_loop/plane_host.hpp"
@@ -49,10 +49,10 @@ class AxesRun : plant::AxesDevice<Plant> {
   AxesRun(const AxesScene& scene, Plant& plant, const AxesRunOptions& options)
       : s_(scene.scenario),
         options_(options),
-        choice_(choose_axes_engines(options.engine)),
+        choice_(choose_axes_backends(options.engine)),
         plant_(plant),
         host_(make_axes_cores(options.design, choice_.lead, plant.parameters().name, axes)),
-        cores_(static_cast<AxesCores&>(host_.engine())),
+        cores_(static_cast<AxesCores&>(host_.backend())),
         design_(cores_.design()),
         session_(s_, host_, options),
         columns_(columns_of<Plant>(scene)) {
@@ -264,7 +264,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   std::optional<PlaneHost> plane_;
   std::array<double, axes> position_rad_ = {};  ///< from the cores' last counts
   const AxesRunOptions& options_;
-  EngineChoice choice_;
+  BackendChoice choice_;
   std::string reference_ = choice_.reference();
   Plant& plant_;
   RunHost host_;

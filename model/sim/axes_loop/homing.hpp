@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "feltgate/encoder_source.hpp"
-#include "sim/engines/axes_cores.hpp"
+#include "sim/backends/axes_cores.hpp"
 #include "sim/plant/encoder.hpp"
 
 namespace feltgate {

@@ -15,7 +15,7 @@ namespace feltgate {
 namespace {
 
 void hold(RunResult& r, const bounds::ErrorBounds& b) {
-  for (const EngineFigures& e : r.engines) {
+  for (const BackendFigures& e : r.engines) {
     if (!is_core(e)) continue;
     const FeltError errors[] = {
         {"velocity_rad_s", e.velocity_rad_s.max(), e.covered_velocity_rad_s.max(),
@@ -32,7 +32,7 @@ void hold(RunResult& r, const bounds::ErrorBounds& b) {
   }
 }
 
-bool comparable(const EngineChoice& choice) {
+bool comparable(const BackendChoice& choice) {
   return choice.reference() == "quad" && !choice.rider_drives;
 }
 
@@ -42,7 +42,7 @@ template <class Options, class Run, class BoundsUpTo>
 RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsUpTo&& up_to) {
   // A chain in real arithmetic has no clocks of edges.
   if (e.design.mt && options.engine == "all") options.engine = "rtl,twin";
-  if (!comparable(choose_engines(options.engine))) return run();
+  if (!comparable(choose_backends(options.engine))) return run();
   const bounds::Coverage coverage(up_to(hardly_any_rad_s), bounds::chain_numbers(e));
   options.coverage = &coverage;
   RunResult r = run();
@@ -52,7 +52,9 @@ RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsU
 
 }  // namespace
 
-bool is_core(const EngineFigures& e) { return e.compared && (e.name == "rtl" || e.name == "twin"); }
+bool is_core(const BackendFigures& e) {
+  return e.compared && (e.name == "rtl" || e.name == "twin");
+}
 
 RunResult run_within_bounds(const design::Elaborated& e, const Scenario& scenario,
                             const plant::Parameters& plant, RunOptions options) {

@@ -28,6 +28,6 @@ RunResult replay_within_bounds(const design::Elaborated& e, EncoderSource& sourc
                                const std::string& subject, ReplayOptions options);
 
 /// Whether this is an engine in fixed point, whose errors have bounds.
-bool is_core(const EngineFigures& e);
+bool is_core(const BackendFigures& e);
 
 }  // namespace feltgate

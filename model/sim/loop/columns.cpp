@@ -12,20 +12,20 @@ namespace {
 
 constexpr int plant_digits = 9;
 
-struct EngineColumn {
+struct BackendColumn {
   const char *name, *unit, *meaning;
-  double EngineSignals::*value;
+  double BackendSignals::*value;
 };
-constexpr EngineColumn engine_columns[] = {
-    {"velocity_rad_s", "rad/s", "velocity after its low-pass", &EngineSignals::velocity_rad_s},
+constexpr BackendColumn backend_columns[] = {
+    {"velocity_rad_s", "rad/s", "velocity after its low-pass", &BackendSignals::velocity_rad_s},
     {"tau_ref_nm", "Nm", "torque that the scene asks for, limited and ramped",
-     &EngineSignals::tau_ref_nm},
-    {"tau_hat_nm", "Nm", "torque that the observer sees", &EngineSignals::tau_hat_nm},
+     &BackendSignals::tau_ref_nm},
+    {"tau_hat_nm", "Nm", "torque that the observer sees", &BackendSignals::tau_hat_nm},
     {"torque_nm", "Nm", "torque that is commanded: nominal torque constant times current_a",
-     &EngineSignals::torque_nm},
-    {"current_a", "A", "current reference", &EngineSignals::current_a},
-    {"voltage_v", "V", "voltage for the motor", &EngineSignals::voltage_v},
-    {"duty", "", "of the PWM period, -1 to 1", &EngineSignals::duty}};
+     &BackendSignals::torque_nm},
+    {"current_a", "A", "current reference", &BackendSignals::current_a},
+    {"voltage_v", "V", "voltage for the motor", &BackendSignals::voltage_v},
+    {"duty", "", "of the PWM period, -1 to 1", &BackendSignals::duty}};
 
 struct RowColumn {
   const char *name, *unit, *meaning;
@@ -65,14 +65,14 @@ std::vector<Column> row_columns(bool closed_loop, const std::vector<std::string>
     for (const RowColumn& c : plant_columns) all.push_back(column(c));
   }
   all.push_back(column(position_column));
-  for (const EngineColumn& c : engine_columns) {
+  for (const BackendColumn& c : backend_columns) {
     all.push_back({c.name, c.unit, c.meaning, 0, ColumnValue(c.value)});
   }
   for (const BitColumn& c : bit_columns) {
     all.push_back({c.name, "", c.meaning, 0, ColumnValue(c.value)});
   }
   for (std::size_t i = 0; i < engines.size(); ++i) {
-    for (const EngineColumn& c : engine_columns) {
+    for (const BackendColumn& c : backend_columns) {
       all.push_back({fmt::format("{}_{}", engines[i], c.name), c.unit, c.meaning, 0,
                      ColumnValue(c.value, i)});
     }

@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 
 namespace feltgate {
 

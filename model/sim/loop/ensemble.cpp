@@ -16,11 +16,11 @@
 
 namespace feltgate {
 
-Ensemble::Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
+Ensemble::Ensemble(const std::string& design, const BackendChoice& choice, std::uint64_t seed,
                    EncoderPins pins, const Waveform& waveform)
-    : RunHost(make_engine(design, choice.lead)),
+    : RunHost(make_backend(design, choice.lead)),
       choice_(choice),
-      lead_(static_cast<Engine*>(&engine())),
+      lead_(static_cast<Backend*>(&backend())),
       host_(RunHost::design().control_reset) {
   const auto last_bit = [](Format f) { return std::ldexp(1.0, -f.fraction); };
   const DesignInfo& d = RunHost::design();
@@ -108,7 +108,7 @@ void Ensemble::follow_law(Rider& r, const Snapshot& s) const {
   r.law->follow(&s, r.chain.get());
 }
 
-EngineSignals Ensemble::of_core(const Snapshot& s) const {
+BackendSignals Ensemble::of_core(const Snapshot& s) const {
   const double current = current_a(s);
   return {velocity_rad_s(s),
           torque_nm(s.tau_ref),
@@ -119,7 +119,7 @@ EngineSignals Ensemble::of_core(const Snapshot& s) const {
           static_cast<double>(s.duty) / design().pwm_period};
 }
 
-EngineSignals Ensemble::of_chain(const ChainOut& o) const {
+BackendSignals Ensemble::of_chain(const ChainOut& o) const {
   return {o.velocity_rad_s,
           o.tau_ref_nm,
           o.tau_hat_nm,
@@ -137,7 +137,7 @@ void Ensemble::fill(Row& row, const Snapshot& s) const {
   row.engines.clear();
   if (!choice_.rider_drives) row.engines.push_back(of_core(s));
   for (const Rider& r : riders_) row.engines.push_back(of_chain(r.chain->out()));
-  static_cast<EngineSignals&>(row) = row.engines.front();
+  static_cast<BackendSignals&>(row) = row.engines.front();
 }
 
 void Ensemble::watch_velocity(std::int16_t travel) {
@@ -159,7 +159,7 @@ void Ensemble::check_coverage(const Snapshot& s) {
   coverage_.tick(t);
 }
 
-void Ensemble::compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm,
+void Ensemble::compare(BackendFigures& f, double velocity_rad_s, double tau_hat_nm,
                        double current_a) {
   const ChainOut& exact = reference_->out();
   const double velocity_error = velocity_rad_s - exact.velocity_rad_s;
@@ -177,18 +177,18 @@ void Ensemble::compare(EngineFigures& f, double velocity_rad_s, double tau_hat_n
   f.uncovered = coverage_.outside();
 }
 
-std::vector<EngineFigures> Ensemble::figures() const {
-  std::vector<EngineFigures> all;
+std::vector<BackendFigures> Ensemble::figures() const {
+  std::vector<BackendFigures> all;
   if (choice_.lead == "lockstep") {
     // Both halves showed the same outputs; if not, the mismatches report it.
     for (const char* half : {"rtl", "twin"}) {
-      EngineFigures f = lead_figures_;
+      BackendFigures f = lead_figures_;
       f.name = half;
       f.busy_s = lead_->busy_s(half);
       all.push_back(f);
     }
   } else if (!choice_.rider_drives) {
-    EngineFigures f = lead_figures_;
+    BackendFigures f = lead_figures_;
     f.name = choice_.lead;
     f.busy_s = lead_watch_.seconds();
     all.push_back(f);

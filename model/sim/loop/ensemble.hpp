@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "feltgate/while_armed.hpp"
-#include "sim/engines/sampled_watch.hpp"
+#include "sim/backends/sampled_watch.hpp"
 #include "sim/loop/loop.hpp"
 #include "sim/loop/run_host.hpp"
 #include "studies/bounds/coverage.hpp"
@@ -29,11 +29,11 @@ struct Waveform {
 /// A leading core, and chains in real arithmetic on its samples.
 class Ensemble final : public RunHost {
  public:
-  Ensemble(const std::string& design, const EngineChoice& choice, std::uint64_t seed,
+  Ensemble(const std::string& design, const BackendChoice& choice, std::uint64_t seed,
            EncoderPins pins, const Waveform& waveform);
 
-  Engine& lead() { return *lead_; }
-  const Engine& lead_const() const { return *lead_; }
+  Backend& lead() { return *lead_; }
+  const Backend& lead_const() const { return *lead_; }
 
   /// Loads a law and lets the riders run it: RunHost::load().
   void run_law(SceneLaw& law);
@@ -62,9 +62,9 @@ class Ensemble final : public RunHost {
     }
   }
 
-  /// The signals, in the tick of `s`, of the engine that drives the motor; voltage and duty are
+  /// The signals, in the tick of `s`, of the back-end that drives the motor; voltage and duty are
   /// missing, since only a row of output needs them: fill().
-  void signals(EngineSignals& e, const Snapshot& s) const {
+  void signals(BackendSignals& e, const Snapshot& s) const {
     if (choice_.rider_drives) {
       e = of_chain(riders_[0].chain->out());
       return;
@@ -75,9 +75,9 @@ class Ensemble final : public RunHost {
     e.current_a = current_a(s);
     e.torque_nm = design().torque_constant_nm_a * e.current_a;
   }
-  /// Fills a row: position, limits, faults and the signals of every engine in the tick of `s`.
+  /// Fills a row: position, limits, faults and the signals of every back-end in the tick of `s`.
   void fill(Row& row, const Snapshot& s) const;
-  const EngineChoice& choice() const { return choice_; }
+  const BackendChoice& choice() const { return choice_; }
   const RealChain* rider(std::size_t i) const { return riders_[i].chain.get(); }
   std::size_t rider_count() const { return riders_.size(); }
 
@@ -95,14 +95,14 @@ class Ensemble final : public RunHost {
   /// Largest |N-method velocity| that the riders saw before the low-pass, rad/s.
   double largest_velocity_rad_s() const { return largest_counts_ * design().rad_s_per_count; }
 
-  /// Error and speed figures of all engines; the steps are empty.
-  std::vector<EngineFigures> figures() const;
+  /// Error and speed figures of all back-ends; the steps are empty.
+  std::vector<BackendFigures> figures() const;
 
  private:
   struct Rider {
     std::unique_ptr<RealChain> chain;
     std::unique_ptr<LawRider> law;  ///< for a scene with a law
-    EngineFigures figures;
+    BackendFigures figures;
     SampledWatch watch;
   };
   /// Value of a signal's last bit: a power of two, so that the product is exact.
@@ -110,17 +110,17 @@ class Ensemble final : public RunHost {
     double velocity_rad_s = 0, torque_nm = 0, current_a = 0, voltage_v = 0;
   };
 
-  EngineSignals of_core(const Snapshot& s) const;
-  EngineSignals of_chain(const ChainOut& o) const;
+  BackendSignals of_core(const Snapshot& s) const;
+  BackendSignals of_chain(const ChainOut& o) const;
   void write(const HostWrite& w) override;
   void ride(const Snapshot& s);
   void follow_law(Rider& r, const Snapshot& s) const;
   void watch_velocity(std::int16_t travel);
   void check_coverage(const Snapshot& s);
-  void compare(EngineFigures& f, double velocity_rad_s, double tau_hat_nm, double current_a);
+  void compare(BackendFigures& f, double velocity_rad_s, double tau_hat_nm, double current_a);
 
-  EngineChoice choice_;
-  Engine* lead_;
+  BackendChoice choice_;
+  Backend* lead_;
   Units unit_;
   std::vector<Rider> riders_;
   const RealChain* reference_ = nullptr;
@@ -136,7 +136,7 @@ class Ensemble final : public RunHost {
   std::vector<HostWrite>* log_ = nullptr;
   HostBeside host_;
   std::int64_t writes_applied_ = 0;
-  EngineFigures lead_figures_;
+  BackendFigures lead_figures_;
   SampledWatch lead_watch_;
 };
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 
 namespace feltgate {
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate {
 

@@ -39,7 +39,7 @@ class ScenarioRun {
   ScenarioRun(const Scenario& scenario, const plant::Parameters& plant, const RunOptions& options)
       : s_(scenario),
         options_(options),
-        choice_(choose_engines(options.engine)),
+        choice_(choose_backends(options.engine)),
         plant_(plant, scenario.effects, plant::drive_of(design_named(options.design)),
                scenario.hand),
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
@@ -89,7 +89,7 @@ class ScenarioRun {
  private:
   /// Gates and chains in real arithmetic can change within a PWM period; they need equal steps.
   static StepPlan plan(const Scenario& s, const plant::Parameters& plant, const DesignInfo& d,
-                       const EngineChoice& choice) {
+                       const BackendChoice& choice) {
     if (s.step_given || s.switched || choice.rider_drives) return StepPlan(s.step_clocks);
     return {s, plant, d};
   }
@@ -125,7 +125,7 @@ class ScenarioRun {
   }
 
   plant::Bridge bridge(Clock clocks) {
-    const Engine& lead = core_.lead_const();
+    const Backend& lead = core_.lead_const();
     if (choice_.rider_drives) {
       const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
       return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
@@ -226,7 +226,7 @@ class ScenarioRun {
     out.felt = felt_.felt();
     out.felt.closed_loop = true;
     end_step();
-    for (EngineFigures& e : out.engines) {
+    for (BackendFigures& e : out.engines) {
       if (closes_loop(e.name)) e.steps = steps_;
     }
     if (options_.law != nullptr) {
@@ -240,7 +240,7 @@ class ScenarioRun {
     return out;
   }
 
-  /// Whether this engine's duty drove the motor; only its torques are responses to the steps.
+  /// Whether this back-end's duty drove the motor; only its torques are responses to the steps.
   bool closes_loop(const std::string& engine) const {
     return choice_.rider_drives ? engine == choice_.riders[0] : engine == "rtl" || engine == "twin";
   }
@@ -282,7 +282,7 @@ class ScenarioRun {
 
   const Scenario& s_;
   const RunOptions& options_;
-  EngineChoice choice_;
+  BackendChoice choice_;
   plant::Plant plant_;
   Ensemble core_;
   StepPlan plan_;

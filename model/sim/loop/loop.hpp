@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "../reference/real_chain.hpp"
+#include "backend_choice.hpp"
 #include "columns.hpp"
-#include "engine_choice.hpp"
 #include "felt.hpp"
 #include "figures.hpp"
 #include "scenario.hpp"
@@ -37,8 +37,8 @@ struct StepFigures {
   StepResponse torque;   ///< of the motor torque, averaged over each PWM period
 };
 
-/// The results of one engine after a run.
-struct EngineFigures {
+/// The results of one back-end after a run.
+struct BackendFigures {
   std::string name;
   bool compared = false;  ///< the error figures below were taken against RunResult::reference
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
@@ -47,7 +47,7 @@ struct EngineFigures {
   std::int64_t uncovered = 0;  ///< ticks without torque bounds: ramps, saturation
   std::vector<StepFigures> steps;
   std::int64_t saturations = 0;  ///< ticks in which a limit acted
-  double busy_s = 0;             ///< time spent in the engine
+  double busy_s = 0;             ///< time spent in the back-end
 };
 
 /// Counts of the pins' changes: legal steps, illegal ones, reversals.
@@ -67,7 +67,7 @@ struct RunResult : SessionResult {
   PositionFigures position;
   std::int32_t last_position = 0;     ///< counts, from an independent count of the pins; wraps
   double largest_velocity_rad_s = 0;  ///< N-method, before the low-pass; needs a rider
-  std::vector<EngineFigures> engines;
+  std::vector<BackendFigures> engines;
   Felt felt;
   std::vector<RunEvent> events;    ///< of the scene's law
   Clock longest_step_clocks = 0;   ///< of the plant
@@ -98,7 +98,7 @@ struct RunOptions : SessionOptions {
   std::function<void(Clock clocks, const plant::Observables&)> plant_step;
 };
 
-/// Runs a scene. Errors: std::invalid_argument for a scene, parameter or engine that the design
+/// Runs a scene. Errors: std::invalid_argument for a scene, parameter or back-end that the design
 /// does not have.
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options);

@@ -16,7 +16,7 @@ namespace feltgate {
 
 RunResult run_replay(EncoderSource& source, const std::string& subject,
                      const ReplayOptions& options) {
-  const EngineChoice choice = choose_engines(options.engine);
+  const BackendChoice choice = choose_backends(options.engine);
   if (choice.rider_drives && choice.riders.size() == 1) {
     throw std::invalid_argument(fmt::format(
         "engine \"{0}\" alone has nothing to be compared with here; choose twin,{0} or all",
@@ -37,7 +37,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   Row row;
   const auto tick = [&](const Snapshot& s) {
     ++out.ticks;
-    EngineSignals now;
+    BackendSignals now;
     core.signals(now, s);
     felt.tick(now.tau_ref_nm, now.torque_nm, s.limits, s.faults);
     if (!options.row || (out.ticks - 1) % options.row_every != 0) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Open loop on an encoder recording: every engine gets the same edges.
+// Open loop on an encoder recording: every back-end gets the same edges.
 // Documentation: docs/traces.md
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace feltgate {
 
 /// Options of a replay.
-struct ReplayOptions : EngineOptions {
+struct ReplayOptions : BackendOptions {
   std::string scene = "spring_tension";  ///< scene that is rendered during the recording
   bool arm = true;
   const bounds::Coverage* coverage = nullptr;  ///< ticks in which bounds are checked

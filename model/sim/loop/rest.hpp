@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate {

@@ -45,8 +45,8 @@ void RunHost::set_control(int scene, int mode, bool arm) {
 void RunHost::command(std::uint32_t bits) { write({0, design().command_address, bits, 0}); }
 
 void RunHost::write(const HostWrite& w) {
-  const int copies = w.address >= axes_engine ? 1 : engine_->axes();
-  for (int n = 0; n < copies; ++n) engine_->write(n * axes_stride + w.address, w.data);
+  const int copies = w.address >= axes_engine ? 1 : backend_->axes();
+  for (int n = 0; n < copies; ++n) backend_->write(n * axes_stride + w.address, w.data);
 }
 
 }  // namespace feltgate

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "scene_law.hpp"
 
 namespace feltgate {
@@ -25,13 +25,13 @@ struct HostWrite {
 
 class RunHost {
  public:
-  explicit RunHost(std::unique_ptr<AnyEngine> engine)
-      : engine_(std::move(engine)), design_(&engine_->design()) {}
+  explicit RunHost(std::unique_ptr<AnyBackend> backend)
+      : backend_(std::move(backend)), design_(&backend_->design()) {}
   virtual ~RunHost() = default;
   RunHost(RunHost&&) = default;
   RunHost& operator=(RunHost&&) = default;
 
-  AnyEngine& engine() { return *engine_; }
+  AnyBackend& backend() { return *backend_; }
   const DesignInfo& design() const { return *design_; }
 
   /// Loads a law into the engine of laws. Call it once, before the first clock that matters. The
@@ -65,7 +65,7 @@ class RunHost {
   virtual void write(const HostWrite& w);
 
  private:
-  std::unique_ptr<AnyEngine> engine_;
+  std::unique_ptr<AnyBackend> backend_;
   const DesignInfo* design_;
   SceneLaw* law_ = nullptr;
   int law_scene_ = -1;  ///< -1: there is no law

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "scenario.hpp"
 #include "scene_law.hpp"
 

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "../reference/real_chain.hpp"
 
 namespace feltgate {

@@ -12,11 +12,11 @@
 
 namespace feltgate {
 
-void note_mismatches(SessionResult& out, const AnyEngine& engine) {
-  out.lock_step = engine.name() == std::string("lockstep");
-  out.mismatches = engine.mismatches();
-  out.first_mismatch = engine.first_mismatch();
-  out.first_mismatch_clock = engine.first_mismatch_clock();
+void note_mismatches(SessionResult& out, const AnyBackend& backend) {
+  out.lock_step = backend.name() == std::string("lockstep");
+  out.mismatches = backend.mismatches();
+  out.first_mismatch = backend.first_mismatch();
+  out.first_mismatch_clock = backend.first_mismatch_clock();
 }
 
 Session::Session(const Scenario& scenario, RunHost& host, const SessionOptions& options)
@@ -43,7 +43,7 @@ void Session::arm() {
 
 void Session::apply(const Event& e) {
   host_.set_parameters(e.set);
-  if (e.stop) host_.engine().stop(*e.stop);
+  if (e.stop) host_.backend().stop(*e.stop);
   if (!e.scene && !e.mode && !e.arm) return;
   if (e.scene) scene_ = scene_number(host_.design(), *e.scene);
   mode_ = e.mode.value_or(mode_);
@@ -59,7 +59,7 @@ void Session::fill_result(SessionResult& out) const {
   out.clocks = end_;
   out.ticks = ticks_;
   out.simulated_s = static_cast<double>(end_) / static_cast<double>(d.clock_hz);
-  note_mismatches(out, host_.engine());
+  note_mismatches(out, host_.backend());
   const double tick_s = 1 / static_cast<double>(d.tick_hz);
   out.law_stale = {static_cast<double>(stale_ticks_) * tick_s,
                    static_cast<double>(stale_from_) * tick_s};

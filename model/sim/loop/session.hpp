@@ -21,9 +21,9 @@
 namespace feltgate {
 
 /// Options of every run, also of a replay.
-struct EngineOptions {
+struct BackendOptions {
   std::string design = "lever";
-  std::string engine = "all";  ///< comma list, see choose_engines()
+  std::string engine = "all";  ///< comma list, see choose_backends()
   std::uint64_t seed = 1;
   std::string fst;                  ///< waveform of the clocks fst_from to fst_to; empty: none
   Clock fst_from = 0, fst_to = -1;  ///< counted from reset; fst_to < 0: to the end
@@ -31,7 +31,7 @@ struct EngineOptions {
 };
 
 /// Options of a scene's run.
-struct SessionOptions : EngineOptions {
+struct SessionOptions : BackendOptions {
   SceneLaw* law = nullptr;  ///< run by the scene "law"; its parameters can be set by name
   std::function<void(double done)> progress;  ///< called from time to time with 0..1; may be empty
 };
@@ -45,7 +45,7 @@ struct SessionResult {
   std::int64_t mismatches = 0;
   std::string first_mismatch;
   Clock first_mismatch_clock = 0;  ///< counted from reset
-  std::string reference;  ///< engine that the others are compared with: "quad", "double" or none
+  std::string reference;  ///< back-end that the others are compared with: "quad", "double" or none
   double simulated_s = 0;
   Acted law_stale;  ///< armed, but no torque: a mailbox of the law was too old
   std::map<std::string, double> figures;  ///< the figures that a scene file can bound
@@ -55,8 +55,8 @@ struct SessionResult {
   bool as_expected() const { return mismatches == 0 && broken.empty(); }
 };
 
-/// Notes in which clocks an engine's halves differed.
-void note_mismatches(SessionResult& out, const AnyEngine& engine);
+/// Notes in which clocks a back-end's halves differed.
+void note_mismatches(SessionResult& out, const AnyBackend& backend);
 
 /// A scene in time: arming, events, mailbox; ticks, faults; expectations. It knows no plant.
 class Session {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "../plant/parameters.hpp"
 #include "scenario.hpp"
 
@@ -22,8 +22,8 @@ int longest_step_clocks(const Scenario& scenario, const plant::Parameters& plant
 /// plant's.
 Scenario scene_of(const plant::Parameters& plant, const plant::Hand& hand);
 
-/// Decides where each step ends. It depends only on time and on the scene, never on an engine, so
-/// all engines give the same run.
+/// Decides where each step ends. It depends only on time and on the scene, never on a back-end, so
+/// all back-ends give the same run.
 class StepPlan {
  public:
   /// Equal steps of `step` clocks.

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "../engines/engine.hpp"
+#include "../backends/backend.hpp"
 #include "feltgate/random.hpp"
 
 namespace feltgate {

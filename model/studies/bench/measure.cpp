@@ -29,7 +29,7 @@ Spread scaled_inverse(const Spread& s, double numerator) {
 
 /// Median of the ratios of samples that were taken side by side: a busy machine slows both. Where
 /// one side ran more passes, each repetition's median counts.
-Spread ratio(const EngineResult& a, const EngineResult& b, int repetitions) {
+Spread ratio(const BackendResult& a, const BackendResult& b, int repetitions) {
   const auto n = static_cast<std::size_t>(repetitions);
   std::vector<double> ratios;
   if (a.samples.size() == b.samples.size()) {
@@ -38,7 +38,7 @@ Spread ratio(const EngineResult& a, const EngineResult& b, int repetitions) {
     }
     return spread(std::move(ratios));
   }
-  const auto of_repetition = [n](const EngineResult& e, std::size_t k) {
+  const auto of_repetition = [n](const BackendResult& e, std::size_t k) {
     const auto passes = static_cast<std::ptrdiff_t>(e.samples.size() / n);
     const auto first = e.samples.begin() + static_cast<std::ptrdiff_t>(k) * passes;
     return spread({first, first + passes}).median;
@@ -55,7 +55,7 @@ class Measurement {
 
   Result run() {
     for (const auto& runner : runners_) {
-      EngineResult e;
+      BackendResult e;
       e.name = runner->name();
       e.integer = runner->integer();
       e.hash = 0xcbf29ce484222325u;
@@ -74,7 +74,7 @@ class Measurement {
   }
 
  private:
-  /// Errors of every engine against quad, and every integer engine against the first one.
+  /// Errors of every back-end against quad, and every integer back-end against the first one.
   void inspect(const Work& work) {
     std::vector<TickResult> exact;
     std::vector<RawTick> integers;
@@ -87,7 +87,7 @@ class Measurement {
     }
     for (std::size_t i = 0; i < runners_.size(); ++i) {
       Runner& runner = *runners_[i];
-      EngineResult& e = result_.engines[i];
+      BackendResult& e = result_.engines[i];
       if (e.name == "quad") continue;
       const bool first = e.integer && integers_of.empty();
       if (first) integers_of = e.name;
@@ -124,13 +124,13 @@ class Measurement {
     }
   }
 
-  bool fast(const EngineResult& e) const {
+  bool fast(const BackendResult& e) const {
     return e.name != "quad" && inspect_s_.at(e.name) < 0.3e-6 * static_cast<double>(result_.ticks);
   }
 
   void estimate_length() {
     inspect_s_["quad"] = 0.5e-6 * static_cast<double>(result_.ticks);
-    for (const EngineResult& e : result_.engines) {
+    for (const BackendResult& e : result_.engines) {
       total_s_ += inspect_s_.at(e.name) * (fast(e) ? options_.passes : 1);
     }
     for (const Scene& s : closed_loops_) total_s_ += 0.1 * s.scenario.duration_s;
@@ -148,7 +148,7 @@ class Measurement {
     for (const Work& work : works_) {
       for (int pass = 0; pass < options_.passes; ++pass) {
         for (std::size_t i = 0; i < runners_.size(); ++i) {
-          const EngineResult& e = result_.engines[i];
+          const BackendResult& e = result_.engines[i];
           if (pass > 0 && !fast(e)) continue;
           Runner& runner = *runners_[i];
           runner.prepare(work);
@@ -192,7 +192,7 @@ class Measurement {
   void conclude() {
     const double tick_ns = 1e9 * result_.simulated_s / static_cast<double>(result_.ticks);
     for (std::size_t i = 0; i < runners_.size(); ++i) {
-      EngineResult& e = result_.engines[i];
+      BackendResult& e = result_.engines[i];
       e.ns_per_tick = spread(e.samples);
       e.speed = scaled_inverse(e.ns_per_tick, tick_ns);
       if (runners_[i]->has_clocks()) {
@@ -208,10 +208,10 @@ class Measurement {
           {s.scenario.name, s.scenario.duration_s, spread(loop_samples_[s.scenario.name])});
     }
     conclude_laws();
-    const EngineResult* rtl = result_.find("rtl");
-    const EngineResult* event = result_.find("twin_event");
-    const EngineResult* tick = result_.find("twin_tick");
-    const EngineResult* shifts = result_.find("shifts");
+    const BackendResult* rtl = result_.find("rtl");
+    const BackendResult* event = result_.find("twin_event");
+    const BackendResult* tick = result_.find("twin_tick");
+    const BackendResult* shifts = result_.find("shifts");
     auto& goals = result_.goals;
     if (event != nullptr && rtl != nullptr) {
       goals.push_back({"event_over_rtl", "twin_event, times as fast as rtl", 80, false,
@@ -256,7 +256,7 @@ class Measurement {
       instructions += s.instructions;
       for (std::size_t k = 0; k < n; ++k) ns[k] += s.compiled[k];
     }
-    const EngineResult* tick = result_.find("twin_tick");
+    const BackendResult* tick = result_.find("twin_tick");
     if (tick == nullptr) return;
     const std::size_t passes = tick->samples.size() / n;
     std::vector<double> ratios;
@@ -290,8 +290,8 @@ Spread spread(std::vector<double> samples) {
   return {0.5 * (samples[(n - 1) / 2] + samples[n / 2]), samples.front(), samples.back()};
 }
 
-const EngineResult* Result::find(const std::string& name) const {
-  for (const EngineResult& e : engines) {
+const BackendResult* Result::find(const std::string& name) const {
+  for (const BackendResult& e : engines) {
     if (e.name == name) return &e;
   }
   return nullptr;

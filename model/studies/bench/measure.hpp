@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The benchmark: every engine on the same works, errors against 113 bits, equality of the integer
-// engines, CPU time in interleaved repetitions. Documentation: docs/bench.md
+// The benchmark: every back-end on the same works, errors against 113 bits, equality of the integer
+// back-ends, CPU time in interleaved repetitions. Documentation: docs/bench.md
 #pragma once
 
 #include <functional>
@@ -22,17 +22,17 @@ struct Spread {
 /// The spread of `samples`, which must not be empty.
 Spread spread(std::vector<double> samples);
 
-struct EngineResult {
+struct BackendResult {
   std::string name;
   bool integer = false;
   Spread ns_per_tick;
   Spread speed;  ///< simulated seconds per second of CPU
-  /// Of engines with a clock: clocks per second, and complete ticks of the core per second.
+  /// Of back-ends with a clock: clocks per second, and complete ticks of the core per second.
   std::optional<Spread> clocks_per_s, updates_per_s;
   std::vector<double> samples;  ///< ns per tick, one per repetition
   bool compared = false;        ///< true: the errors below were measured
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
-  std::uint64_t hash = 0;  ///< hash of all results of all ticks; integer engines only
+  std::uint64_t hash = 0;  ///< hash of all results of all ticks; integer back-ends only
 };
 
 /// The closed loop of one scene: core, bridge, motor, friction, encoder and hand.
@@ -58,27 +58,27 @@ struct Goal {
   bool met() const { return at_most ? value.median <= goal : value.median >= goal; }
 };
 
-/// Proven bounds of the integer engines' errors: the largest over all works.
+/// Proven bounds of the integer back-ends' errors: the largest over all works.
 struct ErrorLimits {
   double velocity_rad_s = 0, tau_hat_nm = 0, torque_nm = 0;
 };
 
 struct Result {
   std::optional<ErrorLimits> bounds;
-  std::vector<EngineResult> engines;
+  std::vector<BackendResult> engines;
   std::vector<LoopResult> loops;
   std::vector<LawResult> laws;
   std::vector<Goal> goals;
-  std::string divergence;  ///< first tick and signal in which integer engines differ, or empty
+  std::string divergence;  ///< first tick and signal in which integer back-ends differ, or empty
   double simulated_s = 0;  ///< simulated time of all works together
   std::size_t ticks = 0;
-  const EngineResult* find(const std::string& name) const;
+  const BackendResult* find(const std::string& name) const;
 };
 
 struct Options {
   int repetitions = 3;
   std::string laws;                           ///< folder of the shipped laws; empty: none
-  int passes = 5;                             ///< passes of the fast engines per repetition
+  int passes = 5;                             ///< passes of the fast back-ends per repetition
   std::function<void(double done)> progress;  ///< called with 0..1; may be empty
 };
 

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Engines with pins and a clock. Documentation: docs/bench.md
+// Back-ends with pins and a clock. Documentation: docs/bench.md
 #include "studies/bench/pin_runner.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
 #include "feltgate/generated/lever.hpp"
-#include "sim/engines/clocked_engine.hpp"
+#include "sim/backends/clocked_backend.hpp"
 
 namespace feltgate::bench {
 
 namespace {
 
 /// The twin in every clock, as lock-step runs it.
-class ClockByClock : public ClockedEngine {
+class ClockByClock : public ClockedBackend {
  public:
-  ClockByClock() : ClockedEngine(design_info<Lever>()) {}
+  ClockByClock() : ClockedBackend(design_info<Lever>()) {}
   const char* name() const override { return "twin_clock"; }
   void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) override {
-    ClockedEngine::run(clocks, first, last, [this](const CoreIn& in) {
+    ClockedBackend::run(clocks, first, last, [this](const CoreIn& in) {
       core_.clock(in);
       note(core_.out());
       if (last_.snapshot_valid) keep(last_, core_.sampled_travel(), core_.writes());
@@ -35,13 +35,13 @@ class ClockByClock : public ClockedEngine {
 }  // namespace
 
 void PinRunner::inspect(const Work& work, const Inspector& each) {
-  const DesignInfo& d = engine_->design();
+  const DesignInfo& d = backend_->design();
   const auto si = [](std::int64_t raw, Format f) {
     return std::ldexp(static_cast<double>(raw), -f.fraction);
   };
   prepare(work);
   TickResult r;
-  play(*engine_, work.inputs, [&](const Snapshot& s) {
+  play(*backend_, work.inputs, [&](const Snapshot& s) {
     r.raw = {s.velocity,
              s.tau_hat,
              s.tau_ref,
@@ -57,14 +57,14 @@ void PinRunner::inspect(const Work& work, const Inspector& each) {
 }
 
 std::unique_ptr<Runner> make_pin_runner(const std::string& name) {
-  if (name == "rtl") return std::make_unique<PinRunner>("rtl", make_engine("lever", "rtl"));
+  if (name == "rtl") return std::make_unique<PinRunner>("rtl", make_backend("lever", "rtl"));
   if (name == "twin_clock") {
     return std::make_unique<PinRunner>("twin_clock", std::make_unique<ClockByClock>());
   }
   if (name == "twin_event") {
-    return std::make_unique<PinRunner>("twin_event", make_engine("lever", "twin"));
+    return std::make_unique<PinRunner>("twin_event", make_backend("lever", "twin"));
   }
-  throw std::invalid_argument("there is no engine with pins named " + name);
+  throw std::invalid_argument("there is no back-end with pins named " + name);
 }
 
 }  // namespace feltgate::bench

@@ -65,7 +65,7 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
     j["scenes"].push_back(
         {{"name", w.name}, {"simulated_s", w.simulated_s}, {"ticks", w.ticks.size()}});
   }
-  for (const EngineResult& e : r.engines) {
+  for (const BackendResult& e : r.engines) {
     Json& o = j["engines"][e.name];
     o = {{"arithmetic", e.integer ? "integer" : "real"},
          {"ns_per_tick", spread_json(e.ns_per_tick)},
@@ -116,7 +116,7 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
         "tau_hat error Nm", "torque error Nm");
   print(&s, "{:<11} {:>10} {:>21} {:>12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "", "", "",
         "", "max", "rms", "max", "rms", "max", "rms");
-  for (const EngineResult& e : r.engines) {
+  for (const BackendResult& e : r.engines) {
     print(&s, "{:<11} {:10.4g} {:10.4g} {:10.4g} {:12.4g}", e.name.c_str(), e.ns_per_tick.median,
           e.ns_per_tick.low, e.ns_per_tick.high, e.speed.median);
     if (e.compared) {
@@ -137,7 +137,7 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
   if (r.divergence.empty()) {
     std::string names;
     std::uint64_t hash = 0;
-    for (const EngineResult& e : r.engines) {
+    for (const BackendResult& e : r.engines) {
       if (!e.integer) continue;
       names += (names.empty() ? "" : ", ") + e.name;
       hash = e.hash;
@@ -146,7 +146,7 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
   } else {
     print(&s, "DIFFERENT: {}\n", r.divergence.c_str());
   }
-  for (const EngineResult& e : r.engines) {
+  for (const BackendResult& e : r.engines) {
     if (!e.updates_per_s) continue;
     const Spread& u = *e.updates_per_s;
     print(&s, "million control updates simulated per second, {}: {:.3g} ({:.3g} .. {:.3g})\n",

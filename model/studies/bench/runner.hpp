@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The benchmark's interface to an engine: it runs a work as fast as possible, or shows every tick.
+// The benchmark's interface to a back-end: it runs a work as fast as possible, or shows every tick.
 // Documentation: docs/bench.md
 #pragma once
 
@@ -16,17 +16,17 @@
 
 namespace feltgate::bench {
 
-/// Number of raw results of a tick of an integer engine, in the order of `raw_names`.
+/// Number of raw results of a tick of an integer back-end, in the order of `raw_names`.
 constexpr std::size_t raw_signals = 7;
 using RawTick = std::array<std::int64_t, raw_signals>;
 constexpr std::array<const char*, raw_signals> raw_names = {
     "velocity", "tau_hat", "tau_ref", "current_ref", "voltage", "duty", "limits"};
 
-/// One tick of any engine.
+/// One tick of any back-end.
 struct TickResult {
   double velocity_rad_s = 0, tau_hat_nm = 0;
   double torque_nm = 0;  ///< commanded: nominal torque constant times current reference
-  RawTick raw{};         ///< of integer engines
+  RawTick raw{};         ///< of integer back-ends
 };
 using Inspector = std::function<void(const TickResult&)>;
 
@@ -39,10 +39,10 @@ class Runner {
   virtual ~Runner() = default;
   const std::string& name() const { return name_; }
   bool integer() const { return arithmetic_ == Arithmetic::integer; }
-  /// Whether the engine simulates single clocks, so that clocks per second are defined.
+  /// Whether the back-end simulates single clocks, so that clocks per second are defined.
   virtual bool has_clocks() const { return false; }
 
-  /// Resets the engine; not timed.
+  /// Resets the back-end; not timed.
   virtual void prepare(const Work& work) = 0;
   /// Runs the whole work after prepare(); timed.
   virtual void run(const Work& work) = 0;
@@ -54,7 +54,7 @@ class Runner {
   Arithmetic arithmetic_;
 };
 
-/// Every engine of the benchmark, in the order of its table.
+/// Every back-end of the benchmark, in the order of its table.
 std::vector<std::string> runner_names();
 /// Makes a runner by name. Throws std::invalid_argument with the known names for an unknown one.
 std::unique_ptr<Runner> make_runner(const std::string& name);

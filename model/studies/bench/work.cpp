@@ -18,13 +18,13 @@ namespace {
 
 /// Fills the ticks from the pins: what the twin samples, and when it carries out each write.
 void sample(Work* work, const std::string& design) {
-  const auto engine = make_engine(design, "twin");
-  const DesignInfo& d = engine->design();
+  const auto backend = make_backend(design, "twin");
+  const DesignInfo& d = backend->design();
   work->simulated_s = static_cast<double>(work->inputs.clocks) / static_cast<double>(d.clock_hz);
   std::size_t applied = 0;
   HostBeside host(d.control_reset);
-  engine->reset(1, work->inputs.pins);
-  play(*engine, work->inputs, [&](const Snapshot& s) {
+  backend->reset(1, work->inputs.pins);
+  play(*backend, work->inputs, [&](const Snapshot& s) {
     for (; applied < static_cast<std::size_t>(s.writes); ++applied) {
       const HostWrite& w = work->inputs.writes[applied];
       if (host.write(w.address, w.data, s.armed)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The input of every engine in the benchmark: pins and register writes on a clock for engines with
-// pins, sampled counts per tick for engines without. Documentation: docs/bench.md
+// The input of every back-end in the benchmark: pins and register writes on a clock for back-ends
+// with pins, sampled counts per tick for back-ends without. Documentation: docs/bench.md
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/while_armed.hpp"
-#include "sim/engines/lock_step_core.hpp"
+#include "sim/backends/lock_step_core.hpp"
 #include "sim/reference/control_chain.hpp"
 #include "studies/explore/measurement.hpp"
 #include "studies/explore/stimulus.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "sim/axes_loop/axes_run.hpp"
-#include "sim/engines/axes_cores.hpp"
+#include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "studies/rates/device_joints.hpp"
 #include "studies/rates/sweep.hpp"

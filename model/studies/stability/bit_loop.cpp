@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
 
 namespace feltgate::stability {

@@ -11,7 +11,7 @@
 #include "apps/page/coupled_loop.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::page {
 namespace {

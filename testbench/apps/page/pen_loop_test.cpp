@@ -11,7 +11,7 @@
 #include "catch.hpp"
 #include "feltgate/design_info.hpp"
 #include "law/compile.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "studies/shape/shape_law.hpp"
 
 namespace feltgate::page {

@@ -9,7 +9,7 @@
 #include "apps/page/stick_loop.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::page {
 namespace {

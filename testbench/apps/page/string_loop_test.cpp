@@ -13,7 +13,7 @@
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::page {
 namespace {

@@ -15,7 +15,7 @@
 #include "feltgate/generated/pantograph_law.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
-#include "sim/engines/rtl_axes_ports.hpp"
+#include "sim/backends/rtl_axes_ports.hpp"
 
 namespace feltgate::test {
 

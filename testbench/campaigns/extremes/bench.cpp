@@ -11,7 +11,7 @@ namespace feltgate::extremes {
 
 namespace {
 
-EngineChoice choice(Cores cores) {
+BackendChoice choice(Cores cores) {
   return {cores == Cores::lock_step ? "lockstep" : "twin", {"double"}, false};
 }
 
@@ -80,7 +80,7 @@ Sample Bench::sample(const Snapshot& s) {
 }
 
 void Bench::report(Outcome* outcome) const {
-  const Engine& lead = ensemble_.lead_const();
+  const Backend& lead = ensemble_.lead_const();
   const double seconds = static_cast<double>(now()) / static_cast<double>(design().clock_hz);
   outcome->twin_s += seconds;
   if (cores_ != Cores::lock_step) return;

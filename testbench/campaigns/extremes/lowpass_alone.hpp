@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "feltgate/lowpass.hpp"
-#include "sim/engines/rtl_model.hpp"
+#include "sim/backends/rtl_model.hpp"
 
 namespace feltgate::extremes {
 

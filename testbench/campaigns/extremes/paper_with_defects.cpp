@@ -6,13 +6,13 @@
 #include <Vpaper_with_defects.h>
 
 #include "feltgate/generated/paper.hpp"
-#include "sim/engines/make_engines.hpp"
+#include "sim/backends/make_backends.hpp"
 
 namespace feltgate {
 namespace {
 
 [[maybe_unused]] const bool known = [] {
-  add_design({"paper", make_design_engine<Vpaper_with_defects, Paper>, make_design_chain<Paper>,
+  add_design({"paper", make_design_backend<Vpaper_with_defects, Paper>, make_design_chain<Paper>,
               design_info<Paper>});
   return true;
 }();

@@ -6,13 +6,13 @@
 
 #include <Vextremes_wide.h>
 
-#include "sim/engines/make_engines.hpp"
+#include "sim/backends/make_backends.hpp"
 #include "wide.hpp"
 
 namespace feltgate::extremes {
 
 void use_wide_design() {
-  add_design({"wide", make_design_engine<Vextremes_wide, Wide>, make_design_chain<Wide>,
+  add_design({"wide", make_design_backend<Vextremes_wide, Wide>, make_design_chain<Wide>,
               design_info<Wide>});
 }
 

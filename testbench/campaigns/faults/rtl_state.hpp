@@ -18,7 +18,7 @@
 #include "campaigns/faults/outcome.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_ports.hpp"
 
 void Vfaults___024root___eval_settle(Vfaults___024root* vlSelf);
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "feltgate/generated/lever.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/pushing_hand.hpp"

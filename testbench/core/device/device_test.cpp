@@ -14,7 +14,7 @@
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "random.hpp"
-#include "sim/engines/make_device.hpp"
+#include "sim/backends/make_device.hpp"
 
 using namespace feltgate;
 using feltgate::test::Random;

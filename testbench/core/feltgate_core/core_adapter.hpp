@@ -12,7 +12,7 @@
 #include "lock_step.hpp"
 #include "ports.hpp"
 #include "random.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_ports.hpp"
 
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever

@@ -7,9 +7,9 @@
 #include "Vfeltgate_core.h"
 #include "catch.hpp"
 #include "feltgate/feltgate_core.hpp"
-#include "sim/engines/lock_step_core.hpp"
-#include "sim/engines/rtl_model.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/lock_step_core.hpp"
+#include "sim/backends/rtl_model.hpp"
+#include "sim/backends/rtl_ports.hpp"
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"

@@ -12,7 +12,7 @@
 #include "catch.hpp"
 #include "core_adapter.hpp"
 #include "core_stimulus.hpp"
-#include "sim/engines/rtl_model.hpp"
+#include "sim/backends/rtl_model.hpp"
 
 using feltgate::RtlModel;
 using feltgate::test::CoreBench;

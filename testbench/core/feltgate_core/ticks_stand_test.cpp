@@ -11,8 +11,8 @@
 #include "Vfeltgate_core___024root.h"
 #include "catch.hpp"
 #include "feltgate/generated/causes.hpp"
-#include "sim/engines/rtl_model.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_model.hpp"
+#include "sim/backends/rtl_ports.hpp"
 #ifndef FELTGATE_DESIGN
 #define FELTGATE_DESIGN Lever
 #include "feltgate/generated/lever.hpp"

@@ -13,7 +13,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_ports.hpp"
 
 using feltgate::CoreIn;
 using feltgate::CoreOut;

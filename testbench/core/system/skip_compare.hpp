@@ -13,7 +13,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
-#include "sim/engines/fnv1a.hpp"
+#include "sim/backends/fnv1a.hpp"
 
 namespace feltgate::test {
 

@@ -15,7 +15,7 @@
 #include "catch.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "lock_step.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_ports.hpp"
 
 namespace feltgate::test {
 

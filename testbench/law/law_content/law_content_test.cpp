@@ -14,7 +14,7 @@
 #include "law/compile.hpp"
 #include "law/load.hpp"
 #include "lock_step.hpp"
-#include "sim/engines/rtl_ports.hpp"
+#include "sim/backends/rtl_ports.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

@@ -10,7 +10,7 @@
 #include "bus.hpp"
 #include "catch.hpp"
 #include "mismatch.hpp"
-#include "sim/engines/rtl_model.hpp"
+#include "sim/backends/rtl_model.hpp"
 
 using namespace feltgate::test;
 using feltgate::Fault;

@@ -30,7 +30,7 @@ Table table_of(const std::string& engines, int every) {
   options.engine = engines;
   options.row_every = every;
   Table table;
-  const std::vector<Column> columns = row_columns(true, choose_engines(engines).names());
+  const std::vector<Column> columns = row_columns(true, choose_backends(engines).names());
   options.row = [&](const Row& r) {
     for (const Column& c : columns) table[c.name].push_back(c.value(r));
   };
@@ -86,7 +86,7 @@ TEST_CASE("every n-th row is one of all rows") {
 
 TEST_CASE("names are unique, and a replay has no plant") {
   std::set<std::string> names;
-  for (const Column& c : row_columns(true, choose_engines("all").names())) {
+  for (const Column& c : row_columns(true, choose_backends("all").names())) {
     CHECK(names.insert(c.name).second);
     CHECK(!c.meaning.empty());
   }

@@ -12,7 +12,7 @@
 #include "catch.hpp"
 #include "design/design.hpp"
 #include "loop_fixture.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/loop/bounded.hpp"
 #include "sim/loop/figures.hpp"
 #include "sim/loop/speed_jumps.hpp"
@@ -205,22 +205,22 @@ TEST_CASE("a jump of the speed that the hand imposes is told with line, size and
 }
 
 TEST_CASE("engines by name: lists, their order, and what compares them") {
-  const auto names = [](const char* list) { return choose_engines(list).names(); };
+  const auto names = [](const char* list) { return choose_backends(list).names(); };
   using Names = std::vector<std::string>;
   CHECK(names("twin,double,float") == Names{"twin", "double", "float"});
   CHECK(names("all") == Names{"twin", "float", "double", "quad"});
   CHECK(names("rtl") == Names{"rtl"});
   CHECK(names("double") == Names{"double"});
-  CHECK(choose_engines("rtl,float").lead == "rtl");
-  CHECK(choose_engines("float,rtl,twin").lead == "lockstep");
-  CHECK(choose_engines("float,double").rider_drives);
-  CHECK(choose_engines("twin,double,float").reference() == "double");
-  CHECK(choose_engines("all").reference() == "quad");
-  CHECK(choose_engines("quad").reference().empty());
-  CHECK(choose_engines("twin,float").reference().empty());
+  CHECK(choose_backends("rtl,float").lead == "rtl");
+  CHECK(choose_backends("float,rtl,twin").lead == "lockstep");
+  CHECK(choose_backends("float,double").rider_drives);
+  CHECK(choose_backends("twin,double,float").reference() == "double");
+  CHECK(choose_backends("all").reference() == "quad");
+  CHECK(choose_backends("quad").reference().empty());
+  CHECK(choose_backends("twin,float").reference().empty());
   const auto complaint = [](const char* list) -> std::string {
     try {
-      choose_engines(list);
+      choose_backends(list);
       return "";
     } catch (const std::invalid_argument& error) {
       return error.what();

@@ -12,7 +12,7 @@
 #include "feltgate/largest.hpp"
 #include "loop_fixture.hpp"
 #include "sim/law_loop/scene_law.hpp"
-#include "sim/loop/engine_choice.hpp"
+#include "sim/loop/backend_choice.hpp"
 
 namespace {
 
@@ -100,10 +100,10 @@ TEST_CASE("a mailbox that is fed too rarely comes and goes, one fed in time stay
 }
 
 TEST_CASE("a law's riders need the twin, which knows the runs: the RTL alone is refused") {
-  CHECK_THROWS_WITH(require_runs_of_law(choose_engines("rtl,double")),
+  CHECK_THROWS_WITH(require_runs_of_law(choose_backends("rtl,double")),
                     Catch::Contains("add the twin, as rtl,twin,double"));
   for (const char* good : {"rtl", "rtl,twin,double", "twin,float", "double"}) {
-    CHECK_NOTHROW(require_runs_of_law(choose_engines(good)));
+    CHECK_NOTHROW(require_runs_of_law(choose_backends(good)));
   }
 }
 

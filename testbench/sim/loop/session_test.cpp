@@ -17,7 +17,7 @@ using namespace feltgate;
 
 using Writes = std::vector<std::pair<int, std::uint32_t>>;
 
-class Notes : public AnyEngine {
+class Notes : public AnyBackend {
  public:
   explicit Notes(int axes) : axes_(axes) {}
   const char* name() const override { return "notes"; }
@@ -40,7 +40,7 @@ struct Stand {
       : scenario(of), host(std::make_unique<Notes>(axes)), session(scenario, host, options) {
     session.begin();
   }
-  Notes& notes() { return static_cast<Notes&>(host.engine()); }
+  Notes& notes() { return static_cast<Notes&>(host.backend()); }
   /// The writes of the host up to a time, each with the clock at which it came.
   std::vector<std::pair<Clock, std::uint32_t>> until(double seconds) {
     std::vector<std::pair<Clock, std::uint32_t>> all;

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "files/toml/toml_reader.hpp"
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/plant/plant_file.hpp"
 
 using namespace feltgate;

@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 #include "sim/axes_loop/axes_run.hpp"
-#include "sim/engines/axes_cores.hpp"
+#include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/trim/motions.hpp"

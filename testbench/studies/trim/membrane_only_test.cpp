@@ -10,7 +10,7 @@
 #include "core_stimulus.hpp"
 #include "membrane_only.hpp"
 #include "mismatch.hpp"
-#include "sim/engines/make_engines.hpp"
+#include "sim/backends/make_backends.hpp"
 
 using namespace feltgate;
 using D = MembraneOnly;

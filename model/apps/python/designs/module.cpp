@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "sim/engines/engine.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::python {
 

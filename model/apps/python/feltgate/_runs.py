@@ -153,4 +153,4 @@ def _what(design: str, engine: Engines, every: Optional[int], length_s: float,
     if every < 1:
         raise ValueError(f"every is {every}; give 1 to keep all ticks, or more to keep fewer")
     what = _core.What(design, design_path, registers_path, engines, every, seed)
-    return what, list(_core.engine_names(engines))
+    return what, list(_core.backend_names(engines))

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Interface of a core that can be run: the Verilated RTL, the twin, or both in lock-step.
+// Documentation: docs/architecture.md
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "feltgate/core_ports.hpp"
+#include "feltgate/design_info.hpp"  // IWYU pragma: export
+#include "feltgate/encoder_source.hpp"
+#include "feltgate/generated/causes.hpp"  // IWYU pragma: export
+#include "feltgate/parameter.hpp"
+
+namespace feltgate {
+
+constexpr std::size_t most_axes = 3;
+
+/// The integers of one tick, as shown by the core when its snapshot is valid.
+struct Snapshot {
+  std::uint32_t tick = 0;
+  std::int32_t position = 0;  ///< counts
+  /// Raw, in the design's formats; duty in clocks of the PWM period.
+  std::int64_t velocity = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0, duty = 0;
+  std::uint8_t scene = 0, first_fault = 0;
+  std::uint16_t limits = 0, faults = 0;
+  bool armed = false;
+  // Not outputs of the RTL, hence not compared:
+  std::int16_t travel = 0;  ///< sampled free-running count
+  std::int64_t writes = 0;  ///< register writes executed before this wave
+  /// For the scene law: whether a run of the program began with the samples of this tick; whether
+  /// it is known from which samples the torque in force comes, and their tick.
+  bool law_begins = false, law_known = false;
+  std::uint32_t law_tick = 0;
+  std::int64_t law_changes = 0;  ///< parameter sets that had come into force when that run began
+  bool law_restart = false;      ///< the law's torque might jump in this wave
+  bool law_stale = false;        ///< a mailbox of the law is too old: its torque is 0
+
+  Snapshot() = default;
+  Snapshot(const CoreOut& o, std::int16_t sampled_travel, std::int64_t writes_before)
+      : tick(o.tick_count),
+        position(o.position),
+        velocity(o.velocity),
+        tau_hat(o.tau_hat),
+        tau_ref(o.tau_ref),
+        current_ref(o.current_ref),
+        voltage(o.voltage),
+        duty(o.duty),
+        scene(o.scene),
+        first_fault(o.first_fault),
+        limits(o.limits),
+        faults(o.faults),
+        armed(o.armed),
+        travel(sampled_travel),
+        writes(writes_before) {}
+  bool operator==(const Snapshot& o) const {
+    return tick == o.tick && position == o.position && velocity == o.velocity &&
+           tau_hat == o.tau_hat && tau_ref == o.tau_ref && current_ref == o.current_ref &&
+           voltage == o.voltage && duty == o.duty && scene == o.scene && limits == o.limits &&
+           faults == o.faults && first_fault == o.first_fault && armed == o.armed;
+  }
+};
+
+/// An event of a law: its number in the file, its value as a word, the tick.
+struct LawEvent {
+  int number = 0;
+  std::int32_t value = 0;
+  std::uint32_t tick = 0;
+};
+
+/// Switches and pins of the board's panel.
+struct Panel {
+  bool arm = false;
+  bool stop = false;
+  std::uint8_t scene = 0;
+};
+
+/// Clocks for which each gate was on during the last advance().
+struct GateClocks {
+  std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
+};
+
+/// What every back-end has, whatever its number of axes.
+class AnyBackend {
+ public:
+  virtual ~AnyBackend() = default;
+  virtual const char* name() const = 0;
+  virtual const DesignInfo& design() const = 0;
+  virtual int axes() const { return 1; }
+
+  /// Queues a register write; one is executed per tick, in order. Axis n begins at n * axes_stride.
+  virtual void write(int address, std::uint32_t data) = 0;
+  /// Sets the stop pin from now() on.
+  virtual void stop(bool pressed) = 0;
+  /// Clocks since reset.
+  virtual Clock now() const = 0;
+
+  /// Writes a waveform of the clocks [from, to] of the next run (to < 0: to its end); call it
+  /// before reset(). Errors: std::invalid_argument for a back-end without RTL.
+  virtual void trace(const std::string& path, Clock from, Clock to);
+
+  /// Lock-step back-ends: number of clocks in which an output differed, and the first difference.
+  virtual std::int64_t mismatches() const { return 0; }
+  virtual std::string first_mismatch() const { return {}; }
+  virtual Clock first_mismatch_clock() const { return 0; }
+};
+
+/// A core of one design, with encoder pins, panel and register writes as inputs.
+class Backend : public AnyBackend {
+ public:
+  /// Power-up and reset; `seed` fills the state that reset does not define.
+  virtual void reset(std::uint64_t seed, EncoderPins pins) = 0;
+  /// Sets the panel's inputs from now() on.
+  virtual void set_panel(const Panel& panel) = 0;
+  void stop(bool pressed) override {
+    Panel panel;
+    panel.stop = pressed;
+    set_panel(panel);
+  }
+
+  /// Advances `clocks` clocks from now(). Pin events are in order, at absolute clocks; an event
+  /// after the end is kept for the next call.
+  virtual void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) = 0;
+
+  /// Snapshots that became valid during the last advance().
+  virtual const std::vector<Snapshot>& snapshots() const = 0;
+  virtual GateClocks gates() const = 0;
+  /// false: gates() will not be called, so gate times need not be counted. Call it before the first
+  /// advance().
+  virtual void keep_gate_times(bool) {}
+  /// All events of the law since reset(), at most the first 65536; empty for an engine without a
+  /// law. Call it only at the end of a run: it may change how the engine computes, but not its
+  /// results.
+  virtual std::vector<LawEvent> law_events() { return {}; }
+  /// Duty in force in the bridge, in clocks of the PWM period, and whether the gates are enabled.
+  virtual int duty() const = 0;
+  virtual bool gates_enabled() const = 0;
+  /// Lock-step back-ends: time spent in one half ("rtl" or "twin"), s.
+  virtual double busy_s(const std::string& half) const {
+    (void)half;
+    return 0;
+  }
+};
+
+/// Makes a back-end of a built-in design. Kinds: "twin"; "rtl" and "lockstep" if feltgate_rtl is
+/// linked. Errors: std::invalid_argument that names the choices.
+std::unique_ptr<Backend> make_backend(const std::string& design, const std::string& kind);
+/// Names of the built-in designs.
+std::vector<std::string> design_names();
+/// Rates, formats and parameters of a design, without a back-end of it.
+/// Errors: those of make_backend().
+DesignInfo design_named(const std::string& design);
+
+/// What the functions above, and make_device() through `device`, need of a design. Linked libraries
+/// add it before main(): feltgate_backends adds the designs of rtl/designs that are not presets, a
+/// program of a preset adds that one. design_names() lists no preset.
+class Device;
+class RealChain;
+struct DesignMakers {
+  std::string name;
+  std::unique_ptr<Backend> (*engine)(const std::string& kind);
+  std::unique_ptr<RealChain> (*chain)(const std::string& kind);
+  DesignInfo (*info)();
+  std::unique_ptr<Device> (*device)() = nullptr;
+  bool preset = true;
+};
+/// Adds a design. Of several with one name the last is used; those of rtl/designs come first.
+void add_design(const DesignMakers& design);
+
+/// Makes "rtl" and "lockstep" of the built-in designs. Only the library feltgate_rtl sets it,
+/// before main().
+using RtlMaker = std::unique_ptr<Backend> (*)(const std::string& design, const std::string& kind);
+void provide_rtl_backends(RtlMaker maker);
+/// Calls that maker. Errors: std::invalid_argument if the library is not linked or the kind is
+/// unknown.
+std::unique_ptr<Backend> make_rtl_backend(const std::string& design, const std::string& kind);
+
+/// Integer of a parameter for a value in its unit, rounded to nearest. Errors:
+/// std::invalid_argument with the range if it does not fit.
+std::int64_t quantise_parameter(const ParameterInfo& info, double value);
+/// The control word of a host that has control, with this scene, mode and request to arm.
+std::uint32_t control_word(const DesignInfo& design, int scene, int mode, bool arm);
+
+}  // namespace feltgate

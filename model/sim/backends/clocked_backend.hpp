@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Common part of the clocked back-ends: pin events at their clocks, one register write per tick,
+// collection of snapshots and gate times. Documentation: docs/architecture.md
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "backend.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "input_queues.hpp"
+
+namespace feltgate {
+
+/// Passes pins, panel and register writes to a core, and collects snapshots and gate times. A
+/// derived class supplies reset_core(seed, pins), run(first clock, inputs) and name().
+class ClockedBackend : public Backend {
+ public:
+  explicit ClockedBackend(DesignInfo info) : info_(std::move(info)) {}
+
+  const DesignInfo& design() const override { return info_; }
+  void reset(std::uint64_t seed, EncoderPins pins) override {
+    now_ = 0;
+    events_.reset(pins);
+    writes_.clear();
+    panel_ = {};
+    snapshots_.clear();
+    gates_ = {};
+    last_ = {};
+    reg_addr_ = 0;
+    reset_core(seed, pins);
+  }
+  void set_panel(const Panel& panel) override { panel_ = panel; }
+  void write(int address, std::uint32_t data) override { writes_.push(address, data); }
+  Clock now() const override { return now_; }
+  const std::vector<Snapshot>& snapshots() const override { return snapshots_; }
+  GateClocks gates() const override { return gates_; }
+  int duty() const override { return last_.duty_active; }
+  bool gates_enabled() const override { return last_.gates_enable; }
+
+ protected:
+  virtual void reset_core(std::uint64_t seed, EncoderPins pins) = 0;
+
+  /// Calls `each(inputs)` for every clock of an advance(); it returns the outputs after the clock.
+  template <class EachClock>
+  void run(Clock clocks, const EncoderEvent* first, const EncoderEvent* last, EachClock&& each) {
+    snapshots_.clear();
+    gates_ = {};
+    events_.push(first, last);
+    CoreIn in = inputs();
+    int clock_of_tick = static_cast<int>(now_ % info_.clocks_per_tick);
+    for (const Clock end = now_ + clocks; now_ < end; ++now_) {
+      in.encoder = events_.at(now_);
+      in.reg_write = false;
+      if (clock_of_tick == host_write_clock && !writes_.empty() && !last_.reg_busy) {
+        issue_write(&in);
+      }
+      if (++clock_of_tick == info_.clocks_per_tick) clock_of_tick = 0;
+      each(in);
+    }
+  }
+
+  /// The inputs that hold between events: panel, and the address used last.
+  CoreIn inputs() const {
+    CoreIn in;
+    in.arm = panel_.arm;
+    in.stop = panel_.stop;
+    in.scene = panel_.scene;
+    in.reg_addr = reg_addr_;
+    return in;
+  }
+  void issue_write(CoreIn* in) {
+    const auto w = writes_.pop();
+    in->reg_addr = reg_addr_ = w.first;
+    in->reg_wdata = w.second;
+    in->reg_write = true;
+  }
+
+  /// Evaluates the outputs after a clock.
+  void note(const CoreOut& out) {
+    gates_.a_hi += out.gates & 1u;
+    gates_.a_lo += (out.gates >> 1) & 1u;
+    gates_.b_hi += (out.gates >> 2) & 1u;
+    gates_.b_lo += (out.gates >> 3) & 1u;
+    last_ = out;
+  }
+  void keep(const CoreOut& out, std::int16_t travel, std::int64_t writes) {
+    snapshots_.emplace_back(out, travel, writes);
+  }
+
+  DesignInfo info_;
+  Clock now_ = 0;
+  Panel panel_;
+  EventQueue events_;
+  WriteQueue writes_;
+  std::uint16_t reg_addr_ = 0;
+  std::vector<Snapshot> snapshots_;
+  GateClocks gates_;
+  CoreOut last_;
+};
+
+}  // namespace feltgate

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Converts the ports of the Verilated core to the twin's types. Documentation: docs/architecture.md
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "backend.hpp"
+#include "feltgate/core_ports.hpp"
+
+namespace feltgate {
+
+/// The low `width` bits of `word` as a signed number.
+constexpr std::int64_t sign_extend(std::uint64_t word, int width) {
+  const std::uint64_t sign = std::uint64_t{1} << (width - 1);
+  const std::uint64_t low = word & ((sign << 1) - 1);
+  return static_cast<std::int64_t>(low ^ sign) - static_cast<std::int64_t>(sign);
+}
+
+namespace detail {
+
+inline std::int32_t narrow_word(std::uint32_t word, int width) {
+  return static_cast<std::int32_t>(sign_extend(word, width));
+}
+
+}  // namespace detail
+
+/// Whether Rtl is Verilator's class of feltgate_axes, then with one axis.
+template <class Rtl, class = void>
+constexpr bool is_axes = false;
+template <class Rtl>
+constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
+
+/// Sets every input except clock and reset, for design D. The caller must lower the stop with the
+/// edge: it was active since the last edge, and is not in the next clock.
+template <class D, class Rtl>
+void drive_inputs(Rtl& rtl, const CoreIn& in) {
+  rtl.enc_a_i = in.encoder.a;
+  rtl.enc_b_i = in.encoder.b;
+  rtl.enc_z_i = in.encoder.z;
+  rtl.arm_i = in.arm;
+  rtl.stop_i = in.stop;
+  rtl.set_zero_i = in.set_zero;
+  rtl.scene_i = in.scene;
+  rtl.reg_addr_i = in.reg_addr;
+  rtl.reg_wdata_i = in.reg_wdata;
+  rtl.reg_write_i = in.reg_write;
+  rtl.law_torque_i = static_cast<std::uint32_t>(in.law_torque) & ((1u << D::f.torque.width()) - 1);
+  rtl.law_late_i = in.law_late;
+  rtl.law_restart_i = in.law_restart;
+  if constexpr (is_axes<Rtl>) {
+    rtl.reg_read_i = 0;
+  } else {
+    rtl.axis_fault_i = in.axis_fault;
+    rtl.axis_silent_i = in.axis_silent;
+    rtl.axis_blocked_i = in.axis_blocked;
+    rtl.axis_testing_i = in.axis_testing;
+    rtl.axis_waits_i = in.axis_waits;
+  }
+}
+
+/// Every output after an edge, for design D.
+template <class D, class Rtl>
+CoreOut read_outputs(const Rtl& rtl) {
+  CoreOut o;
+  o.velocity = sign_extend(rtl.velocity_o, D::f.velocity.width());
+  o.tick_count = rtl.tick_count_o;
+  o.reg_rdata = rtl.reg_rdata_o;
+  o.position = static_cast<std::int32_t>(rtl.position_o);
+  o.tau_hat = detail::narrow_word(rtl.tau_hat_o, D::f.torque.width());
+  o.tau_ref = detail::narrow_word(rtl.tau_ref_o, D::f.torque.width());
+  o.current_ref = detail::narrow_word(rtl.current_ref_o, D::f.current.width());
+  o.voltage = detail::narrow_word(rtl.voltage_o, D::f.voltage.width());
+  o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, D::f.duty.width()));
+  o.duty_active =
+      static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, D::f.duty.width()));
+  o.gates = static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 |
+                                      rtl.gate_b_hi_o << 2 | rtl.gate_b_lo_o << 3);
+  o.scene = rtl.scene_o;
+  o.limits = rtl.limits_o;
+  o.faults = rtl.faults_o;
+  o.first_fault = rtl.first_fault_o;
+  o.armed = rtl.armed_o != 0;
+  o.gates_enable = rtl.gates_enable_o != 0;
+  o.snapshot_valid = rtl.snapshot_valid_o != 0;
+  o.reg_busy = rtl.reg_busy_o != 0;
+  o.word_valid = rtl.word_valid_o != 0;
+  o.word_slot = rtl.word_slot_o;
+  o.word_data = rtl.word_data_o;
+  return o;
+}
+
+/// The event that a core with an engine shows in this clock; its tick stays 0.
+template <class Rtl>
+std::optional<LawEvent> read_law_event(const Rtl& rtl) {
+  if constexpr (is_axes<Rtl>) {
+    if (rtl.event_valid_o) {
+      return LawEvent{static_cast<int>(rtl.event_number_o),
+                      static_cast<std::int32_t>(rtl.event_value_o), 0};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace feltgate

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The twin of one design as a back-end, and its chains. Documentation:
+// docs/architecture.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "../reference/chain.hpp"
+#include "../reference/real_chain.hpp"
+#include "clocked_backend.hpp"
+#include "law_core.hpp"
+
+namespace feltgate {
+
+/// The twin as a back-end, from event to event.
+template <class D>
+class TwinBackend : public ClockedBackend {
+ public:
+  TwinBackend() : ClockedBackend(design_info<D>()) {}
+  const char* name() const override { return "twin"; }
+
+  /// Goes from event to event: pins, register writes, end of the stretch. Clocks in which nothing
+  /// happens that a caller could ask for are deferred. Flattened: calls would take 7 % of the time.
+  [[gnu::flatten]] void advance(Clock clocks, const EncoderEvent* first,
+                                const EncoderEvent* last) override {
+    snapshots_.clear();
+    if (first != last) events_.push(first, last);
+    CoreIn in = inputs();
+    const Clock end = now_ + clocks;
+    if (!gate_times_ && writes_.empty() && events_.next(end) >= end) {
+      in.encoder = events_.pins();
+      if (core_.calm(in, waiting_ + clocks)) {
+        waiting_ += clocks;
+        now_ = end;
+        return;
+      }
+    }
+    if (gate_times_) gates_before_ = core_.gate_clocks();
+    now_ -= waiting_;
+    waiting_ = 0;
+    const auto tell = [this] {
+      keep(core_.out(), core_.sampled_travel(), core_.writes());
+      tell_of_law(core_, &snapshots_.back());
+    };
+    while (now_ < end) {
+      in.encoder = events_.at(now_);
+      const int clock_of_tick = core_.clock_of_tick();
+      if (!writes_.empty() && clock_of_tick == host_write_clock && takes_write(core_)) {
+        issue_write(&in);
+        core_.clock(in);
+        if (core_.out().snapshot_valid) tell();
+        in.reg_write = false;
+        ++now_;
+        continue;
+      }
+      Clock until = std::min(end, events_.next(end));
+      if (!writes_.empty()) {
+        const int ahead = host_write_clock - clock_of_tick;
+        until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));
+      }
+      core_.run(in, until - now_, tell);
+      now_ = until;
+    }
+  }
+  void set_panel(const Panel& panel) override {
+    settle();
+    ClockedBackend::set_panel(panel);
+  }
+  void write(int address, std::uint32_t data) override {
+    settle();
+    ClockedBackend::write(address, data);
+  }
+  void keep_gate_times(bool keep) override { gate_times_ = keep; }
+  GateClocks gates() const override {
+    const auto after = core_.gate_clocks();
+    return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
+            after[3] - gates_before_[3]};
+  }
+  std::vector<LawEvent> law_events() override {
+    settle();
+    return law_events_of(core_);
+  }
+  int duty() const override { return core_.out().duty_active; }
+  bool gates_enabled() const override { return core_.out().gates_enable; }
+
+ private:
+  using Core = BackendCore<D, false>;  // nobody reads registers through a back-end
+
+  /// Runs the deferred clocks; call it before the inputs change.
+  void settle() {
+    CoreIn in = inputs();
+    in.encoder = events_.pins();
+    core_.run(in, waiting_, [] {});
+    waiting_ = 0;
+  }
+  void reset_core(std::uint64_t, EncoderPins) override {
+    core_ = Core();
+    waiting_ = 0;
+    gates_before_ = {};
+  }
+  Core core_;
+  Clock waiting_ = 0;  ///< deferred clocks before now()
+  bool gate_times_ = true;
+  std::array<std::int64_t, 4> gates_before_{};
+};
+
+/// Makes the chain "fixed", "float", "double" or "quad". Errors: std::invalid_argument for another
+/// kind.
+template <class D>
+std::unique_ptr<RealChain> make_design_chain(const std::string& kind) {
+  if constexpr (measures_spans<D>) {
+    throw std::invalid_argument("chain \"" + kind + "\" of design " + D::name +
+                                ": M/T needs the clocks of the edges, which a chain by ticks does "
+                                "not have; choose the back-ends rtl,twin");
+  } else {
+    if (kind == "fixed") return std::make_unique<Chain<D, Fixed>>("fixed");
+    if (kind == "float") return std::make_unique<Chain<D, Real<float>>>("float");
+    if (kind == "double") return std::make_unique<Chain<D, Real<double>>>("double");
+    if (kind == "quad") return std::make_unique<Chain<D, Real<Quad>>>("quad");
+  }
+  throw std::invalid_argument("chain \"" + kind +
+                              "\" is unknown; choose fixed, float, double or quad");
+}
+
+}  // namespace feltgate

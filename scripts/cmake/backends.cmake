@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+#
+# feltgate::backends: the twin and the real chains of each design in rtl/designs, by name.
+# rtl.cmake adds the engines of the Verilated core.
+include_guard(GLOBAL)
+
+file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
+# A new design gets its engines once its files are generated: then this list changes.
+file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
+# Presets are in programs of their own: presets.cmake, python.cmake.
+set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${presets}")
+file(STRINGS "${presets}" FELTGATE_PRESETS REGEX "^[a-z]")
+foreach(preset IN LISTS FELTGATE_PRESETS)
+  list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
+endforeach()
+
+# feltgate_for_design(<template> <output>): the template filled for ${design} of C++ type ${type}.
+macro(feltgate_for_design template output)
+  configure_file("${FELTGATE_ROOT}/scripts/cmake/${template}" "${output}" @ONLY)
+endmacro()
+
+# feltgate_type_of(<design> <variable>): its C++ type, the name in UpperCamelCase, as the generator
+# writes it.
+function(feltgate_type_of design variable)
+  string(REGEX REPLACE "[-_]" ";" words "${design}")
+  set(type "")
+  foreach(word IN LISTS words)
+    string(SUBSTRING "${word}" 0 1 first)
+    string(SUBSTRING "${word}" 1 -1 rest)
+    string(TOUPPER "${first}" first)
+    string(APPEND type "${first}${rest}")
+  endforeach()
+  set(${variable} "${type}" PARENT_SCOPE)
+endfunction()
+
+# What a tick leaves as words the next one takes as words: in pairs they would wait for the store.
+set(FELTGATE_BACKEND_OPTIONS ${FELTGATE_WARNINGS} -O3 -fno-tree-slp-vectorize)
+# The registry alone, for what leaves the choice of the designs to the program.
+add_library(feltgate_registry STATIC "${FELTGATE_ROOT}/model/sim/backends/backend.cpp"
+  "${FELTGATE_ROOT}/model/sim/backends/axes_cores.cpp")
+target_compile_options(feltgate_registry PRIVATE ${FELTGATE_WARNINGS})
+target_link_libraries(feltgate_registry PUBLIC feltgate_model PRIVATE fmt::fmt)
+feltgate_export(registry)
+
+add_library(feltgate_backends STATIC "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp")
+set(FELTGATE_DESIGNS "")
+set(registrations "")
+foreach(path IN LISTS designs)
+  get_filename_component(design "${path}" NAME_WE)
+  if(NOT EXISTS "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
+    message(STATUS "design ${design} has no generated files yet: run `feltgate generate`")
+    continue()
+  endif()
+  feltgate_type_of(${design} type)
+  set(FELTGATE_TYPE_${design} ${type})
+  list(APPEND FELTGATE_DESIGNS ${design})
+  feltgate_for_design(design_backends.cpp.in "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
+  # Objects, so that a program may take one design alone.
+  add_library(design_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
+  target_compile_options(design_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+  target_link_libraries(design_${design} PRIVATE feltgate_model fmt::fmt)
+  target_sources(feltgate_backends PRIVATE $<TARGET_OBJECTS:design_${design}>)
+  string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
+endforeach()
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/designs.inc" CONTENT "${registrations}")
+target_link_libraries(feltgate_backends PUBLIC feltgate_registry PRIVATE fmt::fmt)
+# An archive's member is linked where something asks for it: this asks for the registration.
+target_link_options(feltgate_backends INTERFACE "LINKER:--undefined=feltgate_built_in_designs")
+target_include_directories(feltgate_backends PRIVATE "${PROJECT_BINARY_DIR}/backends")
+target_compile_options(feltgate_backends PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+feltgate_export(backends)

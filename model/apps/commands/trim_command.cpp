@@ -111,10 +111,10 @@ std::string verdict(const trim::PartReport& p) {
   return "stays";
 }
 
-/// How many times faster the trimmed model is, with the spread of the runs.
-std::string faster_text(const trim::Report& r) {
-  return fmt::format("{:.3g} times (median of {} runs, {:.3g} to {:.3g})", r.times_faster(),
-                     r.faster.size(), r.faster.front(), r.faster.back());
+/// The speed of the trimmed model in that of the full one, with the spread of the runs.
+std::string speed_text(const trim::Report& r) {
+  return fmt::format("{:.3g} times the full model's (median of {} runs, {:.3g} to {:.3g})",
+                     r.times_faster(), r.faster.size(), r.faster.front(), r.faster.back());
 }
 
 std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments& a) {
@@ -144,8 +144,8 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
   if (r.full_run.states > 0) {
     s << fmt::format("states of the plant {} -> {}; ", r.full_run.states, r.trimmed_run.states);
   }
-  s << fmt::format("CPU per simulated second {:.3g} -> {:.3g} s\nfaster: {}\n", cost(r.full_run),
-                   cost(r.trimmed_run), faster_text(r));
+  s << fmt::format("CPU per simulated second {:.3g} -> {:.3g} s\nspeed: {}\n", cost(r.full_run),
+                   cost(r.trimmed_run), speed_text(r));
   for (const trim::Felt* run : {&r.full_run, &r.trimmed_run}) {
     if (run->fault.empty()) continue;
     s << (run == &r.full_run ? "full model" : "trimmed") << ": a fault opens the gates, "
@@ -216,8 +216,8 @@ std::string comment_of(const trim::Report& r, const Trimmed& t, const TrimArgume
     << "effects off: " << joined(off(t, r.trimmed)) << "\n"
     << (a.duration_s > 0 ? fmt::format("On its first {:g} s. ", a.duration_s) : "")
     << fmt::format(
-           "Within {:.3g} % of the full model on its own motion and on {} others; faster by {}.",
-           100 * worst, r.unseen.size(), faster_text(r));
+           "Within {:.3g} % of the full model on its own motion and on {} others; speed {}.",
+           100 * worst, r.unseen.size(), speed_text(r));
   return s.str();
 }
 

@@ -42,7 +42,8 @@ def simulation(told):
     else:
         faster = sim["faster"]
         off = ", ".join(sim["effects_off"]) or "nothing"
-        step = f"steps of {sim['step_clocks']} clocks; {faster['median']:.3g} times the full model's speed "
+        step = f"steps of {sim['step_clocks']} clocks; {faster['median']:.3g} times the full "
+        step += "model's speed "
         step += f"({faster['least']:.3g} to {faster['most']:.3g} in {faster['runs']} runs)"
         lines.append(f"plant       left out: {off}; {step}")
     return lines

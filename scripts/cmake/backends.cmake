@@ -2,11 +2,11 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # feltgate::backends: the twin and the real chains of each design in rtl/designs, by name.
-# rtl.cmake adds the engines of the Verilated core.
+# rtl.cmake adds the back-ends of the Verilated core.
 include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
-# A new design gets its engines once its files are generated: then this list changes.
+# A new design gets its back-ends once its files are generated: then this list changes.
 file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
 # Presets are in programs of their own: presets.cmake, python.cmake.
 set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # feltgate_rtl: the Verilated core of each design, alone and in lock-step with its twin. A program that
-# links it gets the engines "rtl" and "lockstep" from make_backend().
+# links it gets the back-ends "rtl" and "lockstep" from make_backend().
 include_guard(GLOBAL)
 include(verilate)
 
@@ -12,7 +12,7 @@ list(TRANSFORM FELTGATE_CORE_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
 file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_axes.f" FELTGATE_AXES_SOURCES REGEX "^[^/]")
 list(TRANSFORM FELTGATE_AXES_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
 
-# feltgate_core_of(<design> <top> <sources>): the module that an engine of the design runs, and its
+# feltgate_core_of(<design> <top> <sources>): the module that a back-end of the design runs, and its
 # files: the core, or with an engine of laws one axis and that.
 function(feltgate_core_of design top sources)
   set(of core)

@@ -96,7 +96,7 @@ foreach(design fast lever_law ${FELTGATE_AXES_PRESETS})
     set(template design_axes_twin.cpp.in)
   endif()
   feltgate_for_design(${template} "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
-  # Objects: what registers the engine stays in every program that takes them.
+  # Objects: what registers the back-end stays in every program that takes them.
   add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
   target_compile_options(twin_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(twin_${design} PRIVATE feltgate_registry fmt::fmt)

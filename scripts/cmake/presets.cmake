@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_fast, feltgate_lever_law, ...: the program feltgate with one more preset. An
+# feltgate_fast, feltgate_lever_law, ...: the program feltgate with one more preset. A
 # back-end takes a minute to build, so each is built only when a command asks for it, and no other
 # command builds or loads a preset. docs/designs.md
 include_guard(GLOBAL)

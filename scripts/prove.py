@@ -110,7 +110,7 @@ def prove(options, root, proofs, folder):
     """Runs all tasks; returns the rows of the table."""
     tools = Tools(folder)
     if options.changed:
-        known = record.known(root, proofs, tools.versions(), options.fast)
+        known = record.known(root, proofs, options.fast)
         for proof in known:
             print(f"{proof.key}: its inputs are on record as proven")
         proofs = [proof for proof in proofs if proof not in known]

@@ -5,8 +5,8 @@
   {"schema": "feltgate-proven/1", "tools": {...}, "inputs": {"ramp.steps lever": "16 hex digits"}}
 
 The digits are a hash of everything that decides base, induction and covers: the sources as the
-proof reads them, without comments, its depths and cuts, the programs' versions, and the scripts
-that run them.
+proof reads them, without comments, its depths and cuts, and the scripts that run them. They do not
+depend on the programs: what one version has proven is proven. `tools` are those of the last entries.
 """
 
 import hashlib
@@ -27,11 +27,11 @@ def name(proof, design):
     return f"{proof.key} {design}"
 
 
-def digest(root, proof, design, versions):
+def digest(root, proof, design):
     """16 hex digits of what decides the proof on a design."""
     found = hashlib.sha256()
     fields = (proof.top, proof.depth, proof.cover_depth, proof.defines, proof.cut, proof.abstract)
-    found.update(repr((fields, design, sorted(versions.items()))).encode())
+    found.update(repr((fields, design)).encode())
     for script in (tools, tasks):
         found.update(Path(script.__file__).read_bytes())
     with tempfile.TemporaryDirectory(prefix="feltgate-prove-") as folder:
@@ -59,14 +59,14 @@ def read(root):
         ) from error
 
 
-def known(root, proofs, versions, first_only):
+def known(root, proofs, first_only):
     """The proofs of which all inputs are on record."""
     inputs = read(root)
     return [
         proof
         for proof in proofs
         if all(
-            inputs.get(name(proof, design)) == digest(root, proof, design, versions)
+            inputs.get(name(proof, design)) == digest(root, proof, design)
             for design in tasks.designs(proof, first_only)
         )
     ]
@@ -76,6 +76,6 @@ def write(root, rows, versions):
     """Enters the inputs of these rows, all of them good, beside those that the record has."""
     inputs = read(root)
     for row in rows:
-        inputs[name(row.proof, row.design)] = digest(root, row.proof, row.design, versions)
+        inputs[name(row.proof, row.design)] = digest(root, row.proof, row.design)
     ordered = dict(sorted(inputs.items()))
     outputs.write_json(Path(root, FILE), {"schema": SCHEMA, "tools": versions, "inputs": ordered})

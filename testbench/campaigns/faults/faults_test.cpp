@@ -12,6 +12,7 @@
 #include "campaigns/faults/world.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/causes.hpp"
+#include "mismatch.hpp"
 
 using namespace feltgate::faults;
 
@@ -70,7 +71,8 @@ TEST_CASE("faults: a share of the flips ends safely") {
   campaign.acts = 3;
   std::vector<StateFault> share;
   const auto all = plan(campaign);
-  for (std::size_t n = 5; n < all.size(); n += 23) share.push_back(all[n]);
+  const std::size_t every = feltgate::test::whole_run() ? 23 : 46;
+  for (std::size_t n = 5; n < all.size(); n += every) share.push_back(all[n]);
   const auto bits = state_bits();
   int unsafe = 0, silent = 0, detected = 0;
   const auto mismatches = run(campaign, share, [&](const StateResult& r) {
@@ -79,10 +81,10 @@ TEST_CASE("faults: a share of the flips ends safely") {
     detected += r.outcome.is == Class::detected;
   });
   CHECK(mismatches == 0);
-  CHECK(share.size() > 200);
+  CHECK(share.size() > 5000 / every);
   CHECK(unsafe == 0);
   CHECK(silent <= 3);
-  CHECK(detected > 30);
+  CHECK(detected > 700 / static_cast<int>(every));
 }
 
 TEST_CASE("faults: a bit of count or zero that flips closes the gates") {

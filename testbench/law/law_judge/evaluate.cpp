@@ -48,8 +48,8 @@ bool Evaluator::whole(const Node& n) const {
   }
 }
 
-long Evaluator::decide(const Node& n, long taken, long other, Real distance, Real size,
-                       bool exact) {
+long Evaluator::decide(const Node& n, long taken, long other, Real distance, Real size, bool exact,
+                       bool rounds) {
   auto found = known_.find(n.get());
   if (found == known_.end()) {
     const std::string c = canonical(law_, n);
@@ -60,8 +60,8 @@ long Evaluator::decide(const Node& n, long taken, long other, Real distance, Rea
   const auto forced = forced_->find(key);
   if (forced != forced_->end()) return forced->second;
   if (seen_.insert(key).second) {
-    decisions_.push_back(
-        {key, &found->second.canonical, taken, other, distance, 1e-15L * (1 + size), exact});
+    decisions_.push_back({key, &found->second.canonical, taken, other, distance,
+                          1e-15L * (1 + size), exact, rounds});
   }
   return taken;
 }
@@ -121,7 +121,8 @@ Real Evaluator::element(const Node& n) {
   const auto within = [&](Real i) { return std::clamp(static_cast<long>(i), 0L, last); };
   const long taken = within(std::floor(x)), other = within(x >= near ? near - 1 : near);
   if (taken == other) return values[at(taken)];
-  return values[at(decide(n, taken, other, std::fabs(x - near), std::fabs(x), exact))];
+  const long index_of = decide(n, taken, other, std::fabs(x - near), std::fabs(x), exact, true);
+  return values[at(std::clamp(index_of, 0L, last))];
 }
 
 /// Returns x rounded down, and records this as a decision.
@@ -130,7 +131,7 @@ Real Evaluator::floored(const Node& n, Real x) {
   const Real near = std::nearbyint(x);
   const auto down = static_cast<long>(std::floor(x));
   const auto other = static_cast<long>(x >= near ? near - 1 : near);
-  return static_cast<Real>(decide(n, down, other, std::fabs(x - near), std::fabs(x), exact));
+  return static_cast<Real>(decide(n, down, other, std::fabs(x - near), std::fabs(x), exact, true));
 }
 
 Real Evaluator::table(const Table& t, Real x) {

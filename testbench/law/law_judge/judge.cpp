@@ -276,16 +276,30 @@ class Judge {
   /// Returns whether words and law agree if comparisons within their strips give the other result.
   bool explain(const Outcome& o, const std::map<long, long>& forced, int depth) {
     for (const Decision& d : o.decisions) {
-      const double w = strips_.width(d);
-      if (d.exact || !(d.distance <= w * (1 + 1e-9) + d.rounding)) continue;
-      if (++tries_ > 400) return false;
-      std::map<long, long> more = forced;
-      more[d.key] = d.other;
-      const Outcome other = evaluator_.run(before_, more);
-      if (apart(other, false) <= 1) return true;
-      if (depth < 4 && explain(other, more, depth + 1)) return true;
+      for (const long result : other_results(d)) {
+        if (++tries_ > 400) return false;
+        std::map<long, long> more = forced;
+        more[d.key] = result;
+        const Outcome other = evaluator_.run(before_, more);
+        if (apart(other, false) <= 1) return true;
+        if (depth < 4 && explain(other, more, depth + 1)) return true;
+      }
     }
     return false;
+  }
+
+  /// The other results of a decision that its declared strip allows, the nearest first: at most 8
+  /// to each side of a number rounded down.
+  std::vector<long> other_results(const Decision& d) const {
+    const Real width = strips_.width(d) * (1 + 1e-9) + d.rounding;
+    std::vector<long> found;
+    if (d.exact) return found;
+    const long way = d.other - d.taken;
+    for (int k = 0; k < (d.rounds ? 8 : 1); ++k) {
+      if (d.distance + k <= width) found.push_back(d.other + k * way);
+      if (d.rounds && 1 - d.distance + k <= width) found.push_back(d.taken - (k + 1) * way);
+    }
+    return found;
   }
 
   /// Returns the largest distance between words and law after a run, divided by its bound; more

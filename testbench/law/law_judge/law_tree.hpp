@@ -206,11 +206,12 @@ std::string canonical(const Law& law, const Node& n);
 struct Decision {
   long key = 0;
   const std::string* canonical = nullptr;
-  long taken = 0;      ///< 0 or 1; for an element its index
-  long other = 0;      ///< the nearest other result
-  Real distance = 0;   ///< distance of the operands from the turning point
-  Real rounding = 0;   ///< distance within which rounding of doubles may separate equal operands
-  bool exact = false;  ///< both sides are whole by definition: no rounding
+  long taken = 0;       ///< 0 or 1; for an element its index
+  long other = 0;       ///< the nearest other result
+  Real distance = 0;    ///< distance of the operands from the turning point
+  Real rounding = 0;    ///< distance within which rounding of doubles may separate equal operands
+  bool exact = false;   ///< both sides are whole by definition: no rounding
+  bool rounds = false;  ///< not 0 or 1: a number rounded down, whose results follow in steps of 1
 };
 
 struct Outcome {
@@ -245,7 +246,8 @@ class Evaluator {
   Real floored(const Node& n, Real x);
   Real table(const Table& t, Real x);
   Real filtered(const State& s, Real y);
-  long decide(const Node& n, long taken, long other, Real distance, Real size, bool exact);
+  long decide(const Node& n, long taken, long other, Real distance, Real size, bool exact,
+              bool rounds = false);
   bool whole(const Node& n) const;
 
   const Law& law_;

@@ -20,7 +20,7 @@ constexpr double kStep_nm = 0.2, kFull_nm = 0.5;
 constexpr double kFast_hz = 5000;
 /// From the bridge to a short; the resistance is what p24 has beside the winding's own.
 constexpr double kShort_ohm = 0.12, kShort_h = 1e-6;
-constexpr int kShortPhases = 50;
+constexpr int kShortPhases = 200;
 /// None of them is the PWM's frequency over a whole number, where quantisation would repeat.
 constexpr double kSines_hz[] = {97,   490,  980,  1470, 1970, 2370, 2770, 3170, 3570,
                                 3970, 4470, 4930, 5530, 6230, 7030, 7930, 9930, 12370};
@@ -194,11 +194,13 @@ void ripple(const Study& s, CurrentReport& report) {
 void shorts(const Study& s, CurrentReport& report) {
   const double reference_a = s.current_a(kFull_nm);
   double off_us = 0, beyond_us = 0, largest_a = 0;
+  CurrentLoop before(s.bench, s.as_is);
+  before.run(before.clocks(2.5e-3), reference_a);
   for (int phase = 0; phase < kShortPhases; ++phase) {
-    CurrentLoop loop(s.bench, s.as_is);
-    loop.run(loop.clocks(2.5e-3) + phase * loop.period() / kShortPhases, reference_a);
+    CurrentLoop loop = before;
+    before.run(before.period() / kShortPhases, reference_a);
     loop.short_motor(kShort_ohm, kShort_h);
-    double from_us = -1, us = 0, peak_a = 0;
+    double from_us = 0, us = 0, peak_a = 0;
     std::vector<double> trace_a;
     const Clock tail = loop.clocks(1e-6);  // a dead time also has no gate on
     for (Clock c = 0, off = 0; off < tail; ++c) {
@@ -210,7 +212,8 @@ void shorts(const Study& s, CurrentReport& report) {
       const double now_a = std::abs(loop.seen().motor_current_a);
       if (c % loop.clocks(1e-7) == 0) trace_a.push_back(now_a);
       peak_a = std::max(peak_a, now_a);
-      if (now_a >= overcurrent_a && from_us < 0) from_us = now_us;
+      // A current that falls below the threshold again, after the pulse, begins anew.
+      if (now_a < overcurrent_a && off == 0) from_us = now_us;
     }
     off_us = std::max(off_us, us);
     beyond_us = std::max(beyond_us, us - from_us);
@@ -230,8 +233,8 @@ void shorts(const Study& s, CurrentReport& report) {
        fmt::format("short at 0.5 Nm: {:g} A to all gates off, µs", overcurrent_a), beyond_us,
        most_us, true, "current_sense, and a clock", "", 2});
   report.figures.push_back({"short_off_us", "the short to all gates off, µs", off_us,
-                            low_us + rise_us + most_us, true,
-                            "to the next pulse, the rise, and that", "", 2});
+                            low_us + 2 * rise_us + most_us, true,
+                            "a rise, to the next pulse, a rise, and that", "", 2});
   report.figures.push_back({"short_peak_a", "greatest current, A", largest_a,
                             final_a + (overcurrent_a - final_a) * std::exp(-1e-6 * most_us / tau_s),
                             true, "the wiring's exponential until then", "", 1});

@@ -141,9 +141,11 @@ CurrentStep current_step(const Bench& bench, const CurrentSetting& setting, doub
                          double to_nm) {
   const double kt = bench.plant.motor.torque_constant_nm_a;
   CurrentStep step;
+  CurrentLoop before(bench, setting);
+  before.run(before.clocks(2.5e-3), from_nm / kt);
   for (int phase = 0; phase < kStepPhases; ++phase) {
-    CurrentLoop loop(bench, setting);
-    loop.run(loop.clocks(2.5e-3) + phase * loop.period() / kStepPhases, from_nm / kt);
+    CurrentLoop loop = before;
+    before.run(before.period() / kStepPhases, from_nm / kt);
     StepSamples samples(from_nm);
     const Clock end = loop.clocks(2e-3), us = loop.clocks(1e-6);
     for (Clock c = 0; c < end; ++c) {

@@ -210,7 +210,7 @@ TEST_CASE("current loop: a short ends within the over-current's bound", "[curren
   check_bound("short_beyond_us", 2.0, bound_us);
   const double low_us = (1 - (0.5 / kKt * kR + 0.34) / kV) / 50e3 * 1e6;
   const double rise_us = -1e6 * tau_s * std::log(1 - 24 / (kV / 0.12));
-  check_bound("short_off_us", low_us, low_us + rise_us + bound_us);
+  check_bound("short_off_us", low_us, low_us + 2 * rise_us + bound_us);
   check_bound("short_peak_a", 40, 200 - (200 - 24) * std::exp(-1e-6 * bound_us / tau_s));
   // Without a short the gates stay on, also in the largest step.
   CurrentLoop loop(bench(), setting());

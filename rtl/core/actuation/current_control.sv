@@ -68,13 +68,14 @@ module current_control (
   // leaves it; unlimited this is the proportional part.
   logic signed [35:0] integrator_q;
   logic signed [19:0] base_q;
-  logic signed [24:0] wanted_q, most;
+  logic signed [24:0] wanted_q;
+  logic signed [17:0] most;
   logic               above, below;
   assign error = 20'(reference_i) - 20'(current_i);
   assign rest  = 20'(voltage_o) - base_q;
-  assign most  = $signed({8'd0, limit_i});
-  assign above = wanted_q > most;
-  assign below = wanted_q < -most;
+  assign most  = $signed({1'b0, limit_i});
+  assign above = wanted_q > 25'(most);
+  assign below = wanted_q < -(25'(most));
   always_ff @(posedge clk_i) begin
     if (take) base_q <= 20'(integrator_q >>> IntegratorF) + 20'(emf_i);
     if (step_q == Sum) wanted_q <= 25'(product >>> GainDrop) + 25'(base_q);
@@ -94,7 +95,7 @@ module current_control (
     end else begin
       valid_o <= step_q == Limit;
       if (step_q == Limit) begin
-        voltage_o   <= 18'(above ? most : below ? -most : wanted_q);
+        voltage_o   <= above ? most : below ? -most : 18'(wanted_q);
         saturated_o <= above || below;
       end
       if (step_q == Add) integrator_q <= integrator_q + 36'(product);

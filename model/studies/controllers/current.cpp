@@ -61,7 +61,7 @@ void steps(const Study& s, CurrentReport& report) {
   const std::string lag = "ln 50/(2πf), a lag", asked = "at most 0.35";
   const auto add = [&](const char* key, const std::string& what, const CurrentSetting& setting,
                        double from_nm, double to_nm) {
-    const CurrentStep step = current_step(s.bench, setting, from_nm, to_nm);
+    CurrentStep step = current_step(s.bench, setting, from_nm, to_nm);
     report.figures.push_back(
         {key, what + ": to 2 %, ms", step.settling_ms, lag_ms, false, lag, asked, 3});
     return step;
@@ -98,6 +98,7 @@ std::vector<CurrentSine> bandwidth(const Study& s, const CurrentSetting& setting
                                    CurrentReport& report) {
   std::vector<CurrentSine> sines;
   for (const double hz : kSines_hz) sines.push_back(current_sine(s.bench, setting, hz));
+  const std::string quoted = "TI, PWM of 10 kHz: about 5 (quoted)";
   const std::string gains = fmt::format("{:g} kHz", 1e-3 * setting.bandwidth_hz);
   const auto add = [&](const char* key, const char* what, double CurrentSine::*measured,
                        double CurrentSine::*form, double level) {
@@ -105,7 +106,7 @@ std::vector<CurrentSine> bandwidth(const Study& s, const CurrentSetting& setting
                               fmt::format("gains for {}: {}, kHz", gains, what),
                               1e-3 * falls_below(sines, measured, level),
                               1e-3 * falls_below(sines, form, level), false,
-                              "averaged winding, sampled", "", 2});
+                              "averaged winding, sampled", quoted, 2});
   };
   add("minus_3_db", "-3 dB", &CurrentSine::gain_db, &CurrentSine::form_gain_db,
       10 * std::log10(0.5));
@@ -204,7 +205,8 @@ void shorts(const Study& s, CurrentReport& report) {
     std::vector<double> trace_a;
     const Clock tail = loop.clocks(1e-6);  // a dead time also has no gate on
     for (Clock c = 0, off = 0; off < tail; ++c) {
-      if (c > 10 * loop.period()) throw std::runtime_error("current loop: the short goes on");
+      if (c > Clock{10} * loop.period())
+        throw std::runtime_error("current loop: the short goes on");
       loop.clock(reference_a);
       const double now_us = 1e6 * static_cast<double>(c + 1) / loop.clock_hz();
       off = loop.gates_on() ? 0 : off + 1;
@@ -263,7 +265,8 @@ CurrentReport measure_current(const Bench& bench, const std::function<void(doubl
 }
 
 std::string current_text(const CurrentReport& report) {
-  std::string s = "| | measured | closed form | which is | asked |\n|---|---|---|---|---|\n";
+  std::string s =
+      "| | measured | closed form | which is | asked or quoted |\n|---|---|---|---|---|\n";
   for (const CurrentFigure& f : report.figures) {
     s += fmt::format("| {} | {:.{}f} | {}{:.{}f} | {} | {} |\n", f.what, f.measured, f.decimals,
                      f.bound ? "at most " : "", f.form, f.decimals, f.formula, f.asked);

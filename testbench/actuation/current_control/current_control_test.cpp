@@ -2,14 +2,18 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // current_control: RTL against twin and against the textbook's PI with tracking in every clock; the
-// integrator against the winding's equation; arming; gains. docs/blocks/current_control.md
+// integrator against the winding's equation; arming; gains; steps around the averaged winding of
+// `lever`, beside other ways against wind-up. Documentation: docs/blocks/current_control.md
 #include <Vcurrent_control.h>
+#include <fmt/format.h>
 
 #include <cmath>
 
 #include "catch.hpp"
 #include "feltgate/current_control.hpp"
+#include "feltgate/largest.hpp"
 #include "lock_step.hpp"
+#include "page_figures.hpp"
 #include "ports.hpp"
 
 using namespace feltgate;
@@ -168,6 +172,79 @@ std::int32_t result(CurrentControl& twin, CurrentControl::In in) {
   return twin.out().voltage;
 }
 
+constexpr double kOhm = 0.42, kHenry = 82e-6, kSupplyV = 24, kFullScaleA = 32, kPeriodS = 20e-6;
+constexpr double kHz = 2000, kLimitV = 0.95 * kSupplyV;
+
+/// The block, in volts and amperes.
+class Block {
+ public:
+  explicit Block(double bandwidth_hz) {
+    const CurrentGains gains =
+        current_gains(kOhm, kHenry, bandwidth_hz, kPeriodS, kFullScaleA, kSupplyV);
+    in_.armed = true;
+    in_.proportional = gains.proportional;
+    in_.integral = gains.integral;
+    in_.limit = word(kLimitV / kSupplyV);
+  }
+  double operator()(double reference_a, double current_a, double emf_v) {
+    in_.reference = word(reference_a / kFullScaleA);
+    in_.current = word(current_a / kFullScaleA);
+    in_.emf = word(emf_v / kSupplyV);
+    return kSupplyV * std::ldexp(result(twin_, in_), -17);
+  }
+
+ private:
+  static std::int32_t word(double part) {
+    return static_cast<std::int32_t>(std::lround(std::ldexp(part, 17)));
+  }
+  CurrentControl twin_;
+  CurrentControl::In in_;
+};
+
+/// The same gains in double, with other ways against wind-up.
+struct Other {
+  enum Way { none, frozen, back_calculated } way;
+  double bandwidth_hz, integral = 0;
+  double operator()(double reference_a, double current_a, double emf_v) {
+    const double part = -std::expm1(-kOhm * kPeriodS / kHenry);
+    const double proportional =
+        2 * M_PI * bandwidth_hz * kPeriodS * kOhm / part * (reference_a - current_a);
+    const double wanted = proportional + integral + emf_v;
+    const double applied = std::fmax(-kLimitV, std::fmin(kLimitV, wanted));
+    if (way == none || applied == wanted) {
+      integral += part * proportional;
+    } else if (way == back_calculated) {
+      integral = applied - emf_v - proportional;
+    }
+    return applied;
+  }
+};
+
+struct Step {
+  double settled_ms = 0, overshoot = 0;  // 2 %, part of the step
+};
+
+/// A current is sampled in the middle of each period; its voltage acts from the next one's start.
+template <class Control>
+Step step(Control control, double amperes, double emf_v, double ohm = kOhm, double henry = kHenry) {
+  constexpr int kSteps = 200;  // in half a period
+  const double part = -std::expm1(-ohm / henry * kPeriodS / 2 / kSteps);
+  Step found;
+  double current = 0, applied = emf_v;
+  for (int period = 0; period < 100; ++period) {
+    const double next = control(amperes, current, emf_v);
+    for (int k = 0; k < 2 * kSteps; ++k) {
+      if (k == kSteps) applied = next;
+      current += part * ((applied - emf_v) / ohm - current);
+      const double now_ms = 1e3 * kPeriodS * (period + (k + 1.0) / (2 * kSteps));
+      if (std::fabs(current - amperes) > 0.02 * amperes) found.settled_ms = now_ms;
+      found.overshoot = larger(found.overshoot, current / amperes - 1);
+    }
+  }
+  CHECK(std::fabs(current - amperes) < 0.001);
+  return found;
+}
+
 }  // namespace
 
 TEST_CASE("current_control: all inputs, limits, arming and resets") {
@@ -225,7 +302,7 @@ TEST_CASE("current_control: the integrator is the voltage at the winding's resis
 }
 
 TEST_CASE("current_control: arming a moving motor and other gains make no jump") {
-  const CurrentGains gains = current_gains(0.42, 82e-6, 2000, 20e-6, 32, 24);
+  const CurrentGains gains = current_gains(kOhm, kHenry, kHz, kPeriodS, kFullScaleA, kSupplyV);
   CurrentControl twin;
   CurrentControl::In in;
   in.armed = true;
@@ -268,4 +345,54 @@ TEST_CASE("current_control: gains are those of the winding") {
   CHECK_FALSE(current_gains(0.42, 82e-6, 50'000, 20e-6, 32, 24).in_range);
   CHECK_FALSE(current_gains(1e-6, 82e-3, 2, 20e-6, 32, 24).in_range);
   CHECK_FALSE(current_gains(42, 1e-6, 2000, 20e-6, 32, 24).in_range);
+}
+
+TEST_CASE("current_control: steps of the averaged winding") {
+  std::string figures =
+      "| winding | 2 % after a step of 1 A, ms | of 16.6 A | overshoot |\n|---|---|---|---|\n";
+  const struct {
+    const char* name;
+    double ohm, henry;
+  } windings[] = {
+      {"as the gains have it", 1, 1}, {"R -20 %", 0.8, 1}, {"R +20 %", 1.2, 1},
+      {"L -33 %", 1, 0.67},           {"L +50 %", 1, 1.5}, {"R -20 %, L +50 %", 0.8, 1.5}};
+  for (const auto& [name, ohm, henry] : windings) {
+    const Step small = step(Block(kHz), 1, 0, ohm * kOhm, henry * kHenry);
+    const Step large = step(Block(kHz), 16.6, 0, ohm * kOhm, henry * kHenry);
+    CHECK(large.overshoot < 0.1);
+    CHECK(small.settled_ms < 0.75);
+    if (ohm == 1 && henry == 1) {
+      CHECK(small.settled_ms <= 0.35);
+      CHECK(large.settled_ms <= 0.35);
+      CHECK(large.overshoot < 0.001);
+    }
+    figures += fmt::format("| {} | {:.3f} | {:.3f} | {:.1f} % |\n", name, small.settled_ms,
+                           large.settled_ms, 100 * large.overshoot);
+  }
+  figures +=
+      "\n| limited, 2 % and overshoot | 30 A at rest | 16.6 A at 12 V of back-EMF | the same, 5 "
+      "kHz "
+      "|\n|---|---|---|---|\n";
+  const auto row = [&figures](const char* name, const auto& control) {
+    const Step cases[] = {step(control(kHz), 30, 0), step(control(kHz), 16.6, 12),
+                          step(control(5000), 16.6, 12)};
+    figures += fmt::format("| {} ", name);
+    for (const Step& one : cases) {
+      figures += fmt::format("| {:.3f} ms, {:.1f} % ", one.settled_ms, 100 * one.overshoot);
+    }
+    figures += "|\n";
+    return cases[0].settled_ms;
+  };
+  const double here = row("this block", [](double hz) { return Block(hz); });
+  for (const auto& [name, way] :
+       {std::pair("integrator frozen while limited", Other::frozen),
+        std::pair("integrator set to what the limit leaves", Other::back_calculated),
+        std::pair("nothing", Other::none)}) {
+    CHECK(here < 0.7 * row(
+                           name,
+                           [way = way](double hz) {
+                             return Other{way, hz};
+                           }));
+  }
+  check_page_figures("current_control", figures);
 }

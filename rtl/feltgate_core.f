@@ -37,4 +37,5 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/current_control.sv
 core/actuation/current_sense.sv

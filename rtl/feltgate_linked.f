@@ -37,6 +37,7 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/current_control.sv
 core/actuation/current_sense.sv
 generated/feltgate_engine_pkg.sv
 engine/engine_alu.sv

@@ -43,6 +43,12 @@ void Plant::set_step(Clock clocks) {
   if (on_.lugre) lugre_.set_step(dt_s_);
 }
 
+void Plant::short_motor(double wiring_ohm, double wiring_h) {
+  winding_ = Winding(wiring_ohm, wiring_h);
+  on_.back_emf = on_.dead_voltage = false;
+  step_clocks_ = -1;
+}
+
 // Advances the current by one step; returns its mean over the step.
 double Plant::advance_current(const Bridge& bridge, double omega_rad_s) {
   if (on_.dead_time && bridge.mode == Bridge::Mode::kAveraged) ++evaluations_.dead_time;

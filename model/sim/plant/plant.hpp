@@ -72,6 +72,10 @@ class Plant {
   /// call. Call it after the first step of the phase; other hands ignore it.
   void steer(double theta_rad, double rad_s) { hand_.steer({theta_rad, rad_s}, now_); }
 
+  /// Shorts the motor's terminals: from now on the bridge drives the wiring to the short alone. The
+  /// motor's current is that of the wiring, and its torque means nothing any more.
+  void short_motor(double wiring_ohm, double wiring_h);
+
   /// Time since the start, in clocks; all times in seconds are computed from it.
   Clock now() const { return now_; }
   /// Pin changes during the last step; valid until the next advance().

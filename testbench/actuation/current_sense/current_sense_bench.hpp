@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// current_sense: adapter, a second-order modulator, random streams, and the block once more from a
+// current_sense: adapter, random streams, and the block once more from a
 // list of all bits, by a convolution of three boxes. Documentation: docs/blocks/current_sense.md
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "feltgate/current_sense.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
+#include "sim/plant/sigma_delta.hpp"
 
 #ifndef FELTGATE_SENSE
 #define FELTGATE_SENSE 4, 6, 3, 3, 256, 8, 4096
@@ -38,22 +39,18 @@ struct Adapter {
 
 using Bench = LockStep<Vcurrent_sense, CurrentSense, Adapter>;
 
-/// Second-order modulator with one bit: y = x two clocks ago + the second difference of its error.
+/// The plant's modulator, with its quantiser's error.
 struct Modulator {
-  double first = 0, second = 0, largest_error = 0, squares = 0;
+  plant::SigmaDelta modulator{};
+  double largest_error = 0, squares = 0;
   std::int64_t bits = 0;
   double rms_error() const { return std::sqrt(squares / static_cast<double>(bits)); }
   bool next(double x) {
-    const bool bit = second >= 0;
-    const double y = bit ? 1 : -1;
-    largest_error = std::fmax(largest_error, std::fabs(y - second));
-    squares += (y - second) * (y - second);
+    const bool bit = modulator.next(x);
+    const double error = modulator.error();
+    largest_error = std::fmax(largest_error, std::fabs(error));
+    squares += error * error;
     ++bits;
-    second += first - 2 * y;
-    first += x - y;
-    // Beyond its range its states are held, as by the amplifiers' supplies.
-    first = std::fmax(-10, std::fmin(10, first));
-    second = std::fmax(-20, std::fmin(20, second));
     return bit;
   }
 };

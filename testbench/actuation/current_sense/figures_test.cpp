@@ -5,14 +5,12 @@
 // of a PWM leaves. Documentation: docs/blocks/current_sense.md
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "catch.hpp"
 #include "current_sense_bench.hpp"
 #include "feltgate/largest.hpp"
+#include "page_figures.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -125,30 +123,6 @@ Bias ripple(int strobe) {
   return found;
 }
 
-constexpr const char* kBegin = "<!-- figures: written by the test current_sense -->\n";
-constexpr const char* kEnd = "<!-- end of figures -->\n";
-
-/// The page's table is `figures`, or is written anew.
-void check_page(const std::string& figures) {
-  const std::string path = FELTGATE_SOURCE_DIR "/docs/blocks/current_sense.md";
-  std::ifstream in(path);
-  std::stringstream read;
-  read << in.rdbuf();
-  std::string page = read.str();
-  const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
-  REQUIRE(begin != std::string::npos);
-  REQUIRE(end != std::string::npos);
-  const std::size_t from = begin + std::string(kBegin).size();
-  const bool fresh = page.substr(from, end - from) == figures;
-  if (!fresh && std::getenv("FELTGATE_WRITE_FIGURES") != nullptr) {
-    page.replace(from, end - from, figures);
-    std::ofstream(path) << page;
-  } else {
-    INFO("stale; FELTGATE_WRITE_FIGURES=1 writes it. It is:\n" << figures);
-    CHECK(fresh);
-  }
-}
-
 }  // namespace
 
 TEST_CASE("current_sense: noise is that of the closed form, ripple is not aliased", "[figures]") {
@@ -210,5 +184,5 @@ TEST_CASE("current_sense: noise is that of the closed form, ripple is not aliase
   for (const auto& [name, bias] : rows) {
     figures += fmt::format("| {} | {:.1f} | {:.0f} |\n", name, 1e3 * bias.mean, 1e3 * bias.worst);
   }
-  check_page(figures);
+  check_page_figures("current_sense", figures);
 }

@@ -7,14 +7,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "catch.hpp"
 #include "feltgate/velocity_n.hpp"
 #include "feltgate/words.hpp"
+#include "page_figures.hpp"
 #include "velocity_mt_bench.hpp"
 
 using namespace feltgate;
@@ -143,9 +141,6 @@ std::string table(const std::array<std::array<Errors, 3>, 3>& of,
   return text;
 }
 
-constexpr const char* kBegin = "<!-- figures: written by the test velocity_mt -->\n";
-constexpr const char* kEnd = "<!-- end of figures -->\n";
-
 }  // namespace
 
 TEST_CASE("velocity_mt: rms error and age beside the N-method, and the page says so", "[figures]") {
@@ -173,22 +168,5 @@ TEST_CASE("velocity_mt: rms error and age beside the N-method, and the page says
     CHECK(cycle_ms[k] == Approx(1e3 * expected_age_s(speed, 0)).epsilon(0.02));
     CHECK(window_ms[k] == Approx(1e3 * expected_age_s(speed, 386e-6)).epsilon(0.02));
   }
-  const std::string figures = table(of, cycle_ms, window_ms);
-  const std::string path = FELTGATE_SOURCE_DIR "/docs/blocks/velocity_mt.md";
-  std::ifstream in(path);
-  std::stringstream read;
-  read << in.rdbuf();
-  std::string page = read.str();
-  const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
-  REQUIRE(begin != std::string::npos);
-  REQUIRE(end != std::string::npos);
-  const std::size_t from = begin + std::string(kBegin).size();
-  const bool fresh = page.substr(from, end - from) == figures;
-  if (!fresh && std::getenv("FELTGATE_WRITE_FIGURES") != nullptr) {
-    page.replace(from, end - from, figures);
-    std::ofstream(path) << page;
-  } else {
-    INFO("stale; FELTGATE_WRITE_FIGURES=1 writes it. It is:\n" << figures);
-    CHECK(fresh);
-  }
+  check_page_figures("velocity_mt", table(of, cycle_ms, window_ms));
 }

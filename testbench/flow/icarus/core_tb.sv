@@ -79,8 +79,9 @@ module core_tb;
       .word_data_o(word_data)
   );
 
-  // Beside the core, for its drawing alone: the block that the core does not have, with any bits.
-  wire sense_clock;
+  // Beside the core, for their drawings alone: the blocks that the core does not have, with any bits.
+  wire sense_clock, sense_valid;
+  wire signed [18:0] sense_current;
   reg [6:0] sense_bits = 7'd1;
   current_sense u_current_sense (
       .clk_i(clk),
@@ -91,13 +92,28 @@ module core_tb;
       .armed_i(armed),
       .clear_i(1'b0),
       .threshold_i(8'd200),
-      .current_o(),
-      .valid_o(),
+      .current_o(sense_current),
+      .valid_o(sense_valid),
       .aligned_o(),
       .overcurrent_o(),
       .calibrated_o(),
       .offset_fault_o(),
       .stuck_o(),
+      .saturated_o()
+  );
+  current_control u_current_control (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .armed_i(1'b1),
+      .valid_i(sense_valid),
+      .reference_i({1'b0, sense_bits, 11'd0}),
+      .current_i(sense_current),
+      .emf_i(18'sd1000),
+      .proportional_i(17'd11842),
+      .integral_i(17'd12762),
+      .limit_i(17'd124518),
+      .voltage_o(),
+      .valid_o(),
       .saturated_o()
   );
   always @(posedge sense_clock) sense_bits <= {sense_bits[5:0], sense_bits[6] ^ sense_bits[5]};
@@ -134,7 +150,7 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
-      if (clocks == first) $dumpvars(0, dut, u_current_sense);
+      if (clocks == first) $dumpvars(0, dut, u_current_sense, u_current_control);
       if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;

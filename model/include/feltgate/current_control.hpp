@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/core/actuation/current_control.sv: the PI law of the motor current, whose integrator
+// follows the applied voltage as the winding's resistance does; and its gains from a winding.
+// Documentation: docs/blocks/current_control.md
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace feltgate {
+
+/// Words of the two gains.
+struct CurrentGains {
+  std::int32_t proportional = 0;  ///< [0,4,13], parts of the supply per part of full-scale current
+  std::int32_t integral = 0;  ///< [0,0,17], part of the way that the integrator goes in a sample
+  bool in_range = false;      ///< both words hold what was asked, neither is 0
+};
+
+/// The gains that cancel the winding's pole, so that the open loop is 2 pi bandwidth / s. All
+/// arguments are above 0. `sample_s`: from result to result. `full_scale_a`: current of 1.0.
+inline CurrentGains current_gains(double resistance_ohm, double inductance_h, double bandwidth_hz,
+                                  double sample_s, double full_scale_a, double supply_v) {
+  constexpr double pi = 3.14159265358979323846;
+  const double part = -std::expm1(-resistance_ohm * sample_s / inductance_h);
+  const double ohm = 2 * pi * bandwidth_hz * sample_s * resistance_ohm / part;
+  const double proportional = std::round(std::ldexp(ohm * full_scale_a / supply_v, 13));
+  const double integral = std::round(std::ldexp(part, 17));
+  constexpr double most = (1 << 17) - 1;
+  return {static_cast<std::int32_t>(std::min(proportional, most)),
+          static_cast<std::int32_t>(std::min(integral, most)),
+          proportional >= 1 && proportional <= most && integral >= 1 && integral <= most};
+}
+
+/// Bit-exact and clock-exact with the RTL.
+class CurrentControl {
+ public:
+  static constexpr std::int64_t kFullScale = 1 << 17;  ///< LSB of full-scale current
+  static constexpr std::int64_t kSupply = 1 << 17;     ///< LSB of the supply's voltage
+  static constexpr int kLatencyClocks = 20;            ///< from valid to out().valid
+  static constexpr int kBusyClocks = 39;  ///< fewest from a taken valid to the next one
+  struct In {
+    bool armed = false;             ///< false: voltage and integrator are 0
+    bool valid = false;             ///< one clock: current is new, take all but the last two
+    std::int32_t reference = 0;     ///< [1,1,17] of full scale
+    std::int32_t current = 0;       ///< [1,1,17] of full scale, as CurrentSense has it
+    std::int32_t emf = 0;           ///< [1,0,17] of the supply: back-EMF, fed forward
+    std::int32_t proportional = 0;  ///< [0,4,13]
+    std::int32_t integral = 0;      ///< [0,0,17], taken with the result
+    std::int32_t limit = 0;         ///< [0,0,17] of the supply: greatest |voltage|, taken before it
+  };
+  struct Out {
+    std::int32_t voltage = 0;  ///< [1,0,17] of the supply: the duty; held between results
+    bool valid = false;        ///< one clock: voltage is new
+    bool saturated = false;    ///< the last result was limited
+  };
+
+  void reset() { *this = CurrentControl(); }
+
+  void clock(const In& in) {
+    if (!in.armed) {
+      reset();
+      return;
+    }
+    out_.valid = step_ == kLatencyClocks - 1;
+    if (step_ == 0 && !in.valid) return;
+    switch (step_) {
+      case 0:
+        base_ = (integrator_ >> 17) + in.emf;
+        wanted_ = base_ +
+                  ((std::int64_t{in.proportional} * (in.reference - in.current) + (1 << 12)) >> 13);
+        break;
+      case kLatencyClocks - 1: {
+        const std::int64_t limit = in.limit;
+        const std::int64_t voltage = std::clamp(wanted_, -limit, limit);
+        out_.voltage = static_cast<std::int32_t>(voltage);
+        out_.saturated = voltage != wanted_;
+        break;
+      }
+      case kLatencyClocks:
+        added_ = (out_.voltage - base_) * in.integral;
+        break;
+      case kBusyClocks - 1:
+        integrator_ += added_;
+        break;
+      default:
+        break;
+    }
+    step_ = step_ == kBusyClocks - 1 ? 0 : step_ + 1;
+  }
+
+  const Out& out() const { return out_; }
+  /// [1,1,34] of the supply: what the winding's resistance takes.
+  std::int64_t integrator() const { return integrator_; }
+
+ private:
+  Out out_;
+  int step_ = 0;                             // clocks since a current was taken, 0: none
+  std::int64_t base_ = 0, wanted_ = 0;       // LSB of the voltage
+  std::int64_t added_ = 0, integrator_ = 0;  // LSB of the integrator
+};
+
+}  // namespace feltgate

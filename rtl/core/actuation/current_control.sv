@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// PI control of a motor current, a voltage for each result of current_sense. The integrator follows the applied
+// voltage less the back-EMF, as the voltage at the winding's resistance does: limited, it does not wind up. One
+// serial multiplier. Latency: valid_i to valid_o 20 clocks; a valid_i within 38 clocks of a taken one is ignored.
+// Formats: current [1,1,17] of full scale, voltage [1,0,17] of the supply, gains [0,4,13] and [0,0,17].
+// docs/blocks/current_control.md
+
+`default_nettype none
+
+module current_control (
+    input  logic               clk_i,
+    input  logic               rst_ni,
+    input  logic               armed_i,         // 0: voltage and integrator are 0
+    input  logic               valid_i,         // one clock: current_i is new
+    input  logic signed [18:0] reference_i,
+    input  logic signed [18:0] current_i,
+    input  logic signed [17:0] emf_i,           // voltage of the back-EMF
+    input  logic        [16:0] proportional_i,
+    input  logic        [16:0] integral_i,      // part of its way that the integrator goes
+    input  logic        [16:0] limit_i,         // greatest |voltage|
+    output logic signed [17:0] voltage_o,
+    output logic               valid_o,         // one clock: voltage_o is new
+    output logic               saturated_o      // and was limited
+);
+  // A current is taken in clock 0. Both multiplications are 17 clocks, one bit of the gain in each.
+  localparam logic [5:0] Sum = 6'd18;    // the first is there
+  localparam logic [5:0] Limit = 6'd19;
+  localparam logic [5:0] Reload = 6'd20;
+  localparam logic [5:0] Add = 6'd38;    // the second is there
+  localparam int GainDrop = 13;          // fraction bits of the first product below the voltage's
+  localparam int IntegratorF = 17;       // fraction bits of the integrator below the voltage's
+
+  logic [5:0] step_q;
+  logic       take;
+  assign take = step_q == 6'd0 && valid_i && armed_i;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) step_q <= 6'd0;
+    else if (!armed_i || step_q == Add) step_q <= 6'd0;
+    else if (take || step_q != 6'd0) step_q <= step_q + 6'd1;
+  end
+
+  // The multiplier: {high_q, gain_q} moves down by a bit in each clock; the bits of the gain leave, those of the
+  // product come. The first product begins with half of its last bit that is kept, so it is rounded to the nearest.
+  logic signed [19:0] error, rest, factor_q, high_q;
+  logic signed [20:0] sum;
+  logic        [16:0] gain_q;
+  logic signed [36:0] product;
+  assign sum     = 21'(high_q) + (gain_q[0] ? 21'(factor_q) : '0);
+  assign product = {high_q, gain_q};
+  always_ff @(posedge clk_i) begin
+    if (take) begin
+      factor_q <= error;
+      gain_q   <= proportional_i;
+      high_q   <= 20'sd1 <<< (GainDrop - 1);
+    end else if (step_q == Reload) begin
+      factor_q <= rest;
+      gain_q   <= integral_i;
+      high_q   <= '0;
+    end else begin
+      high_q <= sum[20:1];
+      gain_q <= {sum[0], gain_q[16:1]};
+    end
+  end
+
+  // base: what the voltage is without an error. rest: what is left of the applied voltage without it, as the limit
+  // leaves it; unlimited this is the proportional part.
+  logic signed [35:0] integrator_q;
+  logic signed [19:0] base_q;
+  logic signed [24:0] wanted_q;
+  logic signed [17:0] most;
+  logic               above, below;
+  assign error = 20'(reference_i) - 20'(current_i);
+  assign rest  = 20'(voltage_o) - base_q;
+  assign most  = $signed({1'b0, limit_i});
+  assign above = wanted_q > 25'(most);
+  assign below = wanted_q < -(25'(most));
+  always_ff @(posedge clk_i) begin
+    if (take) base_q <= 20'(integrator_q >>> IntegratorF) + 20'(emf_i);
+    if (step_q == Sum) wanted_q <= 25'(product >>> GainDrop) + 25'(base_q);
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      integrator_q <= '0;
+      voltage_o    <= '0;
+      valid_o      <= 1'b0;
+      saturated_o  <= 1'b0;
+    end else if (!armed_i) begin
+      integrator_q <= '0;
+      voltage_o    <= '0;
+      valid_o      <= 1'b0;
+      saturated_o  <= 1'b0;
+    end else begin
+      valid_o <= step_q == Limit;
+      if (step_q == Limit) begin
+        voltage_o   <= above ? most : below ? -most : 18'(wanted_q);
+        saturated_o <= above || below;
+      end
+      if (step_q == Add) integrator_q <= integrator_q + 36'(product);
+    end
+  end
+endmodule
+
+`default_nettype wire

@@ -276,7 +276,7 @@ class Judge {
   /// Returns whether words and law agree if comparisons within their strips give the other result.
   bool explain(const Outcome& o, const std::map<long, long>& forced, int depth) {
     for (const Decision& d : o.decisions) {
-      for (const long result : other_results(d)) {
+      for (const long result : strips_.other_results(d)) {
         if (++tries_ > 400) return false;
         std::map<long, long> more = forced;
         more[d.key] = result;
@@ -286,20 +286,6 @@ class Judge {
       }
     }
     return false;
-  }
-
-  /// The other results of a decision that its declared strip allows, the nearest first: at most 8
-  /// to each side of a number rounded down.
-  std::vector<long> other_results(const Decision& d) const {
-    const Real width = strips_.width(d) * (1 + 1e-9) + d.rounding;
-    std::vector<long> found;
-    if (d.exact) return found;
-    const long way = d.other - d.taken;
-    for (int k = 0; k < (d.rounds ? 8 : 1); ++k) {
-      if (d.distance + k <= width) found.push_back(d.other + k * way);
-      if (d.rounds && 1 - d.distance + k <= width) found.push_back(d.taken - (k + 1) * way);
-    }
-    return found;
   }
 
   /// Returns the largest distance between words and law after a run, divided by its bound; more

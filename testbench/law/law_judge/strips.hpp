@@ -40,6 +40,19 @@ class Strips {
     const auto found = widths_.find(*d.canonical);
     return found == widths_.end() ? 0 : found->second;
   }
+  /// Returns the other results of a decision that its strip allows, the nearest first: at most 8 to
+  /// each side of a number rounded down.
+  std::vector<long> other_results(const Decision& d) const {
+    const Real reach = width(d) * (1 + 1e-9) + d.rounding;
+    std::vector<long> found;
+    if (d.exact) return found;
+    const long way = d.other - d.taken;
+    for (int k = 0; k < (d.rounds ? 8 : 1); ++k) {
+      if (d.distance + k <= reach) found.push_back(d.other + k * way);
+      if (d.rounds && 1 - d.distance + k <= reach) found.push_back(d.taken - (k + 1) * way);
+    }
+    return found;
+  }
   /// Returns the largest error of an output in the strip, Nm. Valid only if the width is not 0.
   double jump(const Decision& d, std::size_t output) const {
     return jumps_.at(*d.canonical)[output];

@@ -5,8 +5,8 @@
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer gets it
 //   V = gain*I + Ke*w + dead voltage                           V - Ke*w is limited (the window)
 //   duty = V * period/supply                                   limited
-// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result
-// on limited_i one clock later and in the output one more clock later.
+// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result, with addend_o
+// added, on limited_i one clock later and in the output one more clock later.
 // docs/blocks/torque_control.md
 
 `default_nettype none
@@ -41,9 +41,10 @@ module torque_control (
     input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_o,  // one clock before its limit
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_o,   // with its limit
-    input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
+    output logic                                                   late_up_o,     // with late_term_o: it is rounded up
+    output logic signed [         feltgate_pkg::WITH_ADDEND_W-1:0] addend_o,      // to the limited value
+    input  logic signed [         feltgate_pkg::WITH_ADDEND_W-1:0] limited_i,     // with addend_o added
     input  logic                                                   over_limit_i,
-    output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend
     output logic                                                   region_high_o,  // high torque
     output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,  // A
     output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,  // V
@@ -89,20 +90,17 @@ module torque_control (
       .up_o(carry)
   );
 
-  // applied is the limiter's result plus an addend. The addend is not 0 in three clocks:
+  // The addend to the limiter's result is not 0 in three clocks:
   //   after PARAM_AT_VOLTAGE_STEP    the voltage of the previous tick, added to the step of its ramp
   //   after PARAM_AT_DEAD_VOLTAGE    minus the back-EMF, if the law does not compensate the back-EMF
   //   after PARAM_AT_VOLTAGE_WINDOW  the back-EMF, added to the result of the window
   logic signed [         EmfW-1:0] emf_q;
-  logic signed [  AppliedSumW-1:0] addend_q, applied;
-  assign applied   = AppliedSumW'(limited_i) + addend_q;
-  assign applied_o = applied;
   always_ff @(posedge clk_i) begin
     if (product_is_emf_constant_i) emf_q <= EmfW'(product_i >>> EmfDrop);
-    if (param_is_voltage_step_i && voltage_armed) addend_q <= AppliedSumW'(voltage_o);
-    else if (param_is_voltage_window_i && armed_i) addend_q <= AppliedSumW'(emf_q);
-    else if (param_is_dead_voltage_i && !EmfInLaw && !voltage_mode) addend_q <= -(AppliedSumW'(emf_q));
-    else addend_q <= '0;
+    if (param_is_voltage_step_i && voltage_armed) addend_o <= AppliedSumW'(voltage_o);
+    else if (param_is_voltage_window_i && armed_i) addend_o <= AppliedSumW'(emf_q);
+    else if (param_is_dead_voltage_i && !EmfInLaw && !voltage_mode) addend_o <= -(AppliedSumW'(emf_q));
+    else addend_o <= '0;
   end
 
   // Start values of the sums. At most one of them is not 0, so an OR combines them.
@@ -114,7 +112,7 @@ module torque_control (
     if (mode_i == Open || param_is_current_limit_i) current_of_tau_hat_q <= '0;
     else if (product_is_observer_gain_i) current_of_tau_hat_q <= CurrentSumW'(product_i >>> TauHatDrop);
     if (param_is_voltage_window_i) voltage_offset_q <= '0;
-    else if (fixes) voltage_offset_q <= VoltageSumW'(applied);
+    else if (fixes) voltage_offset_q <= VoltageSumW'(limited_i);
   end
 
   // Each term is 0 outside its clock, so an OR forms the limiter's input. A register's synchronous
@@ -143,7 +141,8 @@ module torque_control (
     if (!((product_is_torque_gain_i && torque_armed) || (product_is_voltage_gain_i && armed_i))) sum_q <= '0;
     else sum_q <= product + base + SumW'({1'b0, less_emf});
     if (!product_is_duty_gain_i) duty_q <= '0;
-    else duty_q <= DutySumW'(product_i >>> DutyDrop) + DutySumW'({1'b0, carry});
+    else duty_q <= DutySumW'(product_i >>> DutyDrop);
+    late_up_o <= product_is_duty_gain_i && carry;
   end
   assign early_term_o = Wide'(compared_tau_ref_q) | Wide'(direct_q) | Wide'(dead_q);
   assign late_term_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
@@ -152,7 +151,7 @@ module torque_control (
   // so this matters only for the current estimate.
   localparam int VoltageW = feltgate_pkg::VOLTAGE_W;
   logic voltage_over;
-  assign voltage_over = applied[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {applied[AppliedSumW-1]}};
+  assign voltage_over = limited_i[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {limited_i[AppliedSumW-1]}};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -171,8 +170,8 @@ module torque_control (
         limit_current_o <= over_limit_i && armed_i;
       end
       if (at_voltage_i) begin
-        voltage_o <= voltage_over ? {applied[AppliedSumW-1], {(VoltageW - 1) {~applied[AppliedSumW-1]}}}
-                                  : applied[VoltageW-1:0];
+        voltage_o <= voltage_over ? {limited_i[AppliedSumW-1], {(VoltageW - 1) {~limited_i[AppliedSumW-1]}}}
+                                  : limited_i[VoltageW-1:0];
         limit_voltage_o <= over_limit_i && armed_i;
       end
       if (at_duty_i) begin

@@ -3,8 +3,8 @@
 //
 // Room: all scenes, with one distance from the reference, one sum of their terms and one rounding.
 // A scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
-// reference's word, for two clocks. The torque, rounded but not limited, is on early_term_o in the clock
-// before the torque limit's word, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
+// reference's word, for two clocks. The torque, not limited, is on early_term_o in the clock before the torque
+// limit's word, with early_up_o, by which the limiter completes its rounding, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
 // charge's distance, which the limiter compares with the core's half-width, and late_term_o shows
 // quotient bits that nothing uses. docs/blocks/scenes.md
 
@@ -28,6 +28,7 @@ module scenes #(
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // square the distance
     output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,  // one clock before its limit
+    output logic                                             early_up_o,   // with early_term_o: it is rounded up
     output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o    // with its limit; charges only
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
@@ -209,9 +210,13 @@ module scenes #(
   logic signed [                     TorqueW-1:0] word_q, law_q;  // already a torque: no rounding
   logic signed [                        GapW-1:0] charge_distance_q;
   always_ff @(posedge clk_i) begin
-    if (!wave_i[AtRounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
-    else rounded_q <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard])) +
-                      feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
+    if (!wave_i[AtRounded] || !armed_i || (wall && !sum_q[PartW])) begin
+      rounded_q  <= '0;
+      early_up_o <= 1'b0;
+    end else begin
+      rounded_q  <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard]));
+      early_up_o <= up;
+    end
     if (!wave_i[AtRounded] || !armed_i) word_q <= '0;
     else word_q <= setpoint_plus;
     if (!wave_i[feltgate_map_pkg::EVENT_AT_LAW_TORQUE] || !armed_i || !law_o || law_late_i) law_q <= '0;

@@ -98,6 +98,7 @@ module actuation (
       .at_hold_size_i(wave_i[feltgate_map_pkg::EVENT_AT_HOLD_SIZE]),
       .param_is_dead_voltage_i(wave_i[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE]),
       .at_voltage_offset_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]),
+      .product_next_voltage_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN-1]),
       .product_is_voltage_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN]),
       .param_is_voltage_window_i(wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]),
       .at_voltage_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]),

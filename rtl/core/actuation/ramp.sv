@@ -41,9 +41,10 @@ module ramp (
   logic      [W-2:0] step_q;
   always_ff @(posedge clk_i) begin
     if (at_ramp_excess_i) begin
-      if (frozen_i) step_q <= '0;
-      else if (param_i[W-1] || param_i[W-2:0] == '0) step_q <= (W - 1)'(1);
-      else step_q <= param_i[W-2:0];
+      // The long way from all bits of the word ends at one bit.
+      if (frozen_i || param_i[W-1]) step_q[W-2:1] <= '0;
+      else step_q[W-2:1] <= param_i[W-2:1];
+      step_q[0] <= !frozen_i && (param_i[W-1] || param_i[W-2:1] == '0 || param_i[0]);
       excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'(limited_i),
                    ramp_q[Fine-1:0]};
     end

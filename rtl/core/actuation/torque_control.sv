@@ -31,6 +31,7 @@ module torque_control (
     input  logic                                                   at_hold_size_i,
     input  logic                                                   param_is_dead_voltage_i,
     input  logic                                                   at_voltage_offset_i,
+    input  logic                                                   product_next_voltage_gain_i,
     input  logic                                                   product_is_voltage_gain_i,
     input  logic                                                   param_is_voltage_window_i,
     input  logic                                                   at_voltage_i,
@@ -123,13 +124,17 @@ module torque_control (
   logic signed [VoltageSumW-1:0] dead_q;
   logic signed [       SumW-1:0] base, product, sum_q;
   logic signed [   DutySumW-1:0] duty_q;
-  logic                          less_emf;
-  assign less_emf = product_is_voltage_gain_i && voltage_mode;
+  logic signed [           EmfW-1:0] less_emf_q;  // complement of the back-EMF; the carry completes it
+  logic                              voltage_q;
   assign base    = SumW'(current_of_tau_hat_q) | SumW'(voltage_offset_q);
   // Clock of torque_gain: the current of tau_ref; of voltage_gain: the voltage of the current.
-  assign product = less_emf ? ~(SumW'(emf_q))
-                            : product_is_voltage_gain_i ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
+  // In the voltage mode the latter product is 0, and the back-EMF is subtracted.
+  assign product = (product_is_voltage_gain_i ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop)) |
+                   SumW'(less_emf_q);
   always_ff @(posedge clk_i) begin
+    voltage_q <= product_next_voltage_gain_i && voltage_mode;
+    if (!(product_next_voltage_gain_i && voltage_mode)) less_emf_q <= '0;
+    else less_emf_q <= ~emf_q;
     if (!(at_border_i || at_hold_size_i)) compared_tau_ref_q <= '0;
     else compared_tau_ref_q <= tau_ref_i;
     if (!(product_is_voltage_to_current_i && voltage_armed)) direct_q <= '0;
@@ -139,7 +144,7 @@ module torque_control (
     if (!(param_is_voltage_setpoint_i && voltage_armed)) error_q <= '0;
     else error_q <= $signed(param_i[feltgate_pkg::VOLTAGE_W-1:0]) - voltage_o;
     if (!((product_is_torque_gain_i && torque_armed) || (product_is_voltage_gain_i && armed_i))) sum_q <= '0;
-    else sum_q <= product + base + SumW'({1'b0, less_emf});
+    else sum_q <= product + base + SumW'({1'b0, voltage_q});
     if (!product_is_duty_gain_i) duty_q <= '0;
     else duty_q <= DutySumW'(product_i >>> DutyDrop);
     late_up_o <= product_is_duty_gain_i && carry;

@@ -30,15 +30,16 @@ module hold_timer (
   always_ff @(posedge clk_i) begin
     if (at_hold_strong_i) strong_q <= over_limit_i;
   end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      units_q <= '0;
-      derated_o <= 1'b0;
-    end else if (at_hold_i) begin
-      derated_o <= holds && (derated_o || (strong_q && expired));
+  // No reset: the first wave while disarmed clears it.
+  always_ff @(posedge clk_i) begin
+    if (at_hold_i) begin
       if (!holds || !strong_q) units_q <= '0;
       else if (unit) units_q <= units_q + W'(1);
     end
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) derated_o <= 1'b0;
+    else if (at_hold_i) derated_o <= holds && (derated_o || (strong_q && expired));
   end
 
   logic unused;

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kWide = Design::f.limiter_input.width();
 constexpr int kWidth = Design::f.limiter.width();
+constexpr int kSum = Design::f.with_addend.width();
 constexpr std::int64_t kMaxX = (std::int64_t{1} << (kWide - 1)) - 1;
 constexpr std::int64_t kMaxLimit = (std::int64_t{1} << (kWidth - 1)) - 1;
 
@@ -36,12 +37,16 @@ struct Adapter {
     using Port = std::remove_reference_t<decltype(rtl.early_term_i)>;
     rtl.early_term_i = port_bits<kWide, Port>(in.early_term);
     rtl.late_term_i = port_bits<kWide, Port>(in.late_term);
+    rtl.early_up_i = in.early_up;
+    rtl.late_up_i = in.late_up;
+    rtl.addend_i = port_bits<kSum>(in.addend);
+    rtl.eval();  // the addend is with the result
     rtl.param_i = in.param;
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
     if (!out.known) return;
-    check("limited", sign_extend<kWidth>(rtl.limited_o), out.limited);
+    check("limited", sign_extend<kSum>(rtl.limited_o), out.limited);
     check("over_limit", rtl.over_limit_o, out.over_limit);
   }
 };

@@ -22,6 +22,8 @@ module actuation (
     input  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]  early_term_i,   // torque, one clock before its limit
     input  logic                                            early_up_i,     // with early_term_i: it is rounded up
     input  logic signed [      feltgate_pkg::TORQUE_W-1:0]  late_term_i,    // torque, with its limit
+    input  logic                                            late_not_i,     // with late_term_i: the torque is its complement
+    input  logic                                            late_up_i,      // + 1
     input  logic signed [  feltgate_pkg::PRODUCT_BITS-1:0]  product_i,
     output logic                                            over_limit_o,   // of the limiter
     output logic signed [ feltgate_pkg::WITH_ADDEND_W-1:0]  applied_o,      // to the multiplier
@@ -61,7 +63,7 @@ module actuation (
                takes_voltage || takes_duty),
       .torque_i(takes_torque), .voltage_i(takes_voltage), .duty_i(takes_duty),
       .early_term_i(control_early | Wide'(early_term_i)), .late_term_i(control_late | Wide'(late_term_i)),
-      .early_up_i(early_up_i), .late_up_i(late_up), .param_i(param_i),
+      .early_up_i(early_up_i), .late_not_i(late_not_i), .late_up_i(late_up || late_up_i), .param_i(param_i),
       .addend_i(addend), .limited_o(limited), .over_limit_o(over_limit_o)
   );
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's one limiter: it saturates x + up to [-limit, limit] and adds addend_i. The limit is the word on the
+// The core's one limiter: it saturates x, rounded, to [-limit, limit] and adds addend_i. The limit is the word on the
 // parameter bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
 // Torque, step of the voltage mode, current, dead voltage, voltage and duty use it in turn. Without valid_i it only
-// compares x + up with a border: over_limit_o is valid, the limited value is 0. Latency: valid_i and early_*_i in clock
+// compares x with a border: over_limit_o is valid, the limited value is 0. Latency: valid_i and early_*_i in clock
 // t - 1, late_*_i and the limit in t; in t + 1 over_limit_o, and limited_o, where the limited value is 0 in all other
 // clocks. docs/blocks/limiter.md
 
@@ -17,9 +17,10 @@ module limiter (
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
     input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,  // one clock before x
-    input  logic                                            early_up_i,    // 1: x was rounded up, with early_term_i
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = early | late
-    input  logic                                            late_up_i,     // up = early | late
+    input  logic                                            early_up_i,    // with early_term_i: x = early + 1
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = early + late; one of them is 0
+    input  logic                                            late_not_i,    // with late_term_i: its complement
+    input  logic                                            late_up_i,     // with late_term_i: + 1
     input  logic        [                             31:0] param_i,
     input  logic signed [  feltgate_pkg::WITH_ADDEND_W-1:0] addend_i,      // with limited_o
     output logic signed [  feltgate_pkg::WITH_ADDEND_W-1:0] limited_o,
@@ -33,8 +34,8 @@ module limiter (
   // signal's format.
   localparam logic [W-1:0] Sign = W'(1) << (W - 1);
   logic        [     W-1:0] misfit_q;
-  logic                     valid_q, early_over_q, early_up_q, over, negative, up;
-  logic signed [InputW-1:0] early_q, x;
+  logic                     valid_q, early_over_q, early_up_q, over, fold, negative, up;
+  logic signed [InputW-1:0] early_q, term;
   always_ff @(posedge clk_i) begin
     valid_q      <= valid_i;
     if (duty_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::DUTY_W - 1);
@@ -45,22 +46,23 @@ module limiter (
     early_up_q   <= early_up_i;
     early_over_q <= early_term_i[InputW-1:W-1] != {(InputW - W + 1) {early_term_i[InputW-1]}};
   end
-  assign x        = early_q | late_term_i;
+  assign term     = early_q | late_term_i;
   assign up       = early_up_q || late_up_i;
-  assign negative = x[InputW-1];
+  assign fold     = term[InputW-1];
+  assign negative = fold ^ late_not_i;
   assign over     = early_over_q || late_term_i[InputW-1:W-1] != {(InputW - W + 1) {late_term_i[InputW-1]}};
 
-  // folded is x, or -1 - x of a negative x; so |x + up| = folded + tight, and |x + up| > limit is a borrow of
-  // limit - folded - tight.
+  // Without up, x is folded, or its complement if negative. So |x| = folded + (negative ^ up), and |x| > limit is a
+  // borrow.
   logic [W-1:0] limit, folded;
   logic [W  :0] room;
   logic         misfit;
   assign limit  = param_i[W-1:0];
-  assign folded = x[W-1:0] ^ {W{negative}};
+  assign folded = term[W-1:0] ^ {W{fold}};
   assign room   = {limit, 1'b0} - {folded, negative ^ up};
   assign misfit = (limit & misfit_q) != '0;
 
-  // The result folds back with the sign of x; the carry of an adder that is there anyway completes it. A register's
+  // The result unfolds with the sign of x; the carry of an adder that is there anyway completes it. A register's
   // synchronous clear costs no logic: in a clock without a limited value, and if the limit does not fit, all is 0.
   logic [W-1:0] folded_q, limit_q;
   logic         negative_q, up_q, outside_q, unfit_q;

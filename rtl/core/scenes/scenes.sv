@@ -29,7 +29,9 @@ module scenes #(
     output logic                                             square_o,    // square the distance
     output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,  // one clock before its limit
     output logic                                             early_up_o,   // with early_term_o: it is rounded up
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o    // with its limit; charges only
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o,   // with its limit; charges only
+    output logic                                             late_not_o,   // with late_term_o: the torque is its complement
+    output logic                                             late_up_o     // + 1
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -72,8 +74,10 @@ module scenes #(
   always_ff @(posedge clk_i) begin
     if (wave_i[AtDistance]) gap_q <= gap;
     held_q <= wave_i[AtDistance];
-    if (wave_i[AtDistance]) distance_o <= {gap, square_o ? {OffsetF{1'b0}} : fraction};
-    else if (!held_q) distance_o <= '0;
+    if (wave_i[AtDistance]) distance_o[OffsetF+:GapW] <= gap;
+    else if (!held_q) distance_o[OffsetF+:GapW] <= '0;
+    if (wave_i[AtDistance] ? square_o : !held_q) distance_o[OffsetF-1:0] <= '0;
+    else if (wave_i[AtDistance]) distance_o[OffsetF-1:0] <= fraction;
   end
 
   logic signed [TorqueW-1:0] setpoint_plus, membrane_plus, membrane_minus;
@@ -161,13 +165,15 @@ module scenes #(
         .over_limit_i(over_limit_i),
         .plus_o(charge_plus),
         .minus_o(charge_minus),
-        .outside_o(late_term_o),
+        .outside_o(late_term_o), .outside_not_o(late_not_o), .outside_up_o(late_up_o),
         .armed_i(armed_i)
     );
   end else begin : gen_no_charge
     assign charge_plus  = '0;
     assign charge_minus = '0;
     assign late_term_o  = '0;
+    assign late_not_o   = 1'b0;
+    assign late_up_o    = 1'b0;
   end
 
   if (Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}]) begin : gen_wall

@@ -75,10 +75,11 @@ module pwm #(
   // One carry chain: the bit below the operands carries the increment in.
   assign {threshold_d, unused_sum} = {antiphase_q ? HALF : 14'sd0, 1'b1} + {addend, increment};
 
-  // A duty of one arming must not reach the gates in the next arming, so disabling clears it; in a reset the
-  // gates are disabled. Duty 0 needs no sign, so the sign registers are not cleared.
-  always_ff @(posedge clk_i) begin
-    if (!enable_i) duty_active_o <= 13'sd0;
+  // A duty of one arming must not reach the gates in the next arming, so disabling clears it. Duty
+  // 0 needs no sign, so the sign registers are not cleared.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) duty_active_o <= 13'sd0;
+    else if (!enable_i) duty_active_o <= 13'sd0;
     else if (take) duty_active_o <= duty_i;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -50,7 +50,8 @@ module dob (
   logic signed [ RoundedW-1:0] rounded_q;
   logic signed [   DriveW-1:0] drive_q;
   logic signed [ InertiaW-1:0] inertia, inertia_q, return_q;
-  logic signed [     SumW-1:0] filter_q, difference_q, term, sum;
+  logic signed [     SumW-1:0] filter_q, term, sum;
+  logic signed [          W:0] difference_q;
   logic                        state_odd_q, carry_in, carried, filter_up, up, unused_low;
   assign inertia   = InertiaW'(product_i >>> InertiaDrop);
   // The product is 0 in the two last of these clocks, return_q in all but the last. The bit below the operands
@@ -76,7 +77,7 @@ module dob (
     if (!at_observed_i) return_q <= '0;
     else return_q <= inertia_q;
     if (!at_observer_difference_i) difference_q <= '0;
-    else difference_q <= SumW'(drive_q) - filter_q;
+    else difference_q <= (W + 1)'(drive_q) - $signed(filter_q[W:0]);
     if (at_observed_i) rounded_q <= sum[SumW-1:TorqueDrop];
   end
   // No reset of the filter: until the first wave begins it is held at 0.
@@ -90,6 +91,8 @@ module dob (
     else if (at_observer_input_i || at_observer_state_i || at_observed_rounded_i) filter_q <= sum;
   end
   assign operand_o = difference_q[W-:feltgate_pkg::OBSERVER_DIFFERENCE_W];
+  logic unused;
+  assign unused = ^{difference_q, unused_low};  // the difference loses its lowest bits
 
   logic over;
   assign over = rounded_q[RoundedW-1:TorqueW-1] !=

@@ -16,7 +16,7 @@ module scene_charge (
     input  logic                                            armed_i,
     input  logic                                            attract_i,  // selects, attracting
     input  logic                                            repel_i,    // selects, repelling
-    input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
+    input  logic                                            gap_positive_i,  // the centre is above the position; held
     input  logic        [                             17:0] division_i,  // one-hot clocks: the square on product_i, 17 of the divider
     input  logic                                            at_scene_distance_i,
     input  logic                                            param_is_attract_strength_i,
@@ -39,7 +39,6 @@ module scene_charge (
   localparam int TorqueF = feltgate_pkg::TORQUE_F;
   localparam int ChargeF = feltgate_pkg::CHARGE_F;
   localparam int DistanceF = feltgate_pkg::SCENE_DISTANCE_F;
-  localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
   localparam int ForceW = 17;  // the quotient with its sign, [1,0,ChargeF]
   localparam int Up = (TorqueF > ChargeF) ? TorqueF - ChargeF : 0;
   localparam int Down = (TorqueF < ChargeF) ? ChargeF - TorqueF : 0;
@@ -74,7 +73,7 @@ module scene_charge (
     else preset_q <= '0;
     if (param_is_attract_strength_i) begin
       for (int k = 0; k < 17; k++) rest_q[k] <= param_i[16-k];  // the highest comes first
-      minus_q <= attract_i != (!gap_i[GapW-1] && gap_i != '0);  // sgn(0) is +1
+      minus_q <= attract_i != gap_positive_i;  // sgn(0) is +1
     end
     takes_q     <= !division_i[0];
     saturated_q <= division_i[1] && fits;

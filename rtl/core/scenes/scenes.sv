@@ -68,11 +68,15 @@ module scenes #(
   // and the fraction of a charge's centre is ignored.
   logic signed [    GapW-1:0] gap, gap_q;
   logic        [OffsetF-1:0] fraction;
-  logic                      held_q;
+  logic                      held_q, gap_zero, gap_positive_q;
   assign gap      = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
+  assign gap_zero = gap == '0;
   assign fraction = param_i[OffsetF-1:0];
   always_ff @(posedge clk_i) begin
-    if (wave_i[AtDistance]) gap_q <= gap;
+    if (wave_i[AtDistance]) begin
+      gap_q          <= gap;
+      gap_positive_q <= !gap[GapW-1] && !gap_zero;
+    end
     held_q <= wave_i[AtDistance];
     if (wave_i[AtDistance]) distance_o[OffsetF+:GapW] <= gap;
     else if (!held_q) distance_o[OffsetF+:GapW] <= '0;
@@ -102,7 +106,7 @@ module scenes #(
         .rst_ni(rst_ni),
         .select_i(membrane),
         .gap_negative_i(gap[GapW-1]),
-        .gap_zero_i(gap == '0),
+        .gap_zero_i(gap_zero),
         .param_is_membrane_lower_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER]),
         .param_is_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER]),
         .param_was_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER+1]),
@@ -150,7 +154,7 @@ module scenes #(
         .rst_ni(rst_ni),
         .attract_i(attract),
         .repel_i(repel),
-        .gap_i(gap_q),
+        .gap_positive_i(gap_positive_q),
         .division_i(wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1:feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE]),
         .at_scene_distance_i(wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
         .param_is_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),

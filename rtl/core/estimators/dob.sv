@@ -29,7 +29,8 @@ module dob (
   localparam int W = feltgate_pkg::OBSERVER_W;
   localparam int InertiaW = feltgate_pkg::INERTIA_TORQUE_W;
   localparam int DriveW = feltgate_pkg::DRIVE_TORQUE_W;
-  localparam int SumW = feltgate_pkg::OBSERVED_W + 1;  // rounding up may need one more bit
+  localparam int ObservedW = feltgate_pkg::OBSERVED_W;
+  localparam int SumW = ObservedW + 1;  // rounding up may need one more bit
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int DriveDrop = feltgate_pkg::CURRENT_F + feltgate_pkg::P_TORQUE_CONSTANT_F - F;
   localparam int InertiaDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_INERTIA_GAIN_F - F;
@@ -40,6 +41,7 @@ module dob (
   localparam logic [feltgate_pkg::PRODUCT_BITS-1:0] BelowFilterHalf =
       (feltgate_pkg::PRODUCT_BITS'(1) << (FilterDrop - 1)) - feltgate_pkg::PRODUCT_BITS'(1);
   localparam logic [SumW-1:0] Half = SumW'(1) << (TorqueDrop - 1);
+  localparam logic [ObservedW-1:0] BelowHalf = ObservedW'(Half) - ObservedW'(1);
 
   // The filter y += round(a1 * (x - y)) of x = drive + inertia. One register and one adder go round:
   //   EVENT_AT_OBSERVER_INPUT    lag = y - inertia; then x - y is drive - lag
@@ -50,7 +52,8 @@ module dob (
   logic signed [ RoundedW-1:0] rounded_q;
   logic signed [   DriveW-1:0] drive_q;
   logic signed [ InertiaW-1:0] inertia, inertia_q, return_q;
-  logic signed [     SumW-1:0] filter_q, term, sum;
+  logic signed [ObservedW-1:0] filter_q;
+  logic signed [     SumW-1:0] term, sum;
   logic signed [          W:0] difference_q;
   logic                        state_odd_q, carry_in, carried, filter_up, up, unused_low;
   assign inertia   = InertiaW'(product_i >>> InertiaDrop);
@@ -60,13 +63,13 @@ module dob (
                      (feltgate_pkg::ROUNDING == 2 && ((product_i & BelowFilterHalf) != '0 ||
                                                       (state_odd_q ^ product_i[FilterDrop])));
   assign up        = feltgate_pkg::ROUNDING == 0 ||
-                     (feltgate_pkg::ROUNDING == 2 && ((filter_q & (Half - SumW'(1))) != '0 || filter_q[TorqueDrop]));
+                     (feltgate_pkg::ROUNDING == 2 && ((filter_q & BelowHalf) != '0 || filter_q[TorqueDrop]));
   assign term      = at_observer_input_i ? ~(SumW'(inertia))
                                          : SumW'(product_i >>> FilterDrop) | SumW'(return_q) |
                                            (at_observed_i && up ? Half : '0);
   assign carry_in  = at_observer_input_i || filter_up;
   assign carried   = at_observer_input_i || product_i[FilterDrop-1];
-  assign {sum, unused_low} = {filter_q, carry_in} + {term, carried};
+  assign {sum, unused_low} = {filter_q[ObservedW-1], filter_q, carry_in} + {term, carried};
 
   always_ff @(posedge clk_i) begin
     if (at_drive_torque_i) drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
@@ -77,7 +80,7 @@ module dob (
     if (!at_observed_i) return_q <= '0;
     else return_q <= inertia_q;
     if (!at_observer_difference_i) difference_q <= '0;
-    else difference_q <= (W + 1)'(drive_q) - $signed(filter_q[W:0]);
+    else difference_q <= (W + 1)'(drive_q) - (W + 1)'(filter_q);
     if (at_observed_i) rounded_q <= sum[SumW-1:TorqueDrop];
   end
   // No reset of the filter: until the first wave begins it is held at 0.
@@ -88,7 +91,7 @@ module dob (
   end
   always_ff @(posedge clk_i) begin
     if (!begun_q || (at_observer_state_i && !armed_i)) filter_q <= '0;
-    else if (at_observer_input_i || at_observer_state_i || at_observed_rounded_i) filter_q <= sum;
+    else if (at_observer_input_i || at_observer_state_i || at_observed_rounded_i) filter_q <= sum[ObservedW-1:0];
   end
   assign operand_o = difference_q[W-:feltgate_pkg::OBSERVER_DIFFERENCE_W];
   logic unused;

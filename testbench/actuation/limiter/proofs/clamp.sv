@@ -35,7 +35,7 @@ module clamp_proof (
 
   // A clock ago: what came ahead and of which kind it is.
   logic signed [WideW-1:0] early_q, late;
-  assign late = (late_not_i ? ~WideW'(late_term_i) : WideW'(late_term_i)) + WideW'({1'b0, late_up_i});
+  assign late = (late_not_i ? -1 - WideW'(late_term_i) : WideW'(late_term_i)) + WideW'({1'b0, late_up_i});
   logic                    early_on_q, valid_q, torque_q, voltage_q, duty_q;
   always_ff @(posedge clk_i) begin
     early_q   <= WideW'(early_term_i) + WideW'({1'b0, early_up_i});

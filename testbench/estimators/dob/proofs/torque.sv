@@ -41,16 +41,16 @@ module torque_proof (
       .tau_hat_o(tau_hat),
       .saturated_o(saturated)
   );
-  (* hierconn *) wire signed [ObservedW:0] \u_dut.filter_q ;
-  wire signed [ObservedW:0] state = \u_dut.filter_q ;
+  (* hierconn *) wire signed [ObservedW-1:0] \u_dut.filter_q ;
+  wire signed [ObservedW-1:0] state = \u_dut.filter_q ;
   (* hierconn *) wire signed [InertiaW-1:0] \u_dut.inertia_q ;
 
   // What this tick brought, from the observer's input on, without a reset.
   logic began_q, new_q, after_q, saturated_q;
   logic signed [InertiaW-1:0] inertia_q;
-  logic signed [ObservedW:0] observed_q;
+  logic signed [ObservedW-1:0] observed_q;
   logic signed [TorqueW-1:0] tau_hat_q;
-  logic signed [ObservedW:0] state_q, begin_q;
+  logic signed [ObservedW-1:0] state_q, begin_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       began_q <= 1'b0;
@@ -96,7 +96,7 @@ module torque_proof (
         saturates: cover (saturated && tau_hat > 0);
       end
       if (wave[feltgate_map_pkg::EVENT_AT_OBSERVER_DIFFERENCE] && began_q) begin
-        input_is_the_sum: assert (state == (ObservedW + 1)'(begin_q) - (ObservedW + 1)'(inertia_q));
+        input_is_the_sum: assert (state == ObservedW'(begin_q) - ObservedW'(inertia_q));
       end
       operand_in_its_clock: assert (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1] || operand == '0);
       inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT) ||

@@ -102,7 +102,7 @@ module torque_proof (
   logic signed [OffsetW:0] gap, gap_q;
   logic new_q, now;
   assign now   = whole_q && wave[Limit];
-  assign x     = early_q + (late_not ? ~Wide'(late_term) : Wide'(late_term)) + Wide'({1'b0, late_up});  // one is 0
+  assign x     = early_q + (late_not ? -1 - Wide'(late_term) : Wide'(late_term)) + Wide'({1'b0, late_up});  // one is 0
   assign whole = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
   assign gap   = (OffsetW + 1)'($signed(param_i[OffsetW-1:0])) - ((OffsetW + 1)'(position_i) <<< OffsetF);
   always_ff @(posedge clk_i) begin

@@ -92,7 +92,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;
-  logic moved, chatters, illegal, encoder_error, law, square;
+  logic moved, chatters, illegal, encoder_error, law, square, scene_up, scene_not, scene_late_up;
   logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference;
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference;
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
@@ -132,7 +132,7 @@ module feltgate_core #(
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .armed_i(armed_o && !paused), .scene_i(scene_o),
       .position_i(scene_position), .product_i(scene_product), .over_limit_i(over_limit),
       .law_torque_i(law_torque_i), .law_late_i(law_late_i), .law_o(law),
-      .distance_o(distance), .square_o(square), .early_term_o(scene_early), .late_term_o(scene_late)
+      .distance_o(distance), .square_o(square), .early_term_o(scene_early), .early_up_o(scene_up), .late_term_o(scene_late), .late_not_o(scene_not), .late_up_o(scene_late_up)
   );
 
   actuation u_actuation (
@@ -140,7 +140,7 @@ module feltgate_core #(
       .mode_i(mode), .scene_i(scene_o), .restart_i(restart || (tick && law && law_restart_i)),
       .frozen_i(chatters), .derated_i(derated),
       .early_term_i(scene_early | pulse),  // during the self-test the scene gives 0
-      .late_term_i(scene_late), .product_i(control_product),
+      .early_up_i(scene_up), .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
       .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high),
       .tau_ref_o(tau_ref_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
       .limits_o(actuation_limits),

@@ -20,7 +20,10 @@ module actuation (
     input  logic                                            frozen_i,       // the torque may shrink, and rise from below 0 to a positive target
     input  logic                                            derated_i,      // the limit is hold_limit
     input  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]  early_term_i,   // torque, one clock before its limit
+    input  logic                                            early_up_i,     // with early_term_i: it is rounded up
     input  logic signed [      feltgate_pkg::TORQUE_W-1:0]  late_term_i,    // torque, with its limit
+    input  logic                                            late_not_i,     // with late_term_i: the torque is its complement
+    input  logic                                            late_up_i,      // + 1
     input  logic signed [  feltgate_pkg::PRODUCT_BITS-1:0]  product_i,
     output logic                                            over_limit_o,   // of the limiter
     output logic signed [ feltgate_pkg::WITH_ADDEND_W-1:0]  applied_o,      // to the multiplier
@@ -44,9 +47,9 @@ module actuation (
   localparam int Wide = feltgate_pkg::LIMITER_INPUT_W;
   localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
 
-  logic signed [feltgate_pkg::LIMITER_W-1:0] limited;
+  logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] limited, addend;
   logic signed [Wide-1:0] control_early, control_late;
-  logic takes_torque, takes_voltage, takes_duty;
+  logic late_up, takes_torque, takes_voltage, takes_duty;
   logic limit_torque, limit_ramp, limit_hold, limit_current, limit_voltage, limit_duty;
 
   // The limiter takes a value one clock before the limit's word is on param_i.
@@ -60,8 +63,8 @@ module actuation (
                takes_voltage || takes_duty),
       .torque_i(takes_torque), .voltage_i(takes_voltage), .duty_i(takes_duty),
       .early_term_i(control_early | Wide'(early_term_i)), .late_term_i(control_late | Wide'(late_term_i)),
-      .param_i(param_i),
-      .limited_o(limited), .over_limit_o(over_limit_o)
+      .early_up_i(early_up_i), .late_not_i(late_not_i), .late_up_i(late_up || late_up_i), .param_i(param_i),
+      .addend_i(addend), .limited_o(limited), .over_limit_o(over_limit_o)
   );
 
   ramp u_ramp (
@@ -73,7 +76,7 @@ module actuation (
       .at_ramp_change_i(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]),
       .at_tau_ref_i(wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF]),
       .param_i(param_i),
-      .limited_i(limited), .over_limit_i(over_limit_o),
+      .limited_i(limited[feltgate_pkg::TORQUE_W-1:0]), .over_limit_i(over_limit_o),
       .frozen_i(frozen_i), .derated_i(derated_i),
       .tau_ref_o(tau_ref_o),
       .limit_torque_o(limit_torque), .limit_ramp_o(limit_ramp), .limit_hold_o(limit_hold)
@@ -97,6 +100,7 @@ module actuation (
       .at_hold_size_i(wave_i[feltgate_map_pkg::EVENT_AT_HOLD_SIZE]),
       .param_is_dead_voltage_i(wave_i[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE]),
       .at_voltage_offset_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]),
+      .product_next_voltage_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN-1]),
       .product_is_voltage_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN]),
       .param_is_voltage_window_i(wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]),
       .at_voltage_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]),
@@ -104,8 +108,8 @@ module actuation (
       .at_duty_i(wave_i[feltgate_map_pkg::EVENT_AT_DUTY]),
       .param_i(param_i), .product_i(product_i),
       .tau_ref_i(tau_ref_o),
-      .early_term_o(control_early), .late_term_o(control_late),
-      .limited_i(limited), .over_limit_i(over_limit_o), .applied_o(applied_o),
+      .early_term_o(control_early), .late_term_o(control_late), .late_up_o(late_up),
+      .addend_o(addend), .limited_i(limited), .over_limit_i(over_limit_o),
       .region_high_o(region_high_o),
       .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
       .limit_current_o(limit_current), .limit_voltage_o(limit_voltage), .limit_duty_o(limit_duty)
@@ -121,6 +125,8 @@ module actuation (
       .period_start_o(period_start_o),
       .duty_active_o(duty_active_o)
   );
+
+  assign applied_o = limited;
 
   assign limits_o = (LimitsW'(limit_torque) << feltgate_map_pkg::L_TORQUE) |
                     (LimitsW'(limit_ramp) << feltgate_map_pkg::L_RAMP) |

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core's one limiter: it saturates x to [-limit, limit]. The limit is the word on the parameter
-// bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
-// Torque, step of the voltage mode, current, dead voltage, voltage and duty use it in turn. Without valid_i it only compares
-// x with a border: over_limit_o is valid, limited_o is 0. Latency: valid_i and early_term_i in clock
-// t - 1, late_term_i and the limit in t, limited_o (0 in all other clocks) and over_limit_o in t + 1.
-// docs/blocks/limiter.md
+// The core's one limiter: it saturates x, rounded, to [-limit, limit] and adds addend_i. The limit is the word on the
+// parameter bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
+// Torque, step of the voltage mode, current, dead voltage, voltage and duty use it in turn. Without valid_i it only
+// compares x with a border: over_limit_o is valid, the limited value is 0. Latency: valid_i and early_*_i in clock
+// t - 1, late_*_i and the limit in t; in t + 1 over_limit_o, and limited_o, where the limited value is 0 in all other
+// clocks. docs/blocks/limiter.md
 
 `default_nettype none
 
@@ -17,9 +17,13 @@ module limiter (
     input  logic                                            voltage_i,
     input  logic                                            duty_i,
     input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,  // one clock before x
-    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = early | late
+    input  logic                                            early_up_i,    // with early_term_i: x = early + 1
+    input  logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,   // x = early + late; one of them is 0
+    input  logic                                            late_not_i,    // with late_term_i: its complement
+    input  logic                                            late_up_i,     // with late_term_i: + 1
     input  logic        [                             31:0] param_i,
-    output logic signed [      feltgate_pkg::LIMITER_W-1:0] limited_o,
+    input  logic signed [  feltgate_pkg::WITH_ADDEND_W-1:0] addend_i,      // with limited_o
+    output logic signed [  feltgate_pkg::WITH_ADDEND_W-1:0] limited_o,
     output logic                                            over_limit_o
 );
   localparam int W = feltgate_pkg::LIMITER_W;
@@ -30,8 +34,8 @@ module limiter (
   // signal's format.
   localparam logic [W-1:0] Sign = W'(1) << (W - 1);
   logic        [     W-1:0] misfit_q;
-  logic                     valid_q, early_over_q, over, negative;
-  logic signed [InputW-1:0] early_q, x;
+  logic                     valid_q, early_over_q, early_up_q, over, fold, negative, up;
+  logic signed [InputW-1:0] early_q, term;
   always_ff @(posedge clk_i) begin
     valid_q      <= valid_i;
     if (duty_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::DUTY_W - 1);
@@ -39,45 +43,53 @@ module limiter (
     else if (torque_i) misfit_q <= {W{1'b1}} << (feltgate_pkg::TORQUE_W - 1);
     else misfit_q <= Sign;
     early_q      <= early_term_i;
+    early_up_q   <= early_up_i;
     early_over_q <= early_term_i[InputW-1:W-1] != {(InputW - W + 1) {early_term_i[InputW-1]}};
   end
-  assign x        = early_q | late_term_i;
-  assign negative = x[InputW-1];
+  assign term     = early_q | late_term_i;
+  assign up       = early_up_q || late_up_i;
+  assign fold     = term[InputW-1];
+  assign negative = fold ^ late_not_i;
   assign over     = early_over_q || late_term_i[InputW-1:W-1] != {(InputW - W + 1) {late_term_i[InputW-1]}};
 
-  logic signed [W-1:0] limit, low;
-  logic                above, below, misfit;
-  assign limit   = param_i[W-1:0];
-  assign low     = x[W-1:0];
-  assign above   = !negative && (over || (W + 1)'(limit) - (W + 1)'(low) < 0);
-  assign below   = negative && (over || (W + 1)'(limit) + (W + 1)'(low) < 0);
-  assign misfit  = (limit & misfit_q) != '0;
+  // Without up, x is folded, or its complement if negative. So |x| = folded + (negative ^ up), and |x| > limit is a
+  // borrow.
+  logic [W-1:0] limit, folded;
+  logic [W  :0] room;
+  logic         misfit;
+  assign limit  = param_i[W-1:0];
+  assign folded = term[W-1:0] ^ {W{fold}};
+  assign room   = {limit, 1'b0} - {folded, negative ^ up};
+  assign misfit = (limit & misfit_q) != '0;
 
-  // x, and the limit with the sign of x. A register's synchronous clear costs no logic, a
-  // multiplexer does. If the limit does not fit, all three are 0, so the output needs no further
-  // selection.
-  logic signed [W-1:0] low_q, upper_q, lower_q;
-  logic                outside_q, unfit_q;
+  // The result unfolds with the sign of x; the carry of an adder that is there anyway completes it. A register's
+  // synchronous clear costs no logic: in a clock without a limited value, and if the limit does not fit, all is 0.
+  logic [W-1:0] folded_q, limit_q;
+  logic         negative_q, up_q, outside_q, unfit_q;
   always_ff @(posedge clk_i) begin
-    outside_q <= above || below;
+    outside_q <= over || room[W];
     unfit_q   <= misfit;
     if (!valid_q || misfit) begin
-      low_q   <= '0;
-      upper_q <= '0;
-      lower_q <= '0;
+      folded_q   <= '0;
+      limit_q    <= '0;
+      negative_q <= 1'b0;
+      up_q       <= 1'b0;
     end else begin
-      low_q <= low;
-      if (negative) upper_q <= '0;
-      else upper_q <= limit;
-      if (!negative) lower_q <= '0;
-      else lower_q <= -limit;
+      folded_q   <= folded;
+      limit_q    <= limit;
+      negative_q <= negative;
+      up_q       <= up;
     end
   end
-  assign limited_o    = outside_q ? upper_q | lower_q : low_q;
+  logic signed [W-1:0] whole;
+  logic                carry;
+  assign whole        = (outside_q ? limit_q : folded_q) ^ {W{negative_q}};
+  assign carry        = outside_q ? negative_q : up_q;
+  assign limited_o    = feltgate_pkg::WITH_ADDEND_W'(whole) + addend_i + feltgate_pkg::WITH_ADDEND_W'({1'b0, carry});
   assign over_limit_o = outside_q || unfit_q;
 
   logic unused;
-  assign unused = ^param_i;  // a limit may have fewer bits than a word
+  assign unused = ^{param_i, room};  // a limit may have fewer bits than a word
 endmodule
 
 `default_nettype wire

@@ -19,7 +19,7 @@ module ramp (
     input  logic                                      at_ramp_change_i,
     input  logic                                      at_tau_ref_i,
     input  logic        [                       31:0] param_i,
-    input  logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
+    input  logic signed [ feltgate_pkg::TORQUE_W-1:0] limited_i,
     input  logic                                      over_limit_i,
     input  logic                                      frozen_i,   // 1: it may shrink; from below 0 also to any positive target
     input  logic                                      derated_i,  // 1: the limit is hold_limit
@@ -41,10 +41,11 @@ module ramp (
   logic      [W-2:0] step_q;
   always_ff @(posedge clk_i) begin
     if (at_ramp_excess_i) begin
-      if (frozen_i) step_q <= '0;
-      else if (param_i[W-1] || param_i[W-2:0] == '0) step_q <= (W - 1)'(1);
-      else step_q <= param_i[W-2:0];
-      excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'($signed(limited_i[TorqueW-1:0])),
+      // The long way from all bits of the word ends at one bit.
+      if (frozen_i || param_i[W-1]) step_q[W-2:1] <= '0;
+      else step_q[W-2:1] <= param_i[W-2:1];
+      step_q[0] <= !frozen_i && (param_i[W-1] || param_i[W-2:1] == '0 || param_i[0]);
+      excess_q <= {(TorqueW + 1)'(tau_ref_o) - (TorqueW + 1)'(limited_i),
                    ramp_q[Fine-1:0]};
     end
   end

@@ -5,8 +5,8 @@
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer gets it
 //   V = gain*I + Ke*w + dead voltage                           V - Ke*w is limited (the window)
 //   duty = V * period/supply                                   limited
-// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result
-// on limited_i one clock later and in the output one more clock later.
+// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result, with addend_o
+// added, on limited_i one clock later and in the output one more clock later.
 // docs/blocks/torque_control.md
 
 `default_nettype none
@@ -31,6 +31,7 @@ module torque_control (
     input  logic                                                   at_hold_size_i,
     input  logic                                                   param_is_dead_voltage_i,
     input  logic                                                   at_voltage_offset_i,
+    input  logic                                                   product_next_voltage_gain_i,
     input  logic                                                   product_is_voltage_gain_i,
     input  logic                                                   param_is_voltage_window_i,
     input  logic                                                   at_voltage_i,
@@ -41,9 +42,10 @@ module torque_control (
     input  logic signed [              feltgate_pkg::TORQUE_W-1:0] tau_ref_i,  // Nm
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_o,  // one clock before its limit
     output logic signed [       feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_o,   // with its limit
-    input  logic signed [             feltgate_pkg::LIMITER_W-1:0] limited_i,
+    output logic                                                   late_up_o,     // with late_term_o: it is rounded up
+    output logic signed [         feltgate_pkg::WITH_ADDEND_W-1:0] addend_o,      // to the limited value
+    input  logic signed [         feltgate_pkg::WITH_ADDEND_W-1:0] limited_i,     // with addend_o added
     input  logic                                                   over_limit_i,
-    output logic signed [           feltgate_pkg::WITH_ADDEND_W-1:0] applied_o,  // limited_i + addend
     output logic                                                   region_high_o,  // high torque
     output logic signed [             feltgate_pkg::CURRENT_W-1:0] current_ref_o,  // A
     output logic signed [             feltgate_pkg::VOLTAGE_W-1:0] voltage_o,  // V
@@ -89,20 +91,17 @@ module torque_control (
       .up_o(carry)
   );
 
-  // applied is the limiter's result plus an addend. The addend is not 0 in three clocks:
+  // The addend to the limiter's result is not 0 in three clocks:
   //   after PARAM_AT_VOLTAGE_STEP    the voltage of the previous tick, added to the step of its ramp
   //   after PARAM_AT_DEAD_VOLTAGE    minus the back-EMF, if the law does not compensate the back-EMF
   //   after PARAM_AT_VOLTAGE_WINDOW  the back-EMF, added to the result of the window
   logic signed [         EmfW-1:0] emf_q;
-  logic signed [  AppliedSumW-1:0] addend_q, applied;
-  assign applied   = AppliedSumW'(limited_i) + addend_q;
-  assign applied_o = applied;
   always_ff @(posedge clk_i) begin
     if (product_is_emf_constant_i) emf_q <= EmfW'(product_i >>> EmfDrop);
-    if (param_is_voltage_step_i && voltage_armed) addend_q <= AppliedSumW'(voltage_o);
-    else if (param_is_voltage_window_i && armed_i) addend_q <= AppliedSumW'(emf_q);
-    else if (param_is_dead_voltage_i && !EmfInLaw && !voltage_mode) addend_q <= -(AppliedSumW'(emf_q));
-    else addend_q <= '0;
+    if (param_is_voltage_step_i && voltage_armed) addend_o <= AppliedSumW'(voltage_o);
+    else if (param_is_voltage_window_i && armed_i) addend_o <= AppliedSumW'(emf_q);
+    else if (param_is_dead_voltage_i && !EmfInLaw && !voltage_mode) addend_o <= -(AppliedSumW'(emf_q));
+    else addend_o <= '0;
   end
 
   // Start values of the sums. At most one of them is not 0, so an OR combines them.
@@ -114,7 +113,7 @@ module torque_control (
     if (mode_i == Open || param_is_current_limit_i) current_of_tau_hat_q <= '0;
     else if (product_is_observer_gain_i) current_of_tau_hat_q <= CurrentSumW'(product_i >>> TauHatDrop);
     if (param_is_voltage_window_i) voltage_offset_q <= '0;
-    else if (fixes) voltage_offset_q <= VoltageSumW'(applied);
+    else if (fixes) voltage_offset_q <= VoltageSumW'(limited_i);
   end
 
   // Each term is 0 outside its clock, so an OR forms the limiter's input. A register's synchronous
@@ -125,13 +124,17 @@ module torque_control (
   logic signed [VoltageSumW-1:0] dead_q;
   logic signed [       SumW-1:0] base, product, sum_q;
   logic signed [   DutySumW-1:0] duty_q;
-  logic                          less_emf;
-  assign less_emf = product_is_voltage_gain_i && voltage_mode;
+  logic signed [           EmfW-1:0] less_emf_q;  // complement of the back-EMF; the carry completes it
+  logic                              voltage_q;
   assign base    = SumW'(current_of_tau_hat_q) | SumW'(voltage_offset_q);
   // Clock of torque_gain: the current of tau_ref; of voltage_gain: the voltage of the current.
-  assign product = less_emf ? ~(SumW'(emf_q))
-                            : product_is_voltage_gain_i ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop);
+  // In the voltage mode the latter product is 0, and the back-EMF is subtracted.
+  assign product = (product_is_voltage_gain_i ? SumW'(product_i >>> GainDrop) : SumW'(product_i >>> TauRefDrop)) |
+                   SumW'(less_emf_q);
   always_ff @(posedge clk_i) begin
+    voltage_q <= product_next_voltage_gain_i && voltage_mode;
+    if (!(product_next_voltage_gain_i && voltage_mode)) less_emf_q <= '0;
+    else less_emf_q <= ~emf_q;
     if (!(at_border_i || at_hold_size_i)) compared_tau_ref_q <= '0;
     else compared_tau_ref_q <= tau_ref_i;
     if (!(product_is_voltage_to_current_i && voltage_armed)) direct_q <= '0;
@@ -141,9 +144,10 @@ module torque_control (
     if (!(param_is_voltage_setpoint_i && voltage_armed)) error_q <= '0;
     else error_q <= $signed(param_i[feltgate_pkg::VOLTAGE_W-1:0]) - voltage_o;
     if (!((product_is_torque_gain_i && torque_armed) || (product_is_voltage_gain_i && armed_i))) sum_q <= '0;
-    else sum_q <= product + base + SumW'({1'b0, less_emf});
+    else sum_q <= product + base + SumW'({1'b0, voltage_q});
     if (!product_is_duty_gain_i) duty_q <= '0;
-    else duty_q <= DutySumW'(product_i >>> DutyDrop) + DutySumW'({1'b0, carry});
+    else duty_q <= DutySumW'(product_i >>> DutyDrop);
+    late_up_o <= product_is_duty_gain_i && carry;
   end
   assign early_term_o = Wide'(compared_tau_ref_q) | Wide'(direct_q) | Wide'(dead_q);
   assign late_term_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
@@ -152,7 +156,7 @@ module torque_control (
   // so this matters only for the current estimate.
   localparam int VoltageW = feltgate_pkg::VOLTAGE_W;
   logic voltage_over;
-  assign voltage_over = applied[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {applied[AppliedSumW-1]}};
+  assign voltage_over = limited_i[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {limited_i[AppliedSumW-1]}};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -171,8 +175,8 @@ module torque_control (
         limit_current_o <= over_limit_i && armed_i;
       end
       if (at_voltage_i) begin
-        voltage_o <= voltage_over ? {applied[AppliedSumW-1], {(VoltageW - 1) {~applied[AppliedSumW-1]}}}
-                                  : applied[VoltageW-1:0];
+        voltage_o <= voltage_over ? {limited_i[AppliedSumW-1], {(VoltageW - 1) {~limited_i[AppliedSumW-1]}}}
+                                  : limited_i[VoltageW-1:0];
         limit_voltage_o <= over_limit_i && armed_i;
       end
       if (at_duty_i) begin

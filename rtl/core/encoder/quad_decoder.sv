@@ -162,9 +162,12 @@ module quad_decoder #(
 
   // One counter is incremented per clock. The rejected counter has priority; an error waits.
   logic error_wait_q, rejected_wait_q, serve_error, serve_rejected;
+  logic [15:0] counted, next;
 
   assign serve_rejected = rejected_wait_q && !clear_error_i;
   assign serve_error    = error_wait_q && !rejected_wait_q && !clear_error_i;
+  assign counted        = rejected_wait_q ? rejected_count_o : error_count_o;
+  assign next           = clear_error_i ? 16'd0 : counted + 16'd1;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -181,10 +184,8 @@ module quad_decoder #(
       error_o         <= illegal || (error_o && !clear_error_i);
       illegal_o       <= illegal;
       index_seen_o    <= index_q || (index_seen_o && !clear_error_i);
-      if (clear_error_i) error_count_o <= 16'd0;
-      else if (serve_error && error_count_o != '1) error_count_o <= error_count_o + 16'd1;
-      if (clear_error_i) rejected_count_o <= 16'd0;
-      else if (serve_rejected && rejected_count_o != '1) rejected_count_o <= rejected_count_o + 16'd1;
+      if (clear_error_i || (serve_error && counted != '1)) error_count_o <= next;
+      if (clear_error_i || (serve_rejected && counted != '1)) rejected_count_o <= next;
     end
   end
 

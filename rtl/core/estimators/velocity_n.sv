@@ -46,23 +46,26 @@ module velocity_n #(
   logic        [       T-1:0] line    [2**AddressW];
   logic        [       T-1:0] line_q;
   logic        [AddressW-1:0] pointer_q;
-  logic                       filled_q;
+  logic                       filled_q, begun_q;
   logic signed [       T-1:0] travel_q, oldest_q, difference_q;
   always_ff @(posedge clk_i) begin
     if (at_velocity_raw_i) line[pointer_q] <= travel_q;
     line_q <= line[pointer_q];
   end
+  // No reset: until the first wave begins the pointer is held at 0.
+  logic last;
+  assign last = pointer_q == AddressW'(M1 - 1);
+  always_ff @(posedge clk_i) begin
+    if (!begun_q || (at_velocity_difference_i && last)) pointer_q <= '0;
+    else if (at_velocity_difference_i) pointer_q <= pointer_q + 1'b1;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      pointer_q <= '0;
-      filled_q  <= 1'b0;
-    end else if (at_velocity_difference_i) begin
-      if (pointer_q == AddressW'(M1 - 1)) begin
-        pointer_q <= '0;
-        filled_q  <= 1'b1;
-      end else begin
-        pointer_q <= pointer_q + 1'b1;
-      end
+      filled_q <= 1'b0;
+      begun_q  <= 1'b0;
+    end else begin
+      if (at_sample_i) begun_q <= 1'b1;
+      if (at_velocity_difference_i && last) filled_q <= 1'b1;
     end
   end
 

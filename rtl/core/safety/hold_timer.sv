@@ -27,17 +27,23 @@ module hold_timer (
   assign holds   = armed_i && !moved_i;
   assign expired = param_i[31] || (param_i[31:W] == '0 && units_q >= param_i[W-1:0]);  // a negative word is 0
 
+  // No reset: until the first wave begins the count is held at 0.
+  logic begun_q;
   always_ff @(posedge clk_i) begin
-    if (at_hold_strong_i) strong_q <= over_limit_i;
+    if (!begun_q || (at_hold_i && (!holds || !strong_q))) units_q <= '0;
+    else if (at_hold_i && unit) units_q <= units_q + W'(1);
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      units_q <= '0;
+      strong_q  <= 1'b0;
+      begun_q   <= 1'b0;
       derated_o <= 1'b0;
-    end else if (at_hold_i) begin
-      derated_o <= holds && (derated_o || (strong_q && expired));
-      if (!holds || !strong_q) units_q <= '0;
-      else if (unit) units_q <= units_q + W'(1);
+    end else begin
+      if (at_hold_strong_i) begin
+        strong_q <= over_limit_i;
+        begun_q  <= 1'b1;
+      end
+      if (at_hold_i) derated_o <= holds && (derated_o || (strong_q && expired));
     end
   end
 

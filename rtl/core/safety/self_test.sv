@@ -51,12 +51,12 @@ module self_test (
   assign step = now_q - before_q;
 
   // Time in units of 2^UnitBit ticks. One comparator serves two words.
-  logic [CountW-1:0] count_q, most;
+  logic [CountW-1:0] count_q;
   logic unit_q, patience_q, unit, impatient, enough, quiet_q, over_q;
-  assign most      = |param_i[31:CountW] ? '1 : param_i[CountW-1:0];  // saturates
   assign unit      = tick_count_i[UnitBit] != unit_q;
   assign impatient = tick_count_i[PatienceBit] != patience_q;
-  assign enough    = count_q >= most;
+  // A word beyond the counter counts as its end.
+  assign enough    = count_q == '1 || (param_i[31:CountW] == '0 && count_q >= param_i[CountW-1:0]);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       quiet_q <= 1'b1;

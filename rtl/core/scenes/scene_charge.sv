@@ -16,7 +16,7 @@ module scene_charge (
     input  logic                                            armed_i,
     input  logic                                            attract_i,  // selects, attracting
     input  logic                                            repel_i,    // selects, repelling
-    input  logic signed [feltgate_pkg::SCENE_POSITION_W:0]  gap_i,      // whole counts, held
+    input  logic                                            gap_positive_i,  // the centre is above the position; held
     input  logic        [                             17:0] division_i,  // one-hot clocks: the square on product_i, 17 of the divider
     input  logic                                            at_scene_distance_i,
     input  logic                                            param_is_attract_strength_i,
@@ -31,16 +31,18 @@ module scene_charge (
     input  logic                                            over_limit_i,   // from the limiter
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] plus_o,
     output logic signed [   feltgate_pkg::SCENE_PART_W-1:0] minus_o,
-    output logic signed [       feltgate_pkg::TORQUE_W-1:0] outside_o
+    output logic signed [       feltgate_pkg::TORQUE_W-1:0] outside_o,      // the size of the torque
+    output logic                                            outside_not_o,  // the torque is negative: ~outside_o
+    output logic                                            outside_up_o    // + 1
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int TorqueF = feltgate_pkg::TORQUE_F;
   localparam int ChargeF = feltgate_pkg::CHARGE_F;
   localparam int DistanceF = feltgate_pkg::SCENE_DISTANCE_F;
-  localparam int GapW = feltgate_pkg::SCENE_POSITION_W + 1;
   localparam int ForceW = 17;  // the quotient with its sign, [1,0,ChargeF]
   localparam int Up = (TorqueF > ChargeF) ? TorqueF - ChargeF : 0;
   localparam int Down = (TorqueF < ChargeF) ? ChargeF - TorqueF : 0;
+  localparam logic [ForceW-2:0] Dropped = ((ForceW - 1)'(1) << Down) - (ForceW - 1)'(1);
   localparam int Last = 17;  // last clock of the divider
 
   logic select, minus_q;
@@ -71,7 +73,7 @@ module scene_charge (
     else preset_q <= '0;
     if (param_is_attract_strength_i) begin
       for (int k = 0; k < 17; k++) rest_q[k] <= param_i[16-k];  // the highest comes first
-      minus_q <= attract_i != (!gap_i[GapW-1] && gap_i != '0);  // sgn(0) is +1
+      minus_q <= attract_i != gap_positive_i;  // sgn(0) is +1
     end
     takes_q     <= !division_i[0];
     saturated_q <= division_i[1] && fits;
@@ -83,20 +85,23 @@ module scene_charge (
     end
   end
 
-  // Signed quotient, most significant bit first: -(2q + 1) = 2 * ~q + 1. It is valid for one clock.
-  logic        [      15:0] quotient_q;
-  logic signed [ForceW-1:0] outside_q;
-  logic                     near_q;
+  // The quotient, most significant bit first. It is valid for one clock. The limiter gives it its sign.
+  logic [ForceW-2:0] outside_q;
+  logic              near_q;
   always_ff @(posedge clk_i) begin
-    if (division_i[1]) quotient_q <= '0;
-    else if (busy_q) quotient_q <= {quotient_q[14:0], fits};
-    if (!armed_i || !select || near_q || !busy_q || division_i[1]) outside_q <= '0;
-    else outside_q <= {(fits && minus_q) ? ~quotient_q : outside_q[ForceW-2:0], fits};
+    if (!armed_i || !select || near_q || !busy_q || division_i[1]) begin
+      outside_q     <= '0;
+      outside_not_o <= 1'b0;
+    end else begin
+      outside_q     <= {outside_q[ForceW-3:0], fits};
+      outside_not_o <= minus_q;
+    end
   end
   localparam int WideW = (TorqueW > ForceW) ? TorqueW : ForceW;
-  logic signed [WideW-1:0] torque;
-  assign torque = (WideW'(outside_q) <<< Up) >>> Down;
-  assign outside_o = torque[TorqueW-1:0];
+  logic [WideW-1:0] torque;
+  assign torque       = (WideW'(outside_q) << Up) >> Down;
+  assign outside_o    = torque[TorqueW-1:0];
+  assign outside_up_o = outside_not_o && (outside_q & Dropped) == '0;
 
   // Core: |x| <= half-width; the limiter compares them. A half-width of 0 means no core.
   logic none_q;

@@ -3,8 +3,8 @@
 //
 // Room: all scenes, with one distance from the reference, one sum of their terms and one rounding.
 // A scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
-// reference's word, for two clocks. The torque, rounded but not limited, is on early_term_o in the clock
-// before the torque limit's word, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
+// reference's word, for two clocks. The torque, not limited, is on early_term_o in the clock before the torque
+// limit's word, with early_up_o, by which the limiter completes its rounding, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
 // charge's distance, which the limiter compares with the core's half-width, and late_term_o shows
 // quotient bits that nothing uses. docs/blocks/scenes.md
 
@@ -28,7 +28,10 @@ module scenes #(
     output logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance_o,
     output logic                                             square_o,    // square the distance
     output logic signed [  feltgate_pkg::SCENE_TORQUE_W-1:0] early_term_o,  // one clock before its limit
-    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o    // with its limit; charges only
+    output logic                                             early_up_o,   // with early_term_o: it is rounded up
+    output logic signed [        feltgate_pkg::TORQUE_W-1:0] late_term_o,   // with its limit; charges only
+    output logic                                             late_not_o,   // with late_term_o: the torque is its complement
+    output logic                                             late_up_o     // + 1
 );
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int PartW = feltgate_pkg::SCENE_PART_W;
@@ -65,14 +68,20 @@ module scenes #(
   // and the fraction of a charge's centre is ignored.
   logic signed [    GapW-1:0] gap, gap_q;
   logic        [OffsetF-1:0] fraction;
-  logic                      held_q;
+  logic                      held_q, gap_zero, gap_positive_q;
   assign gap      = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
+  assign gap_zero = gap == '0;
   assign fraction = param_i[OffsetF-1:0];
   always_ff @(posedge clk_i) begin
-    if (wave_i[AtDistance]) gap_q <= gap;
+    if (wave_i[AtDistance]) begin
+      gap_q          <= gap;
+      gap_positive_q <= !gap[GapW-1] && !gap_zero;
+    end
     held_q <= wave_i[AtDistance];
-    if (wave_i[AtDistance]) distance_o <= {gap, square_o ? {OffsetF{1'b0}} : fraction};
-    else if (!held_q) distance_o <= '0;
+    if (wave_i[AtDistance]) distance_o[OffsetF+:GapW] <= gap;
+    else if (!held_q) distance_o[OffsetF+:GapW] <= '0;
+    if (wave_i[AtDistance] ? square_o : !held_q) distance_o[OffsetF-1:0] <= '0;
+    else if (wave_i[AtDistance]) distance_o[OffsetF-1:0] <= fraction;
   end
 
   logic signed [TorqueW-1:0] setpoint_plus, membrane_plus, membrane_minus;
@@ -97,7 +106,7 @@ module scenes #(
         .rst_ni(rst_ni),
         .select_i(membrane),
         .gap_negative_i(gap[GapW-1]),
-        .gap_zero_i(gap == '0),
+        .gap_zero_i(gap_zero),
         .param_is_membrane_lower_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER]),
         .param_is_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER]),
         .param_was_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER+1]),
@@ -145,7 +154,7 @@ module scenes #(
         .rst_ni(rst_ni),
         .attract_i(attract),
         .repel_i(repel),
-        .gap_i(gap_q),
+        .gap_positive_i(gap_positive_q),
         .division_i(wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1:feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE]),
         .at_scene_distance_i(wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
         .param_is_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),
@@ -160,13 +169,15 @@ module scenes #(
         .over_limit_i(over_limit_i),
         .plus_o(charge_plus),
         .minus_o(charge_minus),
-        .outside_o(late_term_o),
+        .outside_o(late_term_o), .outside_not_o(late_not_o), .outside_up_o(late_up_o),
         .armed_i(armed_i)
     );
   end else begin : gen_no_charge
     assign charge_plus  = '0;
     assign charge_minus = '0;
     assign late_term_o  = '0;
+    assign late_not_o   = 1'b0;
+    assign late_up_o    = 1'b0;
   end
 
   if (Mask[{1'b0, feltgate_map_pkg::SCENE_WALL}]) begin : gen_wall
@@ -209,9 +220,13 @@ module scenes #(
   logic signed [                     TorqueW-1:0] word_q, law_q;  // already a torque: no rounding
   logic signed [                        GapW-1:0] charge_distance_q;
   always_ff @(posedge clk_i) begin
-    if (!wave_i[AtRounded] || !armed_i || (wall && !sum_q[PartW])) rounded_q <= '0;
-    else rounded_q <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard])) +
-                      feltgate_pkg::SCENE_TORQUE_W'({1'b0, up});
+    if (!wave_i[AtRounded] || !armed_i || (wall && !sum_q[PartW])) begin
+      rounded_q  <= '0;
+      early_up_o <= 1'b0;
+    end else begin
+      rounded_q  <= feltgate_pkg::SCENE_TORQUE_W'($signed(sum_q[PartW:Guard]));
+      early_up_o <= up;
+    end
     if (!wave_i[AtRounded] || !armed_i) word_q <= '0;
     else word_q <= setpoint_plus;
     if (!wave_i[feltgate_map_pkg::EVENT_AT_LAW_TORQUE] || !armed_i || !law_o || law_late_i) law_q <= '0;

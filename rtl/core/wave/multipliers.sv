@@ -3,7 +3,8 @@
 //
 // Either one multiplier on the operand bus, or one multiplier per block with the same timing. For a
 // square the factor is the operand itself; it does not come from the parameter bus.
-// Latency: that of mult, 4 clocks. In one clock either square_*_i or the parameter is the factor.
+// Latency: that of mult, 4 clocks. In one clock either square_*_i or the parameter is the factor, or zero_control_i
+// makes it 0.
 // Documentation: docs/blocks/multipliers.md
 
 `default_nettype none
@@ -22,6 +23,7 @@ module multipliers (
     input  logic signed [                                   17:0] distance_i,  // one of them is 0
     input  logic                                                  square_estimate_i,
     input  logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i,
+    input  logic                                                  zero_control_i,  // the control's product is 0
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] dob_product_o,
     output logic signed [         feltgate_pkg::PRODUCT_BITS-1:0] scene_product_o,
@@ -39,7 +41,7 @@ module multipliers (
     mult u_mult (
         .clk_i(clk_i),
         .a_i(operand_i),
-        .b_i((square_distance_i || square_estimate_i) ? distance_i | supervisor_factor : coefficient),
+        .b_i((square_distance_i || square_estimate_i || zero_control_i) ? distance_i | supervisor_factor : coefficient),
         .product_o(product)
     );
     assign velocity_product_o   = product;
@@ -72,7 +74,7 @@ module multipliers (
     mult u_control (
         .clk_i(clk_i),
         .a_i(control_i),
-        .b_i(coefficient),
+        .b_i(zero_control_i ? 18'sd0 : coefficient),
         .product_o(control_product_o)
     );
     mult u_supervisor (

@@ -75,7 +75,7 @@ module wave #(
   localparam int OperandW = feltgate_pkg::MULTIPLIER_A_BITS;
   logic [3:0] scene_wanted;
   logic [5:0] slot_fetch;
-  logic scene_slot_fetch, refused, word_error, signed_word, square_distance_q, square_estimate;
+  logic scene_slot_fetch, refused, word_error, signed_word, square_distance_q, square_estimate, direct_q;
   logic [31:0] status, faults;
   logic signed [OperandW-1:0] operand, dob_operand, scene_operand, control_operand, supervisor_operand;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_operand;
@@ -179,7 +179,13 @@ module wave #(
       .square_estimate_o(square_estimate)
   );
 
-  always_ff @(posedge clk_i) square_distance_q <= square_i && wave_o[feltgate_map_pkg::PARAM_AT_CHARGE_SQUARE-1];
+  // A direct voltage is no product of the voltage gain.
+  always_ff @(posedge clk_i) begin
+    square_distance_q <= square_i && wave_o[feltgate_map_pkg::PARAM_AT_CHARGE_SQUARE-1];
+    direct_q <= wave_o[feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN-1] &&
+                control_o[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE] ==
+                feltgate_map_pkg::W_CONTROL_MODE'(feltgate_map_pkg::MODE_VOLTAGE);
+  end
   multipliers u_multipliers (
       .clk_i(clk_i),
       .operand_i(operand),
@@ -191,7 +197,7 @@ module wave #(
       .square_distance_i(square_distance_q),
       .distance_i(distance_i[feltgate_pkg::SCENE_DISTANCE_F+:18]),
       .square_estimate_i(square_estimate),
-      .estimate_i(estimate_operand),
+      .estimate_i(estimate_operand), .zero_control_i(direct_q),
       .velocity_product_o(velocity_product_o),
       .dob_product_o(dob_product_o),
       .scene_product_o(scene_product_o),

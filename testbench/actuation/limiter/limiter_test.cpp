@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kWide = Design::f.limiter_input.width();
 constexpr int kWidth = Design::f.limiter.width();
+constexpr int kSum = Design::f.with_addend.width();
 constexpr std::int64_t kMaxX = (std::int64_t{1} << (kWide - 1)) - 1;
 constexpr std::int64_t kMaxLimit = (std::int64_t{1} << (kWidth - 1)) - 1;
 
@@ -36,12 +37,14 @@ struct Adapter {
     using Port = std::remove_reference_t<decltype(rtl.early_term_i)>;
     rtl.early_term_i = port_bits<kWide, Port>(in.early_term);
     rtl.late_term_i = port_bits<kWide, Port>(in.late_term);
+    FELTGATE_DRIVE(rtl, in, early_up, late_not, late_up);
+    rtl.addend_i = port_bits<kSum>(in.addend);
     rtl.param_i = in.param;
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
     if (!out.known) return;
-    check("limited", sign_extend<kWidth>(rtl.limited_o), out.limited);
+    check("limited", sign_extend<kSum>(rtl.limited_o), out.limited);
     check("over_limit", rtl.over_limit_o, out.over_limit);
   }
 };
@@ -51,9 +54,12 @@ using Bench = LockStep<Rtl, Twin, Adapter>;
 /// One x and its limit.
 struct Case {
   bool valid = true, early_term = false;  ///< x comes a clock ahead
+  bool up = false;                        ///< x is rounded up
   int signal = 0;                         ///< 1 torque, 2 voltage, 3 duty
-  std::int64_t x = 0;
+  std::int64_t x = 0;  ///< before it is rounded up
   std::uint32_t param = 0;
+  std::int64_t addend = 0;
+  bool complement = false;  ///< x comes as its complement, if it is late
 };
 
 /// Cases from next(), one per clock.
@@ -67,11 +73,15 @@ struct Pipeline {
     after = next();
     return {after.valid,
             after.early_term ? after.x : 0,
-            now.early_term ? 0 : now.x,
+            now.early_term ? 0 : now.complement ? ~now.x : now.x,
             now.param,
             after.signal == 1,
             after.signal == 2,
-            after.signal == 3};
+            after.signal == 3,
+            after.early_term && after.up,
+            !now.early_term && now.up,
+            now.addend,
+            !now.early_term && now.complement};
   }
 };
 
@@ -99,6 +109,9 @@ struct RandomCases {
     } else if (random.one_in(16)) {
       c.x = random.coin() ? kMaxX : -kMaxX - 1;
     }
+    c.up = random.one_in(3);
+    c.addend = random.between(-kMaxLimit - 1, kMaxLimit);
+    c.complement = random.coin();
     return c;
   }
 };
@@ -116,7 +129,9 @@ struct Plain {
   int filled = 0;
 
   const char* operator()(const Twin::In& in, const Rtl& rtl, const Twin&, bool in_reset) {
-    const std::int64_t x = before[0].early_term + in.late_term;  // one of them is 0
+    // One of each is 0.
+    const std::int64_t late = in.late_not ? -1 - in.late_term : in.late_term;
+    const std::int64_t x = before[0].early_term + late + (before[0].early_up || in.late_up);
     const bool valid = before[0].valid;
     const int width = before[0].torque    ? Design::f.torque.width()
                       : before[0].voltage ? Design::f.voltage.width()
@@ -137,7 +152,7 @@ struct Plain {
     if (size > kMaxLimit) ++tally->wide[sign];
     ++tally->compared[valid];
     tally->misfit[sign] += misfit;
-    if (sign_extend<kWidth>(rtl.limited_o) != limited) return "limited of the plain program";
+    if (sign_extend<kSum>(rtl.limited_o) != limited + in.addend) return "limited of the plain program";
     if ((rtl.over_limit_o != 0) != over_limit) return "beyond of the plain program";
     return nullptr;
   }
@@ -180,7 +195,9 @@ TEST_CASE("limiter: every pair of corners, each way in, back to back") {
     for (const std::int64_t limit : corners) {
       if (limit > kMaxLimit || limit < -kMaxLimit - 1) continue;
       for (const bool early_term : {false, true}) {
-        cases.push_back({true, early_term, 0, x, static_cast<std::uint32_t>(limit)});
+        for (const bool up : {false, true}) {
+          cases.push_back({true, early_term, up, 0, x, static_cast<std::uint32_t>(limit), 7, up});
+        }
       }
     }
   }

@@ -18,6 +18,7 @@ class Limiter {
  public:
   using Law = LimiterLaw<D, Fixed>;
   using X = fixed_of<D::f.limiter_input.key()>;
+  using Whole = decltype(X{} + X{});  ///< x rounded up
   using Limited = fixed_of<D::f.limiter.key()>;
 
   struct In {
@@ -26,9 +27,12 @@ class Limiter {
     std::int64_t late_term = 0;   ///< x in its clock, or 0
     std::uint32_t param = 0;
     bool torque = false, voltage = false, duty = false;  ///< with valid: what x is
+    bool early_up = false, late_up = false;              ///< with its term: x is rounded up
+    std::int64_t addend = 0;                             ///< with the result
+    bool late_not = false;                               ///< with late_term: its complement is x
   };
   struct Out {
-    std::int64_t limited = 0;
+    std::int64_t limited = 0;  ///< the limited value + the addend
     bool over_limit = false;
   };
 
@@ -36,14 +40,16 @@ class Limiter {
   void reset() { *this = Limiter{}; }
 
   void clock(const In& in) {
-    const auto x = X::from_raw(early_ | in.late_term);
+    const std::int64_t late = in.late_not ? ~in.late_term : in.late_term;
+    const auto x = Whole::from_raw((early_ | late) + (early_up_ || in.late_up));
     const auto limit = fixed_of<Law::template key<0>>::from_raw(
         static_cast<std::int32_t>(decode_word(D::f.limiter, in.param)));
     const auto limited = Law::template limited<Limited>(x, limit, &out_.over_limit);
     const bool misfit = limit.raw() >= (std::int64_t{1} << (width_ - 1));
     if (misfit) out_.over_limit = true;
-    out_.limited = valid_ && !misfit ? limited.raw() : 0;
+    out_.limited = (valid_ && !misfit ? limited.raw() : 0) + in.addend;
     early_ = in.early_term;
+    early_up_ = in.early_up;
     valid_ = in.valid;
     width_ = D::f.limiter.width();
     if (in.torque) width_ = D::f.torque.width();
@@ -55,7 +61,7 @@ class Limiter {
 
  private:
   std::int64_t early_ = 0;
-  bool valid_ = false;
+  bool valid_ = false, early_up_ = false;
   int width_ = D::f.limiter.width();  ///< of the signal that is limited
   Out out_;
 };

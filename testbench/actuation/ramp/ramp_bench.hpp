@@ -40,7 +40,7 @@ struct Adapter {
     rtl.scene_i = static_cast<std::uint8_t>(in.port.scene);
     FELTGATE_STROBES(rtl, in.port.wave, at, T, ramp_begin, ramp_excess, ramp_change, tau_ref);
     rtl.param_i = in.port.param;
-    rtl.limited_i = port_bits<Design::f.limiter.width()>(in.port.limited);
+    rtl.limited_i = port_bits<Design::f.torque.width()>(in.port.limited);
     rtl.over_limit_i = in.port.over_limit;
     rtl.frozen_i = in.port.relief.frozen;
     rtl.derated_i = in.port.relief.derated;

@@ -123,7 +123,9 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
     case W::dead_voltage_slope:
       mult.operands(w.tau_ref, coefficient);
       break;
-    case W::voltage_gain:
+    case W::voltage_gain:  // of a direct voltage there is none
+      mult.operands(w.mode == Mode::voltage ? 0 : in.limited + out.addend, coefficient);
+      break;
     case W::duty_gain:
       mult.operands(in.limited + out.addend, coefficient);
       break;
@@ -134,6 +136,7 @@ inline Control::In wave_inputs(const Wave& w, int clock, const Control::Out& out
 }
 
 struct Adapter {
+  static constexpr int kSum = Design::f.with_addend.width();
   template <class In>
   static void drive(Vtorque_control& rtl, const In& in) {
     set_ports(rtl, in.port);
@@ -147,10 +150,11 @@ struct Adapter {
                      dead_voltage, voltage_window);
     FELTGATE_STROBES(rtl, in.wave, product_is, M, emf_constant, observer_gain, voltage_to_current,
                      torque_gain, dead_voltage_slope, voltage_gain, duty_gain);
+    FELTGATE_STROBES(rtl, in.wave << 1, product_next, M, voltage_gain);
     rtl.param_i = in.param;
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
     rtl.tau_ref_i = port_bits<Torque::width>(in.tau_ref);
-    rtl.limited_i = port_bits<Design::f.limiter.width()>(in.limited);
+    rtl.limited_i = port_bits<kSum>(in.limited + sign_extend<kSum>(rtl.addend_o));
     rtl.over_limit_i = in.over_limit;
   }
   /// Converts the RTL's outputs to the twin's type.
@@ -158,10 +162,8 @@ struct Adapter {
     Control::Out out;
     out.region_high = rtl.region_high_o != 0;
     out.early_term = sign_extend<Design::f.limiter_input.width()>(rtl.early_term_o);
-    out.late_term = sign_extend<Design::f.limiter_input.width()>(rtl.late_term_o);
-    constexpr int bits = Design::f.limiter.width();
-    out.addend = sign_extend<Design::f.with_addend.width()>(rtl.applied_o) -
-                 sign_extend<bits>(rtl.limited_i);
+    out.late_term = sign_extend<Design::f.limiter_input.width()>(rtl.late_term_o) + rtl.late_up_o;
+    out.addend = sign_extend<kSum>(rtl.addend_o);
     out.current_ref = sign_extend<Design::f.current.width()>(rtl.current_ref_o);
     out.voltage = sign_extend<Design::f.voltage.width()>(rtl.voltage_o);
     out.duty = sign_extend<Design::f.duty.width()>(rtl.duty_o);
@@ -175,7 +177,7 @@ struct Adapter {
     if (seen.clocked) {
       check("early_term", out.early_term, seen.port.early_term);
       check("late_term", out.late_term, seen.port.late_term);
-      check("applied", out.addend, seen.port.addend);
+      check("addend", out.addend, seen.port.addend);
     }
     check("current_ref", out.current_ref, seen.port.current_ref);
     check("voltage", out.voltage, seen.port.voltage);

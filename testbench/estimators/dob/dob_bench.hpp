@@ -93,6 +93,9 @@ struct Waves {
       mult.operands(in.aside.velocity, in.aside.inertia_gain);
     } else if (clock == Map::W::observer_a1) {
       mult.operands(out.port.operand, in.aside.a1);
+    } else if (clock == Map::T::observed - Map::multiplier_latency ||
+               clock == Map::T::observed_rounded - Map::multiplier_latency) {
+      mult.operands(0, 1);  // nothing is on the operand bus
     } else {
       mult.others();
     }

@@ -26,6 +26,7 @@ class HoldTimer {
 
   void reset() {
     law_ = {};
+    strong_ = false;
     out_ = {};
   }
 
@@ -42,7 +43,7 @@ class HoldTimer {
 
  private:
   HoldTimerLaw law_;
-  bool strong_ = false;  ///< not reset: each wave writes it before it is read
+  bool strong_ = false;
   Out out_;
 };
 

@@ -32,7 +32,7 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
     rtl.armed_i = in.armed;
     rtl.attract_i = in.attract;
     rtl.repel_i = in.repel;
-    rtl.gap_i = port_bits<19>(in.gap);
+    rtl.gap_positive_i = in.gap > 0;
     rtl.division_i = (in.wave >> Map::M::charge_square) & 0x3ffff;
     FELTGATE_STROBES(rtl, in.wave >> 1, after, T, charge_core);
     FELTGATE_STROBES(rtl, in.wave, at, T, scene_distance, charge_width_limited, charge_core);
@@ -43,11 +43,16 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
     rtl.product_i = port_bits<53, std::uint64_t>(in.product);
     rtl.over_limit_i = in.over_limit;
   }
+  /// As the limiter takes it.
+  static std::int64_t outside(const Rtl& rtl) {
+    const std::int64_t size = sign_extend<kTorque.width()>(rtl.outside_o);
+    return (rtl.outside_not_o ? ~size : size) + rtl.outside_up_o;
+  }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
     check("plus", sign_extend<kPartWidth>(rtl.plus_o), out.plus);
     check("minus", sign_extend<kPartWidth>(rtl.minus_o), out.minus);
-    check("outside", sign_extend<kTorque.width()>(rtl.outside_o), out.outside);
+    check("outside", outside(rtl), out.outside);
   }
 };
 
@@ -101,7 +106,7 @@ struct LawBeside {
   const char* at(const Probe& p, const Block::Rtl& rtl, const Block::Twin&) {
     if (p.t != kRendered) return nullptr;
     const Wave& w = p.wave;
-    const std::int64_t outside = sign_extend<kTorque.width()>(rtl.outside_o);
+    const std::int64_t outside = Block::outside(rtl);
     const std::int64_t core = rounded(sign_extend<kPartWidth>(rtl.plus_o)) -
                               rounded(sign_extend<kPartWidth>(rtl.minus_o));
     const std::int64_t tau = core + outside;

@@ -39,13 +39,20 @@ struct Block : BlockOf<Vscenes, Scenes<Built>> {
     rtl.law_torque_i = port_bits<kTorque.width()>(in.law_torque);
     rtl.law_late_i = in.law_late;
   }
+  /// As the limiter takes it: rounded.
+  static std::int64_t early_term(const Rtl& rtl) {
+    return sign_extend<Design::f.scene_torque.width()>(rtl.early_term_o) + rtl.early_up_o;
+  }
+  static std::int64_t late_term(const Rtl& rtl) {
+    const std::int64_t term = sign_extend<kTorque.width()>(rtl.late_term_o);
+    return (rtl.late_not_o ? ~term : term) + rtl.late_up_o;
+  }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
     check("distance", sign_extend<Design::f.scene_distance.width()>(rtl.distance_o), out.distance);
     check("square", rtl.square_o, out.square);
-    check("early_term", sign_extend<Design::f.scene_torque.width()>(rtl.early_term_o),
-          out.early_term);
-    check("late_term", sign_extend<kTorque.width()>(rtl.late_term_o), out.late_term);
+    check("early_term", early_term(rtl), out.early_term);
+    check("late_term", late_term(rtl), out.late_term);
     check("law", rtl.law_o, out.law);
   }
 };
@@ -75,13 +82,13 @@ struct LawBeside {
       return "the distance, in two clocks alone";
     }
     if ((rtl.square_o != 0) != (is_charge(w.scene) && built)) return "the square is the charges'";
-    const std::int64_t early_term = sign_extend<Design::f.scene_torque.width()>(rtl.early_term_o);
+    const std::int64_t early_term = Block::early_term(rtl);
     if (p.t == T::scene_rounded) {
       seen = early_term;
     } else if (early_term != (p.t == T::charge_width ? distance >> 8 : 0)) {
       return "the distance in whole counts, and nothing in other clocks";
     }
-    return p.t == kRendered ? whole(p, sign_extend<kTorque.width()>(rtl.late_term_o)) : nullptr;
+    return p.t == kRendered ? whole(p, Block::late_term(rtl)) : nullptr;
   }
 
  private:

@@ -50,6 +50,7 @@ struct Adapter {
     rtl.distance_i = port_bits<18>(in.distance);
     rtl.square_estimate_i = in.square_estimate;
     rtl.estimate_i = port_bits<kEstimate>(in.estimate);
+    rtl.zero_control_i = in.zero_control;
   }
   template <class Check>
   static void compare(Check& check, const Rtl& rtl, const Twin::Out& out) {
@@ -64,11 +65,12 @@ struct Adapter {
 
 using Bench = LockStep<Rtl, Twin, Adapter>;
 
-enum Kind { kWord, kSignedWord, kSquareDistance, kSquareEstimate, kKinds };
+enum Kind { kWord, kSignedWord, kSquareDistance, kSquareEstimate, kZeroControl, kKinds };
 
 Kind kind(const Twin::In& in) {
   if (in.square_distance) return kSquareDistance;
   if (in.square_estimate) return kSquareEstimate;
+  if (in.zero_control) return kZeroControl;
   return in.is_signed ? kSignedWord : kWord;
 }
 
@@ -98,6 +100,8 @@ struct Stimulus {
       in.estimate = any<kEstimate>();
       in.distance = 0;
     }
+    in.zero_control = what == kZeroControl;
+    if (what == kZeroControl) in.distance = 0;
     return in;
   }
 };
@@ -119,7 +123,10 @@ struct ClocksAgo {
     if (kind(then) == kSignedWord && (then.param / scale) % 2 != 0) word -= scale;
     const std::int64_t by_scene = then.square_distance ? then.distance : word;
     const std::int64_t by_supervisor = then.square_estimate ? then.estimate : word;
-    const std::int64_t by_all = then.square_distance ? then.distance : by_supervisor;
+    const std::int64_t by_control = then.zero_control ? 0 : word;
+    const std::int64_t by_all = then.zero_control     ? 0
+                                : then.square_distance ? then.distance
+                                                       : by_supervisor;
     ++(*seen)[kind(then)][by_all < 0];
     const auto is = [&then](std::int64_t shown, std::int64_t own, std::int64_t factor,
                             std::int64_t shared_factor) {
@@ -128,7 +135,9 @@ struct ClocksAgo {
     if (!is(product(rtl.velocity_product_o), then.velocity, word, by_all)) return "velocity's";
     if (!is(product(rtl.dob_product_o), then.dob, word, by_all)) return "dob's product";
     if (!is(product(rtl.scene_product_o), then.scene, by_scene, by_all)) return "scenes' product";
-    if (!is(product(rtl.control_product_o), then.control, word, by_all)) return "control's product";
+    if (!is(product(rtl.control_product_o), then.control, by_control, by_all)) {
+      return "control's product";
+    }
     if (!is(product(rtl.supervisor_product_o), then.supervisor, by_supervisor, by_all)) {
       return "supervisor's product";
     }
@@ -147,6 +156,6 @@ TEST_CASE("multipliers: words with and without a sign, and both squares") {
     const auto& of_kind = seen[static_cast<std::size_t>(k)];
     INFO("kind " << k << ", factors from 0 " << of_kind[0] << ", below " << of_kind[1]);
     REQUIRE(of_kind[0] * 20 > clocks);
-    REQUIRE((of_kind[1] * 20 > clocks) == (k != kWord));
+    REQUIRE((of_kind[1] * 20 > clocks) == (k != kWord && k != kZeroControl));
   }
 }

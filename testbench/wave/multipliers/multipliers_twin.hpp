@@ -25,6 +25,7 @@ class Multipliers {
     std::int64_t distance = 0;  ///< 18 bits
     bool square_estimate = false;
     std::int64_t estimate = 0;  ///< 0 unless it is to be squared
+    bool zero_control = false;  ///< control's factor is 0; so are distance and estimate
   };
   struct Out {
     std::int64_t velocity = 0, dob = 0, scene = 0, control = 0, supervisor = 0;
@@ -39,14 +40,15 @@ class Multipliers {
     const std::int64_t by_scene = in.square_distance ? in.distance : coefficient;
     const std::int64_t by_supervisor = in.square_estimate ? in.estimate : coefficient;
     if constexpr (D::parallel_multipliers == 0) {
-      velocity_.clock({in.operand, in.square_distance ? in.distance : by_supervisor});
+      const std::int64_t factor = in.zero_control ? 0 : by_supervisor;
+      velocity_.clock({in.operand, in.square_distance ? in.distance : factor});
       const std::int64_t product = velocity_.out().product;
       out_ = {product, product, product, product, product};
     } else {
       velocity_.clock({in.velocity, coefficient});
       dob_.clock({in.dob, coefficient});
       scene_.clock({in.scene, by_scene});
-      control_.clock({in.control, coefficient});
+      control_.clock({in.control, in.zero_control ? 0 : coefficient});
       supervisor_.clock({in.supervisor, by_supervisor});
       out_ = {velocity_.out().product, dob_.out().product, scene_.out().product,
               control_.out().product, supervisor_.out().product};

@@ -12,12 +12,16 @@ module clamp_proof (
     input logic                                            duty_i,
     input logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term_i,
     input logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] late_term_i,
-    input logic        [                             31:0] param_i
+    input logic                                            early_up_i,
+    input logic                                            late_not_i,
+    input logic                                            late_up_i,
+    input logic        [                             31:0] param_i,
+    input logic signed [  feltgate_pkg::WITH_ADDEND_W-1:0] addend_i
 );
   localparam int W = feltgate_pkg::LIMITER_W;
   localparam int WideW = feltgate_pkg::LIMITER_INPUT_W + 2;
 
-  logic signed [W-1:0] limited;
+  logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] limited;
   logic                over_limit;
   limiter u_dut (
       .*,
@@ -30,10 +34,12 @@ module clamp_proof (
   always_ff @(posedge clk_i) if (age_q != 2'd2) age_q <= age_q + 2'd1;
 
   // A clock ago: what came ahead and of which kind it is.
-  logic signed [WideW-1:0] early_q;
-  logic                    valid_q, torque_q, voltage_q, duty_q;
+  logic signed [WideW-1:0] early_q, late;
+  assign late = (late_not_i ? -1 - WideW'(late_term_i) : WideW'(late_term_i)) + WideW'({1'b0, late_up_i});
+  logic                    early_on_q, valid_q, torque_q, voltage_q, duty_q;
   always_ff @(posedge clk_i) begin
-    early_q   <= WideW'(early_term_i);
+    early_q   <= WideW'(early_term_i) + WideW'({1'b0, early_up_i});
+    early_on_q <= early_term_i != 0 || early_up_i;
     valid_q   <= valid_i;
     torque_q  <= torque_i;
     voltage_q <= voltage_i;
@@ -41,7 +47,9 @@ module clamp_proof (
   end
   always_comb begin
     assume (4'(torque_i) + 4'(voltage_i) + 4'(duty_i) <= 4'd1);
-    assume (early_q == 0 || late_term_i == 0);
+    assume (!early_on_q || (late_term_i == 0 && !late_not_i && !late_up_i));
+    assume (addend_i >= -(feltgate_pkg::WITH_ADDEND_W'(1) <<< (W - 1)) &&
+            addend_i < (feltgate_pkg::WITH_ADDEND_W'(1) <<< (W - 1)));
   end
 
   // Two clocks ago: x, its limit, and the most that its format holds.
@@ -49,7 +57,7 @@ module clamp_proof (
   logic                    had_valid_q;
   always_ff @(posedge clk_i) begin
     had_valid_q <= valid_q;
-    x_q         <= early_q + WideW'(late_term_i);
+    x_q         <= early_q + late;
     limit_q     <= WideW'($signed(param_i[W-1:0]));
     if (duty_q) most_q <= (WideW'(1) <<< (feltgate_pkg::DUTY_W - 1)) - 1;
     else if (voltage_q) most_q <= (WideW'(1) <<< (feltgate_pkg::VOLTAGE_W - 1)) - 1;
@@ -60,7 +68,7 @@ module clamp_proof (
   logic signed [WideW-1:0] result;
   assign fits   = limit_q >= 0 && limit_q <= most_q;
   assign given  = had_valid_q && fits;
-  assign result = WideW'(limited);
+  assign result = WideW'(limited) - WideW'(addend_i);
 
   always_comb begin
     if (age_q == 2'd2) begin

@@ -12,7 +12,7 @@ module steps_proof (
     input logic        [                        3:0] scene_i,
     input logic                                      restart_i,
     input logic        [                       31:0] param_i,
-    input logic signed [feltgate_pkg::LIMITER_W-1:0] limited_i,
+    input logic signed [feltgate_pkg::TORQUE_W-1:0]  limited_i,
     input logic                                      over_limit_i,
     input logic                                      frozen_i,
     input logic                                      derated_i
@@ -37,7 +37,6 @@ module steps_proof (
     assume (phase_q <= 9'(Begin) || frozen_i == frozen_q);
     assume (tick || !restart_i);
     // The limiter's result of a torque has the torque's format.
-    assume (!wave[Excess] || limited_i == feltgate_pkg::LIMITER_W'($signed(limited_i[TorqueW-1:0])));
   end
 
   logic signed [TorqueW-1:0] tau_ref;

@@ -32,12 +32,15 @@
   end
   always_comb begin
     assume (tick_q || !rst_ni || (armed_i == armed_q && mode_i == mode_q));
+    // A direct voltage is no product of the voltage gain.
+    assume (!(wave[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN] && mode_i == 2'(feltgate_map_pkg::MODE_VOLTAGE)) || product_i == '0);
     assume (phase_q <= 9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) || (other_early_i == '0 && other_late_i == '0));
   end
 
   logic signed [feltgate_pkg::LIMITER_INPUT_W-1:0] early_term, late_term;
-  logic signed [LimiterW-1:0] limited;
-  logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
+  logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] limited, addend;
+  logic late_up;
+  wire signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied = limited;
   logic signed [CurrentW-1:0] current;
   logic signed [VoltageW-1:0] voltage;
   logic signed [DutyW-1:0] duty;
@@ -60,6 +63,7 @@
       .at_hold_size_i(wave_seen[feltgate_map_pkg::EVENT_AT_HOLD_SIZE]),
       .param_is_dead_voltage_i(wave_seen[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE]),
       .at_voltage_offset_i(wave_seen[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]),
+      .product_next_voltage_gain_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN-1]),
       .product_is_voltage_gain_i(wave_seen[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN]),
       .param_is_voltage_window_i(wave_seen[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]),
       .at_voltage_i(wave_seen[feltgate_map_pkg::EVENT_AT_VOLTAGE]),
@@ -67,9 +71,10 @@
       .at_duty_i(wave_seen[feltgate_map_pkg::EVENT_AT_DUTY]),
       .early_term_o(early_term),
       .late_term_o(late_term),
+      .late_up_o(late_up),
+      .addend_o(addend),
       .limited_i(limited),
       .over_limit_i(over_limit),
-      .applied_o(applied),
       .region_high_o(region_high),
       .current_ref_o(current),
       .voltage_o(voltage),
@@ -88,8 +93,12 @@
       .voltage_i(wave[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW-1]),
       .duty_i(wave[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT-1]),
       .early_term_i(early_term | other_early_i),
+      .early_up_i(1'b0),
       .late_term_i(late_term | other_late_i),
+      .late_not_i(1'b0),
+      .late_up_i(late_up),
       .param_i(param_i),
+      .addend_i(addend),
       .limited_o(limited),
       .over_limit_o(over_limit)
   );

@@ -11,20 +11,19 @@ module torque_proof (
     input logic                                             armed_i,
     input logic signed [     feltgate_pkg::PRODUCT_BITS-1:0] product_i
 );
-  localparam int W = feltgate_pkg::OBSERVER_W;
   localparam int F = feltgate_pkg::OBSERVER_F;
   localparam int TorqueW = feltgate_pkg::TORQUE_W;
   localparam int Drop = F - feltgate_pkg::TORQUE_F;
   localparam int ObservedW = feltgate_pkg::OBSERVED_W;
   localparam int InertiaW = feltgate_pkg::INERTIA_TORQUE_W;
   localparam int InertiaDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_INERTIA_GAIN_F - F;
-  localparam int DriveW = feltgate_pkg::DRIVE_TORQUE_W;
-  localparam int DriveDrop = feltgate_pkg::CURRENT_F + feltgate_pkg::P_TORQUE_CONSTANT_F - F;
 
   `include "wave.svh"
   logic armed_q;
   always_ff @(posedge clk_i) armed_q <= armed_i;
   always_comb assume (tick_q || !rst_ni || armed_i == armed_q);
+  // Nothing is multiplied for these clocks.
+  always_comb assume (product_i == '0 || !(wave[feltgate_map_pkg::EVENT_AT_OBSERVED] || wave[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED]));
 
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] operand;
   logic signed [TorqueW-1:0] tau_hat;
@@ -42,18 +41,16 @@ module torque_proof (
       .tau_hat_o(tau_hat),
       .saturated_o(saturated)
   );
-  (* hierconn *) wire signed [W-1:0] \u_dut.state ;
-  wire signed [W-1:0] state = \u_dut.state ;
+  (* hierconn *) wire signed [ObservedW-1:0] \u_dut.filter_q ;
+  wire signed [ObservedW-1:0] state = \u_dut.filter_q ;
   (* hierconn *) wire signed [InertiaW-1:0] \u_dut.inertia_q ;
-  (* hierconn *) wire signed [W-1:0] \u_dut.input_q ;
 
   // What this tick brought, from the observer's input on, without a reset.
   logic began_q, new_q, after_q, saturated_q;
   logic signed [InertiaW-1:0] inertia_q;
-  logic signed [DriveW-1:0] drive_q;
   logic signed [ObservedW-1:0] observed_q;
   logic signed [TorqueW-1:0] tau_hat_q;
-  logic signed [W-1:0] state_q;
+  logic signed [ObservedW-1:0] state_q, begin_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       began_q <= 1'b0;
@@ -67,9 +64,9 @@ module torque_proof (
     end
   end
   always_ff @(posedge clk_i) begin
-    if (wave[feltgate_map_pkg::EVENT_AT_DRIVE_TORQUE]) drive_q <= armed_i ? DriveW'(product_i >>> DriveDrop) : '0;
     if (wave[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT]) inertia_q <= InertiaW'(product_i >>> InertiaDrop);
-    if (wave[feltgate_map_pkg::EVENT_AT_OBSERVED]) observed_q <= ObservedW'(state) - ObservedW'(inertia_q);
+    if (wave[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT]) begin_q <= state;
+    if (wave[feltgate_map_pkg::EVENT_AT_OBSERVED]) observed_q <= state;
     tau_hat_q   <= tau_hat;
     saturated_q <= saturated;
     state_q     <= state;
@@ -77,7 +74,8 @@ module torque_proof (
   logic due_q, state_due_q;
   always_ff @(posedge clk_i) begin
     due_q       <= wave[feltgate_map_pkg::EVENT_AT_TAU_HAT];
-    state_due_q <= wave[feltgate_map_pkg::EVENT_AT_OBSERVER_STATE];
+    state_due_q <= wave[feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT] || wave[feltgate_map_pkg::EVENT_AT_OBSERVER_STATE] ||
+                   wave[feltgate_map_pkg::EVENT_AT_OBSERVED_ROUNDED];
   end
   localparam logic signed [TorqueW-1:0] Most = {1'b0, {(TorqueW - 1) {1'b1}}};
   localparam int ErrorW = ObservedW + 3;
@@ -98,7 +96,7 @@ module torque_proof (
         saturates: cover (saturated && tau_hat > 0);
       end
       if (wave[feltgate_map_pkg::EVENT_AT_OBSERVER_DIFFERENCE] && began_q) begin
-        input_is_the_sum: assert (\u_dut.input_q == W'(drive_q) + W'(inertia_q));
+        input_is_the_sum: assert (state == ObservedW'(begin_q) - ObservedW'(inertia_q));
       end
       operand_in_its_clock: assert (wave[feltgate_map_pkg::PARAM_AT_OBSERVER_A1] || operand == '0);
       inside_inertia: assert (!began_q || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_OBSERVER_INPUT) ||

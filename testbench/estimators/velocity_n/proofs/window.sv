@@ -36,6 +36,7 @@ module window_proof (
   (* hierconn *) wire [AddressW-1:0] \u_dut.pointer_q ;
   wire [AddressW-1:0] pointer = \u_dut.pointer_q ;
   (* hierconn *) wire \u_dut.filled_q ;
+  (* hierconn *) wire \u_dut.begun_q ;
   wire filled = \u_dut.filled_q ;
   (* hierconn *) wire [T-1:0] \u_dut.line_q ;
   (* hierconn *) wire signed [T-1:0] \u_dut.travel_q ;
@@ -134,6 +135,7 @@ module window_proof (
                                                     32'(M1))
                                              : 32'(age_q) + 32'd1 == ((distance != '0) ? 32'(distance) : 32'(M1))));
       inside_begin: assert (whole_q || phase_q >= 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK) || phase_q == '0);
+      inside_begun: assert (\u_dut.begun_q == whole_q);
       inside_travel: assert (!whole_q || \u_dut.travel_q == travel_q);
       starts: cover (raw_now_q && raw < 0);
       saturates: cover (raw_now_q && saturated);

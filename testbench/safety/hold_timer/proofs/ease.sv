@@ -32,7 +32,7 @@ module ease_proof (
 
   logic strong_q;
   always_comb begin
-    if (!past_ok_q) assume (!rst_ni && \u_dut.strong_q == strong_q);  // no reset clears it
+    if (!past_ok_q) assume (!rst_ni);
   end
 
   // Units for which the torque was held: ends of 2^HOLD_UNIT_BITS ticks. From 2^HOLD_BITS on it says so for good.
@@ -44,7 +44,6 @@ module ease_proof (
   assign unit = tick_count_i[feltgate_map_pkg::HOLD_UNIT_BITS-1:0] == '0;
   assign due  = held && strong_q && (param_i[31] || 32'(units_q) >= param_i);
   always_ff @(posedge clk_i) begin
-    if (wave_i[feltgate_map_pkg::EVENT_AT_HOLD_STRONG]) strong_q <= over_limit_i;
     eased_q <= derated;
     now_q   <= now;
     held_q  <= held;
@@ -53,11 +52,13 @@ module ease_proof (
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      strong_q   <= 1'b0;
       units_q    <= '0;
       in_reach_q <= 1'b1;
       after_q    <= 1'b0;
     end else begin
       after_q <= 1'b1;
+      if (wave_i[feltgate_map_pkg::EVENT_AT_HOLD_STRONG]) strong_q <= over_limit_i;
       if (now) begin
         if (!held || !strong_q) begin
           units_q    <= '0;

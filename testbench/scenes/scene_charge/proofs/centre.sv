@@ -11,7 +11,7 @@ module centre_proof (
     input logic                                            armed_i,
     input logic                                            attract_i,
     input logic                                            repel_i,
-    input logic signed [  feltgate_pkg::SCENE_POSITION_W:0] gap_i,
+    input logic                                            gap_positive_i,
     input logic        [                              31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic                                            over_limit_i
@@ -35,24 +35,23 @@ module centre_proof (
   assign wave = (phase_q < 6'(feltgate_map_pkg::WAVE_LENGTH)) ? feltgate_map_pkg::WAVE_LENGTH'(1) << phase_q : '0;
 
   logic armed_q, attract_q, repel_q;
-  logic signed [feltgate_pkg::SCENE_POSITION_W:0] gap_q;
   always_ff @(posedge clk_i) begin
     armed_q   <= armed_i;
     attract_q <= attract_i;
     repel_q   <= repel_i;
-    gap_q     <= gap_i;
   end
   always_comb begin
     assume (rst_ni == past_ok_q);
     assume (!(attract_i && repel_i));
     if (past_ok_q) assume (armed_i == armed_q && attract_i == attract_q && repel_i == repel_q);
-    if (past_ok_q && phase_q > 6'd2) assume (gap_i == gap_q);
     if (wave[Square]) assume (product_i[DistanceF+:32] == 32'd0 && product_i[DistanceF+34:DistanceF+32] == 3'd0);
-    if (phase_q >= 6'd2) assume (gap_i == '0);
+    if (phase_q >= 6'd2) assume (!gap_positive_i);
   end
 
   logic signed [PartW-1:0] plus, minus;
-  logic signed [TorqueW-1:0] outside;
+  logic signed [TorqueW-1:0] outside, size;
+  logic negated, up;
+  assign outside = (negated ? ~size : size) + TorqueW'({1'b0, up});  // as the limiter takes it
   scene_charge u_dut (
       .*,
       .division_i(wave[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1:feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE]),
@@ -66,7 +65,9 @@ module centre_proof (
       .after_charge_core_i(wave[feltgate_map_pkg::EVENT_AT_CHARGE_CORE+1]),
       .plus_o(plus),
       .minus_o(minus),
-      .outside_o(outside)
+      .outside_o(size),
+      .outside_not_o(negated),
+      .outside_up_o(up)
   );
   (* hierconn *) wire \u_dut.near_q ;
   localparam int Up =

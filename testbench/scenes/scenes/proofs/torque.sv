@@ -44,8 +44,8 @@ module torque_proof (
   logic signed [DistanceW-1:0] distance;
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] early_term;
   logic signed [TorqueW-1:0] late_term;
-  logic signed [LimiterW-1:0] limited;
-  logic square, over_limit, law_o;
+  logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] limited;
+  logic early_up, late_not, late_up, square, over_limit, law_o;
   scenes u_dut (
       .*,
       .wave_i(wave),
@@ -53,7 +53,10 @@ module torque_proof (
       .distance_o(distance),
       .square_o(square),
       .early_term_o(early_term),
-      .late_term_o(late_term)
+      .early_up_o(early_up),
+      .late_term_o(late_term),
+      .late_not_o(late_not),
+      .late_up_o(late_up)
   );
   // As the core has it, of the scenes' clocks.
   limiter u_limiter (
@@ -63,8 +66,12 @@ module torque_proof (
       .voltage_i(1'b0),
       .duty_i(1'b0),
       .early_term_i(Wide'(early_term | pulse_i)),
+      .early_up_i(early_up),
       .late_term_i(Wide'(late_term)),
+      .late_not_i(late_not),
+      .late_up_i(late_up),
       .param_i(param_i),
+      .addend_i('0),
       .limited_o(limited),
       .over_limit_o(over_limit)
   );
@@ -95,11 +102,11 @@ module torque_proof (
   logic signed [OffsetW:0] gap, gap_q;
   logic new_q, now;
   assign now   = whole_q && wave[Limit];
-  assign x     = early_q | Wide'(late_term);
+  assign x     = early_q + (late_not ? -1 - Wide'(late_term) : Wide'(late_term)) + Wide'({1'b0, late_up});  // one is 0
   assign whole = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
   assign gap   = (OffsetW + 1)'($signed(param_i[OffsetW-1:0])) - ((OffsetW + 1)'(position_i) <<< OffsetF);
   always_ff @(posedge clk_i) begin
-    early_q <= Wide'(early_term);
+    early_q <= Wide'(early_term) + Wide'({1'b0, early_up});
     new_q   <= now;
     if (wave[feltgate_map_pkg::EVENT_AT_SCENE_SUM]) terms_q <= (PartW + 2)'(\u_dut.plus ) - (PartW + 2)'(\u_dut.minus );
     if (wave[feltgate_map_pkg::PARAM_AT_SETPOINT_TORQUE]) word_q <= param_i[TorqueW-1:0];

@@ -239,7 +239,7 @@ module scenes #(
 
   // Inputs without a load if fewer scenes are built.
   logic unused;
-  assign unused = ^{wave_i, param_i, rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i};
+  assign unused = ^{wave_i, param_i, rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i, gap_positive_q};
 endmodule
 
 `default_nettype wire

@@ -29,6 +29,7 @@ module ease_proof (
   );
   (* hierconn *) wire [Bits-1:0] \u_dut.units_q ;
   (* hierconn *) wire \u_dut.strong_q ;
+  (* hierconn *) wire \u_dut.begun_q ;
 
   logic strong_q;
   always_comb begin
@@ -84,6 +85,7 @@ module ease_proof (
     end
     if (rst_ni && past_ok_q) begin
       inside_units: assert (\u_dut.units_q == units_q[Bits-1:0]);
+      inside_begun: assert (\u_dut.begun_q || (!strong_q && units_q == '0));
       inside_reach: assert (!in_reach_q || derated || !units_q[Bits]);
       inside_before: assert (after_q || !derated);
     end

@@ -16,7 +16,8 @@
     input logic                                                  square_distance_i,
     input logic signed [                                   17:0] distance_i,
     input logic                                                  square_estimate_i,
-    input logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i
+    input logic signed [   feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_i,
+    input logic                                                  zero_control_i
 );
   logic past_ok_q;
   initial past_ok_q = 1'b0;

@@ -28,7 +28,7 @@ module parallel_proof
           \u_dut.gen_parallel.u_control.a_i  == control_i && \u_dut.gen_parallel.u_supervisor.a_i  == supervisor_i);
       factors_are_the_word: assert (\u_dut.gen_parallel.u_velocity.b_i  == coefficient &&
           \u_dut.gen_parallel.u_dob.b_i  == coefficient &&
-          \u_dut.gen_parallel.u_control.b_i  == coefficient && (square_distance_i ||
+          \u_dut.gen_parallel.u_control.b_i  == (zero_control_i ? 18'sd0 : coefficient) && (square_distance_i ||
               \u_dut.gen_parallel.u_scene.b_i  == coefficient) &&
           (square_estimate_i || \u_dut.gen_parallel.u_supervisor.b_i  == coefficient));
       squares_are_of_their_own: assert ((!square_distance_i || \u_dut.gen_parallel.u_scene.b_i  == distance_i) &&

@@ -14,11 +14,13 @@ module shared_proof
   always_comb begin
     // Who squares brings a factor of 0 while the other does.
     assume (!(square_distance_i && square_estimate_i));
+    assume (!zero_control_i || (!square_distance_i && !square_estimate_i && distance_i == '0));
     assume (square_distance_i || !square_estimate_i || distance_i == '0);
     assume (square_estimate_i || estimate_i == '0);
     if (past_ok_q) begin
       operand_is_the_bus: assert (\u_dut.gen_shared.u_mult.a_i == operand_i);
-      factor_is_the_word: assert (square_distance_i || square_estimate_i || factor == coefficient);
+      factor_is_the_word: assert (square_distance_i || square_estimate_i ||
+                                  factor == (zero_control_i ? 18'sd0 : coefficient));
       squares_are_of_their_own: assert (!(square_distance_i && factor != distance_i) &&
                                         !(square_estimate_i && factor != 18'(estimate_i)));
       product_is_for_all: assert (velocity == product && dob == product && scene == product && control == product &&

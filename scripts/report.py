@@ -58,7 +58,7 @@ def report(summary, tables):
     body += page.section("detail", "In detail", run_section.inside(summary, drawn))
     body += page.paragraph(
         "Errors are against the same chain in 113-bit arithmetic on the same sampled counts; speed "
-        "is simulated seconds per second spent in the engine. All of this is simulation.",
+        "is simulated seconds per second spent in the back-end. All of this is simulation.",
         soft=True,
     )
     body += page.paragraph(f"feltgate {summary.get('version', '')}", soft=True)

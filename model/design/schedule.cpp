@@ -138,6 +138,7 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   if (step.on_operand_bus && step.lasts == 0) {
     r.fail("on_operand_bus", "what is held would keep the operand bus", "say how long it lasts");
   }
+  if (r.has("no_product")) step.no_product = static_cast<int>(r.integer("no_product", 1, 62));
   if (r.has("shows_in")) step.shows_in = r.text("shows_in");
   if (r.has("output")) step.output = plain_text(r, "output");
   step.by = r.identifier("by");

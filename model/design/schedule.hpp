@@ -42,6 +42,7 @@ struct Step {
   std::vector<std::string> reads;  ///< words of the snapshot that it reads
   int lasts = 0;                   ///< clocks for which the result is valid; 0: held
   bool on_operand_bus = false;     ///< the result occupies the operand bus while it lasts
+  int no_product = 0;              ///< clocks, from its own on, in which the product bus must be 0
   std::string shows_in;            ///< a later result whose register this step writes first
   std::string output;              ///< label of the result in the timing diagram; none: not shown
   std::string by, doc, place;

@@ -180,6 +180,29 @@ void check_results_on_bus(const RegisterMap& map, const Schedule& s) {
   }
 }
 
+/// Checks that the operand bus is empty where a step needs a product of 0, a latency before.
+void check_no_products(const RegisterMap& map, const Schedule& s) {
+  for (const Step& step : s.steps) {
+    const int first = step.clock - s.multiplier_latency;
+    const auto empty = [&](const std::string& place, const std::string& what, int from, int to) {
+      if (to < first || from >= first + step.no_product) return;
+      refuse(place,
+             fmt::format("{} in slot {} makes a product in clock {}, where the step {} ({}) needs "
+                         "a product of 0",
+                         what, from, from + s.multiplier_latency, step.name, step.place),
+             "move one of them");
+    };
+    for (const Product& p : s.products) empty(p.place, "the operand of " + p.name, p.slot, p.slot);
+    for (const Snapshot& n : map.snapshots) {
+      empty(n.place, n.name + " of the snapshot", n.slot, n.slot);
+    }
+    for (const Step& other : s.steps) {
+      if (!other.on_operand_bus) continue;
+      empty(other.place, "the result of " + other.name, other.clock + 1, other.clock + other.lasts);
+    }
+  }
+}
+
 /// Checks that users of the one operand bus and the one multiplier do not collide.
 void check_buses(const RegisterMap& map, const Schedule& s) {
   for (const Product& p : s.products) {
@@ -274,6 +297,7 @@ void check_schedule(const RegisterMap& map, const Schedule& s) {
   check_ends(map, s);
   check_banks(map, s);
   check_buses(map, s);
+  check_no_products(map, s);
   check_results_on_bus(map, s);
   check_reads(map, s);
   check_uses(map, s);

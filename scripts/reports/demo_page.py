@@ -197,7 +197,7 @@ def tables(demo):
     text += page.folded(
         "errors", "Errors: velocity and torque of every run", demo_tables.all_errors(demo)
     )
-    text += page.folded("speed", "Speed of every engine in every run", demo_tables.speeds(demo))
+    text += page.folded("speed", "Speed of every back-end in every run", demo_tables.speeds(demo))
     return text
 
 

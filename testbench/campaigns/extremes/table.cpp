@@ -157,7 +157,7 @@ std::string page(const std::vector<Result>& results, const std::string& before) 
       "on the same sampled\n"
       "counts, or, in closed loop, driving the motor itself. A dash: not measured there; the "
       "line below the table\n"
-      "says what each engine ran. Everything is simulation.\n\n"
+      "says what each back-end ran. Everything is simulation.\n\n"
       "```\n"
       "./feltgate extremes                  every short case, as text\n"
       "./feltgate extremes wrap_16 rest     only these\n"

@@ -123,6 +123,14 @@ TEST_CASE("words that meet on a bus are refused", "[schedule]") {
           "two words meet on the operand bus in slot 36: index of the snapshot and dead_voltage");
 }
 
+TEST_CASE("where a step needs a product of 0 nothing is multiplied", "[schedule]") {
+  refused(Texts().move("emf_constant", 16).move("overspeed", 22),
+          "the operand of emf_constant in slot 16 makes a product in clock 20, where the step "
+          "observed .* needs a product of 0; move");
+  refused(Texts().in_registers("slot = 11\n", "slot = 17\n"),
+          "index of the snapshot in slot 17 makes a product in clock 21");
+}
+
 TEST_CASE("a word of the snapshot stays where the RTL can select it", "[schedule]") {
   refused(
       Texts().in_registers("slot = 0\ndoc = \"what the core", "slot = 12\ndoc = \"what the core"),

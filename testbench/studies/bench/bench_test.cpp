@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The benchmark on short works: every engine is there, the integer engines agree, errors stay
+// The benchmark on short works: every back-end is there, the integer ones agree, errors stay
 // within what the formats say, and an engine that is wrong by one bit is found.
 // Documentation: docs/bench.md
 #include <cmath>
@@ -55,7 +55,7 @@ class OneBitOff : public Runner {
 
 }  // namespace
 
-TEST_CASE("all engines, their bits, their errors, their JSON") {
+TEST_CASE("all back-ends, their bits, their errors, their JSON") {
   const std::vector<Work> works{slow_small_signals("lever", 0.06)};
   Options options = short_run();
   options.laws = std::string(FELTGATE_ROOT) + "/rtl/laws";

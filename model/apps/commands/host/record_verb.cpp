@@ -93,7 +93,7 @@ Run add_record(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 record --for 10 --csv moved.csv\n"
       "  feltgate host /dev/ttyUSB0 record position --for 10 --vector moved.vec\n"
       "  feltgate replay moved.vec                              the same motion through every "
-      "engine\n"
+      "back-end\n"
       "  feltgate replay moved.csv --count-column position\n"
       "The wire carries no pins and not every tick. The trace of --vector has edges spread evenly\n"
       "between recorded positions, no index, no glitches and no illegal steps; for every tick "

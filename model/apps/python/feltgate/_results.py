@@ -51,7 +51,7 @@ class ErrorFigure:
 
 
 class Signals(Columns):
-    """What one engine computed in each tick kept."""
+    """What one back-end computed in each tick kept."""
 
     velocity_rad_s: Floats  #: velocity after its low-pass, rad/s
     tau_ref_nm: Floats  #: torque that the scene asks for, limited and ramped, Nm
@@ -63,7 +63,7 @@ class Signals(Columns):
 
     #: Over all ticks, kept or not, against Result.reference; empty for the reference itself.
     errors: Dict[str, ErrorFigure]
-    #: Time spent in this engine, s.
+    #: Time spent in this back-end, s.
     busy_s: float
 
     def __init__(self, columns: Mapping[str, Any], errors: Mapping[str, Mapping[str, float]],
@@ -130,9 +130,9 @@ class Felt:
 
 
 class Result(Columns):
-    """A run: its columns, those of each engine as r["twin"], and what was felt.
+    """A run: its columns, those of each back-end as r["twin"], and what was felt.
 
-    The signals of the base (r.velocity_rad_s and so on) are those of the engine that drove the
+    The signals of the base (r.velocity_rad_s and so on) are those of the back-end that drove the
     motor: the twin, or the first one named without it. pandas.DataFrame(dict(r.table())) makes a table of everything.
     """
 
@@ -143,7 +143,7 @@ class Result(Columns):
     hand_torque_nm: Floats  #: of the hand on the lever, Nm; not in a replay
     hand_felt_nm: Floats  #: its mean over the last 1 ms that is over, Nm; not in a replay
     position_rad: Floats  #: the core's count as an angle, rad
-    velocity_rad_s: Floats  #: these seven as in Signals, of the engine that drove the motor
+    velocity_rad_s: Floats  #: these seven as in Signals, of the back-end that drove the motor
     tau_ref_nm: Floats
     tau_hat_nm: Floats
     torque_nm: Floats
@@ -158,7 +158,7 @@ class Result(Columns):
     ticks: int  #: all that ran, kept or not
     simulated_s: float
     every: int  #: one tick of so many was kept
-    reference: Optional[str]  #: engine that the errors are taken against: "quad" or "double"
+    reference: Optional[str]  #: back-end that the errors are taken against: "quad" or "double"
     engines: Dict[str, Signals]
     felt: Felt
     #: Proven bounds on the errors of the fixed point in this motion, against "quad"; None without it.
@@ -175,7 +175,7 @@ class Result(Columns):
                 if column.startswith(name + "_"):
                     own[name][column[len(name) + 1:]] = columns.pop(column)
         if len(names) == 1:
-            # One engine: its signals are those of the base, and the same arrays.
+            # One back-end: its signals are those of the base, and the same arrays.
             own[names[0]] = {name: columns[name] for name in Signals.__annotations__
                              if name in columns}
             self._table.update({f"{names[0]}_{name}": own[names[0]][name] for name in own[names[0]]})
@@ -190,7 +190,7 @@ class Result(Columns):
             setattr(self, name, raw[name])
 
     def __getitem__(self, name: str) -> Any:
-        """Signals of an engine, or a column."""
+        """Signals of a back-end, or a column."""
         if name in self.engines:
             return self.engines[name]
         return super().__getitem__(name)

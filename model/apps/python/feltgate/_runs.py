@@ -144,7 +144,7 @@ def replay(recording: Union[PathLike, Recording, npt.ArrayLike], design: str = "
 
 def _what(design: str, engine: Engines, every: Optional[int], length_s: float,
           seed: int) -> Tuple[Any, List[str]]:
-    """What both kinds of run are told, and the engines that have columns."""
+    """What both kinds of run are told, and the back-ends that have columns."""
     design_path, registers_path = design_files(design)
     engines = engine if isinstance(engine, str) else ",".join(engine)
     if every is None:

@@ -298,10 +298,10 @@ void check_schedule(const RegisterMap& map, const Schedule& s) {
   check_ends(map, s);
   check_banks(map, s);
   check_buses(map, s);
-  check_no_products(map, s);
   check_results_on_bus(map, s);
   check_reads(map, s);
   check_uses(map, s);
+  check_no_products(map, s);
 }
 
 }  // namespace feltgate::design

@@ -43,6 +43,13 @@ module dob (
   localparam logic [SumW-1:0] Half = SumW'(1) << (TorqueDrop - 1);
   localparam logic [ObservedW-1:0] BelowHalf = ObservedW'(Half) - ObservedW'(1);
 
+  generate
+  if (!(feltgate_pkg::OBSERVER_DIFFERENCE_W <= W + 1 && FilterDrop >= 1 && feltgate_pkg::PRODUCT_BITS > FilterDrop))
+  begin : g_check_widths
+    the_widths_of_a_lowpass_must_nest missing ();
+  end
+  endgenerate
+
   // The filter y += round(a1 * (x - y)) of x = drive + inertia. One register and one adder go round:
   //   EVENT_AT_OBSERVER_INPUT    lag = y - inertia; then x - y is drive - lag
   //   EVENT_AT_OBSERVER_STATE    observed = lag + round(a1 * (drive - lag)), which is the new y less inertia

@@ -17,13 +17,13 @@ module dob_cover #(
   input logic over,
   input logic negative,
   input logic beyond_half,
-  input logic signed [ObservedW-1:0] observed_q
+  input logic signed [ObservedW-1:0] filter_q
 );
   logic half;
-  assign half = observed_q[TorqueDrop-1];
+  assign half = filter_q[TorqueDrop-1];
   for (genvar n = 0; n < 4; n++) begin : g_kind  // odd, negative
     logic here;
-    assign here = rounds && {observed_q[TorqueDrop], observed_q[ObservedW-1]} == 2'(n);
+    assign here = rounds && {filter_q[TorqueDrop], filter_q[ObservedW-1]} == 2'(n);
     tie:        cover property (@(posedge clk_i) disable iff (!rst_ni) here && half && !beyond_half);
     above_half: cover property (@(posedge clk_i) disable iff (!rst_ni) here && half && beyond_half);
     below_half: cover property (@(posedge clk_i) disable iff (!rst_ni) here && !half && beyond_half);
@@ -34,7 +34,7 @@ module dob_cover #(
 endmodule
 
 bind dob dob_cover #(.ObservedW(ObservedW), .TorqueDrop(TorqueDrop)) u_cover (
-  .rounds(at_observed_rounded_i), .shows(at_tau_hat_i),
+  .rounds(at_observed_i), .shows(at_tau_hat_i), .beyond_half((filter_q & BelowHalf) != '0),
   .negative(rounded_q[RoundedW-1]), .*);
 
 `default_nettype wire

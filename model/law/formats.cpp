@@ -232,7 +232,7 @@ namespace {
 
 bool divides_one(double scale) {
   const double words = 1 / std::fabs(scale);
-  return words > 0.5 && std::fabs(words - std::nearbyint(words)) <= 1e-9 * words;
+  return words > 0.5 && std::fabs(words - std::nearbyint(words)) <= 1e-12 * words;
 }
 
 }  // namespace

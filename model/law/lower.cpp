@@ -103,6 +103,10 @@ double BackEnd::chosen_scale(NodeId id, double unit, int preferred, double size)
   if (found != choice_.fraction.end()) {
     if (found->second > most) throw Unfit("a value does not fit in 32 bits", id);
     fraction = found->second;
+    // Of a value that reaches no output any step would be as good.
+    if (node(id).whole && std::ldexp(unit, -fraction) > 1) {
+      throw Unfit("a whole value counts in ones", id);
+    }
     if (least > 0 && fraction < least) throw Unfit("noise repeats early in fewer bits", id);
   }
   choice_.fraction[id] = fraction;

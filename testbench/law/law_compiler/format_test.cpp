@@ -3,6 +3,8 @@
 //
 // Formats that the search must not choose, and the memory that tables need. Documentation:
 // docs/law-compiler.md
+#include <cmath>
+
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/measure.hpp"
@@ -25,6 +27,41 @@ TEST_CASE("a whole state counts in ones") {
       "state count = 0 in 0 .. 9 whole\n"
       "next count = if count < 5 and not velocity > 1 rad/s then count + 1 else 0\n"
       "out torque = 0.01 Nm * count\n");
+}
+
+// Laws 60198 and 81752 of the judge.
+TEST_CASE("a whole state that no output shows counts in ones as well") {
+  const Compiled c = compile_text(
+      "rate = 10 kHz\nparam p = 0.616 in 0.1 .. 1.083\nparam q = 0 in -0.936 .. 1\n"
+      "param count = 1 in 0 .. 4 whole\nstate stage = 0 in 0 .. 3 whole\n"
+      "state side = 1 in -2 .. 2 whole\nline past[2] in -2 .. 2\n"
+      "next stage = clamp(stage + (if side != count then 1 else 0) - "
+      "(if clamp(position, -0.326, 2.956) < -p then 1 else 0), 0, 3)\n"
+      "next side = clamp(side + (if side <= 0 then 1 else 0) - (if stage < count then 1 else 0), "
+      "-2, 2)\n"
+      "next past = clamp(exp(clamp(past[1] * past[1], -2, 1)), -2, 2)\n"
+      "event told(p + q - (1.694 - q)) when side > 2\n"
+      "out torque = 1 Nm * clamp(clamp(mod(clamp(past[1], -3, 3) + 0.142, 0.927), -1.5, 1.5)^3, "
+      "-4, 4)\n",
+      "x.law", Target{});
+  for (const Step& s : c.program.steps) {
+    if (s.node >= 0 && c.law.nodes[static_cast<std::size_t>(s.node)].whole) CHECK(s.scale <= 1);
+  }
+}
+
+TEST_CASE("the word of a whole parameter is a whole number of steps in one") {
+  const Compiled c = compile_text(
+      "param q = 0 in -1.628 .. 1\nparam count = 1 in 0 .. 4 whole\n"
+      "state kept = 0.25 in -2 .. 2\nnext kept = kept + 0.595 * (clamp(sin(2 * position), -2, 2) "
+      "- kept)\n"
+      "out torque = 1 Nm * (0.3 / (0.48 + abs(cos(7 * position + ((q - 0.917) * kept - "
+      "count)))))\n",
+      "x.law", Target{});
+  for (const ImageWord& w : c.image.words) {
+    if (!w.whole || !w.formula.empty()) continue;
+    const double steps = 1 / std::fabs(w.scale);
+    CHECK(std::fabs(steps - std::nearbyint(steps)) < 1e-11 * steps);
+  }
 }
 
 TEST_CASE("no format is taken that holds no value of a phase") {

@@ -12,6 +12,9 @@
 
 namespace feltgate {
 
+constexpr int kCurrentControlBits = 17;       ///< fraction bits of voltage, current, integral gain
+constexpr int kCurrentProportionalBits = 13;  ///< fraction bits of the proportional gain
+
 /// Words of the two gains.
 struct CurrentGains {
   std::int32_t proportional = 0;  ///< [0,4,13], parts of the supply per part of full-scale current
@@ -26,9 +29,10 @@ inline CurrentGains current_gains(double resistance_ohm, double inductance_h, do
   constexpr double pi = 3.14159265358979323846;
   const double part = -std::expm1(-resistance_ohm * sample_s / inductance_h);
   const double ohm = 2 * pi * bandwidth_hz * sample_s * resistance_ohm / part;
-  const double proportional = std::round(std::ldexp(ohm * full_scale_a / supply_v, 13));
-  const double integral = std::round(std::ldexp(part, 17));
-  constexpr double most = (1 << 17) - 1;
+  const double proportional =
+      std::round(std::ldexp(ohm * full_scale_a / supply_v, kCurrentProportionalBits));
+  const double integral = std::round(std::ldexp(part, kCurrentControlBits));
+  constexpr double most = (1 << 17) - 1;  // both words have 17 bits
   return {static_cast<std::int32_t>(std::min(proportional, most)),
           static_cast<std::int32_t>(std::min(integral, most)),
           proportional >= 1 && proportional <= most && integral >= 1 && integral <= most};
@@ -37,9 +41,11 @@ inline CurrentGains current_gains(double resistance_ohm, double inductance_h, do
 /// Bit-exact and clock-exact with the RTL.
 class CurrentControl {
  public:
-  static constexpr std::int64_t kFullScale = 1 << 17;  ///< LSB of full-scale current
-  static constexpr std::int64_t kSupply = 1 << 17;     ///< LSB of the supply's voltage
-  static constexpr int kLatencyClocks = 20;            ///< from valid to out().valid
+  static constexpr std::int64_t kFullScale = 1
+                                             << kCurrentControlBits;  ///< LSB of full-scale current
+  static constexpr std::int64_t kSupply = 1
+                                          << kCurrentControlBits;  ///< LSB of the supply's voltage
+  static constexpr int kLatencyClocks = 20;                        ///< from valid to out().valid
   static constexpr int kBusyClocks = 39;  ///< fewest from a taken valid to the next one
   struct In {
     bool armed = false;             ///< false: voltage and integrator are 0
@@ -68,9 +74,9 @@ class CurrentControl {
     if (step_ == 0 && !in.valid) return;
     switch (step_) {
       case 0:
-        base_ = (integrator_ >> 17) + in.emf;
-        wanted_ = base_ +
-                  ((std::int64_t{in.proportional} * (in.reference - in.current) + (1 << 12)) >> 13);
+        base_ = (integrator_ >> kCurrentControlBits) + in.emf;
+        wanted_ = base_ + ((std::int64_t{in.proportional} * (in.reference - in.current) + kHalf) >>
+                           kCurrentProportionalBits);
         break;
       case kLatencyClocks - 1: {
         const std::int64_t limit = in.limit;
@@ -96,6 +102,7 @@ class CurrentControl {
   std::int64_t integrator() const { return integrator_; }
 
  private:
+  static constexpr std::int64_t kHalf = std::int64_t{1} << (kCurrentProportionalBits - 1);
   Out out_;
   int step_ = 0;                             // clocks since a current was taken, 0: none
   std::int64_t base_ = 0, wanted_ = 0;       // LSB of the voltage

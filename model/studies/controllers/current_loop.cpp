@@ -119,7 +119,8 @@ void CurrentLoop::clock(double reference_a) {
   Pwm::In pwm;
   pwm.enable = !tripped_;
   pwm.duty = static_cast<std::int16_t>(
-      (std::int64_t{control_.out().voltage} * period() + CurrentControl::kSupply / 2) >> 17);
+      (std::int64_t{control_.out().voltage} * period() + CurrentControl::kSupply / 2) >>
+      kCurrentControlBits);
 
   pwm_.clock(pwm);
   control_.clock(control_in_);

@@ -3,7 +3,7 @@
 """The plant beside MuJoCo's DC motor: five motions, each part alone and all together; wrong constants
 are seen; the example's wall holds. docs/plant.md
 
-mujoco_test.py VENV: where scripts/build.sh has fetched MuJoCo. -v prints the table.
+mujoco_test.py VENV: where scripts/build.sh has fetched MuJoCo. It prints the page's table.
 """
 
 import contextlib
@@ -26,6 +26,7 @@ except ImportError:
     if os.environ.get("CI"):
         raise
     mujoco = None
+import feltgate  # noqa: E402
 
 LIMIT = 0.5  # percent
 STEP_S, END_S = 1e-6, 0.1
@@ -97,8 +98,6 @@ def theirs(p, effects, volts, hand_nm, held):
 class Mujoco(Scratch):
     def error(self, part, motion, wrong=None):
         """The largest difference of a motion, in percent of the plant's peak."""
-        import feltgate
-
         volts_at, (times, torques), held = MOTIONS[motion]
         t = np.arange(0, END_S, STEP_S)
         hand = feltgate.Hand.motion(*NOBODY) if held else feltgate.Hand.torque(times, torques)

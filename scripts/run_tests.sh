@@ -92,6 +92,7 @@ run_tests() {
   fi
   fetch_for_tests mutate tree-sitter 'mutate\.twin'
   fetch_for_tests neighbours "FuseSoC and LiteX" 'register_files|neighbours\.|board\.host'
+  fetch_for_tests mujoco MuJoCo 'plant\.mujoco'
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
     --output-junit "$results" "${options[@]}" || status=$?

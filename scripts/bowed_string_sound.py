@@ -12,7 +12,7 @@ import csv
 import sys
 
 import numpy as np
-from wav_file import write_wav
+from outputs import write_wav
 
 RATE_HZ = 40_000
 LOUDEST_M_S = 2.5  # what is full scale; more is cut

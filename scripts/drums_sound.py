@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from wav_file import write_wav
+from outputs import write_wav
 
 RATE_HZ = 44_100
 # Zeros of Bessel functions over the first, 2.405: modes of an ideal round membrane.

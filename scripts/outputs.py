@@ -3,11 +3,13 @@
 """Files that appear completely or not at all, as the program's do. Documentation: docs/json.md"""
 
 import contextlib
+import io
 import json
 import os
 import stat
 import sys
 import tempfile
+import wave
 from pathlib import Path
 
 STDOUT = "-"
@@ -109,6 +111,17 @@ def kept_or_temporary(folder, command):
 def write_json(path, value):
     """An object, with a line for each of its parts."""
     write_whole(path, json.dumps(value, indent=1) + "\n")
+
+
+def write_wav(path, samples, rate_hz):
+    """Samples of full scale 1 as a WAV file of one channel and 16 bits."""
+    sound = io.BytesIO()
+    with wave.open(sound, "wb") as out:
+        out.setnchannels(1)
+        out.setsampwidth(2)
+        out.setframerate(rate_hz)
+        out.writeframes((samples * 32767).astype("<i2").tobytes())
+    write_whole(path, sound.getvalue())
 
 
 def write_whole(path, data):

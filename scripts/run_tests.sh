@@ -86,13 +86,13 @@ run_tests() {
   if [[ $name ]]; then mapfile -t targets < <(tests_say targets "${chosen[@]}"); fi
   if [[ ${targets[*]} ]]; then build ON "${targets[@]}"; fi
   fetch_for_tests slang slang 'lint\.'
-  fetch_for_tests synth "Yosys and nextpnr" 'ulx3s\.bitstream'
   if [[ ${FELTGATE_WHOLE-} ]]; then
-    fetch_for_tests synth "Yosys and nextpnr" 'tang_nano_9k\.(bitstream|netlist)'
+    fetch_for_tests synth "Yosys and nextpnr" '(ulx3s|tang_nano_9k)\.(bitstream|netlist)'
     fetch_for_tests gowin "nextpnr for Gowin" 'tang_nano_9k\.bitstream'
   fi
   fetch_for_tests mutate tree-sitter 'mutate\.twin'
   fetch_for_tests neighbours "FuseSoC and LiteX" 'register_files|neighbours\.|board\.host'
+  fetch_for_tests mujoco MuJoCo 'plant\.mujoco'
   rm -f "$results"
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
     --output-junit "$results" "${options[@]}" || status=$?

@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""feltgate.Device against a board in software: values, arming, arrays, errors, Ctrl-C."""
+"""With a board in software: feltgate.Device (values, arming, arrays, errors, Ctrl-C); and the Python
+code of README and docs/python.md runs as it stands, as does the notebook.
+"""
 
+import contextlib
+import io
 import os
+import re
 import signal
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -17,8 +23,14 @@ import feltgate
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
 from board_process import BoardProcess  # noqa: E402
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
+from testing import ROOT, ran  # noqa: E402
 
-class DeviceTest(unittest.TestCase):
+BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+NOTEBOOK = ROOT / "docs/fixed_against_float.ipynb"
+
+
+class Device(unittest.TestCase):
     def test_values(self):
         with BoardProcess() as board, feltgate.Device(board.port) as device:
             info = device.info()
@@ -106,6 +118,49 @@ class DeviceTest(unittest.TestCase):
                 device.hold(30)
             self.assertLess(time.monotonic() - start, 5)
             self.assertEqual(board.order("armed?"), "0")
+
+
+def blocks(page):
+    return BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder.name)
+
+    def run_blocks(self, page):
+        said = io.StringIO()
+        with BoardProcess() as board, contextlib.redirect_stdout(said):
+            names = {"port": board.port}
+            for block in blocks(page):
+                exec(compile(block, page, "exec"), names)  # one after the other, as a reader would
+        return said.getvalue()
+
+    def test_readme(self):
+        (block,) = blocks("README.md")
+        self.assertLessEqual(len(block.splitlines()), 12)
+        self.run_blocks("README.md")
+        self.assertTrue(list(Path().glob("*.png")))
+
+    def test_python_page(self):
+        self.assertGreaterEqual(len(blocks("docs/python.md")), 5)
+        self.run_blocks("docs/python.md")
+
+    def test_notebook(self):
+        done = ran(sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_notebook_that_breaks_is_noticed(self):
+        text = NOTEBOOK.read_text(encoding="utf-8")
+        broken = Path("broken.ipynb")
+        broken.write_text(text.replace("assert wide < narrow", "assert wide > narrow"))
+        self.assertNotEqual(broken.read_text(), text)
+        done = ran(sys.executable, ROOT / "scripts/notebook.py", broken, "--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("AssertionError", done.stderr)
 
 
 if __name__ == "__main__":

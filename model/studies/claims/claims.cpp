@@ -242,16 +242,17 @@ Command: `./feltgate claims` · study: [model/studies/claims](../model/studies/c
 [claims_test.cpp](../testbench/studies/claims/claims_test.cpp) · this page is written by `./feltgate claims --markdown`; a
 test fails when it is out of date.
 
-A row for each claim: where it stands, its closed form with the paper's own numbers, and a simulation where one can judge
-it. *Simulation* is the twin of the core in closed loop with the plant, unless the row says otherwise; nothing ran on a
-board. A dash: no simulation can judge the claim, for the reason beside it. The verdict is computed from the figures:
+Each row is a claim: its place in the paper, its closed form with the paper's own numbers, and a simulation if one can
+judge it. *Simulation* is the twin of the core in closed loop with the plant, unless the row says otherwise; nothing ran
+on a board. A dash means that no simulation can judge the claim, for the reason beside it. The verdict is computed from
+the figures:
 
 - **holds**: closed form and simulation give what the paper says;
-- **holds if**: they do under the condition of the last column, which the paper does not state;
-- **cannot be had**: not with the paper's own numbers, or a number is missing.
+- **holds if**: they do so under the condition of the last column, which the paper does not state;
+- **cannot be had**: the paper's own numbers do not give it, or a number is missing.
 
-The figures of a column stand behind its text, each with its name and unit: 2-core x86_64 VM, 2026-11-26, 8 s of
-processor time.
+The figures of a column follow its text, each with its name and unit. They are from a 2-core x86_64 VM, 2026-11-26, and
+take 8 s of processor time.
 
 ```
 ./feltgate claims                          every claim, as text

@@ -183,8 +183,9 @@ Outcome device_time(const Settings& s, int minutes) {
   o.note =
       "`lever`, armed, every tick of each minute stepped: 17 s of motion (bursts at 599 rad/s, "
       "strokes at 19 rad/s, 100 counts a second, dither on one edge, as fast as it may be without "
-      "being a dead channel), then rest. A segment for each processor; all but the first start "
-      "from reset with the minute before theirs, and the seams compare what both then show.";
+      "being a dead channel), then rest. Each processor runs a segment; each segment "
+      "but the first starts from reset one minute early, and the seams compare the outputs of "
+      "both.";
   return o;
 }
 

@@ -63,8 +63,9 @@ Outcome law_table_ends(const Settings&) {
   at("the smallest word", INT32_MIN, -value);
   pair.report(&o);
   o.note =
-      "A table of all 512 words with the largest values and slopes. A compiled law's place never "
-      "leaves its table, which its compiler proves; the memory itself begins anew.";
+      "A table of all 512 words with the largest values and slopes. The compiler proves that a "
+      "law's "
+      "place never leaves its table; the memory itself wraps around.";
   return o;
 }
 
@@ -110,7 +111,7 @@ Outcome law_age(const Settings&) {
         exactly(max_age == 4094 ? 1 : 0), pair.late());
     pair.report(&o);
   }
-  o.note = "An engine alone; what a late one means for the torque is the core's: 0, and a fault.";
+  o.note = "An engine alone. If it is late, the core sets the torque to 0 and raises a fault.";
   return o;
 }
 
@@ -140,7 +141,7 @@ Outcome law_events_full(const Settings&) {
         {eighth.rtl - first.rtl, eighth.twin - first.twin});
     pair.report(&o);
   }
-  o.note = "Two events in every tick, nobody reads. What is lost is the newest, and counted.";
+  o.note = "Two events in every tick, which nobody reads. The newest are lost, and counted.";
   return o;
 }
 
@@ -234,7 +235,8 @@ Outcome law_threads_at_once(const Settings&) {
   pair.clock(5 * clocks_per_tick);
   add(&o, "sum of the words that all threads write at once", "LSB", exactly(0x1111), pair.torque());
   pair.report(&o);
-  o.note = "Four threads that start with the same tick, the round of six clocks full but for two.";
+  o.note =
+      "Four threads that start with the same tick; they fill four of the six clocks of a round.";
   return o;
 }
 

@@ -98,7 +98,7 @@ Outcome dead_bands(const Settings&) {
   }
   o.note =
       "The filter alone, a1 = 5e-4 with 27 fraction bits. The band does not depend on the guard "
-      "bits: G of them make it 2^-G of it in output LSB.";
+      "bits; in output LSB, G guard bits divide it by 2^G.";
   return o;
 }
 

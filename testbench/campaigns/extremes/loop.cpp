@@ -188,7 +188,7 @@ Outcome lever_inertia(const Settings& s) {
   }
   o.note =
       "`lever` holds Kp at 1/Jn, so its observer is not in the loop and Kp has no other value; the "
-      "free lever runs on, its back-EMF given back. RTL: Jn/J = 50.";
+      "free lever runs on, because the core compensates its back-EMF. RTL: Jn/J = 50.";
   return o;
 }
 

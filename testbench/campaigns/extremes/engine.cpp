@@ -64,8 +64,7 @@ Outcome law_table_ends(const Settings&) {
   pair.report(&o);
   o.note =
       "A table of all 512 words with the largest values and slopes. The compiler proves that a "
-      "law's "
-      "place never leaves its table; the memory itself wraps around.";
+      "law's place never leaves its table; the memory itself wraps around.";
   return o;
 }
 

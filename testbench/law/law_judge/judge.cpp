@@ -233,8 +233,11 @@ class Judge {
       verdict_.worst = std::max(verdict_.worst, far);
       after(o);
     } else {
-      tries_ = 0;
-      turned = explain(o, {}, 0) || told(o);
+      for (int turns = 1; turns <= 5 && !turned; ++turns) {
+        tries_ = 0;
+        turned = explain(o, {}, turns);
+      }
+      turned = turned || told(o);
       (aimed ? verdict_.aimed_turned : verdict_.turned) += 1;
       if (!turned) fail(difference_ + near(o));
       if (verdict_.first_turned.empty()) verdict_.first_turned = difference_ + near(o);
@@ -273,16 +276,17 @@ class Judge {
     return difference_.rfind("torque", 0) == 0;
   }
 
-  /// Returns whether words and law agree if comparisons within their strips give the other result.
-  bool explain(const Outcome& o, const std::map<long, long>& forced, int depth) {
+  /// Returns whether words and law agree if so many comparisons, all within their strips, give
+  /// another result. Gives up after 400 tries.
+  bool explain(const Outcome& o, const std::map<long, long>& forced, int turns) {
     for (const Decision& d : o.decisions) {
+      if (forced.count(d.key) != 0) continue;
       for (const long result : strips_.other_results(d)) {
         if (++tries_ > 400) return false;
         std::map<long, long> more = forced;
         more[d.key] = result;
         const Outcome other = evaluator_.run(before_, more);
-        if (apart(other, false) <= 1) return true;
-        if (depth < 4 && explain(other, more, depth + 1)) return true;
+        if (turns == 1 ? apart(other, false) <= 1 : explain(other, more, turns - 1)) return true;
       }
     }
     return false;

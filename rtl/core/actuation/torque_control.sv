@@ -153,7 +153,8 @@ module torque_control (
   assign late_term_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
 
   // The voltage saturates at the range of its port. The voltage at the motor is below the supply,
-  // so this matters only for the current estimate.
+  // so this matters only for the current estimate. It saturates after its register: the sum is late in
+  // its clock.
   localparam int VoltageW = feltgate_pkg::VOLTAGE_W;
   logic signed [AppliedSumW-1:0] applied_q;
   logic                          voltage_over;

@@ -87,7 +87,8 @@ class Scenes {
     spring_.clock({built(in, S::spring_tension), built(in, S::spring_compression), gap_ < 0,
                    in.wave, in.product});
     damper_.clock({built(in, S::damper), in.wave, in.product});
-    charge_.clock({in.armed, attract, repel, out_.distance, in.wave, in.param, in.product, in.over_limit});
+    charge_.clock(
+        {in.armed, attract, repel, out_.distance, in.wave, in.param, in.product, in.over_limit});
     wall_.clock({built(in, S::wall), gap_ < 0, in.wave, in.product});
   }
   /// At most one scene renders.

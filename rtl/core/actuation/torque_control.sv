@@ -153,16 +153,20 @@ module torque_control (
   assign late_term_o  = Wide'(sum_q) | Wide'(duty_q) | Wide'(error_q);
 
   // The voltage saturates at the range of its port. The voltage at the motor is below the supply,
-  // so this matters only for the current estimate.
+  // so this matters only for the current estimate. It saturates after its register: the sum is late in
+  // its clock.
   localparam int VoltageW = feltgate_pkg::VOLTAGE_W;
-  logic voltage_over;
-  assign voltage_over = limited_i[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {limited_i[AppliedSumW-1]}};
+  logic signed [AppliedSumW-1:0] applied_q;
+  logic                          voltage_over;
+  assign voltage_over = applied_q[AppliedSumW-1:VoltageW-1] != {(AppliedSumW - VoltageW + 1) {applied_q[AppliedSumW-1]}};
+  assign voltage_o    = voltage_over ? {applied_q[AppliedSumW-1], {(VoltageW - 1) {~applied_q[AppliedSumW-1]}}}
+                                     : applied_q[VoltageW-1:0];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       region_high_o   <= 1'b0;
       current_ref_o   <= '0;
-      voltage_o       <= '0;
+      applied_q       <= '0;
       duty_o          <= '0;
       limit_current_o <= 1'b0;
       limit_voltage_o <= 1'b0;
@@ -175,8 +179,7 @@ module torque_control (
         limit_current_o <= over_limit_i && armed_i;
       end
       if (at_voltage_i) begin
-        voltage_o <= voltage_over ? {limited_i[AppliedSumW-1], {(VoltageW - 1) {~limited_i[AppliedSumW-1]}}}
-                                  : limited_i[VoltageW-1:0];
+        applied_q       <= limited_i;
         limit_voltage_o <= over_limit_i && armed_i;
       end
       if (at_duty_i) begin

@@ -312,7 +312,7 @@ module supervisor (
   end
 
   // Faults stay until they are cleared. If several come in one clock, the lowest number is the
-  // first.
+  // first. In a clock without a cause both keep their value, so they need no enable.
   logic [FAULTS_W-1:0] trip;
   logic                any_trip;
 
@@ -336,7 +336,7 @@ module supervisor (
     if (!rst_ni) begin
       faults_o      <= '0;
       first_fault_o <= NONE;
-    end else if (clear_o || any_trip) begin
+    end else begin
       faults_o <= (clear_o ? '0 : faults_o) | trip;
       if (clear_o || first_fault_o == NONE) first_fault_o <= lowest(trip);
     end

@@ -16,7 +16,7 @@ module scene_charge (
     input  logic                                            armed_i,
     input  logic                                            attract_i,  // selects, attracting
     input  logic                                            repel_i,    // selects, repelling
-    input  logic                                            gap_positive_i,  // the centre is above the position; held
+    input  logic                                            distance_positive_i,  // the centre is above the position; with the strength
     input  logic        [                             17:0] division_i,  // one-hot clocks: the square on product_i, 17 of the divider
     input  logic                                            at_scene_distance_i,
     input  logic                                            param_is_attract_strength_i,
@@ -73,7 +73,7 @@ module scene_charge (
     else preset_q <= '0;
     if (param_is_attract_strength_i) begin
       for (int k = 0; k < 17; k++) rest_q[k] <= param_i[16-k];  // the highest comes first
-      minus_q <= attract_i != gap_positive_i;  // sgn(0) is +1
+      minus_q <= attract_i != distance_positive_i;  // sgn(0) is +1
     end
     takes_q     <= !division_i[0];
     saturated_q <= division_i[1] && fits;

@@ -12,9 +12,8 @@ module scene_membrane (
     input  logic                                     clk_i,
     input  logic                                     rst_ni,
     input  logic                                     select_i,
+    input  logic                                     distance_positive_i,  // lower face above the position, a clock after its word
     input  logic                                     gap_negative_i,  // sign of face - position
-    input  logic                                     gap_zero_i,      // whole counts are 0
-    input  logic                                     param_is_membrane_lower_i,
     input  logic                                     param_is_membrane_upper_i,
     input  logic                                     param_was_membrane_upper_i,
     input  logic                                     param_is_membrane_torque_i,
@@ -26,11 +25,10 @@ module scene_membrane (
 
   logic below_q, above_q;
   always_ff @(posedge clk_i) begin
-    if (param_is_membrane_lower_i) begin
-      below_q <= !gap_negative_i &&
-                 (!gap_zero_i || param_i[feltgate_pkg::SCENE_OFFSET_F-1:0] != '0);
+    if (param_is_membrane_upper_i) begin
+      below_q <= distance_positive_i;
+      above_q <= gap_negative_i;
     end
-    if (param_is_membrane_upper_i) above_q <= gap_negative_i;
   end
 
   // The side on which the lever was last outside is the side of entry.

@@ -68,21 +68,19 @@ module scenes #(
   // and the fraction of a charge's centre is ignored.
   logic signed [    GapW-1:0] gap, gap_q;
   logic        [OffsetF-1:0] fraction;
-  logic                      held_q, gap_zero, gap_positive_q;
+  logic                      held_q, distance_positive;
   assign gap      = GapW'($signed(param_i[OffsetW-1:OffsetF])) - GapW'(position_i);
-  assign gap_zero = gap == '0;
   assign fraction = param_i[OffsetF-1:0];
   always_ff @(posedge clk_i) begin
-    if (wave_i[AtDistance]) begin
-      gap_q          <= gap;
-      gap_positive_q <= !gap[GapW-1] && !gap_zero;
-    end
+    if (wave_i[AtDistance]) gap_q <= gap;
     held_q <= wave_i[AtDistance];
     if (wave_i[AtDistance]) distance_o[OffsetF+:GapW] <= gap;
     else if (!held_q) distance_o[OffsetF+:GapW] <= '0;
     if (wave_i[AtDistance] ? square_o : !held_q) distance_o[OffsetF-1:0] <= '0;
     else if (wave_i[AtDistance]) distance_o[OffsetF-1:0] <= fraction;
   end
+  // A clock after the subtraction: the parameter's word comes late in its clock.
+  assign distance_positive = !gap_q[GapW-1] && (gap_q != '0 || distance_o[OffsetF-1:0] != '0);
 
   logic signed [TorqueW-1:0] setpoint_plus, membrane_plus, membrane_minus;
   logic signed [PartW-1:0] spring_plus, damper_minus, charge_plus, charge_minus, wall_plus, wall_minus;
@@ -105,9 +103,8 @@ module scenes #(
         .clk_i(clk_i),
         .rst_ni(rst_ni),
         .select_i(membrane),
+        .distance_positive_i(distance_positive),
         .gap_negative_i(gap[GapW-1]),
-        .gap_zero_i(gap_zero),
-        .param_is_membrane_lower_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER]),
         .param_is_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER]),
         .param_was_membrane_upper_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER+1]),
         .param_is_membrane_torque_i(wave_i[feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE]),
@@ -154,7 +151,7 @@ module scenes #(
         .rst_ni(rst_ni),
         .attract_i(attract),
         .repel_i(repel),
-        .gap_positive_i(gap_positive_q),
+        .distance_positive_i(distance_positive),
         .division_i(wave_i[feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT-1:feltgate_map_pkg::PRODUCT_AT_CHARGE_SQUARE]),
         .at_scene_distance_i(wave_i[feltgate_map_pkg::EVENT_AT_SCENE_DISTANCE]),
         .param_is_attract_strength_i(wave_i[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]),
@@ -239,7 +236,7 @@ module scenes #(
 
   // Inputs without a load if fewer scenes are built.
   logic unused;
-  assign unused = ^{wave_i, param_i, rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i, gap_positive_q};
+  assign unused = ^{wave_i, param_i, rst_ni, over_limit_i, product_i, setpoint, membrane, compression, tension, law_torque_i, law_late_i, distance_positive};
 endmodule
 
 `default_nettype wire

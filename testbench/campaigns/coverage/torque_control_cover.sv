@@ -18,7 +18,6 @@ module torque_control_cover (
   input logic over_limit_i,
   input logic region_high_o,
   input logic voltage_over,
-  input logic applies,
   input logic signed [feltgate_pkg::CURRENT_W-1:0] current_ref_o,
   input logic signed [feltgate_pkg::VOLTAGE_W-1:0] voltage_o,
   input logic signed [feltgate_pkg::DUTY_W-1:0] duty_o
@@ -37,11 +36,11 @@ module torque_control_cover (
   end
   enters_high_region: cover property (@(posedge clk_i) disable iff (!rst_ni) region && over_limit_i && !region_high_o);
   leaves_high_region: cover property (@(posedge clk_i) disable iff (!rst_ni) region && !over_limit_i && region_high_o);
-  beyond_the_port:    cover property (@(posedge clk_i) disable iff (!rst_ni) applies && voltage_over);
+  beyond_the_port:    cover property (@(posedge clk_i) disable iff (!rst_ni) shows && voltage_over);
   disarmed:           cover property (@(posedge clk_i) disable iff (!rst_ni) shows && !armed_i && voltage_o == 0 && duty_o == 0);
 endmodule
 
 bind torque_control torque_control_cover u_cover (
-  .shows(product_is_emf_constant_i), .region(at_region_i), .applies(at_voltage_i), .*);
+  .shows(product_is_emf_constant_i), .region(at_region_i), .*);
 
 `default_nettype wire

@@ -22,7 +22,7 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
     return {bus.armed,
             wave.scene == S::charge_attract,
             wave.scene == S::charge_repel,
-            bus.gap,
+            bus.distance,
             bus.wave,
             bus.param,
             bus.product,
@@ -32,7 +32,7 @@ struct Block : BlockOf<Vscene_charge, SceneCharge<Design>> {
     rtl.armed_i = in.armed;
     rtl.attract_i = in.attract;
     rtl.repel_i = in.repel;
-    rtl.gap_positive_i = in.gap > 0;
+    rtl.distance_positive_i = in.distance > 0;
     rtl.division_i = (in.wave >> Map::M::charge_square) & 0x3ffff;
     FELTGATE_STROBES(rtl, in.wave >> 1, after, T, charge_core);
     FELTGATE_STROBES(rtl, in.wave, at, T, scene_distance, charge_width_limited, charge_core);

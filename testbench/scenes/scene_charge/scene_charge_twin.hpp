@@ -23,7 +23,7 @@ class SceneCharge {
     bool armed = false;
     bool attract = false;
     bool repel = false;
-    std::int64_t gap = 0;  ///< centre - position in whole counts, held
+    std::int64_t distance = 0;  ///< centre - position, with the strength on the bus
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
     std::int64_t product = 0;
@@ -48,7 +48,7 @@ class SceneCharge {
     if (at(Map::T::charge_width_limited)) none_ = decode_word(kWidth, in.param) == 0;
     if (at(Map::W::attract_strength)) {
       strength_ = in.param;
-      minus_ = in.attract != (in.gap > 0);  // sgn(0) is +1
+      minus_ = in.attract != (in.distance > 0);  // sgn(0) is +1
     }
     if (at(Map::M::charge_square)) {
       quotient_ = charge_quotient(strength_, square(in));

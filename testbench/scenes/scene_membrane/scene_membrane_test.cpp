@@ -21,11 +21,11 @@ using Law = SceneMembraneLaw<Design, Fixed>;
 
 struct Block : BlockOf<Vscene_membrane, SceneMembrane<Design>> {
   static Twin::In in(const Wave& wave, const Bus& bus) {
-    return {wave.scene == S::membrane, bus.face_gap < 0, bus.face_gap == 0, bus.wave, bus.param};
+    return {wave.scene == S::membrane, bus.distance > 0, bus.face_gap < 0, bus.wave, bus.param};
   }
   static void drive(Rtl& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, select, gap_negative, gap_zero, param);
-    FELTGATE_STROBES(rtl, in.wave, param_is, W, membrane_lower, membrane_upper, membrane_torque);
+    FELTGATE_DRIVE(rtl, in, select, distance_positive, gap_negative, param);
+    FELTGATE_STROBES(rtl, in.wave, param_is, W, membrane_upper, membrane_torque);
     FELTGATE_STROBES(rtl, in.wave >> 1, param_was, W, membrane_upper);
   }
   template <class Check>

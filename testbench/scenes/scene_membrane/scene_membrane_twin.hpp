@@ -21,8 +21,8 @@ class SceneMembrane {
 
   struct In {
     bool select = false;
-    bool gap_negative = false;  ///< of the face on the parameter bus, in whole counts
-    bool gap_zero = false;
+    bool distance_positive = false;  ///< of the lower face, with the upper one on the bus
+    bool gap_negative = false;       ///< of the face on the parameter bus, in whole counts
     std::uint64_t wave = 0;
     std::uint32_t param = 0;
   };
@@ -42,11 +42,10 @@ class SceneMembrane {
     } else if (at(Map::T::membrane_side) && (below_ || above_)) {
       side_ = below_ ? MembraneSide::below : MembraneSide::above;
     }
-    if (at(Map::W::membrane_lower)) {
-      constexpr std::uint32_t fraction = (1u << D::f.scene_offset.fraction) - 1;
-      below_ = !in.gap_negative && (!in.gap_zero || (in.param & fraction) != 0);
+    if (at(Map::W::membrane_upper)) {
+      below_ = in.distance_positive;
+      above_ = in.gap_negative;
     }
-    if (at(Map::W::membrane_upper)) above_ = in.gap_negative;
   }
 
   const Out& out() const { return out_; }

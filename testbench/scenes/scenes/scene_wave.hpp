@@ -95,6 +95,7 @@ struct Bus {
   std::int64_t product = 0;
   std::int64_t face_gap = 0;  ///< whole counts of what is on the parameter bus, less the position
   std::int64_t gap = 0;       ///< the same of the reference, held
+  std::int64_t distance = 0;  ///< of the reference with its fraction, in the clock after its word
   bool over_limit = false;    ///< from the limiter
   std::int64_t law_torque = 0;
   bool law_late = false;
@@ -145,6 +146,7 @@ class Waves {
     bus.product = product(p);
     bus.face_gap = (decode_word(Design::f.scene_offset, bus.param) >> 8) - w.position;
     bus.gap = gap_;
+    bus.distance = p.t == Map::T::scene_distance + 1 ? distance_of(p.memory, w) : bus.product;
     bus.law_torque = w.law_torque;
     bus.law_late = w.law_late;
     if (p.t != Map::T::law_torque) {  // nobody looks

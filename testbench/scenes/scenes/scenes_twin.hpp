@@ -83,11 +83,12 @@ class Scenes {
   }
   void clock_scenes(const In& in, bool attract, bool repel, std::int64_t gap) {
     setpoint_.clock({built(in, S::setpoint), in.wave, in.param});
-    membrane_.clock({built(in, S::membrane), gap < 0, gap == 0, in.wave, in.param});
+    membrane_.clock({built(in, S::membrane), out_.distance > 0, gap < 0, in.wave, in.param});
     spring_.clock({built(in, S::spring_tension), built(in, S::spring_compression), gap_ < 0,
                    in.wave, in.product});
     damper_.clock({built(in, S::damper), in.wave, in.product});
-    charge_.clock({in.armed, attract, repel, gap_, in.wave, in.param, in.product, in.over_limit});
+    charge_.clock(
+        {in.armed, attract, repel, out_.distance, in.wave, in.param, in.product, in.over_limit});
     wall_.clock({built(in, S::wall), gap_ < 0, in.wave, in.product});
   }
   /// At most one scene renders.

@@ -11,7 +11,7 @@ module centre_proof (
     input logic                                            armed_i,
     input logic                                            attract_i,
     input logic                                            repel_i,
-    input logic                                            gap_positive_i,
+    input logic                                            distance_positive_i,
     input logic        [                              31:0] param_i,
     input logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input logic                                            over_limit_i
@@ -45,7 +45,7 @@ module centre_proof (
     assume (!(attract_i && repel_i));
     if (past_ok_q) assume (armed_i == armed_q && attract_i == attract_q && repel_i == repel_q);
     if (wave[Square]) assume (product_i[DistanceF+:32] == 32'd0 && product_i[DistanceF+34:DistanceF+32] == 3'd0);
-    if (phase_q >= 6'd2) assume (!gap_positive_i);
+    if (wave[feltgate_map_pkg::PARAM_AT_ATTRACT_STRENGTH]) assume (!distance_positive_i);
   end
 
   logic signed [PartW-1:0] plus, minus;

@@ -9,8 +9,8 @@ module faces_proof (
     input logic        rst_ni,
     input logic [ 8:0] start_i,  // where in a tick a reset ends
     input logic        select_i,
+    input logic        distance_positive_i,
     input logic        gap_negative_i,
-    input logic        gap_zero_i,
     input logic [31:0] param_i
 );
   localparam int W = feltgate_pkg::TORQUE_W;
@@ -24,13 +24,11 @@ module faces_proof (
   always_comb begin
     assume (rst_ni || start_i == 9'(Clocks - feltgate_map_pkg::FIRST_WAVE_CLOCK));  // where the sequencer begins
     assume (tick_q || !rst_ni || select_i == select_q);
-    assume (!(gap_negative_i && gap_zero_i));
   end
 
   logic signed [W-1:0] plus, minus;
   scene_membrane u_dut (
       .*,
-      .param_is_membrane_lower_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_LOWER]),
       .param_is_membrane_upper_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER]),
       .param_was_membrane_upper_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_UPPER+1]),
       .param_is_membrane_torque_i(wave[feltgate_map_pkg::PARAM_AT_MEMBRANE_TORQUE]),
@@ -48,8 +46,10 @@ module faces_proof (
   logic signed [W-1:0] word_q, wanted;
   assign inside = !below_q && !above_q;
   always_ff @(posedge clk_i) begin
-    if (wave[Lower]) below_q <= !gap_negative_i && (!gap_zero_i || param_i[feltgate_pkg::SCENE_OFFSET_F-1:0] != '0);
-    if (wave[Upper]) above_q <= gap_negative_i;
+    if (wave[Upper]) begin
+      below_q <= distance_positive_i;
+      above_q <= gap_negative_i;
+    end
     if (wave[Torque]) word_q <= param_i[W-1] ? '0 : param_i[W-1:0];
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -70,6 +71,24 @@ std::optional<Meaning> unit_of(const std::string& text, const BoardUnits& board)
   return Meaning{value, rest.of_angle};
 }
 
+std::string without_blanks(std::string text) {
+  text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+  return text;
+}
+
+/// How to write an amount whose unit is wrong. A number is proposed only where its prefix is known:
+/// for 5 mNms/rad, 5 mNm s/rad.
+std::string mend_of(const Amount& a, const std::string& unit) {
+  const std::string own = without_blanks(unit);
+  for (const char* prefix : {"", "n", "u", "m", "k", "M"}) {
+    if (unit[0] != '1' && without_blanks(a.unit) == prefix + own) {
+      return fmt::format("write {:g} {}{}", a.number, prefix, unit);
+    }
+  }
+  const std::string si = si_text(unit);
+  return "give it in " + unit + (si == unit ? "" : ", or in " + si);
+}
+
 }  // namespace
 
 Amount read_amount(const std::string& text, const std::string& example) {
@@ -95,16 +114,13 @@ double amount_in(const std::string& text, const std::string& unit, const BoardUn
   if (a.unit.empty() || a.unit == unit) return a.number;
   if (plain) {
     throw std::invalid_argument(
-        fmt::format("{} takes a number without a unit; write {:g}", text, a.number));
+        fmt::format("{} takes a number without a unit; give the number alone", text));
   }
   const auto given = unit_of(a.unit, board), own = unit_of(unit, board);
   const double factor = given && own ? given->value.to_si / own->value.to_si : 0;
   if (!std::isnormal(factor) || !(given->value.unit == own->value.unit) ||
       given->of_angle != own->of_angle) {
-    const std::string si = si_text(unit);
-    throw std::invalid_argument(fmt::format("{} is not in {}; write {:g} {}{}", text, unit,
-                                            a.number, unit,
-                                            si == unit ? "" : ", or give it in " + si));
+    throw std::invalid_argument(fmt::format("{} is not in {}; {}", text, unit, mend_of(a, unit)));
   }
   return a.number * factor;
 }

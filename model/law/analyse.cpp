@@ -110,15 +110,16 @@ Fact Analysis::operand(const Operand& o, double extra) {
       Span s{1, 1};
       for (const NodeId n : word.nodes) s = s * spans_[at(n)];
       const double a = s.lo / word.scale, b = s.hi / word.scale;
+      const Span outward = outward_words(a, b);
       if (word.exact != 0) {
         // The words of the primary within the range, times the multiple.
         const double r = std::fabs(word.exact);
         const double lo = r * std::ceil(std::min(a, b) / r - 1e-6),
                      hi = r * std::floor(std::max(a, b) / r + 1e-6);
-        if (lo > hi) return {{std::floor(std::min(a, b)), std::ceil(std::max(a, b))}, 0.5};
+        if (lo > hi) return {outward, 0.5};
         return {{lo, hi}, 0};
       }
-      return {{std::floor(std::min(a, b)), std::ceil(std::max(a, b))}, 0.5};
+      return {outward, 0.5};
     }
     case From::constant: {
       const double c = program_.constants[at(o.index)];

@@ -103,8 +103,13 @@ Range host_range(const Law& law, const Node& n, const std::vector<Range>& ranges
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       return {*low, *high};
     }
-    case Op::arctangent:
     case Op::lookup:
+      if (!law.tables[static_cast<std::size_t>(n.index)].points.empty()) {
+        throw NoRange{"a table of what only depends on parameters",
+                      "make what it gives the parameter, or write its lines with if"};
+      }
+      break;
+    case Op::arctangent:
     case Op::input:
     case Op::state:
     case Op::line_read:

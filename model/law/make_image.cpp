@@ -172,11 +172,12 @@ class ImageMaker {
         }
       } else {
         const double r = std::max(1.0, std::fabs(w.exact));
+        const Span outward = outward_words(a, b);
         const bool exact = w.exact != 0;
         word.lower = static_cast<std::int32_t>(exact ? r * std::ceil(std::min(a, b) / r - 1e-6)
-                                                     : std::floor(std::min(a, b)));
+                                                     : outward.lo);
         word.upper = static_cast<std::int32_t>(exact ? r * std::floor(std::max(a, b) / r + 1e-6)
-                                                     : std::ceil(std::max(a, b)));
+                                                     : outward.hi);
         word.formula = postfix(law_, w.nodes[0]);
         for (std::size_t k = 1; k < w.nodes.size(); ++k) {
           word.formula += " " + postfix(law_, w.nodes[k]) + " *";

@@ -23,6 +23,7 @@ class Meter {
  public:
   explicit Meter(const Compiled& c) : c_(c), law_(c.law), machine_(memory(c.image)) {
     result_.output.assign(c.law.outputs.size(), 0);
+    result_.reached.assign(c.law.outputs.size(), {infinity, -infinity});
     result_.move.assign(c.law.states.size(), 0);
     for (const int step : c.assembled.step_of) {
       strips_.push_back(nullptr);
@@ -92,6 +93,10 @@ class Meter {
       double move = std::fabs(law_.state(k) - before[k]);
       if (s.phase) move = std::min(move, std::fabs(s.range.upper - s.range.lower - move));
       result_.move[k] = larger(result_.move[k], move);
+    }
+    for (std::size_t o = 0; o < result_.reached.size(); ++o) {
+      result_.reached[o].lo = std::min(result_.reached[o].lo, law_.outputs()[o]);
+      result_.reached[o].hi = std::max(result_.reached[o].hi, law_.outputs()[o]);
     }
     bool otherwise = false;
     const MachineRun& run = machine_.run_seen(

@@ -14,6 +14,7 @@ namespace feltgate::law {
 
 struct Measured {
   std::vector<double> output;  ///< largest difference, Nm, as Law::outputs
+  std::vector<Span> reached;   ///< the law's least and largest output, Nm, as Law::outputs
   std::int64_t runs = 0;
   std::int64_t in_strips = 0;  ///< runs excluded from `output`: a comparison was in its strip
   std::vector<double> move;  ///< SI: largest change of a state in a run of the law, as Law::states

@@ -62,6 +62,13 @@ struct Word {
   bool primary = false;  ///< the word is the parameter itself and carries its value
 };
 
+/// The words from a to b or from b to a, rounded outward. The operations of intervals have moved an
+/// end that is a whole number by some last bits; it stays that number. The host limits to these.
+inline Span outward_words(double a, double b) {
+  const auto up = [](double x) { return std::ceil(x - 1e-6 - 4e-15 * std::fabs(x)); };
+  return {-up(-std::min(a, b)), up(std::max(a, b))};
+}
+
 /// A table in table memory.
 struct TableUse {
   std::vector<std::uint64_t> words;

@@ -174,6 +174,24 @@ void states(const Compiled& c, const Measured& m, Verdict* v) {
   }
 }
 
+/// A bound beside the values of its output.
+struct Size {
+  double bound;
+  Span range;
+  std::string of, mend;
+};
+
+/// Reports a bound that is a large part of its output's range, and one as large as this range.
+void beside_its_output(const std::string& name, const Size& s, double lsb, Verdict* v) {
+  const double share = s.bound / s.range.width();
+  if (s.bound <= lsb || share <= kLargeShare) return;
+  const bool idle = share >= 1 && s.bound > 2 * lsb;
+  (idle ? v->failures : v->warnings)
+      .push_back(fmt::format(
+          "{}: the bound, {:.3g} Nm, is {:.3g} % of {}, {:.3g} .. {:.3g} Nm{}; {}", name, s.bound,
+          100 * share, s.of, s.range.lo, s.range.hi, idle ? ": it says nothing" : "", s.mend));
+}
+
 }  // namespace
 
 std::string finer(const Parameter& p, double step) {
@@ -242,12 +260,13 @@ Verdict verdict(const Compiled& c, const Measured& m) {
                       "the compiler, not of the law; please report it",
                       name, m.output[o], bound));
     }
-    const double share = c.bound.output[o] / spans[o].width();
-    if (c.bound.output[o] > lsb && share > kLargeShare) {
-      v.warnings.push_back(fmt::format(
-          "{}: the bound, {:.3g} Nm, is {:.3g} % of its range, {:.3g} .. {:.3g} Nm; {}", name,
-          c.bound.output[o], 100 * share, spans[o].lo, spans[o].hi, mend(c.program, c.bound)));
+    Size size{bound, spans[o], "its range", mend(c.program, c.bound)};
+    if (o < m.reached.size() && m.reached[o].width() > 0 &&
+        m.reached[o].width() < spans[o].width()) {
+      size.range = m.reached[o];
+      size.of = "what the law gave in the measured runs";
     }
+    beside_its_output(name, size, lsb, &v);
   }
   for (const Unused& u : c.law.unused) {
     v.warnings.push_back(

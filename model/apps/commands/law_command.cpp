@@ -70,6 +70,7 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
                             {"bound_nm", c.bound.output[o]},
                             {"bound_as_set_nm", c.bound.as_set[o]},
                             {"range_nm", {ranges[o].lo, ranges[o].hi}},
+                            {"reached_nm", {m.reached[o].lo, m.reached[o].hi}},
                             {"measured_nm", m.output.empty() ? 0.0 : m.output[o]}});
   }
   j["all_inputs"] = m.all_inputs;
@@ -187,8 +188,9 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent --gappa lemmas\n"
       "  feltgate law detent --design lever_law --memories memories\n"
       "Exit code: 0 all well, 1 a run left its bound, more than half of the runs had to be left\n"
-      "out, or Gappa did not prove a lemma, 2 unusable input: a law that cannot be read, proven,\n"
-      "fitted or scheduled, or whose bound says nothing, with line, reason and mend.");
+      "out, the bound is as large as all that the law gave in the runs, or Gappa did not prove a\n"
+      "lemma, 2 unusable input: a law that cannot be read, proven, fitted or scheduled, or whose\n"
+      "bound is as large as its output's range, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");

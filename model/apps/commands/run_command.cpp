@@ -177,6 +177,14 @@ int run(const RunArguments& a) {
   const std::vector<Column> columns = row_columns(true, choose_backends(a.engine).names());
   std::vector<CsvWriter> writers;
   if (csv != nullptr) writers.emplace_back(csv->handle(), columns);
+  const auto of_report = [&](const std::string& path) {
+    if (std::filesystem::exists(path)) {
+      throw std::invalid_argument(
+          fmt::format("--report {}: {} is there already and would be replaced; give another folder",
+                      a.report, path));
+    }
+    return outputs.open("--report", path);
+  };
   // The report reads files, so outputs to stdout or a device are also written to a file for it.
   std::string json_path = a.json, csv_path = a.csv;
   if (!a.report.empty()) {
@@ -184,11 +192,10 @@ int run(const RunArguments& a) {
     if (json == nullptr || json->in_place()) json_path = begin + ".json";
     if (csv == nullptr || csv->in_place()) {
       csv_path = begin + ".csv";
-      writers.emplace_back(outputs.open("--report", csv_path)->handle(), columns);
+      writers.emplace_back(of_report(csv_path)->handle(), columns);
     }
   }
-  files::OutputFile* report_json =
-      json_path == a.json ? nullptr : outputs.open("--report", json_path);
+  files::OutputFile* report_json = json_path == a.json ? nullptr : of_report(json_path);
   if (!writers.empty()) {
     const auto ticks = static_cast<std::int64_t>(scenario.duration_s *
                                                  static_cast<double>(elaborated.design.tick_hz));

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/largest.hpp"
+
 namespace feltgate::host {
 
 namespace {
@@ -72,7 +74,7 @@ Regions fit_regions(const Regression& fit, const std::vector<Reading>& readings,
     const bool high = inside && r.command > border->value;
     const double k = high ? regions.high.value : regions.low.value;
     const double torque = fit.value(0) + fit.value(1) * k / gain * r.command;
-    regions.worst_error = std::max(regions.worst_error, std::abs(torque / r.command - 1));
+    regions.worst_error = larger(regions.worst_error, std::abs(torque / r.command - 1));
   }
   if (inside && regions.low.value > regions.high.value) {
     const double step = fit.value(1) * (regions.high.value - regions.low.value) / gain;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "feltgate/current_sense.hpp"
+#include "feltgate/largest.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
 #include "sim/plant/sigma_delta.hpp"
@@ -48,7 +49,7 @@ struct Modulator {
   bool next(double x) {
     const bool bit = modulator.next(x);
     const double error = modulator.error();
-    largest_error = std::fmax(largest_error, std::fabs(error));
+    largest_error = larger(largest_error, std::fabs(error));
     squares += error * error;
     ++bits;
     return bit;

@@ -105,14 +105,14 @@ class CommandLine(Bench):
 
     def test_units(self):
         for words, said in (
-            (("run", "wall", "--set", "torque_limit=1V"), "1V is not in Nm; write 1 Nm"),
+            (("run", "wall", "--set", "torque_limit=1V"), "1V is not in Nm; give it in Nm"),
             (("run", "wall", "--set", "wall_stiffness=4Nm"),
              "write 4 Nm/count, or give it in Nm/rad"),
             (("run", "wall", "--set", "torque_limit=20000mNm"), "torque_limit = 20 "),
             (("run", "wall", "--set", "wall_contact=nan rad"), "is no number"),
-            (("trim", "wall", "--duration", "5V"), "--duration: 5V is not in s; write 5 s"),
+            (("trim", "wall", "--duration", "5V"), "--duration: 5V is not in s; give it in s"),
             (("trim", "wall", "--duration", "1us"), "shorter than 10 windows"),
-            (("replay", "x.vec", "--seconds=2m"), "2m is not in s; write 2 s"),
+            (("replay", "x.vec", "--seconds=2m"), "2m is not in s; give it in s"),
             (("stability", "--damping", "2V"), "2V is not in Nm s/rad"),
         ):
             with self.subTest(words):

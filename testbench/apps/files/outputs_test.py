@@ -161,6 +161,12 @@ class InPlace(Bench):
         done = self.run_it("--report", "out/", scene="long.toml")
         self.assert_refused(done, "--report out/: holds the report.html of a run before; choose")
         self.assertEqual({p.name: p.read_bytes() for p in self.path("out").iterdir()}, before)
+        # A file of another run, without a report.
+        self.path("kept").mkdir()
+        self.path("kept/short.csv").write_text("mine\n")
+        done = self.run_it("--report", "kept")
+        self.assert_refused(done, "--report kept: kept/short.csv is there already and would be repl")
+        self.assertEqual(self.path("kept/short.csv").read_text(), "mine\n")
         first = self.start("run", "long.toml", "--engine", "twin", "--report", "new/both")
         self.addCleanup(first.communicate)
         self.addCleanup(first.kill)

@@ -162,8 +162,8 @@ TEST_CASE("the chain in real arithmetic is near the chain in fixed point", "[cha
         for (RealChain* chain : {fixed.get(), quad.get(), real.get()}) chain->tick(in);
         worst_velocity = feltgate::larger(
             worst_velocity, std::fabs(real->out().velocity_rad_s - quad->out().velocity_rad_s));
-        worst_torque =
-            std::max(worst_torque, std::fabs(real->out().tau_hat_nm - quad->out().tau_hat_nm));
+        worst_torque = feltgate::larger(worst_torque,
+                                        std::fabs(real->out().tau_hat_nm - quad->out().tau_hat_nm));
         REQUIRE(std::fabs(real->out().tau_ref_nm - fixed->out().tau_ref_nm) < 1e-3);
       }
       INFO(design << " " << kind << ": velocity " << worst_velocity << ", torque " << worst_torque);

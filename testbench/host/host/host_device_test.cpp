@@ -92,7 +92,7 @@ TEST_CASE("host device: values are set in units") {
   CHECK(told([&] { set("torque_limit=20"); }).find("choose a value from -16 to 16") !=
         std::string::npos);
   CHECK(told([&] { set("torque_limit=nan"); }).find("is no number") != std::string::npos);
-  CHECK(told([&] { set("torque_limit=1V"); }).find("1V is not in Nm; write 1 Nm") !=
+  CHECK(told([&] { set("torque_limit=1V"); }).find("1V is not in Nm; give it in Nm") !=
         std::string::npos);
   CHECK(told([&] { set("torque_limit"); }).find("NAME=VALUE") != std::string::npos);
   CHECK(told([&] { set("velocity=1"); }).find("can only be read") != std::string::npos);

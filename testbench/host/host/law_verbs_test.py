@@ -85,7 +85,7 @@ class Laws(ProgramTest):
         self.assertIn("clicks=6 sets what was set before it", twice)
         twice = self.host("set", "clicks=5", "law.clicks=6", status=2)
         self.assertIn("law.clicks=6 sets what was set before it", twice)
-        self.assertIn("5Nm takes a number without a unit; write 5", self.host("set", "clicks=5Nm", status=2))
+        self.assertIn("5Nm takes a number without a unit; give the number alone", self.host("set", "clicks=5Nm", status=2))
         self.assertIn("is no number", self.host("set", "clicks=5,5", status=2))
         self.assertIn("3deg is not in", self.host("set", "clicks=7", "amplitude=3deg", status=2))
         self.assertIn('did you mean "clicks"', self.host("set", "click=7", status=2))

@@ -65,16 +65,18 @@ TEST_CASE("amounts: a unit is converted, a bare number is in the unit of the par
 }
 
 TEST_CASE("amounts: what cannot be taken says how to write it") {
-  CHECK(told("4Nm", "Nm/rad") == "4Nm is not in Nm/rad; write 4 Nm/rad");
-  CHECK(told("10 Hz", "rad/s") == "10 Hz is not in rad/s; write 10 rad/s");
-  CHECK(told("1 Nm mrad^2", "Nm") == "1 Nm mrad^2 is not in Nm; write 1 Nm");
+  CHECK(told("4Nm", "Nm/rad") == "4Nm is not in Nm/rad; give it in Nm/rad");
+  CHECK(told("10 Hz", "rad/s") == "10 Hz is not in rad/s; give it in rad/s");
+  CHECK(told("1 Nm mrad^2", "Nm") == "1 Nm mrad^2 is not in Nm; give it in Nm");
   CHECK(told("4 N", "Nm/count", kBoard) ==
-        "4 N is not in Nm/count; write 4 Nm/count, or give it in Nm/rad");
+        "4 N is not in Nm/count; give it in Nm/count, or in Nm/rad");
   CHECK(told("5V", "128 ticks", kBoard) ==
-        "5V is not in 128 ticks; write 5 128 ticks, or give it in s");
-  CHECK(told("4 furlong", "rad") == "4 furlong is not in rad; write 4 rad");
-  CHECK(told("4 rad", "1") == "4 rad takes a number without a unit; write 4");
-  CHECK(told("4 count", "rad") == "4 count is not in rad; write 4 rad");  // no board
+        "5V is not in 128 ticks; give it in 128 ticks, or in s");
+  CHECK(told("5mNms/rad", "Nm s/rad") == "5mNms/rad is not in Nm s/rad; write 5 mNm s/rad");
+  CHECK(told("80mN", "Nm") == "80mN is not in Nm; give it in Nm");
+  CHECK(told("4 furlong", "rad") == "4 furlong is not in rad; give it in rad");
+  CHECK(told("4 rad", "1") == "4 rad takes a number without a unit; give the number alone");
+  CHECK(told("4 count", "rad") == "4 count is not in rad; give it in rad");  // no board
   CHECK(told("1/count", "rad") != "taken");
   CHECK(told("5,5", "rad").find("write its point as a point") != std::string::npos);
   CHECK(told("4 N/m s", "N/m").find("read in two ways") != std::string::npos);

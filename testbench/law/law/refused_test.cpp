@@ -116,6 +116,9 @@ const Bad kMeaning[] = {
     {"table f(x) on [0, 1] = x\nparam p = 0 in 0 .. 1\nout torque = f(p) * tau_hat",
      "3:14: a table of what only depends on parameters; write its formula in its place; the host "
      "computes that"},
+    {"table f(x) on [0, 1] through [0, 1]\nparam p = 0 in 0 .. 1\nout torque = f(p) * tau_hat",
+     "3:14: a table of what only depends on parameters; make what it gives the parameter, or write "
+     "its lines with if"},
     // names that are none
     {"let s = 1" OUT, "1:5: \"s\" is a unit and no name; choose another name"},
     {"let m = 1" OUT, "1:5: \"m\" is a unit and no name; choose another name"},

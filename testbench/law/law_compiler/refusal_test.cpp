@@ -171,6 +171,13 @@ TEST_CASE(
   CHECK_THAT(header, Contains("// Generated from a\"b/\n"));
 }
 
+TEST_CASE("a filter whose frequency may be 0 is told how to begin above it") {
+  const std::string law = "rate = 10 kHz\nparam f = 100 Hz in 0 .. 3000 Hz\nout torque = 0.1 Nm * ";
+  CHECK_THAT(refusal(law + "lowpass(clamp(position, -1, 1), f)\n"),
+             Contains("keep the filter's frequency above 0, e.g. max(..., 10 Hz)"));
+  CHECK(refusal(law + "lowpass(clamp(position, -1, 1), max(f, 10 Hz))\n") == "compiled");
+}
+
 TEST_CASE("a delay line that can leave its range, or the table memory") {
   CHECK_THAT(
       refusal("rate = 10 kHz\nline past[100] in -0.1 .. 0.1 Nm\n"

@@ -107,6 +107,23 @@ TEST_CASE("a bound as large as its output's range is refused, one of 1 % of it t
   CHECK(verdict(compiled("out torque = 0.0002 Nm * clamp(position, 0, 1)\n"), {}).warnings.empty());
 }
 
+TEST_CASE("a bound is also compared with what the law gave in the measured runs") {
+  const auto told = [](const std::string& law) {
+    const Compiled c = compiled(law);
+    return verdict(c, measure_all(c));
+  };
+  // By intervals both reach the end of the torque's format.
+  const std::string u = "let u = clamp(100 * position, -10000, 10000)\n";
+  const Verdict idle = told(u + "out torque = 0.01 Nm * (u / (1 + abs(u)))\n");
+  REQUIRE(idle.failures.size() == 1);
+  CHECK_THAT(idle.failures[0], Contains("in the measured runs, -0.01 .. 0.01 Nm: it says nothing"));
+  const Verdict large = told("out torque = 0.5 Nm * position * exp(-3 * abs(position))\n");
+  CHECK(large.failures.empty());
+  REQUIRE(large.warnings.size() == 1);
+  CHECK_THAT(large.warnings[0],
+             Contains("what the law gave in the measured runs, -0.0613 .. 0.06"));
+}
+
 TEST_CASE("the bound at the values that are set, of every shipped law") {
   int smaller = 0;
   for (const auto& entry :

@@ -55,12 +55,11 @@ module engine #(
   assign write_register = write_i && !busy_o && of_register;
   assign open_register  = write_register && !locked_i;
   assign write_run      = open_register && addr_i == feltgate_engine_pkg::H_RUN;
-  assign write_divider  = open_register && addr_i >= feltgate_engine_pkg::H_DIVIDER0 &&
-                          addr_i <= feltgate_engine_pkg::H_DIVIDER3;
+  assign write_divider  = open_register && addr_i[8:3] == '0 && (addr_i[2] != addr_i[1]);  // 2 to 5
   assign to_commit      = write_register && addr_i == feltgate_engine_pkg::H_COMMIT;
   assign commit         = to_commit && wdata_i[0];
 
-  logic armed_q, enter, overrun;
+  logic armed_q, young_q, enter, overrun;  // young_q: the first clock after a reset
   logic [3:0] first_q, request, running, run;
   logic started, ended;
   logic [1:0] thread5;
@@ -84,9 +83,11 @@ module engine #(
       overrun_q   <= 1'b0;
       dropped_q   <= 1'b0;
       armed_q     <= 1'b0;
+      young_q     <= 1'b1;
       first_q     <= '1;
     end else begin
       armed_q <= armed_i;
+      young_q <= 1'b0;
       if (open_register && addr_i == feltgate_engine_pkg::H_HIGH) high_q <= wdata_i[3:0];
       if (write_run) run_q <= wdata_i[3:0];
       if (open_register && addr_i == feltgate_engine_pkg::H_LINE_BASE) line_base_q <= wdata_i[9:0];
@@ -139,9 +140,9 @@ module engine #(
   localparam logic [8:0] Zero = 9'(feltgate_engine_pkg::PRIVATE_WORDS - 1);  // never written: 0
   logic write_data_q, write_program_q, write_table_q;
   logic [8:0] write_address_q, read_data, read_address;
-  logic [31:0] write_word_q;
+  logic [31:0] write_input_q, write_host_q, write_read_q;  // all but one are 0
   logic [3:0] write_high_q;
-  logic beat, beat2_q, high_turn, read_program, read_table;
+  logic beat, high_turn, read_program, read_table;
   logic [35:0] program_word;
   logic [3:0] table_high, high_read_q, read_op;
   logic [31:0] program_q;
@@ -159,12 +160,11 @@ module engine #(
   always_ff @(posedge clk_i) begin
     write_high_q    <= host_taken && (waits_program_q || waits_table_q) ? high_q : 4'd0;
     write_address_q <= input_wanted ? input_address : clearing && !waits_q ? line_address : address_q;
-    if (beat2_q && read_program) write_word_q <= program_q;
-    else if (input_taken) write_word_q <= input_word;
-    else if (host_taken) write_word_q <= data_q;
-    else write_word_q <= '0;
-    beat2_q <= beat;
-    if (beat) {program_high_q, program_q} <= program_word;
+    write_input_q <= input_taken ? input_word : '0;
+    write_host_q  <= host_taken ? data_q : '0;
+    write_read_q  <= program_q;
+    program_q     <= beat && read_program ? program_word[31:0] : '0;
+    if (beat) program_high_q <= program_word[35:32];
     if (high_turn) high_read_q <= table_high;
   end
   assign read_program = !checking && (crc_reads ? crc_program : addr_i[9]);
@@ -204,7 +204,7 @@ module engine #(
       .write_program_i(write_program_q),
       .write_table_i(write_table_q),
       .write_address_i(write_address_q),
-      .write_word_i(write_word_q),
+      .write_word_i(write_input_q | write_host_q | write_read_q),
       .write_high_i(write_high_q),
       .read_op_i(read_op),
       .keeps_i(minus),
@@ -251,7 +251,7 @@ module engine #(
       .clear_i(write_run || clearing),
       .zero_i(mailbox_late),
       .watched_i(run_q != 4'd0),
-      .enter_i(enter || clearing),
+      .enter_i(enter || clearing || young_q),
       .tick_i(tick_i),
       .max_age_i(max_age_q),
       .result_i(result),

@@ -51,8 +51,7 @@ module engine_alu (
   assign fraction   = lerp || op3_q == feltgate_engine_pkg::OP_FRC;
   assign multiplies = lerp || op3_q == feltgate_engine_pkg::OP_MUL ||
                       op3_q == feltgate_engine_pkg::OP_MAC || op3_q == feltgate_engine_pkg::OP_MLW;
-  assign word = {lerp ? {12{table3_i[19]}} : table3_i[31:20] & {12{table_word}},
-                 table3_i[19:0] & {20{lerp || table_word}}};
+  assign word = {table3_i[31:20] & {12{table_word}}, table3_i[19:0] & {20{lerp || table_word}}};
   always_ff @(posedge clk_i) begin
     factored4_q[11:0]  <= x3_q[11:0];
     factored4_q[31:12] <= fraction ? '0 : x3_q[31:12];
@@ -73,6 +72,8 @@ module engine_alu (
     low5_q    <= $signed({1'b0, factored4_q[16:0]}) * $signed(factor4_q);
     high5_q   <= $signed(factored4_q[31:17]) * $signed(factor4_q);
     addend5_q <= addend4_q;
+    // LRP's value has 20 bits and a sign.
+    if (op4_q == feltgate_engine_pkg::OP_LRP && addend4_q[19]) addend5_q[31:20] <= '1;
   end
 
   logic flag, takes_x;
@@ -95,6 +96,7 @@ module engine_alu (
 
   // Control bits of the result.
   logic acc5_q, invert5_q, no_addend5_q, no_window5_q, rounds5_q, carry5_q, wraps5_q, inverse5_q;
+  logic gray5_q;  // window5_q[1] != window5_q[0]
   logic [1:0] window5_q;
   always_ff @(posedge clk_i) begin
     flag5_o      <= flag;
@@ -107,6 +109,7 @@ module engine_alu (
     wraps5_q     <= 1'b0;
     inverse5_q   <= 1'b0;
     window5_q    <= 2'd0;
+    gray5_q      <= 1'b0;
     case (op4_q)
       feltgate_engine_pkg::OP_ADD: begin
         acc5_q   <= mode4_q[1];
@@ -123,16 +126,19 @@ module engine_alu (
         no_addend5_q <= 1'b1;
         rounds5_q    <= 1'b1;
         window5_q    <= mode4_q;
+        gray5_q      <= mode4_q[1] != mode4_q[0];
       end
       feltgate_engine_pkg::OP_MAC: begin
         acc5_q    <= 1'b1;
         rounds5_q <= 1'b1;
         window5_q <= mode4_q;
+        gray5_q   <= mode4_q[1] != mode4_q[0];
       end
       feltgate_engine_pkg::OP_MLW: begin
         no_addend5_q <= 1'b1;
         wraps5_q     <= 1'b1;
         window5_q    <= mode4_q;
+        gray5_q      <= mode4_q[1] != mode4_q[0];
       end
       feltgate_engine_pkg::OP_MIN, feltgate_engine_pkg::OP_MAX, feltgate_engine_pkg::OP_SEL: begin
         no_addend5_q <= takes_x;
@@ -146,6 +152,7 @@ module engine_alu (
       feltgate_engine_pkg::OP_LRP: begin
         rounds5_q <= 1'b1;
         window5_q <= 2'd1;
+        gray5_q   <= 1'b1;
       end
       feltgate_engine_pkg::OP_TST, feltgate_engine_pkg::OP_BRF: begin
         acc5_q       <= 1'b1;
@@ -164,12 +171,13 @@ module engine_alu (
   // Product, window and addend.
   logic signed [32:0] upper;
   logic [49:0] product;
-  logic [32:0] window;
+  logic [32:0] lesser, window;  // lesser: of the shifts 0 and 1, or which of 2 and 3
   logic half;
   assign upper   = high5_q + 33'(low5_q >>> 17);
   assign product = {upper, low5_q[16:0]};
-  assign window = window5_q[1] ? (window5_q[0] ? {{10{product[49]}}, product[49:27]} : product[49:17])
-                               : (window5_q[0] ? product[44:12] : product[32:0]);
+  // One of four windows takes two LUT4 per bit.
+  assign lesser  = gray5_q != window5_q[0] ? {33{window5_q[0]}} : window5_q[0] ? product[44:12] : product[32:0];
+  assign window  = window5_q[1] ? (lesser & {{10{product[49]}}, product[49:27]}) | (~lesser & product[49:17]) : lesser;
   assign half   = window5_q[1] ? (window5_q[0] ? product[26] : product[16])
                                : (window5_q[0] && product[11]);
 

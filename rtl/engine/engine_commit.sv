@@ -44,9 +44,12 @@ module engine_commit (
                                : {Ranges, !bank_o ^ beat_q[1], 5'd0});
   assign committing_o   = wanted_q || checking_o || passed_q || old_q != '0;
   assign taken_o        = passed_q && tick_i;
+  always_ff @(posedge clk_i) begin
+    if (!checking_o) beat_q <= '0;
+    else if (beat_i) beat_q <= beat_q + 9'd1;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      beat_q         <= '0;
       old_q          <= '0;
       wanted_q       <= 1'b0;
       passed_q       <= 1'b0;
@@ -63,10 +66,8 @@ module engine_commit (
         checking_o <= 1'b1;
         refused_o  <= 1'b0;
         differs_o  <= 1'b0;
-        beat_q     <= '0;
       end
       if (checking_o && beat_i) begin
-        beat_q <= beat_q + 9'd1;
         if (negative && range && !refused_o) begin
           refused_o      <= 1'b1;
           refused_word_o <= beat_q[7:3];

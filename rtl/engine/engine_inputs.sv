@@ -72,25 +72,29 @@ module engine_inputs #(
   logic [3:0] due_q, ready;
   logic [1:0] loaded_q;
   logic [3:0] word_q;
-  logic loading_q, written_q;
+  logic loading_q, written_q, gray_q;  // gray_q: word_q[1] != word_q[0]
   assign overrun_o = due && due_q[counted_q];
   assign ready     = due_q & ~running_o;
   assign wanted_o  = loading_q && word_q != Words;
   logic all_written;
   assign all_written = loading_q && word_q == Words && !tick_i;
+  always_ff @(posedge clk_i) begin
+    if (tick_i || !loading_q) {word_q, gray_q} <= '0;  // all words belong to one tick
+    else if (taken_i) begin
+      word_q <= word_q + 4'd1;
+      gray_q <= !word_q[1];
+    end
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       due_q     <= '0;
       loading_q <= 1'b0;
       loaded_q  <= 2'd0;
-      word_q    <= '0;
       written_q <= 1'b0;
       request_o <= '0;
       running_o <= '0;
     end else begin
       written_q <= all_written && run_i[loaded_q];
-      if (tick_i || !loading_q) word_q <= '0;  // all words belong to one tick
-      else if (taken_i) word_q <= word_q + 4'd1;
       if (!loading_q) begin
         loading_q <= ready != '0;
         loaded_q  <= ready[0] ? 2'd0 : ready[1] ? 2'd1 : ready[2] ? 2'd2 : 2'd3;
@@ -107,7 +111,9 @@ module engine_inputs #(
   end
 
   // Input words: position, velocity, tau_hat of each axis, then the tick count.
-  logic [32*(3*AxisCount+1)-1:0] words;
+  localparam int Fours = (3 * AxisCount + 4) / 4;
+  logic [128*Fours-1:0] words;
+  logic [32*Fours-1:0] chosen;  // of each four words
   genvar n;
   generate
     for (n = 0; n < AxisCount; n = n + 1) begin : g_axis
@@ -116,8 +122,17 @@ module engine_inputs #(
       assign words[96*n+64+:32] = tau_hat_i[32*n+:32];
     end
   endgenerate
-  assign words[96*AxisCount+:32] = tick_count_i;
-  assign word_o    = words[32*word_q+:32];
+  assign words[128*Fours-1:96*AxisCount] = (128 * Fours - 96 * AxisCount)'(tick_count_i);
+  // One of four words takes two LUT4 per bit: lesser is one of the lower two, or which of the upper
+  // two it is.
+  generate
+    for (n = 0; n < Fours; n = n + 1) begin : g_four
+      logic [31:0] lesser;
+      assign lesser = gray_q != word_q[0] ? {32{word_q[0]}} : word_q[0] ? words[128*n+32+:32] : words[128*n+:32];
+      assign chosen[32*n+:32] = word_q[1] ? (lesser & words[128*n+96+:32]) | (~lesser & words[128*n+64+:32]) : lesser;
+    end
+  endgenerate
+  assign word_o    = chosen[32*word_q[3:2]+:32];
   assign address_o = {1'b0, loaded_q, First[5:4], word_q == Words - 4'd1 ? Tick : word_q};
 endmodule
 

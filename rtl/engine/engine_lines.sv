@@ -20,21 +20,20 @@ module engine_lines (
   // Waits two clocks, so that earlier writes of the threads come first.
   logic [1:0] wait_q;
   assign taken_o = clearing_o && !wait_q[1] && free_i && !line_base_i[9];
+  always_ff @(posedge clk_i) begin
+    if (!clearing_o || enter_i) address_o <= '1;
+    else if (taken_o) address_o <= address_o - 9'd1;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       clearing_o <= 1'b0;
       wait_q     <= '0;
-      address_o  <= '0;
     end else begin
       wait_q <= {wait_q[0], 1'b0};
       if (enter_i) begin
         clearing_o <= !line_base_i[9];
         wait_q     <= '1;
-        address_o  <= '1;
-      end else begin
-        if (taken_o) address_o <= address_o - 9'd1;
-        if (line_base_i[9] || (taken_o && address_o == line_base_i[8:0])) clearing_o <= 1'b0;
-      end
+      end else if (line_base_i[9] || (taken_o && address_o == line_base_i[8:0])) clearing_o <= 1'b0;
     end
   end
 endmodule

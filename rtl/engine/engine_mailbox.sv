@@ -22,14 +22,15 @@ module engine_mailbox (
   logic late_q, ends;
   assign late_o = late_q && watched_i;
   assign ends   = tick_i && step_i && age_q >= max_age_i;
+  always_ff @(posedge clk_i) begin  // a reset leaves it: late_q is 1 until a commit
+    if (taken_i) age_q <= '0;
+    else if (tick_i && step_i) age_q <= age_q + 16'd1;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      age_q   <= '0;
       late_q  <= 1'b1;  // after reset the host has written nothing
       jumps_o <= 1'b0;
     end else begin
-      if (taken_i) age_q <= '0;
-      else if (tick_i && step_i) age_q <= age_q + 16'd1;
       late_q  <= (late_q || ends) && !taken_i;
       jumps_o <= taken_i ? differs_i || late_o : ends && watched_i && !late_q;
     end

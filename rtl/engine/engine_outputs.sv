@@ -30,9 +30,7 @@ module engine_outputs #(
   localparam int W = feltgate_pkg::TORQUE_W;
 
   logic beyond;
-  logic [W-1:0] limited;
-  assign beyond  = result_i[31:W-1] != {(33 - W) {result_i[31]}};
-  assign limited = beyond ? {result_i[31], {(W - 1) {!result_i[31]}}} : result_i[W-1:0];
+  assign beyond = result_i[30:W-1] != {(32 - W) {result_i[31]}};
 
   logic ends_q;
   logic [1:0] thread_q;
@@ -45,23 +43,26 @@ module engine_outputs #(
   genvar n;
   generate
     for (n = 0; n < AxisCount; n = n + 1) begin : g_axis
-      logic [W-1:0] next_q, torque_q;
+      logic [W-1:0] next_q, limited, torque_q;  // next_q: sign and low bits of the result
+      logic beyond_q;
       logic [1:0] by_q;
       logic waits_q;
       assign appears[n] = ends_q && waits_q && by_q == thread_q;
       always_ff @(posedge clk_i) begin
         if (output_i && number_i == 2'(n)) begin
-          next_q <= limited;
-          by_q   <= thread_i;
+          next_q   <= {result_i[31], result_i[W-2:0]};
+          beyond_q <= beyond;
+          by_q     <= thread_i;
         end
       end
+      assign limited = beyond_q ? {next_q[W-1], {(W - 1) {!next_q[W-1]}}} : next_q;
       always_ff @(posedge clk_i or negedge rst_ni) begin
         if (!rst_ni) begin
           torque_q <= '0;
           waits_q  <= 1'b0;
         end else begin
           if (clear_i || zero_i) torque_q <= '0;
-          else if (appears[n]) torque_q <= next_q;
+          else if (appears[n]) torque_q <= limited;
           if (clear_i) waits_q <= 1'b0;
           else if (output_i && number_i == 2'(n)) waits_q <= 1'b1;
           else if (appears[n]) waits_q <= 1'b0;
@@ -75,17 +76,18 @@ module engine_outputs #(
   logic [15:0] age_q;
   logic fresh;
   assign fresh = (renewed_q | appears) == '1;
+  always_ff @(posedge clk_i) begin  // enter_i is 1 in the first clock after a reset
+    if (fresh || enter_i || !watched_i) age_q <= '0;
+    else if (tick_i) age_q <= age_q + 16'd1;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       renewed_q <= '0;
       fresh_o   <= 1'b0;
-      age_q     <= '0;
       late_o    <= 1'b0;
     end else begin
       renewed_q <= clear_i || fresh ? '0 : renewed_q | appears;
       fresh_o   <= fresh && !clear_i;
-      if (fresh || enter_i || !watched_i) age_q <= '0;
-      else if (tick_i) age_q <= age_q + 16'd1;
       if (enter_i || !watched_i) late_o <= 1'b0;
       else if (tick_i && !fresh && age_q >= max_age_i) late_o <= 1'b1;
     end

@@ -125,18 +125,18 @@ class Engine {
     const bool host_taken = r.waits && free && !inputs_.wanted();
     const bool line_free = free && !inputs_.wanted() && !r.waits;
     const int line_base = barrel_.memory.line_base;
+    const bool program_read = beat && reads_program(in);
     const EngineBarrel::In to = barrel_inputs(in, run);
 
     // The barrel sees a write that starts now in the next clock.
     Written next = written(input_taken, host_taken);
     if (lines_.taken(line_base, line_free)) next.table = true;
     if (clearing && !inputs_.wanted() && !r.waits) next.address = lines_.address;
-    next.word = r.beat && reads_program(in) ? r.program
-                : input_taken ? inputs_.word(in.tick_count, in.position, in.velocity, in.tau_hat)
-                : host_taken  ? r.data
-                              : 0;
-    outputs_.clock({write_run || clearing, mailbox_late(), r.run != 0, enter || clearing, in.tick,
-                    r.max_age, barrel_.result(), barrel_.output(), barrel_.last(),
+    next.word = input_taken  ? inputs_.word(in.tick_count, in.position, in.velocity, in.tau_hat)
+                : host_taken ? r.data
+                             : r.program;
+    outputs_.clock({write_run || clearing, mailbox_late(), r.run != 0, enter || clearing || r.young,
+                    in.tick, r.max_age, barrel_.result(), barrel_.output(), barrel_.last(),
                     barrel_.thread7(), barrel_.number() & 3});
     events_.clock(barrel_.event(), {barrel_.number(), barrel_.result(), in.tick_count},
                   in.read && addr == H::event_tick);
@@ -165,11 +165,8 @@ class Engine {
                    : result;
     }
     if (barrel_.high_read()) r.table_high = barrel_.table_high();
-    if (beat) {
-      r.program = static_cast<std::uint32_t>(barrel_.program_word());
-      r.program_high = static_cast<unsigned>(barrel_.program_word() >> 32);
-    }
-    r.beat = beat;
+    r.program = program_read ? static_cast<std::uint32_t>(barrel_.program_word()) : 0;
+    if (beat) r.program_high = static_cast<unsigned>(barrel_.program_word() >> 32);
     barrel_.clock(to);
     r.written = next;
 
@@ -183,6 +180,7 @@ class Engine {
     if (started) r.first &= ~(1U << thread);
     if (enter) r.first = 15;
     r.armed = in.armed;
+    r.young = false;
     if (open) set_register(addr, in.wdata);
     r.clocks = std::min(r.clocks + 1, kKnown);
   }
@@ -205,11 +203,11 @@ class Engine {
     int mailbox_first = EngineMap::parameter_words;
     std::uint32_t crc = 0;
     bool armed = false, overrun = false, dropped = false;
+    bool young = true;  ///< the first clock after a reset
     bool waits = false, waits_program = false, waits_table = false;
     int address = 0;
     std::uint32_t data = 0;
     unsigned lands = 0;  ///< a word on its way to its memory
-    bool beat = false;
     std::uint32_t program = 0, read = 0;
     unsigned program_high = 0, table_high = 0;
     Written written;

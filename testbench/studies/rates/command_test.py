@@ -89,7 +89,7 @@ class Rates(Scratch):
             *("-o", "a.svg"),
         )
         self.assertEqual(done.returncode, 0, done.stderr)
-        for word in ("1 kHz", "10 kHz", "1 MHz", "block", "48 of 50000", "48 of 50", "1448 LUT4"):
+        for word in ("1 kHz", "10 kHz", "1 MHz", "block", "48 of 50000", "48 of 50", "1259 LUT4"):
             self.assertIn(word, done.stdout)
         data = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
         self.assertEqual(data["schema"], "feltgate-rates/1")

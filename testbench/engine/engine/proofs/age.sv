@@ -21,7 +21,13 @@ module age_proof (
     input logic        [15:0] max_age_i
 );
   `include "reset.svh"
-  always_comb assume (!clear_i || enter_i);  // both are a write of run
+  // A write of run clears and enters; the first clock after a reset enters.
+  logic young_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) young_q <= 1'b1;
+    else young_q <= 1'b0;
+  end
+  always_comb assume (enter_i || !(clear_i || young_q));
 
   localparam int W = feltgate_pkg::TORQUE_W;
   logic signed [2*W-1:0] torque, torque_q;
@@ -34,7 +40,7 @@ module age_proof (
   );
   (* hierconn *) wire [15:0] \u_dut.age_q ;
   (* hierconn *) wire \u_dut.ends_q ;
-  (* hierconn *) wire [W-1:0] \u_dut.g_axis[1].next_q ;
+  (* hierconn *) wire [W-1:0] \u_dut.g_axis[1].limited ;
   (* hierconn *) wire \u_dut.g_axis[1].waits_q ;
 
   // The second axis: its last output, the nearest that a torque can be.
@@ -92,9 +98,9 @@ module age_proof (
       torque_at_an_end: assert (torque == torque_q || ended2_q || cleared_q);
       zero_without_mailbox: assert (!zeroed_q || torque == '0);
       torque_of_output: assert (second == second_q || second == said2_q || cleared_q);
-      inside_said: assert (!\u_dut.g_axis[1].waits_q || \u_dut.g_axis[1].next_q == said_q);
+      inside_said: assert (!\u_dut.g_axis[1].waits_q || \u_dut.g_axis[1].limited == said_q);
       inside_ends: assert (\u_dut.ends_q == ended_q);
-      inside_age: assert (late || fresh || quiet_q == {1'b0, \u_dut.age_q });
+      inside_age: assert (young_q || late || fresh || quiet_q == {1'b0, \u_dut.age_q });
       becomes_late: cover (late && max_age_i == 16'd1);
       beyond: cover (second != second_q && second == {1'b1, {(W - 1) {1'b0}}});
       renewed: cover (fresh && torque != '0);

@@ -99,7 +99,7 @@ module commit_proof (
       with_a_tick: assert (taken == (passed_q && tick_i));
       bank_with_it: assert (bank == (bank_q ^ taken_q));
       kept_while_used: assert (committing == (wanted_q || checks_q || passed_q || old_q != '0));
-      inside_beats: assert (\u_dut.beat_q == beats_q && beats_q <= 9'd257 && (!checks_q || beats_q <= 9'd256));
+      inside_beats: assert (beats_q <= 9'd257 && (!checks_q || (\u_dut.beat_q == beats_q && beats_q <= 9'd256)));
       inside_passed: assert (\u_dut.passed_q == passed_q && \u_dut.wanted_q == wanted_q);
       inside_old: assert (\u_dut.old_q == old_q);
       inside_one: assert (!(checks_q && wanted_q) && !(passed_q && (checks_q || wanted_q)));

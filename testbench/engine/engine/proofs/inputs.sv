@@ -41,6 +41,7 @@ module inputs_proof (
   (* hierconn *) wire [1:0] \u_dut.counted_q ;
   (* hierconn *) wire [1:0] \u_dut.loaded_q ;
   (* hierconn *) wire [3:0] \u_dut.word_q ;
+  (* hierconn *) wire \u_dut.gray_q ;
   (* hierconn *) wire [3:0] \u_dut.due_q ;
   (* hierconn *) wire \u_dut.loading_q ;
   (* hierconn *) wire \u_dut.written_q ;
@@ -107,7 +108,8 @@ module inputs_proof (
       inside_loads: assert (!loads || !runs);
       inside_written: assert ((runs && !runs_q) == (\u_dut.written_q && \u_dut.loaded_q == any_thread && run_q));
       inside_words: assert (!loads || \u_dut.word_q <= any_word || (of_tick_q && word_q == input_word_q));
-      inside_count: assert (\u_dut.word_q <= TICK_WORD + 4'd1);
+      inside_count: assert (!\u_dut.loading_q || (\u_dut.word_q <= TICK_WORD + 4'd1 &&
+                                                 \u_dut.gray_q == (\u_dut.word_q [1] != \u_dut.word_q [0])));
       runs_one: cover (runs && any_thread == 2'd2 && any_word == TICK_WORD);
       asks_one: cover (asks && !asks_q);
     end

@@ -20,12 +20,41 @@ namespace {
 /// Gives filters the range of the node that they follow, extended to include their start value 0.
 void complete_states(Law& law, const Target& target) {
   for (State& s : law.states) {
-    if (s.follows >= 0
+    if (s.follows >= 0) s.range = {0, 0};
+  }
+  for (std::size_t round = 0; round <= law.states.size(); ++round) {
+    const std::vector<Span> spans = ranges(law, whole_cell(law, target));
+    for (State& s : law.states) {
+      if (s.follows < 0) continue;
+      const Span r = spans[at(s.follows)];
+      s.range = {std::min({r.lo, 0.0, s.initial}), std::max({r.hi, 0.0, s.initial})};
+    }
+  }
+}
+
+void require_proofs(const Law& law, const Program& program, const Bound& b) {
+  if (b.unproven.empty()) return;
+  const Unproven& u = b.unproven.front();
+  if (u.state >= static_cast<int>(law.states.size())) {
+    const auto line = at(u.state) - law.states.size() - law.events.size();
+    const Line& l = law.lines[line];
+    throw Refused(l.place,
+                  fmt::format("line {} can leave its range {:.6g} .. {:.6g}: {}", l.name,
+                              l.range.lower, l.range.upper, u.reason),
+                  fmt::format("write clamp(..., {:.6g}, {:.6g}), or give it a larger range",
+                              l.range.lower, l.range.upper));
+  }
+  if (u.state >= 0) {
+    const State& s = law.states[at(u.state)];
+    throw Refused(
+        s.place,
+        fmt::format("state {} can leave its range {:.6g} .. {:.6g}: {}", s.name, s.range.lower,
+                    s.range.upper, u.reason),
+        s.follows >= 0
             ? "keep the filter's frequency above 0, e.g. max(..., 10 Hz), and give the "
               "law a lower rate"
             : fmt::format("end with clamp(..., {:.6g}, {:.6g}), or give it a larger range",
-                          s.range.lower, s.range.upper))
-      ;
+                          s.range.lower, s.range.upper));
   }
   throw Refused(program.steps[at(u.step)].place, "this cannot be proven: " + u.reason,
                 "limit it with clamp, or narrow the ranges of what it is made of");

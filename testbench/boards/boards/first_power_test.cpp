@@ -43,9 +43,9 @@ Most most_of(double swing_rad_s) {
       // At rest for the self-test, then a swing.
       const double t = std::max(0, tick - 60'000) * 1e-6;
       const feltgate::Reading& r = device.tick_to(amplitude_rad * std::sin(rate * t));
-      most.torque_nm = larger(most.torque_nm, std::abs(r.torque_nm));
-      most.current_a = larger(most.current_a, std::abs(r.current_a));
-      most.voltage_v = larger(most.voltage_v, std::abs(r.voltage_v));
+      most.torque_nm = feltgate::larger(most.torque_nm, std::abs(r.torque_nm));
+      most.current_a = feltgate::larger(most.current_a, std::abs(r.current_a));
+      most.voltage_v = feltgate::larger(most.voltage_v, std::abs(r.voltage_v));
       most.armed += r.armed;
     }
   }

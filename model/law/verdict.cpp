@@ -182,14 +182,16 @@ struct Size {
 };
 
 /// Reports a bound that is a large part of its output's range, and one as large as this range.
-void beside_its_output(const std::string& name, const Size& s, double lsb, Verdict* v) {
+/// Returns whether it did.
+bool beside_its_output(const std::string& name, const Size& s, double lsb, Verdict* v) {
   const double share = s.bound / s.range.width();
-  if (s.bound <= lsb || share <= kLargeShare) return;
+  if (s.bound <= lsb || share <= kLargeShare) return false;
   const bool idle = share >= 1 && s.bound > 2 * lsb;
   (idle ? v->failures : v->warnings)
       .push_back(fmt::format(
           "{}: the bound, {:.3g} Nm, is {:.3g} % of {}, {:.3g} .. {:.3g} Nm{}; {}", name, s.bound,
           100 * share, s.of, s.range.lo, s.range.hi, idle ? ": it says nothing" : "", s.mend));
+  return true;
 }
 
 }  // namespace
@@ -263,13 +265,15 @@ Verdict verdict(const Compiled& c, const Measured& m) {
                       "the compiler, not of the law; please report it",
                       name, m.output[o], bound));
     }
-    Size size{bound, spans[o], "its range", mend(c.program, c.bound)};
-    if (runs_reach_all && o < m.reached.size() && m.reached[o].width() > 0 &&
-        m.reached[o].width() < spans[o].width()) {
-      size.range = m.reached[o];
-      size.of = "what the law gave in the measured runs";
+    const std::string narrower = mend(c.program, c.bound);
+    const bool reached =
+        runs_reach_all && o < m.reached.size() && m.reached[o].width() > 0 &&
+        beside_its_output(name,
+                          {bound, m.reached[o], "what the law gave in the measured runs", narrower},
+                          lsb, &v);
+    if (!reached) {
+      beside_its_output(name, {c.bound.output[o], spans[o], "its range", narrower}, lsb, &v);
     }
-    beside_its_output(name, size, lsb, &v);
   }
   for (const Unused& u : c.law.unused) {
     v.warnings.push_back(

@@ -107,7 +107,7 @@ class CommandLine(Bench):
         for words, said in (
             (("run", "wall", "--set", "torque_limit=1V"), "1V is not in Nm; give it in Nm"),
             (("run", "wall", "--set", "wall_stiffness=4Nm"),
-             "write 4 Nm/count, or give it in Nm/rad"),
+             "give it in Nm/count, or in Nm/rad"),
             (("run", "wall", "--set", "torque_limit=20000mNm"), "torque_limit = 20 "),
             (("run", "wall", "--set", "wall_contact=nan rad"), "is no number"),
             (("trim", "wall", "--duration", "5V"), "--duration: 5V is not in s; give it in s"),

@@ -196,7 +196,7 @@ TEST_CASE("host device: what a capture cannot do is said before it starts") {
     return told([&] { host::parse_trigger(b.device, nullptr, text); });
   };
   CHECK(trigger("velocty>5").find("did you mean \"velocity\"?") != std::string::npos);
-  CHECK(trigger("velocity>5V").find("write 5 rad/s") != std::string::npos);
+  CHECK(trigger("velocity>5V").find("give it in rad/s") != std::string::npos);
   CHECK(trigger("fault:spead").find("did you mean \"speed\"?") != std::string::npos);
   CHECK(trigger("status>5").find("made of bits") != std::string::npos);
   CHECK(trigger("sometime").find("is no trigger") != std::string::npos);

@@ -79,12 +79,12 @@ TEST_CASE("a parameter may have its unit behind it, and one of something else ha
 
   CHECK(told(with("\"0.1 Nm/deg\"")) == "");
   CHECK(told(with("\"0.001\"")) == "");
-  expect(told(with("\"0.1 Nm\"")), "7: wall_stiffness: ", "write");
+  expect(told(with("\"0.1 Nm\"")), "7: wall_stiffness: ", "give it in");
   expect(told(with("\"stiff\"")), "7: wall_stiffness: ", "give one");
   expect(told(with("\"90 Nm/deg\"")), "7: ", "wall_stiffness");
   expect(told(kHead + "[parameters]\nwall_stifness = \"1 Nm/rad\"\n"), "7: ", "wall_stiffness");
   expect(told(kHead + "[[event]]\nat_s = 0.01\nset = { wall_stiffness = \"1 kg\" }\n"),
-         "7: wall_stiffness: ", "write");
+         "7: wall_stiffness: ", "give it in");
   // A scene read without its amounts must not run.
   CHECK(told(with("\"0.1 Nm/deg\""), "", false).find("write numbers") != std::string::npos);
 }

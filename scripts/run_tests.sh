@@ -94,7 +94,8 @@ run_tests() {
   fetch_for_tests neighbours "FuseSoC and LiteX" 'register_files|neighbours\.|board\.host'
   fetch_for_tests mujoco MuJoCo 'plant\.mujoco'
   rm -f "$results"
-  ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(nproc)" \
+  # One more than there are processors: some tests wait for a browser, a device or a pipe.
+  ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(($(nproc) + 1))" \
     --output-junit "$results" "${options[@]}" || status=$?
   if [[ ! $name && -f $results ]]; then tests_say minutes "${chosen[@]}" --results "$results"; fi
   report_tests "$status" "$results" "$name"

@@ -179,7 +179,8 @@ TEST_CASE("host law: names, units and ranges of parameters") {
   CHECK(b.engine.value_in(rest, "0.5") == 0.5);
   const law::ImageWord& stiffness = *b.engine.find("stiffness");
   CHECK(b.engine.value_in(stiffness, "50mNm/rad") == Approx(0.05));
-  CHECK(told([&] { b.engine.value_in(rest, "1 Nm"); }) == "rest: 1 Nm is not in rad; give it in rad");
+  CHECK(told([&] { b.engine.value_in(rest, "1 Nm"); }) ==
+        "rest: 1 Nm is not in rad; give it in rad");
   CHECK(told([&] { b.engine.value_in(rest, "far"); }).find("is no number") != std::string::npos);
   CHECK(told([&] { b.engine.value_in(rest, "2rad"); }).find("out of its range") !=
         std::string::npos);

@@ -70,8 +70,7 @@ TEST_CASE("amounts: what cannot be taken says how to write it") {
   CHECK(told("1 Nm mrad^2", "Nm") == "1 Nm mrad^2 is not in Nm; give it in Nm");
   CHECK(told("4 N", "Nm/count", kBoard) ==
         "4 N is not in Nm/count; give it in Nm/count, or in Nm/rad");
-  CHECK(told("5V", "128 ticks", kBoard) ==
-        "5V is not in 128 ticks; give it in 128 ticks, or in s");
+  CHECK(told("5V", "128 ticks", kBoard) == "5V is not in 128 ticks; give it in 128 ticks, or in s");
   CHECK(told("5mNms/rad", "Nm s/rad") == "5mNms/rad is not in Nm s/rad; write 5 mNm s/rad");
   CHECK(told("80mN", "Nm") == "80mN is not in Nm; give it in Nm");
   CHECK(told("4 furlong", "rad") == "4 furlong is not in rad; give it in rad");

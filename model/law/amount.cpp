@@ -76,12 +76,12 @@ std::string without_blanks(std::string text) {
   return text;
 }
 
-/// How to write an amount whose unit is wrong. A number is proposed only where its prefix is known:
-/// for 5 mNms/rad, 5 mNm s/rad.
+/// How to write an amount whose unit is wrong. It proposes a number only if a blank alone is
+/// missing: for 5 mNms/rad, 5 mNm s/rad.
 std::string mend_of(const Amount& a, const std::string& unit) {
   const std::string own = without_blanks(unit);
   for (const char* prefix : {"", "n", "u", "m", "k", "M"}) {
-    if (unit[0] != '1' && without_blanks(a.unit) == prefix + own) {
+    if (without_blanks(a.unit) == prefix + own) {
       return fmt::format("write {:g} {}{}", a.number, prefix, unit);
     }
   }

@@ -95,8 +95,8 @@ class Meter {
       result_.move[k] = larger(result_.move[k], move);
     }
     for (std::size_t o = 0; o < result_.reached.size(); ++o) {
-      result_.reached[o].lo = std::min(result_.reached[o].lo, law_.outputs()[o]);
-      result_.reached[o].hi = std::max(result_.reached[o].hi, law_.outputs()[o]);
+      Span& reached = result_.reached[o];
+      reached = {smaller(reached.lo, law_.outputs()[o]), larger(reached.hi, law_.outputs()[o])};
     }
     bool otherwise = false;
     const MachineRun& run = machine_.run_seen(

@@ -55,7 +55,12 @@ module engine #(
   assign write_register = write_i && !busy_o && of_register;
   assign open_register  = write_register && !locked_i;
   assign write_run      = open_register && addr_i == feltgate_engine_pkg::H_RUN;
-  assign write_divider  = open_register && addr_i[8:3] == '0 && (addr_i[2] != addr_i[1]);  // 2 to 5
+  logic [3:0] of_divider;  // the thread whose divider it is; of_register compares the upper bits
+  assign of_divider     = {addr_i[8:0] == feltgate_engine_pkg::H_DIVIDER3[8:0],
+                           addr_i[8:0] == feltgate_engine_pkg::H_DIVIDER2[8:0],
+                           addr_i[8:0] == feltgate_engine_pkg::H_DIVIDER1[8:0],
+                           addr_i[8:0] == feltgate_engine_pkg::H_DIVIDER0[8:0]};
+  assign write_divider  = open_register && of_divider != '0;
   assign to_commit      = write_register && addr_i == feltgate_engine_pkg::H_COMMIT;
   assign commit         = to_commit && wdata_i[0];
 
@@ -230,7 +235,7 @@ module engine #(
       .velocity_i(velocity_i),
       .tau_hat_i(tau_hat_i),
       .divide_i(write_divider),
-      .divided_i(addr_i[1:0] ^ 2'b10),  // the dividers start at address 2
+      .divided_i({of_divider[3:2] != '0, of_divider[3] || of_divider[1]}),
       .divider_i(wdata_i[11:0]),
       .started_i(started),
       .ended_i(ended),

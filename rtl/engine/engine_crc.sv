@@ -44,10 +44,12 @@ module engine_crc (
   assign loads = reads_o && beat_i && beats_q == 2'd2 && left_q == 6'd0 && !ends;
 
   // A word is added to the CRC as it comes, with its upper bits in front of it. So the last step of
-  // a word waits for the next word or for the end: one LUT per bit does both. Start is a step before
+  // a word waits for the next word or for the end: one LUT per bit does both. A step after Start is
   // all ones.
   localparam logic [35:0] Polynomial = 36'h0edb88320;
-  localparam logic [35:0] Start = 36'h0248ef9bf;
+  localparam logic [35:0] Start = {3'd0, ~Polynomial[31:0], 1'b1};
+  // The bits of a word, and the comparison.
+  localparam logic [5:0] DataClocks = 6'd32 + 6'd1, WideClocks = 6'd40 + 6'd1;
   logic [35:0] crc_q, step;
   logic [15:0] same_q;  // pairs of bits that are as wanted
   logic steps;
@@ -69,7 +71,7 @@ module engine_crc (
     if (left_q != 6'd0) left_q <= left_q - 6'd1;
     if (beat_i && beats_q != 2'd2) beats_q <= beats_q + 2'd1;
     if (loads) begin
-      left_q    <= part_q == Data ? 6'd33 : 6'd41;
+      left_q    <= part_q == Data ? DataClocks : WideClocks;
       beats_q   <= '0;
       part_q    <= part_q + 2'(wraps);
       address_q <= next | (feltgate_engine_pkg::D_LOWER & {9{wraps && part_q == Program}});

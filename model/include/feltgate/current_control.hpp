@@ -41,12 +41,11 @@ inline CurrentGains current_gains(double resistance_ohm, double inductance_h, do
 /// Bit-exact and clock-exact with the RTL.
 class CurrentControl {
  public:
-  static constexpr std::int64_t kFullScale = 1
-                                             << kCurrentControlBits;  ///< LSB of full-scale current
-  static constexpr std::int64_t kSupply = 1
-                                          << kCurrentControlBits;  ///< LSB of the supply's voltage
-  static constexpr int kLatencyClocks = 20;                        ///< from valid to out().valid
-  static constexpr int kBusyClocks = 39;  ///< fewest from a taken valid to the next one
+  /// LSB of full-scale current, and of the supply's voltage.
+  static constexpr std::int64_t kFullScale = 1 << kCurrentControlBits;
+  static constexpr std::int64_t kSupply = kFullScale;
+  static constexpr int kLatencyClocks = 20;  ///< from valid to out().valid
+  static constexpr int kBusyClocks = 39;     ///< fewest from a taken valid to the next one
   struct In {
     bool armed = false;             ///< false: voltage and integrator are 0
     bool valid = false;             ///< one clock: current is new, take all but the last two

@@ -242,7 +242,7 @@ class EngineCrc {
     if (left_ != 0) --left_;
     if (reads && in.beat && beats_ != 2) ++beats_;
     if (loads) {
-      left_ = part_ == 1 ? 33 : 41;  // a clock for each bit and one for the comparison
+      left_ = (part_ == 1 ? 32 : 40) + 1;  // a clock for each bit and one for the comparison
       beats_ = 0;
       const bool part_ends = address == 511;
       address = !part_ends ? address + 1 : part_ == 0 ? EngineMap::D::lower : 0;

@@ -149,7 +149,7 @@ std::string report_text(const Report& r) {
   }
   for (const std::string& note : r.notes) s += "note: " + note + "\n";
   s +=
-      fmt::format("gates, at every rate: {}engine 1259 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+      fmt::format("gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
                   r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
                   several ? " with its glue to one axis" : "");
   return s;

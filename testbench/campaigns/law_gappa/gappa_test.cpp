@@ -18,6 +18,7 @@
 #include "feltgate/random.hpp"
 #include "files/program.hpp"
 #include "law/diagnostics.hpp"
+#include "mismatch.hpp"
 #include "random_laws.hpp"
 
 namespace feltgate::law {
@@ -81,7 +82,7 @@ TEST_CASE("Gappa proves every instruction of the shipped laws") {
     if (entry.path().extension() == ".law") names.insert(entry.path().stem().string());
   }
   // A usual run proves every third law.
-  const int every = std::getenv("FELTGATE_WHOLE") != nullptr ? 1 : 3;
+  const int every = test::whole_run() ? 1 : 3;
   int i = 0;
   for (const std::string& name : names) {
     if (i++ % every == 0) require_all(gappa, shipped(name), long_run() ? 0 : 1);

@@ -44,9 +44,13 @@ TEST_CASE("a whole state that no output shows counts in ones as well") {
       "out torque = 1 Nm * clamp(clamp(mod(clamp(past[1], -3, 3) + 0.142, 0.927), -1.5, 1.5)^3, "
       "-4, 4)\n",
       "x.law", Target{});
+  int whole = 0;
   for (const Step& s : c.program.steps) {
-    if (s.node >= 0 && c.law.nodes[static_cast<std::size_t>(s.node)].whole) CHECK(s.scale <= 1);
+    if (s.node < 0 || !c.law.nodes[static_cast<std::size_t>(s.node)].whole) continue;
+    CHECK(s.scale <= 1);
+    ++whole;
   }
+  CHECK(whole > 0);
 }
 
 TEST_CASE("the word of a whole parameter is a whole number of steps in one") {
@@ -57,11 +61,14 @@ TEST_CASE("the word of a whole parameter is a whole number of steps in one") {
       "out torque = 1 Nm * (0.3 / (0.48 + abs(cos(7 * position + ((q - 0.917) * kept - "
       "count)))))\n",
       "x.law", Target{});
+  int whole = 0;
   for (const ImageWord& w : c.image.words) {
     if (!w.whole || !w.formula.empty()) continue;
+    ++whole;
     const double steps = 1 / std::fabs(w.scale);
     CHECK(std::fabs(steps - std::nearbyint(steps)) < 1e-11 * steps);
   }
+  CHECK(whole == 1);
 }
 
 TEST_CASE("what the host computes ends where its range does") {

@@ -119,23 +119,38 @@ bool has_functions(const Program& program) {
   });
 }
 
+/// Whether a strip of `more` is much wider than the same one of `now`: an error that only decides a
+/// comparison is no part of the bound.
+bool strips_grow(const Bound& more, const Bound& now) {
+  return std::any_of(more.strips.begin(), more.strips.end(), [&](const Strip& s) {
+    double before = 0;
+    for (const Strip& t : now.strips) {
+      const bool same = t.place.line == s.place.line && t.place.column == s.place.column;
+      if (same) before = std::max(before, t.width);
+    }
+    return s.width > 2 * before;
+  });
+}
+
 /// Splits functions of wide ranges into more tables, as long as the bound is large and the law
 /// still fits.
 void into_pieces(Compiled& c) {
-  const Law whole = c.law;
-  const Program program = c.program;
-  const Bound b = c.bound;
-  for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
-    const double now = largest_share(c.law, c.target, c.bound);
-    if (now <= kLargeShare || !has_functions(program)) return;
+  if (!has_functions(c.program)) return;
+  const std::vector<Span> given = given_ranges(c.law, c.target);
+  const auto share = [&](const Compiled& of) { return largest_share(given, of.target, of.bound); };
+  Compiled whole = c;
+  for (int pieces = 1; pieces <= kMostPieces && share(c) > kLargeShare; ++pieces) {
     Compiled more = c;
-    more.law = in_pieces(whole, c.target, program, b, pieces);
+    more.law = in_pieces(whole.law, c.target, whole.program, whole.bound, pieces);
     try {
       form(more);
     } catch (const Refused&) {
       return;
     }
-    if (largest_share(more.law, more.target, more.bound) < 0.7 * now) c = more;
+    if (!(share(more) < 0.7 * share(c)) || strips_grow(more.bound, c.bound)) continue;
+    c = more;
+    // One piece only moves limits. The argument is finer there, and worth more pieces.
+    if (pieces == 1) whole = c;
   }
 }
 

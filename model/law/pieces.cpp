@@ -119,7 +119,10 @@ class Pieces {
     for (const NodeId id : needed(law)) {
       const Node& n = law.nodes[at(id)];
       needed_[at(id)] = 1;
-      for (const NodeId a : n.arguments) ++users_[at(a)];
+      // A square uses its root once.
+      for (std::size_t i = 0; i < n.arguments.size(); ++i) {
+        if (i == 0 || n.arguments[i] != n.arguments[i - 1]) ++users_[at(n.arguments[i])];
+      }
       if (!has_pieces(n.op) || fixed[at(id)] != 0) continue;
       const Span x = spans_[at(n.arguments[0])];
       if (!(x.width() > 0 && x.width() < infinity && widths_[at(id)].whole > 0) ||
@@ -136,11 +139,14 @@ class Pieces {
   Law run() {
     made_ = law_;
     made_.nodes.clear();
+    const std::vector<Span> matters = interest(law_, spans_);
     for (std::size_t i = 0; i < law_.nodes.size(); ++i) {
       const Node& n = law_.nodes[i];
       const auto id = static_cast<NodeId>(i);
       if (wide_[i] != 0) {
-        to_.push_back(pieces(id, to_[at(n.arguments[0])], spans_[at(n.arguments[0])]));
+        const NodeId cut = cut_function(id, matters[i]);
+        to_.push_back(cut >= 0 ? cut
+                               : pieces(id, to_[at(n.arguments[0])], spans_[at(n.arguments[0])]));
       } else if ((n.op == Op::minimum || n.op == Op::maximum) && needed_[i] != 0) {
         to_.push_back(limited(id, {-infinity, infinity}));
       } else {
@@ -202,6 +208,20 @@ class Pieces {
     return made;
   }
 
+  /// A wide function, clamped to `keep` by its argument; -1 where that is not possible.
+  NodeId cut_function(NodeId id, const Span& keep) {
+    const Node& n = law_.nodes[at(id)];
+    const NodeId argument = n.arguments[0];
+    const bool positive = n.op != Op::reciprocal || spans_[at(argument)].lo > 0;
+    const bool reached = keep.hi > 0 || n.op == Op::logarithm;
+    if (!positive || !reached) return -1;
+    const Span x = spans_[at(argument)];
+    const Span left = inverse_of(n.op, keep), inside = both_of(x, left);
+    if (!(inside.width() > 0)) return -1;
+    const NodeId less = n.op == Op::root ? kept_below(argument, left.hi) : to_[at(argument)];
+    return pieces(id, cut_off(less, law_.nodes[at(argument)], x, left), inside);
+  }
+
   /// min(max(node, keep.lo), keep.hi), with the limits moved as far inward in the expression as
   /// possible, so that a function's table covers only the remaining range of its argument.
   NodeId limited(NodeId id, const Span& keep) {
@@ -236,20 +256,38 @@ class Pieces {
                     {limited(other, {keep.lo - number, keep.hi - number}), addend});
       }
     }
-    const bool positive = n.op != Op::reciprocal || spans_[at(n.arguments[0])].lo > 0;
-    const bool reached = keep.hi > 0 || n.op == Op::logarithm;
-    if (alone && wide_[at(id)] != 0 && positive && reached) {
-      const NodeId argument = n.arguments[0];
-      const Span x = spans_[at(argument)];
-      const Span left = inverse_of(n.op, keep), inside = both_of(x, left);
-      if (inside.width() > 0) {
-        const NodeId cut = cut_off(to_[at(argument)], law_.nodes[at(argument)], x, left);
-        return pieces(id, cut, inside);
-      }
+    if (alone && wide_[at(id)] != 0) {
+      const NodeId cut = cut_function(id, keep);
+      if (cut >= 0) return cut;
     }
     // The current node of run() has no copy yet.
     const NodeId made = at(id) < to_.size() ? to_[at(id)] : copied(n);
     return cut_off(made, n, spans_[at(id)], keep);
+  }
+
+  /// A value x' with min(x', most) = min(x, most), x >= 0: squares in a sum are limited before they
+  /// are squared, where a word has twice as many bits. min(x + y, m) = min(min(x, m) + min(y, m),
+  /// m).
+  NodeId kept_below(NodeId id, double most) {
+    const Node& n = law_.nodes[at(id)];
+    const NodeId same = to_[at(id)];
+    if (!(most > 0) || spans_[at(id)].hi <= most || users_[at(id)] > 1) return same;
+    if (n.op == Op::add && spans_[at(n.arguments[0])].lo >= 0 &&
+        spans_[at(n.arguments[1])].lo >= 0) {
+      const NodeId a = kept_below(n.arguments[0], most), b = kept_below(n.arguments[1], most);
+      return make(Op::add, n, n.unit, {a, b});
+    }
+    if (n.op != Op::multiply) return same;
+    const NodeId x = n.arguments[0], y = n.arguments[1];
+    const Node& factor = law_.nodes[at(x)];
+    if (x == y) {
+      const double end = std::sqrt(most) * (1 + 1e-12);  // above the root in spite of rounding
+      const NodeId cut = limited(x, {-end, end});
+      return make(Op::multiply, n, n.unit, {cut, cut});
+    }
+    if (factor.op != Op::constant || !(factor.value > 0) || spans_[at(y)].lo < 0) return same;
+    return make(Op::multiply, n, n.unit,
+                {to_[at(x)], kept_below(y, most / factor.value * (1 + 1e-12))});
   }
 
   NodeId pieces(NodeId id, NodeId argument, const Span& x) {

@@ -111,6 +111,11 @@ void narrow_difference(const Node& n, const Requirement& r, double* lower, doubl
 /// Nodes that outputs, events and states need, arguments before users.
 std::vector<NodeId> needed(const Law& law);
 
+/// Per node, an interval to which its value may be clamped without a change of any root of the law:
+/// beyond it, every user has the same value. min(x, 1) needs x up to 1, x < 2 needs it a little
+/// further than 2; a user that is not looked at needs all of it. Empty for nodes without users.
+std::vector<Span> interest(const Law& law, const std::vector<Span>& spans);
+
 /// Per node, whether the host can compute it: it depends only on constants and on parameters that
 /// are not mailboxes.
 std::vector<char> fixed_nodes(const Law& law);

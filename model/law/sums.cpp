@@ -82,7 +82,7 @@ void BackEnd::collect(NodeId id, double number, bool root, std::vector<Term>& te
   }
 }
 
-bool BackEnd::fits_factor(const Value& v) const { return v.size / v.scale <= factor_limit + 1; }
+bool BackEnd::fits_factor(const Value& v) const { return v.size / v.scale <= factor_limit; }
 
 /// The value, shortened to the bits of a factor if necessary.
 Value BackEnd::narrow(const Value& v, NodeId id) {

@@ -12,6 +12,7 @@
 
 #include "law/derive.hpp"
 #include "law/diagnostics.hpp"
+#include "law/evaluate.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
@@ -22,7 +23,8 @@ constexpr double kTold = 0.05;    ///< share of excluded runs above which it is 
 constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
 constexpr double kSlow = 0.01;  ///< reported error of a run beside the largest move of a state
-constexpr double kAsSet = 0.1;  ///< reported relative error of the file's value, which is listed
+constexpr int kGivenRuns = 1000;  ///< runs to each side of 0 that show what a law gives
+constexpr double kAsSet = 0.1;    ///< reported relative error of the file's value, which is listed
 
 /// The mend for large bounds: limit the argument of the table with the worst error for its size.
 std::string mend(const Program& program, const Bound& b) {
@@ -174,6 +176,12 @@ void states(const Compiled& c, const Measured& m, Verdict* v) {
   }
 }
 
+/// Whether runs with random inputs give all that the law can give. Those of several inputs seldom
+/// meet where a texture or a contact is.
+bool runs_reach_all(const Law& law) {
+  return law.inputs.size() == 1 && law.states.empty() && law.lines.empty();
+}
+
 /// A bound beside the values of its output.
 struct Size {
   double bound;
@@ -223,8 +231,28 @@ std::vector<Span> output_ranges(const Law& law, const Target& target) {
   return list;
 }
 
-double largest_share(const Law& law, const Target& target, const Bound& b) {
-  const std::vector<Span> spans = output_ranges(law, target);
+std::vector<Span> given_ranges(const Law& law, const Target& target) {
+  std::vector<Span> list = output_ranges(law, target);
+  if (!runs_reach_all(law)) return list;
+  std::vector<Span> given(list.size(), {infinity, -infinity});
+  const Span x = whole_cell(law, target).inputs[0];
+  Evaluation<double> evaluation(law);
+  for (int i = -kGivenRuns; i <= kGivenRuns; ++i) {
+    const double share = std::pow(1.0 * i / kGivenRuns, 3);  // most of them near 0
+    evaluation.run({x.size() * share});
+    for (std::size_t o = 0; o < given.size(); ++o) {
+      const double torque = evaluation.outputs()[o];
+      given[o] = hull(given[o], {torque, torque});
+    }
+  }
+  for (std::size_t o = 0; o < list.size(); ++o) {
+    const Span s = both_of(list[o], given[o]);
+    if (s.width() > 0) list[o] = s;
+  }
+  return list;
+}
+
+double largest_share(const std::vector<Span>& spans, const Target& target, const Bound& b) {
   const double lsb = std::ldexp(1.0, -target.torque.fraction);
   double share = 0;
   for (std::size_t o = 0; o < spans.size(); ++o) {
@@ -253,9 +281,6 @@ Verdict verdict(const Compiled& c, const Measured& m) {
   Verdict v;
   const std::vector<Span> spans = output_ranges(c.law, c.target);
   const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
-  // Random values of several inputs seldom meet where a texture or a contact is.
-  const bool runs_reach_all =
-      c.law.inputs.size() == 1 && c.law.states.empty() && c.law.lines.empty();
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const std::string name = name_of(c.law.outputs[o], c.law);
     const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
@@ -267,7 +292,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
     }
     const std::string narrower = mend(c.program, c.bound);
     const bool reached =
-        runs_reach_all && o < m.reached.size() && m.reached[o].width() > 0 &&
+        runs_reach_all(c.law) && o < m.reached.size() && m.reached[o].width() > 0 &&
         beside_its_output(name,
                           {bound, m.reached[o], "what the law gave in the measured runs", narrower},
                           lsb, &v);

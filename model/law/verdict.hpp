@@ -36,8 +36,12 @@ std::string name_of(const Output& output, const Law& law);
 /// parameters and states, cut to the torque's format, where the limiter ends at the latest.
 std::vector<Span> output_ranges(const Law& law, const Target& target);
 
-/// The largest ratio of a bound to the range of its output; 0 if no bound exceeds two LSB.
-double largest_share(const Law& law, const Target& target, const Bound& b);
+/// The same, narrower where a law of one input without states is seen to give less with the file's
+/// parameters: x / sqrt(1 + x^2) lies in -1 .. 1. A sample, not a proof.
+std::vector<Span> given_ranges(const Law& law, const Target& target);
+
+/// The largest ratio of a bound to the range of its output, `spans`; 0 if no bound exceeds two LSB.
+double largest_share(const std::vector<Span>& spans, const Target& target, const Bound& b);
 
 constexpr double kLargeShare = 0.01;  ///< from this share on: reported, and functions are split
 

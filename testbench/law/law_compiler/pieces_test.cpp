@@ -92,13 +92,38 @@ TEST_CASE("functions over wide ranges have bounds that say something") {
     const Compiled c = compile_text(text, "x.law", Target{});
     // A root inside a quotient has the errors of both.
     const bool both = std::string(text).find("r + 0.1") != std::string::npos;
-    CHECK(largest_share(c.law, c.target, c.bound) < (both ? 0.1 : 0.02));
+    CHECK(largest_share(output_ranges(c.law, c.target), c.target, c.bound) < (both ? 0.1 : 0.02));
     for (std::uint64_t seed = 1; seed < 4; ++seed) {
       const Measured m = measure(c, seed, 20000);
       CHECK(m.in_strips == 0);
       for (std::size_t o = 0; o < m.output.size(); ++o) {
         CHECK(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-9);
       }
+    }
+  }
+}
+
+TEST_CASE("a radius needs no limits of its own where only a part of it matters") {
+  const std::string radius =
+      "param k = 2 Nm/rad in 0 Nm/rad .. 10 Nm/rad\n"
+      "let r = sqrt(position^2 + position[1]^2)\nlet q = sqrt(position^2 + (0.01 s * "
+      "velocity)^2)\n";
+  struct Case {
+    const char* torque;
+    double least;
+  };
+  // Before limits went below the root, each of these was refused.
+  for (const Case& k : {Case{"k * clamp(0.5 rad - r, 0 rad, 0.2 rad)", 3e-3},
+                        Case{"1 Nm/rad * min(q, 1 rad)", 0.006},
+                        Case{"if q < 0.5 rad then 0 Nm else -k * min(q - 0.5 rad, 0.2 rad)", 0.1},
+                        Case{"0.001 Nm/rad^2 * position^2", 5e-4}}) {
+    INFO(k.torque);
+    const Compiled c = compile_text(radius + "out torque = " + k.torque + "\n", "x.law", Target{});
+    CHECK(c.bound.output[0] < k.least);
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+      const Measured m = measure(c, seed, 20000);
+      CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9));
+      CHECK(m.in_strips * 50 < m.runs);
     }
   }
 }

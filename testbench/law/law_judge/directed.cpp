@@ -230,6 +230,23 @@ void directions(std::vector<Directed>& all) {
   }
 }
 
+/// A radius without limits, of whose range several users need different parts.
+void wide(std::vector<Directed>& all) {
+  const auto squared = [](const Node& x) { return make(Kind::power, {x}, 2); };
+  const auto least = [](const Node& x, const Node& y) { return make(Kind::minimum, {x, y}); };
+  const Node r = make(Kind::root, {squared(position()) + squared(times(0.02, velocity()))});
+  all.push_back({"a limited radius", of({}, least(r, number("0.5")))});
+  all.push_back({"a square", of({}, times(0.0001, squared(position())))});
+  Law l;
+  l.lets.push_back({"part", r});
+  const Node part = make(Kind::let, {}, 0, "part");
+  const Node ring = choose(part < number("0.5"), number("0.25"), limited(number("1.5") - part, 0, 0.75));
+  all.push_back({"a radius beside two limits", of(l, ring)});
+  const Node p = l.param("p", 0.5, 0.1, 2);
+  all.push_back({"a radius up to a parameter",
+                 of(l, least(part, p) - choose(number("0.25") < part, p, number("0")))});
+}
+
 /// A comparison that was the flag once, and is needed again after another one.
 void flag_once(std::vector<Directed>& all) {
   const Node held = number("0.2") < position();
@@ -260,6 +277,7 @@ std::vector<Directed> directed_laws() {
   rounded_down(all);
   directions(all);
   flag_once(all);
+  wide(all);
   return all;
 }
 

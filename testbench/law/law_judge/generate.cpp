@@ -16,6 +16,7 @@ class Generator {
   Law law() {
     angles_.allowed = shape_ != Shape::nested && shape_ != Shape::tables;
     parameters();
+    if (shape_ == Shape::wide) return wide_law();
     memory();
     things();
     if (one_in(3)) lets();
@@ -45,6 +46,69 @@ class Generator {
     return of[static_cast<std::size_t>(below(static_cast<int>(of.size())))];
   }
   Node value(double a, double b) { return number(between(a, b), 3); }
+
+  /// A radius, root, quotient, logarithm or exponential of inputs without limits, used several
+  /// times behind limits and comparisons.
+  Law wide_law() {
+    const Node x = one_in(2) ? value(0.3, 3) * position() : number("0.02") * velocity();
+    const Node y = one_in(2) ? position(1) : value(0.005, 0.05) * velocity();
+    const auto squared = [](const Node& of) { return make(Kind::power, {of}, 2); };
+    const Node amount = make(Kind::absolute, {x});
+    switch (below(6)) {
+      case 0:
+        function_ = make(Kind::root, {squared(x) + squared(y)});
+        break;
+      case 1:
+        function_ = make(Kind::root, {value(0.1, 2) * squared(x) + squared(y) + value(0, 0.2)});
+        break;
+      case 2:
+        function_ = make(Kind::root, {amount});
+        break;
+      case 3:
+        function_ = make(Kind::logarithm, {value(0.05, 1) + amount});
+        break;
+      case 4:
+        function_ = number("1") / (value(0.05, 1) + amount);
+        break;
+      default:
+        function_ = make(Kind::exponential, {make(Kind::negate, {value(0.1, 3) * amount})});
+    }
+    law_.lets.push_back({"part", function_});
+    let_ = make(Kind::let, {}, 0, "part");
+    Node torque = one_in(3) ? limited(let_, -1, 4) : use_of(let_);
+    for (int more = below(3); more > 0; --more) {
+      const Node other = use_of(let_);
+      torque = one_in(3) ? torque * other : one_in(2) ? torque - other : torque + other;
+    }
+    law_.torques.push_back(limited(torque, -4, 4));
+    if (one_in(4)) law_.events.push_back({"told", use_of(let_), compared(let_, value(0.1, 2))});
+    return law_;
+  }
+  /// An expression in which only a part of the range of `r` matters.
+  Node use_of(const Node& r) {
+    const Node end = one_in(3) ? some(params_) : value(0.1, 2);
+    const double low = -between(0, 1), high = between(0.1, 2);
+    switch (below(9)) {
+      case 0:
+        return make(Kind::minimum, {r, end});
+      case 1:
+        return make(Kind::minimum, {make(Kind::maximum, {r, end}), value(2, 3)});
+      case 2:
+        return limited(end - r, low, high);
+      case 3:
+        return limited(r - end, low, high);
+      case 4:
+        return choose(compared(r, end), fixed(1), limited(value(0.5, 2) * r - end, low, high));
+      case 5:
+        return make(Kind::absolute, {limited(r - end, low, high)});
+      case 6:
+        return fixed(1) * make(Kind::negate, {make(Kind::minimum, {r, value(0.1, 2)})});
+      case 7:
+        return limited(r + limited(position(), -1, 1), low, high);
+      default:
+        return limited(make(Kind::absolute, {r - end}) - value(0, 1), low, high);
+    }
+  }
 
   void parameters() {
     params_.push_back(law_.param("p", between(0.1, 0.9), 0.1, between(1, 3)));
@@ -385,7 +449,7 @@ class Generator {
   Shape shape_;
   Law law_;
   std::vector<Node> params_, kept_, stages_;
-  Node count_, wide_, held_, mailbox_, let_, curve_;
+  Node count_, wide_, held_, mailbox_, let_, curve_, function_;
   int phase_ = -1, axis_ = 0;
 };
 

@@ -8,9 +8,19 @@
 
 namespace feltgate::judge {
 
-/// The main construct of a generated law.
-enum class Shape { formula, parameters_alone, whole_states, nested, arrays, tables, memory, axes };
-constexpr int shapes = 8;
+/// The main construct of a generated law; `wide`: a function over the whole range of an input.
+enum class Shape {
+  formula,
+  parameters_alone,
+  whole_states,
+  nested,
+  arrays,
+  tables,
+  memory,
+  axes,
+  wide
+};
+constexpr int shapes = 8;  ///< without `wide`, whose laws have a test of their own
 
 Law random_law(std::uint64_t seed, Shape shape);
 

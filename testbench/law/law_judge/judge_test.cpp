@@ -58,6 +58,14 @@ struct Total {
       if (std::getenv("FELTGATE_SHOW") != nullptr) std::cout << name << ": " << e.what() << "\n";
     }
   }
+
+  std::string summary() const {
+    return fmt::format(
+        "{} laws, {} refused, {} wrong, {} left out in strips; {} runs, {} explained by a strip; "
+        "{} aimed at a comparison, {} explained by its strip; {} states that no step reads",
+        laws, refused, failed, left_out, runs.runs, runs.turned, runs.aimed, runs.aimed_turned,
+        runs.unread_states);
+  }
 };
 
 TEST_CASE("laws that were compiled wrongly once") {
@@ -91,6 +99,20 @@ TEST_CASE("laws that the judge called wrong once") {
   }
 }
 
+/// Functions over the whole range of an input: the compiler moves limits into their arguments.
+TEST_CASE("random laws of wide functions stay within their bounds") {
+  const int first = from_environment("FELTGATE_JUDGE_FIRST", 0);
+  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? 10000 : 60);
+  Total total;
+  for (int i = first; i < first + count && total.failed <= 4; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i) + 1;
+    total.add("wide law " + std::to_string(i), random_law(seed, Shape::wide), seed, 200);
+  }
+  WARN(total.summary());
+  CHECK(total.refused * 10 <= total.laws + 50);
+  CHECK(total.left_out * 20 <= total.laws + 100);
+}
+
 /// FELTGATE_JUDGE_FIRST and FELTGATE_JUDGE_LAWS select the first law and the number of laws.
 TEST_CASE("random laws stay within their bounds") {
   const int first = from_environment("FELTGATE_JUDGE_FIRST", 0);
@@ -108,11 +130,7 @@ TEST_CASE("random laws stay within their bounds") {
                              gone.count() / 60 * (count - total.laws) / total.laws);
   }
   const Verdict& r = total.runs;
-  WARN(total.laws << " laws, " << total.refused << " refused, " << total.failed << " wrong, "
-                  << total.left_out << " left out in strips; " << r.runs << " runs, " << r.turned
-                  << " explained by a strip; " << r.aimed << " aimed at a comparison, "
-                  << r.aimed_turned << " explained by its strip; " << r.unread_states
-                  << " states that no step reads");
+  WARN(total.summary());
   // With few laws a share means little: 50 are added.
   CHECK(total.refused * 10 <= total.laws + 50);
   CHECK(total.left_out * 200 <= total.laws + 100);

@@ -9,10 +9,12 @@ Documentation: docs/json.md
 import os
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
 from bench import Bench
+from testing import ROOT
 
 WAIT_S = 60
 
@@ -109,6 +111,33 @@ class Signals(Bench):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(WAIT_S), 130)
         self.assertRaises(ProcessLookupError, os.kill, child, 0)
+
+    def script_with_numpy(self, text):
+        """The script of a report, with a stand-in for the first module that it needs."""
+        self.path("numpy.py").write_text(text)
+        process = subprocess.Popen(
+            [sys.executable, str(ROOT / "scripts/report.py"), "out", "a.json"],
+            **{"cwd": self.folder, "text": True, "stderr": subprocess.PIPE},
+            env=os.environ | {"PYTHONPATH": str(self.folder)},
+        )
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_ctrl_c_while_a_script_imports(self):
+        process = self.script_with_numpy("import time\nopen('here', 'w')\ntime.sleep(30)\n")
+        self.until(self.path("here").exists)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(WAIT_S), 130)
+        self.assertEqual(process.stderr.read(), "report: interrupted\n")
+
+    def test_a_module_that_is_missing(self):
+        process = self.script_with_numpy("raise ModuleNotFoundError('none', name='numpy')\n")
+        self.assertEqual(process.wait(WAIT_S), 2)
+        said = process.stderr.read()
+        self.assertIn("has no module numpy; run: apt-get install python3-numpy\n", said)
+        self.assertEqual(said.count("\n"), 1)
 
     def test_trim_and_its_threads(self):
         process = self.begin("trim", "long.toml", "-o", "a.toml", "--json", "a.json", parts=2)

@@ -22,7 +22,7 @@ Range wider(double lower, double upper) {
           upper == 0 ? 0 : std::nextafter(upper, kInfinity)};
 }
 
-Range product(const Range& a, const Range& b) {
+Range range_of_product(const Range& a, const Range& b) {
   const auto [low, high] =
       std::minmax({a.lower * b.lower, a.lower * b.upper, a.upper * b.lower, a.upper * b.upper});
   return wider(low, high);
@@ -57,7 +57,7 @@ Range host_range(const Law& law, const Node& n, const std::vector<Range>& ranges
     case Op::subtract:
       return wider(a.lower - b.upper, a.upper - b.lower);
     case Op::multiply:
-      return n.arguments[0] == n.arguments[1] ? square(a) : product(a, b);
+      return n.arguments[0] == n.arguments[1] ? square(a) : range_of_product(a, b);
     case Op::negate:
       return {0 - a.upper, 0 - a.lower};
     case Op::absolute:

@@ -36,9 +36,14 @@ foreach(room IN LISTS FELTGATE_ROOMS)
     SYMBOLIC)
 endforeach()
 
-# feltgate_unity(<target>): its sources share what they include.
+# feltgate_unity(<target>): its sources share what they include. pip compiles everything once, so more
+# of them share it there.
 function(feltgate_unity name)
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${FELTGATE_UNITY} UNITY_BUILD_BATCH_SIZE 6)
+  set(batch 6)
+  if(FELTGATE_PYTHON)
+    set(batch 16)
+  endif()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${FELTGATE_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()
 
 # feltgate_library(<name> <folder> [ONLY <regex>] [EXCEPT <regex>] [libraries...]): a static library

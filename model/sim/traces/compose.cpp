@@ -14,7 +14,7 @@
 namespace feltgate::traces::synthetic {
 namespace {
 
-void demand(bool holds, const char* what) {
+void refuse_unless(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
@@ -179,30 +179,30 @@ class Index final : public EncoderSource {
 Source from_events(EncoderPins initial, std::vector<EncoderEvent> events, Clock length) {
   Clock last = 0;
   for (const EncoderEvent& event : events) {
-    demand(event.clock > last, "from_events: clocks do not rise");
+    refuse_unless(event.clock > last, "from_events: clocks do not rise");
     last = event.clock;
   }
-  demand(length > last, "from_events: length");
+  refuse_unless(length > last, "from_events: length");
   return std::make_unique<Events>(initial, std::move(events), length);
 }
 
 Source sequence(std::vector<Source> parts) {
-  demand(!parts.empty(), "sequence: no parts");
+  refuse_unless(!parts.empty(), "sequence: no parts");
   return std::make_unique<Sequence>(std::move(parts));
 }
 
 Source cut(Source source, Clock clocks) {
-  demand(clocks >= 1, "cut: length");
+  refuse_unless(clocks >= 1, "cut: length");
   return std::make_unique<Cut>(std::move(source), clocks);
 }
 
 Source with_bounce(Source source, std::uint64_t seed, int most_toggles, Clock most_spacing) {
-  demand(most_toggles >= 0 && most_spacing >= 1, "with_bounce: toggles or spacing");
+  refuse_unless(most_toggles >= 0 && most_spacing >= 1, "with_bounce: toggles or spacing");
   return std::make_unique<Bounce>(std::move(source), seed, most_toggles, most_spacing);
 }
 
 Source with_index(Source source, std::int64_t counts_per_turn) {
-  demand(counts_per_turn >= 1, "with_index: counts per turn");
+  refuse_unless(counts_per_turn >= 1, "with_index: counts per turn");
   return std::make_unique<Index>(std::move(source), counts_per_turn);
 }
 

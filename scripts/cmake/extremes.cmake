@@ -19,11 +19,14 @@ foreach(mode "" _truncate _convergent)  # half up, floor, convergent
     CLASS Vlowpass${mode} -GRounding=${rounding})
 endforeach()
 
-# An engine of one axis, as the design with one has it.
+# An engine of one axis, as the design with one has it, and one of three.
 file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
 feltgate_verilate(extremes_engine engine
   "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv;${extremes_engine_parts}")
-list(APPEND extremes_blocks extremes_engine)
+feltgate_verilate(extremes_engine_axes engine
+  "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv;${extremes_engine_parts}"
+  CLASS Vextremes_engine_axes -GAxisCount=3)
+list(APPEND extremes_blocks extremes_engine extremes_engine_axes)
 
 # A core of its own, with gains wider than any design for use needs them.
 set(extremes_wide "${PROJECT_BINARY_DIR}/extremes_wide")
@@ -44,7 +47,7 @@ target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
 target_include_directories(feltgate_extreme_cases
   PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
 target_link_libraries(feltgate_extreme_cases
-  PUBLIC feltgate_rtl feltgate_loop feltgate_design feltgate_stability
+  PUBLIC feltgate_rtl feltgate_loop feltgate_law feltgate_design feltgate_stability
   PRIVATE extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)
 # Whoever links the cases links these blocks, or others with defects.
 add_dependencies(feltgate_extreme_cases ${extremes_blocks})

@@ -48,7 +48,7 @@ bool Outcome::holds() const {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto group : {encoder_cases, velocity_cases, filter_cases, observer_cases, scene_cases,
-                           loop_cases, engine_cases, day_cases}) {
+                           loop_cases, engine_cases, axes_cases, day_cases}) {
     for (const Case& c : group()) all.push_back(c);
   }
   return all;

@@ -69,6 +69,7 @@ std::vector<Case> observer_cases();
 std::vector<Case> scene_cases();
 std::vector<Case> loop_cases();
 std::vector<Case> engine_cases();
+std::vector<Case> axes_cases();
 std::vector<Case> day_cases();
 
 }  // namespace feltgate::extremes

@@ -14,6 +14,10 @@ namespace feltgate::extremes {
 
 enum class Driver { lock_step, twin, real };
 
+/// Registers engines and chains of the design `wide`, the published lever with registers for every
+/// Kp; may be called more than once.
+void use_wide_design();
+
 /// Reads a plant from vectors/plants.
 plant::Parameters shipped_plant(const Settings& settings, const std::string& name);
 

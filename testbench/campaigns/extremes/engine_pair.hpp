@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The engine of one axis alone, RTL and twin in lock-step, with a host and ticks of 50 clocks.
+// The engine alone, RTL and twin in lock-step, with a host and ticks of 50 clocks.
 // Documentation: docs/extremes.md
 #pragma once
 
@@ -18,22 +18,26 @@ struct Both {
   double rtl = 0, twin = 0;
 };
 
-class EnginePair {
+/// Of one axis, or of three with another Verilated class.
+template <int Axes = 1, class Rtl = Vengine>
+class EnginePairOf {
  public:
-  using Twin = test::EngineTwin<1>;
+  using Twin = test::EngineTwin<Axes>;
   using H = EngineMap::H;
   static constexpr int clocks_per_tick = 50;
 
-  /// Loads the image over the port, as a host does.
-  explicit EnginePair(const EngineMemory& image) {
+  EnginePairOf() {
     rtl_.reset(3);
     twin_.reset();
+  }
+  /// Loads the image over the port, as a host does.
+  explicit EnginePairOf(const EngineMemory& image) : EnginePairOf() {
     test::EngineHost host;
     host.load(image);
     for (const test::Access& a : host.queue) write(static_cast<int>(a.addr), a.word);
   }
 
-  Twin::In in;  ///< inputs of the next clock; the pair makes the ticks itself
+  typename Twin::In in;  ///< inputs of the next clock; the pair makes the ticks itself
 
   void clock() {
     in.tick = ++since_ == clocks_per_tick;
@@ -67,7 +71,10 @@ class EnginePair {
     return word;
   }
 
-  Both torque() const { return {raw_torque(), static_cast<double>(twin_out().torque[0])}; }
+  Both torque(int axis = 0) const {
+    return {raw_torque(axis),
+            static_cast<double>(twin_out().torque[static_cast<std::size_t>(axis)])};
+  }
   Both late() const { return {rtl_->late_o ? 1.0 : 0.0, twin_out().late ? 1.0 : 0.0}; }
   bool fresh() const { return twin_out().fresh; }
   bool rtl_fresh() const { return rtl_->fresh_o != 0; }
@@ -81,11 +88,13 @@ class EnginePair {
   }
 
  private:
-  using Adapter = test::EngineAdapter<1>;
+  using Adapter = test::EngineAdapter<Axes, Rtl>;
 
-  Twin::Out twin_out() const { return twin_.peek(in); }
-  double raw_torque() const {
-    return static_cast<double>(static_cast<std::int32_t>(rtl_->torque_o << 11) >> 11);
+  typename Twin::Out twin_out() const { return twin_.peek(in); }
+  double raw_torque(int axis) const {
+    const std::uint64_t word = std::uint64_t{rtl_->torque_o} >> (21 * axis);
+    return static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(word) << 11) >>
+                               11);
   }
   void compare() {
     test::Check check;
@@ -94,11 +103,13 @@ class EnginePair {
     if (mismatches_++ == 0) first_mismatch_ = std::string("engine: ") + check.first().signal;
   }
 
-  RtlModel<Vengine> rtl_{1};
+  RtlModel<Rtl> rtl_{1};
   Twin twin_;
   int since_ = 0;
   std::int64_t clocks_ = 0, mismatches_ = 0;
   std::string first_mismatch_;
 };
+
+using EnginePair = EnginePairOf<>;
 
 }  // namespace feltgate::extremes

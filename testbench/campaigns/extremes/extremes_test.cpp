@@ -94,6 +94,9 @@ EXTREME(law_age)
 EXTREME(law_events_full)
 EXTREME(law_program_512)
 EXTREME(law_threads_at_once)
+EXTREME(linkage_singular)
+EXTREME(gimbal_lock)
+EXTREME(plane_lost)
 
 TEST_CASE("every short case is tested, and the page has no other", "[list]") {
   std::set<std::string> names;

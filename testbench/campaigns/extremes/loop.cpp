@@ -9,7 +9,6 @@
 
 #include "campaigns/extremes/closed_loop.hpp"
 #include "campaigns/extremes/table.hpp"
-#include "campaigns/extremes/wide_design.hpp"
 #include "feltgate/largest.hpp"
 #include "studies/stability/bit_loop.hpp"
 #include "studies/stability/linear_loop.hpp"

@@ -2,10 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The design `wide`: its Verilated core and its twin. Documentation: docs/extremes.md
-#include "campaigns/extremes/wide_design.hpp"
-
 #include <Vextremes_wide.h>
 
+#include "campaigns/extremes/closed_loop.hpp"
 #include "sim/backends/make_backends.hpp"
 #include "wide.hpp"
 

@@ -18,13 +18,13 @@ namespace feltgate::test {
 template <int Axes>
 using EngineTwin = law::Engine<Axes, 21>;
 
-template <int Axes>
+template <int Axes, class Rtl = Vengine>
 struct EngineAdapter {
   using Twin = EngineTwin<Axes>;
   using In = typename Twin::In;
   using Out = typename Twin::Out;
 
-  static void drive(Vengine& rtl, const In& in) {
+  static void drive(Rtl& rtl, const In& in) {
     FELTGATE_DRIVE(rtl, in, armed, enter, locked, tick, tick_count);
     set(rtl.position_i, in.position);
     set(rtl.velocity_i, in.velocity);
@@ -36,7 +36,7 @@ struct EngineAdapter {
     rtl.read_i = in.read;
   }
   template <class Check>
-  static void compare(Check& check, const Vengine& rtl, const Out& out) {
+  static void compare(Check& check, const Rtl& rtl, const Out& out) {
     for (int n = 0; n < Axes; ++n) {
       check("torque", torque(rtl.torque_o, n), out.torque[static_cast<std::size_t>(n)]);
     }

@@ -132,14 +132,38 @@ bool strips_grow(const Bound& more, const Bound& now) {
   });
 }
 
-/// Splits functions of wide ranges into more tables, as long as the bound is large and the law
-/// still fits.
+/// How many comparisons of what comes from a function have a strip as wide as the room that
+/// interest() leaves beside what it is compared with. Limits within such a strip would let words
+/// come out otherwise than the law far from it.
+int coarse_strips(const Compiled& c) {
+  std::vector<char> from_function(c.law.nodes.size(), 0);
+  for (std::size_t i = 0; i < c.law.nodes.size(); ++i) {
+    const Node& n = c.law.nodes[i];
+    from_function[i] = has_pieces(n.op) ? 1 : 0;
+    for (const NodeId a : n.arguments) from_function[i] |= from_function[at(a)];
+  }
+  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
+  int count = 0;
+  for (const Strip& s : c.bound.strips) {
+    const Node& n = c.law.nodes[at(s.condition)];
+    for (std::size_t i = 0; n.op == Op::less && i < 2; ++i) {
+      const double room = room_beside(spans[at(n.arguments[1 - i])]);
+      if (from_function[at(n.arguments[i])] != 0 && room > 0 && s.width >= room) ++count;
+    }
+  }
+  return count;
+}
+
+/// Splits functions of wide ranges into more tables, as long as the bound or a strip is large and
+/// the law still fits.
 void into_pieces(Compiled& c) {
   if (!has_functions(c.program)) return;
   const std::vector<Span> given = given_ranges(c.law, c.target);
   const auto share = [&](const Compiled& of) { return largest_share(given, of.target, of.bound); };
   Compiled whole = c;
-  for (int pieces = 1; pieces <= kMostPieces && share(c) > kLargeShare; ++pieces) {
+  for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
+    const bool coarse = coarse_strips(c) > 0;
+    if (share(c) <= kLargeShare && !coarse) return;
     Compiled more = c;
     more.law = in_pieces(whole.law, c.target, whole.program, whole.bound, pieces);
     try {
@@ -147,7 +171,9 @@ void into_pieces(Compiled& c) {
     } catch (const Refused&) {
       return;
     }
-    if (!(share(more) < 0.7 * share(c)) || strips_grow(more.bound, c.bound)) continue;
+    // A bound for all runs is better than a smaller one for few.
+    const bool better = share(more) < (coarse ? 1 : 0.7 * share(c));
+    if (!better || coarse_strips(more) > 0 || strips_grow(more.bound, c.bound)) continue;
     c = more;
     // One piece only moves limits. The argument is finer there, and worth more pieces.
     if (pieces == 1) whole = c;

@@ -177,6 +177,27 @@ class Search {
 
 }  // namespace
 
+namespace {
+
+/// The cost of a comparison that decides little: its strip is a quarter of the compared range, or
+/// of one step of a rounded-down whole number; or all values on one side of the other operand are
+/// within it. 0 for any other one.
+double idle_cost(const Law& law, const std::vector<Span>& spans, const Step& s, double margin) {
+  const Node& condition = law.nodes[static_cast<std::size_t>(s.condition)];
+  const double width = margin * std::fabs(s.margin_scale != 0 ? s.margin_scale : s.scale);
+  double most = 0.25;  // a wider strip is idle
+  if (condition.op == Op::less) {
+    const Span x = spans[static_cast<std::size_t>(condition.arguments[0])];
+    const Span y = spans[static_cast<std::size_t>(condition.arguments[1])];
+    most *= std::max(x.size(), y.size());
+    const double below = y.hi - x.lo, above = x.hi - y.lo;  // the farthest values on each side
+    if (below > 0 && above > 0) most = std::min({most, below, above});
+  }
+  return width > most ? 20 + std::log2(width / most) : 0;
+}
+
+}  // namespace
+
 double cost(const Law& law, const Target& target, const Program& program, const Bound& b,
             const std::vector<Span>& spans) {
   const double lsb = std::ldexp(1.0, -target.torque.fraction);
@@ -193,17 +214,7 @@ double cost(const Law& law, const Target& target, const Program& program, const 
         size = std::max(size, b.words[static_cast<std::size_t>(o.index)].size());
     }
     strips += 0.5 * std::max(0.0, std::log2(b.margins[i] / size * 65536));
-    // A strip as wide as the compared range, or as one step of a rounded-down whole number, leaves
-    // nothing decided.
-    if (s.condition < 0) continue;
-    const Node& condition = law.nodes[static_cast<std::size_t>(s.condition)];
-    double compared = condition.op == Op::less ? 0 : 1;
-    for (const NodeId a : condition.arguments) {
-      if (condition.op != Op::less) break;
-      compared = std::max(compared, spans[static_cast<std::size_t>(a)].size());
-    }
-    const double width = b.margins[i] * std::fabs(s.margin_scale != 0 ? s.margin_scale : s.scale);
-    if (4 * width > compared) strips += 20;
+    if (s.condition >= 0) strips += idle_cost(law, spans, s, b.margins[i]);
   }
   double drifts = 0;
   // A state whose error does not reach the outputs counts relative to its own range.

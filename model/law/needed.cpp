@@ -125,7 +125,7 @@ class Interest {
         return;
       case Op::less:
         for (const std::size_t i : {0U, 1U}) {
-          const double beside = span(1 - i).size() / 8;
+          const double beside = room_beside(span(1 - i));
           want_argument(i, beside > 0 ? Span{span(1 - i).lo - beside, span(1 - i).hi + beside}
                                       : whole_line());
         }
@@ -146,6 +146,8 @@ class Interest {
 };
 
 }  // namespace
+
+double room_beside(const Span& compared) { return compared.size() / 8; }
 
 std::vector<Span> interest(const Law& law, const std::vector<Span>& spans) {
   return Interest(law, spans).take();

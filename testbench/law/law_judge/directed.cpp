@@ -240,11 +240,20 @@ void wide(std::vector<Directed>& all) {
   Law l;
   l.lets.push_back({"part", r});
   const Node part = make(Kind::let, {}, 0, "part");
-  const Node ring = choose(part < number("0.5"), number("0.25"), limited(number("1.5") - part, 0, 0.75));
+  const Node ring =
+      choose(part < number("0.5"), number("0.25"), limited(number("1.5") - part, 0, 0.75));
   all.push_back({"a radius beside two limits", of(l, ring)});
   const Node p = l.param("p", 0.5, 0.1, 2);
   all.push_back({"a radius up to a parameter",
                  of(l, least(part, p) - choose(number("0.25") < part, p, number("0")))});
+  // Coarse where it matters: the strip of the comparison must not reach what the limits leave.
+  Law coarse;
+  const Node x = position(1), far = squared(number("1.611") * position());
+  coarse.lets.push_back({"part", make(Kind::root, {times(0.948, far) + squared(x) + 0.148})});
+  const Node beyond = number("1.994") < part;
+  all.push_back({"a coarse radius beside a comparison",
+                 of(coarse, choose(beyond, number("0.7"),
+                                   limited(times(0.655, part) - 1.994, -0.492, 1.414)))});
 }
 
 /// A comparison that was the flag once, and is needed again after another one.

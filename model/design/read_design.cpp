@@ -163,7 +163,7 @@ void read_self_test(config::TomlReader& r, Design& d) {
   const double counts = 0.5 * d.self_test_nm / d.inertia_kg_m2 * pulse_s * pulse_s / d.count_rad();
   if (counts < Map::self_test_counts) {
     r.fail("torque_nm",
-           fmt::format("the self-test's pulse moves the inertia of {:.3g} kg m^2 by {:.2g} counts, "
+           fmt::format("the self-test's pulse moves the inertia of {:.3g} kg m^2 by {:.3g} counts, "
                        "less than the {} that its answer takes",
                        d.inertia_kg_m2, counts, Map::self_test_counts),
            "raise torque_nm or pulse_ms");

@@ -23,7 +23,7 @@ struct Choice {
   std::map<NodeId, int> fraction;  ///< fraction bits of nodes with an own format: scale = unit/2^f
   int uniform = 0;                 ///< > 0: first fraction bits of selected and of kept values
   bool states_first = false;       ///< order of the roots
-  int sine_bits = 0;      ///< log2 of segments per turn; 9: all table memory; 0: as many as fit
+  int sine_bits = 0;  ///< log2 of segments per turn; 9: all table memory; 0: as many as fit
   std::map<std::string, TableUse> made;  ///< tables by a key of their content: each proven once
   std::map<std::string, int> fractions;  ///< fraction bits of such tables' values, by their domain
 };

@@ -90,6 +90,7 @@ class Bounds {
       if (b.unproven.empty()) b.unproven = l.facts.unproven;
     }
     // If the formats hold no value at all, nothing is proven.
+    b.reachable = whole_reachable;
     if (!whole_reachable) b.unproven.push_back({0, -1, "its formats hold no value"});
     if (!bounded_) drifting(&b);
     if (with_strips) strips(whole, &b);
@@ -244,8 +245,8 @@ class Bounds {
     const CellFacts base = analyse(law_, target_, program_, whole, errors_, -1, &whole_, true);
     if (!base.reachable) return;
     std::vector<Strip> harmless;
-    // The values of states and events are wrong as well.
-    const bool kept = !law_.states.empty() || !law_.events.empty();
+    // The values of states, lines and events are wrong as well.
+    const bool kept = !law_.states.empty() || !law_.lines.empty() || !law_.events.empty();
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {
       if (base.margin[i] <= 0) {
         if (sharp(program_.steps[i], base.reasons[i])) {

@@ -84,6 +84,7 @@ struct Bound {
                                ///< hold for one run from the current states
   std::vector<double> drift;   ///< SI: error that a run adds to each state, where not bounded
   std::vector<Unproven> unproven;
+  bool reachable = true;  ///< false: the formats hold no value in any cell
   std::vector<Strip> strips;
   std::vector<Place> sharp;     ///< comparisons without a strip: words and law switch together
   std::vector<Span> words;      ///< of each step, over all cells

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "law/pieces.hpp"
 #include "law/read_law.hpp"
@@ -132,26 +134,33 @@ bool strips_grow(const Bound& more, const Bound& now) {
   });
 }
 
-/// How many comparisons of what comes from a function have a strip as wide as the room that
-/// interest() leaves beside what it is compared with. Limits within such a strip would let words
-/// come out otherwise than the law far from it.
-int coarse_strips(const Compiled& c) {
-  std::vector<char> from_function(c.law.nodes.size(), 0);
-  for (std::size_t i = 0; i < c.law.nodes.size(); ++i) {
-    const Node& n = c.law.nodes[i];
+/// Per comparison of `law`, by its place, of what comes from a function: the room that interest()
+/// leaves beside what it is compared with.
+std::map<std::pair<int, int>, double> rooms(const Law& law, const Target& target) {
+  std::vector<char> from_function(law.nodes.size(), 0);
+  const std::vector<Span> spans = ranges(law, whole_cell(law, target));
+  std::map<std::pair<int, int>, double> all;
+  for (std::size_t i = 0; i < law.nodes.size(); ++i) {
+    const Node& n = law.nodes[i];
     from_function[i] = has_pieces(n.op) ? 1 : 0;
     for (const NodeId a : n.arguments) from_function[i] |= from_function[at(a)];
-  }
-  const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
-  int count = 0;
-  for (const Strip& s : c.bound.strips) {
-    const Node& n = c.law.nodes[at(s.condition)];
-    for (std::size_t i = 0; n.op == Op::less && i < 2; ++i) {
-      const double room = room_beside(spans[at(n.arguments[1 - i])]);
-      if (from_function[at(n.arguments[i])] != 0 && room > 0 && s.width >= room) ++count;
+    for (std::size_t k = 0; n.op == Op::less && k < 2; ++k) {
+      if (from_function[at(n.arguments[k])] == 0) continue;
+      const double room = room_beside(spans[at(n.arguments[k])], spans[at(n.arguments[1 - k])]);
+      const auto [known, is_new] = all.insert({{n.place.line, n.place.column}, room});
+      if (!is_new) known->second = std::min(known->second, room);
     }
   }
-  return count;
+  return all;
+}
+
+/// Whether a strip is as wide as the room beside it. Limits that were moved within such a strip
+/// would let words come out otherwise than the law far from it.
+bool is_coarse(const Bound& b, const std::map<std::pair<int, int>, double>& rooms) {
+  return std::any_of(b.strips.begin(), b.strips.end(), [&](const Strip& s) {
+    const auto room = rooms.find({s.place.line, s.place.column});
+    return room != rooms.end() && s.width >= room->second;
+  });
 }
 
 /// Splits functions of wide ranges into more tables, as long as the bound or a strip is large and
@@ -161,11 +170,14 @@ void into_pieces(Compiled& c) {
   const std::vector<Span> given = given_ranges(c.law, c.target);
   const auto share = [&](const Compiled& of) { return largest_share(given, of.target, of.bound); };
   Compiled whole = c;
+  const auto own_rooms = rooms(c.law, c.target);
+  bool moved = false;  // limits of `whole` are those of interest()
   for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
-    const bool coarse = coarse_strips(c) > 0;
+    const bool coarse = is_coarse(c.bound, own_rooms);
     if (share(c) <= kLargeShare && !coarse) return;
     Compiled more = c;
-    more.law = in_pieces(whole.law, c.target, whole.program, whole.bound, pieces);
+    bool narrowed = false;
+    more.law = in_pieces(whole.law, c.target, whole.program, whole.bound, pieces, &narrowed);
     try {
       form(more);
     } catch (const Refused&) {
@@ -173,10 +185,16 @@ void into_pieces(Compiled& c) {
     }
     // A bound for all runs is better than a smaller one for few.
     const bool better = share(more) < (coarse ? 1 : 0.7 * share(c));
-    if (!better || coarse_strips(more) > 0 || strips_grow(more.bound, c.bound)) continue;
+    const bool too_near =
+        (narrowed || moved) &&
+        (is_coarse(more.bound, own_rooms) || is_coarse(more.bound, rooms(whole.law, c.target)));
+    if (!better || too_near || strips_grow(more.bound, c.bound)) continue;
     c = more;
     // One piece only moves limits. The argument is finer there, and worth more pieces.
-    if (pieces == 1) whole = c;
+    if (pieces == 1) {
+      whole = c;
+      moved = narrowed;
+    }
   }
 }
 

@@ -235,7 +235,8 @@ double cost(const Law& law, const Target& target, const Program& program, const 
   double c = least_cost(law, target, program, spans) +
              std::log2(std::max(error, least_error) / least_error);
   c += strips + drifts + 1e4 * static_cast<double>(b.unproven.size());
-  c += b.states_bounded ? 0 : 1000;
+  // What no cell reaches has no error, and looks cheap.
+  c += (b.states_bounded ? 0 : 1000) + (b.reachable ? 0 : 1e7);
   return c;
 }
 

@@ -98,14 +98,15 @@ class Meter {
       Span& reached = result_.reached[o];
       reached = {smaller(reached.lo, law_.outputs()[o]), larger(reached.hi, law_.outputs()[o])};
     }
-    bool otherwise = false;
+    bool otherwise = false, kept = false;
     const MachineRun& run = machine_.run_seen(
         c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {
           const Strip* s = strips_[at(address - c_.target.thread * EngineMap::thread_words)];
-          otherwise =
-              otherwise || (s != nullptr && crossed(*s, x, y) && (free_running || shows(*s)));
+          if (s == nullptr || !crossed(*s, x, y)) return;
+          (free_running || shows(*s) ? otherwise : kept) = true;
         });
     ++result_.runs;
+    if (kept && !otherwise) ++result_.kept_otherwise;
     if (otherwise) {
       ++result_.in_strips;
       return;

@@ -16,7 +16,8 @@ struct Measured {
   std::vector<double> output;  ///< largest difference, Nm, as Law::outputs
   std::vector<Span> reached;   ///< the law's least and largest output, Nm, as Law::outputs
   std::int64_t runs = 0;
-  std::int64_t in_strips = 0;  ///< runs excluded from `output`: a comparison was in its strip
+  std::int64_t in_strips = 0;       ///< runs excluded from `output`: a comparison was in its strip
+  std::int64_t kept_otherwise = 0;  ///< further runs in a strip that shows in no output of the run
   std::vector<double> move;  ///< SI: largest change of a state in a run of the law, as Law::states
   bool all_inputs = false;   ///< ran every value of the only input, with default parameters
 };

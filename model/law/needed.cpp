@@ -125,9 +125,8 @@ class Interest {
         return;
       case Op::less:
         for (const std::size_t i : {0U, 1U}) {
-          const double beside = room_beside(span(1 - i));
-          want_argument(i, beside > 0 ? Span{span(1 - i).lo - beside, span(1 - i).hi + beside}
-                                      : whole_line());
+          const double beside = room_beside(span(i), span(1 - i));
+          want_argument(i, {span(1 - i).lo - beside, span(1 - i).hi + beside});
         }
         return;
       case Op::select:
@@ -147,7 +146,9 @@ class Interest {
 
 }  // namespace
 
-double room_beside(const Span& compared) { return compared.size() / 8; }
+double room_beside(const Span& own, const Span& other) {
+  return std::max(own.size() / 1024, other.size() / 8);
+}
 
 std::vector<Span> interest(const Law& law, const std::vector<Span>& spans) {
   return Interest(law, spans).take();

@@ -136,6 +136,8 @@ class Pieces {
     segments_ = std::max(8, EngineMap::table_words / (pieces * std::max(count, 1)) - 2);
   }
 
+  bool narrowed() const { return narrowed_; }
+
   Law run() {
     made_ = law_;
     made_.nodes.clear();
@@ -145,6 +147,8 @@ class Pieces {
       const auto id = static_cast<NodeId>(i);
       if (wide_[i] != 0) {
         const NodeId cut = cut_function(id, matters[i]);
+        const Span& own = spans_[i];
+        narrowed_ = narrowed_ || (cut >= 0 && (own.lo < matters[i].lo || own.hi > matters[i].hi));
         to_.push_back(cut >= 0 ? cut
                                : pieces(id, to_[at(n.arguments[0])], spans_[at(n.arguments[0])]));
       } else if ((n.op == Op::minimum || n.op == Op::maximum) && needed_[i] != 0) {
@@ -153,6 +157,7 @@ class Pieces {
         to_.push_back(copied(n));
       }
     }
+    for (auto& [id, range] : made_.known) id = to_[at(id)];
     const std::vector<Span> spans = ranges(law_, with_sums(law_, whole_));
     for (std::size_t i = 0; i < law_.nodes.size(); ++i) {
       const Node& n = law_.nodes[i];
@@ -322,14 +327,18 @@ class Pieces {
   std::vector<NodeId> to_;
   const int pieces_;
   int segments_ = 0;
+  bool narrowed_ = false;
   Law made_;
 };
 
 }  // namespace
 
 Law in_pieces(const Law& law, const Target& target, const Program& whole, const Bound& b,
-              int pieces) {
-  return Pieces(law, target, whole, b, pieces).run();
+              int pieces, bool* narrowed) {
+  Pieces all(law, target, whole, b, pieces);
+  Law made = all.run();
+  if (narrowed != nullptr) *narrowed = all.narrowed();
+  return made;
 }
 
 }  // namespace feltgate::law

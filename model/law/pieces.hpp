@@ -17,8 +17,8 @@ constexpr int kMostPieces = 4;
 /// A law that is equal in real numbers. It replaces every sqrt, 1/x, exp and log of a changing
 /// argument by f(x) = f(min(x, t)) + f(max(x, t)) - f(t), in up to `pieces` pieces, and moves a
 /// constant limit of the value to the argument. `whole`, `b`: program and bound of the unchanged
-/// law.
+/// law. `narrowed` becomes true where an argument is limited to what matters of it, interest().
 Law in_pieces(const Law& law, const Target& target, const Program& whole, const Bound& b,
-              int pieces);
+              int pieces, bool* narrowed = nullptr);
 
 }  // namespace feltgate::law

@@ -116,8 +116,8 @@ std::vector<NodeId> needed(const Law& law);
 /// further than 2; a user that is not looked at needs all of it. Empty for nodes without users.
 std::vector<Span> interest(const Law& law, const std::vector<Span>& spans);
 /// How far beyond the range of the other operand a compared value still matters to interest(): more
-/// than the comparison's strip, or words decide otherwise than the law. 0 beside 0: all of it does.
-double room_beside(const Span& compared);
+/// than the comparison's strip, or words decide otherwise than the law.
+double room_beside(const Span& own, const Span& other);
 
 /// Per node, whether the host can compute it: it depends only on constants and on parameters that
 /// are not mailboxes.

@@ -19,6 +19,7 @@ namespace feltgate::law {
 
 namespace {
 
+constexpr double kIdle = 0.99;    ///< share of its range from which on a bound says nothing
 constexpr double kTold = 0.05;    ///< share of excluded runs above which it is reported
 constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
@@ -45,15 +46,22 @@ std::string mend(const Program& program, const Bound& b) {
 }
 
 void runs_left_out(const Measured& m, Verdict* v) {
-  const double share =
-      static_cast<double>(m.in_strips) / static_cast<double>(std::max<std::int64_t>(m.runs, 1));
-  if (share <= kTold) return;
-  auto& list = share > kTooMany ? v->failures : v->warnings;
-  list.push_back(fmt::format(
-      "{:.3g} % of the runs ({} of {}) are left out: a comparison came out otherwise than the "
-      "law's, within its strip; the bound is for the others. Give what is compared finer formats "
-      "(narrower ranges), or compare what is exact",
-      100 * share, m.in_strips, m.runs));
+  const auto tell = [&](std::int64_t runs, const char* what) {
+    const double share =
+        static_cast<double>(runs) / static_cast<double>(std::max<std::int64_t>(m.runs, 1));
+    if (share <= kTold) return;
+    auto& list = share > kTooMany ? v->failures : v->warnings;
+    list.push_back(
+        fmt::format("{:.3g} % of the runs ({} of {}) {}. Give what is compared finer "
+                    "formats (narrower ranges), or compare what is exact",
+                    100 * share, runs, m.runs, what));
+  };
+  tell(m.in_strips,
+       "are left out: a comparison came out otherwise than the law's, within its strip; the bound "
+       "is for the others");
+  tell(m.kept_otherwise,
+       "leave a state, a line or an event that is not the law's: a comparison came out otherwise, "
+       "within its strip");
 }
 
 /// Whether the range of a word, whose largest magnitude is `size`, may decide its step.
@@ -177,9 +185,11 @@ void states(const Compiled& c, const Measured& m, Verdict* v) {
 }
 
 /// Whether runs with random inputs give all that the law can give. Those of several inputs seldom
-/// meet where a texture or a contact is.
+/// meet where a texture or a contact is; a mailbox has the file's value alone in some of them.
 bool runs_reach_all(const Law& law) {
-  return law.inputs.size() == 1 && law.states.empty() && law.lines.empty();
+  const auto& all = law.parameters;
+  return law.inputs.size() == 1 && law.states.empty() && law.lines.empty() &&
+         std::none_of(all.begin(), all.end(), [](const Parameter& p) { return p.mailbox; });
 }
 
 /// A bound beside the values of its output.
@@ -194,7 +204,7 @@ struct Size {
 bool beside_its_output(const std::string& name, const Size& s, double lsb, Verdict* v) {
   const double share = s.bound / s.range.width();
   if (s.bound <= lsb || share <= kLargeShare) return false;
-  const bool idle = share >= 1 && s.bound > 2 * lsb;
+  const bool idle = share >= kIdle && s.bound > 2 * lsb;
   (idle ? v->failures : v->warnings)
       .push_back(fmt::format(
           "{}: the bound, {:.3g} Nm, is {:.3g} % of {}, {:.3g} .. {:.3g} Nm{}; {}", name, s.bound,
@@ -267,7 +277,7 @@ void refuse_idle_bounds(const Law& law, const Target& target, const Program& pro
   for (std::size_t o = 0; o < spans.size(); ++o) {
     // One LSB is never refused, and the ranges of law and words are rounded outward to one LSB.
     const double lsb = std::ldexp(1.0, -target.torque.fraction);
-    if (b.output[o] <= 2 * lsb || b.output[o] < spans[o].width()) continue;
+    if (b.output[o] <= 2 * lsb || b.output[o] < kIdle * spans[o].width()) continue;
     throw Refused(
         law.outputs[o].place,
         fmt::format("the proven bound of {}, {:.3g} Nm, is as large as its range, {:.3g} .. {:.3g} "

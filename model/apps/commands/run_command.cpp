@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -105,6 +106,30 @@ void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& option
   options.law_states = [&to](double at_s, const std::vector<double>& states) {
     to.write(fmt::format("{:.9g},{:.9g}\n", at_s, fmt::join(states, ",")));
   };
+}
+
+/// What a reader of the scene may expect otherwise.
+std::vector<std::string> scene_notes(const Scenario& s, double count_rad) {
+  std::vector<std::string> notes;
+  std::set<std::string> laws = scenes_used(s);
+  for (const char* anywhere : {"free", "setpoint", "damper"}) laws.erase(anywhere);
+  const double start_rad = s.hand.initial_rad();
+  if (!laws.empty() && std::abs(start_rad) >= count_rad) {
+    notes.push_back(fmt::format(
+        "the core counts from the angle where the lever starts, {:g} rad: what {} puts at an angle "
+        "is met that much further",
+        start_rad, *laws.begin()));
+  }
+  double stopped_s = -1;
+  for (const Event& e : s.events) {
+    if (e.stop.value_or(false) && stopped_s < 0) stopped_s = e.at_s;
+    if (!e.arm.value_or(false) || stopped_s < 0) continue;
+    notes.push_back(fmt::format(
+        "arm = true at {:g} s does nothing: the stop of {:g} s is a latched fault, and a scene "
+        "cannot clear one",
+        e.at_s, stopped_s));
+  }
+  return notes;
 }
 
 int run(const RunArguments& a) {
@@ -217,6 +242,7 @@ int run(const RunArguments& a) {
       std::none_of(scenario.events.begin(), scenario.events.end(), arms)) {
     labels.never_armed_s = scenario.arm_s;
   }
+  labels.notes = scene_notes(scenario, elaborated.design.count_rad());
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }

@@ -233,6 +233,7 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
     text += fmt::format("note: the motor never arms: arm_s = {:g}, and the scene ends at {:g} s\n",
                         labels.never_armed_s, r.simulated_s);
   }
+  for (const std::string& note : labels.notes) text += fmt::format("note: {}\n", note);
   for (const std::string& broken : r.broken) text += fmt::format("not as expected: {}\n", broken);
   return text;
 }

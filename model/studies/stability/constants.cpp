@@ -28,12 +28,14 @@ std::vector<Constant> shared_constants(const Design& d, const Parameters& p, con
     all.push_back({"back-EMF constant", "V s/rad", "motor.emf_constant_v_s_rad",
                    d.emf_constant_v_s_rad, p.motor.back_emf_constant_v_s_rad});
   }
-  if (on.dead_voltage && model) {
-    all.push_back(
-        {"dead voltage", "V", "voltage.dead_voltage_v", d.dead_voltage_v, p.motor.dead_voltage_v});
+  // Where the plant has none, what the design adds for it is torque too much.
+  if (model && (on.dead_voltage || d.dead_voltage_v > 0)) {
+    all.push_back({"dead voltage", "V", "voltage.dead_voltage_v", d.dead_voltage_v,
+                   on.dead_voltage ? p.motor.dead_voltage_v : 0});
   }
-  if (on.dead_time && d.compensate_dead_time) {
-    all.push_back({"diode drop", "V", "pwm.diode_drop_v", d.diode_drop_v, p.supply.diode_drop_v});
+  if (d.compensate_dead_time && (on.dead_time || d.diode_drop_v > 0)) {
+    all.push_back({"diode drop", "V", "pwm.diode_drop_v", d.diode_drop_v,
+                   on.dead_time ? p.supply.diode_drop_v : 0});
   }
   return all;
 }

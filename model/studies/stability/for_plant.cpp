@@ -73,6 +73,29 @@ std::optional<double> wall_for(const Design& d, const Parameters& p) {
   return three_digits(margin * stiffest, std::floor);
 }
 
+/// The same counts of answer to the self-test's pulse: a heavier lever gets a longer pulse, which
+/// stays gentle, and a stronger one only where it cannot be longer; a light one a weaker pulse.
+void self_test_for(const Design& d, const Parameters& p, TextEdit& edit,
+                   std::vector<std::string>* notes) {
+  const double more = p.lever.inertia_kg_m2 / d.inertia_kg_m2 * d.lines / p.encoder.lines;
+  if (!edit.text_of("self_test", "torque_nm") || std::abs(more - 1) <= noticeable) return;
+  constexpr double longest_steps = 255, ticks_per_step = 128;
+  const double own_ms = 1e3 * d.self_test_pulse_s;
+  const double longest_ms =
+      std::floor(1e4 * longest_steps * ticks_per_step / static_cast<double>(d.tick_hz)) / 10;
+  const double pulse_ms =
+      more > 1 ? std::min(three_digits(own_ms * std::sqrt(more), std::ceil), longest_ms) : own_ms;
+  const double rest = more * (own_ms / pulse_ms) * (own_ms / pulse_ms);
+  const double torque =
+      std::min(three_digits(d.self_test_nm * std::min(rest, more), std::ceil), d.torque_limit_nm);
+  if (pulse_ms > own_ms) edit.set("self_test", "pulse_ms", number(pulse_ms));
+  if (torque > d.self_test_nm || more < 1) edit.set("self_test", "torque_nm", number(torque));
+  notes->push_back(fmt::format(
+      "self_test: a pulse of {:g} Nm for {:g} ms each way instead of {:g} Nm for {:g} ms, for the "
+      "same answer of the encoder to this inertia",
+      more < 1 ? torque : std::max(torque, d.self_test_nm), pulse_ms, d.self_test_nm, own_ms));
+}
+
 /// Integer bits of a signed format that hold `value`.
 Format wide_enough(Format f, double value) {
   while (std::ldexp(1.0, f.integer) <= value) ++f.integer;
@@ -96,19 +119,14 @@ std::string edited(const std::string& base, const Design& d, const Parameters& p
   const double current = three_digits(d.torque_limit_nm / p.motor.torque_constant_nm_a, std::ceil);
   edit.set("control", "current_limit_a", number(current));
   if (edit.text_of("motor", "motor_current_limit_a")) {
-    edit.set("motor", "motor_current_limit_a", number(current));
+    const double above = d.motor_current_limit_a / d.current_limit_a;  // as far as in the base
+    edit.set("motor", "motor_current_limit_a", number(three_digits(above * current, std::ceil)));
   }
   if (edit.text_of("control", "kp_1_kg_m2")) {
     edit.set("control", "kp_1_kg_m2",
              number(d.kp_1_kg_m2 * d.inertia_kg_m2 / p.lever.inertia_kg_m2));
   }
-  // The same counts of answer to the self-test's pulse.
-  const double pulse =
-      d.self_test_nm * p.lever.inertia_kg_m2 / d.inertia_kg_m2 * d.lines / p.encoder.lines;
-  if (edit.text_of("self_test", "torque_nm") && std::abs(pulse / d.self_test_nm - 1) > noticeable) {
-    edit.set("self_test", "torque_nm",
-             number(std::min(three_digits(pulse, std::ceil), d.torque_limit_nm)));
-  }
+  self_test_for(d, p, edit, notes);
   const bool power_of_two = (p.encoder.lines & (p.encoder.lines - 1)) == 0;
   if (edit.text_of("encoder", "index") && (!power_of_two || p.encoder.lines < 16)) {
     edit.set("encoder", "index", "0");
@@ -160,7 +178,16 @@ PlantDesign design_for_plant(const std::string& base, const Parameters& p,
     made.notes.clear();
     const double emf = share * p.motor.back_emf_constant_v_s_rad;
     made.text = edited(base, d, p, plant_name, emf, &made.notes);
-    made.design = elaborate(design_from_text(made.text, path), registers);
+    try {
+      made.design = elaborate(design_from_text(made.text, path), registers);
+    } catch (const config::ConfigError& e) {
+      // The file of these lines is not written.
+      const std::string told = e.what();
+      const std::size_t place = told.find(": ");
+      throw std::invalid_argument(
+          fmt::format("{} with the constants of the plant {} is no design: {}", d.name, plant_name,
+                      place == std::string::npos ? told : told.substr(place + 2)));
+    }
     if (share < 1) {
       made.notes.push_back(fmt::format(
           "motor.emf_constant_v_s_rad is {} of the plant's: with all of it the loop is unstable",

@@ -128,6 +128,19 @@ TEST_CASE("a radius needs no limits of its own where only a part of it matters")
   }
 }
 
+TEST_CASE("the known range of x / r stays that of its own node when limits move") {
+  const Compiled c = compile_text(
+      "let x = clamp(position[1], -1, 1)\nlet y = clamp(position[2], -1, 1)\n"
+      "let w = sqrt(abs(tau_hat) / 1 Nm)\nlet q = sqrt(position^2 + (0.01 s * velocity)^2)\n"
+      "let r = sqrt(x^2 + y^2 + 0.3^2)\nlet d = min(q, 1)\n"
+      "let p = sum(i in 1 .. 8: 0.0001 * i * tau_hat)\n"
+      "out torque = (if d > 0.5 then 4 Nm * w else 1 Nm * d) + p + 0.1 Nm * x / r\n",
+      "x.law", Target{});
+  CHECK(c.bound.output[0] > 0.05);  // 0.0245 was printed, 0.0442 measured
+  CHECK(measure(c, 1, 50000).output[0] <= c.bound.output[0]);
+  CHECK(output_ranges(c.law, c.target)[0].hi > 15);  // to 0.474 Nm, it said
+}
+
 TEST_CASE("a table whose domain ends inside a segment is the function there") {
   // With a flat line from the end of the domain on, the bounds were 34, 79 and 109 uNm.
   for (const char* text :

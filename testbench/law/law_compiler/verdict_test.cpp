@@ -126,6 +126,34 @@ TEST_CASE("a bound is also compared with what the law gave in the measured runs"
   CHECK_THAT(large.warnings[0], Contains("what the law gave in the measured runs, -0.1 .. 0.1 Nm"));
 }
 
+TEST_CASE("a comparison that decides only what is kept is told, with its strip") {
+  const char* const radius = "position^4 + position[1]^4 < 0.1";
+  const std::string line = std::string("line past[2] in 0 .. 1\nnext past = if ") + radius +
+                           " then 1 else 0\nout torque = 0.1 Nm * past[2]\n";
+  CHECK_FALSE(compiled(line).bound.strips.empty());
+  for (const std::string& decides :
+       {std::string("sqrt(position^2 + position[1]^2) > 0.5 or ") + radius,
+        std::string("position / (0.01 + abs(position[1])) > 0.5 and ") + radius}) {
+    const Compiled c = compiled("bool b = false\nnext b = " + decides +
+                                "\nout torque = if b then 0.1 Nm else 0 Nm\n");
+    INFO(decides);
+    const Measured m = measure(c, 1, 50000);
+    bool wide = false;
+    for (const Strip& s : c.bound.strips) wide = wide || s.width > 1;
+    CHECK((m.kept_otherwise > 0 || !wide));
+    const Verdict v = verdict(c, m);
+    CHECK((m.kept_otherwise * 20 > m.runs) == (v.warnings.size() + v.failures.size() > 0));
+  }
+}
+
+TEST_CASE("a mailbox's bound is not compared with runs of its first value") {
+  const Compiled c = compiled(
+      "mailbox face = 205 rad in -205 rad .. 205 rad max_age 5 ms\n"
+      "let deep = max(position - face, 0)\n"
+      "out torque = -0.0002 Nm * sin(position) - 5 Nm * deep / (1 + deep)\n");
+  CHECK(verdict(c, measure_all(c)).failures.empty());
+}
+
 TEST_CASE("the bound at the values that are set, of every shipped law") {
   int smaller = 0;
   for (const auto& entry :

@@ -48,7 +48,7 @@ class Generator {
   Node value(double a, double b) { return number(between(a, b), 3); }
 
   /// A radius, root, quotient, logarithm or exponential of inputs without limits, used several
-  /// times behind limits and comparisons.
+  /// times behind limits and comparisons, also of what is kept.
   Law wide_law() {
     const Node x = one_in(2) ? value(0.3, 3) * position() : number("0.02") * velocity();
     const Node y = one_in(2) ? position(1) : value(0.005, 0.05) * velocity();
@@ -79,6 +79,23 @@ class Generator {
     for (int more = below(3); more > 0; --more) {
       const Node other = use_of(let_);
       torque = one_in(3) ? torque * other : one_in(2) ? torque - other : torque + other;
+    }
+    if (one_in(4)) {
+      const double lower = one_in(2) ? 0.1 : 0.3;
+      torque = torque + value(0.1, 1) * direction(limited(position(), -1, 1),
+                                                  limited(position(1), -1, 1), lower);
+    }
+    if (one_in(4)) {
+      const bool truth = one_in(2);
+      law_.states.push_back({"held", 0, 0, 1, truth, false, {}, {}, {}, truth});
+      law_.states[0].next = truth ? compared(let_, value(0.1, 2)) : limited(use_of(let_), 0, 1);
+      held_ = make(Kind::state, {}, 0, "held");
+      torque = torque + (truth ? choose(held_, value(0.1, 1), number("0")) : held_);
+    } else if (one_in(4)) {
+      law_.lines.push_back({"past", 2 + below(6), -2, 2, {}});
+      const Node decided = choose(compared(let_, value(0.1, 2)), value(0.1, 1), fixed(1));
+      law_.lines[0].written = limited(one_in(2) ? decided : use_of(let_), -2, 2);
+      torque = torque + make(Kind::line, {}, 1 + below(law_.lines[0].length), "past");
     }
     law_.torques.push_back(limited(torque, -4, 4));
     if (one_in(4)) law_.events.push_back({"told", use_of(let_), compared(let_, value(0.1, 2))});

@@ -66,14 +66,14 @@ class Procedure {
         command_(a.closed ? "setpoint_torque" : "voltage_setpoint"),
         unit_(a.closed ? "Nm" : "V") {}
 
-  std::vector<Reading> run() {
+  /// Adds to `readings`, which keeps them when the motor goes off.
+  void run(std::vector<Reading>* readings) {
     say(fmt::format(
         "Block the shaft and set the gauge to zero. Each of {} values stands for {:g} s at most,\n"
         "then the motor is off and you may still type. Ctrl-C ends it. Type the reading in Nm, or\n"
         "with its unit as 5.9N; nothing but Enter skips a value, 'again' repeats it.\n",
         a_.points.size(), a_.hold_s));
     if (a_.closed) set_gains();
-    std::vector<Reading> readings;
     for (std::size_t k = 0; k < a_.points.size() && !Interruptible::interrupted(); ++k) {
       say(fmt::format("{}/{}: {:g} {} ", k + 1, a_.points.size(), a_.points[k], unit_));
       Reading r = powered(a_.points[k]);
@@ -88,14 +88,13 @@ class Procedure {
       } else if (!line->empty()) {
         try {
           r.torque_nm = torque_typed(*line, a_.arm_m);
-          readings.push_back(r);
+          readings->push_back(r);
         } catch (const MeasurementError& e) {
           say(fmt::format("{}\n", e.what()));
           --k;
         }
       }
     }
-    return readings;
   }
 
  private:
@@ -181,9 +180,21 @@ int calibrate(Session& session, CalibrateArguments a) {
   if (a.from.empty()) {
     const Interruptible interruptible;
     say(simulated_banner(session.board()));
-    readings = Procedure(session.device(), a).run();
-    if (save != nullptr) save->write(readings_csv(readings, a.closed));
-    saved.commit();
+    const auto keep = [&] {
+      if (save != nullptr) save->write(readings_csv(readings, a.closed));
+      saved.commit();
+    };
+    try {
+      Procedure(session.device(), a).run(&readings);
+    } catch (const Refused& e) {
+      keep();
+      throw Refused(
+          fmt::format("{}\n  {} readings {}; after i2t let the motor cool, and measure the "
+                      "other values with --points",
+                      e.what(), readings.size(),
+                      save != nullptr ? "are in " + a.save : "are lost without --save"));
+    }
+    keep();
     if (Interruptible::interrupted()) return exit_signal + 2;
     say("\n");
   } else {

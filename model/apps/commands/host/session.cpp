@@ -23,7 +23,8 @@ namespace {
 
 std::atomic<bool> was_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
-constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+// Of a reader that goes away too: the motor must be disarmed.
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 struct sigaction before[std::size(signals)];
 
 extern "C" void note_signal(int) { was_interrupted = true; }

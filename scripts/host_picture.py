@@ -87,7 +87,7 @@ def main():
         table = read(options.csv)
         split = options.xy.split(",") if options.xy else None
         figure, top = one_over_another(table, split) if split else over_time(table)
-        badge = "SIMULATED, no board    " if options.simulated else ""
+        badge = "SIMULATED, no board: " if options.simulated else ""
         top.set_title(badge + options.title)
         data = io.BytesIO()
         figure.savefig(data, format=kind, dpi=150)

@@ -204,7 +204,8 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   app.add_option("--replay", a.replay,
                  "run a recording again, without a terminal: the ticks must be the same")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(checks::no_folder());
   int exit_code = exit_ok;
   app.callback([&] {
     if (a.replay.empty() && !has_design(a.setup.design)) {

@@ -9,6 +9,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 
@@ -83,6 +84,16 @@ CLI::Validator seed() {
   auto check = accepts<std::uint64_t>("whole number", "from 0 to 18446744073709551615",
                                       [](std::uint64_t) { return true; });
   return check.description("");
+}
+
+CLI::Validator no_folder() {
+  return CLI::Validator(
+      [](std::string& path) {
+        std::error_code ignored;
+        const bool folder = std::filesystem::is_directory(path, ignored);
+        return folder ? path + " is a folder; give a file in it" : std::string();
+      },
+      "");
 }
 
 CLI::Validator seconds() { return positive(100'000, "s"); }

@@ -21,6 +21,8 @@ CLI::Validator positive(double max, const std::string& unit);
 CLI::Validator whole(std::int64_t min, std::int64_t max);
 /// A seed: a whole number from 0 to 2^64 - 1.
 CLI::Validator seed();
+/// A path that is no folder; whether there is a file is not looked at.
+CLI::Validator no_folder();
 /// A duration that can be simulated: above 0, at most 100000 s.
 CLI::Validator seconds();
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "apps/commands/law_target.hpp"
 #include "apps/commands/made_law.hpp"
@@ -240,7 +241,8 @@ void add_shape(CLI::App& app, int* exit_code) {
   sub->add_option("svg", a->svgs, "SVG files with one closed outline each; up to seven in one law")
       ->required()
       ->expected(-1)
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(checks::no_folder());
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--law", a->law, "proxy, simple (nearest edge), walk (edge by edge)")
       ->check(CLI::IsMember({"proxy", "simple", "walk"}))

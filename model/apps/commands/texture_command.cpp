@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "apps/commands/law_target.hpp"
 #include "apps/commands/made_law.hpp"
@@ -154,7 +155,10 @@ void add_texture(CLI::App& app, int* exit_code) {
       "Exit code: 0 all well, 1 what was measured of the law is not what was proven, 2 unusable\n"
       "input: no PNG, a broken one, 16 bits, 1 x 1 pixels, more than the law holds, too steep;\n"
       "nothing is written then.");
-  sub->add_option("png", a->png, "the image")->required()->type_name("FILE");
+  sub->add_option("png", a->png, "the image")
+      ->required()
+      ->type_name("FILE")
+      ->check(checks::no_folder());
   sub->add_option("-o,--output", a->out, "the law file")->type_name("FILE");
   sub->add_option("--row", a->row, "which row, 0 the upper one; the middle one unless told")
       ->type_name("N")

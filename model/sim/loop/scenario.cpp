@@ -50,6 +50,10 @@ Event read_event(config::TomlReader r, const toml::table& table, double duration
     read_values(*table["set"].as_table(), r.section("set"), &e.set, &e.amounts);
   }
   if (r.has("step_nm")) e.step_nm = r.number("step_nm", config::kAnyNumber);
+  if (!e.scene && !e.mode && !e.arm && !e.stop && !e.step_nm && e.set.empty() &&
+      e.amounts.empty()) {
+    r.fail("at_s", "the event does nothing", "give it set, scene, mode, arm, stop or step_nm");
+  }
   r.finish();
   return e;
 }

@@ -209,7 +209,7 @@ Claim alternative_to_pid(const Lab& lab) {
   Claim c{"IV.E",
           "the DOB is a good alternative to PID-based controllers",
           "No baseline is given. At rest the observer gets the current that was asked for, so it "
-          "sees its own command: the torque changes with 1/R and Kt, and it does not",
+          "sees its own command: the torque changes with 1/R and Kt, but the observed torque does not",
           "`torque_step` to 0.2 Nm, `paper`, plant `p24` with another R and Kt",
           "R and Kt stay those of the calibration, near 0.2 Nm. An integrator on a measured "
           "current would take that of R away, and leave that of Kt. PI and PID on the estimate "

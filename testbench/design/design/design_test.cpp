@@ -189,10 +189,10 @@ TEST_CASE("resolution, width and latency beyond the limit are refused", "[design
 
 TEST_CASE("a self-test that cannot be answered is refused", "[design]") {
   check_refused("lever", "torque_nm = 0.05 ", "torque_nm = 0.02 ", "torque_nm",
-                "the self-test's pulse moves the inertia of 0.000122 kg m^2 by 1.3 counts, less "
+                "the self-test's pulse moves the inertia of 0.000122 kg m^2 by 1.33 counts, less "
                 "than the 2 that its answer takes; raise torque_nm or pulse_ms");
   check_refused("paper", "torque_nm = 0.15 ", "torque_nm = 0.05 ", "torque_nm",
-                "the self-test's pulse moves the inertia of 0.00049 kg m^2 by 0.83 counts, less "
+                "the self-test's pulse moves the inertia of 0.00049 kg m^2 by 0.832 counts, less "
                 "than the 2 that its answer takes; raise torque_nm or pulse_ms");
   check_refused("lever", "torque_nm = 0.05 ", "torque_nm = 0.6 ", "torque_nm",
                 "the self-test's 0.6 Nm are more than the torque limit of 0.5 Nm; lower it");

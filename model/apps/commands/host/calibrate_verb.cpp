@@ -244,7 +244,8 @@ Run add_calibrate(CLI::App& sub) {
       "do not say it, 3 the link broke down.");
   sub.add_flag("--closed", a->closed, "the closed-loop calibration");
   sub.add_option("--from", a->from, "readings of this file instead of a board; - is the input")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(checks::no_folder());
   sub.add_option("--points", a->points,
                  "voltages (V) or torques (Nm) to take; default: those of the paper")
       ->delimiter(',')

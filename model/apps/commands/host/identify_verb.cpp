@@ -279,7 +279,9 @@ Run add_identify(CLI::App& sub) {
       ->type_name("SECONDS")
       ->capture_default_str()
       ->transform(checks::number(0.1, 10, "s"));
-  sub.add_option("--from", a->from, "a driven recording instead of a board")->type_name("FILE");
+  sub.add_option("--from", a->from, "a driven recording instead of a board")
+      ->type_name("FILE")
+      ->check(checks::no_folder());
   sub.add_option("--coast", a->coast, "its coast-down")->type_name("FILE");
   add_separation_options(sub, *a);
   sub.add_option("--confidence", a->confidence, "of the intervals")

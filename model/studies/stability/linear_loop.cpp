@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "studies/stability/axis_chain.hpp"
@@ -204,6 +205,7 @@ double closed_form(const LoopModel& m, double damping_nm_s_rad, int scene_ticks)
 double closed_form_with_estimator(const LoopModel& m, double damping_nm_s_rad, int scene_ticks) {
   const double fed_back = damping_nm_s_rad - m.motor_damping_nm_s_rad * m.compensated;
   const double inertia = m.inertia_kg_m2 - fed_back * m.velocity_delay_s;
+  if (!(inertia > 0)) return std::numeric_limits<double>::quiet_NaN();
   return (left_of_motor(m) + damping_nm_s_rad) /
          (time_s(m, scene_ticks) + fed_back * m.velocity_moment_s2 / inertia);
 }

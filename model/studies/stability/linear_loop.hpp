@@ -93,7 +93,7 @@ Border border(const LoopModel& model, double damping_nm_s_rad, int scene_ticks);
 /// (b + B) / (T/2 + t_d): what is left of damping over half a scene period and the actuator.
 double closed_form(const LoopModel& model, double damping_nm_s_rad, int scene_ticks);
 /// The same with the next order of the velocity estimator: it acts as a delay longer by
-/// (B - b_emf) * m2 / J.
+/// (B - b_emf) * m2 / J. NaN where the lever is too light for this: J <= (B - b_emf) * the lag.
 double closed_form_with_estimator(const LoopModel& model, double damping_nm_s_rad, int scene_ticks);
 /// t_d: winding, half a PWM period, and what a host costs.
 double actuator_delay_s(const LoopModel& model, int scene_ticks);

@@ -129,7 +129,7 @@ std::string study_json(const Study& s) {
                               {"swing_rad_s", p.exact.rad_s},
                               {"bits_nm_rad", json_number(p.bits_nm_rad)},
                               {"closed_nm_rad", p.closed_nm_rad},
-                              {"with_estimator_nm_rad", p.estimator_nm_rad},
+                              {"with_estimator_nm_rad", json_number(p.estimator_nm_rad)},
                               {"swing_counts", p.swing_counts},
                               {"z_width", p.z_width}});
   }

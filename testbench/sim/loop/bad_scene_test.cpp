@@ -118,7 +118,11 @@ TEST_CASE("angles and speeds that nothing can show", "[bad_scene]") {
 }
 
 TEST_CASE("events that never come", "[bad_scene]") {
-  const auto event = [](const std::string& at) { return kHead + "[[event]]\nat_s = " + at + "\n"; };
+  const auto event = [](const std::string& at) {
+    return kHead + "[[event]]\nat_s = " + at + "\narm = true\n";
+  };
+  expect(told(kHead + "[[event]]\nat_s = 0.01\nset = {}\n"), "7: the event does nothing",
+         "give it set, scene, mode, arm, stop or step_nm");
   for (const char* late : {"1e12", "1e300", "0.02", "0.03"}) {
     expect(told(event(late)), "7: the event at ", "move the event, or raise duration_s");
   }

@@ -6,7 +6,6 @@ they end. Exit code 2 with one message is a Refused; documentation: docs/json.md
 
 import argparse
 import os
-import signal
 import sys
 from pathlib import Path
 
@@ -15,31 +14,6 @@ import interrupts
 
 class Refused(Exception):
     """What a command cannot do, for the user: why, and what to do. Base of the parts' own errors."""
-
-
-# Debian's packages of the modules that a command imports.
-PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "PIL": "python3-pil"}
-
-
-def _fail(kind, error, trace):
-    """A module that this python3 does not have is told in one line, with its package."""
-    if kind is not ModuleNotFoundError or error.name not in PACKAGES:
-        sys.__excepthook__(kind, error, trace)
-        return
-    install = f"apt-get install {PACKAGES[error.name]}"
-    say(Path(sys.argv[0]).stem, f"{sys.executable} has no module {error.name}; run: {install}")
-    os._exit(2)
-
-
-def _interrupt(number, _):
-    """Ctrl-C while modules are imported, before ended() listens."""
-    say(Path(sys.argv[0]).stem, "interrupted")
-    os._exit(128 + number)
-
-
-sys.excepthook = _fail
-if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, _interrupt)
 
 
 def root():

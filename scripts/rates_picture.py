@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 
 import interrupts
+from matplotlib.ticker import LogLocator
 from outputs import write_whole
 from reports import plots
 
@@ -54,6 +55,9 @@ def finish(figure, axes, name, caption):
         axis.set_yscale("log" if whole else "linear")
         axis.set_xticks(list(TICKS), list(TICKS.values()))
         axis.minorticks_off()
+        low, high = axis.get_ylim()
+        if whole and high < 100 * low:  # decades alone would leave one label, or none
+            axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
         axis.set_xlim(110, 1.4e6)
     axes[-1].set_xlabel("torque renewed at, Hz")

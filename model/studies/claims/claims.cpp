@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "files/json_text.hpp"
 #include "sim/loop/scenario_check.hpp"
@@ -185,9 +186,12 @@ const std::vector<Source>& sources() {
 
 std::string text(const Answer& row) {
   const Claim& c = row.claim;
-  return fmt::format(
+  const std::string marked = fmt::format(
       "{}: {}\n  claim       {} ({})\n  closed form {}\n  simulation  {}\n  why         {}\n\n",
       row.source.name, name_of(c.verdict()), c.says, c.where, closed_form(c), simulation(c), c.why);
+  // A link of the page becomes the path of a file.
+  static const std::regex link(R"(\[([^\]]*)\]\(([^)#]*)[^)]*\))");
+  return std::regex_replace(marked, link, "$1 (docs/$2)");
 }
 
 std::string json(const std::vector<Answer>& answers) {

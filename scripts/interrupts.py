@@ -163,14 +163,14 @@ def _name():
 
 
 def _fail(kind, error, trace):
-    """A module that this python3 does not have is told in one line, with its package."""
+    """A module that this python3 does not have is told in one line, with its package. The exit code
+    is 1, by which the launcher knows that packages are still to come."""
     package = PACKAGES.get(str(getattr(error, "name", "")).split(".")[0])
     if kind is not ModuleNotFoundError or package is None:
         sys.__excepthook__(kind, error, trace)
         return
     sys.stderr.write(f"{_name()}: {sys.executable} has no module {error.name}; ")
     sys.stderr.write(f"run: apt-get install {package}\n")
-    os._exit(2)
 
 
 def _interrupt(number, _):

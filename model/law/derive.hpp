@@ -11,20 +11,20 @@
 
 namespace feltgate::law {
 
-/// Calls `use` with every root of the law's graph (kNone included).
-template <class Use>
-void each_root(Law& law, Use use) {
-  for (State& s : law.states) {
+/// Calls `use` with every root of the graph of a law or a const law (kNone included).
+template <class AnyLaw, class Use>
+void each_root(AnyLaw& law, Use use) {
+  for (auto& s : law.states) {
     use(s.next);
     use(s.follows);
   }
-  for (Table& t : law.tables) {
+  for (auto& t : law.tables) {
     use(t.argument);
     use(t.body);
   }
-  for (Line& l : law.lines) use(l.written);
-  for (Output& o : law.outputs) use(o.value);
-  for (Event& e : law.events) {
+  for (auto& l : law.lines) use(l.written);
+  for (auto& o : law.outputs) use(o.value);
+  for (auto& e : law.events) {
     use(e.value);
     use(e.condition);
   }

@@ -68,11 +68,11 @@ class Interest {
  public:
   Interest(const Law& law, const std::vector<Span>& spans)
       : law_(law), spans_(spans), of_(law.nodes.size(), Span{infinity, -infinity}) {
-    Law roots = law;
-    each_root(roots, [this](NodeId& id) { want(id, whole_line()); });
+    each_root(law, [this](NodeId id) { want(id, whole_line()); });
     const std::vector<NodeId> order = needed(law);
-    for (auto id = order.rbegin(); id != order.rend(); ++id)
+    for (auto id = order.rbegin(); id != order.rend(); ++id) {
       pass_on(law.nodes[at(*id)], of_[at(*id)]);
+    }
   }
 
   std::vector<Span> take() { return std::move(of_); }

@@ -21,10 +21,10 @@ endforeach()
 
 # An engine of one axis, as the design with one has it, and one of three.
 file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
-feltgate_verilate(extremes_engine engine
-  "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv;${extremes_engine_parts}")
-feltgate_verilate(extremes_engine_axes engine
-  "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv;${FELTGATE_MAP_PACKAGE};${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv;${extremes_engine_parts}"
+set(extremes_engine_sources "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv"
+  "${FELTGATE_MAP_PACKAGE}" "${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv" ${extremes_engine_parts})
+feltgate_verilate(extremes_engine engine "${extremes_engine_sources}")
+feltgate_verilate(extremes_engine_axes engine "${extremes_engine_sources}"
   CLASS Vextremes_engine_axes -GAxisCount=3)
 list(APPEND extremes_blocks extremes_engine extremes_engine_axes)
 

@@ -14,10 +14,6 @@
 namespace feltgate::traces::synthetic {
 namespace {
 
-void refuse_unless(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
 class Events final : public EncoderSource {
  public:
   Events(EncoderPins initial, std::vector<EncoderEvent> events, Clock length)
@@ -179,30 +175,30 @@ class Index final : public EncoderSource {
 Source from_events(EncoderPins initial, std::vector<EncoderEvent> events, Clock length) {
   Clock last = 0;
   for (const EncoderEvent& event : events) {
-    refuse_unless(event.clock > last, "from_events: clocks do not rise");
+    demand(event.clock > last, "from_events: clocks do not rise");
     last = event.clock;
   }
-  refuse_unless(length > last, "from_events: length");
+  demand(length > last, "from_events: length");
   return std::make_unique<Events>(initial, std::move(events), length);
 }
 
 Source sequence(std::vector<Source> parts) {
-  refuse_unless(!parts.empty(), "sequence: no parts");
+  demand(!parts.empty(), "sequence: no parts");
   return std::make_unique<Sequence>(std::move(parts));
 }
 
 Source cut(Source source, Clock clocks) {
-  refuse_unless(clocks >= 1, "cut: length");
+  demand(clocks >= 1, "cut: length");
   return std::make_unique<Cut>(std::move(source), clocks);
 }
 
 Source with_bounce(Source source, std::uint64_t seed, int most_toggles, Clock most_spacing) {
-  refuse_unless(most_toggles >= 0 && most_spacing >= 1, "with_bounce: toggles or spacing");
+  demand(most_toggles >= 0 && most_spacing >= 1, "with_bounce: toggles or spacing");
   return std::make_unique<Bounce>(std::move(source), seed, most_toggles, most_spacing);
 }
 
 Source with_index(Source source, std::int64_t counts_per_turn) {
-  refuse_unless(counts_per_turn >= 1, "with_index: counts per turn");
+  demand(counts_per_turn >= 1, "with_index: counts per turn");
   return std::make_unique<Index>(std::move(source), counts_per_turn);
 }
 

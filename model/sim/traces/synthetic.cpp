@@ -29,10 +29,6 @@ using Move = Synthetic::Move;
 
 constexpr double kPi = 3.14159265358979323846;
 
-void demand(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
 Source make(Synthetic::Rule rule, Clock rest = 1) {
   return std::make_unique<Synthetic>(std::move(rule), rest);
 }

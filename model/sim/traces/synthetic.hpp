@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "feltgate/encoder_source.hpp"
@@ -39,6 +40,11 @@ class Synthetic final : public EncoderSource {
 };
 
 namespace synthetic {
+
+/// Throws std::invalid_argument for a motion that is not possible.
+inline void demand(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
 
 using Source = std::unique_ptr<EncoderSource>;
 

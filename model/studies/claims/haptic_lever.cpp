@@ -206,16 +206,17 @@ Claim alternative_to_pid(const Lab& lab) {
   };
   const char* torque = "torque_final_nm.1";
   const char* seen = "tau_hat_final_nm.1";
-  Claim c{"IV.E",
-          "the DOB is a good alternative to PID-based controllers",
-          "No baseline is given. At rest the observer gets the current that was asked for, so it "
-          "sees its own command: the torque changes with 1/R and Kt, but the observed torque does not",
-          "`torque_step` to 0.2 Nm, `paper`, plant `p24` with another R and Kt",
-          "R and Kt stay those of the calibration, near 0.2 Nm. An integrator on a measured "
-          "current would take that of R away, and leave that of Kt. PI and PID on the estimate "
-          "take none: "
-          "[controllers](controllers.md)",
-          {}};
+  Claim c{
+      "IV.E",
+      "the DOB is a good alternative to PID-based controllers",
+      "No baseline is given. At rest the observer gets the current that was asked for, so it "
+      "sees its own command: the torque changes with 1/R and Kt, but the observed torque does not",
+      "`torque_step` to 0.2 Nm, `paper`, plant `p24` with another R and Kt",
+      "R and Kt stay those of the calibration, near 0.2 Nm. An integrator on a measured "
+      "current would take that of R away, and leave that of Kt. PI and PID on the estimate "
+      "take none: "
+      "[controllers](controllers.md)",
+      {}};
   c.asks("torque, R +20 %", "%", 100 * (1 / 1.2 - 1), error(warm, torque), near(0, 2));
   c.asks("torque, Kt -50 %", "%", -50, error(weak, torque), near(0, 2));
   c.explains("observed torque, R +20 %", "%", 0, error(warm, seen));

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "design/text_edit.hpp"
+#include "feltgate/generated/map.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "studies/stability/loop_poles.hpp"
 
@@ -79,10 +80,9 @@ void self_test_for(const Design& d, const Parameters& p, TextEdit& edit,
                    std::vector<std::string>* notes) {
   const double more = p.lever.inertia_kg_m2 / d.inertia_kg_m2 * d.lines / p.encoder.lines;
   if (!edit.text_of("self_test", "torque_nm") || std::abs(more - 1) <= noticeable) return;
-  constexpr double longest_steps = 255, ticks_per_step = 128;
+  constexpr double most_units = (1 << Map::self_test_count_bits) - 1;
   const double own_ms = 1e3 * d.self_test_pulse_s;
-  const double longest_ms =
-      std::floor(1e4 * longest_steps * ticks_per_step / static_cast<double>(d.tick_hz)) / 10;
+  const double longest_ms = std::floor(1e4 * most_units / d.self_test_units(1)) / 10;
   const double pulse_ms =
       more > 1 ? std::min(three_digits(own_ms * std::sqrt(more), std::ceil), longest_ms) : own_ms;
   const double rest = more * (own_ms / pulse_ms) * (own_ms / pulse_ms);

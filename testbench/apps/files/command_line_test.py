@@ -152,6 +152,20 @@ class CommandLine(Bench):
                     self.refused(command, name, said=(f"{name}: is a folder; give a file in it",))
         self.refused("run", "short.toml", "--plant", "./", said=("./: is a folder",))
         self.refused("design", "./", said=("./: is a folder",))
+        for command in ("shape", "texture"):
+            self.refused(command, "./", said=("./ is a folder; give a file in it",))
+
+    def test_what_a_scene_may_be_taken_for(self):
+        begin = self.path("short.toml").read_text().replace("start_rad = 0.0", "start_rad = 0.8")
+        event = '[[event]]\nat_s = {}\n{} = true\n'
+        self.path("short.toml").write_text(
+            begin + event.format(0.0005, "stop") + event.format(0.001, "arm")
+        )
+        out = self.run_it().out
+        self.assertIn("the lever starts, 0.8 rad: what wall puts at an angle", out)
+        self.assertIn("arm = true at 0.001 s does nothing: the stop of 0.0005 s", out)
+        self.path("short.toml").write_text(begin.replace('"wall"', '"damper"'))
+        self.assertNotIn("note: ", self.run_it().out)
 
     def test_a_design_by_its_path(self):
         ours = ROOT / "rtl/designs/lever.toml"

@@ -24,12 +24,18 @@ namespace {
 using Pair = EnginePairOf<3, Vextremes_engine_axes>;
 using Turns = std::array<int, 3>;  ///< counts of each axis
 
-constexpr int turn = 4096;  // counts
-constexpr double count_rad = 6.283185307179586 / turn;
-constexpr double torque_lsb = 1.0 / 65536;
+law::Target three_axes() {
+  law::Target t;
+  t.axes = 3;
+  return t;
+}
+
+const int turn = three_axes().counts_per_turn;
+const double count_rad = three_axes().count_rad();
+const double torque_lsb = std::ldexp(1.0, -three_axes().torque.fraction);
 constexpr int kCheck = 5000;  ///< clocks from a commit until all words are checked, at most
 
-double pi_of(double counts) { return counts * count_rad; }
+double rad_of(double counts) { return counts * count_rad; }
 
 /// A shipped law in the engine, with its evaluation in double beside it.
 class LoadedLaw {
@@ -37,7 +43,7 @@ class LoadedLaw {
   /// Every `from` in its text becomes `to`.
   LoadedLaw(const Settings& settings, const std::string& name, const std::string& from = "",
             const std::string& to = "")
-      : compiled_(law::compile_text(text(settings, name, from, to), name + ".law", target())),
+      : compiled_(law::compile_text(text(settings, name, from, to), name + ".law", three_axes())),
         real_(compiled_.law),
         parameters_(compiled_.image) {
     write(law::load(compiled_.image));
@@ -63,7 +69,7 @@ class LoadedLaw {
     std::vector<double> inputs;
     for (const law::Input& i : compiled_.law.inputs) {
       const bool position = i.source == law::Source::position;
-      inputs.push_back(position ? pi_of(place[static_cast<std::size_t>(i.axis)]) : 0);
+      inputs.push_back(position ? rad_of(place[static_cast<std::size_t>(i.axis)]) : 0);
     }
     real_.run(inputs);
     pair.clock(3 * compiled_.divider * Pair::clocks_per_tick);
@@ -87,7 +93,9 @@ class LoadedLaw {
     const double digit = std::pow(10, std::floor(std::log10(exact)) - 1);
     return std::ceil(exact / digit) * digit;
   }
-  int ticks_per_mailbox_age() const { return 64 * compiled_.image.mailbox_age; }
+  int ticks_per_mailbox_age() const {
+    return EngineMap::mailbox_step * compiled_.image.mailbox_age;
+  }
 
  private:
   static std::string text(const Settings& settings, const std::string& name,
@@ -101,11 +109,6 @@ class LoadedLaw {
       i += to.size();
     }
     return text;
-  }
-  static law::Target target() {
-    law::Target t;
-    t.axes = 3;
-    return t;
   }
   void write(const std::vector<law::HostWord>& words) {
     for (const law::HostWord& w : words) pair.write(w.address, w.data);
@@ -123,10 +126,10 @@ Outcome linkage_singular(const Settings& settings) {
   // transposed Jacobian times that force.
   const auto torques = [&](const std::string& what, int a, int b) {
     law.go({a, b, 0});
-    const double y = 0.1 * (std::sin(pi_of(a)) + std::sin(pi_of(b)));
+    const double y = 0.1 * (std::sin(rad_of(a)) + std::sin(rad_of(b)));
     const double force = 500 * std::max(0.08 - y, 0.0);
-    law.check(&o, what + ", first motor", 0, 0.1 * std::cos(pi_of(a)) * force);
-    law.check(&o, what + ", second motor", 1, 0.1 * std::cos(pi_of(b)) * force);
+    law.check(&o, what + ", first motor", 0, 0.1 * std::cos(rad_of(a)) * force);
+    law.check(&o, what + ", second motor", 1, 0.1 * std::cos(rad_of(b)) * force);
   };
   torques("stretched sideways, 40 N across the links", 0, 0);
   torques("stretched downwards, 140 N along the links", -turn / 4, -turn / 4);
@@ -171,8 +174,8 @@ Outcome gimbal_lock(const Settings& settings) {
   // ring.
   const auto torques = [&](const std::string& what, const Turns& at) {
     law.go(at);
-    const Matrix z = rotation(2, pi_of(at[0])), y = rotation(1, pi_of(at[1]));
-    const Matrix zy = times(z, y), all = times(zy, rotation(0, pi_of(at[2])));
+    const Matrix z = rotation(2, rad_of(at[0])), y = rotation(1, rad_of(at[1]));
+    const Matrix zy = times(z, y), all = times(zy, rotation(0, rad_of(at[2])));
     const double trace = all[0][0] + all[1][1] + all[2][2];
     const double cosine = 0.5 * std::sqrt(std::max(0.0, 1 + trace));  // of half the turn
     for (int axis = 0; axis < 3; ++axis) {
@@ -197,8 +200,8 @@ Outcome gimbal_lock(const Settings& settings) {
   law.pair.report(&o);
   o.note =
       "Law `gimbal` with 0.25 Nm/rad, engine alone; the expected torques are computed with "
-      "rotation "
-      "matrices, the law uses quaternions. With the middle ring at 90 deg the outer and the inner "
+      "rotation matrices, the law uses quaternions. With the middle ring at 90 deg the outer and "
+      "the inner "
       "one turn about the same line.";
   return o;
 }
@@ -213,8 +216,8 @@ Outcome plane_lost(const Settings& settings) {
   const int a = static_cast<int>(std::lround(std::asin(0.45) / count_rad));
   const Turns at{a, turn / 2 - a, 0};
   law.go(at);
-  const double force = 1000 * (0.1 - 0.2 * std::sin(pi_of(a)));
-  const double torque = 0.1 * std::cos(pi_of(a)) * force;
+  const double force = 1000 * (0.1 - 0.2 * std::sin(rad_of(a)));
+  const double torque = 0.1 * std::cos(rad_of(a)) * force;
   law.check(&o, "in touch, first motor", 0, torque);
   law.check(&o, "in touch, second motor", 1, -torque);
 
@@ -228,7 +231,8 @@ Outcome plane_lost(const Settings& settings) {
     if (now.rtl == 0 && ticks.rtl < 0) ticks.rtl = k;
     if (now.twin == 0 && ticks.twin < 0) ticks.twin = k;
   }
-  const double waited_ms = kCheck * 20e-6, step_ms = 0.064;
+  const double waited_ms = 1e-3 * kCheck / Pair::clocks_per_tick;  // ticks of 1 us
+  const double step_ms = 1e-3 * EngineMap::mailbox_step;
   o.findings.push_back({"from the last word to no torque",
                         "ms",
                         between(20 - 2 * step_ms, 20),
@@ -250,8 +254,8 @@ Outcome plane_lost(const Settings& settings) {
   law.pair.report(&o);
   o.note =
       "Law `local_plane`, whose mailboxes may be 20 ms old here; the age is counted in steps of 64 "
-      "ticks. "
-      "The core's ramp, which follows, brings the torque down with 5 Nm/s; it is not in this case.";
+      "ticks. The core's ramp, which follows, brings the torque down with 5 Nm/s; it is not in "
+      "this case.";
   return o;
 }
 

@@ -72,7 +72,7 @@ class EnginePairOf {
   }
 
   Both torque(int axis = 0) const {
-    return {raw_torque(axis),
+    return {static_cast<double>(Adapter::torque(rtl_->torque_o, axis)),
             static_cast<double>(twin_out().torque[static_cast<std::size_t>(axis)])};
   }
   Both late() const { return {rtl_->late_o ? 1.0 : 0.0, twin_out().late ? 1.0 : 0.0}; }
@@ -91,11 +91,6 @@ class EnginePairOf {
   using Adapter = test::EngineAdapter<Axes, Rtl>;
 
   typename Twin::Out twin_out() const { return twin_.peek(in); }
-  double raw_torque(int axis) const {
-    const std::uint64_t word = std::uint64_t{rtl_->torque_o} >> (21 * axis);
-    return static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(word) << 11) >>
-                               11);
-  }
   void compare() {
     test::Check check;
     Adapter::compare(check, *rtl_, twin_out());

@@ -49,6 +49,13 @@ struct EngineAdapter {
     check("busy", rtl.busy_o, out.busy);
   }
 
+  template <class Port>
+  static std::int32_t torque(const Port& port, int n) {
+    constexpr int bits = 21;
+    const std::uint64_t raw = std::uint64_t{port} >> (bits * n);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(raw << 11)) >> 11;
+  }
+
  private:
   template <class Port>
   static void set(Port& port, const typename Twin::Inputs::Axes& words) {
@@ -59,12 +66,6 @@ struct EngineAdapter {
         port[n] = static_cast<std::uint32_t>(words[static_cast<std::size_t>(n)]);
       }
     }
-  }
-  template <class Port>
-  static std::int32_t torque(const Port& port, int n) {
-    constexpr int bits = 21;
-    const std::uint64_t raw = std::uint64_t{port} >> (bits * n);
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(raw << 11)) >> 11;
   }
 };
 

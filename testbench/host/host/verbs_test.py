@@ -157,6 +157,16 @@ class Verbs(VerbTest):
             self.assertEqual(board.order("armed?"), "0")
             self.assertEqual(board.order("word 0x1011"), "0")  # the stream is off again
 
+    def test_watch_disarms_when_its_reader_goes(self):
+        with BoardProcess() as board:
+            watched = self.start(board.port, "watch", "--arm", "wall", "--for", 30, "--every", 0.01)
+            watched.stdout.readline(), watched.stdout.readline()
+            self.assertEqual(board.order("armed?"), "1")
+            watched.stdout.close()
+            watched.wait(10)
+            watched.stderr.close()
+            self.assertEqual(board.order("armed?"), "0")
+
     def test_watch_on_a_terminal_and_for_teleplot(self):
         with BoardProcess() as board:
             said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 1)

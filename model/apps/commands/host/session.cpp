@@ -23,7 +23,7 @@ namespace {
 
 std::atomic<bool> was_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
-// Of a reader that goes away too: the motor must be disarmed.
+// SIGPIPE: what reads the output has gone, and the motor must still be disarmed.
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 struct sigaction before[std::size(signals)];
 

@@ -39,17 +39,18 @@ class ProgramTest(Scratch):
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr
 
-    def start_program(self, program, *words, stderr=subprocess.PIPE):
+    def start_program(self, program, *words, stdin=None, stderr=subprocess.PIPE):
         """A process; who starts it ends it, or the test's end does."""
         process = subprocess.Popen(
             [BUILD / program, *map(str, words)],
             env=self.environment(),
             cwd=self.folder,
+            stdin=stdin,
             stdout=subprocess.PIPE,
             stderr=stderr,
             text=True,
         )
-        for stream in filter(None, (process.stdout, process.stderr)):
+        for stream in filter(None, (process.stdin, process.stdout, process.stderr)):
             self.addCleanup(stream.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)

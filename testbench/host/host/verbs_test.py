@@ -33,8 +33,8 @@ class VerbTest(ProgramTest):
     def environment(self):
         return super().environment() | {"FELTGATE_PYTHON": PYTHON}
 
-    def start(self, port, *words):
-        return self.start_program("feltgate_host", port, *words)
+    def start(self, port, *words, **more):
+        return self.start_program("feltgate_host", port, *words, **more)
 
     def host(self, port, *words, status=0):
         return self.run_program("feltgate_host", port, *words, status=status)
@@ -166,6 +166,23 @@ class Verbs(VerbTest):
             watched.wait(10)
             watched.stderr.close()
             self.assertEqual(board.order("armed?"), "0")
+
+    def test_calibrate_keeps_its_readings_when_the_motor_goes_off(self):
+        with BoardProcess() as board:
+            words = ("calibrate", "--closed", "--points", "0.05,0.1", "--save", "kept.csv")
+            process = self.start(board.port, *words, stdin=subprocess.PIPE)
+            process.stdin.write("0.049\n")
+            process.stdin.flush()
+            said = ""
+            while "2/2" not in said:
+                said += process.stdout.read(1)
+            board.order("fault 2")
+            _, err = process.communicate(timeout=20)
+            self.assertEqual(process.returncode, 1, err)
+            self.assertIn("1 readings are in kept.csv", err)
+            rows = (self.folder / "kept.csv").read_text(encoding="utf-8").splitlines()
+            self.assertEqual(len(rows), 2)
+            self.assertTrue(rows[1].startswith("0.05,0.049,"))
 
     def test_watch_on_a_terminal_and_for_teleplot(self):
         with BoardProcess() as board:

@@ -5,13 +5,16 @@
   {"schema": "feltgate-proven/1", "tools": {...}, "inputs": {"ramp.steps lever": "16 hex digits"}}
 
 The digits are a hash of everything that decides base, induction and covers: the sources as the
-proof reads them, without comments, its depths and cuts, and the scripts that run them. They do not
-depend on the programs: what one version has proven is proven. `tools` are those of the last entries.
+proof reads them, without comments and without constants that nothing names, its depths and cuts,
+and the scripts that run them. They do not depend on the programs: what one version has proven is
+proven. `tools` are those of the last entries.
 """
 
 import hashlib
 import json
+import re
 import tempfile
+from collections import Counter
 from pathlib import Path
 
 import outputs
@@ -27,6 +30,14 @@ def name(proof, design):
     return f"{proof.key} {design}"
 
 
+def without_unnamed(texts):
+    """The texts without the constants of packages that no other line names: those of an option,
+    say, that the proof does not read."""
+    words = Counter(re.findall(r"\w+", " ".join(texts)))
+    constant = r" localparam [\w ]*?(\w+) = [^;]*;"
+    return [re.sub(constant, lambda c: c[0] if words[c[1]] > 1 else "", t) for t in texts]
+
+
 def digest(root, proof, design):
     """16 hex digits of what decides the proof on a design."""
     found = hashlib.sha256()
@@ -35,9 +46,10 @@ def digest(root, proof, design):
     for script in (tools, tasks):
         found.update(Path(script.__file__).read_bytes())
     with tempfile.TemporaryDirectory(prefix="feltgate-prove-") as folder:
-        for source in tools.copy_sources(root, proof, design, None, Path(folder)):
-            text = Path(folder, source).read_text(encoding="utf-8")
-            found.update(f"\n{source}: {' '.join(code_only(text))}".encode())
+        names = tools.copy_sources(root, proof, design, None, Path(folder))
+        texts = [" ".join(code_only(Path(folder, n).read_text(encoding="utf-8"))) for n in names]
+        for source, text in zip(names, without_unnamed(texts)):
+            found.update(f"\n{source}: {text}".encode())
         found.update(Path(folder, "parameters.mem").read_bytes())
     return found.hexdigest()[:16]
 

@@ -260,7 +260,7 @@ class Recorded(Scratch):
         wrapper = self.proofs()[0].wrapper.relative_to(self.folder)
         for name, old, new in (
             ("rtl/core/actuation/limiter.sv", "endmodule", "logic more;\nendmodule"),
-            ("rtl/generated/lever/feltgate_pkg.sv", "ROUNDING = 0", "ROUNDING = 1"),
+            ("rtl/generated/lever/feltgate_pkg.sv", "TORQUE_W = 21", "TORQUE_W = 22"),
             (wrapper, "endmodule", "logic more;\nendmodule"),
             ("testbench/actuation/limiter/proofs/proofs.toml", "depth = ", "depth = 1"),
         ):
@@ -269,6 +269,14 @@ class Recorded(Scratch):
                 self.change(name, old, new)
                 self.assertLess(len(self.known()), len(self.proofs()))
                 self.put(name, before)
+
+    def test_a_constant_that_nothing_names_does_not_count(self):
+        package = "rtl/generated/lever/feltgate_pkg.sv"
+        self.change(package, "endpackage", "  localparam int OF_AN_OPTION = 1;\nendpackage")
+        self.assertEqual(self.known(), self.proofs())
+        self.change("rtl/core/actuation/limiter.sv", "endmodule",
+                    "localparam int X = feltgate_pkg::OF_AN_OPTION;\nendmodule")
+        self.assertEqual(self.known(), [])
 
     def test_a_broken_record_is_refused_with_the_mend(self):
         for text in ("", "{", "[]", '{"schema": "another", "inputs": {}}', '{"inputs": {}}'):

@@ -64,6 +64,10 @@ struct Design {
   int axes = 1;                       ///< motors, each with an encoder; they share tick and port
   bool engine = false;                ///< programs compute the torque of the scene law
   double engine_max_age_s = 0;        ///< largest age of a torque; beyond: fault `engine`
+  // [current_loop], optional: the measured current is controlled, by a voltage for each PWM period.
+  bool current_loop = false;
+  double current_full_scale_a = 0;  ///< at which the modulator clips; a power of two
+  double current_bandwidth_hz = 0, inductance_h = 0, overcurrent_a = 0;
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
   std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 
@@ -83,6 +87,9 @@ struct Design {
   /// The exact factor of the N-method, 2*pi/(Er*Tp*m1) in rad/s per count.
   double velocity_gain_rad_s() const;
   int mt_window_clocks() const;
+  /// Clock of the PWM period in which the window of its current begins: the window's middle is that
+  /// of the pulse at the terminals.
+  int current_strobe_clock() const;
   /// Refuses M/T for `what`, which knows the N-method alone.
   void needs_n_method(const std::string& what) const;
   /// Throws config::ConfigError at the line of "section.key".

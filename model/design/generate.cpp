@@ -14,6 +14,8 @@
 
 #include "design/text_case.hpp"
 #include "feltgate/crc32.hpp"
+#include "feltgate/current_control.hpp"
+#include "feltgate/current_sense.hpp"
 #include "feltgate/registers.hpp"
 
 namespace feltgate::design {
@@ -48,7 +50,7 @@ std::string banner(const Elaborated& e, const std::string& what) {
 /// Plain integers that RTL and twin share: name, value, meaning.
 struct Constant {
   std::string name;
-  long long value;
+  std::int64_t value;
   std::string doc;
 };
 
@@ -149,6 +151,40 @@ std::vector<Constant> of_estimator(const Design& d) {
           {"mt_doublings", std::ilogb(d.mt_cycles), "the span has at most 2^n cycles"}};
 }
 
+/// Words of the current loop; 0 without it.
+std::vector<Constant> of_current_loop(const Elaborated& e) {
+  const Design& d = e.design;
+  const double period_s = 1.0 / static_cast<double>(d.pwm_hz);
+  const double full_a = d.current_loop ? d.current_full_scale_a : 1;
+  const CurrentGains gains =
+      d.current_loop ? current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
+                                     period_s, full_a, d.supply_v)
+                     : CurrentGains{0, 0, true};
+  if (!gains.in_range) {
+    d.fail("current_loop.bandwidth_hz", "a gain of the current loop does not fit its word",
+           "choose another bandwidth");
+  }
+  // Nine bits: within 0.2 %, and the integrator gives the rest.
+  const double per_lsb =
+      std::ldexp(CurrentControl::kSupply / d.supply_v, -d.voltage.fraction);
+  const int drop = 8 - std::ilogb(per_lsb);
+  const auto given = [&d](auto value) { return d.current_loop ? value : 0; };
+  return {
+      {"current_loop", given(1), "1: a measured current is controlled"},
+      {"current_drop", given(d.current.fraction + std::ilogb(full_a) - kCurrentControlBits),
+       "fraction bits of the current reference below an LSB of the measured current"},
+      {"current_proportional", gains.proportional, "[0,4,13], supply per full scale"},
+      {"current_integral", gains.integral, "[0,0,17]"},
+      {"current_overcurrent",
+       given(std::llround(d.overcurrent_a / full_a * CurrentSense::Parameters{}.fast_full_scale())),
+       "[0,0,8] of full scale"},
+      {"current_strobe", given(d.current_strobe_clock()),
+       "clock of the PWM period in which a window begins"},
+      {"feed_gain", given(std::lround(std::ldexp(per_lsb, drop))),
+       "mantissa: parts of the supply per LSB of the voltage"},
+      {"feed_drop", given(drop), "its fraction bits"}};
+}
+
 }  // namespace
 
 std::uint32_t design_crc(const Elaborated& e) {
@@ -160,6 +196,9 @@ std::uint32_t design_crc(const Elaborated& e) {
   if (e.design.mt) {
     for (const Constant& c : of_estimator(e.design))
       text += fmt::format("{} {}\n", c.name, c.value);
+  }
+  if (e.design.current_loop) {
+    for (const Constant& c : of_current_loop(e)) text += fmt::format("{} {}\n", c.name, c.value);
   }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
@@ -180,7 +219,7 @@ std::string systemverilog_package(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(e.design), of_estimator(e.design)}) {
+  for (const auto& list : {further(e.design), of_estimator(e.design), of_current_loop(e)}) {
     for (const Constant& c : list) {
       s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
     }
@@ -237,7 +276,7 @@ std::string cpp_header(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(d), of_estimator(d)}) {
+  for (const auto& list : {further(d), of_estimator(d), of_current_loop(e)}) {
     for (const Constant& c : list) {
       s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
     }

@@ -122,6 +122,8 @@ module feltgate_axes #(
   logic [AxisCount*TorqueW-1:0] law_torque;
   logic [AxisCount-1:0] in_law;
   logic law_late, law_restart, unchecked, unfit;
+  logic [AxisCount-1:0] current_clock;    // no axis has a current loop
+  logic [19*AxisCount-1:0] current;
 
   generate
   genvar n;
@@ -137,6 +139,7 @@ module feltgate_axes #(
         .enc_a_i(enc_a_i[n]), .enc_b_i(enc_b_i[n]), .enc_z_i(enc_z_i[n]),
         .gate_a_hi_o(gate_a_hi_o[n]), .gate_a_lo_o(gate_a_lo_o[n]),
         .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
+        .current_data_i(1'b0), .current_clock_o(current_clock[n]), .current_o(current[19*n+:19]),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
         .law_torque_i(law_torque[n*TorqueW+:TorqueW]),
         .law_late_i(law_late), .law_restart_i(law_restart),
@@ -208,7 +211,7 @@ module feltgate_axes #(
 
   logic unused;
   always_comb begin
-    unused = ^{snapshot_valid, word_valid, measured, in_law};
+    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, current};
     for (int k = 0; k < AxisCount; k++) unused = unused ^ (^{word_slot[k], tick_count[k]});
   end
 endmodule

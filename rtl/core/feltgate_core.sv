@@ -24,6 +24,11 @@ module feltgate_core #(
     output logic gate_b_hi_o,
     output logic gate_b_lo_o,
 
+    // Modulator of the motor current, for the option CURRENT_LOOP; else tie the input to 0
+    input  logic               current_data_i,
+    output logic               current_clock_o,
+    output logic signed [18:0] current_o,   // measured, [1,1,17] of full scale
+
     // Panel: used while the control word does not give control to the host
     input  logic       arm_i,       // level; its rising edge arms
     input  logic       stop_i,      // external stop, asynchronous, latched as a fault
@@ -99,12 +104,13 @@ module feltgate_core #(
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early, pulse;
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   // actuation, safety
-  logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
+  logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated, ready;
+  logic [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   // Each room's faults and limits, by bit
-  logic [FaultsW-1:0] encoder_trips, estimator_trips, wave_trips;
+  logic [FaultsW-1:0] encoder_trips, estimator_trips, actuation_trips, wave_trips;
   logic [LimitsW-1:0] encoder_limits, estimator_limits, actuation_limits, safety_limits;
 
   assign mode   = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
@@ -144,6 +150,8 @@ module feltgate_core #(
       .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high),
       .tau_ref_o(tau_ref_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
       .limits_o(actuation_limits),
+      .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(current_o),
+      .current_state_o(current_state), .trips_o(actuation_trips), .clear_i(clear),
       .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
       .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
@@ -156,9 +164,9 @@ module feltgate_core #(
       .period_start_i(period_start), .host_i(control[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
       .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear),
-      .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
-      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready_o),
-      .trips_i(encoder_trips | estimator_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
+      .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i || current_state != '0),
+      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready),
+      .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
       .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),
       .over_limit_i(over_limit), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
       .law_i(law), .law_late_i(law_late_i),
@@ -177,7 +185,7 @@ module feltgate_core #(
       .clear_faults_o(clear_faults), .kick_o(kick), .disarm_o(disarm), .stop_o(host_stop), .restart_o(restart),
       .trips_o(wave_trips), .locked_i(armed_o || arms), .region_high_i(region_high), .derated_i(derated),
       .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked), .test_result_i(test_result),
-      .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .encoder_error_i(encoder_error),
+      .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .current_state_i(current_state), .encoder_error_i(encoder_error),
       .error_count_i(error_count), .rejected_count_i(rejected_count),
       .position_i(position_o), .index_position_i(index_position),
       .word_valid_o(word_valid_o), .word_slot_o(word_slot_o), .word_data_o(word_data_o),
@@ -189,6 +197,7 @@ module feltgate_core #(
       .control_product_o(control_product), .supervisor_product_o(supervisor_product)
   );
 
+  assign ready_o          = ready && current_state == '0;
   assign zeroed_o         = set_zero;
   assign measured_o       = wave[feltgate_map_pkg::EVENT_AT_TAU_HAT+1];
   assign snapshot_valid_o = wave[feltgate_map_pkg::EVENT_AT_SNAPSHOT];

@@ -306,6 +306,8 @@ package feltgate_map_pkg;
   localparam int W_FAULTS_SEEN = 16;
   localparam int B_FAULTS_FIRST = 16;
   localparam int W_FAULTS_FIRST = 5;
+  localparam int B_FAULTS_CURRENT = 21;
+  localparam int W_FAULTS_CURRENT = 5;
 
   // Bits of the limits.
   localparam int L_TORQUE = 0;  // torque reference at its limit
@@ -335,7 +337,7 @@ package feltgate_map_pkg;
   localparam int FAULT_JUMP = 12;  // the velocity moved by more than its filter can
   localparam int FAULT_ENGINE = 13;  // the engine is late: no fresh torque within its time, in the scene law
   localparam int FAULT_AXIS = 14;  // another axis has a fault
-  localparam int FAULT_LINK = 15;  // reserved for the host's link
+  localparam int FAULT_CURRENT = 15;  // of a current loop: over-current, or the sensor fails; faults.current says which
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 

@@ -18,7 +18,7 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
   sup->axis_silent = in.axis_silent;
-  sup->axis_blocked = in.axis_blocked;
+  sup->axis_blocked = in.axis_blocked || loop_.state() != 0;
 }
 
 template <class D, bool ReadBack>
@@ -80,6 +80,22 @@ QuadDecoder::In FeltgateCore<D, ReadBack>::decoder_inputs(const In& in, bool zer
   d.set_zero = zero;
   d.clear_error = clear;
   return d;
+}
+
+template <class D, bool ReadBack>
+auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
+  typename CurrentLoop<D>::In l;
+  l.data = in.current_data;
+  l.gates_enable = supervisor_.out().gates_enable;
+  l.direct = mode() == Mode::voltage;
+  l.clear = clear;
+  l.wave_clock = clock_ - Map::first_wave_clock;
+  if (l.wave_clock == T::voltage) {
+    l.reference = out_.current_ref;
+    l.forwarded = wave_.forwarded(mode());
+  }
+  l.duty_limit = registers_.parameter(D::A::duty_limit);
+  return l;
 }
 
 template <class D, bool ReadBack>

@@ -127,6 +127,13 @@ class CoreWave {
     Law::template limited<typename RampLaw<D, Fixed>::Torque>(chain_.tau_ref(), limit, &is);
     return is;
   }
+  /// Back-EMF and dead voltage of this tick, LSB of the voltage; from Step::voltage on.
+  std::int64_t forwarded(Mode mode) const {
+    using Step = TorqueControlStep<D, Fixed>;
+    const auto& w = chain_.words();
+    const std::int64_t emf = Step::Law::emf(chain_.velocity() * w.emf_constant()).raw();
+    return mode == Mode::voltage ? emf : emf + Step::dead_voltage(w, chain_.tau_ref()).raw();
+  }
   /// Free-running count at the start of the running wave.
   std::int16_t sampled_travel() const { return sampled_travel_; }
 

@@ -14,6 +14,7 @@
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
+#include "feltgate/current_loop.hpp"
 #include "feltgate/encoder_monitor.hpp"
 #include "feltgate/hold_timer.hpp"
 #include "feltgate/quad_decoder.hpp"
@@ -42,6 +43,7 @@ class FeltgateCore {
     registers_.reset();
     decoder_.reset();
     wave_.reset();
+    loop_.reset();
     monitor_ = {};
     hold_ = {};
     supervisor_.reset();
@@ -81,12 +83,16 @@ class FeltgateCore {
       if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
       if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
-    Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, out_.duty);
+    if (loop_.state() != 0 && supervisor_.out().gates_enable) {
+      sup.trips |= fault_bit(Fault::current);
+    }
+    Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     out_.word_valid = ReadBack && core_steps::stores_word(clock_);
     core_steps::for_each_step_of(clock_, [&](Step step) { take<true>(step, in, decoder_.out()); });
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
+    if constexpr (kLoop) loop_.clock(loop_inputs(in, clear && !sup.arm_request()));
     supervisor_.clock(sup);
     const bool held = out_.armed || supervisor_.out().armed;
     const QuadDecoder::In d = decoder_inputs(in, zero, clear && !sup.arm_request());
@@ -149,7 +155,7 @@ class FeltgateCore {
   bool measured() const { return clock_ == after(T::tau_hat); }
   /// Whether the position becomes 0 in the next clock.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
-  bool ready() const { return supervisor_.ready(host()); }
+  bool ready() const { return supervisor_.ready(host()) && loop_.state() == 0; }
   /// Whether no write or command waits for the end of the tick.
   bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.
@@ -220,6 +226,16 @@ class FeltgateCore {
     }
     return sup;
   }
+
+  static constexpr bool kLoop = D::current_loop != 0;
+  /// The duty that the PWM may take.
+  std::int16_t bridge_duty() const {
+    if constexpr (kLoop) {
+      if (mode() != Mode::voltage) return loop_.duty();
+    }
+    return out_.duty;
+  }
+  auto loop_inputs(const In& in, bool clear) const;
 
   static constexpr bool kLaw = scene_built<D>(Map::S::law);
   bool renders_law() const { return kLaw && out_.scene == Map::S::law; }
@@ -357,12 +373,17 @@ class FeltgateCore {
     out_.first_fault = supervisor_.out().first_fault;
     out_.duty_active = gates_.duty_active();
     out_.gates = gates_.bits();
+    if constexpr (kLoop) {
+      out_.current = static_cast<std::int32_t>(loop_.sense().current);
+      out_.current_clock = loop_.sense().modulator_clock;
+    }
     out_.limits = wave_.limits(out_.gates_enable);
   }
 
   Registers<D, ReadBack> registers_;
   QuadDecoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
   CoreWave<D> wave_;
+  CurrentLoop<D> loop_;
   EncoderMonitorLaw monitor_;
   HoldTimerLaw hold_;
   Supervisor<D> supervisor_, before_wave_;

@@ -125,6 +125,15 @@ struct TorqueControlStep {
   ControlLimits limit;
   bool region_high = false;
 
+  /// What brushes and dead time take at this torque.
+  template <class W, class TauRef>
+  static typename Law::LimitedVoltage dead_voltage(const W& w, TauRef tau_ref) {
+    bool unused = false;
+    return Law::template limited<typename Law::LimitedVoltage>(
+        Law::voltage_part(tau_ref * w.dead_voltage_slope()),
+        w.template get<Law::kVoltageKey>(A::dead_voltage), &unused);
+  }
+
   template <class W, class TauRef, class TauHat, class Velocity>
   void tick(const W& w, bool armed, Mode mode, TauRef tau_ref, TauHat tau_hat, Velocity velocity) {
     const bool direct = mode == Mode::voltage;
@@ -146,16 +155,14 @@ struct TorqueControlStep {
     }
     const auto emf = Law::emf(velocity * w.emf_constant());
     typename Law::VoltageSum asked{};  // without the back-EMF
-    bool unused = false;
     if (direct) {
+      bool unused = false;
       const auto step = Law::template limited<typename Law::VoltageChange>(
           w.voltage_setpoint() - voltage, w.template get<Law::kVoltageKey>(A::voltage_step),
           &unused);
       asked = Law::voltage_sum(voltage + step - emf);
     } else {
-      const auto slope = Law::voltage_part(tau_ref * w.dead_voltage_slope());
-      const auto dead = Law::template limited<typename Law::LimitedVoltage>(
-          slope, w.template get<Law::kVoltageKey>(A::dead_voltage), &unused);
+      const auto dead = dead_voltage(w, tau_ref);
       // Both words are read: a choice between addresses would keep lanes from running in parallel.
       const auto gain = w.voltage_gain();
       const auto gain_high = w.voltage_gain_high();

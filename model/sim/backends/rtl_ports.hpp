@@ -55,6 +55,7 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   if constexpr (is_axes<Rtl>) {
     rtl.reg_read_i = 0;
   } else {
+    rtl.current_data_i = in.current_data;
     rtl.axis_fault_i = in.axis_fault;
     rtl.axis_silent_i = in.axis_silent;
     rtl.axis_blocked_i = in.axis_blocked;
@@ -91,6 +92,10 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.word_valid = rtl.word_valid_o != 0;
   o.word_slot = rtl.word_slot_o;
   o.word_data = rtl.word_data_o;
+  if constexpr (!is_axes<Rtl>) {
+    o.current = detail::narrow_word(rtl.current_o, 19);
+    o.current_clock = rtl.current_clock_o != 0;
+  }
   return o;
 }
 

@@ -18,6 +18,7 @@
   X(bool, enc_a_i)               \
   X(bool, enc_b_i)               \
   X(bool, enc_z_i)               \
+  X(bool, current_data_i)        \
   X(bool, arm_i)                 \
   X(bool, stop_i)                \
   X(bool, set_zero_i)            \
@@ -38,6 +39,8 @@
   X(bool, gate_a_lo_o)            \
   X(bool, gate_b_hi_o)            \
   X(bool, gate_b_lo_o)            \
+  X(bool, current_clock_o)        \
+  X(std::uint32_t, current_o)     \
   X(bool, arm_request_o)          \
   X(bool, ready_o)                \
   X(bool, testing_o)              \

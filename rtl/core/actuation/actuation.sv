@@ -3,7 +3,8 @@
 //
 // Room: the scene's torque to four gates. One limiter limits six values of a tick, one after the
 // other (docs/blocks/limiter.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
-// the bridge takes it at the next start of a PWM period. docs/architecture.md
+// the bridge takes it at the next start of a PWM period. With the option CURRENT_LOOP a controller of the measured
+// current gives the bridge its duty, one in each period (docs/blocks/current_control.md). docs/architecture.md
 
 `default_nettype none
 
@@ -33,6 +34,12 @@ module actuation (
     output logic signed [     feltgate_pkg::VOLTAGE_W-1:0]  voltage_o,      // V
     output logic signed [        feltgate_pkg::DUTY_W-1:0]  duty_o,         // clocks of on-time
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,   // bit n: limit n acted
+    input  logic                                            current_data_i,    // of the modulator of a current loop
+    output logic                                            current_clock_o,   // to it
+    output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale
+    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_o,  // why it is not to be relied on
+    output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   trips_o,           // bit n: cause n
+    input  logic                                            clear_i,           // of the over-current
     input  logic                                            gates_enable_i,
     input  logic                                            gates_clear_i,  // asynchronous
     input  logic                                            pwm_mode_i,
@@ -115,12 +122,107 @@ module actuation (
       .limit_current_o(limit_current), .limit_voltage_o(limit_voltage), .limit_duty_o(limit_duty)
   );
 
+  logic signed [feltgate_pkg::DUTY_W-1:0] bridge_duty;
+  generate
+  if (feltgate_pkg::CURRENT_LOOP == 0) begin : g_voltage_law
+    assign bridge_duty     = duty_o;
+    assign current_clock_o = 1'b0;
+    assign current_o       = '0;
+    assign current_state_o = '0;
+    logic unused_loop;
+    assign unused_loop = ^{current_data_i, clear_i};
+  end else begin : g_current_loop
+    localparam int Period = feltgate_pkg::PWM_PERIOD;
+    localparam int EmfDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_EMF_CONSTANT_F - feltgate_pkg::VOLTAGE_F;
+    localparam int CurrentDrop = feltgate_pkg::CURRENT_DROP;
+    localparam int SupplyF = 17;  // voltages of the loop are [1,0,17] of the supply
+    localparam logic [11:0] LimitGain = 12'((1 << SupplyF) / Period);
+
+    // A product with a constant as a sum, so that no multiplier is inferred.
+    function automatic logic signed [43:0] times(input logic signed [31:0] x, input logic [11:0] constant);
+      times = '0;
+      for (int n = 0; n < 12; n++) if (constant[n]) times = times + (44'(x) <<< n);
+    endfunction
+
+    logic drives;
+    assign drives = gates_enable_i && mode_i != 2'(feltgate_map_pkg::MODE_VOLTAGE);
+
+    // From the wave, once per tick: the reference; back-EMF and dead voltage, which are fed forward; the limit.
+    logic signed [31:0] emf_q, dead_q;
+    logic signed [43:0] feed_q, feed;
+    logic signed [18:0] reference_q;
+    logic signed [17:0] feed_forward;
+    logic        [16:0] limit_q;
+    always_ff @(posedge clk_i) begin
+      if (wave_i[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]) emf_q <= 32'(product_i >>> EmfDrop);
+      if (wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]) dead_q <= 32'(limited);
+    end
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        reference_q <= '0;
+        feed_q      <= '0;
+        limit_q     <= '0;
+      end else begin
+        if (wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]) begin
+          reference_q <= 19'((32'(current_ref_o) + (32'sd1 <<< (CurrentDrop - 1))) >>> CurrentDrop);
+          feed_q      <= times(emf_q + dead_q, 12'(feltgate_pkg::FEED_GAIN));
+        end
+        if (wave_i[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT])
+          limit_q <= param_i[31] ? '0 : 17'(times(param_i > 32'(Period) ? Period : param_i, LimitGain));
+      end
+    end
+    assign feed         = feed_q >>> feltgate_pkg::FEED_DROP;
+    assign feed_forward = (feed[43:17] == {27{feed[43]}}) ? feed[17:0] : {feed[43], {17{!feed[43]}}};
+
+    // The middle of a window is that of the pulse at the terminals.
+    logic [11:0] since_q;  // clocks since a period began
+    logic measured, calibrated;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) since_q <= '0;
+      else since_q <= period_start_o ? 12'd1 : since_q + 12'd1;
+    end
+    /* verilator lint_off PINCONNECTEMPTY */
+    current_sense u_current_sense (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .modulator_clock_o(current_clock_o), .data_i(current_data_i),
+        .strobe_i(since_q == 12'(feltgate_pkg::CURRENT_STROBE)),
+        .armed_i(gates_enable_i), .clear_i(clear_i),
+        .threshold_i(8'(feltgate_pkg::CURRENT_OVERCURRENT)),
+        .current_o(current_o), .valid_o(), .aligned_o(measured),
+        .overcurrent_o(current_state_o[0]), .calibrated_o(calibrated), .offset_fault_o(current_state_o[3]),
+        .stuck_o(current_state_o[1]), .saturated_o(current_state_o[2])
+    );
+    assign current_state_o[4] = !calibrated;
+
+    logic signed [17:0] voltage;
+    logic signed [43:0] share;
+    logic signed [feltgate_pkg::DUTY_W-1:0] duty_q;
+    current_control u_current_control (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .armed_i(drives), .valid_i(measured), .reference_i(reference_q), .current_i(current_o),
+        .emf_i(feed_forward),
+        .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
+        .limit_i(limit_q),
+        .voltage_o(voltage), .valid_o(), .saturated_o()
+    );
+    /* verilator lint_on PINCONNECTEMPTY */
+    assign share = times(32'(voltage), 12'(Period)) + (44'sd1 <<< (SupplyF - 1));
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) duty_q <= '0;
+      else duty_q <= feltgate_pkg::DUTY_W'(share >>> SupplyF);
+    end
+    assign bridge_duty = (mode_i == 2'(feltgate_map_pkg::MODE_VOLTAGE)) ? duty_o : duty_q;
+  end
+  endgenerate
+  assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'(gates_enable_i && current_state_o != '0)
+                   << feltgate_map_pkg::FAULT_CURRENT;
+
   pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
         .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .clear_i(gates_clear_i),
       .enable_i(gates_enable_i), .mode_i(pwm_mode_i), .polarity_i(polarity_i),
-      .duty_i(duty_o),
+      .duty_i(bridge_duty),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .period_start_o(period_start_o),
       .duty_active_o(duty_active_o)

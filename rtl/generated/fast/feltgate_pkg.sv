@@ -36,6 +36,14 @@ package feltgate_pkg;
   localparam int MT_COUNTS = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   localparam int MT_WINDOW = 0;  // clocks: of a shorter span twice the cycles
   localparam int MT_DOUBLINGS = 0;  // the span has at most 2^n cycles
+  localparam int CURRENT_LOOP = 0;  // 1: a measured current is controlled
+  localparam int CURRENT_DROP = 0;  // fraction bits of the current reference below an LSB of the measured current
+  localparam int CURRENT_PROPORTIONAL = 0;  // [0,4,13], supply per full scale
+  localparam int CURRENT_INTEGRAL = 0;  // [0,0,17]
+  localparam int CURRENT_OVERCURRENT = 0;  // [0,0,8] of full scale
+  localparam int CURRENT_STROBE = 0;  // clock of the PWM period in which a window begins
+  localparam int FEED_GAIN = 0;  // mantissa: parts of the supply per LSB of the voltage
+  localparam int FEED_DROP = 0;  // its fraction bits
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h4fece5a6;  // by which a host knows the design
 

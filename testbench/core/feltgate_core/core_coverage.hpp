@@ -84,8 +84,9 @@ class Coverage {
     return n;
   }
   /// Lists, one word each, what was reached less than `times` times; empty if there is nothing.
-  /// `outside`: the run also drives programs and other axes.
-  std::string gaps(std::int64_t times, bool outside = false) const {
+  /// `outside`: the run also drives programs and other axes; `looped`: the modulator of a current
+  /// loop.
+  std::string gaps(std::int64_t times, bool outside = false, bool looped = false) const {
     std::string text;
     const auto ask = [&](std::int64_t n, const std::string& what) {
       if (n < times) text += what + ' ' + std::to_string(n) + ", ";
@@ -93,7 +94,8 @@ class Coverage {
     for (std::size_t n = 1; n < fault_names.size(); ++n) {
       const auto cause = static_cast<Fault>(n);
       const bool of_others = cause == Fault::engine || cause == Fault::axis;
-      if (of_others ? outside : !broken_hardware_alone(cause))
+      const bool comes = cause == Fault::current ? looped : !broken_hardware_alone(cause);
+      if (of_others ? outside : comes)
         ask(faults_[n], std::string("fault ") + fault_names[n]);
     }
     for (std::size_t b = 0; b < limits_.size(); ++b)
@@ -120,10 +122,9 @@ class Coverage {
 
  private:
   /// True for causes that no input of a whole core can produce (ticks_stand_test and word_flip_test
-  /// test them) and for reserved numbers.
+  /// test them).
   static bool broken_hardware_alone(Fault cause) {
-    return cause == Fault::tick || cause == Fault::word || cause == Fault::jump ||
-           cause == Fault::link;
+    return cause == Fault::tick || cause == Fault::word || cause == Fault::jump;
   }
   double share(std::int64_t n) const {
     return clocks_ == 0 ? 0.0 : static_cast<double>(n) / static_cast<double>(clocks_);

@@ -13,8 +13,37 @@
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "random.hpp"
+#include "sim/plant/sigma_delta.hpp"
 
 namespace feltgate::test {
+
+/// The modulator at a winding that the duty in force drives; at times its line stands, it has an
+/// offset, or the winding is shorted.
+class CurrentStimulus {
+ public:
+  bool bit(const CoreOut& out) {
+    if (left_-- <= 0) {
+      left_ = 1'000 + random_.below(150'000);
+      trouble_ = random_.below(8);
+      if (trouble_ < 3) left_ %= 20'000;
+    }
+    if (out.duty_active == 0) current_a_ = trouble_ == 3 ? 2 : 0;
+    const double ohm = trouble_ == 0 ? 0.05 : 0.42;
+    current_a_ += (out.duty_active * 0.024 - ohm * current_a_) * (20e-9 / 82e-6);
+    const bool rises = out.current_clock && !clock_;
+    clock_ = out.current_clock;
+    if (rises) bit_ = modulator_.next(current_a_ + (trouble_ == 1 ? 40 : 0));
+    return trouble_ == 2 || bit_;
+  }
+
+ private:
+  Random random_{77};
+  plant::SigmaDelta modulator_{32};
+  double current_a_ = 0;
+  std::int64_t left_ = 0;
+  std::uint32_t trouble_ = 9;
+  bool clock_ = false, bit_ = false;
+};
 
 /// Inputs clock by clock; all state inside, so that a copy repeats the run.
 template <class D>
@@ -40,6 +69,7 @@ class CoreStimulus {
       if (outside_.one_in(400)) in_.axis_waits = !in_.axis_waits;
     }
     first_ = last;
+    if constexpr (D::current_loop != 0) in_.current_data = current_.bit(out);
     return (*this)(clock);
   }
 
@@ -335,6 +365,7 @@ class CoreStimulus {
   static constexpr bool kOutside = scene_built<D>(Map::S::law);
   std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
 
+  CurrentStimulus current_;
   Random random_, outside_;
   CoreIn in_;
   bool first_ = false;  ///< the next clock is the first of a tick

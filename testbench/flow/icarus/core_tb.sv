@@ -41,6 +41,7 @@ module core_tb;
       .stop_i(inputs[52]),
       .set_zero_i(inputs[53]),
       .reg_write_i(inputs[54]),
+      .current_data_i(1'b0),
       .law_torque_i('0),
       .law_late_i(1'b0),
       .law_restart_i(1'b0),

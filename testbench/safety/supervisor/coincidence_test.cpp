@@ -92,7 +92,7 @@ void join(Script& s, Fault free, int c) {
 TEST_CASE("supervisor: two causes in one clock are both latched, the lower is the first") {
   std::set<std::pair<Fault, Fault>> reached;
   for (const Fault fixed : {Fault::speed, Fault::i2t, Fault::polarity, Fault::watchdog}) {
-    for (const Fault free : {Fault::encoder, Fault::stop, Fault::tick, Fault::link}) {
+    for (const Fault free : {Fault::encoder, Fault::stop, Fault::tick, Fault::current}) {
       CAPTURE(static_cast<int>(fixed), static_cast<int>(free));
       Script s;
       const int clock = provoke(s, fixed);
@@ -127,11 +127,11 @@ TEST_CASE("supervisor: another cause in the clock of the clear is then the first
   s.now.clear_faults = true;
   s.until(kTick - 1);
   REQUIRE(only(s, Fault::speed));
-  s.now.trips = static_cast<std::uint16_t>(fault_bit(Fault::link));
+  s.now.trips = static_cast<std::uint16_t>(fault_bit(Fault::current));
   s.clocks(1);
   s.now.trips = 0;
   s.now.clear_faults = false;
-  REQUIRE(only(s, Fault::link));
+  REQUIRE(only(s, Fault::current));
   s.arm();  // arming is refused while a fault is latched
   REQUIRE_FALSE(s.out().armed);
   s.clear();

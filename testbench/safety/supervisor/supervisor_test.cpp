@@ -321,7 +321,7 @@ TEST_CASE("supervisor: the first cause stays, of two at once the lower number") 
 TEST_CASE("supervisor: a cause of another block, in every clock of a tick and beside our own") {
   Script s;
   for (int clock = 0; clock < Design::clocks_per_tick; ++clock) {
-    for (const Fault cause : {Fault::self_test, Fault::link}) {
+    for (const Fault cause : {Fault::self_test, Fault::current}) {
       s.arm();
       REQUIRE(s.out().armed);
       s.until(clock);

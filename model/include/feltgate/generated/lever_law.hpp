@@ -50,6 +50,14 @@ struct LeverLaw {
   static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
   static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
+  static constexpr int current_loop = 0;  // 1: a measured current is controlled
+  static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
+  static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
+  static constexpr int current_integral = 0;  // [0,0,17]
+  static constexpr int current_overcurrent = 0;  // [0,0,8] of full scale
+  static constexpr int current_strobe = 0;  // clock of the PWM period in which a window begins
+  static constexpr int feed_gain = 0;  // mantissa: parts of the supply per LSB of the voltage
+  static constexpr int feed_drop = 0;  // its fraction bits
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x35fd53bb;  // by which a host knows the design
 

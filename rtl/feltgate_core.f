@@ -23,6 +23,8 @@ core/scenes/scenes.sv
 core/actuation/limiter.sv
 core/actuation/ramp.sv
 core/actuation/torque_control.sv
+core/actuation/current_sense.sv
+core/actuation/current_control.sv
 core/actuation/pwm.sv
 core/actuation/actuation.sv
 core/safety/hold_timer.sv
@@ -37,5 +39,3 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
-core/actuation/current_control.sv
-core/actuation/current_sense.sv

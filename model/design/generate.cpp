@@ -165,8 +165,7 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
            "choose another bandwidth");
   }
   // Nine bits: within 0.2 %, and the integrator gives the rest.
-  const double per_lsb =
-      std::ldexp(CurrentControl::kSupply / d.supply_v, -d.voltage.fraction);
+  const double per_lsb = std::ldexp(CurrentControl::kSupply / d.supply_v, -d.voltage.fraction);
   const int drop = 8 - std::ilogb(per_lsb);
   const auto given = [&d](auto value) { return d.current_loop ? value : 0; };
   return {

@@ -9,8 +9,6 @@
 #include <filesystem>
 
 #include "design/design.hpp"
-#include "feltgate/current_control.hpp"
-#include "feltgate/current_sense.hpp"
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/map.hpp"
 #include "files/toml/toml_reader.hpp"
@@ -232,44 +230,9 @@ void read_current_loop(config::TomlReader& r, Design& d) {
   d.current_bandwidth_hz = r.number("bandwidth_hz", {10, 20'000});
   d.inductance_h = r.number("inductance_h", {1e-7, 1});
   d.overcurrent_a = r.number("overcurrent_a", {0.01, 512});
-  const double exponent = std::log2(d.current_full_scale_a);
-  if (exponent != std::round(exponent)) {
-    r.fail("full_scale_a", "the full scale is no power of two", "choose the shunt for one, 32 say");
-  }
-  if (exponent < d.current.integer || d.current.fraction + exponent <= kCurrentControlBits) {
-    r.fail("full_scale_a", "formats.current does not fit the full scale",
-           fmt::format("give it at most {:g} integer bits and at least {:g} fraction bits",
-                       exponent, kCurrentControlBits + 1 - exponent));
-  }
-  if (d.overcurrent_a <= d.current_limit_a || d.overcurrent_a >= d.current_full_scale_a) {
-    r.fail("overcurrent_a",
-           "the over-current is not between control.current_limit_a and the full scale",
-           "choose one between them, with room for ripple and noise on both sides");
-  }
-  if (!d.emf_in_law()) {
-    r.fail("bandwidth_hz", "the loop feeds forward what the voltage law gives back",
-           "take voltage.law = \"motor_model\"");
-  }
-  constexpr CurrentSense::Parameters sense;
-  const int end = d.current_strobe_clock() + sense.centre_clocks() + sense.divider +
-                  sense.delay_clocks() + CurrentControl::kLatencyClocks + 2;
-  if (d.current_strobe_clock() < 1 || end > d.pwm_period_clocks() - 2) {
-    d.fail("pwm.frequency_hz",
-           fmt::format("the period has {} clocks, and a current is measured and controlled from "
-                       "clock {} to {}",
-                       d.pwm_period_clocks(), d.current_strobe_clock(), end),
-           "lower it");
-  }
 }
 
 }  // namespace
-
-int Design::current_strobe_clock() const {
-  constexpr CurrentSense::Parameters sense;
-  constexpr int pwm_clocks = 3;  // from the carrier to a gate
-  return pwm_period_clocks() / 2 + pwm_clocks + dead_clocks() / 2 - sense.centre_clocks() -
-         sense.divider / 2;
-}
 
 int Design::engine_max_age_ticks() const {
   if (!engine) return 0;
@@ -424,10 +387,6 @@ Design design_of(const toml::table& root, const std::string& path) {
   }
   if (top.has("current_loop")) {
     section("current_loop", [&](config::TomlReader& r) { read_current_loop(r, d); });
-    if (d.engine || d.axes > 1) {
-      d.fail("current_loop", "a core with an engine or several axes has no pins of a current",
-             "leave [current_loop], or [engine] and [axes], out");
-    }
   }
   top.finish();
   return d;

@@ -164,7 +164,10 @@ module feltgate_core #(
       .period_start_i(period_start), .host_i(control[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
       .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear),
-      .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i || current_state != '0),
+      // A request waits for the first offset of a current loop, its top bit; the others refuse it.
+      .axis_fault_i(axis_fault_i),
+      .axis_silent_i(axis_silent_i || current_state[feltgate_map_pkg::W_FAULTS_CURRENT-1]),
+      .axis_blocked_i(axis_blocked_i || current_state != '0),
       .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready),
       .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
       .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),

@@ -17,7 +17,7 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
   sup->host_arm = bit(registers_.out().control, D::C::control_arm);
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
-  sup->axis_silent = in.axis_silent;
+  sup->axis_silent = in.axis_silent || loop_.waits();
   sup->axis_blocked = in.axis_blocked || loop_.state() != 0;
 }
 
@@ -96,6 +96,15 @@ auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
   }
   l.duty_limit = registers_.parameter(D::A::duty_limit);
   return l;
+}
+
+/// The duty that the PWM may take.
+template <class D, bool ReadBack>
+std::int16_t FeltgateCore<D, ReadBack>::bridge_duty() const {
+  if constexpr (kLoop) {
+    if (mode() != Mode::voltage) return loop_.duty();
+  }
+  return out_.duty;
 }
 
 template <class D, bool ReadBack>

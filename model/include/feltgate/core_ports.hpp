@@ -19,10 +19,10 @@ constexpr int host_write_clock = 5;
 struct CoreIn {
   EncoderPins encoder;
   bool current_data = false;  ///< of the modulator of a current loop
-  bool arm = false;        ///< the panel's request
-  bool stop = false;       ///< the stop input was active since the last clock, however shortly
-  bool set_zero = false;   ///< one clock: the position becomes 0 at the end of the tick
-  std::uint8_t scene = 0;  ///< the panel's choice
+  bool arm = false;           ///< the panel's request
+  bool stop = false;          ///< the stop input was active since the last clock, however shortly
+  bool set_zero = false;      ///< one clock: the position becomes 0 at the end of the tick
+  std::uint8_t scene = 0;     ///< the panel's choice
   std::uint16_t reg_addr = 0;
   std::uint32_t reg_wdata = 0;
   bool reg_write = false;  ///< held until a clock in which reg_busy is low

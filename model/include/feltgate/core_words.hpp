@@ -28,9 +28,8 @@ template <class D, bool ReadBack>
 std::uint32_t FeltgateCore<D, ReadBack>::faults() const {
   using C = typename D::C;
   const auto& s = supervisor_.out();
-  return std::uint32_t{s.faults} << C::faults_seen | std::uint32_t{s.first_fault}
-                                                         << C::faults_first |
-         loop_.state() << C::faults_current;
+  return std::uint32_t{s.faults} << C::faults_seen |
+         std::uint32_t{s.first_fault} << C::faults_first | loop_.state() << C::faults_current;
 }
 
 }  // namespace feltgate

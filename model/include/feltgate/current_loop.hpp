@@ -21,6 +21,7 @@ class CurrentLoop {
  public:
   void reset() {}
   std::uint32_t state() const { return 0; }
+  bool waits() const { return false; }
 };
 
 template <class D>
@@ -28,13 +29,13 @@ class CurrentLoop<D, true> {
  public:
   /// What the other blocks show before the clock edge.
   struct In {
-    bool data = false;           ///< of the modulator
-    bool gates_enable = false;   ///< else the current is 0
-    bool direct = false;         ///< voltage mode: the loop rests
-    bool clear = false;          ///< of the over-current
-    int wave_clock = -1;         ///< clock of the wave
-    std::int32_t reference = 0;  ///< current_ref, for EVENT_AT_VOLTAGE
-    std::int64_t forwarded = 0;  ///< LSB of the voltage, for the same clock
+    bool data = false;             ///< of the modulator
+    bool gates_enable = false;     ///< else the current is 0
+    bool direct = false;           ///< voltage mode: the loop rests
+    bool clear = false;            ///< of the over-current
+    int wave_clock = -1;           ///< clock of the wave
+    std::int32_t reference = 0;    ///< current_ref, for EVENT_AT_VOLTAGE
+    std::int64_t forwarded = 0;    ///< LSB of the voltage, for the same clock
     std::uint32_t duty_limit = 0;  ///< the word
   };
 
@@ -75,6 +76,8 @@ class CurrentLoop<D, true> {
     return static_cast<std::uint32_t>(s.overcurrent | s.stuck << 1 | s.saturated << 2 |
                                       s.offset_fault << 3 | !s.calibrated << 4);
   }
+  /// Whether a request to arm waits, for the first offset.
+  bool waits() const { return !sense_.out().calibrated; }
 
  private:
   static constexpr std::int32_t kLimitGain = CurrentControl::kSupply / D::pwm_period;

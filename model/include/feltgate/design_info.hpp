@@ -38,6 +38,7 @@ struct DesignInfo {
   double count_rad = 0, supply_v = 0;
   Format velocity{}, torque{}, current{}, voltage{};
   double torque_constant_nm_a = 0;
+  double current_full_scale_a = 0;  ///< of the current loop's modulator; 0: no loop
   const ParameterInfo* parameters = nullptr;
   int parameter_count = 0;
   int control_address = 0, command_address = 0;
@@ -115,6 +116,10 @@ DesignInfo design_info() {
   i.torque = D::f.torque;
   i.current = D::f.current;
   i.voltage = D::f.voltage;
+  // An LSB of the measured current is 2^current_drop of the reference.
+  if (D::current_loop != 0) {
+    i.current_full_scale_a = std::ldexp(1.0, 17 + D::current_drop - D::f.current.fraction);
+  }
   i.parameters = D::parameters;
   i.parameter_count = static_cast<int>(std::size(D::parameters));
   i.torque_constant_nm_a = i.find("torque_constant")->si;

@@ -228,13 +228,7 @@ class FeltgateCore {
   }
 
   static constexpr bool kLoop = D::current_loop != 0;
-  /// The duty that the PWM may take.
-  std::int16_t bridge_duty() const {
-    if constexpr (kLoop) {
-      if (mode() != Mode::voltage) return loop_.duty();
-    }
-    return out_.duty;
-  }
+  std::int16_t bridge_duty() const;
   auto loop_inputs(const In& in, bool clear) const;
 
   static constexpr bool kLaw = scene_built<D>(Map::S::law);

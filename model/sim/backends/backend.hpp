@@ -123,6 +123,9 @@ class Backend : public AnyBackend {
     set_panel(panel);
   }
 
+  /// Sets the bit of a current loop's modulator from now() on.
+  virtual void set_current_bit(bool bit) = 0;
+
   /// Advances `clocks` clocks from now(). Pin events are in order, at absolute clocks; an event
   /// after the end is kept for the next call.
   virtual void advance(Clock clocks, const EncoderEvent* first, const EncoderEvent* last) = 0;

@@ -28,6 +28,7 @@ class ClockedBackend : public Backend {
     events_.reset(pins);
     writes_.clear();
     panel_ = {};
+    current_bit_ = false;
     snapshots_.clear();
     gates_ = {};
     last_ = {};
@@ -35,6 +36,7 @@ class ClockedBackend : public Backend {
     reset_core(seed, pins);
   }
   void set_panel(const Panel& panel) override { panel_ = panel; }
+  void set_current_bit(bool bit) override { current_bit_ = bit; }
   void write(int address, std::uint32_t data) override { writes_.push(address, data); }
   Clock now() const override { return now_; }
   const std::vector<Snapshot>& snapshots() const override { return snapshots_; }
@@ -67,6 +69,7 @@ class ClockedBackend : public Backend {
   /// The inputs that hold between events: panel, and the address used last.
   CoreIn inputs() const {
     CoreIn in;
+    in.current_data = current_bit_;
     in.arm = panel_.arm;
     in.stop = panel_.stop;
     in.scene = panel_.scene;
@@ -95,6 +98,7 @@ class ClockedBackend : public Backend {
   DesignInfo info_;
   Clock now_ = 0;
   Panel panel_;
+  bool current_bit_ = false;
   EventQueue events_;
   WriteQueue writes_;
   std::uint16_t reg_addr_ = 0;

@@ -28,7 +28,7 @@ namespace feltgate {
 /// Does not compile if CoreOut gained or lost an output that the list above lacks or has.
 inline void count_outputs(const CoreOut& out) {
   [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w,
-                              x] = out;
+                                x] = out;
 #define FELTGATE_ONE(name) +1
   static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 24, "an output is not in the list above");
 #undef FELTGATE_ONE

@@ -12,6 +12,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "feltgate/current_sense.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/loop/drag.hpp"
 #include "sim/loop/ensemble.hpp"
@@ -21,6 +22,7 @@
 #include "sim/plant/drive.hpp"
 #include "sim/plant/period_mean.hpp"
 #include "sim/plant/plant.hpp"
+#include "sim/plant/sigma_delta.hpp"
 #include "sim/traces/statistics.hpp"
 #include "sim/traces/vector_file.hpp"
 
@@ -44,11 +46,16 @@ class ScenarioRun {
                scenario.hand),
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
-        plan_(plan(scenario, plant, core_.design(), choice_)),
+        looped_(core_.design().current_full_scale_a > 0),
+        switched_(scenario.switched || looped_),
+        modulator_(looped_ ? core_.design().current_full_scale_a : 1),
+        plan_(looped_ ? StepPlan(CurrentSense::Parameters{}.divider)
+                      : plan(scenario, plant, core_.design(), choice_)),
         mean_(core_.design().pwm_period, plan_.phase()),
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
         session_(scenario, core_, options),
         counter_(plant_.encoder().pins()) {
+    if (looped_) check_loop();
     last_.theta_rad = plant_.observables().theta_rad;
     if (scenario.rest_from_s) rest_.from_clock = session_.clock_of(*scenario.rest_from_s);
     if (scenario.drag_from_s) drag_.from_clock = session_.clock_of(*scenario.drag_from_s);
@@ -72,7 +79,7 @@ class ScenarioRun {
     }
     core_.skip_self_test();
     session_.begin();
-    core_.lead().keep_gate_times(s_.switched);
+    core_.lead().keep_gate_times(switched_);
     while (core_.lead().now() < end) {
       const Clock now = core_.lead().now();
       session_.act(now, plant_.observables().theta_rad, position_ * d.count_rad,
@@ -92,6 +99,20 @@ class ScenarioRun {
                        const BackendChoice& choice) {
     if (s.step_given || s.switched || choice.rider_drives) return StepPlan(s.step_clocks);
     return {s, plant, d};
+  }
+
+  /// The loop needs the winding's ripple, and a core that measures it.
+  void check_loop() const {
+    const std::string name = core_.design().name;
+    if (choice_.rider_drives) {
+      throw std::invalid_argument("design " + name +
+                                  " controls a measured current, which chains in real arithmetic "
+                                  "do not; choose the back-ends rtl,twin");
+    }
+    if (!s_.effects.inductance) {
+      throw std::invalid_argument(
+          "design " + name + " controls a measured current; leave the effect \"inductance\" on");
+    }
   }
 
   void watch_states() {
@@ -130,7 +151,7 @@ class ScenarioRun {
       const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
       return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
     }
-    if (s_.switched) {
+    if (switched_) {
       const GateClocks gates = lead.gates();
       const double n = static_cast<double>(std::max<Clock>(clocks, 1));  // 0 before the first step
       return plant::Bridge::gates(
@@ -145,7 +166,8 @@ class ScenarioRun {
   }
 
   // The bridge state of the last interval drives the motor in this one, so no edge depends on its
-  // own future.
+  // own future. With a current loop a step is a clock of its modulator, whose edge is the second
+  // clock of the step: its bit is of the current at the end.
   void step(Clock clocks) {
     const plant::Observables& o = plant_.observables();
     before_ = {o.theta_rad, o.omega_rad_s, o.hand_torque_nm, mean_.mean()};
@@ -170,6 +192,7 @@ class ScenarioRun {
       counter_.add(e);
       if (recorder_) recorder_->add(e);
     }
+    if (looped_) core_.lead().set_current_bit(modulator_.next(o.motor_current_a));
     core_.advance(clocks, events.data(), events.data() + events.size(),
                   [this](const Snapshot& s) { tick(s); });
   }
@@ -285,6 +308,9 @@ class ScenarioRun {
   BackendChoice choice_;
   plant::Plant plant_;
   Ensemble core_;
+  bool looped_;    ///< the core measures the motor's current
+  bool switched_;  ///< gates drive the plant
+  plant::SigmaDelta modulator_;
   StepPlan plan_;
   plant::PeriodMean mean_;
   FeltMeter felt_;

@@ -95,8 +95,7 @@ class Coverage {
       const auto cause = static_cast<Fault>(n);
       const bool of_others = cause == Fault::engine || cause == Fault::axis;
       const bool comes = cause == Fault::current ? looped : !broken_hardware_alone(cause);
-      if (of_others ? outside : comes)
-        ask(faults_[n], std::string("fault ") + fault_names[n]);
+      if (of_others ? outside : comes) ask(faults_[n], std::string("fault ") + fault_names[n]);
     }
     for (std::size_t b = 0; b < limits_.size(); ++b)
       ask(limits_[b], std::string("limit ") + limit::names[b]);

@@ -55,7 +55,8 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
   // A design with slow ticks runs too few ticks for these checks.
   if (scaled_clocks(1'500'000) / D::clocks_per_tick < 10'000) return;
   // A stimulus that never arms, or that keeps an output at its limit, would hide every error.
-  CHECK(total.armed_share() > (kPrograms || kLoop ? 0.2 : 0.3));  // with programs all axes must request
+  CHECK(total.armed_share() >
+        (kPrograms || kLoop ? 0.2 : 0.3));  // with programs all axes must request
   CHECK(total.duty_pinned_share() < 0.35);  // the back-EMF of a fast lever exceeds the supply
   CHECK(total.tau_ref_pinned_share() < 0.5);
   // Of the eleven numbers, 1 is reserved, and 10 has no scene without programs.

@@ -233,7 +233,8 @@ int run(const RunArguments& a) {
   Progress progress(scenario.name + " on " + a.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
   const RunResult result = run_within_bounds(elaborated, scenario, plant, options);
-  RunLabels labels{"scene", plant.name, "", scenario.step_clocks, effects_off(scenario)};
+  const Scenario as = as_run(scenario, design);
+  RunLabels labels{"scene", plant.name, "", as.step_clocks, effects_off(as)};
   labels.differing = stability::differing_constants(elaborated.design, plant, scenario.effects);
   labels.plant_as_named = scenario.plant;
   labels.speed_jumps = speed_jumps(scenario, plant);

@@ -47,10 +47,8 @@ class ScenarioRun {
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
         looped_(core_.design().current_full_scale_a > 0),
-        switched_(scenario.switched || looped_),
         modulator_(looped_ ? core_.design().current_full_scale_a : 1),
-        plan_(looped_ ? StepPlan(CurrentSense::Parameters{}.divider)
-                      : plan(scenario, plant, core_.design(), choice_)),
+        plan_(plan(scenario, plant, core_.design(), choice_)),
         mean_(core_.design().pwm_period, plan_.phase()),
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
         session_(scenario, core_, options),
@@ -79,7 +77,7 @@ class ScenarioRun {
     }
     core_.skip_self_test();
     session_.begin();
-    core_.lead().keep_gate_times(switched_);
+    core_.lead().keep_gate_times(s_.switched);
     while (core_.lead().now() < end) {
       const Clock now = core_.lead().now();
       session_.act(now, plant_.observables().theta_rad, position_ * d.count_rad,
@@ -151,7 +149,7 @@ class ScenarioRun {
       const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
       return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
     }
-    if (switched_) {
+    if (s_.switched) {
       const GateClocks gates = lead.gates();
       const double n = static_cast<double>(std::max<Clock>(clocks, 1));  // 0 before the first step
       return plant::Bridge::gates(
@@ -308,8 +306,7 @@ class ScenarioRun {
   BackendChoice choice_;
   plant::Plant plant_;
   Ensemble core_;
-  bool looped_;    ///< the core measures the motor's current
-  bool switched_;  ///< gates drive the plant
+  bool looped_;  ///< the core measures the motor's current
   plant::SigmaDelta modulator_;
   StepPlan plan_;
   plant::PeriodMean mean_;
@@ -338,8 +335,17 @@ class ScenarioRun {
 
 }  // namespace
 
-RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
+Scenario as_run(Scenario scenario, const DesignInfo& design) {
+  if (design.current_full_scale_a > 0) {
+    scenario.switched = scenario.step_given = true;
+    scenario.step_clocks = CurrentSense::Parameters{}.divider;
+  }
+  return scenario;
+}
+
+RunResult run_scenario(const Scenario& given, const plant::Parameters& plant,
                        const RunOptions& options) {
+  const Scenario scenario = as_run(given, design_named(options.design));
   check_scenario(scenario, plant, design_named(options.design), options.law);
   try {
     return ScenarioRun(scenario, plant, options).run();

@@ -98,6 +98,10 @@ struct RunOptions : SessionOptions {
   std::function<void(Clock clocks, const plant::Observables&)> plant_step;
 };
 
+/// The scene as it is run on a design: with a current loop a step of the plant is a clock of its
+/// modulator, and the bridge follows the gates.
+Scenario as_run(Scenario scenario, const DesignInfo& design);
+
 /// Runs a scene. Errors: std::invalid_argument for a scene, parameter or back-end that the design
 /// does not have.
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,

@@ -145,7 +145,8 @@ class AbsoluteEncoder {
   void ask() {
     if (p_.framing != kSpi) return;
     answer_ = asked_;
-    asked_ = flagged_ ? Kind::flags : readings_ == 0 ? Kind::diagnosis : Kind::angle;
+    const bool diagnose = readings_ == 0 || ill_ == 1;
+    asked_ = flagged_ ? Kind::flags : diagnose ? Kind::diagnosis : Kind::angle;
     readings_ = (readings_ + 1) % (1 << p_.diag_log2);
     const int address = asked_ == Kind::flags   ? 1
                         : asked_ == Kind::angle ? 0x3fff
@@ -183,8 +184,7 @@ class AbsoluteEncoder {
       return field(9, 1) != 0 || field(6, 2) != 0 ? kSensor : 0;
     }
     if (ones(frame_) % 2 != 0) return kCheck;
-    if (field(14, 1) != 0 && answer_ != Kind::flags) return kSensor;
-    return answer_ == Kind::diagnosis && field(8, 4) != 1 ? kSensor : 0;
+    return field(14, 1) != 0 && answer_ != Kind::flags ? kSensor : 0;
   }
 
   void judge() {
@@ -205,8 +205,11 @@ class AbsoluteEncoder {
       if (!is_lost) ++errors_;
     } else if (is_angle) {
       accept(angle, step, is_lost);
+    } else if (answer_ == Kind::diagnosis) {
+      ill_ = field(8, 4) == 1 ? 0 : ill_ < 2 ? ill_ + 1 : 2;
     }
-    out_.faults = (errors_ == p_.errors ? kind_ : 0) | (frozen_ ? kFrozen : 0);
+    out_.faults =
+        (errors_ == p_.errors ? kind_ : 0) | (ill_ == 2 ? kSensor : 0) | (frozen_ ? kFrozen : 0);
   }
 
   void accept(std::int32_t angle, std::int32_t step, bool was_lost) {
@@ -236,6 +239,7 @@ class AbsoluteEncoder {
   std::uint32_t command_ = 0;
   int readings_ = 0;
   bool flagged_ = false;
+  int ill_ = 0;  // diagnoses in a row that say the angle cannot be trusted
   std::int32_t turn_ = 0;
   int errors_, kind_ = kMissing, equal_ = 0;
   bool moved_ = false, frozen_ = false;

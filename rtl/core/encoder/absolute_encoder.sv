@@ -162,7 +162,7 @@ module absolute_encoder #(
   end
 
   // What a frame says.
-  logic wrong, bad, is_angle, jumps, is_wrong, good, is_lost;
+  logic wrong, bad, unwell, is_angle, jumps, is_wrong, good, is_lost;
   logic [Bits-1:0] angle, turn_q, step, size;
   assign angle = frame_q[Below+:Bits];
   generate
@@ -177,26 +177,35 @@ module absolute_encoder #(
     logic [15:0] command_q;
     logic [DiagLog2-1:0] readings_q;
     logic flagged_q;            // the last frame had the error flag
+    logic [1:0] ill_q;          // diagnoses in a row that say the angle cannot be trusted
+    logic diagnose;
     kind_e asked_q, answer_q;   // in this frame; by the frame before, so answered in this one
     assign command_o = command_q[15];
     assign wrong     = parity_q;
-    // Diagnosis, bit 8: the offset is compensated. Bits 9 to 11: overflow, field too strong, too weak.
-    assign bad       = (frame_q[14] && answer_q != Flags) || (answer_q == Diagnosis && frame_q[11:8] != 4'b0001);
+    assign bad       = frame_q[14] && answer_q != Flags;
+    assign unwell    = ill_q == 2'd2;
+    assign diagnose  = readings_q == '0 || ill_q == 2'd1;  // a bad one is asked for again
     assign is_angle  = answer_q == Angle;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         command_q  <= '0;
         readings_q <= '0;
         flagged_q  <= 1'b0;
+        ill_q      <= 2'd0;
         asked_q    <= Nothing;
         answer_q   <= Nothing;
       end else begin
         if (ends_q) flagged_q <= frame_q[14] && asked_q != Flags;
+        // Bit 8: the offset is compensated. Bits 9 to 11: overflow, field too strong, too weak.
+        if (ends_q && !is_wrong && answer_q == Diagnosis) begin
+          if (frame_q[11:8] == 4'b0001) ill_q <= 2'd0;
+          else if (!unwell) ill_q <= ill_q + 1'b1;
+        end
         if (state_q == Idle && sample_i) begin
-          command_q  <= flagged_q ? 16'h4001 : readings_q == '0 ? {~^DiagRegister, 1'b1, DiagRegister} : 16'hffff;
+          command_q  <= flagged_q ? 16'h4001 : diagnose ? {~^DiagRegister, 1'b1, DiagRegister} : 16'hffff;
           readings_q <= readings_q + 1'b1;
           answer_q   <= asked_q;
-          asked_q    <= flagged_q ? Flags : readings_q == '0 ? Diagnosis : Angle;
+          asked_q    <= flagged_q ? Flags : diagnose ? Diagnosis : Angle;
         end else if (clocks && wait_q == '0 && period_q != '0) begin
           command_q <= {command_q[14:0], 1'b0};
         end
@@ -206,11 +215,13 @@ module absolute_encoder #(
     assign command_o = 1'b0;
     assign wrong     = crc_q != '0;
     assign bad       = !frame_q[7];  // the error, active low; the warning is left to the host
+    assign unwell    = 1'b0;
     assign is_angle  = 1'b1;
   end else begin : g_ssi
     assign command_o = 1'b0;
     assign wrong     = crc_q != '0;
     assign bad       = frame_q[9] || frame_q[7:6] != 2'd0;  // track lost; field too strong or too weak
+    assign unwell    = 1'b0;
     assign is_angle  = 1'b1;
   end
   endgenerate
@@ -225,7 +236,7 @@ module absolute_encoder #(
   logic [FrozenW-1:0] equal_q;
   logic moved_q, frozen_q;
   assign is_lost = errors_q == ErrorW'(Errors);
-  assign faults_o = {frozen_q, is_lost ? kinds_q : 4'd0};
+  assign faults_o = {frozen_q, (is_lost ? kinds_q : 4'd0) | {1'b0, unwell, 2'b00}};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       position_o <= '0;

@@ -34,7 +34,7 @@ using Bench = LockStep<Vabsolute_encoder, AbsoluteEncoder, Adapter>;
 /// What a run has had.
 struct Tally {
   std::int64_t good = 0, silent = 0, missing = 0, check = 0, sensor = 0, jump = 0, ignored = 0;
-  std::int64_t lost = 0, found = 0, frozen = 0, moved_again = 0;
+  std::int64_t lost = 0, found = 0, unwell = 0, once_unwell = 0, frozen = 0, moved_again = 0;
   std::int64_t first_refused = 0, last_accepted = 0, wraps = 0, below_zero = 0;
 };
 
@@ -91,7 +91,8 @@ class Reference {
       if (valids_ != (good ? 1 : 0)) return "a good reading is valid once, and no other";
     }
     if (busy_) return nullptr;
-    const int faults = (lost() ? kind_ : 0) | (frozen_ ? AbsoluteEncoder::kFrozen : 0);
+    const int faults = (lost() ? kind_ : 0) | (unwell_ ? AbsoluteEncoder::kSensor : 0) |
+                       (frozen_ ? AbsoluteEncoder::kFrozen : 0);
     if (rtl.faults_o != faults) return "the faults are those of the frames sent";
     if (static_cast<std::int32_t>(position) != static_cast<std::int32_t>(position_)) {
       return "the position is that of the magnet";
@@ -120,9 +121,7 @@ class Reference {
       return (bits(word, 6, 4) & 0xb) != 0 ? AbsoluteEncoder::kSensor : 0;
     }
     if (odd(word)) return AbsoluteEncoder::kCheck;
-    if (bits(word, 14, 1) != 0 && command != 1) return AbsoluteEncoder::kSensor;
-    const bool diagnosis = command == kEncoder.diag_address;
-    return diagnosis && bits(word, 8, 4) != 1 ? AbsoluteEncoder::kSensor : 0;
+    return bits(word, 14, 1) != 0 && command != 1 ? AbsoluteEncoder::kSensor : 0;
   }
 
   /// True if the frame gives a new position.
@@ -153,7 +152,10 @@ class Reference {
       return false;
     }
     tally_->ignored += !is_angle;
-    if (!is_angle) return false;
+    if (!is_angle) {
+      if (command == kEncoder.diag_address) diagnosed(bits(frame.word, 8, 4) == 1);
+      return false;
+    }
     ++tally_->good;
     tally_->last_accepted += step == -kTurn / 8.0;
     tally_->wraps += turns != 0;
@@ -168,6 +170,13 @@ class Reference {
     return true;
   }
 
+  /// Unwell: from two bad diagnoses in a row to the next good one.
+  void diagnosed(bool well) {
+    unwell_ = !well && (unwell_ || !last_well_);
+    last_well_ = well;
+    tally_->unwell += unwell_;
+    tally_->once_unwell += !well && !unwell_;
+  }
   /// Frozen: the last readings are equal, and just before them one differed by a motion.
   void freeze() {
     const auto reads = static_cast<std::size_t>(kEncoder.frozen_reads);
@@ -189,7 +198,7 @@ class Reference {
   Tally* tally_;
   std::size_t used_ = 0;
   std::int64_t clock_ = 0, began_ = 0, position_ = 0, last_position_ = 0;
-  bool busy_ = false, first_ = true, frozen_ = false;
+  bool busy_ = false, first_ = true, frozen_ = false, last_well_ = true, unwell_ = false;
   int valids_ = 0, wrong_ = kEncoder.errors, kind_ = AbsoluteEncoder::kMissing;
   double angle_ = 0;
   std::vector<double> steps_;
@@ -218,6 +227,8 @@ TEST_CASE("absolute_encoder: all frames, errors and motions of a sensor") {
   CHECK(tally.sensor > 50);
   CHECK(tally.jump > 100);
   CHECK((tally.ignored > 100) == (kEncoder.framing == AbsoluteEncoder::kSpi));
+  CHECK((tally.unwell > 10) == (kEncoder.framing == AbsoluteEncoder::kSpi));
+  CHECK((tally.once_unwell > 10) == (kEncoder.framing == AbsoluteEncoder::kSpi));
   CHECK(tally.lost > 20);
   CHECK(tally.found > 20);
   CHECK(tally.frozen > 20);

@@ -54,6 +54,7 @@ module frame_proof (
   (* hierconn *) wire [1:0] \u_dut.g_spi.asked_q ;
   (* hierconn *) wire [1:0] \u_dut.g_spi.answer_q ;
   (* hierconn *) wire \u_dut.g_spi.flagged_q ;
+  (* hierconn *) wire [1:0] \u_dut.g_spi.ill_q ;
   (* hierconn *) wire [13:0] \u_dut.turn_q ;
   (* hierconn *) wire [2:0] \u_dut.errors_q ;
   (* hierconn *) wire [3:0] \u_dut.kinds_q ;
@@ -118,25 +119,25 @@ module frame_proof (
   end
 
   // What a frame means.
-  logic lost, flag, ill, far, wrong, good, ends_q, good_q, lost_q, began_q;
+  logic lost, flag, far, wrong, good, ends_q, good_q, lost_q, began_q;
   logic [13:0] step, step_q;
   logic signed [31:0] position_q;
   logic [2:0] row_q;
   logic [3:0] name, name_q;
   logic moved_q, frozen_q;
   logic [5:0] equal_q;
+  logic bad_once_q, unwell_q;  // the last diagnosis was bad; and the one before
   assign lost  = row_q == 3'(Errors);
   assign flag  = pins_q[14] && answered_q != Flags;
-  assign ill   = answered_q == Diagnosis && pins_q[11:8] != 4'b0001;
   assign step  = pins_q[13:0] - position[13:0];
   assign far   = answered_q == Angle && $signed(step) != 14'sd0 && !lost &&
                  ($signed(step) >= 14'sd2048 || $signed(step) < -14'sd2048);
-  assign wrong = odd_q || flag || ill || far;
+  assign wrong = odd_q || flag || far;
   assign good  = !wrong && answered_q == Angle;
-  assign name  = odd_q ? 4'b0010 : flag || ill ? 4'b0100 : 4'b1000;
+  assign name  = odd_q ? 4'b0010 : flag ? 4'b0100 : 4'b1000;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ends_q, good_q, lost_q, moved_q, frozen_q, began_q} <= '0;
+      {ends_q, good_q, lost_q, moved_q, frozen_q, began_q, bad_once_q, unwell_q} <= '0;
       row_q      <= 3'(Errors);
       name_q     <= 4'b0001;
       equal_q    <= '0;
@@ -149,6 +150,10 @@ module frame_proof (
       lost_q     <= lost;
       position_q <= position;
       step_q     <= step;
+      if (ends && !wrong && answered_q == Diagnosis) begin
+        bad_once_q <= pins_q[11:8] != 4'b0001;
+        unwell_q   <= pins_q[11:8] != 4'b0001 && (bad_once_q || unwell_q);
+      end
       if (ends && good) begin
         row_q <= '0;
         if (step != '0 || lost) begin
@@ -182,8 +187,8 @@ module frame_proof (
       position_by_the_step: assert (!valid || position == position_q + 32'($signed(step_q)));
       position_is_held: assert (!began_q || valid || position == position_q);
       jumps_only_when_lost: assert (!valid || lost_q || (position - position_q < 32'sd2048 && position - position_q >= -32'sd2048));
-      lost_after_errors: assert ((faults[3:0] != '0) == lost);
-      named_by_the_last: assert (!lost || faults[3:0] == name_q);
+      lost_after_errors: assert ({faults[3], faults[1:0]} == ({3{lost}} & {name_q[3], name_q[1:0]}));
+      unwell_or_flagged: assert (faults[2] == (unwell_q || (lost && name_q[2])));
       frozen_after_a_motion: assert (faults[4] == frozen_q);
       clocks: cover (rise);
       commands: cover (fall && command);
@@ -241,6 +246,7 @@ module frame_proof (
                               \u_dut.g_spi.flagged_q == (pins_q[14] && asked_kind != 2'd3));
       inside_none: assert (asked_kind != 2'd0 || !\u_dut.g_spi.flagged_q );
       inside_turn: assert (position[13:0] == \u_dut.turn_q );
+      inside_ill: assert (\u_dut.g_spi.ill_q == (unwell_q ? 2'd2 : 2'(bad_once_q)) && (bad_once_q || !unwell_q));
       inside_row: assert (row_q == \u_dut.errors_q && row_q <= 3'(Errors));
       inside_name: assert (name_q == \u_dut.kinds_q );
       inside_moved: assert (\u_dut.moved_q == (moved_q && equal_q < 6'(Reads)));

@@ -4,11 +4,14 @@
 // absolute_encoder: RTL against twin in every clock, with sensors at the pins, and against the
 // frames that these sent. Documentation: docs/blocks/absolute_encoder.md
 #include <Vabsolute_encoder.h>
+#include <fmt/format.h>
 
 #include <cmath>
 
 #include "catch.hpp"
+#include "detection.hpp"
 #include "lock_step.hpp"
+#include "page_figures.hpp"
 #include "ports.hpp"
 #include "sensors.hpp"
 
@@ -253,4 +256,38 @@ TEST_CASE("absolute_encoder: any pin, with resets at any time") {
   };
   Bench bench("absolute_encoder", 4, AbsoluteEncoder(kEncoder));
   bench.run(stimulus, scaled_clocks(1'000'000), {3'000});
+}
+
+TEST_CASE("absolute_encoder: a fault is named within 2 ms at 10 000 readings a second") {
+  if (kEncoder.framing != AbsoluteEncoder::kSpi) return;  // the twin alone: once is enough
+  const struct {
+    const char* text;
+    Event event;
+    bool moves;
+  } events[] = {{"cable cut, the pin pulled up", Event::cable_cut, false},
+                {"pin shorted to ground, at rest", Event::shorted_to_ground, false},
+                {"magnet lost", Event::magnet_lost, false},
+                {"a bit wrong in each frame", Event::wrong_bit, false},
+                {"the angle stays as it is, in a motion", Event::held_in_motion, true},
+                {"the angle is half a turn off", Event::half_a_turn_off, true}};
+  const char* const names[] = {"missing", "check", "sensor", "jump", "frozen"};
+  std::string figures = "| event | SPI, ms | SSI, ms | BiSS-C, ms |\n|---|---|---|---|\n";
+  for (const auto& [text, event, moves] : events) {
+    figures += fmt::format("| {} ", text);
+    for (const int framing :
+         {AbsoluteEncoder::kSpi, AbsoluteEncoder::kSsi, AbsoluteEncoder::kBiss}) {
+      const Named found = Detection(framing, 5000, moves).longest(event);
+      INFO(text << ", framing " << framing);
+      CHECK(found.clocks > 0);
+      CHECK(found.clocks <= 100'000);
+      for (int k = 0; k < 5; ++k) {
+        if (found.faults == 1 << k) {
+          figures +=
+              fmt::format("| {:.2f} {} ", static_cast<double>(found.clocks) / 50e3, names[k]);
+        }
+      }
+    }
+    figures += "|\n";
+  }
+  check_page_figures("absolute_encoder", figures);
 }

@@ -37,6 +37,7 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/encoder/absolute_encoder.sv
 core/actuation/current_control.sv
 core/actuation/current_sense.sv
 generated/feltgate_engine_pkg.sv

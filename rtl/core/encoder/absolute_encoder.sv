@@ -57,6 +57,13 @@ module absolute_encoder #(
     Read = 2'd2,
     Gap  = 2'd3   // not selected
   } state_e;
+  typedef enum logic [1:0] {
+    Nothing   = 2'd0,  // SPI: what a frame answers
+    Angle     = 2'd1,
+    Diagnosis = 2'd2,
+    Flags     = 2'd3   // reading them clears them
+  } kind_e;
+
   logic meta_q, bit_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -105,7 +112,7 @@ module absolute_encoder #(
       select_no      <= Biss || !(state_q == Lead || state_q == Read);
       serial_clock_o <= clocks ? (wait_q < WaitW'(HalfClocks)) != Biss : Biss;
       wait_q         <= wait_q + 1'b1;
-      unique case (state_q)
+      case (state_q)
         Idle: begin
           wait_q <= '0;
           if (sample_i) state_q <= Lead;
@@ -167,12 +174,6 @@ module absolute_encoder #(
   assign angle = frame_q[Below+:Bits];
   generate
   if (Spi) begin : g_spi
-    typedef enum logic [1:0] {
-      Nothing   = 2'd0,
-      Angle     = 2'd1,
-      Diagnosis = 2'd2,
-      Flags     = 2'd3  // reading them clears them
-    } kind_e;
     localparam logic [13:0] DiagRegister = 14'(DiagAddress);
     logic [15:0] command_q;
     logic [DiagLog2-1:0] readings_q;

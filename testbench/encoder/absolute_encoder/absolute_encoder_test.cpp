@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "detection.hpp"
 #include "lock_step.hpp"
 #include "page_figures.hpp"
 #include "ports.hpp"

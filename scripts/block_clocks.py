@@ -141,14 +141,14 @@ def drawing(block, ports, starts):
     cut = {port: values[first:last] for port, values in ports.items()}
     strobes = {name: v for (name, width), v in cut.items() if is_strobe(name, width)}
     lanes = []
-    for side in ("_i", "_o"):
+    for side in ("i", "o"):
         for (name, width), values in sorted(cut.items(), key=lambda item: order(*item)):
-            if not name.endswith(side) or name == "wave_i":  # the clocks themselves
+            if not name.endswith((f"_{side}", f"_n{side}")) or name == "wave_i":  # the clocks themselves
                 continue
             one = lane(name, width, values, strobes)
             if one:
                 lanes.append(one)
-        if side == "_i" and lanes:
+        if side == "i" and lanes:
             lanes.append({})
     drawn = list(filter(None, lanes))
     busy = [k for k in range(1, last - first) if any(is_event(one["wave"], k) for one in drawn)]

@@ -39,5 +39,6 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/encoder/absolute_encoder.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

@@ -39,3 +39,4 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/encoder/absolute_encoder.sv

@@ -39,6 +39,7 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/encoder/absolute_encoder.sv
 generated/feltgate_engine_pkg.sv
 engine/engine_alu.sv
 engine/engine_memory.sv

@@ -23,7 +23,7 @@ IMAGES = ROOT / "docs/images/blocks"
 INSTANCE = re.compile(r"^\s*(\w+)\s*(?:#\s*\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)\s*\(", re.M)
 # Blocks that do not follow the wave: the port whose edge is drawn.
 EDGES = {"quad_decoder": "a_i", "pwm": "gate_a_hi_o", "registers": "reg_write_i",
-         "current_sense": "valid_o", "current_control": "valid_o"}
+         "absolute_encoder": "sample_i", "current_sense": "valid_o", "current_control": "valid_o"}
 BEFORE, AFTER = 3, 40  # clocks around such an edge
 LATE = {"current_sense": 15, "current_control": 22}  # clocks before it, of blocks that answer late
 BUSES = {"param_i": "param_", "product_i": "product_", "operand_i": "read_"}  # drawn where these strobes are
@@ -141,14 +141,14 @@ def drawing(block, ports, starts):
     cut = {port: values[first:last] for port, values in ports.items()}
     strobes = {name: v for (name, width), v in cut.items() if is_strobe(name, width)}
     lanes = []
-    for side in ("_i", "_o"):
+    for side in ("i", "o"):
         for (name, width), values in sorted(cut.items(), key=lambda item: order(*item)):
-            if not name.endswith(side) or name == "wave_i":  # the clocks themselves
+            if not name.endswith((f"_{side}", f"_n{side}")) or name == "wave_i":  # the clocks themselves
                 continue
             one = lane(name, width, values, strobes)
             if one:
                 lanes.append(one)
-        if side == "_i" and lanes:
+        if side == "i" and lanes:
             lanes.append({})
     drawn = list(filter(None, lanes))
     busy = [k for k in range(1, last - first) if any(is_event(one["wave"], k) for one in drawn)]

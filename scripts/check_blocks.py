@@ -154,9 +154,13 @@ def check_defects(root):
     """Each defect is well-formed, and a test is built with it; those of proofs are in their list."""
     for file in sorted(root.glob("testbench/**/*.diff")):
         rules = file.parent / ("proofs.toml" if file.parent.name == "proofs" else "CMakeLists.txt")
-        # A block without a list of its own is in one of its room.
-        lists = [rules] if rules.exists() else sorted(file.parents[1].glob("*/CMakeLists.txt"))
-        text = "".join(path.read_text(encoding="utf-8") for path in lists)
+        room = file.parents[1] / "CMakeLists.txt"
+        if not rules.exists() and room.exists():
+            rules = room
+        text = rules.read_text(encoding="utf-8") if rules.exists() else ""
+        if rules == room:  # the calls for this block
+            own = rf"feltgate_block_test\((?:{file.parent.name}|\$\{{block\}})\s[^)]*"
+            text = "".join(re.findall(own, text))
         try:
             for patch in patches.chosen(file):
                 patches.touched(patch)

@@ -117,6 +117,22 @@ module core_tb;
       .valid_o(),
       .saturated_o()
   );
+  absolute_encoder #(
+      .HalfClocks(4),
+      .GapClocks(4)
+  ) u_absolute_encoder (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .sample_i(clocks % 1000 == 0),
+      .select_no(),
+      .serial_clock_o(),
+      .command_o(),
+      .data_i(sense_bits[0]),
+      .position_o(),
+      .valid_o(),
+      .busy_o(),
+      .faults_o()
+  );
   always @(posedge sense_clock) sense_bits <= {sense_bits[5:0], sense_bits[6] ^ sense_bits[5]};
 
   // Read data are left out until the host has read: a RAM that was never written holds X.
@@ -151,7 +167,7 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
-      if (clocks == first) $dumpvars(0, dut, u_current_sense, u_current_control);
+      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control);
       if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// absolute_encoder: RTL against twin in every clock, with sensors at the pins, and against the
+// frames that these sent. Documentation: docs/blocks/absolute_encoder.md
+#include <Vabsolute_encoder.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "lock_step.hpp"
+#include "page_figures.hpp"
+#include "ports.hpp"
+#include "sensors.hpp"
+
+using namespace feltgate;
+using namespace feltgate::test;
+
+namespace {
+
+struct Adapter {
+  static void drive(Vabsolute_encoder& rtl, const AbsoluteEncoder::In& in) {
+    FELTGATE_DRIVE(rtl, in, sample, data);
+  }
+  template <class Check>
+  static void compare(Check& check, const Vabsolute_encoder& rtl, const AbsoluteEncoder::Out& out) {
+    check("select", rtl.select_no, out.select_n);
+    FELTGATE_COMPARE(check, rtl, out, serial_clock, command, valid, busy, faults);
+    check("position", sign_extend<32>(rtl.position_o), std::int64_t{out.position});
+  }
+};
+
+using Bench = LockStep<Vabsolute_encoder, AbsoluteEncoder, Adapter>;
+
+/// What a run has had.
+struct Tally {
+  std::int64_t good = 0, silent = 0, missing = 0, check = 0, sensor = 0, jump = 0, ignored = 0;
+  std::int64_t lost = 0, found = 0, unwell = 0, once_unwell = 0, frozen = 0, moved_again = 0;
+  std::int64_t first_refused = 0, last_accepted = 0, wraps = 0, below_zero = 0;
+};
+
+/// Readings in any distance, also in a row and too early.
+struct Stimulus {
+  Sensor sensor;
+  Random random;
+  std::int64_t every = 0, next = 0;
+
+  AbsoluteEncoder::In operator()(std::int64_t clock, const AbsoluteEncoder::Out& out) {
+    if (random.one_in(20'000)) every = random.one_in(3) ? 0 : random.between(1, 1500);
+    AbsoluteEncoder::In in;
+    in.sample = clock >= next;
+    if (in.sample) next = clock + (every == 0 ? 1 : random.between(every / 2, every));
+    in.data = sensor.pin(clock, out);
+    return in;
+  }
+};
+
+/// The block from the frames that the sensor sent, in plain numbers, once each reading is over.
+class Reference {
+ public:
+  Reference(Log* log, Tally* tally) : log_(log), tally_(tally) {}
+
+  const char* operator()(const AbsoluteEncoder::In& in, const Vabsolute_encoder& rtl,
+                         const AbsoluteEncoder&, bool in_reset) {
+    ++clock_;
+    if (!log_->wrong.empty()) return log_->wrong.c_str();
+    if (in_reset) {
+      Reference fresh(log_, tally_);
+      fresh.used_ = log_->frames.size();
+      *this = fresh;
+    } else if (!busy_ && in.sample) {
+      began_ = clock_;
+      valids_ = 0;
+    }
+    const auto position = sign_extend<32>(rtl.position_o);
+    if (rtl.valid_o != 0) {
+      ++valids_;
+      if (!kBiss && clock_ - began_ != kEncoder.reading_clocks() - 1) return "valid in its clock";
+    } else if (position != last_position_) {
+      return "the position changes with valid only";
+    }
+    last_position_ = position;
+    const bool ends = busy_ && rtl.busy_o == 0;
+    busy_ = rtl.busy_o != 0;
+    if (ends) {
+      if (log_->frames.size() > used_ + 1) return "one frame in a reading";
+      const bool sent = log_->frames.size() > used_;
+      Frame missing;
+      missing.missing = true;
+      const bool good = judge(sent ? log_->frames.back() : missing);
+      used_ = log_->frames.size();
+      if (valids_ != (good ? 1 : 0)) return "a good reading is valid once, and no other";
+    }
+    if (busy_) return nullptr;
+    const int faults = (lost() ? kind_ : 0) | (unwell_ ? AbsoluteEncoder::kSensor : 0) |
+                       (frozen_ ? AbsoluteEncoder::kFrozen : 0);
+    if (rtl.faults_o != faults) return "the faults are those of the frames sent";
+    if (static_cast<std::int32_t>(position) != static_cast<std::int32_t>(position_)) {
+      return "the position is that of the magnet";
+    }
+    return nullptr;
+  }
+
+ private:
+  static constexpr bool kBiss = kEncoder.framing == AbsoluteEncoder::kBiss;
+  static constexpr bool kSpi = kEncoder.framing == AbsoluteEncoder::kSpi;
+
+  bool lost() const { return wrong_ >= kEncoder.errors; }
+  static std::uint64_t bits(std::uint64_t word, int low, int width) {
+    return word >> low & ((std::uint64_t{1} << width) - 1);
+  }
+
+  int kind(const Frame& frame, int command) const {
+    const std::uint64_t word = frame.word;
+    if (frame.missing) return AbsoluteEncoder::kMissing;
+    if (kBiss) {
+      if (bits(word, 0, 6) != (63 ^ crc6(word, kEncoder.bits + 8))) return AbsoluteEncoder::kCheck;
+      return bits(word, 7, 1) == 0 ? AbsoluteEncoder::kSensor : 0;
+    }
+    if (!kSpi) {
+      if (bits(word, 0, 6) != crc6(word, kFrameBits)) return AbsoluteEncoder::kCheck;
+      return (bits(word, 6, 4) & 0xb) != 0 ? AbsoluteEncoder::kSensor : 0;
+    }
+    if (odd(word)) return AbsoluteEncoder::kCheck;
+    return bits(word, 14, 1) != 0 && command != 1 ? AbsoluteEncoder::kSensor : 0;
+  }
+
+  /// True if the frame gives a new position.
+  bool judge(const Frame& frame) {
+    const int command = first_ ? -1 : frame.command;
+    first_ = false;
+    int wrong = kind(frame, command);
+    const bool is_angle = !kSpi || command == 0x3fff;
+    const auto angle = static_cast<double>(bits(frame.word,
+                                                kSpi    ? 0
+                                                : kBiss ? 8
+                                                        : 10,
+                                                kEncoder.bits));
+    const double turns = std::floor((angle - angle_) / kTurn + 0.5);
+    const double step = angle - angle_ - turns * kTurn;
+    const bool far = step < -kTurn / 8.0 || step >= kTurn / 8.0;
+    if (wrong == 0 && is_angle && far && !lost()) {
+      wrong = AbsoluteEncoder::kJump;
+      tally_->first_refused += step == kTurn / 8.0;
+    }
+    tally_->missing += wrong == AbsoluteEncoder::kMissing;
+    tally_->check += wrong == AbsoluteEncoder::kCheck;
+    tally_->sensor += wrong == AbsoluteEncoder::kSensor;
+    tally_->jump += wrong == AbsoluteEncoder::kJump;
+    if (wrong != 0) {
+      kind_ = wrong;
+      tally_->lost += ++wrong_ == kEncoder.errors;
+      return false;
+    }
+    tally_->ignored += !is_angle;
+    if (!is_angle) {
+      if (command == kEncoder.diag_address) diagnosed(bits(frame.word, 8, 4) == 1);
+      return false;
+    }
+    ++tally_->good;
+    tally_->last_accepted += step == -kTurn / 8.0;
+    tally_->wraps += turns != 0;
+    const bool was_lost = lost();
+    tally_->found += was_lost;
+    wrong_ = 0;
+    angle_ = angle;
+    position_ += static_cast<std::int64_t>(step);
+    tally_->below_zero += position_ < 0;
+    steps_.push_back(was_lost ? NAN : step);
+    freeze();
+    return true;
+  }
+
+  /// Unwell: from two bad diagnoses in a row to the next good one.
+  void diagnosed(bool well) {
+    unwell_ = !well && (unwell_ || !last_well_);
+    last_well_ = well;
+    tally_->unwell += unwell_;
+    tally_->once_unwell += !well && !unwell_;
+  }
+  /// Frozen: the last readings are equal, and just before them one differed by a motion.
+  void freeze() {
+    const auto reads = static_cast<std::size_t>(kEncoder.frozen_reads);
+    if (steps_.back() != 0) {
+      tally_->moved_again += frozen_;
+      frozen_ = false;
+    } else if (steps_.size() > reads) {
+      bool equal = true;
+      for (std::size_t k = 0; k < reads; ++k) equal = equal && steps_[steps_.size() - 1 - k] == 0;
+      const double before = std::fabs(steps_[steps_.size() - 1 - reads]);
+      if (equal && before >= kEncoder.frozen_step) {
+        tally_->frozen += !frozen_;
+        frozen_ = true;
+      }
+    }
+  }
+
+  Log* log_;
+  Tally* tally_;
+  std::size_t used_ = 0;
+  std::int64_t clock_ = 0, began_ = 0, position_ = 0, last_position_ = 0;
+  bool busy_ = false, first_ = true, frozen_ = false, last_well_ = true, unwell_ = false;
+  int valids_ = 0, wrong_ = kEncoder.errors, kind_ = AbsoluteEncoder::kMissing;
+  double angle_ = 0;
+  std::vector<double> steps_;
+};
+
+}  // namespace
+
+TEST_CASE("absolute_encoder: all frames, errors and motions of a sensor") {
+  Tally tally;
+  Log log;
+  Bench bench("absolute_encoder", 1, AbsoluteEncoder(kEncoder));
+  const Stimulus stimulus{Sensor(2, &log), Random(3)};
+  // After a reset the line of BiSS-C still holds what was sent before it: see the case below.
+  const bool biss = kEncoder.framing == AbsoluteEncoder::kBiss;
+  bench.run(stimulus, scaled_clocks(4'000'000), {biss ? 0U : 200'000U}, Reference(&log, &tally));
+  INFO("good " << tally.good << ", missing " << tally.missing << ", check " << tally.check
+               << ", sensor " << tally.sensor << ", jump " << tally.jump << ", ignored "
+               << tally.ignored << ", lost " << tally.lost << ", found " << tally.found
+               << ", frozen " << tally.frozen << ", moved again " << tally.moved_again
+               << ", first refused " << tally.first_refused << ", last accepted "
+               << tally.last_accepted << ", wraps " << tally.wraps << ", below zero "
+               << tally.below_zero);
+  CHECK(tally.good > 3000);
+  CHECK((tally.missing > 100) == biss);
+  CHECK(tally.check > 100);
+  CHECK(tally.sensor > 50);
+  CHECK(tally.jump > 100);
+  CHECK((tally.ignored > 100) == (kEncoder.framing == AbsoluteEncoder::kSpi));
+  CHECK((tally.unwell > 10) == (kEncoder.framing == AbsoluteEncoder::kSpi));
+  CHECK((tally.once_unwell > 10) == (kEncoder.framing == AbsoluteEncoder::kSpi));
+  CHECK(tally.lost > 20);
+  CHECK(tally.found > 20);
+  CHECK(tally.frozen > 20);
+  CHECK(tally.moved_again > 10);
+  CHECK(tally.first_refused > 10);
+  CHECK(tally.last_accepted > 10);
+  CHECK(tally.wraps > 100);
+  CHECK(tally.below_zero > 100);
+}
+
+TEST_CASE("absolute_encoder: any pin, with resets at any time") {
+  Random random(5);
+  bool level = true;
+  std::int64_t mean = 100;
+  const auto stimulus = [=](std::int64_t, const AbsoluteEncoder::Out&) mutable {
+    if (random.one_in(5000)) mean = random.between(1, 200);
+    if (random.one_in(static_cast<std::uint64_t>(mean))) level = !level;
+    AbsoluteEncoder::In in;
+    in.sample = random.one_in(50);
+    in.data = level;
+    return in;
+  };
+  Bench bench("absolute_encoder", 4, AbsoluteEncoder(kEncoder));
+  bench.run(stimulus, scaled_clocks(1'000'000), {3'000});
+}
+
+TEST_CASE("absolute_encoder: a fault is named within 2 ms at 10 000 readings a second") {
+  if (kEncoder.framing != AbsoluteEncoder::kSpi) return;  // the twin alone: once is enough
+  const struct {
+    const char* text;
+    Event event;
+    bool moves;
+  } events[] = {{"cable cut, the pin pulled up", Event::cable_cut, false},
+                {"pin shorted to ground, at rest", Event::shorted_to_ground, false},
+                {"magnet lost", Event::magnet_lost, false},
+                {"a bit wrong in each frame", Event::wrong_bit, false},
+                {"the angle stays as it is, in a motion", Event::held_in_motion, true},
+                {"the angle is half a turn off", Event::half_a_turn_off, true}};
+  const char* const names[] = {"missing", "check", "sensor", "jump", "frozen"};
+  std::string figures = "| event | SPI, ms | SSI, ms | BiSS-C, ms |\n|---|---|---|---|\n";
+  for (const auto& [text, event, moves] : events) {
+    figures += fmt::format("| {} ", text);
+    for (const int framing :
+         {AbsoluteEncoder::kSpi, AbsoluteEncoder::kSsi, AbsoluteEncoder::kBiss}) {
+      const Named found = Detection(framing, 5000, moves).longest(event);
+      INFO(text << ", framing " << framing);
+      CHECK(found.clocks > 0);
+      CHECK(found.clocks <= 100'000);
+      for (int k = 0; k < 5; ++k) {
+        if (found.faults == 1 << k) {
+          figures +=
+              fmt::format("| {:.2f} {} ", static_cast<double>(found.clocks) / 50e3, names[k]);
+        }
+      }
+    }
+    figures += "|\n";
+  }
+  check_page_figures("absolute_encoder", figures);
+}

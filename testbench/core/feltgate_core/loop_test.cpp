@@ -29,6 +29,7 @@ struct Rig {
   enum class Event { none, shorted, stands };
   Event event = Event::none;
   double torque_nm = 0.2, ohm = 0.42;
+  std::uint32_t duty_limit = word_of_design(A::duty_limit);
   bool early = false;  ///< asks to be armed before the calibration
 
   feltgate::plant::SigmaDelta modulator{kFull};
@@ -69,6 +70,7 @@ struct Rig {
     write(3'000, A::setpoint_torque,
           low(std::llround(std::ldexp(torque_nm, D::f.torque.fraction))));
     write(4'000, C::control, kHost | scene);
+    write(5'000, A::duty_limit, duty_limit);
     write(arm_at, C::control, kHost | scene | 1u << C::control_arm);
   }
 };
@@ -128,6 +130,14 @@ TEST_CASE("loop: the current is that of the reference, whatever the resistance")
       CHECK(std::abs(seen.last.current * kLsb - seen.reference_a) < 0.1);
     }
   }
+}
+
+TEST_CASE("loop: a negative limit of the duty is 0") {
+  Rig rig;
+  rig.duty_limit = 0x80000000;
+  const Seen seen = run(rig, kSettled + 100);
+  CHECK(seen.last.armed);
+  CHECK(seen.peak_a < 0.01);
 }
 
 TEST_CASE("loop: a short closes the gates within 5 us of the over-current") {

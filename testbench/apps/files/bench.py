@@ -7,8 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch  # noqa: E402
+from testing import ROOT, Scratch
 
 PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
 os.environ["FELTGATE_PYTHON"] = sys.executable

@@ -4,12 +4,9 @@
 
 import json
 import os
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import Scratch, script  # noqa: E402
+from testing import Scratch, script
 
 MADE = ("product", "tests/a_test", "tests/b.vvp", "all", "libx.a")
 # Name: (command, labels, REQUIRED_FILES); %s is the build folder.

@@ -13,10 +13,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, environment, ran  # noqa: E402, I001
+from testing import ROOT, environment, ran
 
-import help_texts  # noqa: E402
+import help_texts
 
 PROGRAMS = Path(sys.argv.pop()) if len(sys.argv) > 1 else None
 

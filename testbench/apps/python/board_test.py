@@ -20,11 +20,9 @@ import numpy as np
 
 import feltgate
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
-from board_process import BoardProcess  # noqa: E402
+from board_process import BoardProcess
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, ran  # noqa: E402
+from testing import ROOT, ran
 
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NOTEBOOK = ROOT / "docs/fixed_against_float.ipynb"

@@ -4,15 +4,14 @@
 
 import csv
 import json
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
-from exploration import point  # noqa: E402
-from exploration.design_text import design_text  # noqa: E402
+from testing import ROOT
+
+from exploration import point
+from exploration.design_text import design_text
 
 TABLE = ROOT / "vectors/spaces/trade.csv"
 BASE = "lever"

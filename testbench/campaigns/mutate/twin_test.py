@@ -19,14 +19,15 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[3])
+from testing import ROOT
+
+import block_results
+from mutation import twin, twin_parser, twin_places, twin_programs, twin_results
+from mutation import twin_runs, twin_source
+
 VENV = Path("none")
 if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
     VENV = Path(sys.argv.pop(1))
-sys.path.insert(0, str(ROOT / "scripts"))
-import block_results  # noqa: E402
-from mutation import twin, twin_parser, twin_places, twin_programs, twin_results  # noqa: E402
-from mutation import twin_runs, twin_source  # noqa: E402
 
 try:
     LANGUAGE = twin_parser.cpp_language(VENV)

@@ -15,8 +15,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, ran  # noqa: E402
+from testing import ROOT, ran
 
 RTL = ROOT / "rtl"
 VERILATOR, VENV = sys.argv.pop(1), Path(sys.argv.pop(1))

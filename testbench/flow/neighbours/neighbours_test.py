@@ -14,9 +14,8 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch  # noqa: E402
-from seeded_defects import patches  # noqa: E402
+from testing import ROOT, Scratch
+from seeded_defects import patches
 
 VENV = Path(sys.argv.pop(1))
 EXAMPLES = ROOT / "docs/examples"

@@ -15,8 +15,7 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch, ran, script  # noqa: E402
+from testing import ROOT, Scratch, ran, script
 
 VENV = Path(sys.argv.pop(1))
 SLANG = """

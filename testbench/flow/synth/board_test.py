@@ -15,10 +15,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, ran  # noqa: E402
-import synth_board  # noqa: E402
-import synth_budget  # noqa: E402
+from testing import ROOT, ran
+import synth_board
+import synth_budget
 
 VENV = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 SEEDS, BOARD = sys.argv[2:4] if VENV else ("", "")

@@ -4,17 +4,16 @@
 """The parts of `feltgate synth` that need no tool: budget, wrappers, tables, critical paths."""
 
 import copy
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
-import synth_budget  # noqa: E402
-import synth_measure  # noqa: E402
-import synth_path  # noqa: E402
-import synth_report  # noqa: E402
+from testing import ROOT
+
+import synth_budget
+import synth_measure
+import synth_path
+import synth_report
 
 ROW = {"lut4_equivalents": 200, "ff": 100, "mult18": 2, "bram": 1, "fmax_mhz": 150.0}
 TOOLS = {"yosys": "yosys 0.70", "nextpnr": "nextpnr 0.11"}

@@ -10,15 +10,12 @@ import random
 import re
 import signal
 import subprocess
-import sys
 import time
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
-from board_process import need_terminals  # noqa: E402
-from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
-from testing import ran  # noqa: E402
+from board_process import need_terminals
+from host_program import BUILD, ROOT, ProgramTest
+from testing import ran
 
 SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 

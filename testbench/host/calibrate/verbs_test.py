@@ -8,13 +8,10 @@ import json
 import math
 import re
 import shlex
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
-from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
-from testing import ran  # noqa: E402
+from host_program import BUILD, ROOT, ProgramTest
+from testing import ran
 
 PAGE = ROOT / "docs/calibration.md"
 COUNT = 2 * math.pi / 4096

@@ -8,17 +8,15 @@ import io
 import os
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from argparse import Namespace
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
+from testing import ROOT
 
-import rtl_speed  # noqa: E402
+import rtl_speed
 
 
 def measured(old, new):

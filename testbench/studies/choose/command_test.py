@@ -6,15 +6,12 @@ a device of two axes, a law of one's own, a wish that cannot be, and what is ref
 import json
 import math
 import subprocess
-import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, called, ran  # noqa: E402
+from testing import BUILD, ROOT, Scratch, called, ran
 
-import choose  # noqa: E402
-from exploration import choice  # noqa: E402
+import choose
 
 PROGRAM = BUILD / "feltgate_lever_law"
 SCENE = """title = "Short"

@@ -9,10 +9,8 @@ import re
 import sys
 import tomllib
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, Scratch, ran, text_of  # noqa: E402
+from testing import BUILD, Scratch, ran, text_of
 
 PROGRAM, WITH_ENGINE = BUILD / "feltgate", BUILD / "feltgate_lever_law"
 PAGE = "docs/controllers.md"

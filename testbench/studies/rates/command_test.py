@@ -9,10 +9,8 @@ import os
 import sys
 import tomllib
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
+from testing import BUILD, ROOT, Scratch, ran
 
 BUDGET = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
 ENGINE = f'engine {BUDGET["figures"]["lever"]["axes_engine"]["lut4_equivalents"]} LUT4 eq'

@@ -2,12 +2,9 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate shape: laws that feltgate law proves; bad input is one line, code 2, nothing written."""
 
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "law/law"))
-from law_making import ROOT, LawMaking  # noqa: E402
+from law_making import ROOT, LawMaking
 
 SHAPES = ROOT / "vectors/shapes"
 

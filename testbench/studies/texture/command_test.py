@@ -5,12 +5,10 @@
 import subprocess
 import sys
 import unittest
-from pathlib import Path
 
 from PIL import Image
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "law/law"))
-from law_making import ROOT, LawMaking  # noqa: E402
+from law_making import ROOT, LawMaking
 
 IMAGES = ROOT / "vectors/textures"
 

@@ -3,11 +3,8 @@
 """What the tests of the commands that write a law share: a folder in which they run, a refusal."""
 
 import os
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, ran  # noqa: E402, F401
+from testing import BUILD, ROOT, Scratch, ran  # noqa: F401
 
 
 class LawMaking(Scratch):

@@ -6,11 +6,8 @@ lines are compared whose numbers differ from run to run."""
 import os
 import re
 import subprocess
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
+from testing import BUILD, ROOT, Scratch, ran
 
 
 def pattern_of(line):

@@ -11,20 +11,21 @@
   scripts/bowed_string_picture.py fast slow diagram.csv
 """
 
-from docs_picture import BLUE, RED, columns, files, plt, save
+from docs_picture import BLUE, RED, columns, draw, np, plt
 
 FROM_MS, TO_MS = 250, 285
 
 
-def over_time(axes, begin, column, scale, suffix=""):
+def over_time(axes, fast, slow, column, scale, suffix=""):
     for name, colour, width, label in (
-        (f"{begin[1]}{suffix}.csv", RED, 1.0, "1 kHz"),
-        (f"{begin[0]}{suffix}.csv", BLUE, 0.9, "40 kHz"),
+        (f"{slow}{suffix}.csv", RED, 1.0, "1 kHz"),
+        (f"{fast}{suffix}.csv", BLUE, 0.9, "40 kHz"),
     ):
-        rows = columns(name, ("time_s", column))
-        axes.step([1e3 * t for t in rows["time_s"]], [scale * v for v in rows[column]],
-                  where="post", color=colour, lw=width, label=label)
+        times, values = columns(name, ("time_s", column)).values()
+        axes.step(1e3 * times, scale * values, where="post", color=colour, lw=width, label=label)
     axes.set(xlim=(FROM_MS, TO_MS))
+    axes.grid(alpha=0.3)
+    axes.spines[["top", "right"]].set_visible(False)
 
 
 def diagram(axes, path):
@@ -32,40 +33,34 @@ def diagram(axes, path):
     place, force, least, most, helmholtz = columns(path, names).values()
     for is_one, colour, size, label in (
         (1, BLUE, 14, "one slip a period"), (0, "#cccccc", 5, "something else")):
-        at = [i for i, h in enumerate(helmholtz) if h == is_one]
-        axes.scatter([place[i] for i in at], [force[i] for i in at], s=size, color=colour,
-                     label=label, lw=0)
-    line = sorted(set(zip(place, least, most)))
-    axes.plot([x[0] for x in line], [x[1] for x in line], color="k", lw=1, ls="--",
-              label="Schelleng's limits")
-    axes.plot([x[0] for x in line], [x[2] for x in line], color="k", lw=1, ls="--")
+        at = helmholtz == is_one
+        axes.scatter(place[at], force[at], s=size, color=colour, label=label, lw=0)
+    line = np.array(sorted(set(zip(place, least, most))))
+    for limit, label in ((1, "Schelleng's limits"), (2, None)):
+        axes.plot(line[:, 0], line[:, limit], color="k", lw=1, ls="--", label=label)
     axes.set(xscale="log", yscale="log", ylim=(0.045, 7), xlabel="place of the bow, from the bridge",
              ylabel="force of the bow, N", title="bow at 0.2 m/s")
-    axes.set_xticks([0.05, 0.07, 0.1, 0.14, 0.2], ["0.05", "0.07", "0.1", "0.14", "0.2"])
-    axes.set_xticks([], minor=True)
-    axes.set_yticks([0.05, 0.1, 0.2, 0.5, 1, 2, 4], ["0.05", "0.1", "0.2", "0.5", "1", "2", "4"])
-    axes.set_yticks([], minor=True)
+    for axis, ticks in ((axes.xaxis, (0.05, 0.07, 0.1, 0.14, 0.2)),
+                        (axes.yaxis, (0.05, 0.1, 0.2, 0.5, 1, 2, 4))):
+        axis.set_ticks(ticks, [f"{tick:g}" for tick in ticks])
+        axis.set_ticks([], minor=True)
     axes.legend(fontsize=8, loc="lower left", framealpha=0.95)
 
 
-def main():
-    *begin, points = files(3, __doc__)
+def picture(fast, slow, points):
     figure = plt.figure(figsize=(9.5, 4.2))
     grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1))
     torque, heard = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[1, 0])
-    over_time(torque, begin, "tau_ref_nm", 1e3)
+    over_time(torque, fast, slow, "tau_ref_nm", 1e3)
     torque.set(ylabel="torque, mNm", title="1.8 N, 0.2 m/s, 0.1 of the string from the bridge")
     torque.set_ylim(-175, 45)
     torque.legend(fontsize=8, loc="upper right", ncols=2, frameon=False)
-    over_time(heard, begin, "heard", 1, "_states")
+    over_time(heard, fast, slow, "heard", 1, "_states")
     heard.set(ylabel="at the bridge, m/s", xlabel="time, ms")
     diagram(figure.add_subplot(grid[:, 1]), points)
-    for axes in (torque, heard):
-        axes.grid(alpha=0.3)
-        axes.spines[["top", "right"]].set_visible(False)
     figure.tight_layout()
-    save(figure, "bowed_string")
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, bowed_string=picture)

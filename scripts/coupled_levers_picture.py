@@ -11,22 +11,20 @@ two free levers after a push, below and above the border, from the rows of four 
   scripts/coupled_levers_picture.py position.csv observer.csv below.csv above.csv
 """
 
-from docs_picture import BLUE, GREY, RED, columns, files, plt, save
+from docs_picture import BLUE, GREY, RED, columns, draw, plt
 
 
 def felt(axes, path, color, label):
     angle, torque = columns(path, ("theta_rad.0", "tau_ref_nm.0")).values()
-    axes.plot(angle, [-t for t in torque], color=color, lw=1.0, label=label)
+    axes.plot(angle, -torque, color=color, lw=1.0, label=label)
 
 
 def apart(axes, path, color, label):
     times, one, other = columns(path, ("time_s", "theta_rad.0", "theta_rad.1")).values()
-    axes.plot([1e3 * t for t in times], [1e3 * (a - b) for a, b in zip(one, other)], color=color,
-              lw=0.9, label=label)
+    axes.plot(1e3 * times, 1e3 * (one - other), color=color, lw=0.9, label=label)
 
 
-def main():
-    position, observer, below, above = files(4, __doc__)
+def picture(position, observer, below, above):
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.2), layout="constrained")
     left.plot([0, 0.3], [0, 0.3], color=GREY, lw=0.8, ls="--", label="the spring, 1 Nm/rad")
     felt(left, position, BLUE, "position to position, 4 Nm/rad")
@@ -37,8 +35,8 @@ def main():
     apart(right, below, BLUE, "11 Nm/rad")
     right.set(xlabel="time [ms]", ylabel="apart [mrad]", title="pushed apart, border 12.4 Nm/rad")
     right.legend(loc="upper left", frameon=False)
-    save(figure, "coupled_levers")
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, coupled_levers=picture)

@@ -3,10 +3,13 @@
 """Shared parts of the scripts that draw one picture of docs/images each: look, rows, file."""
 
 import csv
+import inspect
 import sys
+import tomllib
 from pathlib import Path
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -17,11 +20,16 @@ BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
 plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
 
 
-def columns(path, names):
-    """{name: values} of these columns of a CSV."""
+def columns(path, names=None):
+    """{name: array} of these columns of a CSV, or of all."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    return {name: [float(row[name]) for row in rows] for name in names}
+    return {name: np.array([float(row[name]) for row in rows]) for name in names or rows[0]}
+
+
+def vectors(path):
+    """A TOML file of vectors/, such as devices/stylus."""
+    return tomllib.loads((ROOT / f"vectors/{path}.toml").read_text(encoding="utf-8"))
 
 
 def save(figure, name):
@@ -29,10 +37,12 @@ def save(figure, name):
     figure.savefig(ROOT / f"docs/images/{name}.svg", metadata={"Date": None, "Creator": None})
 
 
-def files(count, what):
-    """The files that the command line names; ends with `what` where they are not so many."""
-    given = sys.argv[1:]
-    if len(given) == count and not given[0].startswith("-"):
-        return given
-    print(what.strip())
-    sys.exit(0 if given in (["-h"], ["--help"]) else 2)
+def draw(what, **pictures):
+    """Writes docs/images/NAME.svg for each NAME=function: the figure that it makes of the files of
+    the command line, as many as it takes; ends with `what` where they are not so many."""
+    given, made = sys.argv[1:], list(pictures.values())
+    if len(given) != len(inspect.signature(made[0]).parameters) or given[0].startswith("-"):
+        print(what.strip())
+        sys.exit(0 if given in (["-h"], ["--help"]) else 2)
+    for name, function in pictures.items():
+        save(function(*given), name)

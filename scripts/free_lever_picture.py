@@ -14,16 +14,15 @@ table.
 
 from pathlib import Path
 
-from docs_picture import BLUE, GREY, RED, columns, files, plt, save
+from docs_picture import BLUE, GREY, RED, columns, draw, plt
 
 COLOURS = {"lever": BLUE, "paper": RED}
 
 
 def swing(axes, path, color, label):
-    run = columns(path, ("time_s", "omega_rad_s", "hand_torque_nm"))
-    rows = [i for i, t in enumerate(run["time_s"]) if t > 0.02]
-    axes.plot([run["omega_rad_s"][i] for i in rows],
-              [1e3 * run["hand_torque_nm"][i] for i in rows], color=color, lw=1.0, label=label)
+    times, speed, torque = columns(path, ("time_s", "omega_rad_s", "hand_torque_nm")).values()
+    rows = times > 0.02
+    axes.plot(speed[rows], 1e3 * torque[rows], color=color, lw=1.0, label=label)
 
 
 def table(path):
@@ -36,8 +35,7 @@ def table(path):
     return found
 
 
-def main():
-    free, lever, paper, felt = files(4, __doc__)
+def picture(free, lever, paper, felt):
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
     swing(left, paper, RED, "damper of 0.03 Nm s/rad, paper")
     swing(left, lever, BLUE, "the same, lever")
@@ -52,8 +50,8 @@ def main():
     right.legend(loc="upper left", frameon=False)
     for axes in (left, right):
         axes.grid(alpha=0.3)
-    save(figure, "free_lever")
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, free_lever=picture)

@@ -8,15 +8,13 @@ against the angle, from the columns of its run.
   scripts/lever_device_picture.py end_stops end_stops.csv
 """
 
-import tomllib
+import sys
 
-from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
-
-NAMES = ("time_s", "theta_rad", "tau_ref_nm", "motor_torque_nm")
+from docs_picture import BLUE, GREY, RED, columns, draw, plt, vectors
 
 
 def over_time(axes, run, title):
-    times = [1e3 * t for t in run["time_s"]]
+    times = 1e3 * run["time_s"]
     axes.plot(times, run["theta_rad"], color=GREY, lw=1.2, label="angle, rad")
     axes.set(xlabel="time, ms", ylabel="angle, rad", title=title)
     torque = axes.twinx()
@@ -30,28 +28,26 @@ def over_time(axes, run, title):
 
 
 def over_angle(axes, run):
-    axes.plot(run["theta_rad"], run["tau_ref_nm"], color=BLUE, lw=1.0)
-    at = range(len(run["time_s"]) // 12, len(run["time_s"]) - 1, len(run["time_s"]) // 12)
-    for i in at:
-        to = min(i + len(run["time_s"]) // 60 + 1, len(run["time_s"]) - 1)
-        ends = [(run["theta_rad"][k], run["tau_ref_nm"][k]) for k in (i, to)]
-        if abs(ends[0][0] - ends[1][0]) < 1e-3:
-            continue
-        axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "->", "color": BLUE})
+    angle, torque = run["theta_rad"], run["tau_ref_nm"]
+    axes.plot(angle, torque, color=BLUE, lw=1.0)
+    last = len(angle) - 1
+    for i in range((last + 1) // 12, last, (last + 1) // 12):
+        to = min(i + (last + 1) // 60 + 1, last)
+        if abs(angle[i] - angle[to]) >= 1e-3:
+            axes.annotate("", (angle[to], torque[to]), (angle[i], torque[i]),
+                          arrowprops={"arrowstyle": "->", "color": BLUE})
     axes.axhline(0, color=GREY, lw=0.6)
     axes.set(xlabel="angle, rad", ylabel="law's torque, Nm", title="torque against angle")
     axes.grid(alpha=0.3)
 
 
-def main():
-    name, path = files(2, __doc__)
-    run = columns(path, NAMES)
-    scene = tomllib.loads((ROOT / f"vectors/scenes/{name}.toml").read_text(encoding="utf-8"))
+def picture(name, path):
+    run = columns(path)
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 3.8), layout="constrained")
-    over_time(axes[0], run, scene["title"])
+    over_time(axes[0], run, vectors(f"scenes/{name}")["title"])
     over_angle(axes[1], run)
-    save(figure, name)
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, **{"".join(sys.argv[1:2]): picture})

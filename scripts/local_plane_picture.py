@@ -9,30 +9,21 @@ rows of the two scenes.
   scripts/local_plane_picture.py slow.csv fast.csv
 """
 
-import math
-import tomllib
-
-from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
-
-NAMES = ("time_s", "pen_x_m", "pen_y_m", "plane_normal_x", "plane_normal_y", "plane_tilt_rad",
-         "plane_step_n")
+from docs_picture import BLUE, GREY, RED, columns, draw, np, plt, vectors
 
 
 def world(axes, slow, x, y, radius):
-    angles = [2 * math.pi * n / 200 for n in range(201)]
-    axes.plot([1e3 * (x + radius * math.cos(a)) for a in angles],
-              [1e3 * (y + radius * math.sin(a)) for a in angles], color=GREY, lw=1)
-    axes.plot([1e3 * v for v in slow["pen_x_m"]], [1e3 * v for v in slow["pen_y_m"]], color=BLUE,
-              lw=1.4, label="pen, 2 mm deep")
+    angles = 2 * np.pi * np.arange(201) / 200
+    axes.plot(1e3 * (x + radius * np.cos(angles)), 1e3 * (y + radius * np.sin(angles)), color=GREY,
+              lw=1)
+    axes.plot(1e3 * slow["pen_x_m"], 1e3 * slow["pen_y_m"], color=BLUE, lw=1.4,
+              label="pen, 2 mm deep")
     label = "planes sent, 50 a second"
-    for i, step in enumerate(slow["plane_step_n"]):
-        if step <= 0:
-            continue
+    sides = np.array([-1, 1])
+    for i in np.flatnonzero(slow["plane_step_n"] > 0):
         nx, ny = slow["plane_normal_x"][i], slow["plane_normal_y"][i]
-        middle = (x + radius * nx, y + radius * ny)
-        axes.plot([1e3 * (middle[0] - s * 0.006 * ny) for s in (-1, 1)],
-                  [1e3 * (middle[1] + s * 0.006 * nx) for s in (-1, 1)], color=RED, lw=1,
-                  label=label)
+        axes.plot(1e3 * (x + radius * nx - sides * 0.006 * ny),
+                  1e3 * (y + radius * ny + sides * 0.006 * nx), color=RED, lw=1, label=label)
         label = None
     axes.set_aspect("equal")
     axes.set(xlabel="x, mm", ylabel="y, mm", xlim=(-36, 36), ylim=(104, 146))
@@ -40,30 +31,25 @@ def world(axes, slow, x, y, radius):
 
 
 def over_time(axes, run, title, thinned):
-    times = [1e3 * t for t in run["time_s"]]
-    axes.plot(times[::thinned], [math.degrees(a) for a in run["plane_tilt_rad"][::thinned]],
-              color=BLUE, lw=0.9)
+    times, step = 1e3 * run["time_s"], run["plane_step_n"]
+    axes.plot(times[::thinned], np.degrees(run["plane_tilt_rad"][::thinned]), color=BLUE, lw=0.9)
     axes.set_ylabel("off the tangent, degrees", color=BLUE)
     axes.set_title(title, fontsize=9)
     steps = axes.twinx()
-    at = [i for i, step in enumerate(run["plane_step_n"]) if step > 0]
-    steps.vlines([times[i] for i in at], 0, [1e3 * run["plane_step_n"][i] for i in at], color=RED,
-                 lw=1)
+    steps.vlines(times[step > 0], 0, 1e3 * step[step > 0], color=RED, lw=1)
     steps.set_ylabel("force's step, mN", color=RED)
     steps.set_ylim(bottom=0)
     axes.set_xlabel("time, ms")
 
 
-def main():
-    slow, fast = (columns(path, NAMES) for path in files(2, __doc__))
-    file = ROOT / "vectors/scenes/plane_circle_slow.toml"
-    scene = tomllib.loads(file.read_text(encoding="utf-8"))
+def picture(slow, fast):
+    slow, fast = columns(slow), columns(fast)
     figure, panels = plt.subplot_mosaic("ab\nac", figsize=(10, 4.4), layout="constrained")
-    world(panels["a"], slow, *scene["plane"]["circle_m"])
+    world(panels["a"], slow, *vectors("scenes/plane_circle_slow")["plane"]["circle_m"])
     over_time(panels["b"], slow, "50 Hz", 200)
     over_time(panels["c"], fast, "1 kHz", 50)
-    save(figure, "local_plane")
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, local_plane=picture)

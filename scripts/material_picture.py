@@ -9,33 +9,25 @@ docs/images/material_stick_slip.svg, from the rows of the two scenes.
   scripts/material_picture.py fields.csv slip.csv
 """
 
-import tomllib
+from docs_picture import BLUE, GREY, RED, columns, draw, np, plt, vectors
 
-from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
-
-NAMES = ("time_s", "theta_rad", "omega_rad_s", "tau_ref_nm", "hand_torque_nm")
 FIELDS = ("hardness: a spring", "damping: on the way in", "giving way at 0.1 Nm", "viscosity",
           "spring to an anchor", "constant", "friction: sticks, slips", "vibration, 200 Hz")
 
 
-def scene(name):
-    return tomllib.loads((ROOT / f"vectors/scenes/{name}.toml").read_text(encoding="utf-8"))
-
-
-def fields(run):
-    at = scene("material_fields")
+def fields(path, _slip):
+    run, at = columns(path), vectors("scenes/material_fields")
     # Each pass begins a moment before the event that chooses its field, the first with the scene.
     begins = [0.0] + [event["at_s"] for event in at["event"]] + [at["duration_s"]]
-    face = at["parameters"]["face"]
+    depth, torque = 1e3 * (run["theta_rad"] - at["parameters"]["face"]), 1e3 * run["tau_ref_nm"]
     figure, panels = plt.subplots(2, 4, figsize=(10, 5), sharex=True, sharey=True,
                                   layout="constrained")
     for n, axes in enumerate(panels.flat):
-        rows = [i for i, t in enumerate(run["time_s"]) if begins[n] <= t < begins[n + 1]]
-        deepest = max(rows, key=lambda i: run["theta_rad"][i])
-        for color, label, part in ((BLUE, "in", [i for i in rows if i <= deepest]),
-                                   (RED, "out", [i for i in rows if i > deepest])):
-            axes.plot([1e3 * (run["theta_rad"][i] - face) for i in part],
-                      [1e3 * run["tau_ref_nm"][i] for i in part], color=color, lw=1.1, label=label)
+        rows = np.flatnonzero((begins[n] <= run["time_s"]) & (run["time_s"] < begins[n + 1]))
+        deepest = rows[run["theta_rad"][rows].argmax()]
+        for color, label, part in ((BLUE, "in", rows[rows <= deepest]),
+                                   (RED, "out", rows[rows > deepest])):
+            axes.plot(depth[part], torque[part], color=color, lw=1.1, label=label)
         axes.axvline(0, color=GREY, lw=0.6)
         axes.axhline(0, color=GREY, lw=0.6)
         axes.set_title(FIELDS[n], fontsize=9)
@@ -44,37 +36,30 @@ def fields(run):
     panels[0][0].legend(fontsize=8, frameon=False)
     figure.supxlabel("depth behind the face, mrad", fontsize=9)
     figure.supylabel("law's torque, mNm", fontsize=9)
-    save(figure, "material_fields")
+    return figure
 
 
-def stick_slip(run):
-    times = [1e3 * t for t in run["time_s"]]
+def stick_slip(_fields, path):
+    run = columns(path)
+    times = 1e3 * run["time_s"]
     figure, (torque, place) = plt.subplots(2, 1, figsize=(7, 4.4), sharex=True,
                                            layout="constrained")
-    torque.plot(times, [-1e3 * t for t in run["tau_ref_nm"]], color=BLUE, lw=1.1,
-                label="friction")
-    torque.plot(times, [1e3 * t for t in run["hand_torque_nm"]], color=RED, lw=1.1,
-                label="hand's pull")
+    torque.plot(times, -1e3 * run["tau_ref_nm"], color=BLUE, lw=1.1, label="friction")
+    torque.plot(times, 1e3 * run["hand_torque_nm"], color=RED, lw=1.1, label="hand's pull")
     for level, name in ((200, "static"), (150, "dynamic")):
         torque.axhline(level, color=GREY, lw=0.7, ls="--")
         torque.text(2, level + 3, name, fontsize=8, color=GREY)
     torque.set(ylabel="torque, mNm")
     torque.legend(fontsize=8, frameon=False, loc="lower right")
     place.plot(times, run["theta_rad"], color=BLUE, lw=1.2, label="lever")
-    place.plot(times, [4 * max(t - 10, 0) / 1e3 for t in times], color=GREY, lw=0.9, ls="--",
+    place.plot(times, 4 * np.maximum(times - 10, 0) / 1e3, color=GREY, lw=0.9, ls="--",
                label="where the hand wants it: 4 rad/s")
     place.set(xlabel="time, ms", ylabel="angle, rad")
     place.legend(fontsize=8, frameon=False)
     for axes in (torque, place):
         axes.grid(alpha=0.3)
-    save(figure, "material_stick_slip")
-
-
-def main():
-    of_fields, of_slip = (columns(path, NAMES) for path in files(2, __doc__))
-    fields(of_fields)
-    stick_slip(of_slip)
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, material_fields=fields, material_stick_slip=stick_slip)

@@ -9,10 +9,8 @@ motors can push there, and a drop of its cranks against a stop, from the table t
 """
 
 import csv
-import math
-import tomllib
 
-from docs_picture import BLUE, GREY, RED, ROOT, files, plt, save
+from docs_picture import BLUE, GREY, RED, draw, np, plt, vectors
 
 
 def drop_of(path):
@@ -27,36 +25,37 @@ def drop_of(path):
     return by
 
 
+def at(angle, length=1.0):
+    """A vector in this direction."""
+    return length * np.array((np.cos(angle), np.sin(angle)))
+
+
 def workspace(axes, plant, torque):
     """Rings of equal angle between the cranks, three poses, and what the motors can push there."""
     length = plant["linkage"]["crank_1_m"]
-    least, most = (math.radians(plant["stops"][k]) for k in ("least_deg", "most_deg"))
-    for angle in (least, math.radians(60), math.radians(120), most):
-        radius = 2e3 * length * math.cos(angle / 2)
+    least, most = np.radians((plant["stops"]["least_deg"], plant["stops"]["most_deg"]))
+    for angle in (least, np.radians(60), np.radians(120), most):
+        radius = 2e3 * length * np.cos(angle / 2)
         style = "-" if angle in (least, most) else ":"
         axes.add_patch(plt.Circle((0, 0), radius, fill=False, color=GREY, ls=style))
-        axes.text(radius * math.cos(-0.6), radius * math.sin(-0.6), f"{math.degrees(angle):.0f}°",
+        axes.text(*at(-0.6, radius), f"{np.degrees(angle):.0f}°",
                   color=GREY, fontsize=8, ha="center", va="center",
                   bbox={"fc": "w", "ec": "none", "pad": 0.5})
     for first, last, alpha in ((30, 150, 1.0), (-20, 60, 0.45), (110, 235, 0.45)):
-        ends = [(1e3 * length * math.cos(math.radians(a)), 1e3 * length * math.sin(math.radians(a)))
-                for a in (first, last)]
-        pen = (ends[0][0] + ends[1][0], ends[0][1] + ends[1][1])
+        a, b = np.radians((first, last))
+        ends = at(a, 1e3 * length), at(b, 1e3 * length)
+        pen = sum(ends)
         for end, color in zip(ends, (BLUE, RED)):
             axes.plot([0, end[0]], [0, end[1]], color=color, lw=3, alpha=alpha)
             axes.plot([end[0], pen[0]], [end[1], pen[1]], color="k", lw=1.5, alpha=alpha)
         axes.plot(*pen, "o", color="k", ms=4, alpha=alpha)
         # Forces that both motors can make there: a parallelogram around the pen, 40 mm per N.
-        a, b = (math.radians(x) for x in (first, last))
-        across = length * math.sin(b - a)
-        corners = []
-        for one, five in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
-            force = (torque * (one * math.cos(b) - five * math.cos(a)) / across,
-                     torque * (one * math.sin(b) - five * math.sin(a)) / across)
-            corners.append((pen[0] + 40 * force[0], pen[1] + 40 * force[1]))
+        across = length * np.sin(b - a)
+        corners = [pen + 40 * (torque * (one * at(b) - five * at(a)) / across)
+                   for one, five in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
         axes.add_patch(plt.Polygon(corners, fc=BLUE, ec=BLUE, alpha=0.15 * alpha))
     axes.set(xlim=(-215, 215), ylim=(-130, 215), aspect="equal", xlabel="x, mm", ylabel="y, mm",
-             title=f"pen between the stops; forces of 1 A, 40 mm per N")
+             title="pen between the stops; forces of 1 A, 40 mm per N")
 
 
 def drop(axes, plant, table):
@@ -70,17 +69,16 @@ def drop(axes, plant, table):
     axes.grid(alpha=0.3)
 
 
-def main():
-    (table,) = files(1, __doc__)
-    plant = tomllib.loads((ROOT / "vectors/devices/pantograph.toml").read_text(encoding="utf-8"))
+def picture(table):
+    plant = vectors("devices/pantograph")
     ratio = plant["joint"]["drum_radius_m"] / plant["joint"]["pulley_radius_m"]
     # 1 A in each motor.
     torque = ratio * plant["motor"]["torque_constant_nm_a"]
     figure, axes = plt.subplots(1, 2, figsize=(9.2, 4.2), layout="constrained")
     workspace(axes[0], plant, torque)
     drop(axes[1], plant, drop_of(table))
-    save(figure, "pantograph")
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, pantograph=picture)

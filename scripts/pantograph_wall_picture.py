@@ -9,17 +9,16 @@ with filters, from the rows of two runs.
   scripts/pantograph_wall_picture.py as_it_is.csv filtered.csv
 """
 
-from docs_picture import BLUE, GREY, RED, columns, files, plt, save
+from docs_picture import BLUE, GREY, RED, columns, draw, plt
 
 
 def pen_of(path):
     """Times in s, heights in mm."""
     time_s, height_m = columns(path, ("time_s", "pen_y_m")).values()
-    return time_s, [1e3 * y for y in height_m]
+    return time_s, 1e3 * height_m
 
 
-def main():
-    as_it_is, filtered = files(2, __doc__)
+def picture(as_it_is, filtered):
     figure, axes = plt.subplots(figsize=(7.9, 2.9), layout="constrained")
     axes.axhline(110, color=GREY, lw=0.8, ls="--")
     axes.text(1.4, 110.2, "floor", color=GREY, ha="right")
@@ -29,8 +28,8 @@ def main():
     axes.axvline(0.4, color=GREY, lw=0.6, ls=":")
     axes.set(xlabel="time [s]", ylabel="pen [mm]", xlim=(0, 1.4))
     axes.legend(loc="lower left", frameon=False)
-    save(figure, "pantograph_wall")
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, pantograph_wall=picture)

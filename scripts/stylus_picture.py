@@ -9,34 +9,19 @@ of the two scenes.
   scripts/stylus_picture.py cube.csv sphere.csv
 """
 
-import math
-import tomllib
+from docs_picture import BLUE, GREY, RED, columns, draw, np, plt, vectors
 
-from docs_picture import BLUE, GREY, RED, ROOT, columns, files, plt, save
-
-NAMES = ("time_s", "pen_x_m", "pen_y_m", "pen_z_m", "plane_tilt_rad", "tau_ref_nm.0",
-         "tau_ref_nm.1", "tau_ref_nm.2")
-
-
-def table_of(path, name):
-    return tomllib.loads((ROOT / "vectors" / path).read_text(encoding="utf-8"))[name]
-
-
-def plane_of(scene):
-    return table_of(f"scenes/{scene}.toml", "plane")
-
-
-CAPSTAN_M = table_of("devices/stylus.toml", "lever")["radius_m"]
+CAPSTAN_M = vectors("devices/stylus")["lever"]["radius_m"]
 
 
 def over_the_edge(axes, run, half):
     axes.plot([-half, half, half, -half, -half], [half, half, -half, -half, half], color=GREY, lw=1)
-    x, z = ([1e3 * v for v in run[name]] for name in ("pen_x_m", "pen_z_m"))
+    x, z = 1e3 * run["pen_x_m"], 1e3 * run["pen_z_m"]
     axes.plot(x, z, color=BLUE, lw=1.4, label="pen, 2 mm deep, from left to right")
     label = "force asked of the motors, 0.2 N a mm"
     for i in range(0, len(x), max(1, len(x) // 60)):
         push = [5e-3 * run[f"tau_ref_nm.{n}"][i] / CAPSTAN_M * 1e3 for n in (0, 2)]
-        if math.hypot(*push) < 0.1:
+        if np.hypot(*push) < 0.1:
             continue
         axes.plot([x[i], x[i] + push[0]], [z[i], z[i] + push[1]], color=RED, lw=0.8, label=label)
         label = None
@@ -46,31 +31,28 @@ def over_the_edge(axes, run, half):
 
 
 def over_a_sphere(forces, tilts, run, stiffness, radius):
-    times = [1e3 * t for t in run["time_s"]]
+    times = 1e3 * run["time_s"]
+    pen = np.array([run[f"pen_{name}_m"] for name in "xyz"])
+    far = np.linalg.norm(pen, axis=0)
     for n, (name, colour) in enumerate(zip("xyz", (BLUE, GREY, RED), strict=True)):
-        pen = [run[f"pen_{name}_m"][i] for i in range(len(times))]
-        exact = []
-        for i, own in enumerate(pen):
-            far = math.hypot(*(run[f"pen_{other}_m"][i] for other in "xyz"))
-            exact.append(stiffness * (radius - far) * own / far)
-        forces.plot(times, [v / CAPSTAN_M for v in run[f"tau_ref_nm.{n}"]], color=colour, lw=1.2,
-                    label=name)
-        forces.plot(times, exact, color="black", lw=0.6, ls=":")
+        forces.plot(times, run[f"tau_ref_nm.{n}"] / CAPSTAN_M, color=colour, lw=1.2, label=name)
+        forces.plot(times, stiffness * (radius - far) * pen[n] / far, color="black", lw=0.6, ls=":")
     forces.set(ylabel="force, N", xlim=(0, times[-1]))
     forces.set_title("sphere; dotted: of its own surface", fontsize=9)
     forces.legend(fontsize=8, frameon=False, ncols=3, loc="lower right")
-    tilts.plot(times, [math.degrees(a) for a in run["plane_tilt_rad"]], color=BLUE, lw=0.9)
+    tilts.plot(times, np.degrees(run["plane_tilt_rad"]), color=BLUE, lw=0.9)
     tilts.set(xlabel="time, ms", ylabel="off the tangent, degrees", xlim=(0, times[-1]))
 
 
-def main():
-    cube, sphere = (columns(path, NAMES) for path in files(2, __doc__))
+def picture(cube, sphere):
     figure, panels = plt.subplot_mosaic("ab\nac", figsize=(10, 4.4), layout="constrained")
-    over_the_edge(panels["a"], cube, 1e3 * plane_of("stylus_cube")["cube_m"][3])
-    world = plane_of("stylus_sphere")
-    over_a_sphere(panels["b"], panels["c"], sphere, world["stiffness_n_m"], world["sphere_m"][3])
-    save(figure, "stylus")
+    half = 1e3 * vectors("scenes/stylus_cube")["plane"]["cube_m"][3]
+    over_the_edge(panels["a"], columns(cube), half)
+    world = vectors("scenes/stylus_sphere")["plane"]
+    stiffness, radius = world["stiffness_n_m"], world["sphere_m"][3]
+    over_a_sphere(panels["b"], panels["c"], columns(sphere), stiffness, radius)
+    return figure
 
 
 if __name__ == "__main__":
-    main()
+    draw(__doc__, stylus=picture)

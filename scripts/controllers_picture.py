@@ -11,12 +11,9 @@
 Documentation: docs/controllers.md
 """
 
-import argparse
 import math
 import sys
-from pathlib import Path
 
-import interrupts
 from outputs import write_whole
 from reports import plots
 
@@ -153,23 +150,9 @@ SCHEMAS = {
 }
 
 
-def main(argv=None):
-    parser = argparse.ArgumentParser(
-        prog="controllers_picture.py", description=__doc__.splitlines()[0]
-    )
-    parser.add_argument("json", type=Path, help="what feltgate controllers --json wrote")
-    parser.add_argument("svg", type=Path, help="picture to be written")
-    arguments = parser.parse_args(argv)
-    interrupts.end_on_signals()
-
-    def draw(data):
-        write_whole(arguments.svg, SCHEMAS[data["schema"]](data).svg)
-
-    return plots.draw_figures(arguments.json, SCHEMAS, draw)
+def draw(data, options):
+    write_whole(options.svg, SCHEMAS[data["schema"]](data).svg)
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt as interrupt:
-        sys.exit(interrupts.tell("controllers", interrupt))
+    sys.exit(plots.main(__doc__, "controllers", SCHEMAS, draw))

@@ -140,12 +140,6 @@ def build_program(generated, folder):
     run([compiler(), *objects, *libraries, "-lfmt", "-lz", "-pthread", "-o", folder / "point"])
 
 
-def core_target():
-    open_ports = tuple(synth_measure.SNAPSHOT_PORTS)
-    tied = tuple(synth_measure.ALONE)
-    return synth_measure.Target("core", synth_measure.CORE, {"ReadBack": "0"}, True, open_ports, tied)
-
-
 def tools_in(folder):
     tools = synth_tools.Tools(folder)
     tools.yosys = yosys()
@@ -158,15 +152,10 @@ def synthesis_inputs(generated, folder, tools):
     shutil.copy(generated / "feltgate_pkg.sv", folder)
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)
-    target = core_target()
+    target = synth_measure.scene_target(ROOT)
     names = ["feltgate_pkg.sv", *(Path(name).name for name in names)]
     read = synth_measure.read_commands(names, target)
-    ports = tools.ports(target.module, read)
-    for kind, text in (
-        ("area", synth_measure.area_top(target, ports)),
-        ("speed", synth_measure.speed_top(target, ports)),
-    ):
-        (folder / f"core_{kind}.sv").write_text(text, encoding="utf-8")
+    synth_measure.write_tops(tools, "core", target, read)
     return read
 
 

@@ -31,7 +31,7 @@ def read_cst(text):
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
     places, settings = read_cst(texts["cst"])
-    found = placement(texts, "tang_nano_9k", "cst", "pin", SOURCES, places, settings, "PULL_MODE")
+    found = placement(texts, "tang_nano_9k", "cst", "pin", places, settings, SOURCES, "PULL_MODE")
     for pin, row in read_pins(texts["pins"], "pin").items():
         users = [port for port, place in places if place == pin and port.startswith(BY_VENDOR)]
         if (users or row["place"] == "on board") and "V" not in row["sources"].split():

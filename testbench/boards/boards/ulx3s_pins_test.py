@@ -32,7 +32,7 @@ def read_lpf(text):
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
     sites, settings = read_lpf(texts["lpf"])
-    found = placement(texts, "ulx3s", "lpf", "site", SOURCES, sites, settings, "PULLMODE")
+    found = placement(texts, "ulx3s", "lpf", "site", sites, settings, SOURCES, "PULLMODE")
     if 'FREQUENCY PORT "clk_25mhz" 25 MHZ;' not in texts["lpf"]:
         found.append("lpf: clk_25mhz has not its 25 MHz; nextpnr takes the PLL's clock from it")
     return found

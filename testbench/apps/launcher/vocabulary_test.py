@@ -9,11 +9,10 @@ import json
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from testing import ROOT, environment, ran
+from testing import ROOT, Scratch, environment, ran
 
 import help_texts
 
@@ -88,7 +87,7 @@ class SchemaTest(unittest.TestCase):
 
 
 @unittest.skipUnless(PROGRAMS, "needs the built programs")
-class ProgramTest(unittest.TestCase):
+class ProgramTest(Scratch):
     def run_it(self, *words, program="feltgate"):
         if words[0] == "extremes":
             program, words = "feltgate_extremes", words[1:]
@@ -121,29 +120,27 @@ class ProgramTest(unittest.TestCase):
 
     def test_json_of_the_programs(self):
         trace = ROOT / "vectors/traces/membrane.vec"
-        with tempfile.TemporaryDirectory() as folder:
-            for words in (
-                ("run", "torque_step", "--engine", "twin"),
-                ("replay", trace, "--duration", "0.01", "--engine", "twin"),
-                ("budget", "torque_step"),
-                ("claims", "recognition"),
-                ("extremes", "wrap_32"),
-                ("stability", "lever", "--no-bits", "--no-experiments", "--rate", "1000"),
-            ):
-                with self.subTest(command=words[0]):
-                    path = Path(folder) / f"{words[0]}.json"
-                    done = self.run_it(*words, "--json", path)
-                    self.assertEqual(done.returncode, 0, done.stderr)
-                    kind = "run" if words[0] == "replay" else words[0]
-                    found = json.loads(path.read_text(encoding="utf-8"))["schema"]
-                    self.assertEqual(found, f"feltgate-{kind}/1")
+        for words in (
+            ("run", "torque_step", "--engine", "twin"),
+            ("replay", trace, "--duration", "0.01", "--engine", "twin"),
+            ("budget", "torque_step"),
+            ("claims", "recognition"),
+            ("extremes", "wrap_32"),
+            ("stability", "lever", "--no-bits", "--no-experiments", "--rate", "1000"),
+        ):
+            with self.subTest(command=words[0]):
+                path = self.folder / f"{words[0]}.json"
+                done = self.run_it(*words, "--json", path)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                kind = "run" if words[0] == "replay" else words[0]
+                found = json.loads(path.read_text(encoding="utf-8"))["schema"]
+                self.assertEqual(found, f"feltgate-{kind}/1")
 
     def test_csv_size_is_told_and_bounded(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "rows.csv"
-            done = self.run_it("run", "torque_step", "--engine", "twin,double,float", "--csv", path)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            lines = path.read_text(encoding="utf-8").splitlines()
+        path = self.folder / "rows.csv"
+        done = self.run_it("run", "torque_step", "--engine", "twin,double,float", "--csv", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = path.read_text(encoding="utf-8").splitlines()
         header = lines[0].split(",")
         for engine in ("twin", "double", "float"):
             self.assertIn(f"{engine}_velocity_rad_s", header)

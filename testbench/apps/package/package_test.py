@@ -10,14 +10,14 @@ against it, the tree inside another project. docs/library.md
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, ran
+
 at = sys.argv.index("--configured")
 BUILD = Path(sys.argv[at + 1]).resolve()
 del sys.argv[at : at + 2]
@@ -30,9 +30,7 @@ FOREIGN = re.compile(r"toml\+\+|/boost/|/fmt/|archive\.h|verilated|nlohmann|CLI1
 
 
 def run(*command, ok=True, cwd=None):
-    done = subprocess.run(
-        [str(word) for word in command], capture_output=True, text=True, check=False, cwd=cwd
-    )
+    done = ran(*command, cwd=cwd)
     text = done.stdout + done.stderr
     if ok and done.returncode:
         raise AssertionError(f"{' '.join(map(str, command))}\n{text}")

@@ -14,7 +14,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch
+from testing import ROOT, Scratch, ran
 from seeded_defects import patches
 
 VENV = Path(sys.argv.pop(1))
@@ -24,10 +24,8 @@ EXAMPLES = ROOT / "docs/examples"
 def run(*command, cwd, **more):
     """(status, all that was said)."""
     env = os.environ | {"PATH": f"{VENV / 'bin'}:{os.environ['PATH']}"} | more
-    done = subprocess.run(
-        command, cwd=cwd, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-        check=False,
-    )  # fmt: skip
+    both = {"capture_output": False, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    done = ran(*command, cwd=cwd, env=env, **both)
     return done.returncode, done.stdout
 
 

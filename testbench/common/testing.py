@@ -59,6 +59,13 @@ class Scratch(unittest.TestCase):
     def setUp(self):
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
 
+    def ended(self, done, status=0, *said):
+        """What came of a program that ended with this status and said this on stderr."""
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        for words in said:
+            self.assertIn(words, done.stderr)
+        return done
+
     def put(self, name, text):
         """The path of a file of this text, below the folder."""
         path = self.folder / name

@@ -268,9 +268,7 @@ class Outputs(Bench):
 
     def refused(self, script, *words, said):
         with self.subTest(script, words=words):
-            done = ran(sys.executable, "-B", SCRIPTS / script, *words, cwd=self.folder)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(said, done.stderr)
+            self.ended(ran(sys.executable, "-B", SCRIPTS / script, *words, cwd=self.folder), 2, said)
 
     def test_refused_before_the_work(self):
         for path, said in ((".", "is a folder"), ("no/x.json", "there is no folder")):

@@ -98,8 +98,7 @@ class ProgramTest(Scratch):
         trace = ROOT / "vectors/traces/membrane.vec"
         texts = []
         for option in ("--duration", "--seconds"):
-            done = self.run_it("replay", trace, option, "0.01", "--engine", "twin,quad")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(self.run_it("replay", trace, option, "0.01", "--engine", "twin,quad"))
             texts.append(re.sub(r" +\S+x\n", "\n", done.stdout))
         self.assertEqual(*texts)
         self.assertIn("0.010002 s", texts[0])
@@ -109,14 +108,11 @@ class ProgramTest(Scratch):
             (("--engines", "nonsense"), "feltgate_bench"),
             (("--scenes", "nonsense"), "feltgate_bench"),
         ):
-            done = self.run_it(*words, program=program)
-            self.assertEqual(done.returncode, 2)
+            done = self.ended(self.run_it(*words, program=program), 2)
             self.assertNotIn("option --", done.stderr)
             self.assertRegex(done.stderr, r"^feltgate[ a-z]*: (--threads|.*nonsense)")
         for script in ("demo", "figures"):
-            done = self.run_it(script, "--out")
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("--out: expected one argument", done.stderr)
+            self.ended(self.run_it(script, "--out"), 2, "--out: expected one argument")
 
     def test_json_of_the_programs(self):
         trace = ROOT / "vectors/traces/membrane.vec"
@@ -130,16 +126,14 @@ class ProgramTest(Scratch):
         ):
             with self.subTest(command=words[0]):
                 path = self.folder / f"{words[0]}.json"
-                done = self.run_it(*words, "--json", path)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                self.ended(self.run_it(*words, "--json", path))
                 kind = "run" if words[0] == "replay" else words[0]
                 found = json.loads(path.read_text(encoding="utf-8"))["schema"]
                 self.assertEqual(found, f"feltgate-{kind}/1")
 
     def test_csv_size_is_told_and_bounded(self):
         path = self.folder / "rows.csv"
-        done = self.run_it("run", "torque_step", "--engine", "twin,double,float", "--csv", path)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.run_it("run", "torque_step", "--engine", "twin,double,float", "--csv", path))
         lines = path.read_text(encoding="utf-8").splitlines()
         header = lines[0].split(",")
         for engine in ("twin", "double", "float"):
@@ -154,8 +148,7 @@ class ProgramTest(Scratch):
         done = self.run_it("run", "torque_step", "--plant", "p48", "--engine", "twin")
         self.assertLess(done.stdout.index("torque constant"), done.stdout.index("What was felt"))
         command = re.search(r"feltgate (design --for-plant p48) -o", done.stdout).group(1)
-        made = self.run_it(*command.split())
-        self.assertEqual(made.returncode, 0, made.stderr)
+        made = self.ended(self.run_it(*command.split()))
         self.assertIn("torque_constant_nm_a = 0.0603", made.stdout)
 
 

@@ -53,8 +53,7 @@ class Bench(Scratch):
 
     def good(self, *words, **environment):
         """Runs and expects success; what it printed."""
-        done = self.explore(*words, **environment)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.explore(*words, **environment))
         return done.stdout.strip()
 
     def plan(self, name="plan"):

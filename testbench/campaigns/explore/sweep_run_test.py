@@ -39,18 +39,14 @@ class Merge(Bench):
         folder = self.plan()
         self.good("run", folder, "--chunk", "1/3")
         self.good("run", folder, "--chunk", "3/3")
-        done = self.explore("merge", folder)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("missing chunks of 3: 2", done.stderr)
+        self.ended(self.explore("merge", folder), 2, "missing chunks of 3: 2")
         self.assertFalse((folder / "points.jsonl").exists())
 
     def test_duplicates_are_refused(self):
         folder = self.plan()
         self.good("run", folder, "--chunk", "1/1")
         self.good("run", folder, "--chunk", "2/3")
-        done = self.explore("merge", folder)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("overlap", done.stderr)
+        self.ended(self.explore("merge", folder), 2, "overlap")
 
     def test_strangers_are_refused(self):
         folder = self.plan()
@@ -65,9 +61,7 @@ class Merge(Bench):
             (head.replace('"sources":"', '"sources":"0'), "different sources"),
         ):
             other.write_text(content + "\n")
-            done = self.explore("merge", folder)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(word, done.stderr)
+            self.ended(self.explore("merge", folder), 2, word)
 
     def test_stale_chunks_are_run_again(self):
         folder = self.plan()
@@ -128,8 +122,7 @@ class Interrupted(Bench):
     def test_a_failing_point_is_named(self):
         folder = self.plan()
         name = self.whole().split(b'"id":"')[3][:12].decode()
-        done = self.explore("run", folder, FAKE_POINT_FAIL=name)
-        self.assertEqual(done.returncode, 2)
+        done = self.ended(self.explore("run", folder, FAKE_POINT_FAIL=name), 2)
         self.assertIn(f"point {name} cannot be built", done.stderr)
         self.assertRegex(done.stderr, r'^explore: point \{"[^}]*\} of lever: ')
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)

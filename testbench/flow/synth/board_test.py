@@ -15,7 +15,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from testing import ROOT, ran
+from testing import ROOT, Scratch, ran
 import synth_board
 import synth_budget
 
@@ -186,7 +186,7 @@ class StandIns(unittest.TestCase):
             self.assertIn(f"board {board}", rows)
 
 
-class Bitstream(unittest.TestCase):
+class Bitstream(Scratch):
     # Clock [MHz], what the file has near its beginning (of the Gowin the chip's IDCODE 0x1100481b), and its least size.
     BOARDS = {
         "ulx3s": (50, rb"Part: LFE5U-85F-6CABGA381", 100_000),
@@ -194,26 +194,25 @@ class Bitstream(unittest.TestCase):
     }
 
     def setUp(self):
+        super().setUp()
         if not (VENV / "bin").exists():
             self.skipTest("no Yosys or nextpnr from PyPI; ./feltgate synth fetches it")
 
     def test_within_the_budget(self):
         hz, begins, least = self.BOARDS[BOARD]
-        with tempfile.TemporaryDirectory() as folder:
-            command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", BOARD]
-            beside = f"{VENV.parent}/venv-synth/bin:{os.environ['PATH']}"  # Yosys of another board's
-            environment = os.environ | {"FELTGATE_VENV": str(VENV), "PATH": beside}
-            environment["FELTGATE_PROGRAM"] = str(VENV.parent / "feltgate")
-            environment.pop("FELTGATE_BUILD", None)
-            done = ran(*command, "--seeds", SEEDS, "-o", Path(folder, "u.bit"), env=environment)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            count = SEEDS.count(",") + 1
-            said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
-            self.assertIn(said, done.stdout)
-            self.assertIn("synth: within the budget", done.stdout)
-            data = Path(folder, "u.bit").read_bytes()
-            self.assertTrue(re.search(begins, data[:2000], re.M), data[:200])
-            self.assertGreater(len(data), least)
+        command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", BOARD]
+        beside = f"{VENV.parent}/venv-synth/bin:{os.environ['PATH']}"  # Yosys of another board's
+        environment = os.environ | {"FELTGATE_VENV": str(VENV), "PATH": beside}
+        environment["FELTGATE_PROGRAM"] = str(VENV.parent / "feltgate")
+        environment.pop("FELTGATE_BUILD", None)
+        done = self.ended(ran(*command, "--seeds", SEEDS, "-o", self.folder / "u.bit", env=environment))
+        count = SEEDS.count(",") + 1
+        said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
+        self.assertIn(said, done.stdout)
+        self.assertIn("synth: within the budget", done.stdout)
+        data = self.folder / "u.bit".read_bytes()
+        self.assertTrue(re.search(begins, data[:2000], re.M), data[:200])
+        self.assertGreater(len(data), least)
 
 
 if __name__ == "__main__":

@@ -90,8 +90,7 @@ class Verbs(BoardTest):
         if python is None:
             self.skipTest("no pyserial; ./feltgate test fetches it")
         with Board(self, "--hand", "swing") as board:
-            done = ran(python, ROOT / "docs/examples/link.py", board.port)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(ran(python, ROOT / "docs/examples/link.py", board.port))
             crc = re.search(r"CRC 0x(\w+)", self.host(board.port, "info"))[1]
             self.assertIn(f"design {crc}, 1000000 ticks/s", done.stdout)
             self.assertIn("status after set_zero: 0x", done.stdout)

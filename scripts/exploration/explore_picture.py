@@ -5,10 +5,10 @@
 Documentation: docs/explore.md
 """
 
+import outputs
 from reports import plots
 
 from exploration import front, presets
-from exploration import plan as plans
 
 NAME = "explore.svg"
 KINDS = (
@@ -71,5 +71,5 @@ def write(plan, rows):
     plots.legend(axes[0], columns=2)
     picture = plots.finish(figure, plan.name)
     path = plan.folder / NAME
-    plans.write_durably(path, picture.svg)
+    outputs.write_whole(path, picture.svg)
     return path

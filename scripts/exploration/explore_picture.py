@@ -57,9 +57,7 @@ def draw_axes(axes, rows, across, factor, label):
             fontweight="bold",
             arrowprops={"arrowstyle": "-", "linewidth": 0.6},
         )
-    axes.set_yscale("log")
-    axes.set_xlabel(label)
-    axes.set_ylabel("rms torque error, µNm")
+    axes.set(yscale="log", xlabel=label, ylabel="rms torque error, µNm")
 
 
 def write(plan, rows):

@@ -44,7 +44,7 @@ class Bench(Scratch):
     def start(self, *words, **more):
         """The program under way, stdout and stderr piped."""
         more = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more}
-        return subprocess.Popen(self.words(*words), cwd=self.folder, **more)
+        return self.started(*self.words(*words), **more)
 
     def run_it(self, *words, scene="short.toml", **more):
         """A run of the twin and what came of it."""

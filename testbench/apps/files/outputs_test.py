@@ -168,10 +168,7 @@ class InPlace(Bench):
         self.assert_refused(done, "--report kept: kept/short.csv is there already and would be repl")
         self.assertEqual(self.path("kept/short.csv").read_text(), "mine\n")
         first = self.start("run", "long.toml", "--engine", "twin", "--report", "new/both")
-        self.addCleanup(first.communicate)
-        self.addCleanup(first.kill)
-        while not list(self.folder.rglob("*.part")):
-            self.assertIsNone(first.poll())
+        self.until(lambda: list(self.folder.rglob("*.part")))
         done = self.run_it("--report", "new/both")
         self.assert_refused(done, "--report new/both: another run writes there; choose another")
         first.send_signal(signal.SIGINT)

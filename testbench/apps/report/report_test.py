@@ -230,25 +230,13 @@ class Demo(Bench):
         self.assertIn('class="verdict bad"', page)
 
     def test_interrupt_leaves_nothing_running(self):
-        endless = self.folder / "feltgate"
-        endless.write_text(f'#!/bin/sh\necho $$ >> "{self.folder}/pids"\nexec sleep 300\n')
-        demo = subprocess.Popen(
-            [
-                sys.executable,
-                "-B",
-                SCRIPTS / "demo.py",
-                "--no-figures",
-                "--output",
-                self.folder / "out",
-            ],
-            env=self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder)),
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
         pids = self.folder / "pids"
-        deadline = time.monotonic() + 60
-        while not pids.exists() and time.monotonic() < deadline:
-            time.sleep(0.1)
+        self.put("feltgate", f'#!/bin/sh\necho $$ >> "{pids}"\nexec sleep 300\n')
+        options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        options["env"] = self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder))
+        words = ("--no-figures", "--output", self.folder / "out")
+        demo = self.started(sys.executable, "-B", SCRIPTS / "demo.py", *words, **options)
+        self.until(pids.exists)
         time.sleep(0.5)
         demo.terminate()
         self.assertEqual(demo.wait(timeout=60), 128 + signal.SIGTERM)

@@ -9,7 +9,6 @@ Documentation: docs/explore.md
 import os
 import signal
 import subprocess
-import time
 import unittest
 
 from bench import Bench
@@ -75,18 +74,12 @@ class Merge(Bench):
 
 class Interrupted(Bench):
     def start(self, folder, *words, delay="0.1", before=None):
-        return subprocess.Popen(
-            self.command("run", folder, *words),
-            env=self.environment(FAKE_POINT_DELAY_S=delay),
-            stderr=subprocess.DEVNULL,
-            preexec_fn=before,
-        )
+        options = {"stderr": subprocess.DEVNULL, "preexec_fn": before}
+        options["env"] = self.environment(FAKE_POINT_DELAY_S=delay)
+        return self.started(*self.command("run", folder, *words), **options)
 
     def wait_for(self, count):
-        end = time.monotonic() + 30
-        while len(self.evaluations()) < count:
-            self.assertLess(time.monotonic(), end, "nothing was evaluated")
-            time.sleep(0.01)
+        self.until(lambda: len(self.evaluations()) >= count)
 
     def test_what_is_done_is_not_done_again(self):
         folder = self.plan()

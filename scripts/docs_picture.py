@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Shared parts of the scripts that draw one picture of docs/images each: look, rows, file."""
+"""Shared parts of the scripts that draw pictures of docs/images: look, rows, file."""
 
 import csv
 import inspect
@@ -37,12 +37,14 @@ def save(figure, name):
     figure.savefig(ROOT / f"docs/images/{name}.svg", metadata={"Date": None, "Creator": None})
 
 
-def draw(what, **pictures):
-    """Writes docs/images/NAME.svg for each NAME=function: the figure that it makes of the files of
-    the command line, as many as it takes; ends with `what` where they are not so many."""
-    given, made = sys.argv[1:], list(pictures.values())
-    if len(given) != len(inspect.signature(made[0]).parameters) or given[0].startswith("-"):
-        print(what.strip())
-        sys.exit(0 if given in (["-h"], ["--help"]) else 2)
-    for name, function in pictures.items():
-        save(function(*given), name)
+def draw(what, *pictures, **others):
+    """For the command line NAME FILE... writes docs/images/NAME.svg: the figure that the function of
+    this name makes of so many files. Where there is none it ends with `what` and their texts."""
+    known = {picture.__name__: picture for picture in pictures} | others
+    name, *files = sys.argv[1:] or [""]
+    if name not in known or len(files) != len(inspect.signature(known[name]).parameters):
+        print(what)
+        for picture in pictures:
+            print(f"{picture.__name__}: {inspect.getdoc(picture)}\n")
+        sys.exit(0 if name in ("-h", "--help") else 2)
+    save(known[name](*files), name)

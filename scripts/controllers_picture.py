@@ -11,12 +11,9 @@
 Documentation: docs/controllers.md
 """
 
-import argparse
 import math
 import sys
-from pathlib import Path
 
-import interrupts
 from outputs import write_whole
 from reports import plots
 
@@ -54,18 +51,14 @@ def picture(data):
         border.plot(x, y, marker="o", markersize=4, **style(name))
         x, y = ([e[key] for e in one["encoders"]] for key in ("lines", "noise_nm"))
         noise.plot(x, [1e3 * v for v in y], marker="o", markersize=4, **style(name))
-    step.set_xlim(0, STALL_MS)
-    step.set_xlabel("after the step, ms")
-    step.set_ylabel("motor torque, mNm")
+    step.set(xlim=(0, STALL_MS), xlabel="after the step, ms", ylabel="motor torque, mNm")
     step.legend(loc="lower right", ncols=2)
     for axis, ticks in ((border, (0.5, 1, 2, 4)), (noise, (500, 1024, 2500, 10000))):
         axis.set_xscale("log")
         axis.set_xticks(ticks, [f"{t:g}" for t in ticks])
         axis.minorticks_off()
-    border.set_xlabel("nominal over true inertia")
-    border.set_ylabel("largest wall, Nm/rad")
-    noise.set_xlabel("lines of the encoder")
-    noise.set_ylabel("noise, mNm rms")
+    border.set(xlabel="nominal over true inertia", ylabel="largest wall, Nm/rad")
+    noise.set(xlabel="lines of the encoder", ylabel="noise, mNm rms")
     noise.set_ylim(bottom=0)
     return plots.finish(figure, "controllers", CAPTION)
 
@@ -96,8 +89,7 @@ def estimators_picture(data):
         values = [max(1e3 * e["tau_hat_irregular_nm"][k], LEAST_MNM) for e in data["estimators"]]
         colour = ("#b23a00", "#0072b2", "#7d4bb5")[k]
         noise.barh([r + 0.27 - 0.27 * k for r in rows], values, 0.25, label=label, color=colour)
-    noise.set_xscale("log")
-    noise.set_xlim(LEAST_MNM, 300)
+    noise.set(xscale="log", xlim=(LEAST_MNM, 300))
     for axis, text in ((wall, "largest wall, Nm/rad"), (noise, "noise of tau_hat, mNm rms")):
         place = "center right" if axis is wall else "lower right"
         axis.set_yticks(list(rows), names, fontsize=7)
@@ -129,20 +121,16 @@ def current_picture(data):
         ([0.2 * v for v in lag], f"lag of {CURRENT_HZ} Hz", "#b23a00"),
     ):
         step.plot(times[:shown], [1e3 * v for v in values[:shown]], label=label, color=colour, linewidth=1)
-    step.set_xlabel("after the step, ms")
-    step.set_ylabel("motor torque, mNm")
+    step.set(xlabel="after the step, ms", ylabel="motor torque, mNm")
     step.legend(loc="lower right")
     hz = [s["hz"] for s in data["sines"]]
     for axis, key, level, label in ((gain, "gain_db", -3, "gain, dB"), (phase, "phase_deg", -90, "phase, degrees")):
         axis.plot(hz, [s[f"form_{key}"] for s in data["sines"]], color="#b23a00", linewidth=0.8)
         axis.plot(hz, [s[key] for s in data["sines"]], "o", color="#0072b2", markersize=3.5)
         axis.axhline(level, color="#8c96a0", linewidth=0.8, linestyle=":")
-        axis.set_xscale("log")
-        axis.set_ylabel(label)
-        axis.set_xlabel("frequency, Hz")
+        axis.set(xscale="log", ylabel=label, xlabel="frequency, Hz")
     short.plot([1e6 * data["short_every_s"] * i for i in range(len(data["short_a"]))], data["short_a"], color="#d55e00")
-    short.set_xlabel("after the short, µs")
-    short.set_ylabel("current, A")
+    short.set(xlabel="after the short, µs", ylabel="current, A")
     return plots.finish(figure, "current_loop", CURRENT_CAPTION)
 
 
@@ -153,23 +141,9 @@ SCHEMAS = {
 }
 
 
-def main(argv=None):
-    parser = argparse.ArgumentParser(
-        prog="controllers_picture.py", description=__doc__.splitlines()[0]
-    )
-    parser.add_argument("json", type=Path, help="what feltgate controllers --json wrote")
-    parser.add_argument("svg", type=Path, help="picture to be written")
-    arguments = parser.parse_args(argv)
-    interrupts.end_on_signals()
-
-    def draw(data):
-        write_whole(arguments.svg, SCHEMAS[data["schema"]](data).svg)
-
-    return plots.draw_figures(arguments.json, SCHEMAS, draw)
+def draw(data, options):
+    write_whole(options.svg, SCHEMAS[data["schema"]](data).svg)
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt as interrupt:
-        sys.exit(interrupts.tell("controllers", interrupt))
+    sys.exit(plots.main(__doc__, "controllers", SCHEMAS, draw))

@@ -22,7 +22,7 @@ import command_line
 import interrupts
 import outputs
 from outputs import write_whole
-from reports import all_figures, demo_page, recordings, run_section, runs, stability_section
+from reports import all_figures, demo_page, recordings, runs, stability_section
 from reports.growing import Growing
 from reports.progress import Progress, clock_text
 
@@ -78,18 +78,6 @@ def find_recordings(named):
     return own, complaints + more, recordings.OWN
 
 
-def faults(found):
-    lines = []
-    for run in found.values():
-        if run.ran:
-            lines += run_section.faults_of(run.summary)
-        elif run.job.recording is None:
-            lines.append(f"{run.job.name}: {run.complaint}")
-        if run.job.recording is not None:
-            lines += recordings.faults(run)
-    return lines
-
-
 def write(folder, demo):
     """demo.json and demo.html; the path of the page."""
     summary = {
@@ -141,7 +129,7 @@ def run_all(demo, jobs, folder, arguments):
             part = demo.part(
                 ended,
                 drawn,
-                wrong=faults(ended),
+                wrong=recordings.all_faults(ended),
                 took_s=time.monotonic() - progress.began,
                 so_far=f"{progress.finished} of {progress.count} runs so far, about "
                 f"{progress.left()} minutes to go. The demo writes this page again as its runs "
@@ -179,7 +167,7 @@ def run_all(demo, jobs, folder, arguments):
         drawn=drawn,
         figures=figures,
         stability=walls,
-        wrong=faults(done) + ([complaint] if complaint else []),
+        wrong=recordings.all_faults(done) + ([complaint] if complaint else []),
         unreadable=demo.unreadable + unreadable,
     )
 

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Shared parts of the scripts that draw one picture of docs/images each: look, rows, file."""
+"""Shared parts of the scripts that draw pictures of docs/images: look, rows, file."""
 
 import csv
+import inspect
 import sys
+import tomllib
 from pathlib import Path
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -17,11 +20,16 @@ BLUE, RED, GREY = "#1f6fb4", "#c0392b", "#888888"
 plt.rcParams.update({"svg.hashsalt": "feltgate", "svg.fonttype": "none", "font.size": 9})
 
 
-def columns(path, names):
-    """{name: values} of these columns of a CSV."""
+def columns(path, names=None):
+    """{name: array} of these columns of a CSV, or of all."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    return {name: [float(row[name]) for row in rows] for name in names}
+    return {name: np.array([float(row[name]) for row in rows]) for name in names or rows[0]}
+
+
+def vectors(path):
+    """A TOML file of vectors/, such as devices/stylus."""
+    return tomllib.loads((ROOT / f"vectors/{path}.toml").read_text(encoding="utf-8"))
 
 
 def save(figure, name):
@@ -29,10 +37,14 @@ def save(figure, name):
     figure.savefig(ROOT / f"docs/images/{name}.svg", metadata={"Date": None, "Creator": None})
 
 
-def files(count, what):
-    """The files that the command line names; ends with `what` where they are not so many."""
-    given = sys.argv[1:]
-    if len(given) == count and not given[0].startswith("-"):
-        return given
-    print(what.strip())
-    sys.exit(0 if given in (["-h"], ["--help"]) else 2)
+def draw(what, *pictures, **others):
+    """For the command line NAME FILE... writes docs/images/NAME.svg: the figure that the function of
+    this name makes of so many files. Where there is none it ends with `what` and their texts."""
+    known = {picture.__name__: picture for picture in pictures} | others
+    name, *files = sys.argv[1:] or [""]
+    if name not in known or len(files) != len(inspect.signature(known[name]).parameters):
+        print(what)
+        for picture in pictures:
+            print(f"{picture.__name__}: {inspect.getdoc(picture)}\n")
+        sys.exit(0 if name in ("-h", "--help") else 2)
+    save(known[name](*files), name)

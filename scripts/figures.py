@@ -14,8 +14,9 @@ import sys
 import command_line
 import outputs
 from outputs import write_whole
-from reports import all_figures, page, run_section, runs
+from reports import all_figures, page, runs
 from reports.progress import Progress
+from reports.recordings import all_faults
 
 SCHEMA = "feltgate-figures/1"
 EPILOG = """\
@@ -37,23 +38,12 @@ LEGEND = (
 )
 
 
-def faults(found):
-    """What went wrong in {name: Run}, one line each."""
-    lines = []
-    for run in found.values():
-        if run.ran:
-            lines += run_section.faults_of(run.summary)
-        else:
-            lines.append(f"{run.job.name}: {run.complaint}")
-    return lines
-
-
 def write(folder, drawn, found):
     """Pictures, figures.json and figures.html; the path of the page."""
     for figure in drawn:
         for picture in figure.pictures:
             picture.write(folder)
-    wrong = faults(found)
+    wrong = all_faults(found)
     clocks = sum(run.compared_clocks for run in found.values())
     mismatches = sum(run.mismatches for run in found.values())
     summary = {
@@ -98,7 +88,7 @@ def run(arguments):
             found = runs.run_all(jobs, folder / "data", progress)
         drawn = all_figures.draw(found, designs, png=True)
         path = write(folder, drawn, found)
-    wrong = faults(found)
+    wrong = all_faults(found)
     for line in wrong:
         print(f"figures: {line}", file=sys.stderr)
     print(path)

@@ -142,6 +142,8 @@ def write_whole(path, data):
     try:
         with open(part, "xb") as file:
             file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
             if os.path.exists(target):
                 os.fchmod(file.fileno(), stat.S_IMODE(os.stat(target).st_mode))
         os.replace(part, target)

@@ -12,12 +12,11 @@ import tempfile
 from pathlib import Path
 
 import command_line
-import design_package
 import outputs
 import product_board
 import rtl_sources
 import synth_measure
-from synth_tools import Tools, version
+from synth_tools import Tools, package_of, version
 
 EPILOG = """examples:
   feltgate product verilog                                feltgate.v: design lever, with read-back
@@ -82,7 +81,7 @@ def renamed(text):
 def verilog(root, options, folder):
     """The text of the file."""
     tools = Tools(folder)
-    package = design_package.package_of(root, options.design, folder / "design")
+    package = package_of(root, options.design, folder / "design")
     sources = synth_measure.copy_sources(root, package, folder)
     target = synth_measure.Target("core", rtl_sources.CORE)
     kept = " ".join(f"-unset {name}" for name in ATTRIBUTES)

@@ -10,9 +10,8 @@ import re
 import shutil
 from pathlib import Path
 
-import design_package
 import outputs
-from synth_tools import ToolError
+from synth_tools import ToolError, package_of
 
 BOARD = "de0_nano"
 CLOCK_HZ = 50_000_000
@@ -26,7 +25,7 @@ def constant(text, name):
 
 def design_files(root, design, folder):
     """The package and the parameters of one design, made together."""
-    package = design_package.package_of(root, design, folder)
+    package = package_of(root, design, folder)
     if not isinstance(package, Path):
         package = root / f"rtl/generated/{package}/feltgate_pkg.sv"
     return package, package.with_name("parameters.mem")

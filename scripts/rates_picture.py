@@ -10,12 +10,9 @@
 Documentation: docs/rates.md
 """
 
-import argparse
 import math
 import sys
-from pathlib import Path
 
-import interrupts
 from matplotlib.ticker import LogLocator
 from outputs import write_whole
 from reports import plots
@@ -145,33 +142,17 @@ def several(scenes):
     return finish(figure, axes, "rates", caption)
 
 
-def picture(scenes):
-    return one(scenes[0]) if len(scenes) == 1 else several(scenes)
-
-
-def main(argv=None):
-    parser = argparse.ArgumentParser(prog="rates_picture.py", description=__doc__.splitlines()[0])
-    parser.add_argument("json", type=Path, help="what feltgate rates --json wrote")
-    parser.add_argument("svg", type=Path, help="picture to be written; with --each a folder")
-    parser.add_argument("--each", action="store_true", help="rates.svg and one for each scene")
-    arguments = parser.parse_args(argv)
-    interrupts.end_on_signals()
-
-    def draw_all(data):
-        scenes = data["scenes"]
-        if not scenes:
-            raise ValueError("no scene was measured")
-        if arguments.each:
-            for made in (several(scenes), *map(one, scenes)):
-                write_whole(arguments.svg / f"{made.name}.svg", made.svg)
-        else:
-            write_whole(arguments.svg, picture(scenes).svg)
-
-    return plots.draw_figures(arguments.json, ["feltgate-rates/1"], draw_all)
+def draw_all(data, options):
+    scenes = data["scenes"]
+    if not scenes:
+        raise ValueError("no scene was measured")
+    if options.each:
+        for made in (several(scenes), *map(one, scenes)):
+            write_whole(options.svg / f"{made.name}.svg", made.svg)
+    else:
+        write_whole(options.svg, (one(scenes[0]) if len(scenes) == 1 else several(scenes)).svg)
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main())
-    except KeyboardInterrupt as interrupt:
-        sys.exit(interrupts.tell("rates", interrupt))
+    each = "rates.svg and one for each scene"
+    sys.exit(plots.main(__doc__, "rates", ["feltgate-rates/1"], draw_all, each=each))

@@ -6,14 +6,12 @@
   FELTGATE_PROGRAM=build/feltgate scripts/readme_picture.py
 """
 
-import csv
 import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from docs_picture import BLUE, GREY, RED, ROOT, plt, save
+from docs_picture import BLUE, GREY, RED, ROOT, columns, plt, save
 
 
 def run(scene, design, every, folder):
@@ -22,18 +20,16 @@ def run(scene, design, every, folder):
     program = os.environ.get("FELTGATE_PROGRAM", str(ROOT / "build/feltgate"))
     words = [program, "run", scene, "--design", design, "--quiet"]
     subprocess.run([*words, "--csv", str(path), "--every", str(every)], check=True)
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return {key: [float(row[key]) for row in rows] for key in rows[0]}
+    return columns(path)
 
 
-def window(columns, first_s, last_s):
-    keep = [i for i, t in enumerate(columns["time_s"]) if first_s <= t <= last_s]
-    return {key: [values[i] for i in keep] for key, values in columns.items()}
+def window(run, first_s, last_s):
+    keep = (first_s <= run["time_s"]) & (run["time_s"] <= last_s)
+    return {key: values[keep] for key, values in run.items()}
 
 
-def membrane(axes, columns):
-    cut = window(columns, 2.35, 2.75)
+def membrane(axes, crossing):
+    cut = window(crossing, 2.35, 2.75)
     axes.plot(cut["theta_rad"], cut["motor_torque_nm"], color=BLUE, label="motor torque")
     axes.plot(cut["theta_rad"], cut["tau_ref_nm"], color="k", lw=0.9, ls="--", label="asked for")
     axes.invert_xaxis()
@@ -43,9 +39,9 @@ def membrane(axes, columns):
 
 
 def step(axes, lever, paper):
-    for columns, color, name in ((lever, BLUE, "lever"), (paper, RED, "paper")):
-        cut = window(columns, 0.2585, 0.272)
-        ms = [1e3 * (t - 0.26) for t in cut["time_s"]]
+    for run_of, color, name in ((lever, BLUE, "lever"), (paper, RED, "paper")):
+        cut = window(run_of, 0.2585, 0.272)
+        ms = 1e3 * (cut["time_s"] - 0.26)
         axes.plot(ms, cut["motor_torque_nm"], color=color, label=f"motor torque, {name}")
     axes.plot(ms, cut["tau_hat_nm"], color=RED, lw=0.9, ls=":", label="what paper's observer says")
     axes.plot(ms, cut["tau_ref_nm"], color="k", lw=0.9, ls="--", label="asked for")
@@ -64,8 +60,7 @@ def main():
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8, frameon=False)
     save(figure, "felt")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

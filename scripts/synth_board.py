@@ -8,17 +8,14 @@ Documentation: docs/boards/ulx3s.md, docs/boards/tang_nano_9k.md, docs/boards/de
 import os
 import re
 import shutil
-import statistics
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import design_package
 import outputs
 import synth_measure
 import synth_path
-from synth_tools import ToolError, Tools, version
+from synth_tools import ToolError, Tools, package_of, version
 
 GATES = 4
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
@@ -140,23 +137,14 @@ def measure_routed(tools, board, steps, read, seeds, hz):
     if not seeds:
         return figures, None
     steps.write_netlist(tools)
-    with ThreadPoolExecutor(max_workers=2) as pool:
-        reports = list(pool.map(lambda seed: steps.route(tools, seed, hz / 1e6), seeds))
-    by_speed = sorted(zip(reports, seeds), key=lambda pair: synth_path.fmax(pair[0]))
-    speeds = [round(synth_path.fmax(report), 1) for report, _ in by_speed]
-    slowest = by_speed[0][0]
-    netlist = tools.folder / "board.json"
-    figures |= {
-        "fmax_mhz": round(statistics.median_low(speeds), 1),
-        "fmax_min_mhz": speeds[0],
-        "fmax_max_mhz": speeds[-1],
-        "clock_mhz": hz / 1e6,
-        "critical_path": synth_path.describe(slowest, netlist, board, "u_"),
-    }
+    found = synth_measure.by_speed(lambda seed: steps.route(tools, seed, hz / 1e6), seeds)
+    slowest, netlist = found[0][0], tools.folder / "board.json"
+    path = synth_path.describe(slowest, netlist, board, "u_")
+    figures |= synth_measure.speeds(found) | {"clock_mhz": hz / 1e6, "critical_path": path}
     wanted = synth_path.clock(slowest)["constraint"]
     if abs(wanted - hz / 1e6) > 0.01:
         raise ToolError(f"the PLL gives {wanted} MHz, the design wants {hz / 1e6:g} MHz")
-    return figures, by_speed[-1][1]
+    return figures, found[-1][1]
 
 
 def output_of(options):
@@ -226,7 +214,7 @@ def run(options, root, progress):
             raise ToolError("no nextpnr-ecp5: run ./feltgate synth, which fetches it, or --no-route")
         steps = ROUTED.get(options.board)
         design = with_clock(root, design, steps and steps.clock_hz, folder / "design")
-        package = design_package.package_of(root, design, folder / "design")
+        package = package_of(root, design, folder / "design")
         target = synth_measure.Target("board", options.board, registered=bool(steps) and steps.registered)
         names = sources(root, options.board, package, folder)
         read = synth_measure.read_commands(names, target)

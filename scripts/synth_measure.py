@@ -219,13 +219,18 @@ def cyclone_figures(cells):
     }
 
 
+def write_tops(tools, name, target, read):
+    """NAME_area.sv and NAME_speed.sv."""
+    ports = tools.ports(target.module, read)
+    for kind, text in (("area", area_top(target, ports)), ("speed", speed_top(target, ports))):
+        (tools.folder / f"{name}_{kind}.sv").write_text(text, encoding="utf-8")
+
+
 def measure(tools, root, design, target, seeds):
     """Figures of one target: a dictionary whose keys are those of docs/synthesis.md's JSON."""
     name = file_name(target)
     read = read_commands(copy_sources(root, design, tools.folder), target)
-    ports = tools.ports(target.module, read)
-    for kind, text in (("area", area_top(target, ports)), ("speed", speed_top(target, ports))):
-        (tools.folder / f"{name}_{kind}.sv").write_text(text, encoding="utf-8")
+    write_tops(tools, name, target, read)
     area = [*read, f"read_verilog -sv {name}_area.sv"]
     figures = ecp5_figures(tools.synthesize_ecp5(f"{name}_area", "area_top", area))
     if not target.registered:  # the cell is an ECP5's
@@ -239,14 +244,21 @@ def measure_speed(tools, name, read, seeds):
     speed = [*read, f"read_verilog -sv {name}_speed.sv"]
     tools.synthesize_ecp5(f"{name}_speed", "speed_top", speed)
     tools.write_netlist(f"{name}_speed")
+    found = by_speed(lambda seed: tools.route(f"{name}_speed", seed), seeds)
+    middle = found[(len(found) - 1) // 2][0]
+    path = synth_path.describe(middle, tools.folder / f"{name}_speed.json")
+    return speeds(found) | {"critical_path": path}
+
+
+def by_speed(route, seeds):
+    """[(report, seed)] of route(seed), the slowest first."""
     with ThreadPoolExecutor(max_workers=2) as pool:
-        reports = list(pool.map(lambda seed: tools.route(f"{name}_speed", seed), seeds))
-    reports.sort(key=synth_path.fmax)
-    speeds = [round(synth_path.fmax(report), 1) for report in reports]
-    middle = reports[(len(reports) - 1) // 2]
-    return {
-        "fmax_mhz": round(statistics.median_low(speeds), 1),
-        "fmax_min_mhz": speeds[0],
-        "fmax_max_mhz": speeds[-1],
-        "critical_path": synth_path.describe(middle, tools.folder / f"{name}_speed.json"),
-    }
+        reports = list(pool.map(route, seeds))
+    return sorted(zip(reports, seeds), key=lambda pair: synth_path.fmax(pair[0]))
+
+
+def speeds(found):
+    """Median and range of what by_speed() found."""
+    mhz = [round(synth_path.fmax(report), 1) for report, _ in found]
+    median = round(statistics.median_low(mhz), 1)
+    return {"fmax_mhz": median, "fmax_min_mhz": mhz[0], "fmax_max_mhz": mhz[-1]}

@@ -3,7 +3,7 @@
 """Tables of `feltgate synth`: on the terminal, and the generated part of docs/synthesis.md."""
 
 import synth_measure
-from reports.columns import aligned
+from reports.columns import aligned, markdown
 
 BEGIN = "<!-- written by feltgate synth --update: do not edit from here -->"
 END = "<!-- end of what feltgate synth wrote -->"
@@ -83,11 +83,6 @@ def text_table(design, rows):
     lines = [[f"design {design}", *HEADS[1:]], *(cells(n, r) for n, r in rows.items())]
     paths = [f"  {n}: {r['critical_path']}" for n, r in rows.items() if "critical_path" in r]
     return "\n".join([aligned(lines), *(["critical paths:", *paths] if paths else [])])
-
-
-def markdown(heads, rows):
-    rule = "|---|" + "---:|" * (len(heads) - 1)
-    return [f"| {' | '.join(heads)} |", rule, *(f"| {' | '.join(row)} |" for row in rows)]
 
 
 def goal_rows(design, rows):

@@ -34,6 +34,14 @@ def find(name):
     return shutil.which(f"yowasp-{name}", path=folders) or shutil.which(name, path=folders)
 
 
+def needed(name, comma=";", otherwise=""):
+    """find(), or ToolError."""
+    found = find(name)
+    if found is None:
+        raise ToolError(f"no {name}{comma} run ./feltgate synth, which fetches it{otherwise}")
+    return found
+
+
 def version(tool):
     """First line of a tool's --version, shortened to name and number."""
     if tool is None:
@@ -43,6 +51,26 @@ def version(tool):
     number = re.search(r"\d+\.\d+(\.\d+)*", text[0] if text else "")
     name = Path(tool).name
     return f"{name} {number.group(0)}" if number else name
+
+
+def package_of(root, design, folder):
+    """What synth_measure.copy_sources() takes of a design, a name in rtl/designs or the user's own file:
+    the name, or the path of a package made in FOLDER."""
+    if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
+        return design
+    path = Path(design)
+    if not path.is_file():
+        packages = root.glob("rtl/generated/*/feltgate_pkg.sv")
+        known = ", ".join(sorted(package.parent.name for package in packages))
+        raise ToolError(f"{design} is neither a design ({known}) nor a file; check the path")
+    if "FELTGATE_PROGRAM" not in os.environ:
+        raise ToolError("your own design needs the built generator: start it by ./feltgate")
+    generator = Path(os.environ["FELTGATE_PROGRAM"]).with_name("feltgate_generate")
+    command = [generator, root, "--design", path, "--output", folder]
+    done = interrupts.run(command, **interrupts.CAPTURED)
+    if done.returncode:
+        raise ToolError(done.stderr.strip())
+    return folder / "feltgate_pkg.sv"
 
 
 class Tools:
@@ -60,12 +88,13 @@ class Tools:
 
     def run_yosys(self, name, script, outputs):
         """Runs a script; its log is NAME.log. Fails unless every output was written."""
-        for output in outputs:
-            (self.folder / output).unlink(missing_ok=True)
         (self.folder / f"{name}.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
         self.run([self.yosys, "-s", f"{name}.ys"], name, outputs)
 
     def run(self, command, name, outputs):
+        """The same of any command."""
+        for output in outputs:
+            (self.folder / output).unlink(missing_ok=True)
         log = self.folder / f"{name}.log"
         with log.open("wb") as file:
             done = interrupts.run(
@@ -76,8 +105,14 @@ class Tools:
             tail = log.read_text(encoding="utf-8", errors="replace").splitlines()[-5:]
             raise ToolError("\n".join([f"{command[0]} failed; the whole log: {log}", *tail]))
 
+    def synthesize(self, name, top, script):
+        """Cell counts of TOP behind the script; NAME.il is what write_netlist() takes."""
+        script = [*script, f"tee -q -o {name}.stat stat -json -top {top}", f"write_rtlil {name}.il"]
+        self.run_yosys(name, script, [f"{name}.stat", f"{name}.il"])
+        return counted(self.folder / f"{name}.stat")["num_cells_by_type"]
+
     def synthesize_ecp5(self, name, top, read):
-        """Synthesizes TOP; returns its cell counts. NAME.json is what nextpnr takes.
+        """Synthesizes TOP; returns its cell counts.
 
         abc9 maps the LUTs (the only way in current Yosys, an option in 0.23), without the PFU's
         wide multiplexers, which take two LUTs where ABC finds one. opt_merge then removes the
@@ -89,11 +124,8 @@ class Tools:
             f"synth_ecp5 -top {top} -nowidelut{option} -run begin:check",
             "opt_merge -share_all",
             "opt_clean",
-            f"tee -q -o {name}.stat stat -json -top {top}",
-            f"write_rtlil {name}.il",
         ]
-        self.run_yosys(name, script, [f"{name}.stat", f"{name}.il"])
-        return cell_counts(self.folder / f"{name}.stat")
+        return self.synthesize(name, top, script)
 
     def write_netlist(self, name, *commands):
         """NAME.il as NAME.json, for nextpnr. A run of its own: see above on ABC and the log."""
@@ -119,69 +151,46 @@ class Tools:
         script += ["flatten", "opt -fast", "opt_clean -purge", "write_verilog -noattr netlist.v"]
         self.run_yosys("netlist", script, ["netlist.v"])
 
+    def place(self, command, name, seed, *endings):
+        """Places and routes NAME.json by a nextpnr; its report, and NAME_SEED.ENDING of each is there."""
+        outputs = [f"{name}_{seed}.{ending}" for ending in ("report", *endings)]
+        words = ["--timing-allow-fail", "--seed", str(seed), "-q"]
+        words += ["--json", f"{name}.json", "--report", outputs[0]]
+        self.run([*command, *words], f"{name}_{seed}", outputs)
+        return json.loads((self.folder / outputs[0]).read_text(encoding="utf-8"))
+
     def route(self, name, seed):
-        """Places and routes NAME.json; returns nextpnr's report."""
-        report = f"{name}_{seed}.report"
-        (self.folder / report).unlink(missing_ok=True)
-        command = [self.nextpnr, *DEVICE, "--freq", str(TARGET_MHZ), "--timing-allow-fail"]
-        command += ["--seed", str(seed), "--json", f"{name}.json", "--report", report]
-        self.run([*command, "--lpf-allow-unconstrained", "-q"], f"{name}_{seed}", [report])
-        return json.loads((self.folder / report).read_text(encoding="utf-8"))
+        """For an ECP5, without pins."""
+        words = (*DEVICE, "--freq", str(TARGET_MHZ), "--lpf-allow-unconstrained")
+        return self.place([self.nextpnr, *words], name, seed)
 
     def route_board(self, name, seed, constraints):
-        """Places and routes NAME.json with its pins; returns the report, and NAME_SEED.config is there."""
-        stem = f"{name}_{seed}"
-        outputs = [f"{stem}.report", f"{stem}.config"]
-        for output in outputs:
-            (self.folder / output).unlink(missing_ok=True)
-        command = [self.nextpnr, *DEVICE, "--timing-allow-fail", "--seed", str(seed), "-q"]
-        command += ["--lpf", constraints, "--json", f"{name}.json"]
-        command += ["--report", outputs[0], "--textcfg", outputs[1]]
-        self.run(command, stem, outputs)
-        return json.loads((self.folder / outputs[0]).read_text(encoding="utf-8"))
+        """With a board's pins."""
+        words = ("--lpf", constraints, "--textcfg", f"{name}_{seed}.config")
+        return self.place([self.nextpnr, *DEVICE, *words], name, seed, "config")
 
     def pack(self, name):
         """NAME.config as NAME.bit, what the FPGA loads."""
-        packer = find("ecppack")
-        if packer is None:
-            raise ToolError("no ecppack; run ./feltgate synth, which fetches it")
-        command = [packer, "--compress", f"{name}.config", f"{name}.bit"]
+        command = [needed("ecppack"), "--compress", f"{name}.config", f"{name}.bit"]
         self.run(command, f"{name}_pack", [f"{name}.bit"])
         return self.folder / f"{name}.bit"
 
     def synthesize_gowin(self, name, top, read):
-        """Synthesizes TOP for the GW1NR-9C; returns its cell counts. NAME.il as with synthesize_ecp5()."""
-        script = [
-            *read,
-            f"synth_gowin -top {top} -family gw1n -nowidelut -run begin:check",
-            f"tee -q -o {name}.stat stat -json -top {top}",
-            f"write_rtlil {name}.il",
-        ]
-        self.run_yosys(name, script, [f"{name}.stat", f"{name}.il"])
-        return cell_counts(self.folder / f"{name}.stat")
+        """Synthesizes TOP for the GW1NR-9C; returns its cell counts."""
+        flow = f"synth_gowin -top {top} -family gw1n -nowidelut -run begin:check"
+        return self.synthesize(name, top, [*read, flow])
 
     def route_gowin(self, name, seed, constraints, mhz):
-        """As route_board(), for the GW1NR-9C; NAME_SEED.json is there, what pack_gowin() takes."""
-        nextpnr = find("nextpnr-himbaechel-gowin")
-        if nextpnr is None:
-            raise ToolError("no nextpnr-himbaechel-gowin: run ./feltgate synth, which fetches it, or --no-route")
-        stem = f"{name}_{seed}"
-        outputs = [f"{stem}.report", f"{stem}.json"]
-        for output in outputs:
-            (self.folder / output).unlink(missing_ok=True)
-        command = [nextpnr, "--device", GOWIN_PART, "--vopt", f"family={GOWIN_FAMILY}"]
-        command += ["--vopt", f"cst={constraints}", "--freq", f"{mhz:g}", "--timing-allow-fail"]
-        command += ["--seed", str(seed), "-q", "--json", f"{name}.json"]
-        command += ["--report", outputs[0], "--write", outputs[1]]
-        self.run(command, stem, outputs)
-        return json.loads((self.folder / outputs[0]).read_text(encoding="utf-8"))
+        """As route_board(), for the GW1NR-9C; NAME_SEED.json is what pack_gowin() takes."""
+        command = [needed("nextpnr-himbaechel-gowin", ":", ", or --no-route"), "--device", GOWIN_PART]
+        command += ["--vopt", f"family={GOWIN_FAMILY}", "--vopt", f"cst={constraints}"]
+        command += ["--freq", f"{mhz:g}", "--write", f"{name}_{seed}.json"]
+        return self.place(command, name, seed, "json")
 
     def pack_gowin(self, name):
         """NAME.json as NAME.fs, what the FPGA loads."""
-        packer = find("gowin_pack")
-        if packer is None:
-            raise ToolError("no gowin_pack; run ./feltgate synth, which fetches it")
-        self.run([packer, "-d", GOWIN_FAMILY, "-o", f"{name}.fs", f"{name}.json"], f"{name}_pack", [f"{name}.fs"])
+        command = [needed("gowin_pack"), "-d", GOWIN_FAMILY, "-o", f"{name}.fs", f"{name}.json"]
+        self.run(command, f"{name}_pack", [f"{name}.fs"])
         return self.folder / f"{name}.fs"
 
     def ports(self, top, read):
@@ -199,10 +208,7 @@ class Tools:
         script = [*read, f"hierarchy -top {top}", "proc", "flatten", "opt_clean", "memory_dff"]
         script += ["opt_clean", f"tee -q -o {stat} stat -json -top {top}"]
         self.run_yosys(f"{name}_memory", script, [stat])
-        text = (self.folder / stat).read_text(encoding="utf-8")
-        found = json.loads(text[text.index("{") :])
-        design = found.get("design") or next(iter(found["modules"].values()))
-        return design["num_memory_bits"]
+        return counted(self.folder / stat)["num_memory_bits"]
 
     def synthesize_cyclone(self, name, top, read):
         """Cell counts for Cyclone IV E: not fitted, 18 x 18 products as black boxes."""
@@ -221,12 +227,10 @@ class Tools:
             "opt_clean",
             f"synth_intel -family cycloneive -top {top} -run begin:vqm",
             "opt_clean",
-            f"tee -q -o {name}.stat stat -json -top {top}",
         ]
         (self.folder / "cyclone_mult.v").write_text(CYCLONE_MULT, encoding="utf-8")
         (self.folder / "cyclone_cells.v").write_text(CYCLONE_CELLS, encoding="utf-8")
-        self.run_yosys(name, script, [f"{name}.stat"])
-        return cell_counts(self.folder / f"{name}.stat")
+        return self.synthesize(name, top, script)
 
 
 # mul2dsp writes $__MUL18X18. The cell is counted only, so it needs no contents.
@@ -241,8 +245,8 @@ endmodule
 """
 
 
-def cell_counts(path):
+def counted(path):
+    """What Yosys' stat -json has of the whole."""
     text = path.read_text(encoding="utf-8")
     found = json.loads(text[text.index("{") :])
-    design = found.get("design") or next(iter(found["modules"].values()))
-    return design["num_cells_by_type"]
+    return found.get("design") or next(iter(found["modules"].values()))

@@ -10,6 +10,8 @@ Documentation: docs/choose.md
 import math
 from dataclasses import dataclass
 
+from exploration.front import beats
+
 CUTOFF, OBSERVER = "velocity.cutoff_rad_s", "observer.cutoff_rad_s"
 BEFORE, AFTER = "front", "bound_holds"  # the columns of the table between these are the design's
 NOT_ASKED = "left out, see below"
@@ -242,10 +244,6 @@ def choose(all_of, wishes):
         if len(picked) < MORE and not any(one is p for p in picked):
             picked.append(one)
     return best, picked
-
-
-def beats(a, b):
-    return a != b and all(x <= y for x, y in zip(a, b, strict=True))
 
 
 def why_not(all_of, best, wishes):

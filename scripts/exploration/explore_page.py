@@ -9,10 +9,10 @@ import difflib
 from html import escape
 from pathlib import Path
 
+import outputs
 from reports import page
 
 from exploration import design_text, front, presets, space
-from exploration import plan as plans
 from exploration.design_text import toml_value
 
 NAME = "explore.html"
@@ -132,5 +132,5 @@ def write(plan, rows, root):
     """Writes the page of a merged plan; its path."""
     path = plan.folder / NAME
     text = page.document(f"feltgate explore: {plan.name}", body(plan, rows, root))
-    plans.write_durably(path, text)
+    outputs.write_whole(path, text)
     return path

@@ -5,10 +5,10 @@
 Documentation: docs/explore.md
 """
 
+import outputs
 from reports import plots
 
 from exploration import front, presets
-from exploration import plan as plans
 
 NAME = "explore.svg"
 KINDS = (
@@ -57,9 +57,7 @@ def draw_axes(axes, rows, across, factor, label):
             fontweight="bold",
             arrowprops={"arrowstyle": "-", "linewidth": 0.6},
         )
-    axes.set_yscale("log")
-    axes.set_xlabel(label)
-    axes.set_ylabel("rms torque error, µNm")
+    axes.set(yscale="log", xlabel=label, ylabel="rms torque error, µNm")
 
 
 def write(plan, rows):
@@ -71,5 +69,5 @@ def write(plan, rows):
     plots.legend(axes[0], columns=2)
     picture = plots.finish(figure, plan.name)
     path = plan.folder / NAME
-    plans.write_durably(path, picture.svg)
+    outputs.write_whole(path, picture.svg)
     return path

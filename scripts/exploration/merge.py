@@ -16,8 +16,8 @@ import tomllib
 from pathlib import Path
 
 import interrupts
+import outputs
 from exploration import chunks, design_text, front, point, routes, space
-from exploration import plan as plans
 
 PLANT = "p24"
 LINES, TABLE = "points.jsonl", "points.csv"
@@ -121,8 +121,8 @@ def merge(plan, root):
         row["result"] |= routed.get(row["id"], {})
         rows.append(finished(root, row))
     path = plan.folder / LINES
-    plans.write_durably(path, "".join(space.canonical(row) + "\n" for row in rows))
-    plans.write_durably(plan.folder / TABLE, table(rows))
+    outputs.write_whole(path, "".join(space.canonical(row) + "\n" for row in rows))
+    outputs.write_whole(plan.folder / TABLE, table(rows))
     return path
 
 

@@ -9,11 +9,11 @@ Documentation: docs/explore.md
 
 import hashlib
 import json
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
+import outputs
 from command_line import Refused
 from exploration import space
 
@@ -60,16 +60,6 @@ class Plan:
         return [point for first, after in mine for point in self.points[first:after]]
 
 
-def write_durably(path, text):
-    """The file appears whole or not at all."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    with temporary.open("w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    temporary.replace(path)
-
-
 def text_of(found):
     """The plan as a file: the same bytes for the same space."""
     head = {"schema": SCHEMA, "name": found.name, "description": found.description}
@@ -86,7 +76,7 @@ def make(found, folder):
             raise PlanError(f"{path}: the plan of another space; choose another folder")
         return load(folder)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write_durably(path, text)
+    outputs.write_whole(path, text)
     return load(folder)
 
 

@@ -6,7 +6,6 @@ RTL and program depend only on the structure. They are built once per structure 
 working folder; the values in registers are set at run time. Documentation: docs/explore.md
 """
 
-import argparse
 import fcntl
 import hashlib
 import json
@@ -18,13 +17,13 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-import interrupts  # noqa: E402
-import outputs  # noqa: E402
-import rtl_sources  # noqa: E402
-import synth_measure  # noqa: E402
-import synth_tools  # noqa: E402
-from exploration.design_text import design_text  # noqa: E402
+import command_line
+import interrupts
+import outputs
+import rtl_sources
+import synth_measure
+import synth_tools
+from exploration.design_text import design_text
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 BUILD = Path(os.environ.get("FELTGATE_BUILD", ROOT / "build"))
@@ -140,12 +139,6 @@ def build_program(generated, folder):
     run([compiler(), *objects, *libraries, "-lfmt", "-lz", "-pthread", "-o", folder / "point"])
 
 
-def core_target():
-    open_ports = tuple(synth_measure.SNAPSHOT_PORTS)
-    tied = tuple(synth_measure.ALONE)
-    return synth_measure.Target("core", synth_measure.CORE, {"ReadBack": "0"}, True, open_ports, tied)
-
-
 def tools_in(folder):
     tools = synth_tools.Tools(folder)
     tools.yosys = yosys()
@@ -158,15 +151,10 @@ def synthesis_inputs(generated, folder, tools):
     shutil.copy(generated / "feltgate_pkg.sv", folder)
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)
-    target = core_target()
+    target = synth_measure.scene_target(ROOT)
     names = ["feltgate_pkg.sv", *(Path(name).name for name in names)]
     read = synth_measure.read_commands(names, target)
-    ports = tools.ports(target.module, read)
-    for kind, text in (
-        ("area", synth_measure.area_top(target, ports)),
-        ("speed", synth_measure.speed_top(target, ports)),
-    ):
-        (folder / f"core_{kind}.sv").write_text(text, encoding="utf-8")
+    synth_measure.write_tops(tools, "core", target, read)
     return read
 
 
@@ -290,11 +278,7 @@ def report(result):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(
-        "feltgate explore point",
-        description=HELP,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_line.parser("explore point", HELP)
     parser.add_argument("design", metavar="FILE", help="a design file")
     parser.add_argument("--route", action="store_true", help="also Fmax, median of three seeds")
     parser.add_argument("--json", metavar="FILE", help="write the figures here")

@@ -10,8 +10,8 @@ Documentation: docs/explore.md
 import math
 import re
 
+import outputs
 from exploration import design_text, front
-from exploration import plan as plans
 
 NAMES = ("fast", "balanced", "exact")
 
@@ -94,6 +94,6 @@ def write(plan, rows, root):
     paths = []
     for name in chosen:
         path = plan.folder / f"{name}.toml"
-        plans.write_durably(path, preset_text(root, name, chosen, plan))
+        outputs.write_whole(path, preset_text(root, name, chosen, plan))
         paths.append(path)
     return paths

@@ -8,8 +8,8 @@ Documentation: docs/explore.md
 import json
 from pathlib import Path
 
+import outputs
 from exploration import chunks, space
-from exploration import plan as plans
 
 FOLDER = "routed"
 
@@ -32,7 +32,7 @@ def run(plan, name, sources):
         result = chunks.one(chunks.evaluator(), point, plan, route=True)
         path.parent.mkdir(parents=True, exist_ok=True)
         text = space.canonical({"id": name, "sources": sources, "result": result})
-        plans.write_durably(path, text + "\n")
+        outputs.write_whole(path, text + "\n")
     return path
 
 

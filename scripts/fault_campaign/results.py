@@ -5,7 +5,7 @@ RTL."""
 
 import re
 
-from reports.columns import aligned
+from reports.columns import aligned, markdown
 
 CLASSES = ("masked", "latent", "transient", "off", "detected", "silent", "unsafe")
 POINTS = ("state", "two bits", "pins", "words")
@@ -107,38 +107,27 @@ def promises(faults):
     return found
 
 
+def table(rows, peak, integral):
+    """Head and cells; how the deviations are written."""
+    head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]
+    cells = [
+        [row.point, row.group, row.total(), *(row.count[c] for c in CLASSES)]
+        + [format(max(row.peaks), peak), format(1e3 * max(row.integrals), integral)]
+        for row in rows
+    ]
+    return head, cells
+
+
 def text_table(rows):
     """For a terminal."""
-    lines = [["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]]
-    for row in rows:
-        lines.append(
-            [
-                row.point,
-                row.group,
-                row.total(),
-                *(row.count[c] for c in CLASSES),
-                f"{max(row.peaks):.3f}",
-                f"{1e3 * max(row.integrals):.3f}",
-            ]
-        )
-    return aligned(lines, left=2)
+    head, cells = table(rows, ".3f", ".3f")
+    return aligned([head, *cells], left=2)
 
 
 def markdown_table(rows):
     """Lines, as in docs/verification.md."""
-    head = ["point", "what", "faults", *CLASSES, "peak Nm", "mNm s"]
-    lines = ["| " + " | ".join(head) + " |", "|---|---|" + "---:|" * (len(head) - 2)]
-    for row in rows:
-        cells = [
-            row.point,
-            row.group,
-            str(row.total()),
-            *(str(row.count[c]) for c in CLASSES),
-            f"{max(row.peaks):.2f}",
-            f"{1e3 * max(row.integrals):.2g}",
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return lines
+    head, cells = table(rows, ".2f", ".2g")
+    return markdown(["point", "what", *head[2:]], cells, left=2)
 
 
 def block_of(fault, blocks):

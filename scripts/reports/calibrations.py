@@ -65,9 +65,7 @@ def open_picture(run, title, name, plant_name, png):
             fontsize=7.5,
             color=plots.COLOURS["paper"],
         )
-    axes.set_xlabel("voltage set-point, V")
-    axes.set_ylabel("torque, Nm")
-    axes.set_ylim(0, 0.46)
+    axes.set(xlabel="voltage set-point, V", ylabel="torque, Nm", ylim=(0, 0.46))
     axes.legend(loc="upper left", fontsize=7.5)
     return (
         plots.finish(figure, name, png=png),
@@ -128,8 +126,7 @@ def torque_picture(key, title, run, png):
         axes.axvline(0.15, color=plots.COLOURS["paper"], linestyle=":", linewidth=1.1)
     torque.annotate("0.15 Nm", (0.155, 0.02), color=plots.COLOURS["paper"], fontsize=7.5)
     torque.set_ylabel("torque, Nm")
-    error.set_ylabel("measured less\nobserved, mNm")
-    error.set_xlabel("torque reference, Nm")
+    error.set(ylabel="measured less\nobserved, mNm", xlabel="torque reference, Nm")
     plots.legend(torque, 4)
     return plots.finish(figure, f"figure-10-{key}", png=png)
 
@@ -154,8 +151,7 @@ def border_picture(runs, keys, png):
     volts.set_ylim(0, 6)
     torque.set_ylim(0, 0.36)
     volts.set_ylabel("voltage, V")
-    torque.set_ylabel("motor torque, Nm")
-    torque.set_xlabel("torque reference, Nm")
+    torque.set(ylabel="motor torque, Nm", xlabel="torque reference, Nm")
     plots.legend(volts)
     return plots.finish(figure, "figure-10-border", png=png)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Tables for a terminal."""
+"""Tables for a terminal and for a page."""
 
 
 def aligned(lines, left=1):
@@ -14,3 +14,10 @@ def aligned(lines, left=1):
         ).rstrip()
         for line in lines
     )
+
+
+def markdown(head, rows, left=1):
+    """Lines of a table in Markdown, with the same columns."""
+    rule = "|" + "---|" * left + "---:|" * (len(head) - left)
+    cells = [f"| {' | '.join(map(str, row))} |" for row in (head, *rows)]
+    return [cells[0], rule, *cells[1:]]

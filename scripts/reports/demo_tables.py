@@ -13,7 +13,10 @@ SIGNALS = (
     ("observed torque, µNm", "tau_hat_nm"),
     ("commanded torque, µNm", "torque_nm"),
 )
-NOT_RUN = page.Cell('<span class="bad">did not run</span>')
+NOT_RUN = page.mark(False, "did not run")
+# The first columns of a run in closed loop, and of how far its torque is off.
+RUN = ("scene", "design", "device time, s", "mismatches", "expectations broken")
+TORQUE = ("largest torque asked for, Nm", "felt, Nm")
 
 
 def fixed(summary):
@@ -45,31 +48,34 @@ def title(run):
     return run.job.recording.title if run.job.recording else run.summary["scene"]
 
 
-def scenes(demo):
-    head = [
-        *("scene", "design", "device time, s", "mismatches", "expectations broken"),
-        *("largest torque asked for, Nm", "felt, Nm"),
-        *("largest error of the commanded torque, µNm", "its bound", "saturated ticks"),
+def of_run(run, anchor):
+    """The cells below RUN."""
+    s = run.summary
+    expectations = s.get("expectations", {"checked": 0, "broken": []})
+    broken = page.good_or_bad(len(expectations["broken"]))
+    return [
+        page.link(anchor, s["scene"]),
+        s["design"],
+        page.number(s["simulated_s"]),
+        page.good_or_bad(run.mismatches),
+        page.Cell(f"{broken} of {expectations['checked']}"),
     ]
+
+
+def scenes(demo):
+    head = [*RUN, *TORQUE, "largest error of the commanded torque, µNm", "its bound", "saturated ticks"]
     rows = []
     for name in demo.scenes:
         run = demo.runs[name]
         if not run.ran:
             rows.append([name, NOT_RUN])
             continue
-        s = run.summary
-        expectations = s.get("expectations", {"checked": 0, "broken": []})
-        broken = page.good_or_bad(len(expectations["broken"]))
-        saturated = fixed(s).get("saturations")
+        saturated = fixed(run.summary).get("saturations")
         rows.append(
             [
-                page.link(name, s["scene"]),
-                s["design"],
-                page.number(s["simulated_s"]),
-                page.good_or_bad(run.mismatches),
-                page.Cell(f"{broken} of {expectations['checked']}"),
-                *peaks(s),
-                *errors(s, "torque_nm", ("max_error_in_bounds", "bound")),
+                *of_run(run, name),
+                *peaks(run.summary),
+                *errors(run.summary, "torque_nm", ("max_error_in_bounds", "bound")),
                 "–" if saturated is None else f"{saturated:,}",
             ]
         )
@@ -78,27 +84,17 @@ def scenes(demo):
 
 def axes(demo):
     """Runs of devices of several axes: a row for each axis."""
-    head = [
-        *("scene", "design", "device time, s", "mismatches", "expectations broken", "axis"),
-        *("largest torque asked for, Nm", "felt, Nm"),
-        *("largest error of the engine's torque, µNm", "its bound"),
-    ]
+    head = [*RUN, "axis", *TORQUE, "largest error of the engine's torque, µNm", "its bound"]
     rows = []
     for name in demo.devices:
         run = demo.runs[name]
         if not run.ran:
             rows.append([name, NOT_RUN])
             continue
-        s = run.summary
-        broken = page.good_or_bad(len(s["expectations"]["broken"]))
-        for number, axis in enumerate(s["axes"]):
+        for number, axis in enumerate(run.summary["axes"]):
             rows.append(
                 [
-                    page.link(f"card-{name}", s["scene"]),
-                    s["design"],
-                    page.number(s["simulated_s"]),
-                    page.good_or_bad(run.mismatches),
-                    page.Cell(f"{broken} of {s['expectations']['checked']}"),
+                    *of_run(run, f"card-{name}"),
                     str(number),
                     *(page.number(axis[f"{kind}_peak_nm"]) for kind in ("asked", "motor")),
                     *(micro(axis["law_nm"].get(kind)) for kind in ("max_error", "bound")),
@@ -123,9 +119,7 @@ def as_known(run):
     if not run.job.recording.expected:
         return "no table"
     wrong = bool(recordings.faults(run))
-    return page.Cell(
-        f'<span class="{"bad" if wrong else "good"}">{"differs" if wrong else "yes"}</span>'
-    )
+    return page.mark(not wrong, "differs" if wrong else "yes")
 
 
 def replays(demo):
@@ -137,7 +131,7 @@ def replays(demo):
     for name in demo.replays:
         run = demo.runs[name]
         if not run.ran:
-            rows.append([run.job.recording.title, page.Cell('<span class="bad">not read</span>')])
+            rows.append([run.job.recording.title, page.mark(False, "not read")])
             continue
         s, p = run.summary, run.summary["position"]
         drawn = demo.drawn.get(name)

@@ -59,9 +59,7 @@ def table(summary):
             e["figure"],
             f"{e['value']:.6g}",
             allowed(e),
-            page.Cell(
-                '<span class="good">yes</span>' if e["kept"] else '<span class="bad">no</span>'
-            ),
+            page.mark(e["kept"], "yes" if e["kept"] else "no"),
         ]
         for e in summary.get("felt", {}).get("expectations", [])
     ]

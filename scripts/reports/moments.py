@@ -57,7 +57,8 @@ def of_run(summary, csv):
         csv["hand_felt_nm"] if moved else None,
         float(csv["time_s"][-1]),
     )
-    return part(whole, *around(whole))
+    first, last = around(whole)
+    return at(whole, slice(first, last + 1))
 
 
 def around(m):
@@ -72,16 +73,14 @@ def around(m):
     return inside[0], inside[-1]
 
 
-def part(m, first, last):
-    rows = slice(first, last + 1)
-    cut = [None if x is None else x[rows] for x in (m.time, m.angle, m.asked, m.felt, m.hand)]
-    return Moments(*cut, m.whole_s)
-
-
 def thin(m, most):
     """At most so many rows, evenly spaced in time."""
-    index = np.unique(np.linspace(0, len(m.time) - 1, most).round().astype(int))
-    cut = [None if x is None else x[index] for x in (m.time, m.angle, m.asked, m.felt, m.hand)]
+    return at(m, np.unique(np.linspace(0, len(m.time) - 1, most).round().astype(int)))
+
+
+def at(m, rows):
+    """Some rows, by a slice or their numbers."""
+    cut = [None if x is None else x[rows] for x in (m.time, m.angle, m.asked, m.felt, m.hand)]
     return Moments(*cut, m.whole_s)
 
 

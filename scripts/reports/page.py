@@ -54,9 +54,14 @@ class Cell(str):
     """Markup that is already safe."""
 
 
+def mark(good, text):
+    """Words in the colour of what is well, or of what is not."""
+    return Cell(f'<span class="{"good" if good else "bad"}">{text}</span>')
+
+
 def good_or_bad(count):
     """A count that should be 0."""
-    return Cell(f'<span class="{"good" if count == 0 else "bad"}">{count:,}</span>')
+    return mark(count == 0, f"{count:,}")
 
 
 def breakable(text):

@@ -6,6 +6,7 @@ RTL is a broad pale line, and the quad reference is a thin dark line over it, so
 where they agree. Documentation: docs/figures.md
 """
 
+import argparse
 import base64
 import io
 import json
@@ -14,6 +15,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import command_line
+import interrupts
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -177,15 +180,24 @@ def at_least(axes, span):
         axes.set_ylim(middle - span / 2, middle + span / 2)
 
 
-def draw_figures(path, schemas, draw):
-    """Gives the JSON of a command, if it has one of these schemas, to `draw`. The exit code: 2 and a line
-    that names the file where it cannot be read, drawn or written."""
+def main(what, command, schemas, draw, **flags):
+    """The exit code of a script that draws the JSON of feltgate COMMAND: draw(data, options), if it has one
+    of these schemas; 2 and a line that names the file where it cannot be read, drawn or written."""
+    parser = argparse.ArgumentParser(description=what.splitlines()[0])
+    parser.add_argument("json", type=Path, help=f"what feltgate {command} --json wrote")
+    to = "; with --each a folder" if flags else ""
+    parser.add_argument("svg", type=Path, help=f"picture to be written{to}")
+    command_line.add_flags(parser, **flags)
+    options = parser.parse_args()
+    interrupts.end_on_signals()
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = json.loads(options.json.read_text(encoding="utf-8"))
         if data.get("schema") not in schemas:
             raise ValueError(f"schema is {data.get('schema')!r}, not {' or '.join(schemas)}")
-        draw(data)
+        draw(data, options)
     except (OSError, ValueError, KeyError) as error:
-        print(f"{Path(sys.argv[0]).stem}: {path}: {error}", file=sys.stderr)
+        print(f"{Path(sys.argv[0]).stem}: {options.json}: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt as interrupt:
+        return interrupts.tell(command, interrupt)
     return 0

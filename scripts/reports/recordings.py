@@ -13,6 +13,7 @@ import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from reports import run_section
 from reports.runs import ROOT, Job
 
 SUFFIXES = {".sr", ".vcd", ".csv", ".tsv", ".txt", ".vec", ".fgv", ".vector", ".trace"}
@@ -204,3 +205,16 @@ def faults(run):
     if recording.expected and got != recording.expected:
         return [f"{recording.title}: steps, illegal, reversals are {got}, not {recording.expected}"]
     return []
+
+
+def all_faults(found):
+    """What went wrong in {name: Run}, one line each."""
+    lines = []
+    for run in found.values():
+        if run.ran:
+            lines += run_section.faults_of(run.summary)
+        elif run.job.recording is None:
+            lines.append(f"{run.job.name}: {run.complaint}")
+        if run.job.recording is not None:
+            lines += faults(run)
+    return lines

@@ -46,11 +46,12 @@ def facts(summary):
     return lines + felt_section.lines(summary)
 
 
-def error_cells(engine, key, scale):
-    """Largest and rms error, in units of 1/scale."""
-    errors = engine.get(key, {})
+def error_cells(engine):
+    """Largest and rms error of each signal, in micro-units."""
+    errors = [engine.get(key, {}) for key in ("velocity_rad_s", "tau_hat_nm", "torque_nm")]
     return [
-        page.number(scale * errors[kind]) if kind in errors else "–"
+        page.number(1e6 * found[kind] if kind in found else None)
+        for found in errors
         for kind in ("max_error", "rms_error")
     ]
 
@@ -74,9 +75,7 @@ def engine_table(summary):
             continue
         rows.append(
             [ENGINE_NAMES.get(name, name)]
-            + error_cells(engine, "velocity_rad_s", 1e6)
-            + error_cells(engine, "tau_hat_nm", 1e6)
-            + error_cells(engine, "torque_nm", 1e6)
+            + error_cells(engine)
             + [f"{engine['saturations']:,}" if "saturations" in engine else "–"]
             + [page.number(engine.get("speed"))]
         )

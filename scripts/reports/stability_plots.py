@@ -50,8 +50,7 @@ def k_b(study, png=False):
     axis.set_yscale("log")
     top = max((p["eigenvalues_nm_rad"] for p in study["borders"]), default=1)
     axis.set_ylim(top=4 * max(top, 1e-3))
-    axis.set_xlabel("damping B of the wall, Nm s/rad")
-    axis.set_ylabel("stiffness K, Nm/rad")
+    axis.set(xlabel="damping B of the wall, Nm s/rad", ylabel="stiffness K, Nm/rad")
     axis.legend(title="scene rate", loc="lower right", ncols=2)
     caption = (
         "Line: eigenvalues of the loop. Dot: bisection on the chain's own bits. Dotted: "
@@ -83,8 +82,7 @@ def locus(study, png=False):
     axis.axvline(0, color="#1d2329", linewidth=0.8)
     axis.set_xlim(-60, 40)
     axis.set_ylim(bottom=-20, top=700)
-    axis.set_xlabel("growth, rad/s")
-    axis.set_ylabel("frequency, rad/s")
+    axis.set(xlabel="growth, rad/s", ylabel="frequency, rad/s")
     caption = (
         "Each dot is an eigenvalue; right of the line the swing grows. The other slow one, the "
         "low-pass of the velocity, stays near -500 rad/s and out of the picture."

@@ -7,6 +7,7 @@ Therefore it is not used.
 """
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -72,7 +73,7 @@ def point_of(root, entry):
 
 def read(root, file):
     """{(hierarchy, point): count} of one program."""
-    counts = {}
+    counts = Counter()
     lines = file.read_text(encoding="utf-8").splitlines()
     if not lines or not lines[0].startswith("# SystemC::Coverage"):
         raise DataError(f"{file}: no coverage data")
@@ -83,24 +84,21 @@ def read(root, file):
         entry = fields(found[1])
         point = point_of(root, entry)
         if point:
-            key = entry["h"], point
-            counts[key] = counts.get(key, 0) + int(found[2])
+            counts[entry["h"], point] += int(found[2])
     return counts
 
 
 def merged(all_counts):
     """{point: count} over programs and instances."""
-    total = {}
-    for counts in all_counts:
-        for (_, point), count in counts.items():
-            total[point] = total.get(point, 0) + count
+    total = Counter()
+    for (_, point), count in instances(all_counts).items():
+        total[point] += count
     return total
 
 
 def instances(all_counts):
     """{(hierarchy, point): count} over programs, the instances apart."""
-    total = {}
+    total = Counter()
     for counts in all_counts:
-        for key, count in counts.items():
-            total[key] = total.get(key, 0) + count
+        total.update(counts)
     return total

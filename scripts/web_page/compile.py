@@ -6,7 +6,6 @@ import concurrent.futures
 import os
 import re
 import shutil
-from pathlib import Path
 
 import interrupts
 
@@ -41,8 +40,6 @@ PLANTS = ("p24", "p48", "linear")
 # A hand read from a file needs recordings, which the page has none of; nobody asks it for C++ or
 # proofs.
 LEFT_OUT = re.compile(r"hand_file|cpp(_.*)?|gappa(_.*)?|.*_main")
-# The design with an engine, on which laws run.
-LAW_DESIGN = "lever_law"
 
 
 class CompileError(Exception):

@@ -10,6 +10,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -58,6 +59,31 @@ class Scratch(unittest.TestCase):
 
     def setUp(self):
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
+
+    def ended(self, done, status=0, *said):
+        """What came of a program that ended with this status and said this on stderr."""
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        for words in said:
+            self.assertIn(words, done.stderr)
+        return done
+
+    def started(self, *command, **options):
+        """A program under way in the folder; who starts it ends it, or the test's end does."""
+        options = {"cwd": self.folder} | options
+        process = subprocess.Popen([str(word) for word in command], **options)
+        for stream in filter(None, (process.stdin, process.stdout, process.stderr)):
+            self.addCleanup(stream.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def until(self, what, within_s=60):
+        """Waits for what must come, and returns it; fails where it does not."""
+        end = time.monotonic() + within_s
+        while not (come := what()):
+            self.assertLess(time.monotonic(), end, "never came")
+            time.sleep(0.005)
+        return come
 
     def put(self, name, text):
         """The path of a file of this text, below the folder."""

@@ -7,8 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch  # noqa: E402
+from testing import ROOT, Scratch
 
 PROGRAM = str(Path(os.environ.get("FELTGATE_BUILD", ROOT / "build")) / "feltgate")
 os.environ["FELTGATE_PYTHON"] = sys.executable
@@ -45,15 +44,19 @@ class Bench(Scratch):
     def start(self, *words, **more):
         """The program under way, stdout and stderr piped."""
         more = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more}
-        return subprocess.Popen(self.words(*words), cwd=self.folder, **more)
+        return self.started(*self.words(*words), **more)
 
-    def run_it(self, *words, scene="short.toml", **more):
-        """A run of the twin and what came of it."""
-        process = self.start("run", scene, "--engine", "twin", *words, **more)
+    def finished(self, *words, **more):
+        """The program, what came of it, and what it said, `out` and `err`."""
+        process = self.start(*words, **more)
         process.out, process.err = (
-            (text or b"").decode(errors="surrogateescape") for text in process.communicate()
+            (text or b"").decode(errors="surrogateescape") for text in process.communicate(timeout=300)
         )
         return process
+
+    def run_it(self, *words, scene="short.toml", **more):
+        """The same of a run of the twin."""
+        return self.finished("run", scene, "--engine", "twin", *words, **more)
 
     def assert_refused(self, process, *said):
         """Ends with 2, one line that says this, and nothing was made."""

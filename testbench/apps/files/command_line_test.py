@@ -32,9 +32,7 @@ NUMBERS = (
 
 class CommandLine(Bench):
     def refused(self, *words, said):
-        process = self.start(*words)
-        process.err = process.communicate(timeout=20)[1].decode()
-        self.assert_refused(process, *said)
+        self.assert_refused(self.finished(*words), *said)
         self.assert_only()
 
     def test_trim_of_a_device_has_no_plant(self):
@@ -67,30 +65,27 @@ class CommandLine(Bench):
         table = b"\xff\x9b\x1b[2J,A\xc3\xa9,\xc3(,\x80\n" + bytes(range(128, 200)) + b"\n"
         self.path("binary.csv").write_bytes(table)
         self.given.add("binary.csv")
-        for command in (("replay",), ("import",)):
-            process = self.start(*command, "binary.csv", *(("x.vec",) if command == ("import",) else ()))
-            out, err = process.communicate(timeout=20)
-            self.assertEqual((process.returncode, out), (2, b""), err)
-            self.assertIn("A\u00e9", err.decode())  # UTF-8 is what a terminal takes
-            self.assertNotRegex(err.decode(), r"[\x00-\x09\x0b-\x1f\x7f-\x9f]")
+        for words in (("replay", "binary.csv"), ("import", "binary.csv", "x.vec")):
+            done = self.finished(*words)
+            self.assertEqual((done.returncode, done.out), (2, ""), done.err)
+            self.assertIn("A\u00e9", done.err)  # UTF-8 is what a terminal takes
+            self.assertNotRegex(done.err, r"[\x00-\x09\x0b-\x1f\x7f-\x9f\udc80-\udcff]")
 
     def test_abbreviations(self):
         for command in ("figures", "synth", "demo"):
             with self.subTest(command):
-                process = self.start(command, "--desig", "lever")
-                said = process.communicate(timeout=20)[1].decode()
-                self.assertEqual(process.returncode, 2, said)
-                self.assertIn("unrecognized arguments: --desig", said)
+                done = self.finished(command, "--desig", "lever")
+                self.assertEqual(done.returncode, 2, done.err)
+                self.assertIn("unrecognized arguments: --desig", done.err)
 
     def test_trim_ends_in_a_set_that_breaks_an_expectation(self):
         scene = (ROOT / "testbench/studies/trim/push.toml").read_text(encoding="utf-8")
         self.path("push.toml").write_text(scene + '[[expect]]\nfigure = "faults"\nlow = 1\n')
         self.given.add("push.toml")
         words = ("--tolerance", "20%", "--unseen", "1", "-o", "trimmed.toml")
-        process = self.start("trim", "push.toml", *words)
-        out = process.communicate(timeout=60)[0].decode()
-        self.assertEqual(process.returncode, 1, out)
-        self.assertRegex(out, r"^trimmed, not as expected: .*faults")
+        done = self.finished("trim", "push.toml", *words)
+        self.assertEqual(done.returncode, 1, done.out)
+        self.assertRegex(done.out, r"^trimmed, not as expected: .*faults")
         self.assert_only()
 
     def test_how_long_trim_runs(self):

@@ -16,6 +16,7 @@ import threading
 import unittest
 
 from bench import ROOT, Bench
+from testing import ran
 
 
 def drop_right_to_all():
@@ -38,8 +39,8 @@ class Files(Bench):
     def test_the_mode_of_a_waveform_that_is_replaced(self):
         self.path("old.fst").write_text("old")
         self.path("old.fst").chmod(0o600)
-        done = self.start("run", "short.toml", "--engine", "rtl", "--fst", "old.fst", "--quiet")
-        self.assertEqual(done.communicate(), (b"", b""))
+        done = self.finished("run", "short.toml", "--engine", "rtl", "--fst", "old.fst", "--quiet")
+        self.assertEqual((done.out, done.err), ("", ""))
         self.assertEqual(stat.S_IMODE(self.path("old.fst").stat().st_mode), 0o600)
         self.assertGreater(self.path("old.fst").stat().st_size, 1000)
         self.assert_only("old.fst")
@@ -67,12 +68,8 @@ class Files(Bench):
         self.assert_only(name)
 
     def test_every_output_of_a_run_at_once(self):
-        done = self.start(
-            *("run", "short.toml", "--json", "a.json", "--csv", "a.csv"),
-            *("--fst", "a.fst", "--record", "a.vec"),
-        )
-        done.communicate()
-        self.assertEqual(done.returncode, 0)
+        words = ("--json", "a.json", "--csv", "a.csv", "--fst", "a.fst", "--record", "a.vec")
+        self.assertEqual(self.finished("run", "short.toml", *words).returncode, 0)
         self.assert_only("a.json", "a.csv", "a.fst", "a.vec")
         self.assertTrue(self.path("a.vec").read_text().endswith("\nend 100001\n"))
 
@@ -125,25 +122,15 @@ class InPlace(Bench):
         self.assertTrue(got[0].startswith("time_s,"))
         self.assertTrue(stat.S_ISFIFO(self.path("fifo").stat().st_mode))
         script = '"$0" run short.toml --engine twin --json >(cat >told) --csv - | head -1; wait $!'
-        subprocess.run(
-            ["bash", "-c", f"set -o pipefail; {script}", *self.words()],
-            cwd=self.folder,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            check=False,
-        )
-        self.assertEqual(
-            {p.name for p in self.folder.iterdir()} - self.given - {"told"}, {"fifo"}
-        )
+        ran("bash", "-c", f"set -o pipefail; {script}", *self.words(), cwd=self.folder)
+        self.given.add("told")
+        self.assert_only("fifo")
 
     def test_process_substitution(self):
         script = "exec 3> >(cat >told; touch whole); "
         script += '"$0" run short.toml --engine twin --json /dev/fd/3'
         script += '; status=$?; exec 3>&-; until [[ -e whole ]]; do :; done; exit "$status"'
-        done = subprocess.run(
-            ["bash", "-c", script, *self.words()], cwd=self.folder, capture_output=True, check=False
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.ended(ran("bash", "-c", script, *self.words(), cwd=self.folder))
         self.assertEqual(json.loads(self.path("told").read_text())["scene"], "short")
 
     def test_a_report_of_what_went_to_stdout(self):
@@ -168,10 +155,7 @@ class InPlace(Bench):
         self.assert_refused(done, "--report kept: kept/short.csv is there already and would be repl")
         self.assertEqual(self.path("kept/short.csv").read_text(), "mine\n")
         first = self.start("run", "long.toml", "--engine", "twin", "--report", "new/both")
-        self.addCleanup(first.communicate)
-        self.addCleanup(first.kill)
-        while not list(self.folder.rglob("*.part")):
-            self.assertIsNone(first.poll())
+        self.until(lambda: list(self.folder.rglob("*.part")))
         done = self.run_it("--report", "new/both")
         self.assert_refused(done, "--report new/both: another run writes there; choose another")
         first.send_signal(signal.SIGINT)
@@ -223,8 +207,7 @@ class Refused(Bench):
 
     def test_a_waveform_needs_a_file(self):
         for path in ("-", "/dev/null"):
-            done = self.start("run", "long.toml", "--engine", "rtl", "--fst", path)
-            done.err = done.communicate()[1].decode()
+            done = self.finished("run", "long.toml", "--engine", "rtl", "--fst", path)
             self.assert_refused(done, f"--fst {path}: takes a file only")
 
     def test_two_outputs_on_one_path(self):
@@ -253,8 +236,7 @@ class Refused(Bench):
             self.assert_refused(done, "would replace short.toml, which is read")
         vector = ROOT / "vectors/traces/torque_step_cord.vec"
         self.path("r.vec").write_bytes(vector.read_bytes())
-        done = self.start("replay", "r.vec", "--json", "r.vec")
-        done.err = done.communicate()[1].decode()
+        done = self.finished("replay", "r.vec", "--json", "r.vec")
         self.assert_refused(done, "would replace r.vec, which is read")
         self.assertEqual(self.path("r.vec").read_bytes(), vector.read_bytes())
         # The motion of a hand and the numbers of a design are read too.
@@ -307,12 +289,10 @@ class OtherCommands(Bench):
             option = () if option is None else (option,)
             for path in ("/dev/full", ".", "-"):
                 with self.subTest(name, path=path):
-                    done = self.start(*words, *option, path)
-                    out, err = done.communicate()
-                    done.err = err.decode()
+                    done = self.finished(*words, *option, path)
                     if path == "-":
                         self.assertIn(done.returncode, (0, 1), done.err)
-                        self.assertRegex(out.decode(), r"\A(\{|feltgate-vector|#)")
+                        self.assertRegex(done.out, r"\A(\{|feltgate-vector|#)")
                     elif path == ".":
                         self.assert_refused(done, "is a folder")
                     else:

@@ -32,9 +32,8 @@ class Names(Bench):
     def test_pictures_of_stability(self):
         words = ("--rate", "1000", "--damping", "0.003", "--no-bits", "--no-experiments")
         name = "x';touch pwned;'"
-        done = self.start("stability", *words, "--plot", name)
-        err = done.communicate()[1]
-        self.assertEqual(done.returncode, 0, err)
+        done = self.finished("stability", *words, "--plot", name)
+        self.assertEqual(done.returncode, 0, done.err)
         self.assertTrue(list(self.path(name).glob("*.svg")))
         self.assert_only(name)
 
@@ -53,8 +52,7 @@ class Names(Bench):
         done = self.run_it("--quiet", "--report", "out", env=env)
         self.assert_refused(done, "no/python: cannot be started: No such file")
         for command in ("demo", "figures", "explore", "synth"):
-            done = self.start(command, env=env)
-            done.err = done.communicate()[1].decode()
+            done = self.finished(command, env=env)
             self.assert_refused(done, "no/python: cannot be started: No such file")
 
 

@@ -58,12 +58,10 @@ class Scripts(Bench):
         super().setUp()
         self.pids = self.path("pids")
         self.pids.mkdir()
-        self.path("bin").mkdir()
         presets = (ROOT / "rtl/designs/presets.txt").read_text(encoding="utf-8").splitlines()
         engines = [f"feltgate_{name}" for name in presets if name.endswith("_law")]
         for name in ("feltgate", *engines, "bin/yosys", "bin/nextpnr-ecp5"):
-            self.path(name).write_text(STAND_IN)
-            self.path(name).chmod(0o755)
+            self.put_program(name, STAND_IN)
         self.path("sleeper.py").write_text(SLEEPER)
         self.path("waits.py").write_text(WAITS)
 
@@ -71,28 +69,14 @@ class Scripts(Bench):
         kept = {k: v for k, v in os.environ.items() if not k.startswith("FELTGATE_")}
         kept |= {"FELTGATE_PROGRAM": str(self.path("feltgate")), "PIDS": str(self.pids)}
         kept |= {"FELTGATE_BUILD": str(self.path("build")), "PYTHONPATH": str(self.folder)}
-        process = subprocess.Popen(
-            [sys.executable, "-B", str(ROOT / "scripts" / name), *words],
-            cwd=self.folder,
-            env=kept | more,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
-        return process
+        options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        options |= {"env": kept | more, "text": True}
+        return self.started(sys.executable, "-B", SCRIPTS / name, *words, **options)
 
     def children(self, count):
         """Numbers of so many stand-ins, once they are under way."""
-        end = time.monotonic() + WAIT_S
-        while True:
-            found = [int(p.name) for p in self.pids.iterdir() if p.name.isdigit()]
-            if len(found) >= count:
-                return found
-            self.assertLess(time.monotonic(), end, "never came")
-            time.sleep(0.005)
+        self.until(lambda: len(list(self.pids.glob("[0-9]*[0-9]"))) >= count)
+        return [int(path.name) for path in self.pids.glob("[0-9]*[0-9]")]
 
     def assert_gone(self, children):
         for child in children:
@@ -108,6 +92,8 @@ class Scripts(Bench):
         self.assertNotIn("status -", err)
         self.assertNotIn("Traceback", err)
         self.assert_gone(self.children(count) + children)
+        for path in self.pids.glob("[0-9]*[0-9]"):
+            path.unlink()
 
     def test_demo(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -116,8 +102,6 @@ class Scripts(Bench):
                 process = self.script("demo.py", *words)
                 self.ends(process, number, "demo: interrupted", count=2)
                 self.assertFalse(self.path("out").exists(), "an empty folder stayed")
-                for path in self.pids.iterdir():
-                    path.unlink()
 
     def test_figures(self):
         self.path("mine").mkdir()
@@ -125,8 +109,6 @@ class Scripts(Bench):
             process = self.script("figures.py", "-o", folder)
             self.ends(process, signal.SIGINT, "figures: interrupted")
             self.assertEqual(self.path(folder).exists(), stays)
-            for path in self.pids.iterdir():
-                path.unlink()
         self.assertFalse(self.path("new").exists())
 
     def test_explore(self):
@@ -139,8 +121,6 @@ class Scripts(Bench):
                 said = "explore: interrupted; the same command goes on from here"
                 self.ends(process, number, said)
                 self.assertEqual(list(self.folder.rglob("*.tmp")), [])
-                for path in self.pids.iterdir():
-                    path.unlink()
 
     def test_a_signal_that_the_waiting_call_does_not_see(self):
         process = self.script(self.path("waits.py"), PYTHONPATH=str(ROOT / "scripts"))
@@ -162,9 +142,7 @@ class Scripts(Bench):
             "build/testbench/wave/b/b_mutants",
             "b_cover",
         ):
-            self.path(name).parent.mkdir(parents=True, exist_ok=True)
-            self.path(name).write_text(STAND_IN)
-            self.path(name).chmod(0o755)
+            self.put_program(name, STAND_IN)
         folder = self.path("build/testbench/wave/b/b_mutants.netlist")
         folder.mkdir()
         (folder / "test.json").write_text('{"test": "b", "block": "b"}')
@@ -183,8 +161,6 @@ class Scripts(Bench):
                     process = self.script(f"{command}.py", *words, PATH=path, TMPDIR=pids)
                     self.ends(process, number, f"{command}: interrupted", count=count)
                     self.assertEqual([p.name for p in self.pids.iterdir() if p.is_dir()], [])
-                    for child in self.pids.iterdir():
-                        child.unlink()
 
     def test_a_child_that_is_interrupted_alone(self):
         """A run of the demo that somebody else ended: the demo goes on and says what happened."""
@@ -268,9 +244,7 @@ class Outputs(Bench):
 
     def refused(self, script, *words, said):
         with self.subTest(script, words=words):
-            done = ran(sys.executable, "-B", SCRIPTS / script, *words, cwd=self.folder)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(said, done.stderr)
+            self.ended(ran(sys.executable, "-B", SCRIPTS / script, *words, cwd=self.folder), 2, said)
 
     def test_refused_before_the_work(self):
         for path, said in ((".", "is a folder"), ("no/x.json", "there is no folder")):

@@ -10,30 +10,18 @@ import os
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
 from bench import Bench
-from testing import ROOT
+from testing import SCRIPTS
 
 WAIT_S = 60
 
 
 class Signals(Bench):
-    def until(self, what):
-        """Waits for what must come; fails where it does not."""
-        end = time.monotonic() + WAIT_S
-        while not what():
-            self.assertLess(time.monotonic(), end, "never came")
-            time.sleep(0.005)
-
     def begin(self, *words, parts):
         """The program with so many parts on the disk."""
         process = self.start(*words, stdin=subprocess.DEVNULL)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
         self.until(lambda: len(list(self.folder.rglob("*.part"))) == parts)
         return process
 
@@ -95,17 +83,12 @@ class Signals(Bench):
 
     def test_the_program_that_draws_is_ended_too(self):
         """A stand-in for Python notes its number and waits; it must not outlive the run."""
-        python = self.path("python")
-        python.write_text(
-            "#!/bin/sh\necho $$ >pid.new; mv pid.new pid\nexec sleep 30 >/dev/null 2>&1\n"
-        )
-        python.chmod(0o755)
+        noting = "echo $$ >pid.new; mv pid.new pid\nexec sleep 30 >/dev/null 2>&1"
+        python = self.put_program("python", noting)
         env = os.environ | {"FELTGATE_PYTHON": str(python)}
         process = self.start(
             *("run", "short.toml", "--engine", "twin", "--report", "out"), env=env
         )
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
         self.until(self.path("pid").exists)
         child = int(self.path("pid").read_text())
         process.send_signal(signal.SIGINT)
@@ -115,15 +98,9 @@ class Signals(Bench):
     def script_with_numpy(self, text):
         """The script of a report, with a stand-in for the first module that it needs."""
         self.path("numpy.py").write_text(text)
-        process = subprocess.Popen(
-            [sys.executable, str(ROOT / "scripts/report.py"), "out", "a.json"],
-            **{"cwd": self.folder, "text": True, "stderr": subprocess.PIPE},
-            env=os.environ | {"PYTHONPATH": str(self.folder)},
-        )
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
+        options = {"text": True, "stderr": subprocess.PIPE}
+        options["env"] = os.environ | {"PYTHONPATH": str(self.folder)}
+        return self.started(sys.executable, SCRIPTS / "report.py", "out", "a.json", **options)
 
     def test_ctrl_c_while_a_script_imports(self):
         process = self.script_with_numpy("import time\nopen('here', 'w')\ntime.sleep(30)\n")

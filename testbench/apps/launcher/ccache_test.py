@@ -5,12 +5,10 @@
 
 import os
 import shutil
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, Scratch, environment, ran
+
 PROJECT = f"""cmake_minimum_required(VERSION 3.22)
 project(small LANGUAGES CXX)
 list(APPEND CMAKE_MODULE_PATH "{ROOT}/scripts/cmake")
@@ -21,36 +19,31 @@ target_precompile_headers(small PRIVATE early.hpp)
 
 
 @unittest.skipUnless(shutil.which("ccache"), "no ccache here")
-class Ccache(unittest.TestCase):
+class Ccache(Scratch):
     def setUp(self):
-        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        (self.folder / "CMakeLists.txt").write_text(PROJECT)
-        (self.folder / "small.cpp").write_text(
-            '#include "late.hpp"\nint main() { return early + late; }\n')
+        super().setUp()
+        self.put("CMakeLists.txt", PROJECT)
+        self.put("small.cpp", '#include "late.hpp"\nint main() { return early + late; }\n')
         self.write(1, 10)
 
     def write(self, early, late):
         """Both headers; their times are always the same, and so are their sizes."""
         for name, value in (("early", early), ("late", late)):
-            path = self.folder / f"{name}.hpp"
-            path.write_text(f"#pragma once\nconstexpr int {name} = {value};\n")
+            path = self.put(f"{name}.hpp", f"#pragma once\nconstexpr int {name} = {value};\n")
             os.utime(path, (1_600_000_000, 1_600_000_000))
 
     def built(self):
         """What the program returns, built anew; and how many of its files came from the cache."""
         shutil.rmtree(self.folder / "build", ignore_errors=True)
-        env = {name: value for name, value in os.environ.items()
-               if not name.startswith("CCACHE_") and name != "CMAKE_CXX_COMPILER_LAUNCHER"}
-        env["CCACHE_DIR"] = str(self.folder / "cache")
+        more = {"CCACHE_DIR": str(self.folder / "cache")}
+        env = environment("CCACHE_", "CMAKE_CXX_COMPILER_LAUNCHER", **more)
         hits = self.hits(env)
         for words in (["-S", ".", "-B", "build"], ["--build", "build"]):
-            subprocess.run(["cmake", *words], cwd=self.folder, env=env, check=True, capture_output=True)
-        code = subprocess.run([self.folder / "build/small"], check=False).returncode
-        return code, self.hits(env) - hits
+            ran("cmake", *words, cwd=self.folder, env=env, check=True)
+        return ran(self.folder / "build/small").returncode, self.hits(env) - hits
 
     def hits(self, env):
-        stats = subprocess.run(["ccache", "--print-stats"], env=env, check=True, text=True,
-                               capture_output=True).stdout
+        stats = ran("ccache", "--print-stats", env=env, check=True).stdout
         values = dict(line.split("\t") for line in stats.splitlines())
         return int(values["direct_cache_hit"]) + int(values["preprocessed_cache_hit"])
 

@@ -20,8 +20,7 @@ class FirstStart(Machine):
         for program, *words in (("feltgate_run", "run", "membrane"), ("feltgate", "figures")):
             with self.subTest(words):
                 self.setUp()
-                done = self.start("--yes", *words)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                done = self.ended(self.start("--yes", *words))
                 self.assertIn(f"program {program} {' '.join(words)}\n", done.stdout)
                 self.assertIn("python works", done.stdout)
                 configured = [c for c in self.log() if c.startswith("cmake ") and " -S " in c]
@@ -29,22 +28,16 @@ class FirstStart(Machine):
                 self.assertIn(f"-DPython3_EXECUTABLE={self.bin}/python3", configured[0])
 
     def test_nothing_is_installed_unasked(self):
-        done = self.start("run", "membrane")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("python3", done.stderr)
-        self.assertIn("apt-get install", done.stderr)
+        self.ended(self.start("run", "membrane"), 2, "python3", "apt-get install")
         self.assertFalse([c for c in self.log() if c.startswith("apt-get")])
 
     def test_without_python_it_says_so(self):
-        done = self.start("run", "membrane", FELTGATE_SKIP_PACKAGES="1")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("no python3", done.stderr)
+        self.ended(self.start("run", "membrane", FELTGATE_SKIP_PACKAGES="1"), 2, "no python3")
 
     def test_the_build_folder_of_another_user(self):
         """Whose lock cannot be opened, as by permissions, which mean nothing to root."""
         (self.repository / "build/launcher/lock").mkdir(parents=True)
-        done = self.start("--yes", "run", "membrane")
-        self.assertEqual(done.returncode, 2)
+        done = self.ended(self.start("--yes", "run", "membrane"), 2)
         said = [line for line in done.stderr.splitlines() if "build folder" in line]
         self.assertEqual(len(said), 1, done.stderr)
         self.assertIn("another user's or read-only; build in one of your own: FELTGATE_BUILD=", said[0])
@@ -79,8 +72,7 @@ class Beside(Machine):
     """Packages that the build does not need come while it runs."""
 
     def test_pictures_come_beside_the_build(self):
-        done = self.start("--yes", "run", "membrane", "--report", "out")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.start("--yes", "run", "membrane", "--report", "out"))
         installs = [c for c in self.log() if c.startswith("apt-get") and " install " in c]
         self.assertEqual(len(installs), 2, done.stderr)
         self.assertIn(" ninja-build ", installs[0])
@@ -131,8 +123,7 @@ class Beside(Machine):
         (self.bin / "sleep").symlink_to("/usr/bin/sleep")
         text = path.read_text(encoding="utf-8")
         path.write_text(text.replace("#!/bin/sh\n", "#!/bin/sh\n" + slow + comes), encoding="utf-8")
-        done = self.start("--yes", "demo", "--jobs", "0", PYTHONPATH=str(shadow.parent))
-        self.assertEqual(done.returncode, 2, done.stderr)
+        done = self.ended(self.start("--yes", "demo", "--jobs", "0", PYTHONPATH=str(shadow.parent)), 2)
         self.assertNotIn("ModuleNotFoundError", done.stderr)
         self.assertIn("argument --jobs", done.stderr)
         self.assertEqual([c.split()[3] for c in self.log() if c.startswith("ninja")], ["feltgate_run"])
@@ -144,9 +135,7 @@ class Beside(Machine):
         slow = 'case "$*" in *matplotlib*) sleep 8; echo "apt ended" >>"$MACHINE/log" ;; esac\n'
         text = path.read_text(encoding="utf-8")
         path.write_text(text.replace("#!/bin/sh\n", "#!/bin/sh\n" + slow), encoding="utf-8")
-        done = self.start("--yes", "demo", "--no-such-option")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("waiting for the other packages", done.stderr)
+        self.ended(self.start("--yes", "demo", "--no-such-option"), 2, "waiting for the other packages")
         self.assertIn("apt ended", self.log())
 
 
@@ -156,8 +145,7 @@ class Help(Machine):
         self.assertIn("explore", names)
         for name in names:
             for words in ((name, "--help"), (name, "-h"), ("help", name)):
-                done = self.start(*words)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                done = self.ended(self.start(*words))
                 self.assertEqual(done.stdout, help_texts.committed()[name])
         self.assertEqual(self.log(), [])
         self.assertFalse((self.repository / "build").exists())
@@ -168,9 +156,7 @@ class Help(Machine):
         self.assertEqual(self.log(), [])
 
     def test_a_command_that_is_none(self):
-        done = self.start("rnu", "--help")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("no subcommand 'rnu'", done.stderr)
+        self.ended(self.start("rnu", "--help"), 2, "no subcommand 'rnu'")
 
 
 class Tables(Machine):
@@ -178,8 +164,7 @@ class Tables(Machine):
         self.installed("python3")
         table = str(ROOT / "vectors/spaces/trade.csv")
         out = self.folder / "out"
-        done = self.start("explore", "page", table, "-o", str(out))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.ended(self.start("explore", "page", table, "-o", str(out)))
         self.assertTrue((out / "explore.html").is_file())
         self.assertLessEqual({c.split()[0] for c in self.log()}, {"dpkg-query", "python3"})
         self.assertFalse(list(self.folder.rglob("venv-*")))
@@ -195,16 +180,14 @@ class Tables(Machine):
             self.assertIn(package, self.start(*words).stderr)
 
     def test_python_is_asked_for_and_nothing_else(self):
-        done = self.start("explore", "page", str(ROOT / "vectors/spaces/trade.csv"))
-        self.assertEqual(done.returncode, 2)
+        done = self.ended(self.start("explore", "page", str(ROOT / "vectors/spaces/trade.csv")), 2)
         self.assertIn("apt-get install --yes --no-install-recommends python3\n", done.stderr)
 
 
 class Presets(Machine):
     def built(self, *words):
         """The targets of one start."""
-        done = self.start(*words, FELTGATE_SKIP_PACKAGES="1")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.start(*words, FELTGATE_SKIP_PACKAGES="1"))
         log = self.log()
         self.assertFalse([c for c in log if c.startswith("cmake") and "PRESET" in c])
         self.said = done.stdout
@@ -293,9 +276,7 @@ class Arguments(Machine):
             with self.subTest(words):
                 self.setUp()
                 self.installed(*BUILD_PACKAGES)
-                done = self.start(*words, FELTGATE_SKIP_PACKAGES="1")
-                self.assertEqual(done.returncode, 2)
-                self.assertIn(said, done.stderr)
+                done = self.ended(self.start(*words, FELTGATE_SKIP_PACKAGES="1"), 2, said)
                 self.assertEqual([c.split()[0] for c in self.log()], ["python3"])
                 self.assertNotIn("fetching", done.stderr)
 
@@ -319,8 +300,7 @@ class Tests(Machine):
         (self.folder / "tests.json").write_text(text, encoding="utf-8")
 
     def test_a_name_builds_what_its_tests_need(self):
-        done = self.start("test", "a", FELTGATE_SKIP_PACKAGES="1")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.start("test", "a", FELTGATE_SKIP_PACKAGES="1"))
         self.assertEqual(done.stdout.splitlines()[-1], "1 passed, 0 failed")
         log = self.log()
         built = [c.split(maxsplit=3)[3] for c in log if c.startswith("ninja") and " -t " not in c]
@@ -328,16 +308,13 @@ class Tests(Machine):
         self.assertTrue([c for c in log if c.startswith("ctest") and c.endswith("-R a")])
 
     def test_the_list_builds_nothing(self):
-        done = self.start("test", "--list", FELTGATE_SKIP_PACKAGES="1")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.start("test", "--list", FELTGATE_SKIP_PACKAGES="1"))
         self.assertEqual(done.stdout, "a  unit\n")
         self.assertEqual(self.calls("ninja")[0].split()[2:], ["build.ninja"])
 
     def test_a_name_that_none_has(self):
         self.tests()
-        done = self.start("test", "zzz", FELTGATE_SKIP_PACKAGES="1")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("no test matches 'zzz'", done.stderr)
+        self.ended(self.start("test", "zzz", FELTGATE_SKIP_PACKAGES="1"), 2, "no test matches 'zzz'")
         self.assertEqual(len(self.calls("ninja")), 1)  # configured, nothing built
 
 

@@ -10,11 +10,8 @@ of the real machine is seen. Every stand-in notes its name and arguments in the 
 import os
 import shutil
 import subprocess
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch, ran  # noqa: E402
+from testing import ROOT, Scratch, ran
 
 # What Debian has before anything is installed.
 ESSENTIAL = """bash cat chmod cmp cp cut dirname env false flock grep head ln ls mkdir mv nproc

@@ -4,12 +4,9 @@
 
 import json
 import os
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import Scratch, script  # noqa: E402
+from testing import Scratch, script
 
 MADE = ("product", "tests/a_test", "tests/b.vvp", "all", "libx.a")
 # Name: (command, labels, REQUIRED_FILES); %s is the build folder.
@@ -78,14 +75,12 @@ class Selection(Scratch):
     def test_check_names_the_test_that_says_nothing(self):
         self.assertEqual(self.say("check").returncode, 0)
         self.configure(TESTS | UNKNOWN)
-        done = self.say("check")
-        self.assertEqual(done.returncode, 1)
+        done = self.ended(self.say("check"), 1)
         self.assertIn("stray: what it needs is not known", done.stdout)
 
     def test_check_names_the_file_that_nothing_makes(self):
         self.configure({"script": (["python3", "s.py"], ["unit"], ["%s/libgone.a"])})
-        done = self.say("check")
-        self.assertEqual(done.returncode, 1)
+        done = self.ended(self.say("check"), 1)
         self.assertIn("libgone.a, which nothing makes", done.stdout)
 
     def test_list(self):
@@ -104,8 +99,7 @@ class Selection(Scratch):
         cases = {"a": 30, "a.defect1": 60, "b": 90.5, "script": 0.5, "whole": 600}
         text = "".join(f'<testcase name="{n}" time="{s}"/>' for n, s in cases.items())
         results.write_text(f"<testsuite>{text}</testsuite>", encoding="utf-8")
-        done = self.say("minutes", "--results", results)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.say("minutes", "--results", results))
         self.assertIn("| mutation | 1 | 1.0 | `a.defect1` | 60 |", done.stdout)
         self.assertIn("| unit | 2 | 0.5 | `a` | 30 |", done.stdout)
         self.assertIn("| all | 5 | 13.0 | | |", done.stdout)

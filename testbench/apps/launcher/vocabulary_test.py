@@ -9,14 +9,12 @@ import json
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, environment, ran  # noqa: E402, I001
+from testing import ROOT, Scratch, environment, ran
 
-import help_texts  # noqa: E402
+import help_texts
 
 PROGRAMS = Path(sys.argv.pop()) if len(sys.argv) > 1 else None
 
@@ -89,7 +87,7 @@ class SchemaTest(unittest.TestCase):
 
 
 @unittest.skipUnless(PROGRAMS, "needs the built programs")
-class ProgramTest(unittest.TestCase):
+class ProgramTest(Scratch):
     def run_it(self, *words, program="feltgate"):
         if words[0] == "extremes":
             program, words = "feltgate_extremes", words[1:]
@@ -100,8 +98,7 @@ class ProgramTest(unittest.TestCase):
         trace = ROOT / "vectors/traces/membrane.vec"
         texts = []
         for option in ("--duration", "--seconds"):
-            done = self.run_it("replay", trace, option, "0.01", "--engine", "twin,quad")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(self.run_it("replay", trace, option, "0.01", "--engine", "twin,quad"))
             texts.append(re.sub(r" +\S+x\n", "\n", done.stdout))
         self.assertEqual(*texts)
         self.assertIn("0.010002 s", texts[0])
@@ -111,40 +108,33 @@ class ProgramTest(unittest.TestCase):
             (("--engines", "nonsense"), "feltgate_bench"),
             (("--scenes", "nonsense"), "feltgate_bench"),
         ):
-            done = self.run_it(*words, program=program)
-            self.assertEqual(done.returncode, 2)
+            done = self.ended(self.run_it(*words, program=program), 2)
             self.assertNotIn("option --", done.stderr)
             self.assertRegex(done.stderr, r"^feltgate[ a-z]*: (--threads|.*nonsense)")
         for script in ("demo", "figures"):
-            done = self.run_it(script, "--out")
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("--out: expected one argument", done.stderr)
+            self.ended(self.run_it(script, "--out"), 2, "--out: expected one argument")
 
     def test_json_of_the_programs(self):
         trace = ROOT / "vectors/traces/membrane.vec"
-        with tempfile.TemporaryDirectory() as folder:
-            for words in (
-                ("run", "torque_step", "--engine", "twin"),
-                ("replay", trace, "--duration", "0.01", "--engine", "twin"),
-                ("budget", "torque_step"),
-                ("claims", "recognition"),
-                ("extremes", "wrap_32"),
-                ("stability", "lever", "--no-bits", "--no-experiments", "--rate", "1000"),
-            ):
-                with self.subTest(command=words[0]):
-                    path = Path(folder) / f"{words[0]}.json"
-                    done = self.run_it(*words, "--json", path)
-                    self.assertEqual(done.returncode, 0, done.stderr)
-                    kind = "run" if words[0] == "replay" else words[0]
-                    found = json.loads(path.read_text(encoding="utf-8"))["schema"]
-                    self.assertEqual(found, f"feltgate-{kind}/1")
+        for words in (
+            ("run", "torque_step", "--engine", "twin"),
+            ("replay", trace, "--duration", "0.01", "--engine", "twin"),
+            ("budget", "torque_step"),
+            ("claims", "recognition"),
+            ("extremes", "wrap_32"),
+            ("stability", "lever", "--no-bits", "--no-experiments", "--rate", "1000"),
+        ):
+            with self.subTest(command=words[0]):
+                path = self.folder / f"{words[0]}.json"
+                self.ended(self.run_it(*words, "--json", path))
+                kind = "run" if words[0] == "replay" else words[0]
+                found = json.loads(path.read_text(encoding="utf-8"))["schema"]
+                self.assertEqual(found, f"feltgate-{kind}/1")
 
     def test_csv_size_is_told_and_bounded(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "rows.csv"
-            done = self.run_it("run", "torque_step", "--engine", "twin,double,float", "--csv", path)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            lines = path.read_text(encoding="utf-8").splitlines()
+        path = self.folder / "rows.csv"
+        done = self.ended(self.run_it("run", "torque_step", "--engine", "twin,double,float", "--csv", path))
+        lines = path.read_text(encoding="utf-8").splitlines()
         header = lines[0].split(",")
         for engine in ("twin", "double", "float"):
             self.assertIn(f"{engine}_velocity_rad_s", header)
@@ -158,8 +148,7 @@ class ProgramTest(unittest.TestCase):
         done = self.run_it("run", "torque_step", "--plant", "p48", "--engine", "twin")
         self.assertLess(done.stdout.index("torque constant"), done.stdout.index("What was felt"))
         command = re.search(r"feltgate (design --for-plant p48) -o", done.stdout).group(1)
-        made = self.run_it(*command.split())
-        self.assertEqual(made.returncode, 0, made.stderr)
+        made = self.ended(self.run_it(*command.split()))
         self.assertIn("torque_constant_nm_a = 0.0603", made.stdout)
 
 

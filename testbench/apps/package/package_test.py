@@ -10,14 +10,14 @@ against it, the tree inside another project. docs/library.md
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, ran
+
 at = sys.argv.index("--configured")
 BUILD = Path(sys.argv[at + 1]).resolve()
 del sys.argv[at : at + 2]
@@ -30,9 +30,7 @@ FOREIGN = re.compile(r"toml\+\+|/boost/|/fmt/|archive\.h|verilated|nlohmann|CLI1
 
 
 def run(*command, ok=True, cwd=None):
-    done = subprocess.run(
-        [str(word) for word in command], capture_output=True, text=True, check=False, cwd=cwd
-    )
+    done = ran(*command, cwd=cwd)
     text = done.stdout + done.stderr
     if ok and done.returncode:
         raise AssertionError(f"{' '.join(map(str, command))}\n{text}")
@@ -89,14 +87,9 @@ int main() {
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.temporary.name)
+        cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.prefix = cls.folder / "all"
         install(cls.prefix, "core", "sim", "systemc")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     def test_include_folder_has_feltgate_and_nothing_else(self):
         self.assertEqual([p.name for p in (self.prefix / "include").iterdir()], ["feltgate"])

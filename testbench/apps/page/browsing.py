@@ -42,6 +42,20 @@ def browser():
     return webdriver.Chrome(service=Service(DRIVER), options=options)
 
 
+def taking(views):
+    """A pictures(folder) of {name: script after which the page shows it}."""
+
+    def pictures(folder):
+        driver = opened()
+        for name, script in views.items():
+            driver.execute_script(script)
+            time.sleep(4)
+            driver.save_screenshot(str(folder / f"{name}.png"))
+        driver.quit()
+
+    return pictures
+
+
 def main(pictures, speed=None):
     """What the words after the test's name ask for: --pictures FOLDER, --speed, or the tests."""
     if "--pictures" in sys.argv:

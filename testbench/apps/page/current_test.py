@@ -7,16 +7,14 @@ Documentation: docs/page.md
 """
 
 import os
-import sys
 import unittest
-from pathlib import Path
 from unittest import mock
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-sys.path.insert(0, str(ROOT / "scripts"))
-os.environ["FELTGATE_PAGE_DATA"] = str(Path(os.environ["FELTGATE_BUILD"]) / "feltgate_page_data")
+from testing import BUILD, ROOT
 
-import page  # noqa: E402
+import page
+
+os.environ["FELTGATE_PAGE_DATA"] = str(BUILD / "feltgate_page_data")
 
 
 class Current(unittest.TestCase):

@@ -11,7 +11,7 @@ import cmath
 import math
 import time
 
-from browsing import ActionChains, By, Keys, PageTest, main, opened
+from browsing import ActionChains, By, Keys, PageTest, main, opened, taking
 
 PERIOD_S = 1 / 196
 TURN = "Object.assign(document.getElementById(arguments[0]), {value: arguments[1]}).oninput()"
@@ -170,25 +170,20 @@ class BowedString(PageTest):
         self.until("return feltgate.string.sound.audio.state === 'suspended'")
 
 
-def pictures(folder):
-    """One slip a period in light and dark; too much force; 1 kHz."""
-    driver = opened()
-    press = "document.getElementById('{}').click()".format
+PRESS = "document.getElementById('{}').click()".format
 
-    def turn(name, value):
-        return TURN.replace("arguments[0]", f"'string-{name}'").replace("arguments[1]", str(value))
 
-    views = {
-        "string": f"{press('tab-string')}; {press('string-alone')}",
-        "string_dark": press("theme"),
-        "string_pressed": turn("force", 3.8),
-        "string_1khz": f"{turn('force', 2)}; {turn('rate', 1)}; {press('theme')}",
-    }
-    for name, script in views.items():
-        driver.execute_script(script)
-        time.sleep(4)
-        driver.save_screenshot(str(folder / f"{name}.png"))
-    driver.quit()
+def turn(name, value):
+    return TURN.replace("arguments[0]", f"'string-{name}'").replace("arguments[1]", str(value))
+
+
+# One slip a period in light and dark; too much force; 1 kHz.
+VIEWS = {
+    "string": f"{PRESS('tab-string')}; {PRESS('string-alone')}",
+    "string_dark": PRESS("theme"),
+    "string_pressed": turn("force", 3.8),
+    "string_1khz": f"{turn('force', 2)}; {turn('rate', 1)}; {PRESS('theme')}",
+}
 
 
 def speed():
@@ -208,4 +203,4 @@ def speed():
 
 
 if __name__ == "__main__":
-    main(pictures, speed)
+    main(taking(VIEWS), speed)

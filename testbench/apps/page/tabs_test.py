@@ -10,10 +10,9 @@ Documentation: docs/page.md
 import csv
 import io
 import math
-import time
 from urllib.parse import unquote
 
-from browsing import ActionChains, By, Keys, PageTest, main, opened
+from browsing import ActionChains, By, Keys, PageTest, main, taking
 
 
 class Pantograph(PageTest):
@@ -295,30 +294,23 @@ class Drums(PageTest):
         self.until("return feltgate.drums.audio.state === 'suspended'")
 
 
-def pictures(folder):
-    """A square pressed, the training screen, and a round of the game in the dark; drums."""
-    driver = opened()
-    views = {
-        "pen": "document.getElementById('tab-pantograph').click();"
-        "feltgate.pantograph.stage.place(0.05, 0.12); feltgate.pantograph.stage.aim(0.02, 0.125)",
-        "pen_training": "document.querySelector('#pen-modes input[value=training]').click();"
-        "feltgate.pantograph.stage.place(0.07, 0.1); feltgate.pantograph.stage.aim(0.03, 0.1)",
-        "pen_game": "document.querySelector('#pen-modes input[value=game]').click();"
-        "document.getElementById('theme').click();"
-        "feltgate.pantograph.stage.aim(0.01, 0.105)",
-        "pen_guessed": "document.querySelector('#game-names button').click()",
-        "drums": "document.getElementById('theme').click();"
-        "document.getElementById('tab-drums').click(); feltgate.drums.aim(0.05, -0.2)",
-        "materials": "document.getElementById('tab-materials').click();"
-        "feltgate.materials.aim(0.55)",
-        "coupled": "document.getElementById('tab-coupled').click(); feltgate.coupled.aim(0.5)",
-    }
-    for name, script in views.items():
-        driver.execute_script(script)
-        time.sleep(4)
-        driver.save_screenshot(str(folder / f"{name}.png"))
-    driver.quit()
+# A square pressed, the training screen, and a round of the game in the dark; drums.
+VIEWS = {
+    "pen": "document.getElementById('tab-pantograph').click();"
+    "feltgate.pantograph.stage.place(0.05, 0.12); feltgate.pantograph.stage.aim(0.02, 0.125)",
+    "pen_training": "document.querySelector('#pen-modes input[value=training]').click();"
+    "feltgate.pantograph.stage.place(0.07, 0.1); feltgate.pantograph.stage.aim(0.03, 0.1)",
+    "pen_game": "document.querySelector('#pen-modes input[value=game]').click();"
+    "document.getElementById('theme').click();"
+    "feltgate.pantograph.stage.aim(0.01, 0.105)",
+    "pen_guessed": "document.querySelector('#game-names button').click()",
+    "drums": "document.getElementById('theme').click();"
+    "document.getElementById('tab-drums').click(); feltgate.drums.aim(0.05, -0.2)",
+    "materials": "document.getElementById('tab-materials').click();"
+    "feltgate.materials.aim(0.55)",
+    "coupled": "document.getElementById('tab-coupled').click(); feltgate.coupled.aim(0.5)",
+}
 
 
 if __name__ == "__main__":
-    main(pictures)
+    main(taking(VIEWS))

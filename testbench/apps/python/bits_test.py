@@ -3,18 +3,17 @@
 """The numbers of the Python package are those of the program, bit by bit."""
 
 import csv
-import os
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from testing import BUILD, ROOT, Scratch
 
 import feltgate
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-PROGRAM = Path(os.environ["FELTGATE_BUILD"]) / "feltgate"
+PROGRAM = BUILD / "feltgate"
 # The program prints the plant's values with nine digits, the core's whole.
 ROUNDED = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm", "hand_felt_nm")
 ENGINES = "twin,float,double,quad"
@@ -30,7 +29,7 @@ def printed(*words):
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 
-class Bits(unittest.TestCase):
+class Bits(Scratch):
     def same(self, result, columns):
         table = result.table()
         self.assertEqual(list(table), list(columns))
@@ -57,14 +56,12 @@ class Bits(unittest.TestCase):
     def test_a_hand_as_an_array_is_a_scene_with_a_trace(self):
         time_s = np.linspace(0, 0.2, 101)
         angle_rad = 0.5 * np.sin(2 * np.pi * time_s / 0.4) ** 2
-        with tempfile.TemporaryDirectory() as folder:
-            rows = "".join(f"{t!r},{a!r}\n" for t, a in zip(time_s.tolist(), angle_rad.tolist()))
-            (Path(folder) / "own.csv").write_text("time_s,theta_rad\n" + rows)
-            scene = Path(folder) / "own.toml"
-            scene.write_text('title = "own"\nabout = "own"\nduration_s = 0.2\n'
-                             '[core]\nscene = "spring_tension"\narm_s = 0.05\n'
-                             '[[hand.phase]]\nkind = "trace"\nfile = "own.csv"\n')
-            columns = printed("run", scene, "--engine", "twin", "--every", "20")
+        rows = "".join(f"{t!r},{a!r}\n" for t, a in zip(time_s.tolist(), angle_rad.tolist()))
+        self.put("own.csv", "time_s,theta_rad\n" + rows)
+        scene = self.put("own.toml", 'title = "own"\nabout = "own"\nduration_s = 0.2\n'
+                                     '[core]\nscene = "spring_tension"\narm_s = 0.05\n'
+                                     '[[hand.phase]]\nkind = "trace"\nfile = "own.csv"\n')
+        columns = printed("run", scene, "--engine", "twin", "--every", "20")
         result = feltgate.run("spring_tension", engine="twin", every=20, hand=(time_s, angle_rad))
         self.same(result, columns)
         self.assertLess(result.tau_ref_nm.min(), -0.1)

@@ -10,7 +10,6 @@ import os
 import re
 import signal
 import sys
-import tempfile
 import threading
 import time
 import unittest
@@ -20,11 +19,9 @@ import numpy as np
 
 import feltgate
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
-from board_process import BoardProcess  # noqa: E402
+from board_process import BoardProcess
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, ran  # noqa: E402
+from testing import ROOT, Scratch, ran
 
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NOTEBOOK = ROOT / "docs/fixed_against_float.ipynb"
@@ -124,12 +121,11 @@ def blocks(page):
     return BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
 
 
-class Pages(unittest.TestCase):
+class Pages(Scratch):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
+        super().setUp()
         self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(self.folder.name)
+        os.chdir(self.folder)
 
     def run_blocks(self, page):
         said = io.StringIO()
@@ -150,17 +146,14 @@ class Pages(unittest.TestCase):
         self.run_blocks("docs/python.md")
 
     def test_notebook(self):
-        done = ran(sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.ended(ran(sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check"))
 
     def test_a_notebook_that_breaks_is_noticed(self):
         text = NOTEBOOK.read_text(encoding="utf-8")
         broken = Path("broken.ipynb")
         broken.write_text(text.replace("assert wide < narrow", "assert wide > narrow"))
         self.assertNotEqual(broken.read_text(), text)
-        done = ran(sys.executable, ROOT / "scripts/notebook.py", broken, "--check")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("AssertionError", done.stderr)
+        self.ended(ran(sys.executable, ROOT / "scripts/notebook.py", broken, "--check"), 1, "AssertionError")
 
 
 if __name__ == "__main__":

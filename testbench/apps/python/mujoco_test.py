@@ -14,8 +14,7 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import Scratch, text_of  # noqa: E402
+from testing import Scratch, text_of
 
 sys.path += map(str, Path(sys.argv.pop(1)).glob("lib/python3*/site-packages"))
 try:
@@ -26,7 +25,7 @@ except ImportError:
     if os.environ.get("CI"):
         raise
     mujoco = None
-import feltgate  # noqa: E402
+import feltgate
 
 LIMIT = 0.5  # percent
 STEP_S, END_S = 1e-6, 0.1

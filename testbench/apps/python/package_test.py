@@ -8,16 +8,15 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 from pathlib import Path
 
 import numpy as np
+from testing import ROOT, Scratch, ran
 
 import feltgate
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
 SCENE = "torque_step_cord"
 
 
@@ -66,7 +65,7 @@ class Columns(unittest.TestCase):
         self.assertLess(small["velocity_rad_s"], feltgate.bounds("exact")["velocity_rad_s"] * 100)
 
 
-class Hands(unittest.TestCase):
+class Hands(Scratch):
     time_s = np.linspace(0, 0.1, 201)
 
     def test_motion(self):
@@ -92,13 +91,11 @@ class Hands(unittest.TestCase):
         self.assertAlmostEqual(result.hand_torque_nm[half], 0.05, places=3)
 
     def test_a_jump_of_the_speed_is_a_warning(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "jump.toml"
-            path.write_text('title = "t"\nabout = "a"\nduration_s = 0.02\n[core]\nscene = "free"\n'
-                            '[[hand.phase]]\nkind = "prescribed"\n'
-                            'motion = [{ kind = "ramp", duration_s = 0.02, to_rad = 0.02 }]\n')
-            with self.assertWarnsRegex(UserWarning, r"jump.toml:8: the hand's speed jumps by 1 "):
-                feltgate.run(path, engine="twin")
+        path = self.put("jump.toml", 'title = "t"\nabout = "a"\nduration_s = 0.02\n'
+                        '[core]\nscene = "free"\n[[hand.phase]]\nkind = "prescribed"\n'
+                        'motion = [{ kind = "ramp", duration_s = 0.02, to_rad = 0.02 }]\n')
+        with self.assertWarnsRegex(UserWarning, r"jump.toml:8: the hand's speed jumps by 1 "):
+            feltgate.run(path, engine="twin")
 
     def test_impedance_yields(self):
         angle_rad = np.linspace(0, 0.5, self.time_s.size)
@@ -198,8 +195,7 @@ class Installed(unittest.TestCase):
         code = ("import sys, feltgate; there = lambda: 'feltgate._designs' in sys.modules;"
                 "feltgate.Chain('lever'); feltgate.designs(); print(there());"
                 "feltgate.Twin('fast'); print(there())")
-        said = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True,
-                              text=True).stdout
+        said = ran(sys.executable, "-c", code, check=True).stdout
         self.assertEqual(said.split(), ["False", "True"])
         with self.assertRaisesRegex(ValueError, "nonsense"):
             feltgate.Chain("exact", "nonsense")
@@ -207,8 +203,7 @@ class Installed(unittest.TestCase):
     def test_the_host_is_loaded_when_it_is_used(self):
         code = ("import sys, feltgate; print('feltgate._host' in sys.modules); feltgate.Device; "
                 "print('feltgate._host' in sys.modules, hasattr(feltgate, 'Devise'))")
-        said = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True,
-                              text=True).stdout
+        said = ran(sys.executable, "-c", code, check=True).stdout
         self.assertEqual(said.split(), ["False", "True", "False"])
 
     def test_everything_public_is_explained(self):

@@ -7,14 +7,14 @@ compiled before.
 """
 
 import argparse
-import os
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, environment, ran
+
 OFFLINE = ("No matching distribution found for scikit-build-core", "Failed to establish a new",
            "Temporary failure in name resolution", "Network is unreachable", "Connection refused")
 USE = """
@@ -36,15 +36,13 @@ class Pip(unittest.TestCase):
             command = [python, "-m", "pip", "install", "--disable-pip-version-check", ROOT]
             if self.build_dir:
                 command.insert(4, f"--config-settings=build-dir={self.build_dir}")
-            clean = {k: v for k, v in os.environ.items()
-                     if not k.startswith(("FELTGATE", "PYTHON"))}
+            clean = environment("PYTHON")
             done = subprocess.run(command, env=clean, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True, check=False)
             if done.returncode and any(word in done.stdout for word in OFFLINE):
                 self.skipTest("PyPI cannot be reached")
             self.assertEqual(done.returncode, 0, done.stdout)
-            used = subprocess.run([python, "-c", USE], env=clean, cwd=folder, check=True,
-                                  capture_output=True, text=True)
+            used = ran(python, "-c", USE, env=clean, cwd=folder, check=True)
             self.assertIn(str(python.parents[1]), used.stdout)
 
 

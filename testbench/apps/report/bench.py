@@ -7,12 +7,9 @@ import sys
 from pathlib import Path
 
 from markup import Markup
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, SCRIPTS, Scratch, environment, ran, script, text_of  # noqa: E402, F401
+from testing import ROOT, SCRIPTS, Scratch, environment, ran, script, text_of  # noqa: F401
 
 FAKE = Path(__file__).resolve().parent / "fake_feltgate.py"
-sys.path.insert(0, str(FAKE.parent))
 
 
 class Bench(Scratch):

@@ -6,14 +6,11 @@
 Documentation: docs/devices/drums.md
 """
 
-import sys
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from playing import Player  # noqa: E402
+from playing import Player
 
 
 def loud_s(samples, rate):

@@ -256,22 +256,9 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("command", choices=["run", "replay"])
     parser.add_argument("subject")
-    for name in (
-        "plant",
-        "engine",
-        "json",
-        "csv",
-        "probes",
-        "step",
-        "dir",
-        "time-column",
-        "count-column",
-        "scale",
-        "scene",
-        "seed",
-        "seconds",
-    ):
-        parser.add_argument(f"--{name}")
+    recording = ("--step", "--dir", "--time-column", "--count-column", "--scale")
+    for name in ("--plant", "--engine", "--json", "--csv", "--probes", "--scene", "--seed", *recording):
+        parser.add_argument(name)
     parser.add_argument("--design", default="lever")
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--set", action="append", default=[], type=lambda s: s.split("=", 1))

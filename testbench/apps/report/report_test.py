@@ -90,8 +90,7 @@ class Report(Bench):
 
     def test_wrong_files_give_one_line(self):
         for change in (lambda s: s.update(schema="other"), lambda s: s.clear()):
-            done = self.report(change=change)
-            self.assertEqual(done.returncode, 2)
+            done = self.ended(self.report(change=change), 2)
             self.assertRegex(done.stderr, r"^report: .*run.json: schema .*\n$")
         done = self.script("report.py", self.folder, "none.json")
         self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
@@ -100,8 +99,7 @@ class Report(Bench):
 class Figures(Bench):
     def test_all_figures(self):
         out = self.folder / "out"
-        done = self.script("figures.py", "--output", out)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.script("figures.py", "--output", out))
         self.assertEqual(done.stdout.strip(), str(out / "figures.html"))
         self.assert_self_contained((out / "figures.html").read_text())
         summary = json.loads((out / "figures.json").read_text())
@@ -147,9 +145,7 @@ class Figures(Bench):
         self.assertAlmostEqual(numbers[21]["exponent"]["paper"], -2.0, places=2)
 
     def test_unknown_design(self):
-        done = self.script("figures.py", "--design", "other")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("'other'", done.stderr)
+        self.ended(self.script("figures.py", "--design", "other"), 2, "'other'")
 
 
 class Demo(Bench):
@@ -234,25 +230,13 @@ class Demo(Bench):
         self.assertIn('class="verdict bad"', page)
 
     def test_interrupt_leaves_nothing_running(self):
-        endless = self.folder / "feltgate"
-        endless.write_text(f'#!/bin/sh\necho $$ >> "{self.folder}/pids"\nexec sleep 300\n')
-        demo = subprocess.Popen(
-            [
-                sys.executable,
-                "-B",
-                SCRIPTS / "demo.py",
-                "--no-figures",
-                "--output",
-                self.folder / "out",
-            ],
-            env=self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder)),
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
         pids = self.folder / "pids"
-        deadline = time.monotonic() + 60
-        while not pids.exists() and time.monotonic() < deadline:
-            time.sleep(0.1)
+        self.put("feltgate", f'#!/bin/sh\necho $$ >> "{pids}"\nexec sleep 300\n')
+        options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        options["env"] = self.environment(FELTGATE_ROOT=self.root(), FELTGATE_TRACES=str(self.folder))
+        words = ("--no-figures", "--output", self.folder / "out")
+        demo = self.started(sys.executable, "-B", SCRIPTS / "demo.py", *words, **options)
+        self.until(pids.exists)
         time.sleep(0.5)
         demo.terminate()
         self.assertEqual(demo.wait(timeout=60), 128 + signal.SIGTERM)
@@ -261,9 +245,7 @@ class Demo(Bench):
                 os.kill(int(pid), 0)
 
     def test_options_that_cannot_be(self):
-        done = self.script("demo.py", "--traces", self.folder / "nowhere")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("no such folder", done.stderr)
+        self.ended(self.script("demo.py", "--traces", self.folder / "nowhere"), 2, "no such folder")
 
 
 if __name__ == "__main__":

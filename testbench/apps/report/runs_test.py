@@ -102,12 +102,9 @@ class Building(Bench):
     """Programs that are built while others run."""
 
     def builds(self, script):
-        ninja = self.folder / "ninja"
-        ninja.write_text(f"#!/bin/sh\n{script}\n")
-        ninja.chmod(0o755)
-        path = mock.patch.dict(os.environ, PATH=f"{self.folder}:{os.environ['PATH']}")
-        path.start()
-        self.addCleanup(path.stop)
+        self.put_program("ninja", script)
+        path = f"{self.folder}:{os.environ['PATH']}"
+        self.enterContext(mock.patch.dict(os.environ, PATH=path))
         return Beside(self.folder, ["one", "two"])
 
     def test_one_after_the_other(self):
@@ -126,8 +123,7 @@ class Building(Bench):
 
     def test_left_early_it_ends(self):
         with self.builds(f"echo $$ > {self.folder}/pid.part; mv {self.folder}/pid.part {self.folder}/pid; exec sleep 300") as builds:
-            while not (self.folder / "pid").exists():
-                time.sleep(0.01)
+            self.until((self.folder / "pid").exists)
         self.assertRaises(ProcessLookupError, os.kill, int((self.folder / "pid").read_text()), 0)
         self.assertFalse((self.folder / "done").exists())
         self.assertEqual((builds.text(), builds.failure), ("", ""))

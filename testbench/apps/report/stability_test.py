@@ -4,12 +4,11 @@
 """Pictures and section of a stability study. Documentation: docs/stability.md"""
 
 import os
-import tempfile
 import unittest
-from pathlib import Path
 from unittest import mock
 
-import bench  # noqa: F401, isort: skip (puts scripts/ on the path)
+from testing import Scratch
+
 from reports import stability_plots, stability_section
 
 
@@ -37,7 +36,7 @@ STUDY = {
 }
 
 
-class Stability(unittest.TestCase):
+class Stability(Scratch):
     def test_pictures_of_a_study_with_gaps(self):
         drawn = stability_plots.pictures(STUDY, png=True)
         self.assertEqual([p.name for p in drawn], ["stability_k_b", "stability_locus"])
@@ -54,28 +53,22 @@ class Stability(unittest.TestCase):
         self.assertIn("0.271", text)
 
     def test_a_study_that_fails_is_a_complaint(self):
-        with tempfile.TemporaryDirectory() as folder:
-            program = Path(folder) / "feltgate"
-            program.write_text("#!/bin/sh\necho 'feltgate: no such design' >&2\nexit 2\n")
-            program.chmod(0o755)
-            with mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}):
-                with stability_section.Study(Path(folder)) as study:
-                    found, complaint = study.result()
+        program = self.put_program("feltgate", "echo 'feltgate: no such design' >&2\nexit 2")
+        with mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}):
+            with stability_section.Study(self.folder) as study:
+                found, complaint = study.result()
         self.assertIsNone(found)
         self.assertIn("no such design", complaint)
 
 
     def test_a_study_that_is_left_ends(self):
-        with tempfile.TemporaryDirectory() as folder:
-            program = Path(folder) / "feltgate"
-            program.write_text("#!/bin/sh\nexec sleep 600\n")
-            program.chmod(0o755)
-            with (
-                mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}),
-                self.assertRaises(KeyboardInterrupt),
-                stability_section.Study(Path(folder)) as study,
-            ):
-                raise KeyboardInterrupt
+        program = self.put_program("feltgate", "exec sleep 600")
+        with (
+            mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}),
+            self.assertRaises(KeyboardInterrupt),
+            stability_section.Study(self.folder) as study,
+        ):
+            raise KeyboardInterrupt
         self.assertIsNotNone(study.process.returncode)
 
 

@@ -7,9 +7,8 @@ mistakes are seeded into a copy one at a time.
 import csv
 import re
 from collections import Counter
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
+from testing import ROOT
 
 
 def files_of(board, constraints):
@@ -24,9 +23,10 @@ def files_of(board, constraints):
 
 
 def read_pins(text, key):
-    """Rows of pins.csv by the FPGA's pin or site."""
+    """Rows of pins.csv by the FPGA's pin or site, each with its place."""
     lines = [line for line in text.splitlines() if not line.startswith("#")]
-    return {row[key]: row for row in csv.DictReader(lines)}
+    rows = csv.DictReader(lines)
+    return {row[key]: {"place": row.get("header") or "on board"} | row for row in rows}
 
 
 def read_ports(text, board):
@@ -47,13 +47,14 @@ def read_ports(text, board):
 PULLED_UP = ("enc_", "estop", "sw_n", "key_n", "reset_n", "ftdi_txd", "uart_rx")
 
 
-def placement(texts, board, kind, key, sources, places, settings, pull):
+def placement(texts, board, kind, key, places, settings, sources=None, pull="", standard="LVCMOS33"):
     """One line for everything that is wrong with where the ports are and what their pins are set to, as
     'what; mend'. `kind` is the file that places them, `key` what it places them at, `places` and
-    `settings` what it says: lists of (port, place) and (port, {name: value}); `pull` is the name of pulls."""
+    `settings` what it says: lists of (port, place) and (port, {name: value}); `pull` is the name of pulls.
+    `sources` are the public files that pins.csv names, if any."""
     pins, ports = read_pins(texts["pins"], key), read_ports(texts["sv"], board)
     found = []
-    for place, row in pins.items():
+    for place, row in pins.items() if sources else ():
         named = row["sources"].split()
         if len(set(named)) < 2 or not set(named) <= sources:
             found.append(f"pins: {row['signal']}, {place} has the sources {named}; two are needed")
@@ -78,9 +79,9 @@ def placement(texts, board, kind, key, sources, places, settings, pull):
             found.append(f"{kind}: {port} is at {row[key]}, the board has it at {by_signal[port]}")
         if port not in by_signal and row["place"] == "on board":
             found.append(f"{kind}: {port} is at {row['signal']}, which is on the board; use a header")
-        setting, standard = how.get(port, {}), row.get("io", "LVCMOS33")
-        if setting.get("IO_TYPE") != standard:
-            found.append(f"{kind}: {port} has IO_TYPE {setting.get('IO_TYPE')}; {standard}")
+        setting, wanted = how.get(port, {}), row.get("io", standard)
+        if setting.get("IO_TYPE") != wanted:
+            found.append(f"{kind}: {port} has IO_TYPE {setting.get('IO_TYPE')}; {wanted}")
         if port.startswith(PULLED_UP) and setting.get(pull) != "UP":
             found.append(f"{kind}: {port} is not pulled up; open, it has to read high")
         if port.startswith("gate_") and setting.get(pull) != "DOWN":
@@ -91,15 +92,28 @@ def placement(texts, board, kind, key, sources, places, settings, pull):
     return found
 
 
-class PinsTests:
-    """The tests of a board's TestCase. FILES are those of files_of(); `findings(texts)` says what is
-    wrong, a line for each; MISTAKES are (file, what stands in it once, what instead, words that a
-    finding then has)."""
+def settings_in(text, pattern):
+    """Of each port that the pattern finds beside its words: (port, {key: value})."""
+    return [(port, dict(w.split("=") for w in words.split())) for port, words in re.findall(pattern, text)]
 
-    FILES, MISTAKES = {}, ()
+
+class PinsTests:
+    """The tests of a BOARD's TestCase, whose ports the file of KIND places at a KEY of pins.csv.
+    `read(text)` of that file gives its lists, whose lines have the WORDS; `findings(texts)` says what is
+    wrong, a line for each; MISTAKES are (file, what stands in it once, what instead, words that a
+    finding then has). COUNTS are the rows of pins.csv, the ports and the outputs."""
 
     def texts(self):
-        return {name: path.read_text(encoding="utf-8") for name, path in self.FILES.items()}
+        files = files_of(self.BOARD, self.KIND)
+        return {name: path.read_text(encoding="utf-8") for name, path in files.items()}
+
+    def test_the_parsers_saw_the_whole_files(self):
+        texts = self.texts()
+        ports = read_ports(texts["sv"], self.BOARD)
+        outputs = sum(way == "output" for way in ports.values())
+        self.assertEqual((len(read_pins(texts["pins"], self.KEY)), len(ports), outputs), self.COUNTS)
+        for found, words in zip(self.read(texts[self.KIND]), self.WORDS):
+            self.assertEqual(len(found), texts[self.KIND].count(words))
 
     def test_board_files_agree(self):
         self.assertEqual(self.findings(self.texts()), [])
@@ -108,7 +122,7 @@ class PinsTests:
         for name, old, new, words in self.MISTAKES:
             with self.subTest(words):
                 texts = self.texts()
-                self.assertEqual(texts[name].count(old), 1, f"{old!r} once in {self.FILES[name]}")
+                self.assertEqual(texts[name].count(old), 1, f"{old!r} once in {name}")
                 texts[name] = texts[name].replace(old, new)
                 found = self.findings(texts)
                 self.assertTrue(any(words in line for line in found), found)

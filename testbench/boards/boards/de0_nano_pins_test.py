@@ -11,23 +11,22 @@ Documentation: docs/boards/de0_nano.md
 
 import shlex
 import unittest
-from collections import Counter
 
-from board_pins import PinsTests, files_of, read_pins, read_ports
+from board_pins import PinsTests, placement
 
 IO_STANDARD = "3.3-V LVTTL"
 GLOBALS = {"FAMILY": "Cyclone IV E", "DEVICE": "EP4CE22F17C6", "TOP_LEVEL_ENTITY": "de0_nano"}
 
 
 def read_qsf(text):
-    """(locations, standards, globals): lists of (port, value), in the order of the file."""
+    """(locations, standards, globals): lists of (port, pin), (port, {"IO_TYPE": value}) and (name, value)."""
     locations, standards, settings = [], [], []
     for line in text.splitlines():
         words = shlex.split(line, comments=True)
         if words[:1] == ["set_location_assignment"]:
             locations.append((words[words.index("-to") + 1], words[1].removeprefix("PIN_")))
         elif words[:3] == ["set_instance_assignment", "-name", "IO_STANDARD"]:
-            standards.append((words[words.index("-to") + 1], words[3]))
+            standards.append((words[words.index("-to") + 1], {"IO_TYPE": words[3]}))
         elif words[:2] == ["set_global_assignment", "-name"]:
             settings.append((words[2], words[3]))
     return locations, standards, settings
@@ -35,57 +34,11 @@ def read_qsf(text):
 
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
-    pins, ports = read_pins(texts["pins"], "pin"), read_ports(texts["sv"], "de0_nano")
     locations, standards, settings = read_qsf(texts["qsf"])
-    found = []
-
+    found = placement(texts, "de0_nano", "qsf", "pin", locations, standards, standard=IO_STANDARD)
     for name, value in GLOBALS.items():
         if (name, value) not in settings:
             found.append(f"qsf: {name} is not {value}; set it")
-
-    for port, count in Counter(port for port, _ in locations).items():
-        if port not in ports:
-            found.append(f"qsf: {port} is no port of de0_nano.sv; remove it or name the port")
-        if count > 1:
-            found.append(f"qsf: {port} has {count} pins; leave one")
-    for pin, count in Counter(pin for _, pin in locations).items():
-        if pin not in pins:
-            found.append(f"qsf: pin {pin} is not in pins.csv; take one that is")
-        if count > 1:
-            found.append(f"qsf: pin {pin} is used {count} times; give each port its own")
-
-    where, standard = dict(locations), dict(standards)
-    by_signal = {row["signal"]: pin for pin, row in pins.items()}
-    for port, direction in ports.items():
-        if port not in where:
-            found.append(f"qsf: port {port} has no pin; add set_location_assignment")
-            continue
-        if standard.get(port) != IO_STANDARD:
-            found.append(f"qsf: {port} has IO standard {standard.get(port)}; set {IO_STANDARD}")
-        row = pins.get(where[port])
-        if row is None:
-            continue
-        allowed = {"in": "input", "out": "output"}.get(row["direction"], direction)
-        if direction != allowed:
-            found.append(
-                f"qsf: {port} is an {direction}, pin {row['pin']} is {allowed} only; move it"
-            )
-        # A port named as the board names a signal belongs on that signal, all others on a header.
-        if port in by_signal and by_signal[port] != row["pin"]:
-            found.append(
-                f"qsf: {port} is on pin {row['pin']}, the board has it on {by_signal[port]}"
-            )
-        if port not in by_signal and not row["header"]:
-            found.append(
-                f"qsf: {port} is on {row['signal']}, which is on the board; use a header pin"
-            )
-        place = row["header"] or "on board"
-        if f"| `{port}` | {row['signal']} | {row['pin']} | {place} |" not in texts["doc"]:
-            found.append(
-                f"doc: no row '{port}, {row['signal']}, {row['pin']}, {place}'; correct the table"
-            )
-    for port in {port for port, _ in standards} - set(ports):
-        found.append(f"qsf: IO standard for {port}, which is no port; remove it")
     return found
 
 
@@ -94,34 +47,27 @@ ENC_A = "set_location_assignment PIN_A5 -to ENC_A\n"
 
 
 class De0Nano(PinsTests, unittest.TestCase):
-    FILES = files_of("de0_nano", "qsf")
+    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 26, 13)
+    WORDS = ("PIN_",)
     MISTAKES = (
-        ("qsf", ENC_A, "", "port ENC_A has no pin"),
-        ("qsf", ENC_A, ENC_A + ENC_A.replace("A5", "A6"), "ENC_A has 2 pins"),
+        ("qsf", ENC_A, "", "port ENC_A is at None"),
+        ("qsf", ENC_A, ENC_A + ENC_A.replace("A5", "A6"), "port ENC_A is used 2 times"),
         ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_C9 -to GATE_A_LO", "pin C9 is used 2 times"),
-        ("qsf", "PIN_D9 -to", "PIN_Z99 -to", "pin Z99 is not in pins.csv"),
+        ("qsf", "PIN_D9 -to", "PIN_Z99 -to", "Z99, which is not in pins.csv"),
         ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_D9 -to GATE_C_LO", "GATE_C_LO is no port"),
-        ("qsf", STANDARD_OF, "", "ESTOP has IO standard None"),
+        ("qsf", STANDARD_OF, "", "ESTOP has IO_TYPE None"),
         ("qsf", '"3.3-V LVTTL" -to KEY[1]', '"2.5-V LVTTL" -to KEY[1]',
-         "KEY[1] has IO standard 2.5-V LVTTL"),
-        ("qsf", "PIN_D9 -to", "PIN_A8 -to", "pin A8 is input only"),
-        ("qsf", "PIN_J15 -to KEY[0]", "PIN_A2 -to KEY[0]", "the board has it on J15"),
-        ("qsf", "PIN_D9 -to", "PIN_L3 -to", "use a header pin"),
+         "KEY[1] has IO_TYPE 2.5-V LVTTL"),
+        ("qsf", "PIN_D9 -to", "PIN_A8 -to", "GATE_A_LO is an output, GPIO_0_IN[0] is not"),
+        ("qsf", "PIN_J15 -to KEY[0]", "PIN_A2 -to KEY[0]", "the board has it at J15"),
+        ("qsf", "PIN_D9 -to", "PIN_L3 -to", "use a header"),
         ("sv", "output logic       GATE_B_LO\n", "output logic GATE_B_LO,\n  input logic NEW\n",
-         "port NEW has no"),
-        ("sv", "[3:0] SW,", "[4:0] SW,", "port SW[4] has no pin"),
+         "port NEW is at None"),
+        ("sv", "[3:0] SW,", "[4:0] SW,", "port SW[4] is at None"),
         ("qsf", "EP4CE22F17C6", "EP4CE10F17C8", "DEVICE is not"),
         ("doc", "GPIO_0[9] | D5 | JP1 pin 14", "GPIO_0[9] | D5 | JP1 pin 15", "doc: no row"),
     )
-    findings = staticmethod(findings)
-
-    def test_the_parsers_saw_the_whole_files(self):
-        texts = self.texts()
-        ports = read_ports(texts["sv"], "de0_nano")
-        self.assertEqual(len(read_pins(texts["pins"], "pin")), 87)
-        self.assertEqual(len(ports), 26)
-        self.assertEqual(sum(d == "output" for d in ports.values()), 13)
-        self.assertEqual(len(read_qsf(texts["qsf"])[0]), texts["qsf"].count("PIN_"))
+    read, findings = staticmethod(read_qsf), staticmethod(findings)
 
 
 if __name__ == "__main__":

@@ -8,11 +8,13 @@ from lever in what it has to and in nothing else.
 import re
 import tomllib
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-PAGE = (ROOT / "docs/boards/first-hour.md").read_text(encoding="utf-8")
-MAP = tomllib.loads((ROOT / "rtl/registers.toml").read_text(encoding="utf-8"))
+from testing import text_of
+
+from exploration import space
+
+PAGE = text_of("docs/boards/first-hour.md")
+MAP = tomllib.loads(text_of("rtl/registers.toml"))
 LOOK = 15
 
 # Key of first_power: at most this. What is in neither list has to be lever's.
@@ -36,12 +38,7 @@ OTHER = {"description", "self_test.mode", "pwm.shortest_pulse_s"}
 
 
 def design(name):
-    read = tomllib.loads((ROOT / f"rtl/designs/{name}.toml").read_text(encoding="utf-8"))
-    flat = {}
-    for section, value in read.items():
-        rows = value.items() if isinstance(value, dict) else [(None, value)]
-        flat.update({f"{section}.{key}" if key else section: v for key, v in rows})
-    return flat
+    return space.flattened(tomllib.loads(text_of(f"rtl/designs/{name}.toml")))
 
 
 def findings(first, lever):

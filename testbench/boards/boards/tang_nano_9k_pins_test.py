@@ -11,7 +11,7 @@ Documentation: docs/boards/tang_nano_9k.md
 import re
 import unittest
 
-from board_pins import PinsTests, files_of, placement, read_pins, read_ports
+from board_pins import PinsTests, placement, read_pins, settings_in
 
 SOURCES = set("VALRMH")
 BY_VENDOR = ("estop", "enc_a", "enc_b", "enc_loop", "gate_")
@@ -21,17 +21,13 @@ def read_cst(text):
     """(pins, settings): lists of (port, pin) and (port, {key: value})."""
     text = re.sub(r"//.*", "", text)
     pins = re.findall(r'IO_LOC\s+"([^"]+)"\s+([^;]+);', text)
-    settings = [
-        (port, dict(word.split("=") for word in words.split()))
-        for port, words in re.findall(r'IO_PORT\s+"([^"]+)"\s+([^;]+);', text)
-    ]
-    return pins, settings
+    return pins, settings_in(text, r'IO_PORT\s+"([^"]+)"\s+([^;]+);')
 
 
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
     places, settings = read_cst(texts["cst"])
-    found = placement(texts, "tang_nano_9k", "cst", "pin", SOURCES, places, settings, "PULL_MODE")
+    found = placement(texts, "tang_nano_9k", "cst", "pin", places, settings, SOURCES, "PULL_MODE")
     for pin, row in read_pins(texts["pins"], "pin").items():
         users = [port for port, place in places if place == pin and port.startswith(BY_VENDOR)]
         if (users or row["place"] == "on board") and "V" not in row["sources"].split():
@@ -46,7 +42,8 @@ GATE = 'IO_PORT "gate_a_hi" IO_TYPE=LVCMOS33 PULL_MODE=DOWN'
 
 
 class TangNano9k(PinsTests, unittest.TestCase):
-    FILES = files_of("tang_nano_9k", "cst")
+    BOARD, KIND, KEY, COUNTS = "tang_nano_9k", "cst", "pin", (25, 24, 11)
+    WORDS = ("IO_LOC", "IO_PORT")
     MISTAKES = (
         ("cst", 'IO_LOC "enc_a" 33', 'IO_LOC "enc_a" 34', "pin 34 is used 2"),
         ("cst", 'IO_LOC "enc_a" 33', 'IO_LOC "enc_b" 33', "port enc_b is used 2"),
@@ -69,17 +66,7 @@ class TangNano9k(PinsTests, unittest.TestCase):
         ("sv", "output logic       gate_b_lo\n", "output logic gate_b_lo, input logic new\n", "port new"),
         ("doc", "| `enc_b` | pin 34 | 34 |", "| `enc_b` | pin 34 | 35 |", "doc: no row"),
     )
-    findings = staticmethod(findings)
-
-    def test_the_parsers_saw_the_whole_files(self):
-        texts = self.texts()
-        ports = read_ports(texts["sv"], "tang_nano_9k")
-        self.assertEqual(len(read_pins(texts["pins"], "pin")), 25)
-        self.assertEqual(len(ports), 24)
-        self.assertEqual(sum(d == "output" for d in ports.values()), 11)
-        places, settings = read_cst(texts["cst"])
-        self.assertEqual(len(places), texts["cst"].count("IO_LOC"))
-        self.assertEqual(len(settings), texts["cst"].count("IO_PORT"))
+    read, findings = staticmethod(read_cst), staticmethod(findings)
 
 
 if __name__ == "__main__":

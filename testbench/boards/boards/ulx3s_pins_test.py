@@ -13,7 +13,7 @@ Documentation: docs/boards/ulx3s.md
 import re
 import unittest
 
-from board_pins import PinsTests, files_of, placement, read_pins, read_ports
+from board_pins import PinsTests, placement, settings_in
 
 SOURCES = set("ABCD")
 
@@ -22,17 +22,13 @@ def read_lpf(text):
     """(sites, settings): lists of (port, site) and (port, {key: value})."""
     text = re.sub(r"#.*", "", text)
     sites = re.findall(r'LOCATE COMP "([^"]+)" SITE "([^"]+)"', text)
-    settings = [
-        (port, dict(word.split("=") for word in words.split()))
-        for port, words in re.findall(r'IOBUF PORT "([^"]+)" ([^;]+);', text)
-    ]
-    return sites, settings
+    return sites, settings_in(text, r'IOBUF PORT "([^"]+)" ([^;]+);')
 
 
 def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
     sites, settings = read_lpf(texts["lpf"])
-    found = placement(texts, "ulx3s", "lpf", "site", SOURCES, sites, settings, "PULLMODE")
+    found = placement(texts, "ulx3s", "lpf", "site", sites, settings, SOURCES, "PULLMODE")
     if 'FREQUENCY PORT "clk_25mhz" 25 MHZ;' not in texts["lpf"]:
         found.append("lpf: clk_25mhz has not its 25 MHz; nextpnr takes the PLL's clock from it")
     return found
@@ -42,7 +38,8 @@ GATE = 'IOBUF PORT "gate_a_hi" PULLMODE=DOWN'
 
 
 class Ulx3s(PinsTests, unittest.TestCase):
-    FILES = files_of("ulx3s", "lpf")
+    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 27, 14)
+    WORDS = ("LOCATE COMP", "IOBUF PORT")
     MISTAKES = (
         ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"',
          "site A10 is used 2"),
@@ -66,17 +63,7 @@ class Ulx3s(PinsTests, unittest.TestCase):
          "port new"),
         ("doc", "| `enc_b` | gp[1] | A10 |", "| `enc_b` | gp[1] | A11 |", "doc: no row"),
     )
-    findings = staticmethod(findings)
-
-    def test_the_parsers_saw_the_whole_files(self):
-        texts = self.texts()
-        ports = read_ports(texts["sv"], "ulx3s")
-        self.assertEqual(len(read_pins(texts["pins"], "site")), 79)
-        self.assertEqual(len(ports), 27)
-        self.assertEqual(sum(d == "output" for d in ports.values()), 14)
-        sites, settings = read_lpf(texts["lpf"])
-        self.assertEqual(len(sites), texts["lpf"].count("LOCATE COMP"))
-        self.assertEqual(len(settings), texts["lpf"].count("IOBUF PORT"))
+    read, findings = staticmethod(read_lpf), staticmethod(findings)
 
 
 if __name__ == "__main__":

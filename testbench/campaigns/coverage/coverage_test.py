@@ -6,16 +6,14 @@ Verilator's code, verdicts."""
 
 import json
 import os
-import sys
 import unittest
 from pathlib import Path
 from unittest import mock
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch, called  # noqa: E402
-import block_results  # noqa: E402
-import coverage  # noqa: E402
-from rtl_coverage import data, instrument, programs, report, waivers  # noqa: E402
+from testing import ROOT, Scratch, called
+import block_results
+import coverage
+from rtl_coverage import data, instrument, programs, report, waivers
 
 HEAD = "# SystemC::Coverage-3\n"
 

@@ -8,11 +8,9 @@ Documentation: docs/explore.md
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, SCRIPTS, Scratch, environment, ran  # noqa: E402, F401
+from testing import ROOT, SCRIPTS, Scratch, environment, ran  # noqa: F401
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
 
 # 24 points of 4 structures.
 SPACE = """description = "for a test"
@@ -55,8 +53,7 @@ class Bench(Scratch):
 
     def good(self, *words, **environment):
         """Runs and expects success; what it printed."""
-        done = self.explore(*words, **environment)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.explore(*words, **environment))
         return done.stdout.strip()
 
     def plan(self, name="plan"):

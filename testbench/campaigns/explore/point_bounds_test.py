@@ -4,15 +4,13 @@
 
 import csv
 import json
-import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
-from exploration import point  # noqa: E402
-from exploration.design_text import design_text  # noqa: E402
+from testing import ROOT, Scratch
+
+from exploration import point
+from exploration.design_text import design_text
 
 TABLE = ROOT / "vectors/spaces/trade.csv"
 BASE = "lever"
@@ -30,7 +28,7 @@ def changes(row):
     return {key: value(text) for key, text in row.items() if "." in key and text}
 
 
-class Bounds(unittest.TestCase):
+class Bounds(Scratch):
     def check(self, row, folder):
         """The bounds of a row's design; the row's errors must keep them."""
         design = Path(folder) / "point.toml"
@@ -47,18 +45,17 @@ class Bounds(unittest.TestCase):
         with TABLE.open(encoding="utf-8", newline="") as file:
             rows = [row for row in csv.DictReader(file) if row["status"] == "ok"]
         self.assertGreaterEqual(len(rows), 200)
-        with tempfile.TemporaryDirectory() as folder:
-            tightest = 0.0
-            for row in rows:
-                found = self.check(row, folder)
-                error = float(row["torque_error_max_nm"])
-                tightest = max(tightest, error / found["bound_torque_nm"])
-            # A bound that nothing comes near would hold whatever the RTL did.
-            self.assertGreater(tightest, 0.1)
-            # And the comparison can fail.
-            row = rows[0] | {"torque_error_max_nm": "1.0"}
-            with self.assertRaises(AssertionError):
-                self.check(row, folder)
+        tightest = 0.0
+        for row in rows:
+            found = self.check(row, self.folder)
+            error = float(row["torque_error_max_nm"])
+            tightest = max(tightest, error / found["bound_torque_nm"])
+        # A bound that nothing comes near would hold whatever the RTL did.
+        self.assertGreater(tightest, 0.1)
+        # And the comparison can fail.
+        row = rows[0] | {"torque_error_max_nm": "1.0"}
+        with self.assertRaises(AssertionError):
+            self.check(row, self.folder)
 
 
 if __name__ == "__main__":

@@ -8,11 +8,11 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
-from exploration import point  # noqa: E402
-from exploration.design_text import design_text  # noqa: E402
-from seeded_defects import patches  # noqa: E402
+from testing import ROOT
+
+from exploration import point
+from exploration.design_text import design_text
+from seeded_defects import patches
 
 COARSE = {
     "clock.tick_hz": 10000,

@@ -12,7 +12,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
 from bench import Bench
@@ -21,71 +20,34 @@ from bench import Bench
 @unittest.skipUnless(importlib.util.find_spec("distributed"), "no python3-distributed")
 class Dask(Bench):
     def start(self, module, *words):
-        process = subprocess.Popen(
-            [sys.executable, "-m", f"distributed.cli.{module}", *map(str, words)],
-            env=self.environment(FAKE_POINT_DELAY_S="0.3"),
-            cwd=self.folder,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
+        options = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        options["env"] = self.environment(FAKE_POINT_DELAY_S="0.3")
+        return self.started(sys.executable, "-m", f"distributed.cli.{module}", *words, **options)
 
     def start_cluster(self):
         file = self.folder / "scheduler.json"
-        self.start(
-            "dask_scheduler",
-            "--host",
-            "127.0.0.1",
-            "--port",
-            0,
-            "--no-dashboard",
-            "--scheduler-file",
-            file,
-        )
-        self.wait_until(file.exists)
+        here = ("--no-dashboard", "--host", "127.0.0.1")
+        self.start("dask_scheduler", *here, "--port", 0, "--scheduler-file", file)
+        self.until(file.exists)
         address = json.loads(file.read_text())["address"]
-        workers = [
-            self.start(
-                "dask_worker",
-                address,
-                "--nthreads",
-                1,
-                "--no-nanny",
-                "--no-dashboard",
-                "--host",
-                "127.0.0.1",
-                "--name",
-                f"w{i}",
-            )
-            for i in (1, 2)
-        ]
+        one = (address, *here, "--nthreads", 1, "--no-nanny")
+        workers = [self.start("dask_worker", *one, "--name", name) for name in ("w1", "w2")]
         from distributed import Client
 
         with Client(address, timeout=30) as client:
             client.wait_for_workers(2, timeout=60)
         return address, workers
 
-    def wait_until(self, true):
-        end = time.monotonic() + 60
-        while not true():
-            self.assertLess(time.monotonic(), end)
-            time.sleep(0.02)
-
     def test_a_killed_worker_costs_nothing(self):
         wanted = self.whole()
         address, workers = self.start_cluster()
         folder = self.plan("over_dask")
         self.log.unlink()
-        process = subprocess.Popen(
-            self.command("run", folder, "--engine", "dask", "--scheduler", address),
-            env=self.environment(),
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+        command = self.command("run", folder, "--engine", "dask", "--scheduler", address)
+        options = {"env": self.environment(), "stderr": subprocess.PIPE, "text": True}
+        process = self.started(*command, **options)
         # Both workers are in the middle of their first chunks.
-        self.wait_until(lambda: len(self.evaluations()) >= 4)
+        self.until(lambda: len(self.evaluations()) >= 4)
         os.kill(workers[0].pid, signal.SIGKILL)
         workers[0].wait()
         said = process.communicate(timeout=120)[1]

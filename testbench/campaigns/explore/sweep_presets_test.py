@@ -11,8 +11,7 @@ import os
 import tomllib
 import unittest
 
-from bench import ROOT
-from testing import BUILD, ran
+from testing import BUILD, ROOT, Scratch, ran
 
 from exploration import merge, point, presets, space
 
@@ -25,7 +24,7 @@ def design_of(name):
     return text, space.flattened(tomllib.loads(text))
 
 
-class Presets(unittest.TestCase):
+class Presets(Scratch):
     def rows(self):
         with TABLE.open(encoding="utf-8") as file:
             return list(csv.DictReader(file))
@@ -53,8 +52,7 @@ class Presets(unittest.TestCase):
 
     def test_stable_and_for_use(self):
         for name in presets.NAMES:
-            done = ran(BUILD / "feltgate", "design", name, "--plant", "p24")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.ended(ran(BUILD / "feltgate", "design", name, "--plant", "p24"))
 
     def test_tabled(self):
         for name in presets.NAMES:

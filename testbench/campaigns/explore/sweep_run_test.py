@@ -9,7 +9,6 @@ Documentation: docs/explore.md
 import os
 import signal
 import subprocess
-import time
 import unittest
 
 from bench import Bench
@@ -39,18 +38,14 @@ class Merge(Bench):
         folder = self.plan()
         self.good("run", folder, "--chunk", "1/3")
         self.good("run", folder, "--chunk", "3/3")
-        done = self.explore("merge", folder)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("missing chunks of 3: 2", done.stderr)
+        self.ended(self.explore("merge", folder), 2, "missing chunks of 3: 2")
         self.assertFalse((folder / "points.jsonl").exists())
 
     def test_duplicates_are_refused(self):
         folder = self.plan()
         self.good("run", folder, "--chunk", "1/1")
         self.good("run", folder, "--chunk", "2/3")
-        done = self.explore("merge", folder)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("overlap", done.stderr)
+        self.ended(self.explore("merge", folder), 2, "overlap")
 
     def test_strangers_are_refused(self):
         folder = self.plan()
@@ -65,9 +60,7 @@ class Merge(Bench):
             (head.replace('"sources":"', '"sources":"0'), "different sources"),
         ):
             other.write_text(content + "\n")
-            done = self.explore("merge", folder)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(word, done.stderr)
+            self.ended(self.explore("merge", folder), 2, word)
 
     def test_stale_chunks_are_run_again(self):
         folder = self.plan()
@@ -81,18 +74,12 @@ class Merge(Bench):
 
 class Interrupted(Bench):
     def start(self, folder, *words, delay="0.1", before=None):
-        return subprocess.Popen(
-            self.command("run", folder, *words),
-            env=self.environment(FAKE_POINT_DELAY_S=delay),
-            stderr=subprocess.DEVNULL,
-            preexec_fn=before,
-        )
+        options = {"stderr": subprocess.DEVNULL, "preexec_fn": before}
+        options["env"] = self.environment(FAKE_POINT_DELAY_S=delay)
+        return self.started(*self.command("run", folder, *words), **options)
 
     def wait_for(self, count):
-        end = time.monotonic() + 30
-        while len(self.evaluations()) < count:
-            self.assertLess(time.monotonic(), end, "nothing was evaluated")
-            time.sleep(0.01)
+        self.until(lambda: len(self.evaluations()) >= count)
 
     def test_what_is_done_is_not_done_again(self):
         folder = self.plan()
@@ -128,8 +115,7 @@ class Interrupted(Bench):
     def test_a_failing_point_is_named(self):
         folder = self.plan()
         name = self.whole().split(b'"id":"')[3][:12].decode()
-        done = self.explore("run", folder, FAKE_POINT_FAIL=name)
-        self.assertEqual(done.returncode, 2)
+        done = self.ended(self.explore("run", folder, FAKE_POINT_FAIL=name), 2)
         self.assertIn(f"point {name} cannot be built", done.stderr)
         self.assertRegex(done.stderr, r'^explore: point \{"[^}]*\} of lever: ')
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)

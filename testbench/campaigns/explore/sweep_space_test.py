@@ -57,9 +57,7 @@ class Reading(Bench):
         self.refused('base = "lever"', 'base = "lever"\nbases = 1', 3, "bases")
 
     def test_no_file(self):
-        done = self.explore("plan", self.folder / "none.toml")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("is neither a verb", done.stderr)
+        self.ended(self.explore("plan", self.folder / "none.toml"), 2, "is neither a verb")
 
     def test_shipped_spaces_are_good(self):
         for path in (ROOT / "vectors/spaces").glob("*.toml"):
@@ -97,9 +95,7 @@ class Chunks(Bench):
         self.plan()
         self.assertEqual((self.folder / "plan/plan.json").read_bytes(), before)
         self.space.write_text(SPACE.replace("767", "768"), encoding="utf-8")
-        done = self.explore("plan", self.space, "-o", self.folder / "plan")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("another space", done.stderr)
+        self.ended(self.explore("plan", self.space, "-o", self.folder / "plan"), 2, "another space")
 
 
 if __name__ == "__main__":

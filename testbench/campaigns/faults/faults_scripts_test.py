@@ -5,15 +5,12 @@
 
 import json
 import os
-import sys
 import unittest
-from pathlib import Path
 from unittest import mock
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import Scratch, called  # noqa: E402
-import faults  # noqa: E402
-from fault_campaign import results  # noqa: E402
+from testing import Scratch, called
+import faults
+from fault_campaign import results
 
 
 def state(register, kind="masked", safety=True, peak=0.0):

@@ -9,16 +9,14 @@ import json
 import os
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import Scratch, called  # noqa: E402
-import mutate  # noqa: E402
-from crew import Crew  # noqa: E402
-from mutation import equivalence, netlist, rtl, rtl_table  # noqa: E402
+from testing import Scratch, called
+import mutate
+from crew import Crew
+from mutation import equivalence, netlist, rtl, rtl_table
 
 # dead_q stays 0, so that what it adds is no matter; spare is what a mutant of the word must change.
 COUNTER = """module counter (

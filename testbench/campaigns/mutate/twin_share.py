@@ -11,10 +11,11 @@ import sys
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+import testing  # noqa: F401, puts scripts/ on the path
+
+from mutation import twin, twin_parser
+
 BUILD, OPTIONS = sys.argv[1], sys.argv[2:]
-sys.path.insert(0, str(ROOT / "scripts"))
-from mutation import twin, twin_parser  # noqa: E402
 
 
 def has_parser():

@@ -7,26 +7,24 @@ twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitte
 Documentation: docs/verification.md
 """
 
-import contextlib
-import io
 import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-ROOT = Path(os.environ.get("FELTGATE_ROOT") or Path(__file__).resolve().parents[3])
+from testing import ROOT, Scratch, called, ran
+
+import block_results
+from mutation import twin, twin_parser, twin_places, twin_programs, twin_results
+from mutation import twin_runs, twin_source
+
 VENV = Path("none")
 if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
     VENV = Path(sys.argv.pop(1))
-sys.path.insert(0, str(ROOT / "scripts"))
-import block_results  # noqa: E402
-from mutation import twin, twin_parser, twin_places, twin_programs, twin_results  # noqa: E402
-from mutation import twin_runs, twin_source  # noqa: E402
 
 try:
     LANGUAGE = twin_parser.cpp_language(VENV)
@@ -134,30 +132,26 @@ class Offered(unittest.TestCase):
 
 
 @unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"), "no tree-sitter")
-class Compiled(unittest.TestCase):
+class Compiled(Scratch):
     def results(self, body, calls, expected):
         """The header's calls in every mutant, printed; {name: what they print}."""
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
-            found = header(body)
-            main = folder / "main.cpp"
-            printed = f'std::printf("{"%d " * len(calls)}", {", ".join(calls)});'
-            main.write_text('#include "mutant.hpp"\n#include <cstdio>\n' + found.result +
-                            f"\nint main() {{ {printed} }}\n", encoding="utf-8")
-            subprocess.run(["c++", "-std=c++17", "-w", f"-I{MUTANT}",
-                            f"-DFELTGATE_MUTANTS={len(found.mutants)}", main, MUTANT / "mutant.cpp",
-                            "-o", folder / "p"], check=True)
+        found = header(body)
+        printed = f'std::printf("{"%d " * len(calls)}", {", ".join(calls)});'
+        main = self.put("main.cpp", '#include "mutant.hpp"\n#include <cstdio>\n' + found.result +
+                        f"\nint main() {{ {printed} }}\n")
+        subprocess.run(["c++", "-std=c++17", "-w", f"-I{MUTANT}",
+                        f"-DFELTGATE_MUTANTS={len(found.mutants)}", main, MUTANT / "mutant.cpp",
+                        "-o", self.folder / "p"], check=True)
 
-            def run(**more):
-                done = subprocess.run([folder / "p"], env=more, capture_output=True, text=True,
-                                      check=True)
-                return [int(word) for word in done.stdout.split()]
+        def run(**more):
+            done = ran(self.folder / "p", env=more, check=True)
+            return [int(word) for word in done.stdout.split()]
 
-            self.assertEqual(run(), expected)
-            run(FELTGATE_MUTANTS_REACHED=str(folder / "reached"))
-            reached = (folder / "reached").read_text(encoding="ascii").splitlines()
-            self.reached = {int(line) for line in reached if not line.endswith("exact")}
-            return {m.name: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
+        self.assertEqual(run(), expected)
+        run(FELTGATE_MUTANTS_REACHED=str(self.folder / "reached"))
+        reached = (self.folder / "reached").read_text(encoding="ascii").splitlines()
+        self.reached = {int(line) for line in reached if not line.endswith("exact")}
+        return {m.name: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
 
     def test_each_does_what_its_name_says(self):
         body = """
@@ -195,7 +189,7 @@ inline int keeps() { return mixed(7, Other()); }
         self.assertEqual(len(got) - len(self.reached), 3)  # never(), and keeps() has no such call
 
 
-class Verdicts(unittest.TestCase):
+class Verdicts(Scratch):
     def row(self, hows, survivors):
         mutants = [twin_places.Mutant(n, "h", 1, "k", f"m{n}") for n in range(len(hows))]
         catalogue = twin_results.Catalogue({"h": ["t"]}, {}, survivors)
@@ -223,56 +217,46 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(all_of_them, mutants)
 
     def test_a_compiler_drops_what_its_message_is_about(self):
-        with tempfile.TemporaryDirectory() as folder:
-            place = Path(folder) / "mutants/twin/h"
-            (place / "include/feltgate").mkdir(parents=True)
-            (place / "include/feltgate/h.hpp").write_text(
-                "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n",
-                encoding="utf-8")
-            one = type("H", (), {"name": "h", "mutants": [
-                twin_places.Mutant(0, "h", 2, "arguments", "swap"),
-                twin_places.Mutant(1, "h", 2, "arithmetic", "add")]})
-            said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
-            self.assertEqual(twin.refused([one], place, said), {("h", "swap")})
+        self.put("mutants/twin/h/include/feltgate/h.hpp",
+                 "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n")
+        one = type("H", (), {"name": "h", "mutants": [
+            twin_places.Mutant(0, "h", 2, "arguments", "swap"),
+            twin_places.Mutant(1, "h", 2, "arithmetic", "add")]})
+        said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
+        self.assertEqual(twin.refused([one], self.folder / "mutants/twin/h", said), {("h", "swap")})
 
     def test_results_become_rows_of_the_blocks(self):
         row = self.row(["killed", "hangs", "survives", "unreached"],
                        {("h", "m2"): ("equivalent", "w")})
         row.catalogue.blocks["h"] = "twin of the core"
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
-            (folder / "docs/verification").mkdir(parents=True)
-            options = type("O", (), {"seed": 1, "count": 0})
-            result = twin_results.results_of([row], options, {})
-            for _ in range(2):  # the second time replaces the first
-                twin_results.update(folder, row.catalogue, result)
-            blocks = block_results.read(folder, "mutants")["blocks"]
-            self.assertEqual(blocks["twin of the core"].pop("sources").keys(), {"twin"})
-            self.assertEqual(blocks, {"twin of the core": {"twin": [2, 3]}})
-            written = json.loads((folder / twin_results.RESULTS).read_text(encoding="utf-8"))
-            self.assertEqual([h["header"] for h in written["headers"]], ["h"])
-            self.assertNotIn("survivors", written["headers"][0])
-            self.assertEqual(written["headers"][0]["machine"], block_results.machine())
+        (self.folder / "docs/verification").mkdir(parents=True)
+        options = type("O", (), {"seed": 1, "count": 0})
+        result = twin_results.results_of([row], options, {})
+        for _ in range(2):  # the second time replaces the first
+            twin_results.update(self.folder, row.catalogue, result)
+        blocks = block_results.read(self.folder, "mutants")["blocks"]
+        self.assertEqual(blocks["twin of the core"].pop("sources").keys(), {"twin"})
+        self.assertEqual(blocks, {"twin of the core": {"twin": [2, 3]}})
+        written = json.loads((self.folder / twin_results.RESULTS).read_text(encoding="utf-8"))
+        self.assertEqual([h["header"] for h in written["headers"]], ["h"])
+        self.assertNotIn("survivors", written["headers"][0])
+        self.assertEqual(written["headers"][0]["machine"], block_results.machine())
 
-            path = folder / "old.json"
-            path.write_text(json.dumps(result), encoding="utf-8")
-            self.assertEqual(twin_results.survivors_of(path), {("h", "m2"), ("h", "m3")})
-            path.write_text("{}", encoding="utf-8")
-            with self.assertRaises(twin_results.TwinError):
-                twin_results.survivors_of(path)
+        path = self.put("old.json", json.dumps(result))
+        self.assertEqual(twin_results.survivors_of(path), {("h", "m2"), ("h", "m3")})
+        path.write_text("{}", encoding="utf-8")
+        with self.assertRaises(twin_results.TwinError):
+            twin_results.survivors_of(path)
 
     def test_options_that_do_nothing_are_refused(self):
         for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"],
                       ["--list", "--update"], ["--list", "--json", "x"]):
-            with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(io.StringIO()):
-                twin.arguments(wrong)
-            self.assertEqual(ended.exception.code, 2)
+            self.assertEqual(called(twin.arguments, *wrong)[0], 2)
 
     def test_an_unknown_header_is_said(self):
-        said = io.StringIO()
-        with contextlib.redirect_stderr(said):
-            self.assertEqual(twin.main(["suprevisor"]), 2)
-        self.assertIn("supervisor", said.getvalue())
+        status, _, said = called(twin.main, "suprevisor")
+        self.assertEqual(status, 2)
+        self.assertIn("supervisor", said)
 
     def test_the_products_catalogue_has_a_row_of_the_table_for_each_header(self):
         catalogue = twin_results.read_catalogue(ROOT)
@@ -282,20 +266,17 @@ class Verdicts(unittest.TestCase):
                             header)
 
     def test_a_catalogue_that_cannot_be_used(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "testbench/campaigns/mutate/twin.toml"
-            path.parent.mkdir(parents=True)
-            good = '[tests]\nh = ["t"]\n[block]\nh = "b"\n[[survivor]]\nheader = "h"\n' \
-                   'kind = "gap"\nwhy = "w"\nmutants = ["m"]\n'
-            path.write_text(good, encoding="utf-8")
-            self.assertEqual(twin_results.read_catalogue(Path(folder)).survivors,
-                             {("h", "m"): ("gap", "w")})
-            for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""),
-                                 ("why", "reason"), ('h = "b"', 'h = ["b"]'),
-                                 ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
-                path.write_text(good.replace(was, becomes), encoding="utf-8")
-                with self.subTest(becomes), self.assertRaises(twin_results.TwinError):
-                    twin_results.read_catalogue(Path(folder))
+        good = '[tests]\nh = ["t"]\n[block]\nh = "b"\n[[survivor]]\nheader = "h"\n' \
+               'kind = "gap"\nwhy = "w"\nmutants = ["m"]\n'
+        path = self.put("testbench/campaigns/mutate/twin.toml", good)
+        self.assertEqual(twin_results.read_catalogue(self.folder).survivors,
+                         {("h", "m"): ("gap", "w")})
+        for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""),
+                             ("why", "reason"), ('h = "b"', 'h = ["b"]'),
+                             ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
+            path.write_text(good.replace(was, becomes), encoding="utf-8")
+            with self.subTest(becomes), self.assertRaises(twin_results.TwinError):
+                twin_results.read_catalogue(self.folder)
 
 
 if __name__ == "__main__":

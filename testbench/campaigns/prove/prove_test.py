@@ -5,16 +5,14 @@
 
 import os
 import shutil
-import sys
 import unittest
 from pathlib import Path
 from unittest import mock
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch, called  # noqa: E402
-import prove  # noqa: E402
-import rtl_sources  # noqa: E402
-from proofs import catalog, page, record, tasks, tools, trace, unproven  # noqa: E402
+from testing import ROOT, Scratch, called
+import prove
+import rtl_sources
+from proofs import catalog, page, record, tasks, tools, trace, unproven
 
 TOML = """
 [[proof]]

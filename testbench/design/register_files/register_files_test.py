@@ -11,16 +11,14 @@ import json
 import math
 import os
 import re
-import subprocess
 import sys
-import tempfile
 import tomllib
 import unittest
 from fractions import Fraction
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
-BUILD = Path(os.environ["FELTGATE_BUILD"])
+from testing import BUILD, ROOT, Scratch, ran, text_of
+
 VENV = Path(sys.argv.pop(1))
 GENERATED = ROOT / "rtl/generated"
 DESIGNS = sorted(path.stem for path in (ROOT / "rtl/designs").glob("*.toml"))
@@ -69,8 +67,7 @@ def need_venv(module):
 
 
 def in_venv(program, path):
-    command = [VENV / "bin/python", "-c", program, path]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = ran(VENV / "bin/python", "-c", program, path)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
@@ -82,15 +79,14 @@ def package(design):
 
 
 def register_map():
-    with open(ROOT / "rtl/registers.toml", "rb") as file:
-        return tomllib.load(file)
+    return tomllib.loads(text_of("rtl/registers.toml"))
 
 
 def values(design, folder):
     """{parameter: (address, integer, exact)} as the generator prints them."""
     program = [BUILD / "feltgate_generate", ROOT]
     source = ROOT / "rtl/designs" / f"{design}.toml"
-    subprocess.run([*program, "--design", source, "-o", folder], check=True, capture_output=True)
+    ran(*program, "--design", source, "-o", folder, check=True)
     rows = (line.split() for line in (Path(folder) / "values.txt").read_text().splitlines())
     return {r[0]: (int(r[1]), int(r[2]), float(r[3])) for r in rows}
 
@@ -169,13 +165,13 @@ def c_text(value):
     return value.hex()
 
 
-class RegisterFiles(unittest.TestCase):
+class RegisterFiles(Scratch):
     maxDiff = None
 
     def test_c_header(self):
         for design in DESIGNS:
-            with self.subTest(design), tempfile.TemporaryDirectory() as folder:
-                self.check_c(design, folder)
+            with self.subTest(design):
+                self.check_c(design, self.folder)
 
     def check_c(self, design, folder):
         words, given = truth(design) | link(), values(design, folder)
@@ -226,9 +222,8 @@ class RegisterFiles(unittest.TestCase):
         )
         strict = ["-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror", "-I", folder]
         program = Path(folder, "try")
-        subprocess.run(["gcc", "-std=c99", *strict, source, "-o", program], check=True)
-        done = subprocess.run([program], capture_output=True, text=True, check=True)
-        found = [int(line) for line in done.stdout.split()]
+        ran("gcc", "-std=c99", *strict, source, "-o", program, check=True, capture_output=False)
+        found = [int(line) for line in ran(program, check=True).stdout.split()]
         wrong = [
             (r, hex(f), w) for r, f, w in zip(rows, found, wanted, strict=True)
             if f != w & 0xFFFFFFFF
@@ -238,19 +233,17 @@ class RegisterFiles(unittest.TestCase):
             text = f'#include "feltgate.h"\nint main() {{ return {rows[-1]} == 0; }}\n'
             plus = Path(folder, "try.cpp")
             plus.write_text(text)
-            subprocess.run(["g++", "-std=c++17", *strict, "-fsyntax-only", plus], check=True)
+            command = ("g++", "-std=c++17", *strict, "-fsyntax-only", plus)
+            ran(*command, check=True, capture_output=False)
 
     def test_example(self):
-        with tempfile.TemporaryDirectory() as folder:
-            program = Path(folder, "registers")
-            strict = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
-            source = ROOT / "docs/examples/registers.c"
-            subprocess.run(
-                ["gcc", *strict, "-I", GENERATED, "-I", GENERATED / "lever", source, "-o", program], check=True
-            )
-            said = subprocess.run([program], capture_output=True, text=True, check=True).stdout
-        page = (ROOT / "docs/register-files.md").read_text(encoding="utf-8")
-        self.assertIn(said, page)
+        program = self.folder / "registers"
+        strict = ["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"]
+        source = ROOT / "docs/examples/registers.c"
+        strict += ["-I", GENERATED, "-I", GENERATED / "lever"]
+        ran("gcc", *strict, source, "-o", program, check=True, capture_output=False)
+        said = ran(program, check=True).stdout
+        self.assertIn(said, text_of("docs/register-files.md"))
         self.assertIn("-0.1000 Nm, armed 1, ramping 1", said)
 
     def compare(self, design, rows):
@@ -284,15 +277,14 @@ class RegisterFiles(unittest.TestCase):
 
     def test_a_moved_word_is_seen(self):
         text = (GENERATED / "lever/csr.csv").read_text()
-        with tempfile.TemporaryDirectory() as folder:
-            moved = Path(folder, "csr.csv")
-            name = "feltgate_torque_limit,"
-            self.assertIn(name + "0x00000060", text)
-            moved.write_text(text.replace(name + "0x00000060", name + "0x00000064"))
-            rows, _ = self.csv_rows(moved)
-            self.assertEqual(self.compare("lever", rows), {"torque_limit"})
-            moved.write_text(re.sub(r"(feltgate_command,.*),wo", r"\1,rw", text))
-            self.assertEqual(self.compare("lever", self.csv_rows(moved)[0]), {"command"})
+        moved = self.folder / "csr.csv"
+        name = "feltgate_torque_limit,"
+        self.assertIn(name + "0x00000060", text)
+        moved.write_text(text.replace(name + "0x00000060", name + "0x00000064"))
+        rows, _ = self.csv_rows(moved)
+        self.assertEqual(self.compare("lever", rows), {"torque_limit"})
+        moved.write_text(re.sub(r"(feltgate_command,.*),wo", r"\1,rw", text))
+        self.assertEqual(self.compare("lever", self.csv_rows(moved)[0]), {"command"})
 
     @need_venv("litex")
     def test_litex_reads_the_csv(self):
@@ -308,12 +300,12 @@ class RegisterFiles(unittest.TestCase):
     @need_venv("systemrdl")
     def test_systemrdl(self):
         for design in DESIGNS:
-            with self.subTest(design), tempfile.TemporaryDirectory() as folder:
+            with self.subTest(design):
                 rows = in_venv(RDL, GENERATED / design / "feltgate.rdl")
                 found = {n: (a, r, w) for n, a, (r, w), _ in rows}
                 self.assertEqual(len(found), len(rows))
                 self.assertEqual(self.compare(design, found), set())
-                given = values(design, folder)
+                given = values(design, self.folder)
                 for name, _, _, fields in rows:
                     _, _, writes, wanted, form, unit = (truth(design) | link())[name]
                     if wanted:

@@ -11,12 +11,10 @@ import os
 import re
 import shutil
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, ran  # noqa: E402
+from testing import ROOT, Scratch, ran
 
 RTL = ROOT / "rtl"
 VERILATOR, VENV = sys.argv.pop(1), Path(sys.argv.pop(1))
@@ -86,18 +84,14 @@ def front_ends(top, files):
     return found
 
 
-class Elaboration(unittest.TestCase):
+class Elaboration(Scratch):
     def run_all(self, top, texts, check):
-        with tempfile.TemporaryDirectory() as folder:
-            packages = []
-            for name, text in zip(("feltgate_pkg.sv", "feltgate_map_pkg.sv"), texts):
-                packages.append(Path(folder, name))
-                packages[-1].write_text(text, encoding="utf-8")
-            files = [*packages, *rtl_of(top)]
-            for name, command in front_ends(TOPS[top], files).items():
-                with self.subTest(f"{top} by {name}"):
-                    done = ran(*command, cwd=folder)
-                    check(done.returncode, done.stdout + done.stderr)
+        packages = map(self.put, ("feltgate_pkg.sv", "feltgate_map_pkg.sv"), texts)
+        files = [*packages, *rtl_of(top)]
+        for name, command in front_ends(TOPS[top], files).items():
+            with self.subTest(f"{top} by {name}"):
+                done = ran(*command, cwd=self.folder)
+                check(done.returncode, done.stdout + done.stderr)
 
     def texts(self, constant=None, value=None):
         texts, changed = [], 0

@@ -7,13 +7,12 @@ quartus_test.py VENV: the folder into which scripts/build.sh has fetched pyslang
 """
 
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, Scratch, ran
+
 VENV = Path(sys.argv.pop(1))
 
 # What stands in a module, in which of its lines, and what is said.
@@ -84,21 +83,17 @@ endmodule
 
 
 def check(*files):
-    command = [VENV / "bin/python", "-B", ROOT / "scripts/quartus_subset.py", *files]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+    return ran(VENV / "bin/python", "-B", ROOT / "scripts/quartus_subset.py", *files)
 
 
 @unittest.skipUnless(
     (VENV / "bin/python").exists() or os.environ.get("CI"), "no pyslang; ./feltgate test fetches it"
 )
-class Quartus(unittest.TestCase):
+class Quartus(Scratch):
     def said(self, texts):
         """(status, [lines of each]) of one start with a file for each text."""
-        with tempfile.TemporaryDirectory() as folder:
-            paths = [Path(folder, f"{number}.sv") for number in range(len(texts))]
-            for path, text in zip(paths, texts):
-                path.write_text(text)
-            done = check(*paths)
+        paths = [self.put(f"{number}.sv", text) for number, text in enumerate(texts)]
+        done = check(*paths)
         self.assertEqual(done.stderr, "")
         rows = done.stdout.splitlines()
         return done.returncode, [[r for r in rows if r.startswith(f"{p}:")] for p in paths]

@@ -7,13 +7,12 @@ slang_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
 """
 
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, Scratch, ran
+
 RTL = ROOT / "rtl"
 BOARDS = ("de0_nano", "ulx3s", "tang_nano_9k")
 VENV = Path(sys.argv.pop(1))
@@ -30,15 +29,14 @@ def package(design):
 
 def lint(top, *files):
     """What slang says, empty where it finds nothing."""
-    command = [VENV / "bin/python", "-B", ROOT / "scripts/slang_lint.py", "--top", top, *files]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = ran(VENV / "bin/python", "-B", ROOT / "scripts/slang_lint.py", "--top", top, *files)
     return done.stdout + done.stderr if done.returncode else ""
 
 
 @unittest.skipUnless(
     (VENV / "bin/python").exists() or os.environ.get("CI"), "no pyslang; ./feltgate test fetches it"
 )
-class Slang(unittest.TestCase):
+class Slang(Scratch):
     def test_every_design(self):
         designs = sorted(path.parent.name for path in RTL.glob("generated/*/feltgate_pkg.sv"))
         self.assertIn("lever", designs)
@@ -61,11 +59,9 @@ class Slang(unittest.TestCase):
     def test_a_multiplier_for_each_block(self):
         text = package("lever").read_text(encoding="utf-8")
         self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)
-        with tempfile.TemporaryDirectory() as folder:
-            parallel = Path(folder, "feltgate_pkg.sv")
-            parallel.write_text(text.replace("PARALLEL_MULTIPLIERS = 0;",
-                                             "PARALLEL_MULTIPLIERS = 1;"))
-            self.assertEqual(lint("feltgate_core", parallel, *core()), "")
+        text = text.replace("PARALLEL_MULTIPLIERS = 0;", "PARALLEL_MULTIPLIERS = 1;")
+        parallel = self.put("feltgate_pkg.sv", text)
+        self.assertEqual(lint("feltgate_core", parallel, *core()), "")
 
     def test_every_board(self):
         for board in BOARDS:
@@ -73,11 +69,11 @@ class Slang(unittest.TestCase):
             files = [*packages, *sorted(RTL.glob("link/*.sv"))]
             files += sorted([*RTL.glob("boards/panel/*.sv"), *RTL.glob(f"boards/{board}/*.sv")])
             files += sorted(ROOT.glob("testbench/boards/boards/stub/*PLL*.sv"))
-            with self.subTest(board), tempfile.TemporaryDirectory() as folder:
-                changed = Path(folder, "feltgate_pkg.sv")
+            with self.subTest(board):
                 text = package("lever").read_text(encoding="utf-8")
                 hz = "54000000" if board == "tang_nano_9k" else "50000000"
-                changed.write_text(text.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};"))
+                text = text.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
+                changed = self.put("feltgate_pkg.sv", text)
                 self.assertEqual(lint(board, changed, *core(), *files), "")
 
     def test_bus_ports(self):
@@ -98,11 +94,9 @@ class Slang(unittest.TestCase):
         (source,) = (path for path in core() if path.name == name)
         text = source.read_text(encoding="utf-8")
         self.assertIn(old, text)
-        with tempfile.TemporaryDirectory() as folder:
-            copy = Path(folder, name)
-            copy.write_text(text.replace(old, new, 1), encoding="utf-8")
-            files = [copy if path.name == name else path for path in core()]
-            return lint("feltgate_core", package("lever"), *files)
+        copy = self.put(name, text.replace(old, new, 1))
+        files = [copy if path.name == name else path for path in core()]
+        return lint("feltgate_core", package("lever"), *files)
 
     def test_finds_a_use_before_the_declaration(self):
         words = self.changed(

@@ -14,9 +14,8 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch  # noqa: E402
-from seeded_defects import patches  # noqa: E402
+from testing import ROOT, Scratch, ran
+from seeded_defects import patches
 
 VENV = Path(sys.argv.pop(1))
 EXAMPLES = ROOT / "docs/examples"
@@ -25,10 +24,8 @@ EXAMPLES = ROOT / "docs/examples"
 def run(*command, cwd, **more):
     """(status, all that was said)."""
     env = os.environ | {"PATH": f"{VENV / 'bin'}:{os.environ['PATH']}"} | more
-    done = subprocess.run(
-        command, cwd=cwd, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-        check=False,
-    )  # fmt: skip
+    both = {"capture_output": False, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+    done = ran(*command, cwd=cwd, env=env, **both)
     return done.returncode, done.stdout
 
 

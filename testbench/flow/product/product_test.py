@@ -15,8 +15,7 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch, ran, script  # noqa: E402
+from testing import ROOT, Scratch, ran, script
 
 VENV = Path(sys.argv.pop(1))
 SLANG = """
@@ -38,8 +37,7 @@ class Product(Scratch):
         return script("product.py", *words, cwd=self.folder, env=env)
 
     def written(self, *words):
-        done = self.product("verilog", *words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.product("verilog", *words))
         path = self.folder / "feltgate.v"
         readers = [["iverilog", "-g2005", "-Wall", "-t", "null", "-s", "feltgate_core", path]]
         if (VENV / "bin/python").exists():
@@ -81,8 +79,7 @@ class Product(Scratch):
         self.assertIn("design own", self.written("--design", "own.toml"))
 
     def board(self, *words):
-        done = self.product("board", *words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.product("board", *words))
         return done
 
     def test_board_of_a_design_of_ones_own(self):
@@ -134,9 +131,7 @@ class Product(Scratch):
             (("--design", "levr"), "levr is neither"),
         ):
             with self.subTest(said):
-                done = self.product("board", *words)
-                self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(said, done.stderr)
+                self.ended(self.product("board", *words), 2, said)
         self.assertEqual((self.folder / "mine/thesis.txt").read_text(), "x")
 
     def test_refused(self):
@@ -145,13 +140,9 @@ class Product(Scratch):
             (("verilog", "-o", "no/x.v"), "there is no folder"),
             (("vhdl",), "invalid choice"),
         ):
-            done = self.product(*words)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(said, done.stderr)
+            self.ended(self.product(*words), 2, said)
         (self.folder / "bad.toml").write_text("[clock]\n")
-        done = self.product("verilog", "--design", "bad.toml")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("bad.toml", done.stderr)
+        self.ended(self.product("verilog", "--design", "bad.toml"), 2, "bad.toml")
         self.assertFalse((self.folder / "feltgate.v").exists())
 
 

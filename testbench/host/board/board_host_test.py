@@ -10,15 +10,12 @@ import random
 import re
 import signal
 import subprocess
-import sys
 import time
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "host/host"))
-from board_process import need_terminals  # noqa: E402
-from host_program import BUILD, ROOT, ProgramTest  # noqa: E402
-from testing import ran  # noqa: E402
+from board_process import need_terminals
+from host_program import BUILD, ROOT, ProgramTest
+from testing import ran
 
 SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 
@@ -93,8 +90,7 @@ class Verbs(BoardTest):
         if python is None:
             self.skipTest("no pyserial; ./feltgate test fetches it")
         with Board(self, "--hand", "swing") as board:
-            done = ran(python, ROOT / "docs/examples/link.py", board.port)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(ran(python, ROOT / "docs/examples/link.py", board.port))
             crc = re.search(r"CRC 0x(\w+)", self.host(board.port, "info"))[1]
             self.assertIn(f"design {crc}, 1000000 ticks/s", done.stdout)
             self.assertIn("status after set_zero: 0x", done.stdout)

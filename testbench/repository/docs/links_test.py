@@ -7,11 +7,11 @@ docs/index.md, and a few phrases that no page needs stay out."""
 import os
 import re
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import pages
+from testing import Scratch
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PATH = re.compile(r"^(?:rtl|model|testbench|scripts|vectors|docs|\.ci)/[\w./+-]+$")
@@ -126,30 +126,29 @@ class Pages(unittest.TestCase):
         self.assertEqual(list(unwanted(pages.ROOT)), [])
 
 
-class Checks(unittest.TestCase):
+class Checks(Scratch):
     """Each check finds what it promises, on a small tree."""
 
     def test_each(self):
-        with tempfile.TemporaryDirectory() as scratch:
-            root = Path(scratch)
-            (root / "docs").mkdir()
-            (root / "README.md").write_text("[index](docs/index.md#a-word) `docs/gone.md`\n")
-            (root / "docs/index.md").write_text("# A `word`\n## Two, three\n[up](../README.md)\n")
-            self.assertEqual(list(wrong_links(root)), [])
-            self.assertEqual(list(wrong_paths(root)), ["README.md:1: docs/gone.md is not there"])
-            self.assertEqual(unreached(root), [])
-            (root / "docs/lost.md").write_text(
-                "[a](index.md#two-three) [b](gone.md) [c](index.md#x)\n"
-                "It was not\nto be had; `for ever`.\n"
-            )
-            self.assertEqual(
-                list(wrong_links(root)),
-                ["docs/lost.md:1: docs/gone.md is not there",
-                 "docs/lost.md:1: docs/index.md has no heading #x"],
-            )  # fmt: skip
-            self.assertEqual(unreached(root), [Path("docs/lost.md")])
-            self.assertIn("docs/lost.md:2: 'was not to be had'", list(unwanted(root)))
-            self.assertNotIn("docs/lost.md:3: 'for ever'", list(unwanted(root)))
+        root = self.folder
+        (root / "docs").mkdir()
+        (root / "README.md").write_text("[index](docs/index.md#a-word) `docs/gone.md`\n")
+        (root / "docs/index.md").write_text("# A `word`\n## Two, three\n[up](../README.md)\n")
+        self.assertEqual(list(wrong_links(root)), [])
+        self.assertEqual(list(wrong_paths(root)), ["README.md:1: docs/gone.md is not there"])
+        self.assertEqual(unreached(root), [])
+        (root / "docs/lost.md").write_text(
+            "[a](index.md#two-three) [b](gone.md) [c](index.md#x)\n"
+            "It was not\nto be had; `for ever`.\n"
+        )
+        self.assertEqual(
+            list(wrong_links(root)),
+            ["docs/lost.md:1: docs/gone.md is not there",
+             "docs/lost.md:1: docs/index.md has no heading #x"],
+        )  # fmt: skip
+        self.assertEqual(unreached(root), [Path("docs/lost.md")])
+        self.assertIn("docs/lost.md:2: 'was not to be had'", list(unwanted(root)))
+        self.assertNotIn("docs/lost.md:3: 'for ever'", list(unwanted(root)))
 
 
 if __name__ == "__main__":

@@ -7,15 +7,12 @@ at 1 kHz.
 Documentation: docs/devices/bowed_string.md
 """
 
-import sys
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from playing import Player  # noqa: E402
-from testing import BUILD, ROOT, ran, text_of  # noqa: E402
+from playing import Player
+from testing import BUILD, ROOT, ran, text_of
 
 
 def pitch_hz(samples, rate):

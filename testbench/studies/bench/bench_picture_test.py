@@ -3,14 +3,9 @@
 """The benchmark's picture: every engine of the JSON is in it, another schema is refused."""
 
 import json
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[3]
-SCRIPT = ROOT / "scripts/bench_picture.py"
+from testing import Scratch, script, text_of
 
 
 def engine(arithmetic, speed, error):
@@ -37,18 +32,14 @@ def result(schema="feltgate-bench/1"):
     }
 
 
-def draw(data):
-    with tempfile.TemporaryDirectory() as folder:
-        source, target = Path(folder, "bench.json"), Path(folder, "bench.svg")
-        source.write_text(json.dumps(data), encoding="utf-8")
-        words = [sys.executable, "-B", str(SCRIPT), str(source), str(target)]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
+class BenchPicture(Scratch):
+    def draw(self, data):
+        target = self.folder / "bench.svg"
+        done = script("bench_picture.py", self.put("bench.json", json.dumps(data)), target)
         return done, target.read_text(encoding="utf-8") if target.exists() else ""
 
-
-class BenchPicture(unittest.TestCase):
     def test_every_engine_is_labelled(self):
-        done, svg = draw(result())
+        done, svg = self.draw(result())
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in result()["engines"]:
             self.assertIn(f">{name}<", svg)
@@ -56,14 +47,13 @@ class BenchPicture(unittest.TestCase):
         self.assertIn("For the RTL's bits", svg)
 
     def test_another_schema_is_refused(self):
-        done, svg = draw(result("feltgate-run/1"))
+        done, svg = self.draw(result("feltgate-run/1"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("feltgate-bench/1", done.stderr)
         self.assertEqual(svg, "")
 
     def test_the_committed_picture_belongs_to_the_committed_figures(self):
-        data = json.loads((ROOT / "docs/images/bench.json").read_text(encoding="utf-8"))
-        svg = (ROOT / "docs/images/bench.svg").read_text(encoding="utf-8")
+        data, svg = json.loads(text_of("docs/images/bench.json")), text_of("docs/images/bench.svg")
         for name in data["engines"]:
             self.assertIn(f">{name}<", svg)
         self.assertIn(data["date"], svg)

@@ -8,17 +8,15 @@ import io
 import os
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from argparse import Namespace
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "scripts"))
+from testing import ROOT, Scratch
 
-import rtl_speed  # noqa: E402
+import rtl_speed
 
 
 def measured(old, new):
@@ -33,23 +31,22 @@ def measured(old, new):
     return said.getvalue()
 
 
-class Speed(unittest.TestCase):
+class Speed(Scratch):
     def test_equal_and_different(self):
-        with tempfile.TemporaryDirectory() as folder:
-            other = Path(folder) / "other"
-            shutil.copytree(ROOT / "rtl", other / "rtl")
-            velocity = other / "rtl/core/estimators/velocity_n.sv"
-            text = velocity.read_text(encoding="utf-8")
-            changed = text.replace("travel_q - oldest_q", "travel_q - oldest_q + 1'b1")
-            self.assertNotEqual(text, changed)
-            if "FELTGATE_WHOLE" in os.environ:
-                said = measured(ROOT, ROOT)
-                self.assertIn("snapshots are equal in every bit", said)
-                ratio = float(re.search(r"times as fast: ([\d.e+-]+) \(", said)[1])
-                self.assertGreater(ratio, 0.3)
-                self.assertLess(ratio, 3.0)
-            velocity.write_text(changed, encoding="utf-8")
-            self.assertIn("snapshots are DIFFERENT", measured(ROOT, other))
+        other = self.folder / "other"
+        shutil.copytree(ROOT / "rtl", other / "rtl")
+        velocity = other / "rtl/core/estimators/velocity_n.sv"
+        text = velocity.read_text(encoding="utf-8")
+        changed = text.replace("travel_q - oldest_q", "travel_q - oldest_q + 1'b1")
+        self.assertNotEqual(text, changed)
+        if "FELTGATE_WHOLE" in os.environ:
+            said = measured(ROOT, ROOT)
+            self.assertIn("snapshots are equal in every bit", said)
+            ratio = float(re.search(r"times as fast: ([\d.e+-]+) \(", said)[1])
+            self.assertGreater(ratio, 0.3)
+            self.assertLess(ratio, 3.0)
+        velocity.write_text(changed, encoding="utf-8")
+        self.assertIn("snapshots are DIFFERENT", measured(ROOT, other))
 
     def test_flags_are_those_of_the_product(self):
         self.assertEqual(rtl_speed.flags()[0], "-O3")
@@ -59,16 +56,15 @@ class Speed(unittest.TestCase):
             rtl_speed.rtl_of("no-such-revision", Path())
 
     def test_objects_move(self):
-        with tempfile.TemporaryDirectory() as folder:
-            work, seen = Path(folder), set()
-            with mock.patch("rtl_speed.call") as call:
-                for seed in range(8):
-                    rtl_speed.link([Path("a.o"), Path("b.o"), Path("c.o")], work, seed)
-                    order = [str(p) for p in call.call_args[0][0] if str(p).endswith(".o")]
-                    pad = (work / "pad0.s").read_text(encoding="utf-8")
-                    seen.add((tuple(order), pad))
-            self.assertEqual(len(seen), 8)
-            self.assertGreater(len({order for order, _ in seen}), 2)
+        work, seen = self.folder, set()
+        with mock.patch("rtl_speed.call") as call:
+            for seed in range(8):
+                rtl_speed.link([Path("a.o"), Path("b.o"), Path("c.o")], work, seed)
+                order = [str(p) for p in call.call_args[0][0] if str(p).endswith(".o")]
+                pad = (work / "pad0.s").read_text(encoding="utf-8")
+                seen.add((tuple(order), pad))
+        self.assertEqual(len(seen), 8)
+        self.assertGreater(len({order for order, _ in seen}), 2)
 
 
 if __name__ == "__main__":

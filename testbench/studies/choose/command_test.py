@@ -6,15 +6,12 @@ a device of two axes, a law of one's own, a wish that cannot be, and what is ref
 import json
 import math
 import subprocess
-import sys
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, called, ran  # noqa: E402
+from testing import BUILD, ROOT, Scratch, called, ran
 
-import choose  # noqa: E402
-from exploration import choice  # noqa: E402
+import choose
 
 PROGRAM = BUILD / "feltgate_lever_law"
 SCENE = """title = "Short"
@@ -72,8 +69,7 @@ class Chosen(Scratch):
 
     def ask(self, command, *words):
         """The program's own answer."""
-        done = ran(PROGRAM, command, *words, "--quiet", "--json", self.folder / "a.json")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.ended(ran(PROGRAM, command, *words, "--quiet", "--json", self.folder / "a.json"))
         return json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
 
     def kept(self, told, *names):
@@ -159,9 +155,7 @@ class Chosen(Scratch):
             (("trim", two), "two.law:4: a torque for axis 1"),
         ):
             with self.subTest(words=words):
-                done = ran(PROGRAM, *words, "--quiet")
-                self.assertEqual(done.returncode, 2, done.stdout)
-                self.assertIn(said, done.stderr)
+                self.ended(ran(PROGRAM, *words, "--quiet"), 2, said)
                 self.assertEqual(Path(law).read_text(encoding="utf-8"), LAW)
 
     def test_a_law_of_ones_own_at_the_rate_that_was_chosen(self):
@@ -230,9 +224,7 @@ class Border(Scratch):
         self.assertGreater(quick["eigenvalues_nm_rad"], 1.1 * own["eigenvalues_nm_rad"])
         for found in (own, quick):
             self.assertAlmostEqual(found["bits_nm_rad"] / found["eigenvalues_nm_rad"], 1, delta=0.02)
-        done = ran(PROGRAM, "stability", exact, *words)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("add --no-bits --no-experiments", done.stderr)
+        self.ended(ran(PROGRAM, "stability", exact, *words), 2, "add --no-bits --no-experiments")
         self.assertEqual(ran(PROGRAM, "stability", exact, "--no-bits", *words).returncode, 0)
 
 

@@ -4,16 +4,14 @@
 is, why a wish is not met; the designs of the table; scenes and laws as they are written again."""
 
 import csv
-import sys
 import tomllib
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import ROOT, Scratch, called, text_of  # noqa: E402
+from testing import ROOT, Scratch, called, text_of
 
-import choose  # noqa: E402
-from exploration import choice, made_scene  # noqa: E402
+import choose
+from exploration import choice, made_scene
 
 
 def one(rate_hz, share, margin, ms, gates, mult18=2, **more):

@@ -9,10 +9,8 @@ import re
 import sys
 import tomllib
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, Scratch, ran, text_of  # noqa: E402
+from testing import BUILD, Scratch, ran, text_of
 
 PROGRAM, WITH_ENGINE = BUILD / "feltgate", BUILD / "feltgate_lever_law"
 PAGE = "docs/controllers.md"
@@ -41,8 +39,7 @@ class Controllers(Scratch):
         return ran(program, *words, cwd=self.folder, env=environment)
 
     def test_page_json_and_picture(self):
-        done = self.call("controllers", "--json", "a.json", "-o", "a.svg")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.call("controllers", "--json", "a.json", "-o", "a.svg"))
         for table in done.stdout.split("\n\n"):
             self.assertIn(table.strip(), text_of(PAGE), f"{PAGE} is stale: paste this table")
         data = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
@@ -73,8 +70,7 @@ class Controllers(Scratch):
             self.assertIn(word, text_of("docs/images/controllers.svg"))
 
     def test_the_estimators(self):
-        done = self.call("controllers", "--estimators", "--json", "c.json", "-o", "c.svg")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.call("controllers", "--estimators", "--json", "c.json", "-o", "c.svg"))
         page = "docs/blocks/velocity_mt.md"
         self.assertIn(done.stdout.strip(), text_of(page), f"{page} is stale: paste this table")
         data = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
@@ -98,8 +94,7 @@ class Controllers(Scratch):
         self.assertLess(max(drags) - min(drags), 1e-5)
 
     def test_the_current_loop(self):
-        done = self.call("controllers", "--current", "--json", "i.json", "-o", "i.svg")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.call("controllers", "--current", "--json", "i.json", "-o", "i.svg"))
         page = [line.split("|") for line in text_of(PAGE).splitlines()]
         page = {cells[1]: cells[2:] for cells in page if len(cells) == 7}
         data = json.loads((self.folder / "i.json").read_text(encoding="utf-8"))
@@ -115,24 +110,20 @@ class Controllers(Scratch):
         drawn = [(self.folder / "i.svg").read_text(encoding="utf-8"), text_of("docs/images/current_loop.svg")]
         for word in ("motor torque, mNm", "gain, dB", "phase, degrees", "after the short, µs", "lag of 2000 Hz"):
             self.assertTrue(all(word in svg for svg in drawn), word)
-        both = self.call("controllers", "--current", "--estimators")
-        self.assertEqual(both.returncode, 2, both.stdout)
+        self.ended(self.call("controllers", "--current", "--estimators"), 2)
 
     def test_a_design_with_mt(self):
         text = re.sub(r"^(m1|n) = .*\n", "", text_of("rtl/designs/lever.toml"), flags=re.M)
         keys = 'estimator = "mt"\nwindow_s = 386e-6\ncycles = 16'
         path = self.put("spans.toml", text.replace("[velocity]", f"[velocity]\n{keys}"))
-        done = self.call("design", path)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.call("design", path))
         self.assertIn("M/T over whole encoder cycles, 386 us or more, up to 16", done.stdout)
         for words in (
             ("design", path, "--plant", "p24"),
             ("stability", path, "--no-bits", "--no-experiments"),
         ):
             with self.subTest(words=words):
-                done = self.call(*words)
-                self.assertEqual(done.returncode, 2, done.stdout)
-                self.assertIn("knows the N-method alone; take estimator", done.stderr)
+                self.ended(self.call(*words), 2, "knows the N-method alone; take estimator")
 
     def test_the_law_of_the_page(self):
         (law,) = re.findall(r"```law\n(.*?)```", text_of(PAGE), re.S)
@@ -157,9 +148,7 @@ class Controllers(Scratch):
             (("--json", "none/a.json"), "none"),
         ):
             with self.subTest(words=words):
-                done = self.call("controllers", *words)
-                self.assertEqual(done.returncode, 2, done.stdout)
-                self.assertIn(told, done.stderr)
+                done = self.ended(self.call("controllers", *words), 2, told)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
 

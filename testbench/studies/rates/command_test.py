@@ -9,10 +9,8 @@ import os
 import sys
 import tomllib
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
+from testing import BUILD, ROOT, Scratch, ran
 
 BUDGET = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
 ENGINE = f'engine {BUDGET["figures"]["lever"]["axes_engine"]["lut4_equivalents"]} LUT4 eq'
@@ -144,8 +142,7 @@ class Rates(Scratch):
             self.assertIn(word, svg)
 
     def test_rtl_and_twin_are_equal_at_every_rate(self):
-        done = self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-"))
         (scene,) = json.loads(done.stdout)["scenes"]
         # 6940 ticks are beyond the engine's divider, so two of its runs make an update.
         self.assertEqual([r.get("runs") for r in scene["rates"]], [2, 1, 1, None])
@@ -188,9 +185,7 @@ class Rates(Scratch):
             (("short.toml", "--json", "short.toml"), "short.toml"),
         ):
             with self.subTest(words=words):
-                done = self.call(*words, "--csv", "c.csv")
-                self.assertEqual(done.returncode, 2, done.stdout)
-                self.assertIn(told, done.stderr)
+                done = self.ended(self.call(*words, "--csv", "c.csv"), 2, told)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertFalse((self.folder / "c.csv").exists())
 

@@ -2,12 +2,9 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate shape: laws that feltgate law proves; bad input is one line, code 2, nothing written."""
 
-import sys
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "law/law"))
-from law_making import ROOT, LawMaking  # noqa: E402
+from law_making import ROOT, LawMaking
 
 SHAPES = ROOT / "vectors/shapes"
 
@@ -23,11 +20,9 @@ class Shape(LawMaking):
     def test_written_and_proven(self):
         for kind, vertices in (("proxy", 40), ("simple", 20), ("walk", 20)):
             words = ("--law", kind, "--vertices", vertices, "--radius", "2mm", "-o", "fish.law")
-            done = self.run_it("shape", SHAPES / "fish.svg", *words)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(self.run_it("shape", SHAPES / "fish.svg", *words))
             self.assertIn("proven: no instruction saturates", done.stdout)
-            law = self.run_it("law", "./fish.law", "--json", "fish.json")
-            self.assertEqual(law.returncode, 0, law.stderr)
+            self.ended(self.run_it("law", "./fish.law", "--json", "fish.json"))
             self.assertIn('"unproven": 0', (self.folder / "fish.json").read_text())
 
     def test_seven_shapes_are_the_shipped_law(self):
@@ -35,8 +30,7 @@ class Shape(LawMaking):
         names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
         files = [SHAPES / f"{name}.svg" for name in names]
         options = ("--radius", "2mm", "--vertices", 27, "-o", "hidden_shapes.law")
-        done = self.run_it("shape", *files, *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.run_it("shape", *files, *options))
         written = (self.folder / "hidden_shapes.law").read_text()
         self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())
         self.assertIn("shape 4: ", done.stdout)
@@ -49,13 +43,11 @@ class Shape(LawMaking):
     def test_as_many_vertices_as_fit(self):
         """Nobody who did not ask for a number of vertices is told that it is too large."""
         for option in ("--friction", "--texture"):
-            done = self.run_it("shape", SHAPES / "square.svg", option)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(self.run_it("shape", SHAPES / "square.svg", option))
             self.assertIn("around, 80 vertices", done.stdout)
         names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
         files = [SHAPES / f"{name}.svg" for name in names]
-        done = self.run_it("shape", *files, "--radius", "2mm", "-o", "hidden_shapes.law")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.ended(self.run_it("shape", *files, "--radius", "2mm", "-o", "hidden_shapes.law"))
         self.assertIn("around, 27 vertices", done.stdout)
         written = (self.folder / "hidden_shapes.law").read_text()
         self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())

@@ -5,12 +5,10 @@
 import subprocess
 import sys
 import unittest
-from pathlib import Path
 
 from PIL import Image
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "law/law"))
-from law_making import ROOT, LawMaking  # noqa: E402
+from law_making import ROOT, LawMaking
 
 IMAGES = ROOT / "vectors/textures"
 
@@ -49,8 +47,7 @@ class Texture(LawMaking):
     def test_a_field(self):
         words = ("--field", "--texel", "2mm", "--depth", "8mm", "-o", "valley.law")
         for normals in ("interpolated", "facets"):
-            done = self.run_it("texture", IMAGES / "valley.png", *words, "--normals", normals)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.ended(self.run_it("texture", IMAGES / "valley.png", *words, "--normals", normals))
             self.assertIn("50000 Hz", done.stdout)
             self.assertIn("torque[2]", done.stdout)
         self.refused("--row", IMAGES / "valley.png", "--field", "--row", "1")
@@ -74,8 +71,7 @@ class Texture(LawMaking):
         colour = self.image("colour.png", (4, 2), "RGB", lambda i: (steps[i],) * 3)
         laws = []
         for name, row in ((grey, 0), (colour, 0), (grey, 1)):
-            done = self.run_it("texture", name, "--row", row, "--depth", "1mm", "-o", "a.law")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.ended(self.run_it("texture", name, "--row", row, "--depth", "1mm", "-o", "a.law"))
             laws.append((self.folder / "a.law").read_text().splitlines()[1:])
         self.assertEqual(laws[0], laws[1])
         self.assertNotEqual(laws[0], laws[2])

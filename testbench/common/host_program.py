@@ -6,11 +6,8 @@ lines are compared whose numbers differ from run to run."""
 import os
 import re
 import subprocess
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, ran  # noqa: E402
+from testing import BUILD, ROOT, Scratch, ran
 
 
 def pattern_of(line):
@@ -41,17 +38,5 @@ class ProgramTest(Scratch):
 
     def start_program(self, program, *words, stdin=None, stderr=subprocess.PIPE):
         """A process; who starts it ends it, or the test's end does."""
-        process = subprocess.Popen(
-            [BUILD / program, *map(str, words)],
-            env=self.environment(),
-            cwd=self.folder,
-            stdin=stdin,
-            stdout=subprocess.PIPE,
-            stderr=stderr,
-            text=True,
-        )
-        for stream in filter(None, (process.stdin, process.stdout, process.stderr)):
-            self.addCleanup(stream.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
+        pipes = {"stdin": stdin, "stdout": subprocess.PIPE, "stderr": stderr, "text": True}
+        return self.started(BUILD / program, *words, env=self.environment(), **pipes)

@@ -3,11 +3,8 @@
 """What the tests of the commands that write a law share: a folder in which they run, a refusal."""
 
 import os
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "common"))
-from testing import BUILD, ROOT, Scratch, ran  # noqa: E402, F401
+from testing import BUILD, ROOT, Scratch, ran  # noqa: F401
 
 
 class LawMaking(Scratch):
@@ -22,8 +19,7 @@ class LawMaking(Scratch):
     def refused(self, said, *words):
         """One line with what is wrong and what to do, and no file."""
         before = sorted(os.listdir(self.folder))
-        done = self.run_it(self.COMMAND, *words, "-o", "out.law")
-        self.assertEqual(done.returncode, 2, done.stderr)
+        done = self.ended(self.run_it(self.COMMAND, *words, "-o", "out.law"), 2)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         self.assertIn(said, done.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), before)

@@ -198,6 +198,12 @@ void check_current_loop(const Design& d) {
            "the over-current is not between control.current_limit_a and the full scale",
            "choose one between them, with room for ripple and noise on both sides");
   }
+  if (!current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
+                     1.0 / static_cast<double>(d.pwm_hz), d.current_full_scale_a, d.supply_v)
+           .in_range) {
+    d.fail("current_loop.bandwidth_hz", "a gain of the current loop does not fit its word",
+           "choose another bandwidth");
+  }
   if (!d.emf_in_law()) {
     d.fail("voltage.law", "a current loop feeds forward what the voltage law gives back",
            "take law = \"motor_model\"");

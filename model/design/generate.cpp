@@ -160,10 +160,6 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
       d.current_loop ? current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
                                      period_s, full_a, d.supply_v)
                      : CurrentGains{0, 0, true};
-  if (!gains.in_range) {
-    d.fail("current_loop.bandwidth_hz", "a gain of the current loop does not fit its word",
-           "choose another bandwidth");
-  }
   // Nine bits: within 0.2 %, and the integrator gives the rest.
   const double per_lsb = std::ldexp(CurrentControl::kSupply / d.supply_v, -d.voltage.fraction);
   const int drop = 8 - std::ilogb(per_lsb);

@@ -186,6 +186,31 @@ TEST_CASE("the M/T estimator: its keys, its constants, and what knows the N-meth
   CHECK_NOTHROW(shipped("lever").design.needs_n_method("it"));
 }
 
+TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
+  const std::string good = file_text(design_path("lever_current"));
+  const std::string package = systemverilog_package(shipped("lever_current"));
+  for (const char* line : {"int CURRENT_LOOP = 1;", "int CURRENT_PROPORTIONAL = 11842;",
+                           "int CURRENT_INTEGRAL = 12762;", "int CURRENT_STROBE = 135;",
+                           "int CURRENT_OVERCURRENT = 192;"}) {
+    CHECK(contains(package, line));
+  }
+  CHECK(contains(systemverilog_package(shipped("lever")), "int CURRENT_LOOP = 0;"));
+  const auto refused = [&](const char* from, const char* to, const char* message) {
+    const std::string error = design_error(replaced(good, from, to));
+    INFO(error);
+    CHECK(contains(error, message));
+  };
+  refused("full_scale_a = 32.0", "full_scale_a = 30.0", "the full scale is no power of two");
+  refused("full_scale_a = 32.0", "full_scale_a = 16.0",
+          "formats.current does not fit the full scale; give it at most 4 integer bits");
+  refused("overcurrent_a = 24.0", "overcurrent_a = 16.0", "is not between control.current_limit_a");
+  refused("inductance_h = 82e-6", "inductance_h = 2e-3", "a gain of the current loop does not fit");
+  refused("frequency_hz = 50_000", "frequency_hz = 100_000",
+          "a current is measured and controlled");
+  refused("[current_loop]", "[axes]\ncount = 2\n[current_loop]", "has no pins of a modulator");
+  refused("bandwidth_hz = 2000.0", "", "key \"bandwidth_hz\" is missing in [current_loop]");
+}
+
 TEST_CASE("an engine and several axes", "[reader]") {
   const std::string good = file_text(design_path("lever_law"));
   CHECK(design_error(good) == "no error");

@@ -34,7 +34,7 @@ endfunction()
 # What the programs of design points share; scripts/exploration/point.py compiles the rest.
 feltgate_library(feltgate_explore studies/explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop)
+feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop feltgate_axes_loop)
 target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})

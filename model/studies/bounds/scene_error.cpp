@@ -41,7 +41,7 @@ class Scenes {
     if (scene == "wall") return limits() + wall(velocity_error, velocity);
     if (scene == "charge_attract") return limits() + charge("attract");
     if (scene == "charge_repel") return limits() + charge("repel");
-    if (scene == "law" && law_nm < endless) return limits() + Interval(law_nm);
+    if (scene == "law" && law_nm < endless) return limits() + only(law_nm);
     return {endless, endless};
   }
 

@@ -11,9 +11,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
+#include "apps/commands/run_output.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "sim/backends/axes_cores.hpp"

@@ -35,11 +35,9 @@ class LawRider {
  public:
   using Torques = std::array<double, most_axes>;
   virtual ~LawRider() = default;
-  /// Sets the state after arming and entry into the scene.
-  void enter() {
-    reset();
-    runs_.clear();
-  }
+  /// Sets the state after arming and entry into the scene. The torques of a run before it stay in
+  /// force, as in the engine, until one that began later ends.
+  void enter() { reset(); }
   /// The next set of host values comes into force.
   virtual void change() = 0;
   /// Torques, Nm, of the run that is in force in the tick of `s`, the snapshot of axis 0; nullptr
@@ -58,6 +56,7 @@ class LawRider {
   }
 
  protected:
+  /// Sets the initial state.
   virtual void reset() = 0;
   /// One run on these samples.
   virtual Torques run(const Snapshot* axes, const LawSample* own) = 0;

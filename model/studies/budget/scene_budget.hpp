@@ -6,12 +6,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "design/design.hpp"
 #include "sim/axes_loop/axes_scene.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/loop/scene_law.hpp"
+#include "sim/loop/session.hpp"
 #include "studies/budget/budget.hpp"
 
 namespace feltgate::bounds {
@@ -42,6 +44,37 @@ struct BudgetOptions {
   SceneLaw* law = nullptr;
   std::uint64_t seed = 1;
   std::function<void(double done)> progress;  ///< called occasionally with 0..1; may be empty
+};
+
+/// The chains of all axes beside a run, each with the law on its own measurements.
+class BudgetRun : public Passenger {
+ public:
+  /// All must outlive this; law: nullptr for a scene without one. Throws std::invalid_argument for
+  /// a scene or parameter that the design does not have.
+  BudgetRun(const design::Elaborated& e, const Scenario& scenario, SceneLaw* law, std::size_t axes);
+  void begin() override;
+  void set_parameter(std::size_t axis, int address, double value) override;
+  void tick(const Snapshot* axes, const ChainIn* in) override;
+  /// The budget of an axis since begin().
+  SceneBudget budget(std::size_t axis) const;
+
+ private:
+  /// The law in the numbers of these chains, on the measurements of the first.
+  struct Rider {
+    std::unique_ptr<LawRider> law;
+    std::vector<std::size_t> chains;
+  };
+
+  const design::Elaborated& e_;
+  const Scenario& scenario_;
+  const SceneLaw* law_;
+  int law_scene_;
+  std::vector<Coverage> coverage_;
+  std::vector<std::unique_ptr<Budget>> axes_;
+  std::vector<Rider> riders_;
+  bool entered_ = false;
+  std::int64_t changes_ = 1;  ///< parameter sets that the riders know; loading is the first
+  std::int64_t apart_ = 0;
 };
 
 /// Computes the budget. Throws std::invalid_argument for a scene or parameter that the design does

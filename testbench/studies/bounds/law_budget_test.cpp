@@ -191,18 +191,22 @@ TEST_CASE("budget of a scene with a law: the whole is what a run measures, the c
   add_budget("lever_law", make_design_budget<LeverLaw>);
   const auto e = elaborated("lever_law", shipped("lever_law"));
   const DesignInfo info = design_named("lever_law");
-  Scenario scene = read_scenario(kRoot + "/vectors/scenes/detent.toml");
-  scene.duration_s = 0.25;
-  scene.events.clear();
-  scene.expectations.clear();
   const plant::Parameters plant = plant::read_plant_file(kRoot + "/vectors/plants/p24.toml");
-  resolve_effects(scene, plant.effects);
-  // At arming a constant torque is in force, from a run before it.
-  for (const std::string& text : {std::string(), std::string("out torque = 0.1 Nm\n")}) {
+  // At arming a constant torque is in force, from a run before it; lines of a law are cleared,
+  // which ends a run.
+  const std::string constant = "out torque = 0.1 Nm\n";
+  for (const std::string& text : {std::string("detent"), constant, std::string("bowed_string")}) {
+    const bool given = text == constant;
+    CAPTURE(text);
+    Scenario scene =
+        read_scenario(kRoot + "/vectors/scenes/" + (given ? "detent" : text) + ".toml");
+    scene.duration_s = given ? 0.2 : 0.1;
+    scene.events.clear();
+    scene.expectations.clear();
+    resolve_effects(scene, plant.effects);
     const auto law = [&] {
-      return text.empty()
-                 ? make_scene_law(kRoot + "/rtl/laws/detent.law", info)
-                 : make_scene_law(law::compile_text(text, "t", law::target_of(info)), info);
+      return given ? make_scene_law(law::compile_text(text, "t", law::target_of(info)), info)
+                   : make_scene_law(kRoot + "/rtl/laws/" + text + ".law", info);
     };
     const auto of_budget = law(), of_run = law();
     BudgetOptions options;
@@ -210,7 +214,6 @@ TEST_CASE("budget of a scene with a law: the whole is what a run measures, the c
     const SceneBudget b = scene_budget(e, scene, plant, options);
     CHECK(b.ticks_apart == 0);
     CHECK(b.within_bounds());
-    CHECK(b.whole.max.tau_ref_nm <= b.sum.max.tau_ref_nm * (1 + 1e-9));
     RunOptions run;
     run.design = "lever_law";
     run.engine = "twin,quad";
@@ -220,7 +223,7 @@ TEST_CASE("budget of a scene with a law: the whole is what a run measures, the c
     run.coverage = &coverage;
     const BackendFigures twin = run_scenario(scene, plant, run).engines.front();
     CHECK(b.ticks_out_of_bounds == twin.uncovered);
-    CHECK((twin.uncovered > 0) == !text.empty());
+    CHECK((twin.uncovered > 0) == given);
     CHECK(b.whole.max.velocity_rad_s == Approx(twin.covered_velocity_rad_s.max()).epsilon(1e-9));
     CHECK(b.whole.max.tau_hat_nm == Approx(twin.covered_tau_hat_nm.max()).epsilon(1e-9));
     CHECK(b.whole.max.current_a * info.torque_constant_nm_a ==

@@ -176,7 +176,6 @@ class Chosen(Scratch):
             (("trim", two), "two.law:4: a torque for axis 1"),
             (("budget", scene, "--json", law), "spring.law, which is read"),
             (("budget", two), "two.law:4: a torque for axis 1"),
-            (("budget", scene, "--design", "lever"), "scene \"law\""),
             (("budget", self.put("levers.toml", LEVERS), "--plant", "p24"), "--plant is for scenes of one lever"),
         ):
             with self.subTest(words=words):

@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "feltgate/axes_ports.hpp"
-
 namespace feltgate {
 
 Ensemble::Ensemble(const std::string& design, const BackendChoice& choice, std::uint64_t seed,

@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "../backends/backend.hpp"
 #include "../reference/real_chain.hpp"

@@ -162,10 +162,9 @@ class Files:
             found.append(f"./feltgate product verilog --design {self.design_path}")
         if q.of_block():
             found.append(f"./feltgate design {self.design_path} --for {scene}")
-            found.append(f"./feltgate budget {scene}")
         else:
             found.append(f"./feltgate law {self.law_path}")
-        return found
+        return [*found, f"./feltgate budget {scene}"]
 
 
 def armed_check(scene, seconds):

@@ -27,11 +27,16 @@ foreach(design IN LISTS FELTGATE_PRESETS)
   add_executable(feltgate_${design}
     $<TARGET_OBJECTS:preset_${design}> $<TARGET_OBJECTS:feltgate> $<TARGET_OBJECTS:feltgate_run_parts>)
   target_link_libraries(feltgate_${design} PRIVATE ${libraries} core_${design})
+  if(TARGET budget_${design})
+    target_sources(feltgate_${design} PRIVATE $<TARGET_OBJECTS:budget_${design}>)
+  endif()
   set_target_properties(core_${design} preset_${design} feltgate_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
 endforeach()
-# `feltgate rates` without a scene takes all of them: those of several axes by their twins.
+# `feltgate rates` without a scene takes all of them, `trim` and `budget` each of them: those of several axes by
+# their twins.
 foreach(design IN LISTS FELTGATE_AXES_PRESETS)
   if(TARGET feltgate_lever_law)
-    target_sources(feltgate_lever_law PRIVATE $<TARGET_OBJECTS:twin_${design}>)
+    target_sources(feltgate_lever_law PRIVATE $<TARGET_OBJECTS:twin_${design}>
+      $<TARGET_OBJECTS:budget_${design}>)
   endif()
 endforeach()

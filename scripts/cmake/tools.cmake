@@ -34,7 +34,7 @@ endfunction()
 # What the programs of design points share; scripts/exploration/point.py compiles the rest.
 feltgate_library(feltgate_explore studies/explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop)
+feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop feltgate_axes_loop)
 target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
@@ -100,6 +100,14 @@ foreach(design fast lever_law ${FELTGATE_AXES_PRESETS})
   add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
   target_compile_options(twin_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(twin_${design} PRIVATE feltgate_registry fmt::fmt)
+endforeach()
+# Their error budgets.
+foreach(design IN LISTS FELTGATE_AXES_PRESETS)
+  feltgate_type_of(${design} type)
+  feltgate_for_design(design_budget.cpp.in "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
+  add_library(budget_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
+  target_compile_options(budget_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+  target_link_libraries(budget_${design} PRIVATE feltgate_budget)
 endforeach()
 set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL

@@ -4,15 +4,22 @@
 // feltgate budget. Documentation: docs/error-bounds.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
+#include "apps/commands/run_output.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "sim/backends/axes_cores.hpp"
+#include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/budget/scene_budget.hpp"
@@ -39,21 +46,82 @@ struct Column {
   double SourceBound::*value;
 };
 
+/// A scene of one axis or several, its law if it has one, and how its budgets are computed.
+struct Subject {
+  Scenario scene;
+  std::string design;
+  std::unique_ptr<SceneLaw> law;
+  std::function<std::vector<SceneBudget>(const bounds::BudgetOptions&)> budgets;
+};
+
+Subject lever_subject(const std::string& path, const BudgetArguments& a, files::Outputs& outputs) {
+  Subject s{read_scenario(path), a.design, nullptr, {}};
+  if (!s.scene.law.empty()) {
+    if (s.design == "lever") s.design = "lever_law";
+    s.law = make_scene_law(law_file(s.scene), design_named(s.design));
+    outputs.reads(law_file(s.scene));
+  }
+  if (!a.plant.empty()) s.scene.plant = a.plant;
+  const std::string plant_path = find_file(s.scene.plant, "vectors/plants");
+  const plant::Parameters plant = plant::read_plant_file(plant_path);
+  resolve_effects(s.scene, plant.effects);
+  resolve_amounts(s.scene, design_named(s.design), s.law.get());
+  outputs.reads(plant_path);
+  for (const auto& phase : s.scene.hand.phases) outputs.reads(phase.trace.file);
+  s.budgets = [scene = s.scene, plant, e = elaborated_design(s.design)](const auto& options) {
+    return std::vector<SceneBudget>{scene_budget(e, scene, plant, options)};
+  };
+  return s;
+}
+
+Subject device_subject(const std::string& path, const BudgetArguments& a, files::Outputs& outputs) {
+  if (!a.plant.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "--plant is for scenes of one lever, and {} names a device; leave it out", path));
+  }
+  AxesScene scene = read_axes_scene(
+      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  Subject s{scene.scenario, a.design, nullptr, {}};
+  if (s.design == "lever") s.design = device_of(scene) + "_law";
+  const AxesDesignMakers* made = find_axes_design(s.design);
+  if (made == nullptr) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} is no design of a device in this program; leave --design out, and "
+                    "start ./feltgate budget, which builds a program that has it",
+                    path, s.design));
+  }
+  if (s.scene.law.empty()) {
+    throw std::invalid_argument(path + ": a device of several axes needs a law");
+  }
+  const DesignInfo design = made->info();
+  s.law = make_axes_law(law_file(s.scene), design, axes_of(scene));
+  resolve_amounts(scene.scenario, design, s.law.get());
+  check_asked(scene.scenario, design, s.law.get());
+  if (scene.plane) PlaneHost::check(*scene.plane, path, *s.law);
+  for (const std::string& read : {scene.device_path, law_file(s.scene)}) outputs.reads(read);
+  for (const std::string& read : hand_files(scene)) outputs.reads(read);
+  s.budgets = [scene, e = elaborated_design(s.design)](const auto& options) {
+    return scene_budgets(e, scene, options);
+  };
+  return s;
+}
+
 constexpr Column columns[] = {{"velocity rad/s", "velocity_rad_s", &SourceBound::velocity_rad_s},
                               {"tau_hat Nm", "tau_hat_nm", &SourceBound::tau_hat_nm},
                               {"tau_ref Nm", "tau_ref_nm", &SourceBound::tau_ref_nm},
                               {"current A", "current_a", &SourceBound::current_a}};
 
-std::string text(const SceneBudget& b, const std::string& scene, const std::string& design) {
+std::string table(const SceneBudget& b) {
   std::ostringstream s;
-  s << "scene " << scene << ", design " << design << ": largest error, and the proven bound\n\n";
   s << fmt::format("{:<16}", "source");
   for (const Column& c : columns) s << fmt::format(" {:>14} {:>9}", c.heading, "bound");
   s << "\n";
   const auto row = [&](const BudgetLine& l, const char* name) {
     s << fmt::format("{:<16}", name);
     for (const Column& c : columns) {
-      s << fmt::format(" {:14.3g} {:9.3g}", l.max.*c.value, l.bound.*c.value);
+      const double bound = l.bound.*c.value;
+      s << fmt::format(" {:14.3g} {:>9}", l.max.*c.value,
+                       std::isfinite(bound) ? fmt::format("{:.3g}", bound) : "-");
     }
     s << "\n";
   };
@@ -69,7 +137,22 @@ std::string text(const SceneBudget& b, const std::string& scene, const std::stri
   s << fmt::format(
       "\nbounds are for any motion up to this one's {:.4g} rad/s before the low-pass\n",
       b.largest_velocity_rad_s);
-  if (!b.holds()) s << "an error exceeds its bound\n";
+  return s.str();
+}
+
+std::string text(const std::vector<SceneBudget>& axes, const std::string& scene,
+                 const std::string& design) {
+  std::ostringstream s;
+  s << "scene " << scene << ", design " << design
+    << ": largest error, and the proven bound (-: none)\n";
+  for (std::size_t n = 0; n < axes.size(); ++n) {
+    if (axes.size() > 1) s << "\naxis " << n;
+    s << "\n" << table(axes[n]);
+    if (!axes[n].within_bounds()) s << "an error exceeds its bound\n";
+  }
+  if (axes.front().ticks_apart > 0) {
+    s << axes.front().ticks_apart << " ticks in which the chain in fixed point is not the core\n";
+  }
   return s.str();
 }
 
@@ -87,10 +170,8 @@ Json line_json(const BudgetLine& l) {
       {"max_error", signals(l.max)}, {"rms_error", signals(l.rms)}, {"bound", signals(l.bound)}};
 }
 
-std::string json(const SceneBudget& b, const std::string& scene, const std::string& design) {
-  Json j{{"schema", "feltgate-budget/1"}, {"version", FELTGATE_VERSION}};
-  j["design"] = design;
-  j["scene"] = scene;
+/// Adds what a budget says of one axis.
+void add_axis(Json& j, const SceneBudget& b) {
   j["ticks"] = b.ticks;
   j["ticks_out_of_bounds"] = b.ticks_out_of_bounds;
   j["largest_velocity_rad_s"] = b.largest_velocity_rad_s;
@@ -99,35 +180,42 @@ std::string json(const SceneBudget& b, const std::string& scene, const std::stri
   j["whole"] = line_json(b.whole);
   j["gain"] = line_json(b.gain);
   j["holds"] = b.holds();
+}
+
+std::string json(const std::vector<SceneBudget>& axes, const Subject& s) {
+  const bool several = axes.size() > 1;
+  Json j{{"schema", several ? "feltgate-axes-budget/1" : "feltgate-budget/1"},
+         {"version", FELTGATE_VERSION}};
+  j["design"] = s.design;
+  j["scene"] = s.scene.name;
+  if (s.law) j["law"] = s.law->name();
+  if (!several) add_axis(j, axes.front());
+  for (std::size_t n = 0; several && n < axes.size(); ++n) {
+    j["axes"].push_back(Json::object());
+    add_axis(j["axes"].back(), axes[n]);
+  }
   return files::json_text(j);
 }
 
 int run(const BudgetArguments& a) {
-  Scenario scenario = read_scenario(find_file(a.scene, "vectors/scenes"));
-  require_no_law(scenario, "budget");
-  if (!a.plant.empty()) scenario.plant = a.plant;
-  const std::string plant_path = find_file(scenario.plant, "vectors/plants");
-  const plant::Parameters plant = plant::read_plant_file(plant_path);
-  resolve_effects(scenario, plant.effects);
-  const auto e = elaborate(design::read_design(find_file(a.design, "rtl/designs")),
-                           design::read_registers(repository() + "/rtl/registers.toml"));
-  resolve_amounts(scenario, design_named(e.design.name));
+  const std::string path = find_file(a.scene, "vectors/scenes");
   files::Outputs outputs;
-  outputs.reads(scenario.path);
-  outputs.reads(plant_path);
-  for (const auto& phase : scenario.hand.phases) outputs.reads(phase.trace.file);
-  outputs.reads(find_file(a.design, "rtl/designs"));
+  outputs.reads(path);
+  Subject s =
+      names_device(path) ? device_subject(path, a, outputs) : lever_subject(path, a, outputs);
+  outputs.reads(find_file(s.design, "rtl/designs"));
   files::OutputFile* file = outputs.open("--json", a.json);
-  SceneBudget b;
+  std::vector<SceneBudget> axes;
   {
-    Progress progress(scenario.name + " on " + e.design.name, a.quiet);
-    b = bounds::scene_budget(e, scenario, plant, a.seed,
-                             [&](double done) { progress.update(done); });
+    Progress progress(s.scene.name + " on " + s.design, a.quiet);
+    bounds::BudgetOptions options{s.law.get(), a.seed, [&](double done) { progress.update(done); }};
+    axes = s.budgets(options);
   }
-  if (file != nullptr) file->write(json(b, scenario.name, e.design.name));
-  if (!a.quiet) outputs.say(text(b, scenario.name, e.design.name));
+  if (file != nullptr) file->write(json(axes, s));
+  if (!a.quiet) outputs.say(text(axes, s.scene.name, s.design));
   outputs.commit();
-  return b.holds() ? exit_ok : exit_failed;
+  const bool hold = std::all_of(axes.begin(), axes.end(), [](const auto& b) { return b.holds(); });
+  return hold ? exit_ok : exit_failed;
 }
 
 }  // namespace
@@ -137,15 +225,20 @@ void add_budget(CLI::App& app, int* exit_code) {
   CLI::App* sub = app.add_subcommand(
       "budget", "where the error of a scene comes from, block by block, and its proven bound");
   sub->footer(
-      "The scene runs once in closed loop on the twin; then chains in which one block alone is in\n"
-      "fixed point, the others in 113 bits, see the same counts (docs/error-bounds.md).\n"
+      "The scene runs once in closed loop on the twin; beside it chains in which one block alone\n"
+      "is in fixed point, the others in 113 bits, get the same counts. A law runs on what each of\n"
+      "them measures, and has a row in place of the scenes; a device of several axes has a table\n"
+      "for each axis (docs/error-bounds.md).\n"
       "  feltgate budget spring_compression\n"
       "  feltgate budget membrane --design paper --json budget.json\n"
+      "  feltgate budget detent                a law, on lever_law\n"
+      "  feltgate budget coupled_levers        a device, on its own design\n"
       "Exit code: 0 every error is within its bound, 1 one is not, 2 unusable input.");
   sub->add_option("scene", a->scene, "name in vectors/scenes, or a path")
       ->required()
       ->type_name("SCENE");
-  sub->add_option("--design", a->design, "design point in rtl/designs")
+  sub->add_option("--design", a->design,
+                  "design point in rtl/designs; of a law lever_law, of a device its own")
       ->type_name("DESIGN")
       ->capture_default_str();
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")

@@ -44,8 +44,10 @@ class EngineRuns {
   void clock(const In& in) {
     leave();
     const bool takes = engine_.commit_.taken(in.tick), late = engine_.mailbox_late();
+    const bool stops = engine_.lines_.clearing;
     engine_.clock(in);
-    watch_.clock(in.tick, in.tick_count, engine_.running(0), engine_.out().fresh, takes, late);
+    watch_.clock(in.tick, in.tick_count, engine_.running(0), engine_.out().fresh, takes, late,
+                 stops);
     if (rest_ > 0) --rest_;
   }
   const EngineWatch& watch() const { return watch_; }

@@ -24,8 +24,10 @@ struct EngineWatch {
   std::optional<std::uint32_t> ended, ended_before, in_force;
 
   /// One clock of the engine, with its inputs and its outputs after the clock. `late`: in this
-  /// clock a mailbox has become too old, which takes the torque away.
-  void clock(bool ticks, std::uint32_t tick_count, bool runs, bool fresh, bool takes, bool late) {
+  /// clock a mailbox has become too old, which takes the torque away. `stops`: delay lines are
+  /// being cleared, which takes it away too and ends the runs that are under way.
+  void clock(bool ticks, std::uint32_t tick_count, bool runs, bool fresh, bool takes, bool late,
+             bool stops = false) {
     if (ticks) {
       in_force = ended_before;
       begins = false;
@@ -36,7 +38,8 @@ struct EngineWatch {
     if (runs && !running) begin(tick_count);
     running = runs;
     if (fresh) end();
-    if (late) ended.reset();
+    if (stops) begun.clear();
+    if (late || stops) ended.reset();
   }
   void begin(std::uint32_t tick_count) {
     changes_at_begin = changes;

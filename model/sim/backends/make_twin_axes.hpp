@@ -85,7 +85,7 @@ class TwinAxes : public AxesCores {
   void issue_write() {
     std::tie(in_.reg_addr, in_.reg_wdata) = writes_.pop();
     in_.reg_write = true;
-    ++writes_done_;
+    engine_writes_ += in_.reg_addr >= axes_engine ? 1 : 0;
   }
 
   /// Advances with the inputs held.
@@ -109,20 +109,23 @@ class TwinAxes : public AxesCores {
 
   void keep() {
     AxesSnapshot s;
+    std::int64_t writes = engine_writes_;
+    for (int n = 0; n < N; ++n) writes += twin_->core(n).writes();
     for (std::size_t n = 0; n < N; ++n) {
-      s[n] = Snapshot(twin_->out().axis[n], twin_->core(static_cast<int>(n)).sampled_travel(),
-                      writes_done_);
+      s[n] =
+          Snapshot(twin_->out().axis[n], twin_->core(static_cast<int>(n)).sampled_travel(), writes);
     }
     const EngineWatch& watch = twin_->glue().watch();
     s[0].law_begins = watch.begins;
     s[0].law_known = watch.in_force.has_value();
     s[0].law_tick = watch.in_force.value_or(0);
     s[0].law_changes = watch.changes_at_begin;
+    s[0].law_restart = twin_->glue().restarted();
     s[0].law_stale = watch.stale;
     snapshots_.push_back(s);
   }
 
-  std::int64_t writes_done_ = 0;
+  std::int64_t engine_writes_ = 0;
 };
 
 /// For a program that does not use the RTL.

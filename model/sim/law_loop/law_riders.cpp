@@ -32,10 +32,10 @@ class RealLaw : public LawRider {
 
  private:
   void reset() override { evaluation_.reset(); }
-  Torques run(const Snapshot* axes, const RealChain* chain) override {
+  Torques run(const Snapshot* axes, const LawSample* own) override {
     inputs_.clear();
     for (const law::Input& in : law_.law.inputs) {
-      inputs_.push_back(value_of(in.source, axes[in.axis], chain));
+      inputs_.push_back(value_of(in.source, axes[in.axis], own == nullptr ? own : own + in.axis));
     }
     evaluation_.run(inputs_);
     Torques torques{};
@@ -45,7 +45,7 @@ class RealLaw : public LawRider {
     }
     return torques;
   }
-  N value_of(law::Source source, const Snapshot& s, const RealChain* chain) const {
+  N value_of(law::Source source, const Snapshot& s, const LawSample* own) const {
     const auto scaled = [](std::int64_t raw, Format f) {
       return std::ldexp(static_cast<double>(raw), -f.fraction);
     };
@@ -53,13 +53,12 @@ class RealLaw : public LawRider {
       case law::Source::position:
         return static_cast<N>(s.position) * static_cast<N>(design_.count_rad);
       case law::Source::velocity:
-        return static_cast<N>(chain != nullptr ? chain->out().velocity_rad_s
-                                               : scaled(s.velocity, design_.velocity));
+        return static_cast<N>(own != nullptr ? own->velocity_rad_s
+                                             : scaled(s.velocity, design_.velocity));
       case law::Source::tau_hat:
         break;
     }
-    return static_cast<N>(chain != nullptr ? chain->out().tau_hat_nm
-                                           : scaled(s.tau_hat, design_.torque));
+    return static_cast<N>(own != nullptr ? own->tau_hat_nm : scaled(s.tau_hat, design_.torque));
   }
 
   const law::Compiled& law_;
@@ -105,28 +104,41 @@ void commit(Runner& runner, const std::vector<std::int32_t>& words) {
   runner.commit();
 }
 
-law::MachineInputs inputs_of(const Snapshot& s, std::int64_t velocity, std::int32_t tau_hat) {
-  return {s.position, static_cast<std::int32_t>(velocity), tau_hat, 0, 0, 0, 0, 0,
-          0,          static_cast<std::int32_t>(s.tick)};
+/// The inputs of a run; `own` as in LawRider::follow().
+law::MachineInputs inputs_of(const Snapshot* axes, std::size_t count, const LawSample* own) {
+  law::MachineInputs in{};
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::int64_t velocity = own == nullptr ? axes[n].velocity : own[n].velocity;
+    const std::int64_t tau_hat = own == nullptr ? axes[n].tau_hat : own[n].tau_hat;
+    in[3 * n] = axes[n].position;
+    in[3 * n + 1] = static_cast<std::int32_t>(velocity);
+    in[3 * n + 2] = static_cast<std::int32_t>(tau_hat);
+  }
+  in[9] = static_cast<std::int32_t>(axes[0].tick);
+  return in;
 }
 
-/// Runs the image of a law of one axis: as compiled C++ if the law is a shipped one, otherwise in
-/// the interpreter.
+/// Runs the image of a law: as compiled C++ if the law is a shipped one, otherwise in the
+/// interpreter.
 class FixedLaw : public LawRider {
  public:
   FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
       : words_(law, changes),
+        axes_(law.law.outputs.size()),
         torque_(design.torque),
         runner_(law::make_law_runner(law::memory(law.image), law::crc(law.image))) {}
   void change() override { commit(*runner_, words_.next()); }
 
  private:
   void reset() override { runner_->enter(); }
-  Torques run(const Snapshot* axes, const RealChain* chain) override {
-    const ChainRaw& raw = *chain->raw();
-    const std::int32_t word =
-        runner_->run(inputs_of(axes[0], raw.velocity, raw.tau_hat)).outputs[0];
-    return {std::ldexp(static_cast<double>(saturate(torque_, word)), -torque_.fraction)};
+  Torques run(const Snapshot* axes, const LawSample* own) override {
+    const law::MachineRun& done = runner_->run(inputs_of(axes, axes_, own));
+    Torques torques{};
+    for (std::size_t n = 0; n < axes_; ++n) {
+      torques[n] =
+          std::ldexp(static_cast<double>(saturate(torque_, done.outputs[n])), -torque_.fraction);
+    }
+    return torques;
   }
   static std::int64_t saturate(Format f, std::int32_t word) {
     const std::int64_t end = std::int64_t{1} << (f.width() - 1);
@@ -134,6 +146,7 @@ class FixedLaw : public LawRider {
   }
 
   ChangedWords words_;
+  std::size_t axes_;
   Format torque_;
   std::unique_ptr<law::LawRunner> runner_;
 };
@@ -152,8 +165,7 @@ class StateWatch : public LawWatch {
   void enter() override { machine_.enter(); }
   void change() override { commit(machine_, words_.next()); }
   void run(const Snapshot& s) override {
-    machine_.run(law_.target.thread,
-                 inputs_of(s, s.velocity, static_cast<std::int32_t>(s.tau_hat)));
+    machine_.run(law_.target.thread, inputs_of(&s, 1, nullptr));
     const int first = law_.target.thread * EngineMap::private_words;
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const int address = first + law_.assembled.state_address[k];

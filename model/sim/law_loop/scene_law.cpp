@@ -37,11 +37,10 @@ class CompiledSceneLaw : public SceneLaw {
   }
   const std::string& name() const override { return law_.law.name; }
   bool compiled() const override { return law::is_shipped(law::crc(law_.image)); }
-  double bound_nm() const override {
-    const auto position = [](const law::Input& in) { return in.source == law::Source::position; };
+  bool of_position_alone() const override {
     const auto& inputs = law_.law.inputs;
-    if (std::all_of(inputs.begin(), inputs.end(), position)) return bound_on_words_nm(0);
-    return std::numeric_limits<double>::infinity();
+    return std::all_of(inputs.begin(), inputs.end(),
+                       [](const law::Input& in) { return in.source == law::Source::position; });
   }
   double bound_on_words_nm(std::size_t axis) const override {
     const auto& outputs = law_.law.outputs;

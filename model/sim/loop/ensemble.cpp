@@ -12,16 +12,13 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "feltgate/axes_ports.hpp"
-
 namespace feltgate {
 
 Ensemble::Ensemble(const std::string& design, const BackendChoice& choice, std::uint64_t seed,
                    EncoderPins pins, const Waveform& waveform)
     : RunHost(make_backend(design, choice.lead)),
       choice_(choice),
-      lead_(static_cast<Backend*>(&backend())),
-      host_(RunHost::design().control_reset) {
+      lead_(static_cast<Backend*>(&backend())) {
   const auto last_bit = [](Format f) { return std::ldexp(1.0, -f.fraction); };
   const DesignInfo& d = RunHost::design();
   unit_ = {last_bit(d.velocity), last_bit(d.torque), last_bit(d.current), last_bit(d.voltage)};
@@ -41,9 +38,10 @@ Ensemble::Ensemble(const std::string& design, const BackendChoice& choice, std::
 }
 
 void Ensemble::write(const HostWrite& w) {
-  pending_.push_back(w);
-  pending_.back().clock = lead_->now();
-  if (log_ != nullptr) log_->push_back(pending_.back());
+  if (log_ != nullptr) {
+    log_->push_back(w);
+    log_->back().clock = lead_->now();
+  }
   RunHost::write(w);
 }
 
@@ -54,21 +52,14 @@ void Ensemble::run_law(SceneLaw& law) {
 }
 
 void Ensemble::ride(const Snapshot& s) {
-  // Writes that the core has executed by now also apply to the riders' tick.
-  for (; writes_applied_ < s.writes && !pending_.empty(); ++writes_applied_) {
-    const HostWrite w = pending_.front();
-    pending_.pop_front();
-    if (w.address >= axes_engine || !host_.write(w.address, w.data, s.armed)) continue;
+  const ChainIn in = chain_inputs(&s, [this](std::size_t axis, const HostWrite& w) {
     for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
-    if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
-  }
+    if (passenger_ != nullptr) passenger_->set_parameter(axis, w.address, w.value);
+  })[0];
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
-  const bool restart = host_.restart(s.armed, s.scene) || (s.law_restart && renders_law(s));
   if (riders_.empty() && passenger_ == nullptr && watch_ == nullptr) return;
-  const ChainIn in{s.position, s.travel,           s.armed, s.scene, host_.mode(),
-                   restart,    relief_of(s.limits)};
   watch_velocity(s.travel);
-  if (passenger_ != nullptr) passenger_->tick(in);
+  if (passenger_ != nullptr) passenger_->tick(&s, &in);
   const bool in_law = RunHost::in_law(s);
   if (in_law && !law_entered_) {
     for (Rider& r : riders_) r.law->enter();
@@ -105,7 +96,13 @@ void Ensemble::ride(const Snapshot& s) {
 
 void Ensemble::follow_law(Rider& r, const Snapshot& s) const {
   for (std::int64_t n = law_changes_; n < s.law_changes; ++n) r.law->change();
-  r.law->follow(&s, r.chain.get());
+  const ChainOut& o = r.chain->out();
+  LawSample own{o.velocity_rad_s, o.tau_hat_nm};
+  if (const ChainRaw* raw = r.chain->raw()) {
+    own.velocity = raw->velocity;
+    own.tau_hat = raw->tau_hat;
+  }
+  r.law->follow(&s, &own);
 }
 
 BackendSignals Ensemble::of_core(const Snapshot& s) const {

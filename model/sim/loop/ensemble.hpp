@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "feltgate/while_armed.hpp"
 #include "sim/backends/sampled_watch.hpp"
 #include "sim/loop/loop.hpp"
 #include "sim/loop/run_host.hpp"
@@ -39,8 +38,6 @@ class Ensemble final : public RunHost {
   void run_law(SceneLaw& law);
   /// Sets an observer of the law that run_law() has loaded; nullptr: none.
   void watch_law(std::unique_ptr<LawWatch> watch) { watch_ = std::move(watch); }
-  /// Whether register writes wait for their ticks.
-  bool writes_wait() const { return !pending_.empty(); }
   /// Appends every later write to `log`.
   void note_writes(std::vector<HostWrite>* log) { log_ = log; }
   /// From the next tick on, also collects the errors of the ticks that `coverage` covers,
@@ -49,8 +46,8 @@ class Ensemble final : public RunHost {
     covers_ = coverage != nullptr;
     if (covers_) coverage_ = *coverage;
   }
-  /// Adds a chain of the caller that gets the same samples and writes; nullptr: none.
-  void carry(RealChain* passenger) { passenger_ = passenger; }
+  /// Sets what the caller carries along; nullptr: nothing.
+  void carry(Passenger* passenger) { passenger_ = passenger; }
 
   /// Advances the core, then the riders on each new snapshot; calls `each` with every snapshot.
   template <class Each>
@@ -124,7 +121,7 @@ class Ensemble final : public RunHost {
   Units unit_;
   std::vector<Rider> riders_;
   const RealChain* reference_ = nullptr;
-  RealChain* passenger_ = nullptr;
+  Passenger* passenger_ = nullptr;
   bounds::Coverage coverage_;
   bool covers_ = false;
   std::deque<std::int16_t> window_;  ///< travel at the last m1 ticks
@@ -132,10 +129,7 @@ class Ensemble final : public RunHost {
   std::unique_ptr<LawWatch> watch_;
   std::int64_t law_changes_ = 1;  ///< parameter sets that the riders know; loading is the first
   bool law_entered_ = false;
-  std::deque<HostWrite> pending_;
   std::vector<HostWrite>* log_ = nullptr;
-  HostBeside host_;
-  std::int64_t writes_applied_ = 0;
   BackendFigures lead_figures_;
   SampledWatch lead_watch_;
 };

@@ -77,6 +77,7 @@ class ScenarioRun {
     }
     core_.skip_self_test();
     session_.begin();
+    if (options_.passenger != nullptr) options_.passenger->begin();
     core_.lead().keep_gate_times(s_.switched);
     while (core_.lead().now() < end) {
       const Clock now = core_.lead().now();

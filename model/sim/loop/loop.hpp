@@ -87,7 +87,6 @@ struct RunInputs {
 struct RunOptions : SessionOptions {
   std::FILE* record = nullptr;  ///< gets the encoder's edges as a vector file; may be nullptr
   const bounds::Coverage* coverage = nullptr;  ///< ticks in which bounds are checked
-  RealChain* passenger = nullptr;              ///< gets the samples and writes; not compared
   RunInputs* inputs = nullptr;  ///< filled if given; a scene that uses the stop pin then throws
   std::function<void(const Row&)> row;  ///< called for every row_every-th tick; may be empty
   /// called after each run of the law with the time of its samples and its states in SI; may be

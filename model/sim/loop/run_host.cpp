@@ -6,8 +6,6 @@
 
 #include <stdexcept>
 
-#include "feltgate/axes_ports.hpp"
-
 namespace feltgate {
 
 void RunHost::load(SceneLaw& law) {
@@ -46,7 +44,10 @@ void RunHost::command(std::uint32_t bits) { write({0, design().command_address, 
 
 void RunHost::write(const HostWrite& w) {
   const int copies = w.address >= axes_engine ? 1 : backend_->axes();
-  for (int n = 0; n < copies; ++n) backend_->write(n * axes_stride + w.address, w.data);
+  for (int n = 0; n < copies; ++n) {
+    pending_.emplace_back(n, w);
+    backend_->write(n * axes_stride + w.address, w.data);
+  }
 }
 
 }  // namespace feltgate

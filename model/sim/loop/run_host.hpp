@@ -5,12 +5,19 @@
 // register writes. Documentation: docs/architecture.md
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "../backends/backend.hpp"
+#include "../reference/real_chain.hpp"
+#include "feltgate/axes_ports.hpp"
+#include "feltgate/while_armed.hpp"
 #include "scene_law.hpp"
 
 namespace feltgate {
@@ -26,7 +33,9 @@ struct HostWrite {
 class RunHost {
  public:
   explicit RunHost(std::unique_ptr<AnyBackend> backend)
-      : backend_(std::move(backend)), design_(&backend_->design()) {}
+      : backend_(std::move(backend)),
+        design_(&backend_->design()),
+        beside_(static_cast<std::size_t>(backend_->axes()), HostBeside(design_->control_reset)) {}
   virtual ~RunHost() = default;
   RunHost(RunHost&&) = default;
   RunHost& operator=(RunHost&&) = default;
@@ -60,6 +69,29 @@ class RunHost {
   /// it.
   bool stale(const Snapshot& s) const { return s.law_stale && in_law(s); }
 
+  /// Whether register writes wait for their ticks.
+  bool writes_wait() const { return !pending_.empty(); }
+  /// The inputs of the cores' chains in a tick, from the snapshots of all axes; call it for every
+  /// tick. Before, `each(axis, write)` gets the writes of parameters that act from this tick on.
+  template <class Each>
+  std::array<ChainIn, most_axes> chain_inputs(const Snapshot* axes, Each&& each) {
+    for (; writes_applied_ < axes[0].writes && !pending_.empty(); ++writes_applied_) {
+      const auto [axis, w] = pending_.front();
+      pending_.pop_front();
+      if (w.address >= axes_engine) continue;
+      if (beside_[axis].write(w.address, w.data, axes[axis].armed)) each(axis, w);
+    }
+    std::array<ChainIn, most_axes> in;
+    for (std::size_t n = 0; n < beside_.size(); ++n) {
+      const Snapshot& s = axes[n];
+      const bool restart =
+          beside_[n].restart(s.armed, s.scene) || (axes[0].law_restart && renders_law(s));
+      in[n] = {s.position, s.travel,           s.armed, s.scene, beside_[n].mode(),
+               restart,    relief_of(s.limits)};
+    }
+    return in;
+  }
+
  protected:
   /// Queues a write in every axis, or in the engine of laws.
   virtual void write(const HostWrite& w);
@@ -67,6 +99,9 @@ class RunHost {
  private:
   std::unique_ptr<AnyBackend> backend_;
   const DesignInfo* design_;
+  std::vector<HostBeside> beside_;                         ///< one per axis
+  std::deque<std::pair<std::size_t, HostWrite>> pending_;  ///< with their axes
+  std::int64_t writes_applied_ = 0;
   SceneLaw* law_ = nullptr;
   int law_scene_ = -1;  ///< -1: there is no law
 };

@@ -46,9 +46,9 @@ RunBounds::RunBounds(const design::Elaborated& e, double velocity_rad_s)
   region_.velocity_rad_s = velocity_rad_s;
 }
 
-void RunBounds::run_law(const SceneLaw* law) {
+void RunBounds::run_law(const SceneLaw* law, std::size_t axis) {
   law_ = law;
-  if (law != nullptr) region_.law_nm = law->bound_nm();
+  if (law != nullptr) region_.law_nm = law->bound_nm(axis);
 }
 
 void RunBounds::render(const std::string& scene, int mode) {
@@ -91,9 +91,9 @@ void RunBounds::add() {
 }
 
 RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
-                          double velocity_rad_s, const SceneLaw* law) {
+                          double velocity_rad_s, const SceneLaw* law, std::size_t axis) {
   RunBounds run(e, velocity_rad_s);
-  run.run_law(law);
+  run.run_law(law, axis);
   for (const auto& [name, value] : scenario.parameters) run.set(name, value, false);
   std::string scene = scenario.scene;
   int mode = scenario.mode;

@@ -18,8 +18,8 @@ class RunBounds {
   /// Starts with the design's values. |N-method velocity| stays below velocity_rad_s; 0: any in
   /// format.
   RunBounds(const design::Elaborated& e, double velocity_rad_s);
-  /// The law that the scene law runs; nullptr: its torque has no bound.
-  void run_law(const SceneLaw* law);
+  /// The law that the scene law runs on this axis; nullptr: its torque has no bound.
+  void run_law(const SceneLaw* law, std::size_t axis);
   /// Scene and mode from now on. Errors: std::invalid_argument for a scene that is not built in.
   void render(const std::string& scene, int mode);
   /// A parameter's value from now on. A change of a filter in the middle of a run voids all bounds.
@@ -43,8 +43,9 @@ class RunBounds {
 /// Smaller than any velocity other than 0: a region for results that must not depend on the motion.
 constexpr double hardly_any_rad_s = 1e-9;
 
-/// The bounds of a scene file on a design.
+/// The bounds of a scene file on a design, for one axis.
 RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
-                          double velocity_rad_s = 0, const SceneLaw* law = nullptr);
+                          double velocity_rad_s = 0, const SceneLaw* law = nullptr,
+                          std::size_t axis = 0);
 
 }  // namespace feltgate

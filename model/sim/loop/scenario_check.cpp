@@ -227,12 +227,4 @@ void check_scenario(const Scenario& s, const plant::Parameters& plant, const Des
   check_step(s, plant, static_cast<double>(design.clock_hz));
 }
 
-void require_no_law(const Scenario& scenario, const std::string& command) {
-  if (scenario.law.empty() && scenes_used(scenario).count("law") == 0) return;
-  throw std::invalid_argument(fmt::format(
-      "{}:{}: `feltgate {}` takes no scene with a law; `feltgate law` tells the error, rate and "
-      "size of one, `feltgate run` runs its scene",
-      scenario.path, scenario.law.empty() ? scenario.scene_line : scenario.law_line, command));
-}
-
 }  // namespace feltgate

@@ -37,10 +37,6 @@ void check_scenario(const Scenario& scenario, const plant::Parameters& plant,
 /// The same without the plant's step; for devices of several axes.
 void check_asked(const Scenario& scenario, const DesignInfo& design, const SceneLaw* law);
 
-/// For a subcommand that cannot run laws. Errors: std::invalid_argument "file:line: what; mend" if
-/// the scene runs a law.
-void require_no_law(const Scenario& scenario, const std::string& command);
-
 /// Checks only the plant's step, for a clock of `clock_hz`.
 void check_step(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,9 +18,16 @@
 #include <vector>
 
 #include "../backends/backend.hpp"
-#include "../reference/real_chain.hpp"
 
 namespace feltgate {
+
+/// What a chain of its own has measured for a law: in SI units, and the words of one in fixed
+/// point.
+struct LawSample {
+  double velocity_rad_s = 0, tau_hat_nm = 0;
+  std::int64_t velocity = 0;
+  std::int32_t tau_hat = 0;
+};
 
 /// A law's program in the numbers of a rider: it runs when the engine's program runs, on the same
 /// samples.
@@ -27,11 +35,9 @@ class LawRider {
  public:
   using Torques = std::array<double, most_axes>;
   virtual ~LawRider() = default;
-  /// Sets the state after arming and entry into the scene.
-  void enter() {
-    reset();
-    runs_.clear();
-  }
+  /// Sets the state after arming and entry into the scene. The torques of a run before it stay in
+  /// force, as in the engine, until one that began later ends.
+  void enter() { reset(); }
   /// The next set of host values comes into force.
   virtual void change() = 0;
   /// Torques, Nm, of the run that is in force in the tick of `s`, the snapshot of axis 0; nullptr
@@ -44,16 +50,16 @@ class LawRider {
     return runs_.empty() || runs_.front().first != s.law_tick ? nullptr : &runs_.front().second;
   }
   /// Executes the run that began with the tick of these snapshots, one per axis, if any; call it
-  /// after in_force(). With a chain, which has computed the tick, the law reads its measurements in
-  /// place of the core's.
-  void follow(const Snapshot* axes, const RealChain* chain) {
-    if (axes[0].law_begins) runs_.emplace_back(axes[0].tick, run(axes, chain));
+  /// after in_force(). `own`, one per axis, replaces the core's measurements; nullptr: it does not.
+  void follow(const Snapshot* axes, const LawSample* own) {
+    if (axes[0].law_begins) runs_.emplace_back(axes[0].tick, run(axes, own));
   }
 
  protected:
+  /// Sets the initial state.
   virtual void reset() = 0;
   /// One run on these samples.
-  virtual Torques run(const Snapshot* axes, const RealChain* chain) = 0;
+  virtual Torques run(const Snapshot* axes, const LawSample* own) = 0;
 
  private:
   std::deque<std::pair<std::uint32_t, Torques>> runs_;  ///< by the tick of their samples
@@ -80,12 +86,15 @@ class SceneLaw {
   virtual const std::string& name() const = 0;
   /// Whether its words run as C++ that was built into the program, rather than in the interpreter.
   virtual bool compiled() const = 0;
-  /// Largest error of its torque against real arithmetic on the same tick's samples, Nm. Infinite
-  /// for a law that uses more than the position, or that jumps.
-  virtual double bound_nm() const = 0;
-  /// The same for an axis, on the words that the engine got. Infinite if its states are not
-  /// bounded, or if a comparison can have the other result.
+  /// Whether it reads neither a velocity nor a tau_hat.
+  virtual bool of_position_alone() const = 0;
+  /// Largest error of an axis' torque against real arithmetic, Nm, on the words that the engine
+  /// got. Infinite if its states are not bounded, or if a comparison can have the other result.
   virtual double bound_on_words_nm(std::size_t axis) const = 0;
+  /// The same on the counts of the tick. Infinite for a law that uses more than the position.
+  double bound_nm(std::size_t axis) const {
+    return of_position_alone() ? bound_on_words_nm(axis) : std::numeric_limits<double>::infinity();
+  }
   /// The writes that load it into an engine that is in its state after configuration.
   virtual Writes load() const = 0;
   virtual bool has(const std::string& parameter) const = 0;

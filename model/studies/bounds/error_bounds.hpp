@@ -21,7 +21,8 @@ struct InputRegion {
   double velocity_rad_s = 0;
   std::string scene;  ///< the scene; empty: the worst of all built-in scenes
   int mode = 0;       ///< of the control word: 0 closed loop, 1 open loop, 2 voltage
-  /// Scene law: largest error of the program's torque for the reference's velocity, Nm.
+  /// Scene law: largest error of the program's torque, Nm; infinite if it reads more than the
+  /// position.
   double law_nm = std::numeric_limits<double>::infinity();
 };
 

@@ -41,7 +41,7 @@ class Scenes {
     if (scene == "wall") return limits() + wall(velocity_error, velocity);
     if (scene == "charge_attract") return limits() + charge("attract");
     if (scene == "charge_repel") return limits() + charge("repel");
-    if (scene == "law" && law_nm < endless) return limits() + Interval(law_nm);
+    if (scene == "law" && law_nm < endless) return limits() + law(law_nm);
     return {endless, endless};
   }
 
@@ -67,6 +67,14 @@ class Scenes {
     if (top <= 0) return Interval(0.0);
     const double limited = (limit_.real * k.change() / Interval(top)).upper();
     return Interval(std::min(limited, (k.change() * largest).upper()));
+  }
+
+  /// A law of the position alone. Without rounding its torques are equal, and only a ramp, whose
+  /// step is a coefficient, can part them: by what core and reference may be apart, and core and
+  /// quantised, which ramp in step.
+  Interval law(double law_nm) const {
+    if (rounds_) return Interval(law_nm);
+    return Interval(same_words() ? 0.0 : 2.0 * law_nm);
   }
 
   Interval membrane() const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/loop/figures.hpp"
+#include "sim/loop/scene_law.hpp"
 #include "sim/reference/real_chain.hpp"
 #include "studies/bounds/coverage.hpp"
 
@@ -27,7 +28,18 @@ struct BudgetRow {
 /// reference.
 class Budget : public RealChain {
  public:
-  /// Excludes, from the next tick on, the ticks that `coverage` rules out from all rows.
+  /// The chains that a law runs on: with one block in fixed point (velocity_n, dob, scenes,
+  /// torque_control), the three in real arithmetic, the core's own. A law is a scene: it is in
+  /// fixed point where scenes are.
+  static constexpr std::size_t chains = 8;
+  static constexpr bool law_in_fixed(std::size_t chain) { return chain == 2 || chain == 7; }
+  /// Sets the torque that the law asks of a chain in the following ticks, Nm.
+  virtual void program(std::size_t chain, double torque_nm) = 0;
+  /// What a chain measured in the last tick.
+  virtual LawSample sample(std::size_t chain) const = 0;
+
+  /// Empties the rows, and excludes from them, from the next tick on, the ticks that `coverage`
+  /// rules out.
   virtual void cover(const Coverage& coverage) = 0;
   virtual const Coverage& coverage() const = 0;
   virtual const std::vector<BudgetRow>& rows() const = 0;

@@ -32,10 +32,7 @@ class DesignBudget : public Budget {
     whole_.reset();
     line_.reset();
     largest_counts_ = 0;
-    rows_ = {{"velocity_n", {}, {}, {}, {}},   {"dob", {}, {}, {}, {}},
-             {"scenes", {}, {}, {}, {}},       {"torque_control", {}, {}, {}, {}},
-             {"coefficients", {}, {}, {}, {}}, {"whole", {}, {}, {}, {}},
-             {"gain", {}, {}, {}, {}}};
+    cover({});
   }
 
   void set_parameter(int address, double value) override {
@@ -74,7 +71,26 @@ class DesignBudget : public Budget {
   const ChainOut& out() const override { return whole_.out(); }
   bool ramping() const override { return whole_.ramping(); }
   const ChainRaw* raw() const override { return whole_.raw(); }
-  void cover(const Coverage& coverage) override { coverage_ = coverage; }
+  void program(std::size_t chain, double torque_nm) override {
+    if (chain == 7) whole_.program(torque_nm);
+    visit(*this, chain, [&](auto& mixed) { mixed.program(torque_nm); });
+  }
+  LawSample sample(std::size_t chain) const override {
+    LawSample s;
+    if (chain == 7) {
+      const ChainOut& o = whole_.out();
+      s = {o.velocity_rad_s, o.tau_hat_nm, whole_.raw()->velocity, whole_.raw()->tau_hat};
+    }
+    visit(*this, chain, [&](const auto& mixed) { s = mixed.sample(); });
+    return s;
+  }
+  void cover(const Coverage& coverage) override {
+    coverage_ = coverage;
+    rows_ = {{"velocity_n", {}, {}, {}, {}},   {"dob", {}, {}, {}, {}},
+             {"scenes", {}, {}, {}, {}},       {"torque_control", {}, {}, {}, {}},
+             {"coefficients", {}, {}, {}, {}}, {"whole", {}, {}, {}, {}},
+             {"gain", {}, {}, {}, {}}};
+  }
   const Coverage& coverage() const override { return coverage_; }
   const std::vector<BudgetRow>& rows() const override { return rows_; }
   double largest_velocity_rad_s() const override {
@@ -90,6 +106,15 @@ class DesignBudget : public Budget {
     Quad velocity, tau_hat, tau_ref, current;
   };
 
+  /// Calls `use` with the chain of this number; not with the core's own.
+  template <class Self, class Use>
+  static void visit(Self& self, std::size_t chain, Use&& use) {
+    std::size_t n = 0;
+    std::apply([&](auto&... mixed) { ((n++ == chain ? use(mixed) : void()), ...); }, self.alone_);
+    for (auto* real : {&self.quantised_, &self.exact_, &self.exact_gain_}) {
+      if (n++ == chain) use(*real);
+    }
+  }
   template <class Chain>
   static Signals signals(const Chain& c) {
     return {c.velocity(), c.tau_hat(), c.tau_ref(), c.current()};

@@ -5,6 +5,7 @@
 // block's quantisation alone. Documentation: docs/error-bounds.md
 #pragma once
 
+#include "sim/loop/scene_law.hpp"
 #include "sim/reference/chain.hpp"
 
 namespace feltgate::bounds {
@@ -88,11 +89,29 @@ class MixedChain {
     observe(in.armed);
     if (in.restart) scenes_.ramp().restart();
     scenes_.tick(words<ScenesBlock>(), in.armed, in.scene, scene_position(in.position),
-                 input<ScenesBlock, finer(D::f.velocity).key()>(velocity_));
+                 input<ScenesBlock, finer(D::f.velocity).key()>(velocity_), in.relief);
     control_.tick(words<ControlBlock>(), in.armed, static_cast<Mode>(in.mode),
                   input<ControlBlock, finer(D::f.torque).key()>(scenes_.tau_ref()),
                   input<ControlBlock, finer(D::f.torque).key()>(tau_hat_),
                   input<ControlBlock, finer(D::f.velocity).key()>(velocity_));
+  }
+
+  /// Sets the torque that a program asks for [Nm], for the scene law in the following ticks.
+  void program(double torque_nm) {
+    if constexpr (ScenesBlock) {
+      scenes_.program(to_fixed<D::f.torque.key()>(static_cast<Quad>(torque_nm)));
+    } else {
+      scenes_.program(static_cast<Quad>(torque_nm));
+    }
+  }
+  /// The measurements for a law that runs on this chain. The words have the core's formats.
+  LawSample sample() const {
+    LawSample s{static_cast<double>(velocity()), static_cast<double>(tau_hat())};
+    if constexpr (ScenesBlock) {
+      s.velocity = to_fixed<D::f.velocity.key()>(velocity_).raw();
+      s.tau_hat = static_cast<std::int32_t>(to_fixed<D::f.torque.key()>(tau_hat_).raw());
+    }
+    return s;
   }
 
   Quad velocity() const { return to_quad(velocity_); }

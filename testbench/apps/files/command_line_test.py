@@ -39,8 +39,10 @@ class CommandLine(Bench):
         self.refused("trim", "coupled_levers", "--plant", "p24", said=("--plant is for scenes of one lever",))
 
     def test_a_law_where_none_is_taken(self):
-        said = "detent.toml:11: `feltgate budget` takes no scene with a law"
-        self.refused("budget", "detent", said=(said, "`feltgate run` runs its scene"))
+        # This program has neither the engine's design nor a device's.
+        self.refused("budget", "detent", said=('design "lever_law" is not built in',))
+        said = "two_levers_law is no design of a device in this program"
+        self.refused("budget", "coupled_levers", said=(said, "start ./feltgate budget"))
         self.refused("replay", "x.vec", "--scene", "law", said=("--scene law", "loads no program"))
 
     def test_numbers(self):

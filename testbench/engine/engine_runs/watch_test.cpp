@@ -12,10 +12,10 @@ namespace {
 struct Clock {
   bool ticks = false;
   std::uint32_t tick_count = 0;
-  bool runs = false, fresh = false, takes = false, late = false;
+  bool runs = false, fresh = false, takes = false, late = false, stops = false;
 };
 void clock(EngineWatch& w, const Clock& c) {
-  w.clock(c.ticks, c.tick_count, c.runs, c.fresh, c.takes, c.late);
+  w.clock(c.ticks, c.tick_count, c.runs, c.fresh, c.takes, c.late, c.stops);
 }
 
 }  // namespace
@@ -106,4 +106,18 @@ TEST_CASE("engine watch: a mailbox that is too old leaves no torque") {
   clock(w, {false, 7, true});
   clock(w, {false, 7, false, true, false, true});
   CHECK_FALSE(w.ended.has_value());
+}
+
+TEST_CASE("engine watch: a run that the clearing of the lines ends is behind no torque") {
+  EngineWatch w;
+  clock(w, {false, 5, true, true});
+  CHECK(w.ended == 5U);
+  clock(w, {false, 6, false});
+  clock(w, {false, 7, true});
+  clock(w, {true, 8, false, false, false, false, true});
+  CHECK_FALSE(w.ended.has_value());
+  CHECK(w.begun.empty());
+  clock(w, {false, 9, true});
+  clock(w, {false, 9, false, true});
+  CHECK(w.ended == 9U);
 }

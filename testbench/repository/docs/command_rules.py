@@ -57,6 +57,7 @@ RULES = (
         "BY",
         r"scene.\1.lever_law",
     ),
+    Rule(r"feltgate budget (?:detent|coupled_levers)", "BY", "law_budget_test"),
     Rule(r"feltgate (?:run|replay|import|budget|design|law|shape|texture)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.

@@ -21,7 +21,7 @@ VERILATOR, VENV = sys.argv.pop(1), Path(sys.argv.pop(1))
 PACKAGE = RTL / "generated/lever/feltgate_pkg.sv"
 MAP = RTL / "generated/feltgate_map_pkg.sv"
 
-# Top, value of the package that is changed, to what, and what must hold.
+# Top, constant of the package or parameter of the top that is changed, to what, and what must hold.
 BAD = (
     ("sequencer", "CLOCKS_PER_TICK", 40, "CLOCKS_PER_TICK_must_hold_the_wave"),
     ("sequencer", "SCENE_SLOTS", "64'h144f", "slots_0_and_63_must_not_be_a_scenes"),
@@ -55,10 +55,12 @@ BAD = (
     ("core", "DUTY_W", 14, "DUTY_must_be_the_13_bits_of_the_bridge"),
     ("velocity_mt", "VELOCITY_F", 39, "the_time_stamps_must_hold_the_window"),
     ("current_sense", "CLOCK_HZ", 39_000_000, "an_over_current_must_be_latched_within_5_us_and"),
+    ("absolute_encoder", "HalfClocks", 3, "a_parameter_is_out_of_its_range"),
 )
 WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
 TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer",
-        "velocity_mt": "velocity_mt", "current_sense": "current_sense"}
+        "velocity_mt": "velocity_mt", "current_sense": "current_sense",
+        "absolute_encoder": "absolute_encoder"}
 
 
 def rtl_of(top):
@@ -86,18 +88,20 @@ def front_ends(top, files):
 
 class Elaboration(Scratch):
     def run_all(self, top, texts, check):
-        packages = map(self.put, ("feltgate_pkg.sv", "feltgate_map_pkg.sv"), texts)
-        files = [*packages, *rtl_of(top)]
+        names = ["feltgate_pkg.sv", "feltgate_map_pkg.sv", f"{TOPS[top]}.sv"]
+        own = [path for path in rtl_of(top) if path.name != names[2]]
+        files = [*map(self.put, names, texts), *own]
         for name, command in front_ends(TOPS[top], files).items():
             with self.subTest(f"{top} by {name}"):
                 done = ran(*command, cwd=self.folder)
                 check(done.returncode, done.stdout + done.stderr)
 
-    def texts(self, constant=None, value=None):
+    def texts(self, top, constant=None, value=None):
+        """Of both packages and the top."""
         texts, changed = [], 0
-        for path in (PACKAGE, MAP):
+        for path in (PACKAGE, MAP, *RTL.glob(f"core/**/{TOPS[top]}.sv")):
             text, count = re.subn(
-                rf"(localparam [^=;]*\b{constant} = )[^;]+;", rf"\g<1>{value};",
+                rf"((?:localparam|parameter) [^=;]*\b{constant} *= )[^;,]+([;,])", rf"\g<1>{value}\2",
                 path.read_text(encoding="utf-8"),
             )
             texts.append(text)
@@ -110,7 +114,7 @@ class Elaboration(Scratch):
             self.assertEqual(status, 0, words)
 
         for top in TOPS:
-            self.run_all(top, self.texts(), fine)
+            self.run_all(top, self.texts(top), fine)
 
     def test_bad(self):
         for top, constant, value, wanted in BAD if WHOLE else BAD[::3]:
@@ -119,7 +123,7 @@ class Elaboration(Scratch):
                 self.assertIn(wanted, words)
 
             with self.subTest(f"{constant} = {value}"):
-                self.run_all(top, self.texts(constant, value), refused)
+                self.run_all(top, self.texts(top, constant, value), refused)
 
     def test_every_check_is_tried(self):
         names = set()

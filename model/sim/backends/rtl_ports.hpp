@@ -35,6 +35,12 @@ constexpr bool is_axes = false;
 template <class Rtl>
 constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
 
+/// Whether Rtl has the pins of a current loop: the core itself.
+template <class Rtl, class = void>
+constexpr bool has_current = false;
+template <class Rtl>
+constexpr bool has_current<Rtl, std::void_t<decltype(std::declval<Rtl&>().current_clock_o)>> = true;
+
 /// Sets every input except clock and reset, for design D. The caller must lower the stop with the
 /// edge: it was active since the last edge, and is not in the next clock.
 template <class D, class Rtl>
@@ -92,7 +98,7 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.word_valid = rtl.word_valid_o != 0;
   o.word_slot = rtl.word_slot_o;
   o.word_data = rtl.word_data_o;
-  if constexpr (!is_axes<Rtl>) {
+  if constexpr (has_current<Rtl>) {
     o.current = detail::narrow_word(rtl.current_o, 19);
     o.current_clock = rtl.current_clock_o != 0;
   }

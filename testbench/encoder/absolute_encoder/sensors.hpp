@@ -97,6 +97,13 @@ struct Magnet {
   }
 };
 
+/// A frame: what a sensor says, closed by its parity or CRC.
+inline std::uint64_t closed(const AbsoluteEncoder::Parameters& p, std::uint64_t said) {
+  if (p.framing == AbsoluteEncoder::kSpi) return odd(said) ? said | 0x8000 : said;
+  const bool biss = p.framing == AbsoluteEncoder::kBiss;
+  return said << 6 | (crc6(said << 6, p.bits + (biss ? 8 : 10)) ^ (biss ? 0x3fU : 0U));
+}
+
 /// A frame of the framing in use, with parity or CRC and, by `random`, with errors.
 inline std::uint64_t frame_of(std::int64_t angle, int command, bool flag, Random& random) {
   const auto position = static_cast<std::uint64_t>(angle);
@@ -110,15 +117,13 @@ inline std::uint64_t frame_of(std::int64_t angle, int command, bool flag, Random
     } else if (command != 0x3fff) {
       data = random.below(1 << 14);
     }
-    word = data | (flag ? 0x4000U : 0U);
-    if (odd(word)) word |= 0x8000;
+    word = closed(kEncoder, data | (flag ? 0x4000U : 0U));
   } else if (kEncoder.framing == AbsoluteEncoder::kSsi) {
     const std::uint64_t button = random.coin() ? 4 : 0;
-    word = (position << 4 | button | (ill ? random.below(16) : 0U)) << 6;
-    word |= crc6(word, kFrameBits);
+    word = closed(kEncoder, position << 4 | button | (ill ? random.below(16) : 0U));
   } else {
-    word = (position << 2 | (ill ? random.below(2) << 1 : 2U) | random.below(2)) << 6;
-    word |= crc6(word, kEncoder.bits + 8) ^ 0x3f;
+    const std::uint64_t error = ill ? random.below(2) << 1 : 2U;
+    word = closed(kEncoder, position << 2 | error | random.below(2));
     if (random.one_in(8))
       word |= std::uint64_t{1} << (kEncoder.bits + 8);  // of the register channel
   }
@@ -303,23 +308,20 @@ class Detection {
   }
 
  private:
-  std::uint64_t word(int reading, int command, bool wrong, Event event) const {
-    const int held = wrong && event == Event::held_in_motion ? wrong_from_ : reading;
-    std::int64_t angle = moves_ ? 1000 + 40 * held : 1000;
+  /// The frame of a reading; `begun`: that in which the event came, later ones are wrong.
+  std::uint64_t word(int reading, int begun, int command, Event event) const {
+    const bool wrong = reading > begun;
+    const int seen = event == Event::held_in_motion ? std::min(reading, begun) : reading;
+    std::int64_t angle = moves_ ? 1000 + 40 * seen : 1000;
     if (wrong && event == Event::half_a_turn_off) angle += 1 << (p_.bits - 1);
     const auto position = static_cast<std::uint64_t>(angle) & ((std::uint64_t{1} << p_.bits) - 1);
     const bool ill = wrong && event == Event::magnet_lost;
-    std::uint64_t word = 0;
+    std::uint64_t said = position << 2 | (ill ? 1U : 3U);
+    if (p_.framing == AbsoluteEncoder::kSsi) said = position << 4 | (ill ? 2U : 0U);
     if (p_.framing == AbsoluteEncoder::kSpi) {
-      word = command == p_.diag_address ? (ill ? 0x900U : 0x180U) : position;
-      if (odd(word)) word |= 0x8000;
-    } else if (p_.framing == AbsoluteEncoder::kSsi) {
-      word = (position << 4 | (ill ? 2U : 0U)) << 6;
-      word |= crc6(word, p_.frame_bits());
-    } else {
-      word = (position << 2 | (ill ? 1U : 3U)) << 6;
-      word |= crc6(word, p_.bits + 8) ^ 0x3f;
+      said = command == p_.diag_address ? (ill ? 0x900U : 0x180U) : position;
     }
+    const std::uint64_t word = closed(p_, said);
     return wrong && event == Event::wrong_bit ? word ^ 0x10 : word;
   }
 
@@ -330,13 +332,12 @@ class Detection {
     bool was_high = biss;
     int edges = 0, command = 0, answers = -1;
     std::uint64_t sent = 0;
-    wrong_from_ = reading;
     for (std::int64_t clock = 0; clock < (reading + 40) * every_; ++clock) {
       const auto now = static_cast<int>(clock / every_);
       const bool wrong = now > reading;
       in.sample = clock % every_ == 0;
       if (in.sample) {
-        sent = word(now, answers, wrong, event);
+        sent = word(now, reading, answers, event);
         edges = command = 0;
       }
       const bool high = twin.out().serial_clock;
@@ -360,7 +361,6 @@ class Detection {
   AbsoluteEncoder::Parameters p_{};
   std::int64_t every_;
   bool moves_;
-  mutable int wrong_from_ = 0;
 };
 
 }  // namespace feltgate::test

@@ -174,7 +174,11 @@ module absolute_encoder #(
   assign angle = frame_q[Below+:Bits];
   generate
   if (Spi) begin : g_spi
+    // Commands: even parity, read, address.
+    localparam logic [15:0] ReadAngle = {1'b1, 1'b1, 14'h3fff};
+    localparam logic [15:0] ReadFlags = {1'b0, 1'b1, 14'h0001};
     localparam logic [13:0] DiagRegister = 14'(DiagAddress);
+    localparam logic [15:0] ReadDiagnosis = {~^DiagRegister, 1'b1, DiagRegister};
     logic [15:0] command_q;
     logic [DiagLog2-1:0] readings_q;
     logic flagged_q;            // the last frame had the error flag
@@ -203,7 +207,7 @@ module absolute_encoder #(
           else if (!unwell) ill_q <= ill_q + 1'b1;
         end
         if (state_q == Idle && sample_i) begin
-          command_q  <= flagged_q ? 16'h4001 : diagnose ? {~^DiagRegister, 1'b1, DiagRegister} : 16'hffff;
+          command_q  <= flagged_q ? ReadFlags : diagnose ? ReadDiagnosis : ReadAngle;
           readings_q <= readings_q + 1'b1;
           answer_q   <= asked_q;
           asked_q    <= flagged_q ? Flags : diagnose ? Diagnosis : Angle;

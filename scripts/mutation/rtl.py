@@ -61,7 +61,7 @@ class Test:
 def tests(build):
     """All that the build folder has been configured with."""
     found = []
-    for path in sorted(build.glob("testbench/*/*/*_mutants.netlist/test.json")):
+    for path in sorted(build.glob("testbench/**/*_mutants.netlist/test.json")):
         entry = json.loads(path.read_text(encoding="utf-8"))
         program = path.parent.parent / f"{entry['test']}_mutants"
         found.append(Test(entry["test"], entry["block"], path.parent, program))

@@ -24,7 +24,7 @@ struct Stretch {
 };
 
 inline bool same(const CoreIn& a, const CoreIn& b) {
-  return a.encoder == b.encoder && a.current_data == b.current_data && a.arm == b.arm &&
+  return a.encoder == b.encoder && a.encoder_data == b.encoder_data && a.current_data == b.current_data && a.arm == b.arm &&
          a.stop == b.stop && a.set_zero == b.set_zero && a.scene == b.scene &&
          a.reg_addr == b.reg_addr && a.reg_wdata == b.reg_wdata && a.reg_write == b.reg_write &&
          a.law_torque == b.law_torque && a.law_late == b.law_late &&

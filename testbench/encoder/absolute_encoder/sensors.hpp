@@ -15,6 +15,7 @@
 
 #include "feltgate/absolute_encoder.hpp"
 #include "random.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 
 #ifndef FELTGATE_ENCODER
 #define FELTGATE_ENCODER 0
@@ -25,22 +26,6 @@ namespace feltgate::test {
 inline constexpr AbsoluteEncoder::Parameters kEncoder{FELTGATE_ENCODER};
 inline constexpr std::int64_t kTurn = std::int64_t{1} << kEncoder.bits;
 inline constexpr int kFrameBits = kEncoder.frame_bits();
-
-/// The CRC of the bits above the lowest six: x^k modulo x^6 + x + 1 for each bit that is 1.
-inline std::uint64_t crc6(std::uint64_t word, int length) {
-  std::uint64_t crc = 0, power = 3;  // x^6
-  for (int k = 6; k < length; ++k) {
-    if ((word >> k & 1) != 0) crc ^= power;
-    power = (power & 0x20) != 0 ? (power << 1 ^ 0x43) & 0x3f : power << 1;
-  }
-  return crc;
-}
-
-inline bool odd(std::uint64_t word) {
-  bool result = false;
-  for (; word != 0; word >>= 1) result ^= (word & 1) != 0;
-  return result;
-}
 
 /// A reading as a sensor has it. `command` is the one that an SPI frame answers.
 struct Frame {
@@ -96,13 +81,6 @@ struct Magnet {
     return (count % kTurn + kTurn) % kTurn;
   }
 };
-
-/// A frame: what a sensor says, closed by its parity or CRC.
-inline std::uint64_t closed(const AbsoluteEncoder::Parameters& p, std::uint64_t said) {
-  if (p.framing == AbsoluteEncoder::kSpi) return odd(said) ? said | 0x8000 : said;
-  const bool biss = p.framing == AbsoluteEncoder::kBiss;
-  return said << 6 | (crc6(said << 6, p.bits + (biss ? 8 : 10)) ^ (biss ? 0x3fU : 0U));
-}
 
 /// A frame of the framing in use, with parity or CRC and, by `random`, with errors.
 inline std::uint64_t frame_of(std::int64_t angle, int command, bool flag, Random& random) {

@@ -66,6 +66,14 @@ int Design::absolute_period_ticks() const {
   return whole(absolute_period_s * static_cast<double>(tick_hz));
 }
 
+int Design::absolute_delay_ticks() const {
+  constexpr int to_position = 2;  // clocks
+  const AbsoluteEncoder::Parameters p = absolute_parameters();
+  // BiSS-C: of a sensor that begins two serial clocks after its acknowledge.
+  const int wait = p.framing == AbsoluteEncoder::kBiss ? 10 * p.half_clocks : 0;
+  return (p.reading_clocks() + wait + to_position + clocks_per_tick() - 1) / clocks_per_tick();
+}
+
 void check_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p = d.absolute_parameters();
   if (d.engine || d.axes > 1) {

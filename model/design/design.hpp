@@ -98,6 +98,7 @@ struct Design {
   int mt_window_clocks() const;
   AbsoluteEncoder::Parameters absolute_parameters() const;
   int absolute_period_ticks() const;  ///< from reading to reading
+  int absolute_delay_ticks() const;   ///< from the angle to the tick whose wave has it
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;

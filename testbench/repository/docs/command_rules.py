@@ -142,7 +142,8 @@ PLACEHOLDERS = {
 BUILT_ON_DEMAND = {"stability mine": "lever"}
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
-    for name in ("fast", "balanced", "exact", "first_power", "lever_current", "lever_law", "mine")
+    for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
+                 "lever_law", "mine")
 }
 
 

@@ -75,9 +75,7 @@ int period_ticks(const LoopModel& m, const Wall& wall) {
   return std::lcm(std::lcm(m.pwm_ticks, wall.scene_ticks), m.reading_ticks);
 }
 
-Eigen::Index size_of(const LoopModel& m) {
-  return before_chain(m) + AxisChain::scalars + m.m1;
-}
+Eigen::Index size_of(const LoopModel& m) { return before_chain(m) + AxisChain::scalars + m.m1; }
 
 double back_emf_of(const plant::Parameters& p) {
   return p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;

@@ -234,12 +234,20 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   refused("period_s = 96e-6", "period_s = 3e-6", "readings of 208 clocks cannot follow");
   refused("period_s = 96e-6", "period_s = 128e-6", "takes 18 readings, more than 2 ms");
   refused("m1 = 384", "m1 = 400", "400 ticks are no whole number of readings, one in 96");
-  refused("overspeed_rad_s = 613.6", "overspeed_rad_s = 90_000.0", "an eighth of a turn");
   refused("torque_nm = 0.05 ", "torque_nm = 0.2 ", "a reading moves by more than a count");
   refused("[absolute_encoder]", "lines = 1024\n[absolute_encoder]", "\"lines\"");
   refused("[absolute_encoder]", "[axes]\ncount = 2\n[absolute_encoder]",
           "has no pins for its lines");
-  refused("m1 = 384", "estimator = \"mt\"\nwindow_s = 1e-3\ncycles = 1\n# m1", "which an absolute");
+  const auto refused_alone = [&](const std::string& text, const char* message) {
+    const Design d = design_from_text(text, "changed.toml");
+    CHECK_THROWS_WITH(check_absolute_encoder(d), Catch::Contains(message));
+  };
+  refused_alone(replaced(replaced(good, "m1 = 384", "estimator = \"mt\""), "n = 0 ", "# n = 0"),
+                "M/T needs the clocks of edges");
+  std::string fine = replaced(replaced(good, "\"spi\"", "\"biss\""), "bits = 14", "bits = 21");
+  fine = replaced(fine, "torque_nm = 0.05 ", "torque_nm = 2e-3 ");
+  refused_alone(replaced(fine, "diagnosis", "# diagnosis"),
+                "the velocity's window by 32767 counts");
 }
 
 TEST_CASE("an engine and several axes", "[reader]") {

@@ -84,9 +84,6 @@ module feltgate_core #(
     output logic        [                           5:0] word_slot_o,
     output logic        [                          31:0] word_data_o
 );
-  localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
-  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   feltgate_checks u_checks ();
 
   // wave: time, words and products for all rooms
@@ -95,7 +92,7 @@ module feltgate_core #(
   logic [31:0] param;
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [feltgate_map_pkg::W_CONTROL_MODE-1:0] mode;
-  logic signed [ProductW-1:0] velocity_product, dob_product, scene_product, control_product, supervisor_product;
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product, control_product, supervisor_product;
   // encoder, estimators, scenes
   logic signed [31:0] index_position;
   logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position;
@@ -108,15 +105,15 @@ module feltgate_core #(
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early, pulse;
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   // actuation, safety
-  logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated, ready;
+  logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
   logic [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state;
   logic [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   // Each room's faults and limits, by bit
-  logic [FaultsW-1:0] encoder_trips, estimator_trips, actuation_trips, wave_trips;
-  logic [LimitsW-1:0] encoder_limits, estimator_limits, actuation_limits, safety_limits;
+  logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] encoder_trips, estimator_trips, actuation_trips, wave_trips;
+  logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] encoder_limits, estimator_limits, actuation_limits, safety_limits;
 
   assign mode   = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign paused = testing_o || axis_testing_i;
@@ -170,11 +167,8 @@ module feltgate_core #(
       .period_start_i(period_start), .host_i(control[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
       .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear),
-      // A request waits for a current loop's first offset and an absolute encoder's first reading, the top bits; the others refuse it.
-      .axis_fault_i(axis_fault_i),
-      .axis_silent_i(axis_silent_i || current_state[feltgate_map_pkg::W_FAULTS_CURRENT-1] || absolute_state[feltgate_map_pkg::W_FAULTS_ABSOLUTE-1]),
-      .axis_blocked_i(axis_blocked_i || current_state != '0 || absolute_state != '0),
-      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready),
+      .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
+      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state), .absolute_state_i(absolute_state),
       .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
       .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),
       .over_limit_i(over_limit), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
@@ -195,18 +189,15 @@ module feltgate_core #(
       .trips_o(wave_trips), .locked_i(armed_o || arms), .region_high_i(region_high), .derated_i(derated),
       .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked), .test_result_i(test_result),
       .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .current_state_i(current_state), .absolute_state_i(absolute_state), .encoder_error_i(encoder_error),
-      .error_count_i(error_count), .rejected_count_i(rejected_count),
-      .position_i(position_o), .index_position_i(index_position),
+      .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o), .index_position_i(index_position),
       .word_valid_o(word_valid_o), .word_slot_o(word_slot_o), .word_data_o(word_data_o),
       .velocity_difference_i(velocity_difference), .observer_difference_i(observer_difference),
       .distance_i(distance), .square_i(square), .applied_i(applied), .velocity_i(velocity_o),
-      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .current_ref_i(current_ref_o), .voltage_i(voltage_o),
-      .current_estimate_i(current_estimate),
+      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .current_ref_i(current_ref_o), .voltage_i(voltage_o), .current_estimate_i(current_estimate),
       .velocity_product_o(velocity_product), .dob_product_o(dob_product), .scene_product_o(scene_product),
       .control_product_o(control_product), .supervisor_product_o(supervisor_product)
   );
 
-  assign ready_o          = ready && current_state == '0 && absolute_state == '0;
   assign zeroed_o         = set_zero;
   assign measured_o       = wave[feltgate_map_pkg::EVENT_AT_TAU_HAT+1];
   assign snapshot_valid_o = wave[feltgate_map_pkg::EVENT_AT_SNAPSHOT];

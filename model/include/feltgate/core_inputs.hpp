@@ -28,6 +28,11 @@ bool FeltgateCore<D, ReadBack>::arm_request(const In& in) const {
   return sup.arm_request();
 }
 
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::ready() const {
+  return supervisor_.ready(host()) && loop_.state() == 0 && absolute_state(decoder_) == 0;
+}
+
 /// The scene that is asked for: by the control word if the host has control, else by the panel.
 template <class D, bool ReadBack>
 std::uint8_t FeltgateCore<D, ReadBack>::wanted_scene(const In& in) const {

@@ -152,9 +152,7 @@ class FeltgateCore {
   bool measured() const { return clock_ == after(T::tau_hat); }
   /// Whether the position becomes 0 in the next clock.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
-  bool ready() const {
-    return supervisor_.ready(host()) && loop_.state() == 0 && absolute_state(decoder_) == 0;
-  }
+  bool ready() const;
   /// Whether no write or command waits for the end of the tick.
   bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.

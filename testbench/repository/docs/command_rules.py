@@ -139,7 +139,7 @@ PLACEHOLDERS = {
     "point FILE": "my_design.toml",
 }
 # Engines that the launcher builds when a line names them; here they are not there.
-BUILT_ON_DEMAND = {"stability mine": "lever"}
+BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "mine")}
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
     for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",

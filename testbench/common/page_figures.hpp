@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Figures of a block's page that a test measures: the page has them, or FELTGATE_WRITE_FIGURES=1
-// writes them there, between two marks that name the test. Documentation: docs/testing.md
+// writes them there, between two marks; the first names the test, by default as the block.
+// Documentation: docs/testing.md
 #pragma once
 
 #include <cstdlib>
@@ -14,12 +15,11 @@
 
 namespace feltgate::test {
 
-/// `block`: whose page it is, where the test has another name.
-inline void check_page_figures(const std::string& test, const std::string& figures,
-                               const std::string& block = "") {
-  const std::string path =
-      FELTGATE_SOURCE_DIR "/docs/blocks/" + (block.empty() ? test : block) + ".md";
-  const std::string first = "<!-- figures: written by the test " + test + " -->\n";
+inline void check_page_figures(const std::string& block, const std::string& figures,
+                               const std::string& test = "") {
+  const std::string path = FELTGATE_SOURCE_DIR "/docs/blocks/" + block + ".md";
+  const std::string first =
+      "<!-- figures: written by the test " + (test.empty() ? block : test) + " -->\n";
   std::stringstream read;
   read << std::ifstream(path).rdbuf();
   std::string page = read.str();

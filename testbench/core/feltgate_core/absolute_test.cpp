@@ -205,7 +205,7 @@ TEST_CASE("absolute: how long until the gates close, the longest of all moments"
     table +=
         fmt::format("| `{}` | {:.2f} |\n", name, 1e3 * static_cast<double>(longest) * kClock_s);
   }
-  check_page_figures("feltgate_core_absolute", table, "absolute_encoder");
+  check_page_figures("absolute_encoder", table, "feltgate_core_absolute");
 }
 
 TEST_CASE(

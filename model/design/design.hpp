@@ -68,6 +68,7 @@ struct Design {
   bool current_loop = false;
   double current_full_scale_a = 0;  ///< at which the modulator clips; a power of two
   double current_bandwidth_hz = 0, inductance_h = 0, overcurrent_a = 0;
+  bool driver_fault = false, heartbeat = false;  ///< pins of the core
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
   std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 

@@ -122,7 +122,7 @@ module feltgate_axes #(
   logic [AxisCount*TorqueW-1:0] law_torque;
   logic [AxisCount-1:0] in_law;
   logic law_late, law_restart, unchecked, unfit;
-  logic [AxisCount-1:0] current_clock;    // no axis has a current loop
+  logic [AxisCount-1:0] current_clock, heartbeat;  // no axis has a current loop
   logic [19*AxisCount-1:0] current;
 
   generate
@@ -140,6 +140,7 @@ module feltgate_axes #(
         .gate_a_hi_o(gate_a_hi_o[n]), .gate_a_lo_o(gate_a_lo_o[n]),
         .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
         .current_data_i(1'b0), .current_clock_o(current_clock[n]), .current_o(current[19*n+:19]),
+        .driver_fault_i(1'b0), .heartbeat_o(heartbeat[n]),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
         .law_torque_i(law_torque[n*TorqueW+:TorqueW]),
         .law_late_i(law_late), .law_restart_i(law_restart),
@@ -211,7 +212,7 @@ module feltgate_axes #(
 
   logic unused;
   always_comb begin
-    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, current};
+    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, heartbeat, current};
     for (int k = 0; k < AxisCount; k++) unused = unused ^ (^{word_slot[k], tick_count[k]});
   end
 endmodule

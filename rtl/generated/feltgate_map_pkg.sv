@@ -307,7 +307,7 @@ package feltgate_map_pkg;
   localparam int B_FAULTS_FIRST = 16;
   localparam int W_FAULTS_FIRST = 5;
   localparam int B_FAULTS_CURRENT = 21;
-  localparam int W_FAULTS_CURRENT = 5;
+  localparam int W_FAULTS_CURRENT = 6;
 
   // Bits of the limits.
   localparam int L_TORQUE = 0;  // torque reference at its limit
@@ -337,7 +337,7 @@ package feltgate_map_pkg;
   localparam int FAULT_JUMP = 12;  // the velocity moved by more than its filter can
   localparam int FAULT_ENGINE = 13;  // the engine is late: no fresh torque within its time, in the scene law
   localparam int FAULT_AXIS = 14;  // another axis has a fault
-  localparam int FAULT_CURRENT = 15;  // of a current loop: over-current, or the sensor fails; faults.current says which
+  localparam int FAULT_CURRENT = 15;  // of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current says which
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 

@@ -86,8 +86,10 @@ template <class D, bool ReadBack>
 auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
   typename CurrentLoop<D>::In l;
   l.data = in.current_data;
+  l.driver_fault = in.driver_fault;
   l.gates_enable = supervisor_.out().gates_enable;
   l.direct = mode() == Mode::voltage;
+  l.polarity = bit(registers_.out().control, D::C::control_motor_polarity);
   l.clear = clear;
   l.wave_clock = clock_ - Map::first_wave_clock;
   if (l.wave_clock == T::voltage) {

@@ -11,6 +11,7 @@
 #include "feltgate/chain_tick.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
+#include "feltgate/current_loop.hpp"
 
 namespace feltgate {
 
@@ -45,6 +46,9 @@ class CoreWave {
 
   /// Sets the torque that a program asks for, raw.
   void program(std::int32_t torque) { chain_.program(Fixed::from_raw<D::f.torque.key()>(torque)); }
+
+  /// The measured current of this tick, [1,1,17] of full scale; before Step::tau_hat.
+  void measure(std::int32_t current) { chain_.measure(motor_current<D>(current)); }
 
   /// Lets the torque ramp in the next wave; call it between two waves.
   void restart() { chain_.restart(); }

@@ -23,14 +23,15 @@ namespace feltgate {
       apply(current_ref) apply(voltage) apply(duty) apply(duty_active) apply(gates) apply(scene) \
           apply(limits) apply(faults) apply(first_fault) apply(armed) apply(gates_enable)        \
               apply(snapshot_valid) apply(reg_busy) apply(reg_rdata) apply(word_valid)           \
-                  apply(word_slot) apply(word_data) apply(current) apply(current_clock)
+                  apply(word_slot) apply(word_data) apply(current) apply(current_clock)          \
+                      apply(heartbeat)
 
 /// Does not compile if CoreOut gained or lost an output that the list above lacks or has.
 inline void count_outputs(const CoreOut& out) {
   [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w,
-                                x] = out;
+                                x, y] = out;
 #define FELTGATE_ONE(name) +1
-  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 24, "an output is not in the list above");
+  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 25, "an output is not in the list above");
 #undef FELTGATE_ONE
 }
 

@@ -62,6 +62,7 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
     rtl.reg_read_i = 0;
   } else {
     rtl.current_data_i = in.current_data;
+    rtl.driver_fault_i = in.driver_fault;
     rtl.axis_fault_i = in.axis_fault;
     rtl.axis_silent_i = in.axis_silent;
     rtl.axis_blocked_i = in.axis_blocked;
@@ -101,6 +102,7 @@ CoreOut read_outputs(const Rtl& rtl) {
   if constexpr (has_current<Rtl>) {
     o.current = detail::narrow_word(rtl.current_o, 19);
     o.current_clock = rtl.current_clock_o != 0;
+    o.heartbeat = rtl.heartbeat_o != 0;
   }
   return o;
 }

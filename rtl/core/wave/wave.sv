@@ -64,7 +64,7 @@ module wave #(
     input  logic signed [      feltgate_pkg::VELOCITY_W-1:0] velocity_i,
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_hat_i,
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
-    input  logic signed [       feltgate_pkg::CURRENT_W-1:0] current_ref_i,
+    input  logic signed [       feltgate_pkg::CURRENT_W-1:0] motor_current_i,
     input  logic signed [       feltgate_pkg::VOLTAGE_W-1:0] voltage_i,
     input  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_i,
     output logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,
@@ -74,12 +74,14 @@ module wave #(
     output logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product_o
 );
   localparam int OperandW = feltgate_pkg::MULTIPLIER_A_BITS;
+  localparam int EstimateW = feltgate_pkg::CURRENT_ESTIMATE_W;
+  localparam int HeatDrop = (feltgate_pkg::CURRENT_LOOP == 0) ? 0 : feltgate_pkg::CURRENT_F - feltgate_pkg::CURRENT_ESTIMATE_F;
   logic [3:0] scene_wanted;
   logic [5:0] slot_fetch;
   logic scene_slot_fetch, refused, word_error, signed_word, square_distance_q, square_estimate, direct_q;
   logic [31:0] status, faults;
   logic signed [OperandW-1:0] operand, dob_operand, scene_operand, control_operand, supervisor_operand;
-  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_operand;
+  logic signed [EstimateW-1:0] heat_current, estimate_operand;
 
   sequencer u_sequencer (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -152,6 +154,10 @@ module wave #(
       .valid_o(word_valid_o), .slot_o(word_slot_o), .data_o(word_data_o)
   );
 
+  // I2t takes a measured current, if there is one.
+  assign heat_current = (feltgate_pkg::CURRENT_LOOP == 0)
+                        ? current_estimate_i
+                        : EstimateW'(motor_current_i >>> HeatDrop);
   operand_bus u_operand_bus (
       .clk_i(clk_i),
       .param_next_inverse_resistance_i(wave_o[feltgate_map_pkg::PARAM_AT_INVERSE_RESISTANCE-1]),
@@ -171,8 +177,8 @@ module wave #(
       .limited_i(applied_i),
       .velocity_i(velocity_i),
       .tau_hat_i(tau_hat_i), .tau_ref_i(tau_ref_i),
-      .current_ref_i(current_ref_i), .voltage_i(voltage_i),
-      .current_estimate_i(current_estimate_i),
+      .current_ref_i(motor_current_i), .voltage_i(voltage_i),
+      .current_estimate_i(heat_current),
       .operand_o(operand),
       .dob_o(dob_operand), .scene_o(scene_operand),
       .control_o(control_operand), .supervisor_o(supervisor_operand),

@@ -44,6 +44,8 @@ package feltgate_pkg;
   localparam int CURRENT_STROBE = 0;  // clock of the PWM period in which a window begins
   localparam int FEED_GAIN = 0;  // mantissa: parts of the supply per LSB of the voltage
   localparam int FEED_DROP = 0;  // its fraction bits
+  localparam int DRIVER_FAULT = 0;  // 1: the driver tells of its faults
+  localparam int HEARTBEAT = 0;  // 1: a pin beats for a watchdog outside
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h75ef1290;  // by which a host knows the design
 

@@ -18,7 +18,7 @@
 namespace feltgate::test {
 
 /// The modulator at a winding that the duty in force drives; at times its line stands, it has an
-/// offset, or the winding is shorted.
+/// offset, or the winding is shorted; or the driver has a fault.
 class CurrentStimulus {
  public:
   bool bit(const CoreOut& out) {
@@ -35,6 +35,7 @@ class CurrentStimulus {
     if (rises) bit_ = modulator_.next(current_a_ + (trouble_ == 1 ? 40 : 0));
     return trouble_ == 2 || bit_;
   }
+  bool driver_fault() const { return trouble_ == 4 && left_ < 200; }
 
  private:
   Random random_{77};
@@ -69,7 +70,10 @@ class CoreStimulus {
       if (outside_.one_in(400)) in_.axis_waits = !in_.axis_waits;
     }
     first_ = last;
-    if constexpr (D::current_loop != 0) in_.current_data = current_.bit(out);
+    if constexpr (D::current_loop != 0) {
+      in_.current_data = current_.bit(out);
+      in_.driver_fault = current_.driver_fault();
+    }
     return (*this)(clock);
   }
 

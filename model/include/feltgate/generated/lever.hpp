@@ -58,6 +58,8 @@ struct Lever {
   static constexpr int current_strobe = 0;  // clock of the PWM period in which a window begins
   static constexpr int feed_gain = 0;  // mantissa: parts of the supply per LSB of the voltage
   static constexpr int feed_drop = 0;  // its fraction bits
+  static constexpr int driver_fault = 0;  // 1: the driver tells of its faults
+  static constexpr int heartbeat = 0;  // 1: a pin beats for a watchdog outside
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x2cf34048;  // by which a host knows the design
 

@@ -58,8 +58,10 @@ struct LeverCurrent {
   static constexpr int current_strobe = 135;  // clock of the PWM period in which a window begins
   static constexpr int feed_gain = 341;  // mantissa: parts of the supply per LSB of the voltage
   static constexpr int feed_drop = 10;  // its fraction bits
+  static constexpr int driver_fault = 1;  // 1: the driver tells of its faults
+  static constexpr int heartbeat = 1;  // 1: a pin beats for a watchdog outside
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xa9dea84a;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x689945cb;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {

@@ -691,7 +691,7 @@ struct Map {
     static constexpr int faults_first = 16;
     static constexpr int faults_first_width = 5;
     static constexpr int faults_current = 21;
-    static constexpr int faults_current_width = 5;
+    static constexpr int faults_current_width = 6;
     static constexpr int read_encoder = 782;
     static constexpr int read_index = 779;
     static constexpr int read_velocity = 777;

@@ -187,7 +187,7 @@ TEST_CASE("loop: I2t is of the measured current") {
   const double cooled_a2 =
       std::ldexp(word_of_design(A::nominal_current_squared), -D::f.i2t.fraction) *
       static_cast<double>(seen.off) / kTick;
-  CHECK(std::abs(seen.squares_a2 / cooled_a2 - 1) < 0.01);
+  CHECK(std::abs(seen.squares_a2 / cooled_a2 - 1) < 0.02);  // in the rise a period late
 }
 
 TEST_CASE("loop: a fault of the driver closes the gates, and is kept; the heart beats until then") {

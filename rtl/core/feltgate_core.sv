@@ -82,9 +82,6 @@ module feltgate_core #(
     output logic        [                           5:0] word_slot_o,
     output logic        [                          31:0] word_data_o
 );
-  localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
-  localparam int ProductW = feltgate_pkg::PRODUCT_BITS;
   feltgate_checks u_checks ();
 
   // wave: time, words and products for all rooms
@@ -93,7 +90,7 @@ module feltgate_core #(
   logic [31:0] param;
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
   logic [feltgate_map_pkg::W_CONTROL_MODE-1:0] mode;
-  logic signed [ProductW-1:0] velocity_product, dob_product, scene_product, control_product, supervisor_product;
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product, control_product, supervisor_product;
   // encoder, estimators, scenes
   logic signed [31:0] index_position;
   logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position;
@@ -106,15 +103,15 @@ module feltgate_core #(
   logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early, pulse;
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   // actuation, safety
-  logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated, ready;
+  logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
   logic [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
-  logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;
+  logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;  // measured, if there is a current loop
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   // Each room's faults and limits, by bit
-  logic [FaultsW-1:0] encoder_trips, estimator_trips, actuation_trips, wave_trips;
-  logic [LimitsW-1:0] encoder_limits, estimator_limits, actuation_limits, safety_limits;
+  logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] encoder_trips, estimator_trips, actuation_trips, wave_trips;
+  logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] encoder_limits, estimator_limits, actuation_limits, safety_limits;
 
   assign mode   = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign paused = testing_o || axis_testing_i;
@@ -147,18 +144,15 @@ module feltgate_core #(
   actuation u_actuation (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .armed_i(armed_o), .paused_i(paused),
       .mode_i(mode), .scene_i(scene_o), .restart_i(restart || (tick && law && law_restart_i)),
-      .frozen_i(chatters), .derated_i(derated),
-      .early_term_i(scene_early | pulse),  // during the self-test the scene gives 0
+      .frozen_i(chatters), .derated_i(derated), .early_term_i(scene_early | pulse),  // during the self-test the scene gives 0
       .early_up_i(scene_up), .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
       .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high),
       .tau_ref_o(tau_ref_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
-      .limits_o(actuation_limits),
+      .limits_o(actuation_limits), .trips_o(actuation_trips), .clear_i(clear),
       .current_data_i(current_data_i), .driver_fault_i(driver_fault_i), .current_clock_o(current_clock_o),
-      .current_o(current_o), .motor_current_o(motor_current),
-      .current_state_o(current_state), .trips_o(actuation_trips), .clear_i(clear),
+      .current_o(current_o), .motor_current_o(motor_current), .current_state_o(current_state),
       .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
-      .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
-      .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
+      .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .period_start_o(period_start), .duty_active_o(duty_active_o)
   );
@@ -168,16 +162,12 @@ module feltgate_core #(
       .period_start_i(period_start), .host_i(control[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
       .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear),
-      // A request waits for the first offset of a current loop, its top bit; the others refuse it.
-      .axis_fault_i(axis_fault_i),
-      .axis_silent_i(axis_silent_i || current_state[feltgate_map_pkg::W_FAULTS_CURRENT-1]),
-      .axis_blocked_i(axis_blocked_i || current_state != '0),
-      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready),
+      .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
+      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state),
       .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
       .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),
       .over_limit_i(over_limit), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
-      .law_i(law), .law_late_i(law_late_i),
-      .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked),
+      .law_i(law), .law_late_i(law_late_i), .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked),
       .gates_enable_o(gates_enable_o), .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o),
       .limits_o(safety_limits), .current_estimate_o(current_estimate), .derated_o(derated),
       .heartbeat_o(heartbeat_o), .testing_o(testing_o), .pulse_o(pulse), .test_result_o(test_result)
@@ -193,18 +183,15 @@ module feltgate_core #(
       .trips_o(wave_trips), .locked_i(armed_o || arms), .region_high_i(region_high), .derated_i(derated),
       .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked), .test_result_i(test_result),
       .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .current_state_i(current_state), .encoder_error_i(encoder_error),
-      .error_count_i(error_count), .rejected_count_i(rejected_count),
-      .position_i(position_o), .index_position_i(index_position),
+      .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o), .index_position_i(index_position),
       .word_valid_o(word_valid_o), .word_slot_o(word_slot_o), .word_data_o(word_data_o),
       .velocity_difference_i(velocity_difference), .observer_difference_i(observer_difference),
       .distance_i(distance), .square_i(square), .applied_i(applied), .velocity_i(velocity_o),
-      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .motor_current_i(motor_current), .voltage_i(voltage_o),
-      .current_estimate_i(current_estimate),
+      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .motor_current_i(motor_current), .voltage_i(voltage_o), .current_estimate_i(current_estimate),
       .velocity_product_o(velocity_product), .dob_product_o(dob_product), .scene_product_o(scene_product),
       .control_product_o(control_product), .supervisor_product_o(supervisor_product)
   );
 
-  assign ready_o          = ready && current_state == '0;
   assign zeroed_o         = set_zero;
   assign measured_o       = wave[feltgate_map_pkg::EVENT_AT_TAU_HAT+1];
   assign snapshot_valid_o = wave[feltgate_map_pkg::EVENT_AT_SNAPSHOT];

@@ -31,7 +31,8 @@ module safety (
     input  logic                                              axis_blocked_i,
     input  logic                                              axis_waits_i,
     output logic                                              arm_request_o,
-    output logic                                              ready_o,
+    output logic                                              ready_o,         // may be armed
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_i,  // of the current loop, 0: ready
     // What is watched
     input  logic        [ feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,        // causes of other rooms, by bit
     input  logic                                              illegal_i,       // encoder: both channels changed
@@ -61,7 +62,7 @@ module safety (
     output logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0]   test_result_o
 );
   localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  logic self_test_trip;
+  logic self_test_trip, ready;
 
   hold_timer u_hold_timer (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -92,8 +93,10 @@ module safety (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick_i), .period_start_i(period_start_i),
       .host_i(host_i), .host_arm_i(host_arm_i), .arm_i(arm_i), .disarm_i(disarm_i),
-      .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready_o),
-      .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
+      .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready),
+      // A request waits for the first offset of a current loop, its top bit; the others refuse it.
+      .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1]),
+      .axis_blocked_i(axis_blocked_i || current_state_i != '0),
       .stop_i(stop_i),
       .clear_faults_i(clear_faults_i), .clear_o(clear_o), .kick_i(kick_i),
       .encoder_error_i(illegal_i),
@@ -139,6 +142,7 @@ module safety (
   end
   endgenerate
 
+  assign ready_o  = ready && current_state_i == '0;
   assign limits_o = feltgate_map_pkg::W_STATUS_LIMITS'(!gates_enable_o) << feltgate_map_pkg::L_GATES_CLOSED;
 
   logic unused;

@@ -122,16 +122,14 @@ module feltgate_core #(
       .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]), .set_zero_i(set_zero), .clear_i(clear),
       .position_o(position_o), .scene_position_o(scene_position), .travel_o(travel),
-      .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
-      .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
+      .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error), .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
       .limits_o(encoder_limits), .trips_o(encoder_trips)
   );
 
   estimators u_estimators (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .armed_i(armed_o), .travel_i(travel),
       .velocity_difference_o(velocity_difference), .velocity_product_i(velocity_product),
-      .observer_difference_o(observer_difference), .dob_product_i(dob_product),
-      .velocity_o(velocity_o), .tau_hat_o(tau_hat_o), .limits_o(estimator_limits), .trips_o(estimator_trips)
+      .observer_difference_o(observer_difference), .dob_product_i(dob_product), .velocity_o(velocity_o), .tau_hat_o(tau_hat_o), .limits_o(estimator_limits), .trips_o(estimator_trips)
   );
 
   scenes u_scenes (
@@ -148,11 +146,12 @@ module feltgate_core #(
       .early_up_i(scene_up), .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
       .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high),
       .tau_ref_o(tau_ref_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
-      .limits_o(actuation_limits), .trips_o(actuation_trips), .clear_i(clear),
-      .current_data_i(current_data_i), .driver_fault_i(driver_fault_i), .current_clock_o(current_clock_o),
-      .current_o(current_o), .motor_current_o(motor_current), .current_state_o(current_state),
+      .limits_o(actuation_limits), .current_data_i(current_data_i), .current_clock_o(current_clock_o),
+      .current_o(current_o), .motor_current_o(motor_current), .driver_fault_i(driver_fault_i),
+      .current_state_o(current_state), .trips_o(actuation_trips), .clear_i(clear),
       .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
-      .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
+      .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
+      .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .period_start_o(period_start), .duty_active_o(duty_active_o)
   );
@@ -167,7 +166,8 @@ module feltgate_core #(
       .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
       .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),
       .over_limit_i(over_limit), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
-      .law_i(law), .law_late_i(law_late_i), .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked),
+      .law_i(law), .law_late_i(law_late_i),
+      .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked),
       .gates_enable_o(gates_enable_o), .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o),
       .limits_o(safety_limits), .current_estimate_o(current_estimate), .derated_o(derated),
       .heartbeat_o(heartbeat_o), .testing_o(testing_o), .pulse_o(pulse), .test_result_o(test_result)

@@ -22,8 +22,8 @@ class ControlChain : public ChainTick<D, N> {
   }
 
   void tick(const ChainIn& in) {
-    if (in.restart) this->restart();
     if constexpr (D::current_loop != 0) this->measure(motor_current<D>(in.current));
+    if (in.restart) this->restart();
     ChainTick<D, N>::tick(in.position, in.travel, in.armed, in.scene, static_cast<Mode>(in.mode),
                           in.relief);
   }

@@ -291,6 +291,10 @@ TEST_CASE("stability: figures of the core with a current loop") {
   const design::Elaborated lever = elaborate(design::read_design(kRoot + "/rtl/designs/lever.toml"),
                                              design::read_registers(kRoot + "/rtl/registers.toml"));
   const stability::LoopModel model = stability::make_model(lever, linear);
+  const design::Elaborated with =
+      elaborate(design::read_design(kRoot + "/rtl/designs/lever_current.toml"),
+                design::read_registers(kRoot + "/rtl/registers.toml"));
+  CHECK_THROWS_AS(stability::make_model(with, linear), std::invalid_argument);
   const double rad_s = 20 * plant::kTwoPi / 2;  // 10 Hz
   const double free_nm_rad =
       rad_s * std::hypot(rad_s * linear.lever.inertia_kg_m2, linear.lever.viscous_nm_s_rad);

@@ -90,6 +90,8 @@ auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
   l.gates_enable = supervisor_.out().gates_enable;
   l.direct = mode() == Mode::voltage;
   l.polarity = bit(registers_.out().control, D::C::control_motor_polarity);
+  l.beats = clock_ == D::clocks_per_tick - 1 && supervisor_.out().first_fault == 0;
+  l.tick_count = out_.tick_count;
   l.clear = clear;
   l.wave_clock = clock_ - Map::first_wave_clock;
   if (l.wave_clock == T::voltage) {

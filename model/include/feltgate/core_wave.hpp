@@ -47,9 +47,6 @@ class CoreWave {
   /// Sets the torque that a program asks for, raw.
   void program(std::int32_t torque) { chain_.program(Fixed::from_raw<D::f.torque.key()>(torque)); }
 
-  /// The measured current of this tick, [1,1,17] of full scale; before Step::tau_hat.
-  void measure(std::int32_t current) { chain_.measure(motor_current<D>(current)); }
-
   /// Lets the torque ramp in the next wave; call it between two waves.
   void restart() { chain_.restart(); }
 
@@ -76,6 +73,7 @@ class CoreWave {
         out.velocity = chain_.velocity().raw();
         break;
       case Step::tau_hat:
+        if constexpr (D::current_loop != 0) chain_.measure(motor_current<D>(out.current));
         chain_.observe(out.armed);
         out.tau_hat = static_cast<std::int32_t>(chain_.tau_hat().raw());
         set(Map::L::tau_hat, chain_.limit_tau_hat());

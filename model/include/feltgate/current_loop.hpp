@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "feltgate/core_ports.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"
 #include "feltgate/generated/map.hpp"
@@ -40,6 +41,8 @@ class CurrentLoop<D, true> {
     bool gates_enable = false;     ///< else the current is 0
     bool direct = false;           ///< voltage mode: the loop rests
     bool polarity = false;         ///< the motor is connected the other way round
+    bool beats = false;            ///< the end of a tick without a fault
+    std::uint32_t tick_count = 0;  ///< of this tick
     bool clear = false;            ///< of the over-current and of the driver's fault
     bool driver_fault = false;     ///< the pin
     int wave_clock = -1;           ///< clock of the wave
@@ -70,6 +73,7 @@ class CurrentLoop<D, true> {
     duty_ = static_cast<std::int16_t>(
         (std::int64_t{control_.out().voltage} * D::pwm_period + CurrentControl::kSupply / 2) >>
         kCurrentControlBits);
+    if (D::heartbeat != 0 && in.beats) heartbeat_ = ((in.tick_count >> 9) & 1u) != 0;
     driver_kept_ = (driver_2_ && in.gates_enable) || (driver_kept_ && !in.clear);
     driver_2_ = driver_1_;
     driver_1_ = in.driver_fault && D::driver_fault != 0;
@@ -84,10 +88,13 @@ class CurrentLoop<D, true> {
 
   /// For the PWM, clocks.
   std::int16_t duty() const { return duty_; }
-  const CurrentSense::Out& sense() const { return sense_.out(); }
-  /// Measured, in the direction of tau_ref, [1,1,17] of full scale; held from Step::sample on.
-  std::int32_t current() const { return current_; }
-  /// The same for the heat, in the format of the estimated current.
+  /// The current is measured, in the direction of tau_ref, and held from Step::sample on.
+  void show(CoreOut* out) const {
+    out->current = current_;
+    out->current_clock = sense_.out().modulator_clock;
+    out->heartbeat = heartbeat_;
+  }
+  /// That current for the heat, in the format of the estimated current.
   std::int32_t heat_current() const {
     return motor_current<D>(current_) >> (D::f.current.fraction - D::f.current_estimate.fraction);
   }
@@ -123,6 +130,7 @@ class CurrentLoop<D, true> {
   std::int32_t reference_ = 0, feed_ = 0, limit_ = 0;
   std::int32_t mean_ = 0, current_ = 0;  // of the last period; of this tick
   std::int16_t duty_ = 0;
+  bool heartbeat_ = false;
   bool driver_1_ = false, driver_2_ = false, driver_kept_ = false;
 };
 

@@ -92,9 +92,6 @@ class FeltgateCore {
     out_.word_valid = ReadBack && core_steps::stores_word(clock_);
     core_steps::for_each_step_of(clock_, [&](Step step) { take<true>(step, in, decoder_.out()); });
     if (self_test_.failed()) sup.trips |= fault_bit(Fault::self_test);
-    if constexpr (D::heartbeat != 0) {
-      if (tick && supervisor_.out().first_fault == 0) out_.heartbeat = bit(out_.tick_count, 9);
-    }
     if constexpr (kLoop) loop_.clock(loop_inputs(in, clear && !sup.arm_request()));
     supervisor_.clock(sup);
     const bool held = out_.armed || supervisor_.out().armed;
@@ -298,9 +295,6 @@ class FeltgateCore {
       case Step::law_torque:
         if (kLaw) wave_.program(in.law_late ? 0 : in.law_torque);
         return;
-      case Step::tau_hat:
-        if constexpr (kLoop) wave_.measure(loop_.current());
-        return wave_.take(step, decoded.position, decoded.travel, mode(), pulse(in), out_);
       case Step::sample:
         self_test_.sample(decoded.travel);
         [[fallthrough]];
@@ -374,10 +368,7 @@ class FeltgateCore {
     out_.first_fault = supervisor_.out().first_fault;
     out_.duty_active = gates_.duty_active();
     out_.gates = gates_.bits();
-    if constexpr (kLoop) {
-      out_.current = loop_.current();
-      out_.current_clock = loop_.sense().modulator_clock;
-    }
+    if constexpr (kLoop) loop_.show(&out_);
     out_.limits = wave_.limits(out_.gates_enable);
   }
 

@@ -200,7 +200,7 @@ module actuation (
     assign current_state_o[5] = !calibrated;
 
     // With the gates enabled, the driver's fault is kept until the faults are cleared.
-    logic driver_q, driver_q2, driver_kept_q, unused_driver;
+    logic driver_q, driver_q2, driver_kept_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         driver_q      <= 1'b0;
@@ -213,7 +213,6 @@ module actuation (
       end
     end
     assign current_state_o[4] = driver_q2 || driver_kept_q;
-    assign unused_driver      = driver_fault_i;  // in a design without the pin
 
     // The current that makes tau_ref positive: in a motor that is connected the other way round, against that at the
     // shunt. The observer and the heat take the mean of the last period whose window was whole.

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate run torque_step --design lever_current: RTL and twin in lock-step, the time to 2 % of each
-step; and with a resistance that is not that of the design, the torque and tau_hat."""
+step; with a resistance that is not that of the design, the torque and tau_hat; and the error bounds,
+with chains in real arithmetic that take the measured current too."""
 
 import json
 import unittest
@@ -38,6 +39,9 @@ class LoopStep(Scratch):
                 self.assertLessEqual(abs(found[f"final_error_pct.{n}"]), 1)
                 self.assertLessEqual(abs(found[f"tau_hat_final_error_nm.{n}"]), 1e-3)
                 self.assertLessEqual(found[f"torque_settling_ms.{n}"], 0.5)
+
+    def test_no_error_exceeds_its_bound(self):
+        self.ended(ran(PROGRAM, "budget", "torque_step", "--design", "lever_current"))
 
 
 if __name__ == "__main__":

@@ -34,7 +34,8 @@ using bounds::SourceBound;
 using Json = nlohmann::ordered_json;
 
 struct BudgetArguments {
-  std::string scene, design = "lever", plant, json;
+  std::string scene, plant, json;
+  std::string design;  ///< empty: what the scene runs on
   std::uint64_t seed = 1;
   bool quiet = false;
 };
@@ -56,8 +57,8 @@ struct Subject {
 
 Subject lever_subject(const std::string& path, const BudgetArguments& a, files::Outputs& outputs) {
   Subject s{read_scenario(path), a.design, nullptr, {}};
+  if (s.design.empty()) s.design = s.scene.law.empty() ? "lever" : "lever_law";
   if (!s.scene.law.empty()) {
-    if (s.design == "lever") s.design = "lever_law";
     s.law = make_scene_law(law_file(s.scene), design_named(s.design));
     outputs.reads(law_file(s.scene));
   }
@@ -82,7 +83,7 @@ Subject device_subject(const std::string& path, const BudgetArguments& a, files:
   AxesScene scene = read_axes_scene(
       path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
   Subject s{scene.scenario, a.design, nullptr, {}};
-  if (s.design == "lever") s.design = device_of(scene) + "_law";
+  if (s.design.empty()) s.design = own_design(scene);
   const AxesDesignMakers* made = find_axes_design(s.design);
   if (made == nullptr) {
     throw std::invalid_argument(
@@ -237,17 +238,14 @@ void add_budget(CLI::App& app, int* exit_code) {
   sub->add_option("scene", a->scene, "name in vectors/scenes, or a path")
       ->required()
       ->type_name("SCENE");
-  sub->add_option("--design", a->design,
-                  "design point in rtl/designs; of a law lever_law, of a device its own")
-      ->type_name("DESIGN")
-      ->capture_default_str();
+  sub->add_option("--design", a->design, design_help)->type_name("DESIGN");
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--seed", a->seed, "of the run")->capture_default_str()->check(checks::seed());
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] {
-    a->design = built_design(a->design);
+    if (!a->design.empty()) a->design = built_design(a->design);
     *exit_code = run(*a);
   });
 }

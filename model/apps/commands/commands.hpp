@@ -62,6 +62,10 @@ int draw_from_json(const std::string& name, const std::string& json, const std::
 /// The design point of this name, elaborated against the register map.
 design::Elaborated elaborated_design(const std::string& name);
 
+/// Help of a --design that is empty where the scene decides.
+inline constexpr const char* design_help =
+    "design point in rtl/designs; default: lever, of a law lever_law, of a device its own";
+
 /// Name of the built-in design that `given` names, or whose file it is. For another design it
 /// throws std::invalid_argument, which explains how to build that design in.
 std::string built_design(const std::string& given);

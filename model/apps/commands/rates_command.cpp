@@ -59,7 +59,7 @@ rates::LawSource law_of(const Scenario& s) {
 
 /// The design of the device; this program may lack it.
 const AxesDesignMakers* made_for(const AxesScene& scene) {
-  return find_axes_design(rates::axes_design(scene));
+  return find_axes_design(own_design(scene));
 }
 
 /// A scene that names a device.
@@ -121,7 +121,7 @@ rates::Report measured(const Wanted& w, const rates::Options& options) {
   if (w.device) {
     // If the design is missing, measure() reports it.
     const char* other = rates::law_design;
-    const std::string design = made_for(*w.device) ? rates::axes_design(*w.device) : other;
+    const std::string design = made_for(*w.device) ? own_design(*w.device) : other;
     return rates::measure(*w.device, w.law, elaborated_design(design), options);
   }
   return rates::measure(w.scene, w.law, w.plant, elaborated_design(rates::law_design), options);

@@ -56,8 +56,8 @@ int run_axes_scene(const std::string& path, const RunArguments& a) {
   if (made == nullptr) {
     throw std::invalid_argument(
         fmt::format("{}: device {} has {} axes, and this program's design {} one; ./feltgate run "
-                    "builds the device's own, or name it: --design {}_law",
-                    path, device_of(scene), axes_of(scene), a.design, device_of(scene)));
+                    "builds the device's own, or name it: --design {}",
+                    path, device_of(scene), axes_of(scene), a.design, own_design(scene)));
   }
   const DesignInfo design = made->info();
   const std::unique_ptr<SceneLaw> law = law_of(scene, design);

@@ -34,6 +34,7 @@ using Json = nlohmann::ordered_json;
 
 struct TrimArguments {
   std::string scene, plant, output, json, tolerance = "1%";
+  std::string design;  ///< empty: what the scene runs on
   double window_ms = 1e3 * felt_window_s, duration_s = 0;
   bool quiet = false, full_step = false;
   trim::Options options;
@@ -256,7 +257,7 @@ trim::LawMaker law_of(const Scenario& scene, const DesignInfo& design, int axes)
 
 Trimmed trimmed_lever(const std::string& path, TrimArguments& a, files::Outputs& outputs) {
   Scenario scene = read_scenario(path);
-  if (!scene.law.empty() && a.options.design == "lever") a.options.design = "lever_law";
+  if (a.design.empty()) a.options.design = scene.law.empty() ? "lever" : "lever_law";
   const DesignInfo& design = design_named(a.options.design);
   const trim::LawMaker law = law_of(scene, design, 1);
   const std::unique_ptr<SceneLaw> own = law ? law() : nullptr;
@@ -281,7 +282,7 @@ Trimmed trimmed_device(const std::string& path, TrimArguments& a, files::Outputs
   }
   AxesScene scene = read_axes_scene(
       path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
-  if (a.options.design == "lever") a.options.design = rates::axes_design(scene);
+  if (a.design.empty()) a.options.design = own_design(scene);
   const AxesDesignMakers* made = find_axes_design(a.options.design);
   if (made == nullptr) {
     throw std::invalid_argument(
@@ -355,9 +356,7 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
       ->type_name("SHARE")
       ->capture_default_str();
-  sub->add_option("--design", a->options.design, "design point in rtl/designs")
-      ->type_name("DESIGN")
-      ->capture_default_str();
+  sub->add_option("--design", a->design, design_help)->type_name("DESIGN");
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
   sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run")
@@ -385,7 +384,7 @@ void add_trim(CLI::App& app, int* exit_code) {
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, sub, exit_code] {
     a->full_step = sub->count("--full-step") > 0;
-    a->options.design = built_design(a->options.design);
+    if (!a->design.empty()) a->options.design = built_design(a->design);
     *exit_code = run_trim(*a);
   });
 }

@@ -121,6 +121,8 @@ const std::string& device_of(const AxesScene& scene) {
                     scene.device);
 }
 
+std::string own_design(const AxesScene& scene) { return device_of(scene) + "_law"; }
+
 std::vector<std::string> hand_files(const AxesScene& scene) {
   std::vector<std::string> files;
   const auto add = [&files](const auto& hands) {

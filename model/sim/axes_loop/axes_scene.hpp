@@ -63,6 +63,9 @@ AxesScene read_axes_scene(const std::string& path,
 int axes_of(const AxesScene& scene);
 const std::string& device_of(const AxesScene& scene);
 
+/// Name of the design that is made for the device: "DEVICE_law" in rtl/designs.
+std::string own_design(const AxesScene& scene);
+
 /// Recordings that its hands follow.
 std::vector<std::string> hand_files(const AxesScene& scene);
 

@@ -21,7 +21,7 @@ namespace feltgate::rates {
 namespace {
 
 DesignInfo design_of(const AxesScene& scene) {
-  const std::string name = axes_design(scene);
+  const std::string name = own_design(scene);
   if (const AxesDesignMakers* made = find_axes_design(name)) return made->info();
   throw std::invalid_argument(
       fmt::format("{}: design {} is not in this program; start it as `./feltgate rates`, which "
@@ -132,8 +132,6 @@ class AxesSweep : public Sweep {
 };
 
 }  // namespace
-
-std::string axes_design(const AxesScene& scene) { return device_of(scene) + "_law"; }
 
 Report measure(const AxesScene& scene, const LawSource& source, const design::Elaborated& e,
                const Options& options) {

@@ -76,9 +76,6 @@ Report measure(const Scenario& scene, const LawSource& law, const plant::Paramet
 Report measure(const AxesScene& scene, const LawSource& law, const design::Elaborated& e,
                const Options& options);
 
-/// Name of the design of a scene's device.
-std::string axes_design(const AxesScene& scene);
-
 /// The report as text tables, as JSON (schema feltgate-rates/1), and as CSV with a row per rate.
 std::string report_text(const Report& report);
 std::string reports_json(const std::vector<Report>& reports);

@@ -22,7 +22,7 @@ AxesScene read(const std::string& path) {
 
 Report measured(const AxesScene& scene, const LawSource& law, const Options& options) {
   const auto e =
-      design::elaborate(design::read_design(root + "/rtl/designs/" + axes_design(scene) + ".toml"),
+      design::elaborate(design::read_design(root + "/rtl/designs/" + own_design(scene) + ".toml"),
                         design::read_registers(root + "/rtl/registers.toml"));
   return measure(scene, law, e, options);
 }

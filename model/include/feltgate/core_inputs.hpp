@@ -18,7 +18,7 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
   sup->axis_silent = in.axis_silent || loop_.waits();
-  sup->axis_blocked = in.axis_blocked || loop_.state() != 0;
+  sup->axis_blocked = in.axis_blocked || !loop_.ready();
 }
 
 template <class D, bool ReadBack>

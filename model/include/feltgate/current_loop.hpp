@@ -29,6 +29,8 @@ class CurrentLoop {
  public:
   void reset() {}
   std::uint32_t state() const { return 0; }
+  bool driver_fault() const { return false; }
+  bool ready() const { return true; }
   bool waits() const { return false; }
 };
 
@@ -98,13 +100,15 @@ class CurrentLoop<D, true> {
   std::int32_t heat_current() const {
     return motor_current<D>(current_) >> (D::f.current.fraction - D::f.current_estimate.fraction);
   }
-  /// faults.current: why the current is not to be relied on; the core arms only with 0.
+  bool driver_fault() const { return driver_2_ || driver_kept_; }
+  /// faults.current: why the current is not to be relied on.
   std::uint32_t state() const {
     const CurrentSense::Out& s = sense_.out();
     return static_cast<std::uint32_t>(s.overcurrent | s.stuck << 1 | s.saturated << 2 |
-                                      s.offset_fault << 3 | (driver_2_ || driver_kept_) << 4 |
-                                      !s.calibrated << 5);
+                                      s.offset_fault << 3 | !s.calibrated << 4);
   }
+  /// Whether nothing forbids arming.
+  bool ready() const { return state() == 0 && !driver_fault(); }
   /// Whether a request to arm waits, for the first offset.
   bool waits() const { return !sense_.out().calibrated; }
 

@@ -83,7 +83,7 @@ class FeltgateCore {
       if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
       if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
-    if (loop_.state() != 0 && supervisor_.out().gates_enable) {
+    if (!loop_.ready() && supervisor_.out().gates_enable) {
       sup.trips |= fault_bit(Fault::current);
     }
     Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, bridge_duty());
@@ -155,7 +155,7 @@ class FeltgateCore {
   bool measured() const { return clock_ == after(T::tau_hat); }
   /// Whether the position becomes 0 in the next clock.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
-  bool ready() const { return supervisor_.ready(host()) && loop_.state() == 0; }
+  bool ready() const { return supervisor_.ready(host()) && loop_.ready(); }
   /// Whether no write or command waits for the end of the tick.
   bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.

@@ -39,7 +39,7 @@ module actuation (
     output logic                                            current_clock_o,   // to it
     output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale; new after EVENT_AT_SAMPLE
     output logic signed [     feltgate_pkg::CURRENT_W-1:0]  motor_current_o,   // A: that one; without a current loop current_ref_o
-    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_o,  // why it is not to be relied on
+    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0]  current_state_o,   // why it is not to be relied on; top bit: the driver
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   trips_o,           // bit n: cause n
     input  logic                                            clear_i,           // of the over-current
     input  logic                                            gates_enable_i,
@@ -197,7 +197,7 @@ module actuation (
         .overcurrent_o(current_state_o[0]), .calibrated_o(calibrated), .offset_fault_o(current_state_o[3]),
         .stuck_o(current_state_o[1]), .saturated_o(current_state_o[2])
     );
-    assign current_state_o[5] = !calibrated;
+    assign current_state_o[4] = !calibrated;
 
     // With the gates enabled, the driver's fault is kept until the faults are cleared.
     logic driver_q, driver_q2, driver_kept_q;
@@ -212,7 +212,7 @@ module actuation (
         driver_kept_q <= (driver_q2 && gates_enable_i) || (driver_kept_q && !clear_i);
       end
     end
-    assign current_state_o[4] = driver_q2 || driver_kept_q;
+    assign current_state_o[5] = driver_q2 || driver_kept_q;
 
     // The current that makes tau_ref positive: in a motor that is connected the other way round, against that at the
     // shunt. The observer and the heat take the mean of the last period whose window was whole.

@@ -32,7 +32,7 @@ module safety (
     input  logic                                              axis_waits_i,
     output logic                                              arm_request_o,
     output logic                                              ready_o,         // may be armed
-    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_i,  // of the current loop, 0: ready
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of the current loop, 0: ready; top bit: its driver
     // What is watched
     input  logic        [ feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,        // causes of other rooms, by bit
     input  logic                                              illegal_i,       // encoder: both channels changed

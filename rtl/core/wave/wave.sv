@@ -46,7 +46,7 @@ module wave #(
     input  logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_i,
-    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_i,  // of a current loop
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of a current loop; top bit: its driver
     input  logic                                             encoder_error_i,
     input  logic        [                              15:0] error_count_i,
     input  logic        [                              15:0] rejected_count_i,
@@ -119,7 +119,7 @@ module wave #(
 
   assign faults = (32'(faults_i) << feltgate_map_pkg::B_FAULTS_SEEN) |
                   (32'(first_fault_i) << feltgate_map_pkg::B_FAULTS_FIRST) |
-                  (32'(current_state_i) << feltgate_map_pkg::B_FAULTS_CURRENT);
+                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1:0]) << feltgate_map_pkg::B_FAULTS_CURRENT);
   assign status = (32'(limits_i) << feltgate_map_pkg::B_STATUS_LIMITS) |
                   (32'(scene_o) << feltgate_map_pkg::B_STATUS_SCENE) |
                   (32'(armed_i) << feltgate_map_pkg::B_STATUS_ARMED) |
@@ -127,6 +127,7 @@ module wave #(
                    << feltgate_map_pkg::B_STATUS_MODE) |
                   (32'(test_result_i) << feltgate_map_pkg::B_STATUS_SELF_TEST) |
                   (32'(paused_i) << feltgate_map_pkg::B_STATUS_TESTING) |
+                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT]) << feltgate_map_pkg::B_STATUS_DRIVER_FAULT) |
                   (32'(encoder_error_i) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) |
                   (32'(unkicked_i) << feltgate_map_pkg::B_STATUS_UNKICKED);

@@ -89,7 +89,7 @@ struct Rig {
 struct Seen {
   std::int64_t armed = -1, beyond = -1, off = -1, beats = 0;
   double mean_a = 0, reference_a = 0, peak_a = 0, squares_a2 = 0, tau_hat_nm = 0;
-  std::uint32_t faults_word = 0;
+  std::uint32_t faults_word = 0, status_word = 0;
   CoreOut last;
 };
 
@@ -118,6 +118,8 @@ Seen run(const Rig& rig, std::int64_t clocks) {
     if (out.heartbeat != seen.last.heartbeat) ++seen.beats;
     if (out.word_valid && out.word_slot == feltgate::Map::R::faults)
       seen.faults_word = out.word_data;
+    if (out.word_valid && out.word_slot == feltgate::Map::R::status)
+      seen.status_word = out.word_data;
     seen.tau_hat_nm = std::ldexp(out.tau_hat, -D::f.torque.fraction);
     seen.reference_a = std::ldexp(out.current_ref, -D::f.current.fraction);
     seen.last = out;
@@ -197,7 +199,8 @@ TEST_CASE("loop: a fault of the driver closes the gates, and is kept; the heart 
   REQUIRE(seen.off > 0);
   CHECK(seen.off - kSettled <= 6);
   CHECK(seen.last.faults == fault_bit(Fault::current));
-  CHECK(seen.faults_word >> C::faults_current == 1u << 4);
+  CHECK(seen.faults_word >> C::faults_current == 0);
+  CHECK((seen.status_word >> C::status_driver_fault & 1u) == 1);
   CHECK(seen.beats == kSettled / kTick / 512);
 }
 

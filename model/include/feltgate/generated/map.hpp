@@ -685,13 +685,14 @@ struct Map {
     static constexpr int status_self_test = 16;
     static constexpr int status_self_test_width = 2;
     static constexpr int status_testing = 18;
+    static constexpr int status_driver_fault = 19;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;
     static constexpr int faults_seen_width = 16;
     static constexpr int faults_first = 16;
     static constexpr int faults_first_width = 5;
     static constexpr int faults_current = 21;
-    static constexpr int faults_current_width = 6;
+    static constexpr int faults_current_width = 5;
     static constexpr int read_encoder = 782;
     static constexpr int read_index = 779;
     static constexpr int read_velocity = 777;

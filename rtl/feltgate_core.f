@@ -4,6 +4,7 @@ generated/feltgate_map_pkg.sv
 core/feltgate_checks.sv
 core/encoder/quad_decoder.sv
 core/encoder/encoder_monitor.sv
+core/encoder/absolute_encoder.sv
 core/encoder/encoder.sv
 core/estimators/lowpass.sv
 core/estimators/velocity_n.sv
@@ -39,4 +40,3 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
-core/encoder/absolute_encoder.sv

@@ -11,9 +11,14 @@
 #include <vector>
 
 #include "design/registers.hpp"
+#include "feltgate/absolute_encoder.hpp"
 #include "feltgate/chain_formats.hpp"
 #include "feltgate/fixed.hpp"
 #include "feltgate/generated/map.hpp"
+
+namespace feltgate::config {
+class TomlReader;
+}
 
 namespace feltgate::design {
 
@@ -69,6 +74,10 @@ struct Design {
   double current_full_scale_a = 0;  ///< at which the modulator clips; a power of two
   double current_bandwidth_hz = 0, inductance_h = 0, overcurrent_a = 0;
   bool driver_fault = false, heartbeat = false;  ///< pins of the core
+  // [absolute_encoder], optional: it takes the place of A, B and Z.
+  bool absolute = false;
+  int absolute_framing = 0, absolute_bits = 0, absolute_diagnosis = 0;
+  double absolute_serial_hz = 0, absolute_gap_s = 0, absolute_period_s = 0;
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
   std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 
@@ -88,6 +97,9 @@ struct Design {
   /// The exact factor of the N-method, 2*pi/(Er*Tp*m1) in rad/s per count.
   double velocity_gain_rad_s() const;
   int mt_window_clocks() const;
+  AbsoluteEncoder::Parameters absolute_parameters() const;
+  int absolute_period_ticks() const;  ///< from reading to reading
+  int absolute_delay_ticks() const;   ///< from the angle to the tick whose wave has it
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;
@@ -128,6 +140,10 @@ struct Elaborated {
 Design read_design(const std::string& path);
 /// The same for the text of a file that is not written yet; errors name it `path`.
 Design design_from_text(const std::string& text, const std::string& path);
+
+/// Reads [absolute_encoder], and refuses what of it cannot work.
+void read_absolute_encoder(config::TomlReader& r, Design& d);
+void check_absolute_encoder(const Design& d);
 
 /// Quantises the design against a register map and checks it. Throws config::ConfigError when a
 /// coefficient quantises to 0, a width exceeds the fabric, a parameter does not fit its word, the

@@ -265,6 +265,7 @@ void check(const Elaborated& e) {
   if (!d.allow_coarse) check_resolution(e);
   check_widths(e);
   if (d.current_loop) check_current_loop(d);
+  if (d.absolute) check_absolute_encoder(d);
   check_drops(e);
 }
 

@@ -182,6 +182,21 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
       {"heartbeat", given(d.heartbeat ? 1 : 0), "1: a pin beats for a watchdog outside"}};
 }
 
+/// Words of the absolute encoder; 0 without it.
+std::vector<Constant> of_absolute_encoder(const Design& d) {
+  const AbsoluteEncoder::Parameters p =
+      d.absolute ? d.absolute_parameters() : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0};
+  return {
+      {"absolute_encoder", d.absolute ? 1 : 0, "1: the position is of an absolute encoder"},
+      {"absolute_framing", p.framing, "0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C"},
+      {"absolute_bits", p.bits, "of a turn"},
+      {"absolute_half_clocks", p.half_clocks, "clocks: half a serial clock"},
+      {"absolute_gap_clocks", p.gap_clocks, "clocks before the serial clock and between readings"},
+      {"absolute_period", d.absolute ? d.absolute_period_ticks() : 0,
+       "ticks from reading to reading"},
+      {"absolute_diagnosis", p.diag_address, "SPI: address of the diagnosis"}};
+}
+
 }  // namespace
 
 std::uint32_t design_crc(const Elaborated& e) {
@@ -196,6 +211,10 @@ std::uint32_t design_crc(const Elaborated& e) {
   }
   if (e.design.current_loop) {
     for (const Constant& c : of_current_loop(e)) text += fmt::format("{} {}\n", c.name, c.value);
+  }
+  if (e.design.absolute) {
+    for (const Constant& c : of_absolute_encoder(e.design))
+      text += fmt::format("{} {}\n", c.name, c.value);
   }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
@@ -216,7 +235,8 @@ std::string systemverilog_package(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(e.design), of_estimator(e.design), of_current_loop(e)}) {
+  for (const auto& list : {further(e.design), of_estimator(e.design), of_current_loop(e),
+                           of_absolute_encoder(e.design)}) {
     for (const Constant& c : list) {
       s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
     }
@@ -273,7 +293,8 @@ std::string cpp_header(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(d), of_estimator(d), of_current_loop(e)}) {
+  for (const auto& list :
+       {further(d), of_estimator(d), of_current_loop(e), of_absolute_encoder(d)}) {
     for (const Constant& c : list) {
       s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
     }

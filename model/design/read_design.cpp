@@ -301,6 +301,9 @@ Design design_of(const toml::table& root, const std::string& path) {
     use(r);
     r.finish();
   };
+  const auto option = [&](const char* key, auto&& use) {
+    if (top.has(key)) section(key, use);
+  };
   section("clock", [&](config::TomlReader& r) {
     d.clock_hz = r.integer("clock_hz", 1'000'000, 400'000'000);
     d.tick_hz = r.integer("tick_hz", 1'000, 2'000'000);
@@ -308,10 +311,12 @@ Design design_of(const toml::table& root, const std::string& path) {
       r.fail("tick_hz", "clock_hz is not a multiple of tick_hz", "choose a divisor of the clock");
     }
   });
+  option("absolute_encoder", [&](config::TomlReader& r) { read_absolute_encoder(r, d); });
   section("encoder", [&](config::TomlReader& r) {
+    d.encoder_polarity = static_cast<int>(r.integer("polarity", 0, 1));
+    if (d.absolute) return;
     d.lines = static_cast<int>(r.integer("lines", 1, 1'000'000));
     d.filter_samples = static_cast<int>(r.integer("filter_samples", 0, 15));
-    d.encoder_polarity = static_cast<int>(r.integer("polarity", 0, 1));
     d.has_index = r.has("index") && r.integer("index", 0, 1) == 1;
     if (d.has_index && (d.lines < 16 || (d.lines & (d.lines - 1)) != 0)) {
       r.fail("index", fmt::format("an index cannot be checked against {} lines", d.lines),
@@ -358,9 +363,7 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.supply_v = r.number("supply_v", {1.0, 31.9});
   });
   section("supervisor", [&](config::TomlReader& r) { read_supervisor(r, d); });
-  if (top.has("self_test")) {
-    section("self_test", [&](config::TomlReader& r) { read_self_test(r, d); });
-  }
+  option("self_test", [&](config::TomlReader& r) { read_self_test(r, d); });
   section("scenes", [&](config::TomlReader& r) { read_scenes(r, d); });
   section("formats", [&](config::TomlReader& r) {
     d.velocity = read_format(r, "velocity");
@@ -375,21 +378,13 @@ Design design_of(const toml::table& root, const std::string& path) {
     if (r.has("rounding"))
       d.rounding = modes[r.choice("rounding", {"half_up", "floor", "convergent"})];
   });
-  if (top.has("fabric")) {
-    section("fabric", [&](config::TomlReader& r) {
-      d.parallel_multipliers = r.choice("multipliers", {"shared", "parallel"}) == 1;
-    });
-  }
-  if (top.has("engine")) {
-    section("engine", [&](config::TomlReader& r) { read_engine(r, d); });
-  }
-  if (top.has("axes")) {
-    section("axes",
-            [&](config::TomlReader& r) { d.axes = static_cast<int>(r.integer("count", 1, 3)); });
-  }
-  if (top.has("current_loop")) {
-    section("current_loop", [&](config::TomlReader& r) { read_current_loop(r, d); });
-  }
+  option("fabric", [&](config::TomlReader& r) {
+    d.parallel_multipliers = r.choice("multipliers", {"shared", "parallel"}) == 1;
+  });
+  option("engine", [&](config::TomlReader& r) { read_engine(r, d); });
+  option("axes",
+         [&](config::TomlReader& r) { d.axes = static_cast<int>(r.integer("count", 1, 3)); });
+  option("current_loop", [&](config::TomlReader& r) { read_current_loop(r, d); });
   top.finish();
   return d;
 }

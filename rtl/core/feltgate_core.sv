@@ -19,6 +19,10 @@ module feltgate_core #(
     input  logic enc_a_i,
     input  logic enc_b_i,
     input  logic enc_z_i,
+    input  logic encoder_data_i,    // of an absolute encoder, for the option ABSOLUTE_ENCODER; else tie it to 0
+    output logic encoder_select_no,
+    output logic encoder_clock_o,
+    output logic encoder_command_o,
     output logic gate_a_hi_o,
     output logic gate_a_lo_o,
     output logic gate_b_hi_o,
@@ -105,6 +109,7 @@ module feltgate_core #(
   // actuation, safety
   logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
   logic [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state;
+  logic [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;  // measured, if there is a current loop
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
@@ -118,12 +123,13 @@ module feltgate_core #(
 
   encoder u_encoder (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o),
-      .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
+      .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i), .encoder_data_i(encoder_data_i),
+      .encoder_select_no(encoder_select_no), .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o),
       .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]), .set_zero_i(set_zero), .clear_i(clear),
       .position_o(position_o), .scene_position_o(scene_position), .travel_o(travel),
       .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error), .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
-      .limits_o(encoder_limits), .trips_o(encoder_trips)
+      .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits), .trips_o(encoder_trips)
   );
 
   estimators u_estimators (
@@ -162,7 +168,7 @@ module feltgate_core #(
       .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
       .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear),
       .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
-      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state),
+      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state), .absolute_state_i(absolute_state),
       .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
       .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),
       .over_limit_i(over_limit), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
@@ -182,7 +188,7 @@ module feltgate_core #(
       .clear_faults_o(clear_faults), .kick_o(kick), .disarm_o(disarm), .stop_o(host_stop), .restart_o(restart),
       .trips_o(wave_trips), .locked_i(armed_o || arms), .region_high_i(region_high), .derated_i(derated),
       .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked), .test_result_i(test_result),
-      .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .current_state_i(current_state), .encoder_error_i(encoder_error),
+      .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .current_state_i(current_state), .absolute_state_i(absolute_state), .encoder_error_i(encoder_error),
       .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o), .index_position_i(index_position),
       .word_valid_o(word_valid_o), .word_slot_o(word_slot_o), .word_data_o(word_data_o),
       .velocity_difference_i(velocity_difference), .observer_difference_i(observer_difference),

@@ -17,8 +17,8 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
   sup->host_arm = bit(registers_.out().control, D::C::control_arm);
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
-  sup->axis_silent = in.axis_silent || loop_.waits();
-  sup->axis_blocked = in.axis_blocked || !loop_.ready();
+  sup->axis_silent = in.axis_silent || loop_.waits() || absolute_state(decoder_) >> 5 != 0;
+  sup->axis_blocked = in.axis_blocked || !loop_.ready() || absolute_state(decoder_) != 0;
 }
 
 template <class D, bool ReadBack>
@@ -26,6 +26,11 @@ bool FeltgateCore<D, ReadBack>::arm_request(const In& in) const {
   typename Supervisor<D>::In sup;
   ask(in, &sup);
   return sup.arm_request();
+}
+
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::ready() const {
+  return supervisor_.ready(host()) && loop_.ready() && absolute_state(decoder_) == 0;
 }
 
 /// The scene that is asked for: by the control word if the host has control, else by the panel.
@@ -67,19 +72,26 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
 }
 
 template <class D, bool ReadBack>
-QuadDecoder::In FeltgateCore<D, ReadBack>::decoder_inputs(const In& in, bool zero,
-                                                          bool clear) const {
+typename FeltgateCore<D, ReadBack>::Decoder::In FeltgateCore<D, ReadBack>::decoder_inputs(
+    const In& in, bool zero, [[maybe_unused]] bool clear) const {
   const std::uint32_t control = registers_.out().control;
-  QuadDecoder::In d;
-  d.a = in.encoder.a;
-  d.b = in.encoder.b;
-  d.z = in.encoder.z;
-  d.filter =
-      static_cast<std::uint8_t>(field<D::C::control_filter, D::C::control_filter_width>(control));
+  typename Decoder::In d;
   d.polarity = bit(control, D::C::control_encoder_polarity);
   d.set_zero = zero;
-  d.clear_error = clear;
-  return d;
+  if constexpr (kAbsolute) {
+    d.data = in.encoder_data;
+    d.sample = clock_ == core_steps::clock_of(T::sample);
+    d.levels = clock_ == core_steps::clock_of(T::levels);
+    return d;
+  } else {
+    d.a = in.encoder.a;
+    d.b = in.encoder.b;
+    d.z = in.encoder.z;
+    d.filter =
+        static_cast<std::uint8_t>(field<D::C::control_filter, D::C::control_filter_width>(control));
+    d.clear_error = clear;
+    return d;
+  }
 }
 
 template <class D, bool ReadBack>

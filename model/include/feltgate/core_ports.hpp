@@ -18,6 +18,7 @@ constexpr int host_write_clock = 5;
 /// Inputs of the core in one clock.
 struct CoreIn {
   EncoderPins encoder;
+  bool encoder_data = false;  ///< of an absolute encoder
   bool current_data = false;  ///< of the modulator of a current loop
   bool driver_fault = false;  ///< of the bridge's driver, in a design with this pin
   bool arm = false;           ///< the panel's request
@@ -49,6 +50,7 @@ struct CoreOut {
   std::int32_t current = 0;    ///< measured by a current loop, [1,1,17] of full scale
   bool current_clock = false;  ///< to its modulator
   bool heartbeat = false;      ///< to a watchdog outside, in a design with this pin
+  std::uint8_t serial = 1;  ///< to an absolute encoder: bit 0 select_n, bit 1 clock, bit 2 command
   /// Clocks of the PWM period: as computed, and as in force.
   std::int16_t duty = 0, duty_active = 0;
   std::uint8_t gates = 0;                   ///< bit 0 a_hi, bit 1 a_lo, bit 2 b_hi, bit 3 b_lo
@@ -68,7 +70,8 @@ struct CoreOut {
            armed == o.armed && gates_enable == o.gates_enable &&
            snapshot_valid == o.snapshot_valid && reg_busy == o.reg_busy &&
            word_valid == o.word_valid && word_slot == o.word_slot && word_data == o.word_data &&
-           current == o.current && current_clock == o.current_clock && heartbeat == o.heartbeat;
+           current == o.current && current_clock == o.current_clock && heartbeat == o.heartbeat &&
+           serial == o.serial;
   }
 };
 

@@ -56,8 +56,8 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 /// Whether nothing is under way that needs clock(), such as an error, a stop or the first tick.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
-  return !kLoop && out_.tick_count != 0 && !registers_.flipped() && !registers_.out().stop &&
-         supervisor_.steady(in.stop) &&
+  return !kLoop && !kAbsolute && out_.tick_count != 0 && !registers_.flipped() &&
+         !registers_.out().stop && supervisor_.steady(in.stop) &&
          !(supervisor_.stopped(in.stop) && supervisor_.out().gates_enable) &&
          !decoder_.out().illegal && !outside_trips(in) &&
          !(amid_supervisor() && passed_to_ != clock_);
@@ -101,7 +101,7 @@ bool FeltgateCore<D, ReadBack>::may_trip(const In& in) const {
   }
   // The decoder's pipeline holds at most so many counts or errors.
   constexpr int under_way = 4;
-  const QuadDecoder::In d = decoder_inputs(in, false, false);
+  const auto d = decoder_inputs(in, false, false);
   const bool moves = !decoder_.settled(d);
   if (moves && (supervisor_.errors_left() < under_way || !decoder_.index_rests(d))) return true;
   if (clock_ > core_steps::clock_of(T::speed)) return false;
@@ -224,7 +224,7 @@ int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&&
 /// error.
 template <class D, bool ReadBack>
 int FeltgateCore<D, ReadBack>::advance_decoder(const In& in, int from, int to) {
-  const QuadDecoder::In d = decoder_inputs(in, false, false);
+  const auto d = decoder_inputs(in, false, false);
   for (int c = from; c < to; ++c) {
     if (decoder_.settled(d)) {
       wave_.watch(c, to, decoder_.out().travel);

@@ -30,7 +30,8 @@ std::uint32_t FeltgateCore<D, ReadBack>::faults() const {
   using C = typename D::C;
   const auto& s = supervisor_.out();
   return std::uint32_t{s.faults} << C::faults_seen |
-         std::uint32_t{s.first_fault} << C::faults_first | loop_.state() << C::faults_current;
+         std::uint32_t{s.first_fault} << C::faults_first | loop_.state() << C::faults_current |
+         absolute_state(decoder_) << C::faults_absolute;
 }
 
 }  // namespace feltgate

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "feltgate/absolute_position.hpp"
 #include "feltgate/nearest.hpp"
 #include "feltgate/parameter.hpp"
 
@@ -39,6 +40,7 @@ struct DesignInfo {
   Format velocity{}, torque{}, current{}, voltage{};
   double torque_constant_nm_a = 0;
   double current_full_scale_a = 0;  ///< of the current loop's modulator; 0: no loop
+  std::optional<AbsoluteEncoder::Parameters> absolute;  ///< nothing: the encoder is incremental
   const ParameterInfo* parameters = nullptr;
   int parameter_count = 0;
   int control_address = 0, command_address = 0;
@@ -120,6 +122,7 @@ DesignInfo design_info() {
   if (D::current_loop != 0) {
     i.current_full_scale_a = std::ldexp(1.0, 17 + D::current_drop - D::f.current.fraction);
   }
+  if (D::absolute_encoder != 0) i.absolute = absolute_parameters<D>();
   i.parameters = D::parameters;
   i.parameter_count = static_cast<int>(std::size(D::parameters));
   i.torque_constant_nm_a = i.find("torque_constant")->si;

@@ -10,14 +10,13 @@
 #include <array>
 #include <cstdint>
 
+#include "feltgate/absolute_position.hpp"
 #include "feltgate/core_gates.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
 #include "feltgate/current_loop.hpp"
-#include "feltgate/encoder_monitor.hpp"
 #include "feltgate/hold_timer.hpp"
-#include "feltgate/quad_decoder.hpp"
 #include "feltgate/registers.hpp"
 #include "feltgate/self_test.hpp"
 #include "feltgate/supervisor.hpp"
@@ -69,10 +68,9 @@ class FeltgateCore {
     typename Supervisor<D>::In sup = supervisor_inputs(clock_);
     sup.tick = tick;
     ask(in, &sup);
-    if (renders_law() && in.law_late && supervisor_.out().gates_enable) {
-      sup.trips |= fault_bit(Fault::engine);
-    }
-    if (in.axis_fault && supervisor_.out().gates_enable) sup.trips |= fault_bit(Fault::axis);
+    const bool open = supervisor_.out().gates_enable;
+    if (renders_law() && in.law_late && open) sup.trips |= fault_bit(Fault::engine);
+    if (in.axis_fault && open) sup.trips |= fault_bit(Fault::axis);
     if (registers_.out().stop) sup.trips |= fault_bit(Fault::stop);
     sup.stop = in.stop;
     sup.clear_faults = clear;
@@ -83,10 +81,9 @@ class FeltgateCore {
       if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
       if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
-    if (!loop_.ready() && supervisor_.out().gates_enable) {
-      sup.trips |= fault_bit(Fault::current);
-    }
-    Pwm::In pwm = pwm_inputs(supervisor_.out().gates_enable, bridge_duty());
+    if (!loop_.ready() && open) sup.trips |= fault_bit(Fault::current);
+    if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
+    Pwm::In pwm = pwm_inputs(open, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     out_.word_valid = ReadBack && core_steps::stores_word(clock_);
@@ -95,7 +92,7 @@ class FeltgateCore {
     if constexpr (kLoop) loop_.clock(loop_inputs(in, clear && !sup.arm_request()));
     supervisor_.clock(sup);
     const bool held = out_.armed || supervisor_.out().armed;
-    const QuadDecoder::In d = decoder_inputs(in, zero, clear && !sup.arm_request());
+    const auto d = decoder_inputs(in, zero, clear && !sup.arm_request());
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     const bool committed = tick && registers_.out().reg_busy;
@@ -155,7 +152,7 @@ class FeltgateCore {
   bool measured() const { return clock_ == after(T::tau_hat); }
   /// Whether the position becomes 0 in the next clock.
   bool zeroed() const { return clock_ == D::clocks_per_tick - 1 && registers_.sets_zero(); }
-  bool ready() const { return supervisor_.ready(host()) && loop_.ready(); }
+  bool ready() const;
   /// Whether no write or command waits for the end of the tick.
   bool at_rest() const { return registers_.at_rest(); }
   /// Register writes carried out so far.
@@ -166,6 +163,8 @@ class FeltgateCore {
  private:
   using Step = Map::Step;
   using T = Map::T;
+  static constexpr bool kAbsolute = D::absolute_encoder != 0;
+  using Decoder = std::conditional_t<kAbsolute, AbsolutePosition<D>, QuadDecoder>;
 
   /// The clock of the tick after the one of wave clock t.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
@@ -284,8 +283,8 @@ class FeltgateCore {
         wave_.set_frozen(monitor_.chatters());
         return;
       case Step::hold:
-        hold_.tick(out_.armed, monitor_.moved(), wave_.beyond(D::A::hold_torque), out_.tick_count,
-                   registers_.parameter(D::A::hold_time));
+        hold_.tick(out_.armed, moved(decoder_, monitor_), wave_.beyond(D::A::hold_torque),
+                   out_.tick_count, registers_.parameter(D::A::hold_time));
         wave_.set_derated(hold_.derated());
         return;
       case Step::self_test:
@@ -304,7 +303,7 @@ class FeltgateCore {
   }
 
   typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick, bool held) const;
-  QuadDecoder::In decoder_inputs(const In& in, bool zero, bool clear) const;
+  typename Decoder::In decoder_inputs(const In& in, bool zero, bool clear) const;
   Pwm::In pwm_inputs(bool enable, std::int16_t duty) const;
   std::uint8_t wanted_scene(const In& in) const;
   TestPulse pulse(const In& in) const;
@@ -369,11 +368,12 @@ class FeltgateCore {
     out_.duty_active = gates_.duty_active();
     out_.gates = gates_.bits();
     if constexpr (kLoop) loop_.show(&out_);
+    if constexpr (kAbsolute) out_.serial = decoder_.serial();
     out_.limits = wave_.limits(out_.gates_enable);
   }
 
   Registers<D, ReadBack> registers_;
-  QuadDecoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
+  Decoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
   CoreWave<D> wave_;
   CurrentLoop<D> loop_;
   EncoderMonitorLaw monitor_;

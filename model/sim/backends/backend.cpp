@@ -42,6 +42,11 @@ const DesignMakers& makers_of(const std::string& design) {
 
 }  // namespace
 
+void AnyBackend::break_encoder(const std::string& defect) {
+  throw std::invalid_argument(
+      fmt::format("design {} has no absolute encoder with a defect \"{}\"", design().name, defect));
+}
+
 void add_design(const DesignMakers& design) {
   for (DesignMakers& d : designs()) {
     if (d.name != design.name) continue;

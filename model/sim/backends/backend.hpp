@@ -100,6 +100,9 @@ class AnyBackend {
   virtual void write(int address, std::uint32_t data) = 0;
   /// Sets the stop pin from now() on.
   virtual void stop(bool pressed) = 0;
+  /// Breaks an absolute encoder, or mends it: AbsoluteSensor::defects. Errors:
+  /// std::invalid_argument where there is none.
+  virtual void break_encoder(const std::string& defect);
   /// Clocks since reset.
   virtual Clock now() const = 0;
 
@@ -128,6 +131,8 @@ class Backend : public AnyBackend {
 
   /// Sets the bit of a current loop's modulator from now() on.
   virtual void set_current_bit(bool bit) = 0;
+  /// The shaft of an absolute encoder turns between these angles in the next `clocks`.
+  virtual void turn_encoder(double from_rad, double to_rad, Clock clocks) = 0;
 
   /// Advances `clocks` clocks from now(). Pin events are in order, at absolute clocks; an event
   /// after the end is kept for the next call.

@@ -5,11 +5,15 @@
 // collection of snapshots and gate times. Documentation: docs/architecture.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "absolute_sensor.hpp"
 #include "backend.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "input_queues.hpp"
@@ -20,7 +24,7 @@ namespace feltgate {
 /// derived class supplies reset_core(seed, pins), run(first clock, inputs) and name().
 class ClockedBackend : public Backend {
  public:
-  explicit ClockedBackend(DesignInfo info) : info_(std::move(info)) {}
+  explicit ClockedBackend(DesignInfo info) : info_(std::move(info)) { mount_sensor(); }
 
   const DesignInfo& design() const override { return info_; }
   void reset(std::uint64_t seed, EncoderPins pins) override {
@@ -29,6 +33,7 @@ class ClockedBackend : public Backend {
     writes_.clear();
     panel_ = {};
     current_bit_ = false;
+    mount_sensor();
     snapshots_.clear();
     gates_ = {};
     last_ = {};
@@ -37,6 +42,15 @@ class ClockedBackend : public Backend {
   }
   void set_panel(const Panel& panel) override { panel_ = panel; }
   void set_current_bit(bool bit) override { current_bit_ = bit; }
+  void turn_encoder(double from_rad, double to_rad, Clock clocks) override {
+    if (sensor_) sensor_->turn(from_rad, to_rad, now_, clocks);
+  }
+  void break_encoder(const std::string& defect) override {
+    const auto& names = AbsoluteSensor::defects;
+    const auto* it = std::find(names.begin(), names.end(), defect);
+    if (!sensor_ || it == names.end()) return Backend::break_encoder(defect);
+    sensor_->set(static_cast<AbsoluteSensor::Defect>(it - names.begin()));
+  }
   void write(int address, std::uint32_t data) override { writes_.push(address, data); }
   Clock now() const override { return now_; }
   const std::vector<Snapshot>& snapshots() const override { return snapshots_; }
@@ -57,6 +71,7 @@ class ClockedBackend : public Backend {
     int clock_of_tick = static_cast<int>(now_ % info_.clocks_per_tick);
     for (const Clock end = now_ + clocks; now_ < end; ++now_) {
       in.encoder = events_.at(now_);
+      sense(&in, now_, last_.serial);
       in.reg_write = false;
       if (clock_of_tick == host_write_clock && !writes_.empty() && !last_.reg_busy) {
         issue_write(&in);
@@ -75,6 +90,16 @@ class ClockedBackend : public Backend {
     in.scene = panel_.scene;
     in.reg_addr = reg_addr_;
     return in;
+  }
+  /// The data of an absolute encoder in clock `now`, whose lines the core has set. Returns the end
+  /// of the clocks for which it holds, at most `until`.
+  Clock sense(CoreIn* in, Clock now, unsigned lines, Clock until = 0) {
+    if (!sensor_) return until;
+    in->encoder_data = sensor_->pin(now, lines);
+    return now + 1;
+  }
+  void mount_sensor() {
+    if (info_.absolute) sensor_.emplace(*info_.absolute);
   }
   void issue_write(CoreIn* in) {
     const auto w = writes_.pop();
@@ -99,6 +124,7 @@ class ClockedBackend : public Backend {
   Clock now_ = 0;
   Panel panel_;
   bool current_bit_ = false;
+  std::optional<AbsoluteSensor> sensor_;
   EventQueue events_;
   WriteQueue writes_;
   std::uint16_t reg_addr_ = 0;

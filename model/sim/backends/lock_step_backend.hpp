@@ -40,7 +40,8 @@ class LockStepBackend : public ClockedBackend {
     CoreIn in = inputs();
     for (const Clock end = now_ + clocks; now_ < end; in.reg_write = false) {
       in.encoder = events_.at(now_);
-      Clock until = std::min({end, events_.next(end), now_ + core_.room()});
+      const Clock held = sense(&in, now_, twin.out().serial, end);
+      Clock until = std::min({held, events_.next(end), now_ + core_.room()});
       if (!writes_.empty()) {
         const int ahead = host_write_clock - twin.clock_of_tick();
         if (ahead == 0 && takes_write(twin)) issue_write(&in);

@@ -35,7 +35,7 @@ constexpr bool is_axes = false;
 template <class Rtl>
 constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
 
-/// Whether Rtl has the pins of a current loop: the core itself.
+/// Whether Rtl has the pins of a current loop and of an absolute encoder: the core itself.
 template <class Rtl, class = void>
 constexpr bool has_current = false;
 template <class Rtl>
@@ -61,6 +61,7 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   if constexpr (is_axes<Rtl>) {
     rtl.reg_read_i = 0;
   } else {
+    rtl.encoder_data_i = in.encoder_data;
     rtl.current_data_i = in.current_data;
     rtl.driver_fault_i = in.driver_fault;
     rtl.axis_fault_i = in.axis_fault;
@@ -103,6 +104,8 @@ CoreOut read_outputs(const Rtl& rtl) {
     o.current = detail::narrow_word(rtl.current_o, 19);
     o.current_clock = rtl.current_clock_o != 0;
     o.heartbeat = rtl.heartbeat_o != 0;
+    o.serial = static_cast<std::uint8_t>(rtl.encoder_select_no | rtl.encoder_clock_o << 1 |
+                                         rtl.encoder_command_o << 2);
   }
   return o;
 }

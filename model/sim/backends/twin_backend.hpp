@@ -33,7 +33,7 @@ class TwinBackend : public ClockedBackend {
     if (first != last) events_.push(first, last);
     CoreIn in = inputs();
     const Clock end = now_ + clocks;
-    if (!gate_times_ && writes_.empty() && events_.next(end) >= end) {
+    if (!gate_times_ && !sensor_ && writes_.empty() && events_.next(end) >= end) {
       in.encoder = events_.pins();
       if (core_.calm(in, waiting_ + clocks)) {
         waiting_ += clocks;
@@ -50,6 +50,7 @@ class TwinBackend : public ClockedBackend {
     };
     while (now_ < end) {
       in.encoder = events_.at(now_);
+      const Clock held = sense(&in, now_, core_.out().serial, end);
       const int clock_of_tick = core_.clock_of_tick();
       if (!writes_.empty() && clock_of_tick == host_write_clock && takes_write(core_)) {
         issue_write(&in);
@@ -59,7 +60,7 @@ class TwinBackend : public ClockedBackend {
         ++now_;
         continue;
       }
-      Clock until = std::min(end, events_.next(end));
+      Clock until = std::min(held, events_.next(end));
       if (!writes_.empty()) {
         const int ahead = host_write_clock - clock_of_tick;
         until = std::min(until, now_ + (ahead > 0 ? ahead : ahead + D::clocks_per_tick));

@@ -192,6 +192,7 @@ class ScenarioRun {
       if (recorder_) recorder_->add(e);
     }
     if (looped_) core_.lead().set_current_bit(modulator_.next(o.motor_current_a));
+    core_.lead().turn_encoder(before_.theta_rad, o.theta_rad, clocks);
     core_.advance(clocks, events.data(), events.data() + events.size(),
                   [this](const Snapshot& s) { tick(s); });
   }

@@ -25,9 +25,10 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   Ensemble core(options.design, choice, options.seed, source.initial(),
                 Waveform{options.fst, options.fst_from, options.fst_to});
   const DesignInfo& d = core.design();
-  if (d.current_full_scale_a > 0) {
-    throw std::invalid_argument(std::string("design ") + d.name +
-                                " measures the motor's current, which a recording does not have");
+  if (d.current_full_scale_a > 0 || d.absolute) {
+    throw std::invalid_argument(
+        fmt::format("design {} measures {}, which a recording does not have", d.name,
+                    d.absolute ? "the angle by an absolute encoder" : "the motor's current"));
   }
   core.skip_self_test();
   core.set_control(scene_number(d, options.scene), 0, options.arm);

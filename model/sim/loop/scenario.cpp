@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "files/toml/toml_reader.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/plant_table.hpp"
 
 namespace feltgate {
@@ -46,13 +47,19 @@ Event read_event(config::TomlReader r, const toml::table& table, double duration
   if (r.has("mode")) e.mode = static_cast<int>(r.choice("mode", kModes));
   if (r.has("arm")) e.arm = r.flag("arm");
   if (r.has("stop")) e.stop = r.flag("stop");
+  if (r.has("encoder")) {
+    const std::vector<std::string> names(AbsoluteSensor::defects.begin(),
+                                         AbsoluteSensor::defects.end());
+    e.encoder = names[r.choice("encoder", names)];
+  }
   if (r.has("set")) {
     read_values(*table["set"].as_table(), r.section("set"), &e.set, &e.amounts);
   }
   if (r.has("step_nm")) e.step_nm = r.number("step_nm", config::kAnyNumber);
-  if (!e.scene && !e.mode && !e.arm && !e.stop && !e.step_nm && e.set.empty() &&
-      e.amounts.empty()) {
-    r.fail("at_s", "the event does nothing", "give it set, scene, mode, arm, stop or step_nm");
+  if (!e.scene && !e.mode && !e.arm && !e.stop && e.encoder.empty() && !e.step_nm &&
+      e.set.empty() && e.amounts.empty()) {
+    r.fail("at_s", "the event does nothing",
+           "give it set, scene, mode, arm, stop, encoder or step_nm");
   }
   r.finish();
   return e;

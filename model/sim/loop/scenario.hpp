@@ -31,6 +31,7 @@ struct Event {
   std::optional<int> mode;
   std::optional<bool> arm;
   std::optional<bool> stop;
+  std::string encoder;  ///< breaks an absolute encoder, or mends it: AbsoluteSensor::defects
   std::map<std::string, double> set;           ///< parameters in their units
   std::map<std::string, std::string> amounts;  ///< given with units: resolve_amounts()
   std::optional<double> step_nm;               ///< a torque step to this reference starts here

@@ -127,6 +127,17 @@ void check_mailbox(const Scenario& s, const SceneLaw* law) {
   }
 }
 
+/// Only an absolute encoder can be broken.
+void check_encoder(const Scenario& s, const DesignInfo& design) {
+  for (const Event& e : s.events) {
+    if (e.encoder.empty() || design.absolute) continue;
+    throw config::ConfigError(fmt::format(
+        "{}:{}: design {} has no absolute encoder that \"{}\" could break; choose one that has, "
+        "lever_absolute say",
+        s.path, e.line, design.name, e.encoder));
+  }
+}
+
 /// Finds writes that an armed core would drop silently because the torque could jump.
 void check_held(const Scenario& s, const DesignInfo& design) {
   bool armed = false, asked = false;
@@ -218,6 +229,7 @@ void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* la
     requirements.check();
   }
   check_mailbox(s, law);
+  check_encoder(s, design);
   check_held(s, design);
 }
 

@@ -44,6 +44,7 @@ void Session::arm() {
 void Session::apply(const Event& e) {
   host_.set_parameters(e.set);
   if (e.stop) host_.backend().stop(*e.stop);
+  if (!e.encoder.empty()) host_.backend().break_encoder(e.encoder);
   if (!e.scene && !e.mode && !e.arm) return;
   if (e.scene) scene_ = scene_number(host_.design(), *e.scene);
   mode_ = e.mode.value_or(mode_);

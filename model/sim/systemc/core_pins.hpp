@@ -18,6 +18,7 @@
   X(bool, enc_a_i)               \
   X(bool, enc_b_i)               \
   X(bool, enc_z_i)               \
+  X(bool, encoder_data_i)        \
   X(bool, current_data_i)        \
   X(bool, driver_fault_i)        \
   X(bool, arm_i)                 \
@@ -40,6 +41,9 @@
   X(bool, gate_a_lo_o)            \
   X(bool, gate_b_hi_o)            \
   X(bool, gate_b_lo_o)            \
+  X(bool, encoder_select_no)      \
+  X(bool, encoder_clock_o)        \
+  X(bool, encoder_command_o)      \
   X(bool, current_clock_o)        \
   X(std::uint32_t, current_o)     \
   X(bool, heartbeat_o)            \

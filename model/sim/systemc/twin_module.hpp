@@ -51,6 +51,7 @@ class TwinModule : public sc_core::sc_module {
   CoreIn inputs() const {
     CoreIn in;
     in.encoder = {enc_a_i.read(), enc_b_i.read(), enc_z_i.read()};
+    in.encoder_data = encoder_data_i.read();
     in.current_data = current_data_i.read();
     in.driver_fault = driver_fault_i.read();
     in.arm = arm_i.read();
@@ -92,6 +93,9 @@ class TwinModule : public sc_core::sc_module {
     gate_a_lo_o.write((o.gates & 2u) != 0);
     gate_b_hi_o.write((o.gates & 4u) != 0);
     gate_b_lo_o.write((o.gates & 8u) != 0);
+    encoder_select_no.write((o.serial & 1u) != 0);
+    encoder_clock_o.write((o.serial & 2u) != 0);
+    encoder_command_o.write((o.serial & 4u) != 0);
     current_clock_o.write(o.current_clock);
     current_o.write(static_cast<std::uint32_t>(o.current) & 0x7ffff);
     heartbeat_o.write(o.heartbeat);

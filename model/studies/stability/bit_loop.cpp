@@ -62,11 +62,16 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
     set("current_limit", largest(design.word("current_limit")));
     set("voltage_window", largest(design.word("voltage_window")));
   }
+  position_ = reading_ = counts();
   host_ = [this](double theta_rad, double omega_rad_s) {
     if (theta_rad <= 0) return 0.0;
     return std::min(0.0,
                     -wall_.stiffness_nm_rad * theta_rad - wall_.damping_nm_s_rad * omega_rad_s);
   };
+}
+
+std::int32_t BitLoop::counts() const {
+  return static_cast<std::int32_t>(std::floor(theta_rad() / count_rad_));
 }
 
 void BitLoop::tick() {
@@ -80,8 +85,12 @@ void BitLoop::tick() {
     encoder_->advance(theta_rad(), 0, clocks_per_tick_, edges_);
     position_ = static_cast<std::int32_t>(encoder_->count());
     in_.edge_clock = edges_.empty() ? 0 : static_cast<int>(edges_.back().clock) - 1;
+  } else if (!design_.design.absolute) {
+    position_ = counts();
   } else {
-    position_ = static_cast<std::int32_t>(std::floor(theta_rad() / count_rad_));
+    const int period = design_.design.absolute_period_ticks();
+    if ((k_ - design_.design.absolute_delay_ticks()) % period == 0) position_ = reading_;
+    if (k_ % period == 0) reading_ = counts();
   }
   in_.position = position_;
   in_.travel = static_cast<std::int16_t>(position_);

@@ -72,7 +72,9 @@ class BitLoop {
   double count_rad_;
   int pwm_ticks_, pwm_clocks_, clocks_per_tick_, setpoint_address_;
   double duty_new_ = 0, duty_ = 0, host_torque_ = 0;
+  std::int32_t counts() const;  ///< of the angle now
   std::int32_t position_ = 0;
+  std::int32_t reading_ = 0;  ///< of an absolute encoder, under way
   ChainIn in_;
   std::int64_t k_ = 0;
 };

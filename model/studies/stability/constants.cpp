@@ -20,10 +20,12 @@ std::vector<Constant> shared_constants(const Design& d, const Parameters& p, con
       {"torque constant", "Nm/A", "observer.torque_constant_nm_a", d.torque_constant_nm_a,
        p.motor.torque_constant_nm_a},
       {"resistance", "ohm", "motor.resistance_ohm", d.resistance_ohm, p.motor.resistance_ohm},
-      {"inertia", "kg m^2", "observer.inertia_kg_m2", d.inertia_kg_m2, p.lever.inertia_kg_m2},
-      {"encoder lines", "", "encoder.lines", static_cast<double>(d.lines),
-       static_cast<double>(p.encoder.lines)},
-      {"supply voltage", "V", "pwm.supply_v", d.supply_v, p.supply.voltage_v}};
+      {"inertia", "kg m^2", "observer.inertia_kg_m2", d.inertia_kg_m2, p.lever.inertia_kg_m2}};
+  if (!d.absolute) {  // its bits are its own
+    all.push_back({"encoder lines", "", "encoder.lines", static_cast<double>(d.lines),
+                   static_cast<double>(p.encoder.lines)});
+  }
+  all.push_back({"supply voltage", "V", "pwm.supply_v", d.supply_v, p.supply.voltage_v});
   if (on.back_emf) {
     all.push_back({"back-EMF constant", "V s/rad", "motor.emf_constant_v_s_rad",
                    d.emf_constant_v_s_rad, p.motor.back_emf_constant_v_s_rad});

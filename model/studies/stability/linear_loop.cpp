@@ -20,10 +20,20 @@ namespace {
 /// Everything that one tick hands to the next.
 struct State {
   double current = 0, speed = 0, angle = 0;
+  double read = 0, reading = 0;  ///< angles of an absolute encoder: the newest, and under way
   AxisChain chain;
 };
 
-constexpr Eigen::Index kPlant = 3;
+/// The states before those of the chain.
+Eigen::Index before_chain(const LoopModel& m) { return m.reading_ticks > 1 ? 5 : 3; }
+
+/// The angle that the tick `k` has.
+double seen(const LoopModel& m, long k, State& s) {
+  if (m.reading_ticks == 1) return s.angle;
+  if ((k - m.reading_delay_ticks) % m.reading_ticks == 0) s.read = s.reading;
+  if (k % m.reading_ticks == 0) s.reading = s.angle;
+  return s.read;
+}
 
 Renewal renewal_of(const Wall& wall) {
   if (wall.delay_ticks >= 0) return {wall.scene_ticks, wall.delay_ticks};
@@ -34,9 +44,10 @@ Renewal renewal_of(const Wall& wall) {
 void tick(const LoopModel& m, const Wall& wall, long k, State& s) {
   const Renewal renewal = renewal_of(wall);
   s.chain.begin(m, renewal, k);
-  s.chain.see(m, s.angle);
+  const double angle = seen(m, k, s);
+  s.chain.see(m, angle);
   s.chain.ask(renewal, k,
-              -wall.stiffness_nm_rad * s.angle - wall.damping_nm_s_rad * s.chain.velocity);
+              -wall.stiffness_nm_rad * angle - wall.damping_nm_s_rad * s.chain.velocity);
   s.chain.drive(m);
   const Eigen::Vector3d next =
       m.plant * Eigen::Vector4d(s.current, s.speed, s.angle, s.chain.volts);
@@ -50,19 +61,22 @@ Eigen::VectorXd after(const LoopModel& m, const Wall& wall, const Eigen::VectorX
   s.current = v[0];
   s.speed = v[1];
   s.angle = v[2];
-  s.chain.unpack(m, v.data() + kPlant);
+  const Eigen::Index first = before_chain(m);
+  if (first > 3) s.read = v[3], s.reading = v[4];
+  s.chain.unpack(m, v.data() + first);
   for (int k = 0; k < ticks; ++k) tick(m, wall, k, s);
   Eigen::VectorXd out(v.size());
-  out.head(kPlant) << s.current, s.speed, s.angle;
-  s.chain.pack(out.data() + kPlant);
+  out.head(3) << s.current, s.speed, s.angle;
+  if (first > 3) out.segment(3, 2) << s.read, s.reading;
+  s.chain.pack(out.data() + first);
   return out;
 }
 
 int period_ticks(const LoopModel& m, const Wall& wall) {
-  return std::lcm(m.pwm_ticks, wall.scene_ticks);
+  return std::lcm(std::lcm(m.pwm_ticks, wall.scene_ticks), m.reading_ticks);
 }
 
-Eigen::Index size_of(const LoopModel& m) { return kPlant + AxisChain::scalars + m.m1; }
+Eigen::Index size_of(const LoopModel& m) { return before_chain(m) + AxisChain::scalars + m.m1; }
 
 double back_emf_of(const plant::Parameters& p) {
   return p.effects.back_emf ? p.motor.back_emf_constant_v_s_rad : 0.0;
@@ -109,6 +123,11 @@ LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters
                           Eigen::MatrixXd::Constant(1, 1, 1 / p.lever.inertia_kg_m2), m.tick_s);
   const double two_pi = 6.283185307179586;
   m.raw_rad_s_rad = 4.0 * p.encoder.lines / two_pi * e.rad_s_per_count();
+  if (e.design.absolute) {
+    m.raw_rad_s_rad = e.rad_s_per_count() / e.design.count_rad();
+    m.reading_ticks = e.design.absolute_period_ticks();
+    m.reading_delay_ticks = e.design.absolute_delay_ticks();
+  }
   m.velocity_a1 = word("velocity_a1");
   m.observer_a1 = word("observer_a1");
   m.torque_constant = word("torque_constant");
@@ -164,7 +183,7 @@ int apart_ticks(const LoopModel& m, int period_ticks) {
 std::vector<Pole> poles(const LoopModel& m, const Wall& wall) {
   const int ticks = apart_ticks(m, period_ticks(m, wall));
   Eigen::VectorXd start = Eigen::VectorXd::Zero(size_of(m));
-  start[1] = start[kPlant] = 1;
+  start[1] = start[before_chain(m)] = 1;
   start[2] = 0.01;
   start.tail(m.m1).setConstant(0.01);
   return dominant_poles([&](const Eigen::VectorXd& v) { return after(m, wall, v, ticks); }, start,
@@ -200,7 +219,8 @@ double left_of_motor(const LoopModel& m) {
 }
 
 double time_s(const LoopModel& m, int scene_ticks) {
-  return scene_ticks * m.tick_s / 2 + actuator_delay_s(m, scene_ticks);
+  const double reading_s = ((m.reading_ticks - 1) / 2.0 + m.reading_delay_ticks) * m.tick_s;
+  return scene_ticks * m.tick_s / 2 + reading_s + actuator_delay_s(m, scene_ticks);
 }
 
 }  // namespace

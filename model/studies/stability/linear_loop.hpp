@@ -35,6 +35,8 @@ struct LinearLoop {
   enum : Eigen::Index { kCurrent, kSpeed, kAngle, kVoltage };
   double tick_s = 0;
   int m1 = 0;
+  int reading_ticks = 1;        ///< from reading to reading of an absolute encoder; 1: edges
+  int reading_delay_ticks = 0;  ///< from the angle to the tick that has it
   /// Change of the states over a tick: the transition matrix minus identity, which keeps the digits
   /// of slow poles.
   Eigen::Matrix4d change;
@@ -80,7 +82,7 @@ LoopModel make_model(const design::Elaborated& e, const plant::Parameters& plant
 std::vector<Pole> poles(const LoopModel& model, const Wall& wall);
 
 /// The monodromy matrix itself, over the least number of ticks after which the loop repeats; its
-/// size is the number of states, m1 + 10.
+/// size is the number of states, m1 + 10, with an absolute encoder m1 + 12.
 Eigen::MatrixXd monodromy(const LoopModel& model, const Wall& wall, int* ticks);
 
 /// Largest stable stiffness with this damping, and the frequency at which the loop then swings.

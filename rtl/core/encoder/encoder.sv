@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Room: encoder pins to position, with the checks of the encoder.
-// Timing: the wave samples the position in EVENT_AT_SAMPLE; trips_o is high for one clock.
-// docs/architecture.md
+// Room: encoder pins to position, with the checks of the encoder. With the option ABSOLUTE_ENCODER the position is that of
+// an absolute encoder's serial lines (docs/blocks/absolute_encoder.md), and A, B and Z are not used.
+// Timing: the wave samples the position in EVENT_AT_SAMPLE; an absolute encoder's reading begins there. docs/architecture.md
 
 `default_nettype none
 
@@ -15,6 +15,10 @@ module encoder (
     input  logic                                             enc_a_i,
     input  logic                                             enc_b_i,
     input  logic                                             enc_z_i,
+    input  logic                                             encoder_data_i,   // of an absolute encoder
+    output logic                                             encoder_select_no,
+    output logic                                             encoder_clock_o,
+    output logic                                             encoder_command_o,
     input  logic        [feltgate_map_pkg::W_CONTROL_FILTER-1:0] filter_i,
     input  logic                                             polarity_i,
     input  logic                                             set_zero_i,        // the position becomes 0
@@ -30,23 +34,28 @@ module encoder (
     output logic        [                              15:0] rejected_count_o,
     output logic signed [                              31:0] index_position_o,  // counts at the last index
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,        // bit n: limit n acted
-    output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_o            // bit n: cause n, one clock
+    input  logic                                             gates_enable_i,
+    output logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_o,  // why an absolute encoder is not to be relied on
+    output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_o            // bit n: cause n
 );
   localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
   localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
 
-  logic signed [31:0] position, count, zero;
+  localparam bit Edges = feltgate_pkg::ABSOLUTE_ENCODER == 0;  // the encoder is incremental
+
+  logic signed [31:0] position, decoded, count, zero;
+  logic [15:0] travel;
   logic signed [1:0] step;
   logic [1:0] levels;
-  logic unused_index_seen, index_wrong, channel_trip, index_trip, flip_trip, position_over;
+  logic unused_index_seen, index_wrong, channel_trip, index_trip, flip_trip, position_over, edge_moved;
 
   quad_decoder #(.IndexCounts(feltgate_pkg::INDEX_COUNTS)) u_quad_decoder (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .a_i(enc_a_i), .b_i(enc_b_i), .z_i(enc_z_i),
+      .a_i(Edges && enc_a_i), .b_i(Edges && enc_b_i), .z_i(Edges && enc_z_i),
       .filter_i(filter_i), .polarity_i(polarity_i),
       .set_zero_i(set_zero_i),
       .clear_error_i(clear_i),
-      .position_o(position), .travel_o(travel_o),
+      .position_o(decoded), .travel_o(travel),
       .step_o(step), .count_o(count), .zero_o(zero),
       .levels_o(levels), .illegal_o(illegal_o),
       .error_o(error_o),
@@ -60,9 +69,78 @@ module encoder (
       .at_levels_i(wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]), .tick_count_i(tick_count_i),
       .levels_i(levels), .index_wrong_i(index_wrong),
       .count_i(count), .zero_i(zero), .step_i(step), .set_zero_i(set_zero_i),
-      .moved_o(moved_o), .chatters_o(chatters_o),
+      .moved_o(edge_moved), .chatters_o(chatters_o),
       .trip_o(channel_trip), .index_trip_o(index_trip), .flip_trip_o(flip_trip)
   );
+
+  generate
+  if (Edges) begin : g_edges
+    assign position          = decoded;
+    assign travel_o          = travel;
+    assign moved_o           = edge_moved;
+    assign encoder_select_no = 1'b1;
+    assign encoder_clock_o   = 1'b0;
+    assign encoder_command_o = 1'b0;
+    assign absolute_state_o  = '0;
+    logic unused_serial;
+    assign unused_serial = encoder_data_i;
+  end else begin : g_absolute
+    localparam int PeriodW = $clog2(feltgate_pkg::ABSOLUTE_PERIOD + 1);
+    logic [PeriodW-1:0] wait_q;  // ticks to the next reading
+    logic [4:0] faults, faults_q;
+    logic signed [31:0] angle, last_q, count_q, zero_q, change;
+    logic begins, valid, unused_busy, changed_q, waits_q;
+
+    assign begins = wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE] && wait_q == '0;
+    absolute_encoder #(
+        .Framing(feltgate_pkg::ABSOLUTE_FRAMING), .Bits(feltgate_pkg::ABSOLUTE_BITS),
+        .HalfClocks(feltgate_pkg::ABSOLUTE_HALF_CLOCKS), .GapClocks(feltgate_pkg::ABSOLUTE_GAP_CLOCKS),
+        .DiagAddress(feltgate_pkg::ABSOLUTE_DIAGNOSIS)
+    ) u_absolute_encoder (
+        .clk_i(clk_i), .rst_ni(rst_ni), .sample_i(begins), .data_i(encoder_data_i),
+        .select_no(encoder_select_no), .serial_clock_o(encoder_clock_o), .command_o(encoder_command_o),
+        .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .faults_o(faults)
+    );
+    assign absolute_state_o = {waits_q, faults};  // waits_q: no reading yet
+
+    // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
+    // again is no motion. moved_o: a reading since the tick before differs.
+    assign change = polarity_i ? last_q - angle : angle - last_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        wait_q    <= '0;
+        faults_q  <= '1;
+        last_q    <= '0;
+        count_q   <= '0;
+        zero_q    <= '0;
+        position  <= '0;
+        travel_o  <= '0;
+        changed_q <= 1'b0;
+        moved_o   <= 1'b0;
+        waits_q   <= 1'b1;
+      end else begin
+        if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE])
+          wait_q <= begins ? PeriodW'(feltgate_pkg::ABSOLUTE_PERIOD - 1) : wait_q - 1'b1;
+        faults_q <= faults;
+        position <= count_q - zero_q;
+        if (set_zero_i) zero_q <= count_q;
+        if (wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]) begin
+          moved_o   <= changed_q;
+          changed_q <= 1'b0;
+        end
+        if (valid) begin
+          last_q  <= angle;
+          waits_q <= 1'b0;
+          count_q <= count_q + change;
+          if (faults_q == '0) travel_o <= travel_o + feltgate_pkg::TRAVEL_BITS'(change);
+          if (change != '0) changed_q <= 1'b1;
+        end
+      end
+    end
+    logic unused_edges;
+    assign unused_edges = ^{decoded, travel, edge_moved};
+  end
+  endgenerate
 
   assign position_over = position[31:SceneW-1] != {(33 - SceneW) {position[31]}};
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -78,6 +156,7 @@ module encoder (
   assign limits_o = feltgate_map_pkg::W_STATUS_LIMITS'(chatters_o) << feltgate_map_pkg::L_CHATTER;
   assign trips_o = (FaultsW'(channel_trip) << feltgate_map_pkg::FAULT_CHANNEL) |
                    (FaultsW'(index_trip) << feltgate_map_pkg::FAULT_INDEX) |
+                   (FaultsW'(gates_enable_i && absolute_state_o != '0) << feltgate_map_pkg::FAULT_ENCODER) |
                    (FaultsW'(flip_trip) << feltgate_map_pkg::FAULT_WORD);
 
   logic unused;

@@ -33,6 +33,7 @@ module safety (
     output logic                                              arm_request_o,
     output logic                                              ready_o,         // may be armed
     input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of the current loop, 0: ready; top bit: its driver
+    input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder, 0: ready
     // What is watched
     input  logic        [ feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,        // causes of other rooms, by bit
     input  logic                                              illegal_i,       // encoder: both channels changed
@@ -94,9 +95,10 @@ module safety (
       .tick_i(tick_i), .period_start_i(period_start_i),
       .host_i(host_i), .host_arm_i(host_arm_i), .arm_i(arm_i), .disarm_i(disarm_i),
       .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready),
-      // A request waits for the first offset of a current loop, its top bit; the others refuse it.
-      .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1]),
-      .axis_blocked_i(axis_blocked_i || current_state_i != '0),
+      // A request waits for a current loop's first offset and an absolute encoder's first reading, the top bits; the others refuse it.
+      .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1] ||
+                     absolute_state_i[feltgate_map_pkg::W_FAULTS_ABSOLUTE-1]),
+      .axis_blocked_i(axis_blocked_i || current_state_i != '0 || absolute_state_i != '0),
       .stop_i(stop_i),
       .clear_faults_i(clear_faults_i), .clear_o(clear_o), .kick_i(kick_i),
       .encoder_error_i(illegal_i),
@@ -142,7 +144,7 @@ module safety (
   end
   endgenerate
 
-  assign ready_o  = ready && current_state_i == '0;
+  assign ready_o  = ready && current_state_i == '0 && absolute_state_i == '0;
   assign limits_o = feltgate_map_pkg::W_STATUS_LIMITS'(!gates_enable_o) << feltgate_map_pkg::L_GATES_CLOSED;
 
   logic unused;

@@ -47,6 +47,7 @@ module wave #(
     input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of a current loop; top bit: its driver
+    input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder
     input  logic                                             encoder_error_i,
     input  logic        [                              15:0] error_count_i,
     input  logic        [                              15:0] rejected_count_i,
@@ -119,7 +120,8 @@ module wave #(
 
   assign faults = (32'(faults_i) << feltgate_map_pkg::B_FAULTS_SEEN) |
                   (32'(first_fault_i) << feltgate_map_pkg::B_FAULTS_FIRST) |
-                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1:0]) << feltgate_map_pkg::B_FAULTS_CURRENT);
+                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1:0]) << feltgate_map_pkg::B_FAULTS_CURRENT) |
+                  (32'(absolute_state_i) << feltgate_map_pkg::B_FAULTS_ABSOLUTE);
   assign status = (32'(limits_i) << feltgate_map_pkg::B_STATUS_LIMITS) |
                   (32'(scene_o) << feltgate_map_pkg::B_STATUS_SCENE) |
                   (32'(armed_i) << feltgate_map_pkg::B_STATUS_ARMED) |

@@ -46,6 +46,13 @@ package feltgate_pkg;
   localparam int FEED_DROP = 0;  // its fraction bits
   localparam int DRIVER_FAULT = 0;  // 1: the driver tells of its faults
   localparam int HEARTBEAT = 0;  // 1: a pin beats for a watchdog outside
+  localparam int ABSOLUTE_ENCODER = 0;  // 1: the position is of an absolute encoder
+  localparam int ABSOLUTE_FRAMING = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
+  localparam int ABSOLUTE_BITS = 0;  // of a turn
+  localparam int ABSOLUTE_HALF_CLOCKS = 0;  // clocks: half a serial clock
+  localparam int ABSOLUTE_GAP_CLOCKS = 0;  // clocks before the serial clock and between readings
+  localparam int ABSOLUTE_PERIOD = 0;  // ticks from reading to reading
+  localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h2cf34048;  // by which a host knows the design
 

@@ -47,6 +47,9 @@ struct CoreAdapter {
     check("gate_a_lo", rtl.gate_a_lo_o, (out.gates >> 1) & 1u);
     check("gate_b_hi", rtl.gate_b_hi_o, (out.gates >> 2) & 1u);
     check("gate_b_lo", rtl.gate_b_lo_o, (out.gates >> 3) & 1u);
+    check("encoder_select_n", rtl.encoder_select_no, out.serial & 1u);
+    check("encoder_clock", rtl.encoder_clock_o, (out.serial >> 1) & 1u);
+    check("encoder_command", rtl.encoder_command_o, (out.serial >> 2) & 1u);
     check("current", sign_extend<19>(rtl.current_o), out.current);
     check("current_clock", rtl.current_clock_o, out.current_clock);
     check("heartbeat", rtl.heartbeat_o, out.heartbeat);

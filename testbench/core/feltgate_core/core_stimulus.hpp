@@ -13,6 +13,7 @@
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "random.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/sigma_delta.hpp"
 
 namespace feltgate::test {
@@ -74,6 +75,11 @@ class CoreStimulus {
       in_.current_data = current_.bit(out);
       in_.driver_fault = current_.driver_fault();
     }
+    if constexpr (D::absolute_encoder != 0) {
+      const double rad = (static_cast<double>(counted_) + 0.5) * D::count_rad;
+      sensor_.turn(rad, rad, clock, 1);
+      in_.encoder_data = sensor_.pin(clock, out.serial);
+    }
     return (*this)(clock);
   }
 
@@ -94,12 +100,14 @@ class CoreStimulus {
       chatters_ = random_.one_in(10);
       many_indices_ = random_.one_in(8);
       gathers_ = false;
+      break_sensor();
     }
     if (random_.one_in(bad_cable_ ? 3'000 : 400'000)) phase_ += 2;  // both channels change at once
     if (spacing_ > 0 && --wait_ <= 0) {
       wait_ = spacing_;
       if (gathers_) spacing_ -= spacing_ / 8;
       phase_ += up_ ? 1u : 3u;
+      counted_ += up_ ? 1 : -1;
       up_ = up_ != chatters_;
     }
     const bool a = (phase_ & 2u) != 0;
@@ -180,6 +188,12 @@ class CoreStimulus {
     dead_ = how < 2 ? 1 + how : 0;
     bad_cable_ = how == 2;
     many_indices_ = how == 3;
+    break_sensor();
+  }
+  /// Breaks an absolute encoder where the cable is bad or a channel is dead; else mends it.
+  void break_sensor() {
+    const auto defect = static_cast<AbsoluteSensor::Defect>(1 + breaks_.below(6));
+    sensor_.set(bad_cable_ || dead_ != 0 ? defect : AbsoluteSensor::Defect::none);
   }
   void write(int address, std::uint32_t word) {
     in_.reg_addr = static_cast<std::uint16_t>(address);
@@ -370,6 +384,9 @@ class CoreStimulus {
   std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
 
   CurrentStimulus current_;
+  AbsoluteSensor sensor_{absolute_parameters<D>()};
+  std::int64_t counted_ = 0;  ///< of an absolute encoder
+  Random breaks_{78};
   Random random_, outside_;
   CoreIn in_;
   bool first_ = false;  ///< the next clock is the first of a tick

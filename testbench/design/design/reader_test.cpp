@@ -216,6 +216,45 @@ TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
   refused("bandwidth_hz = 2000.0", "", "key \"bandwidth_hz\" is missing in [current_loop]");
 }
 
+TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
+  const std::string good = file_text(design_path("lever_absolute"));
+  const std::string package = systemverilog_package(shipped("lever_absolute"));
+  for (const char* line :
+       {"int ABSOLUTE_ENCODER = 1;", "int ABSOLUTE_HALF_CLOCKS = 5;",
+        "int ABSOLUTE_GAP_CLOCKS = 20;", "int ABSOLUTE_PERIOD = 96;", "int INDEX_COUNTS = 0;"}) {
+    CHECK(contains(package, line));
+  }
+  CHECK(shipped("lever_absolute").design.count_rad() == 2 * 3.14159265358979323846 / 16384);
+  CHECK(contains(systemverilog_package(shipped("lever")), "int ABSOLUTE_ENCODER = 0;"));
+  const auto refused = [&](const char* from, const char* to, const char* message) {
+    const std::string error = design_error(replaced(good, from, to));
+    INFO(error);
+    CHECK(contains(error, message));
+  };
+  refused("bits = 14 ", "bits = 16 ", "an SPI frame has 14 bits of angle, not 16");
+  refused("\"spi\"", "\"ssi\"", "only SPI asks for a register of the diagnosis");
+  refused("serial_hz = 5_000_000", "serial_hz = 10_000_000", "half a serial clock is 2.5 clocks");
+  refused("gap_s = 0.4e-6", "gap_s = 0.0", "the gap is 0 clocks, less than 4");
+  refused("period_s = 96e-6", "period_s = 96.5e-6", "cannot follow each other in 96.5 ticks");
+  refused("period_s = 96e-6", "period_s = 3e-6", "readings of 208 clocks cannot follow");
+  refused("period_s = 96e-6", "period_s = 128e-6", "takes 18 readings, more than 2 ms");
+  refused("m1 = 384", "m1 = 400", "400 ticks are no whole number of readings, one in 96");
+  refused("torque_nm = 0.05 ", "torque_nm = 0.2 ", "a reading moves by more than a count");
+  refused("[absolute_encoder]", "lines = 1024\n[absolute_encoder]", "\"lines\"");
+  refused("[absolute_encoder]", "[axes]\ncount = 2\n[absolute_encoder]",
+          "has no pins for its lines");
+  const auto refused_alone = [&](const std::string& text, const char* message) {
+    const Design d = design_from_text(text, "changed.toml");
+    CHECK_THROWS_WITH(check_absolute_encoder(d), Catch::Contains(message));
+  };
+  refused_alone(replaced(replaced(good, "m1 = 384", "estimator = \"mt\""), "n = 0 ", "# n = 0"),
+                "M/T needs the clocks of edges");
+  std::string fine = replaced(replaced(good, "\"spi\"", "\"biss\""), "bits = 14", "bits = 21");
+  fine = replaced(fine, "torque_nm = 0.05 ", "torque_nm = 2e-3 ");
+  refused_alone(replaced(fine, "diagnosis", "# diagnosis"),
+                "the velocity's window by 32767 counts");
+}
+
 TEST_CASE("an engine and several axes", "[reader]") {
   const std::string good = file_text(design_path("lever_law"));
   CHECK(design_error(good) == "no error");

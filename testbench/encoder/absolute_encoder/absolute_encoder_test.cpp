@@ -259,23 +259,24 @@ TEST_CASE("absolute_encoder: any pin, with resets at any time") {
 
 TEST_CASE("absolute_encoder: a fault is named within 2 ms at 10 000 readings a second") {
   if (kEncoder.framing != AbsoluteEncoder::kSpi) return;  // the twin alone: once is enough
+  using Defect = AbsoluteSensor::Defect;
   const struct {
     const char* text;
-    Event event;
+    Defect defect;
     bool moves;
-  } events[] = {{"cable cut, the pin pulled up", Event::cable_cut, false},
-                {"pin shorted to ground, at rest", Event::shorted_to_ground, false},
-                {"magnet lost", Event::magnet_lost, false},
-                {"a bit wrong in each frame", Event::wrong_bit, false},
-                {"the angle stays as it is, in a motion", Event::held_in_motion, true},
-                {"the angle is half a turn off", Event::half_a_turn_off, true}};
+  } events[] = {{"cable cut, the pin pulled up", Defect::cut, false},
+                {"pin shorted to ground, at rest", Defect::grounded, false},
+                {"magnet lost", Defect::magnet_lost, false},
+                {"a bit wrong in each frame", Defect::wrong_bit, false},
+                {"the angle stays as it is, in a motion", Defect::held, true},
+                {"the angle is half a turn off", Defect::half_a_turn_off, true}};
   const char* const names[] = {"missing", "check", "sensor", "jump", "frozen"};
   std::string figures = "| event | SPI, ms | SSI, ms | BiSS-C, ms |\n|---|---|---|---|\n";
-  for (const auto& [text, event, moves] : events) {
+  for (const auto& [text, defect, moves] : events) {
     figures += fmt::format("| {} ", text);
     for (const int framing :
          {AbsoluteEncoder::kSpi, AbsoluteEncoder::kSsi, AbsoluteEncoder::kBiss}) {
-      const Named found = Detection(framing, 5000, moves).longest(event);
+      const Named found = Detection(framing, 5000, moves).longest(defect);
       INFO(text << ", framing " << framing);
       CHECK(found.clocks > 0);
       CHECK(found.clocks <= 100'000);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "feltgate/absolute_encoder.hpp"
 #include "random.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 
 #ifndef FELTGATE_ENCODER
 #define FELTGATE_ENCODER 0
@@ -25,22 +27,6 @@ namespace feltgate::test {
 inline constexpr AbsoluteEncoder::Parameters kEncoder{FELTGATE_ENCODER};
 inline constexpr std::int64_t kTurn = std::int64_t{1} << kEncoder.bits;
 inline constexpr int kFrameBits = kEncoder.frame_bits();
-
-/// The CRC of the bits above the lowest six: x^k modulo x^6 + x + 1 for each bit that is 1.
-inline std::uint64_t crc6(std::uint64_t word, int length) {
-  std::uint64_t crc = 0, power = 3;  // x^6
-  for (int k = 6; k < length; ++k) {
-    if ((word >> k & 1) != 0) crc ^= power;
-    power = (power & 0x20) != 0 ? (power << 1 ^ 0x43) & 0x3f : power << 1;
-  }
-  return crc;
-}
-
-inline bool odd(std::uint64_t word) {
-  bool result = false;
-  for (; word != 0; word >>= 1) result ^= (word & 1) != 0;
-  return result;
-}
 
 /// A reading as a sensor has it. `command` is the one that an SPI frame answers.
 struct Frame {
@@ -96,13 +82,6 @@ struct Magnet {
     return (count % kTurn + kTurn) % kTurn;
   }
 };
-
-/// A frame: what a sensor says, closed by its parity or CRC.
-inline std::uint64_t closed(const AbsoluteEncoder::Parameters& p, std::uint64_t said) {
-  if (p.framing == AbsoluteEncoder::kSpi) return odd(said) ? said | 0x8000 : said;
-  const bool biss = p.framing == AbsoluteEncoder::kBiss;
-  return said << 6 | (crc6(said << 6, p.bits + (biss ? 8 : 10)) ^ (biss ? 0x3fU : 0U));
-}
 
 /// A frame of the framing in use, with parity or CRC and, by `random`, with errors.
 inline std::uint64_t frame_of(std::int64_t angle, int command, bool flag, Random& random) {
@@ -273,18 +252,9 @@ class BissSensor {
 using Sensor =
     std::conditional_t<kEncoder.framing == AbsoluteEncoder::kBiss, BissSensor, SelectedSensor>;
 
-// How long the twin takes to name a fault: a faultless sensor of each framing, then one event.
+// How long the twin takes to name a fault: an ideal sensor of each framing, then a defect.
 
-enum class Event {
-  cable_cut,
-  shorted_to_ground,
-  magnet_lost,
-  wrong_bit,
-  held_in_motion,
-  half_a_turn_off
-};
-
-/// Clocks from the event to the first fault, the longest of all moments, and its bits; -1: none in
+/// Clocks from the defect to the first fault, the longest of all moments, and its bits; -1: none in
 /// 40 readings.
 struct Named {
   std::int64_t clocks = -1;
@@ -297,10 +267,10 @@ class Detection {
     p_.framing = framing;
   }
 
-  Named longest(Event event) const {
+  Named longest(AbsoluteSensor::Defect defect) const {
     Named found{0, 0};
     for (int reading = 40; reading < 40 + 2 * (1 << p_.diag_log2); ++reading) {
-      const Named one = named(event, reading);
+      const Named one = named(defect, reading);
       if (one.clocks < 0) return one;
       if (one.clocks > found.clocks) found = one;
     }
@@ -308,49 +278,22 @@ class Detection {
   }
 
  private:
-  /// The frame of a reading; `begun`: that in which the event came, later ones are wrong.
-  std::uint64_t word(int reading, int begun, int command, Event event) const {
-    const bool wrong = reading > begun;
-    const int seen = event == Event::held_in_motion ? std::min(reading, begun) : reading;
-    std::int64_t angle = moves_ ? 1000 + 40 * seen : 1000;
-    if (wrong && event == Event::half_a_turn_off) angle += 1 << (p_.bits - 1);
-    const auto position = static_cast<std::uint64_t>(angle) & ((std::uint64_t{1} << p_.bits) - 1);
-    const bool ill = wrong && event == Event::magnet_lost;
-    std::uint64_t said = position << 2 | (ill ? 1U : 3U);
-    if (p_.framing == AbsoluteEncoder::kSsi) said = position << 4 | (ill ? 2U : 0U);
-    if (p_.framing == AbsoluteEncoder::kSpi) {
-      said = command == p_.diag_address ? (ill ? 0x900U : 0x180U) : position;
-    }
-    const std::uint64_t word = closed(p_, said);
-    return wrong && event == Event::wrong_bit ? word ^ 0x10 : word;
-  }
-
-  Named named(Event event, int reading) const {
+  /// The defect comes in a reading; the later ones are wrong.
+  Named named(AbsoluteSensor::Defect defect, int reading) const {
     AbsoluteEncoder twin(p_);
+    AbsoluteSensor sensor(p_);
     AbsoluteEncoder::In in;
-    const bool biss = p_.framing == AbsoluteEncoder::kBiss;
-    bool was_high = biss;
-    int edges = 0, command = 0, answers = -1;
-    std::uint64_t sent = 0;
     for (std::int64_t clock = 0; clock < (reading + 40) * every_; ++clock) {
       const auto now = static_cast<int>(clock / every_);
-      const bool wrong = now > reading;
+      const double counts = 1000.5 + (moves_ ? 40 * now : 0);
+      const double rad = std::ldexp(counts * 6.283185307179586, -p_.bits);
       in.sample = clock % every_ == 0;
-      if (in.sample) {
-        sent = word(now, reading, answers, event);
-        edges = command = 0;
-      }
-      const bool high = twin.out().serial_clock;
-      if (high && !was_high) ++edges;
-      if (!high && was_high) command = command << 1 | (twin.out().command ? 1 : 0);
-      if (edges == 16 && !high) answers = command & 0x3fff;
-      was_high = high;
-      const int bit = biss ? edges - 4 : edges - 1;
-      in.data = bit >= 0 && bit < p_.frame_bits() && (sent >> (p_.frame_bits() - 1 - bit) & 1) != 0;
-      if (biss && bit < 0) in.data = edges != 2;
-      if (!twin.out().busy) in.data = true;
-      if (wrong && event == Event::cable_cut) in.data = true;
-      if (wrong && event == Event::shorted_to_ground) in.data = false;
+      if (in.sample && now == reading + 1) sensor.set(defect);
+      if (!moves_ && now == reading && twin.out().position != 1000) return {};
+      sensor.turn(rad, rad, clock, 1);
+      const AbsoluteEncoder::Out& o = twin.out();
+      in.data = sensor.pin(
+          clock, (o.select_n ? 1u : 0u) | (o.serial_clock ? 2u : 0u) | (o.command ? 4u : 0u));
       twin.clock(in);
       const int faults = twin.out().faults;
       if (faults != 0 && now > 30) return {clock - reading * every_, faults};

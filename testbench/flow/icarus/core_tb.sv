@@ -43,6 +43,7 @@ module core_tb;
       .reg_write_i(inputs[54]),
       .current_data_i(1'b0),
       .driver_fault_i(1'b0),
+      .encoder_data_i(1'b0),
       .law_torque_i('0),
       .law_late_i(1'b0),
       .law_restart_i(1'b0),

@@ -31,6 +31,7 @@ void set_inputs(Vpair& pair, const CoreIn& in) {
   put("enc_a_i", in.encoder.a);
   put("enc_b_i", in.encoder.b);
   put("enc_z_i", in.encoder.z);
+  put("encoder_data_i", in.encoder_data);
   put("current_data_i", in.current_data);
   put("driver_fault_i", in.driver_fault);
   put("arm_i", in.arm);

@@ -139,10 +139,11 @@ PLACEHOLDERS = {
     "point FILE": "my_design.toml",
 }
 # Engines that the launcher builds when a line names them; here they are not there.
-BUILT_ON_DEMAND = {"stability mine": "lever"}
+BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "mine")}
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
-    for name in ("fast", "balanced", "exact", "first_power", "lever_current", "lever_law", "mine")
+    for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
+                 "lever_law", "mine")
 }
 
 

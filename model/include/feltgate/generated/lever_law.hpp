@@ -60,6 +60,13 @@ struct LeverLaw {
   static constexpr int feed_drop = 0;  // its fraction bits
   static constexpr int driver_fault = 0;  // 1: the driver tells of its faults
   static constexpr int heartbeat = 0;  // 1: a pin beats for a watchdog outside
+  static constexpr int absolute_encoder = 0;  // 1: the position is of an absolute encoder
+  static constexpr int absolute_framing = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
+  static constexpr int absolute_bits = 0;  // of a turn
+  static constexpr int absolute_half_clocks = 0;  // clocks: half a serial clock
+  static constexpr int absolute_gap_clocks = 0;  // clocks before the serial clock and between readings
+  static constexpr int absolute_period = 0;  // ticks from reading to reading
+  static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x35fd53bb;  // by which a host knows the design
 

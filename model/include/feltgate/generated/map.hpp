@@ -693,6 +693,8 @@ struct Map {
     static constexpr int faults_first_width = 5;
     static constexpr int faults_current = 21;
     static constexpr int faults_current_width = 5;
+    static constexpr int faults_absolute = 26;
+    static constexpr int faults_absolute_width = 6;
     static constexpr int read_encoder = 782;
     static constexpr int read_index = 779;
     static constexpr int read_velocity = 777;

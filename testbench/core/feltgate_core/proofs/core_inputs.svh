@@ -8,6 +8,7 @@
     input logic                                     enc_a_i,
     input logic                                     enc_b_i,
     input logic                                     enc_z_i,
+    input logic                                     encoder_data_i,
     input logic                                     current_data_i,
     input logic                                     driver_fault_i,
     input logic                                     arm_i,

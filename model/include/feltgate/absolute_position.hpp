@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The position of the core's twin with an absolute encoder: what rtl/core/encoder/encoder.sv has
+// with the option ABSOLUTE_ENCODER, clock by clock. It takes the place of QuadDecoder.
+// Documentation: docs/blocks/absolute_encoder.md
+#pragma once
+
+#include <cstdint>
+
+#include "feltgate/absolute_encoder.hpp"
+#include "feltgate/encoder_monitor.hpp"
+#include "feltgate/quad_decoder.hpp"
+
+namespace feltgate {
+
+/// Parameters of the block in design D.
+template <class D>
+constexpr AbsoluteEncoder::Parameters absolute_parameters() {
+  AbsoluteEncoder::Parameters p;
+  p.framing = D::absolute_framing;
+  p.bits = D::absolute_bits;
+  p.half_clocks = D::absolute_half_clocks;
+  p.gap_clocks = D::absolute_gap_clocks;
+  p.diag_address = D::absolute_diagnosis;
+  return p;
+}
+
+template <class D>
+class AbsolutePosition {
+ public:
+  struct In {
+    bool data = false;      ///< of the sensor
+    bool sample = false;    ///< EVENT_AT_SAMPLE: a reading may begin
+    bool levels = false;    ///< EVENT_AT_LEVELS
+    bool polarity = false;  ///< true: counts the other way
+    bool set_zero = false;
+  };
+  using Out = QuadDecoder::Out;  ///< edges, errors and index stay 0
+
+  explicit AbsolutePosition(std::int32_t = 0, std::uint32_t = 0) {}
+  void reset() { *this = AbsolutePosition(); }
+
+  void clock(const In& in) {
+    const AbsoluteEncoder::Out read = encoder_.out();
+    const bool begins = in.sample && wait_ == 0;
+    if (in.sample) wait_ = begins ? D::absolute_period - 1 : wait_ - 1;
+    out_.position = static_cast<std::int32_t>(count_ - zero_);
+    if (in.set_zero) zero_ = count_;
+    if (in.levels) {
+      moved_ = changed_;
+      changed_ = false;
+    }
+    if (read.valid) {
+      const auto angle = static_cast<std::uint32_t>(read.position);
+      const std::uint32_t change = in.polarity ? last_ - angle : angle - last_;
+      last_ = angle;
+      count_ += change;
+      if (state_ == 0) out_.travel = static_cast<std::uint16_t>(out_.travel + change);
+      changed_ |= change != 0;
+      waits_ = false;
+    }
+    state_ = read.faults;
+    encoder_.clock({begins, in.data});
+  }
+
+  const Out& out() const { return out_; }
+  /// CoreOut::serial.
+  std::uint8_t serial() const {
+    const AbsoluteEncoder::Out& o = encoder_.out();
+    return static_cast<std::uint8_t>(o.select_n | o.serial_clock << 1 | o.command << 2);
+  }
+  /// faults.absolute: why the position is not to be relied on; the core arms only with 0.
+  std::uint32_t state() const {
+    return static_cast<std::uint32_t>(encoder_.out().faults | waits_ << 5);
+  }
+  /// A reading since the tick before differs from the one before it.
+  bool moved() const { return moved_; }
+
+  /// It reads at all times: no clock may be skipped.
+  static bool settled(const In&) { return false; }
+  static bool index_rests(const In&) { return true; }
+
+ private:
+  AbsoluteEncoder encoder_{absolute_parameters<D>()};
+  Out out_;
+  int wait_ = 0;  // ticks to the next reading
+  int state_ = AbsoluteEncoder::kMissing;
+  std::uint32_t last_ = 0, count_ = 0, zero_ = 0;
+  bool changed_ = false, moved_ = false, waits_ = true;
+};
+
+/// What the core asks both decoders.
+inline std::uint32_t absolute_state(const QuadDecoder&) { return 0; }
+template <class D>
+std::uint32_t absolute_state(const AbsolutePosition<D>& p) {
+  return p.state();
+}
+inline bool moved(const QuadDecoder&, const EncoderMonitorLaw& monitor) { return monitor.moved(); }
+template <class D>
+bool moved(const AbsolutePosition<D>& p, const EncoderMonitorLaw&) {
+  return p.moved();
+}
+
+}  // namespace feltgate

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A sensor at the pins of a core with an absolute encoder: it sees select, clock and command, and
+// sends frames of the angle that the shaft has when a reading begins. It can be broken.
+// Documentation: docs/blocks/absolute_encoder.md
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "feltgate/absolute_encoder.hpp"
+#include "feltgate/encoder_source.hpp"
+
+namespace feltgate {
+
+/// The CRC of the bits above the lowest six: x^k modulo x^6 + x + 1 for each bit that is 1.
+inline std::uint64_t crc6(std::uint64_t word, int length) {
+  std::uint64_t crc = 0, power = 3;  // x^6
+  for (int k = 6; k < length; ++k) {
+    if ((word >> k & 1) != 0) crc ^= power;
+    power = (power & 0x20) != 0 ? (power << 1 ^ 0x43) & 0x3f : power << 1;
+  }
+  return crc;
+}
+
+inline bool odd(std::uint64_t word) {
+  bool result = false;
+  for (; word != 0; word >>= 1) result ^= (word & 1) != 0;
+  return result;
+}
+
+/// A frame: what a sensor says, closed by its parity or CRC.
+inline std::uint64_t closed(const AbsoluteEncoder::Parameters& p, std::uint64_t said) {
+  if (p.framing == AbsoluteEncoder::kSpi) return odd(said) ? said | 0x8000 : said;
+  const bool biss = p.framing == AbsoluteEncoder::kBiss;
+  return said << 6 | (crc6(said << 6, p.bits + (biss ? 8 : 10)) ^ (biss ? 0x3fU : 0U));
+}
+
+/// One sensor, clock by clock of the core.
+class AbsoluteSensor {
+ public:
+  enum class Defect { none, cut, grounded, magnet_lost, wrong_bit, held, half_a_turn_off };
+  static constexpr std::array<std::string_view, 7> defects{
+      "none", "cut", "grounded", "magnet_lost", "wrong_bit", "held", "half_a_turn_off"};
+
+  explicit AbsoluteSensor(const AbsoluteEncoder::Parameters& parameters) : p_(parameters) {}
+
+  void set(Defect defect) { defect_ = defect; }
+  /// The shaft turns from one angle to another in the `clocks` from `begin` on.
+  void turn(double from_rad, double to_rad, Clock begin, Clock clocks) {
+    from_rad_ = from_rad;
+    begin_ = begin;
+    slope_ = (to_rad - from_rad) / static_cast<double>(clocks);
+  }
+  /// The data pin in clock `now`; `lines`: CoreOut::serial after the clock before.
+  bool pin(Clock now, unsigned lines) {
+    const bool selected = (lines & 1u) == 0, high = (lines & 2u) != 0;
+    const bool begins = biss() ? !reads_ && high_ && !high : selected && !reads_;
+    if (begins) begin(now);
+    if (high != high_) edge(high, (lines & 4u) != 0, now);
+    high_ = high;
+    // BiSS-C: a reading ends when the clock stands.
+    if (biss() ? now - edge_at_ > 2 * p_.half_clocks + 2 : !selected) reads_ = false;
+    if (defect_ == Defect::cut) return true;  // pulled up
+    if (defect_ == Defect::grounded) return false;
+    if (!reads_) return true;
+    const int bit = edges_ - (biss() ? 4 : 1);
+    if (bit < 0) return edges_ != 2;  // BiSS-C: the acknowledge
+    return bit < p_.frame_bits() && (word_ >> (p_.frame_bits() - 1 - bit) & 1) != 0;
+  }
+
+ private:
+  bool biss() const { return p_.framing == AbsoluteEncoder::kBiss; }
+
+  void begin(Clock now) {
+    reads_ = true;
+    edges_ = command_ = 0;
+    if (defect_ != Defect::held) {
+      constexpr double turn_rad = 6.283185307179586;
+      const double rad = from_rad_ + slope_ * static_cast<double>(now - begin_);
+      count_ = static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, p_.bits)));
+    }
+    word_ = word();
+  }
+  void edge(bool high, bool command, Clock now) {
+    edge_at_ = now;
+    if (high) ++edges_;
+    if (high) return;
+    command_ = command_ << 1 | (command ? 1 : 0);
+    if (edges_ == 16) answers_ = command_ & 0x3fff;
+  }
+  std::uint64_t word() const {
+    const std::int64_t turn = std::int64_t{1} << p_.bits;
+    const std::int64_t off = defect_ == Defect::half_a_turn_off ? turn / 2 : 0;
+    const auto position = static_cast<std::uint64_t>((count_ + off) & (turn - 1));
+    const bool ill = defect_ == Defect::magnet_lost;
+    std::uint64_t said = position << 2 | (ill ? 1U : 3U);
+    if (p_.framing == AbsoluteEncoder::kSsi) said = position << 4 | (ill ? 2U : 0U);
+    if (p_.framing == AbsoluteEncoder::kSpi) {
+      said = answers_ == p_.diag_address ? (ill ? 0x900U : 0x180U)
+             : answers_ == 0x3fff        ? position
+                                         : 0U;
+    }
+    return closed(p_, said) ^ (defect_ == Defect::wrong_bit ? 0x10U : 0U);
+  }
+
+  AbsoluteEncoder::Parameters p_;
+  Defect defect_ = Defect::none;
+  double from_rad_ = 0, slope_ = 0;  // per clock
+  Clock begin_ = 0, edge_at_ = 0;
+  bool reads_ = false, high_ = false;
+  int edges_ = 0, command_ = 0, answers_ = -1;
+  std::int64_t count_ = 0;
+  std::uint64_t word_ = 0;
+};
+
+}  // namespace feltgate

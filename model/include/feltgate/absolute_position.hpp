@@ -35,6 +35,8 @@ class AbsolutePosition {
     bool levels = false;    ///< EVENT_AT_LEVELS
     bool polarity = false;  ///< true: counts the other way
     bool set_zero = false;
+    bool gates_enable = false;
+    bool clear = false;  ///< of the faults
   };
   using Out = QuadDecoder::Out;  ///< edges, errors and index stay 0
 
@@ -56,11 +58,13 @@ class AbsolutePosition {
       const std::uint32_t change = in.polarity ? last_ - angle : angle - last_;
       last_ = angle;
       count_ += change;
-      if (state_ == 0) out_.travel = static_cast<std::uint16_t>(out_.travel + change);
+      if (faults_ == 0) out_.travel = static_cast<std::uint16_t>(out_.travel + change);
       changed_ |= change != 0;
       waits_ = false;
     }
-    state_ = read.faults;
+    if (in.gates_enable) seen_ |= read.faults;
+    if (in.clear) seen_ = 0;
+    faults_ = read.faults;
     encoder_.clock({begins, in.data});
   }
 
@@ -72,7 +76,7 @@ class AbsolutePosition {
   }
   /// faults.absolute: why the position is not to be relied on; the core arms only with 0.
   std::uint32_t state() const {
-    return static_cast<std::uint32_t>(encoder_.out().faults | waits_ << 5);
+    return static_cast<std::uint32_t>(encoder_.out().faults | seen_ | waits_ << 5);
   }
   /// A reading since the tick before differs from the one before it.
   bool moved() const { return moved_; }
@@ -85,7 +89,7 @@ class AbsolutePosition {
   AbsoluteEncoder encoder_{absolute_parameters<D>()};
   Out out_;
   int wait_ = 0;  // ticks to the next reading
-  int state_ = AbsoluteEncoder::kMissing;
+  int faults_ = AbsoluteEncoder::kMissing, seen_ = 0;
   std::uint32_t last_ = 0, count_ = 0, zero_ = 0;
   bool changed_ = false, moved_ = false, waits_ = true;
 };

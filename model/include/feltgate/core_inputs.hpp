@@ -73,7 +73,7 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
 
 template <class D, bool ReadBack>
 typename FeltgateCore<D, ReadBack>::Decoder::In FeltgateCore<D, ReadBack>::decoder_inputs(
-    const In& in, bool zero, [[maybe_unused]] bool clear) const {
+    const In& in, bool zero, bool clear, [[maybe_unused]] bool open) const {
   const std::uint32_t control = registers_.out().control;
   typename Decoder::In d;
   d.polarity = bit(control, D::C::control_encoder_polarity);
@@ -81,6 +81,8 @@ typename FeltgateCore<D, ReadBack>::Decoder::In FeltgateCore<D, ReadBack>::decod
   if constexpr (kAbsolute) {
     d.data = in.encoder_data;
     d.sample = clock_ == core_steps::clock_of(T::sample);
+    d.gates_enable = open;
+    d.clear = clear;
     d.levels = clock_ == core_steps::clock_of(T::levels);
     return d;
   } else {

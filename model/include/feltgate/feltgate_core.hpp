@@ -92,7 +92,7 @@ class FeltgateCore {
     if constexpr (kLoop) loop_.clock(loop_inputs(in, clear && !sup.arm_request()));
     supervisor_.clock(sup);
     const bool held = out_.armed || supervisor_.out().armed;
-    const auto d = decoder_inputs(in, zero, clear && !sup.arm_request());
+    const auto d = decoder_inputs(in, zero, clear && !sup.arm_request(), open);
     if (!decoder_.settled(d)) decoder_.clock(d);
 
     const bool committed = tick && registers_.out().reg_busy;
@@ -303,7 +303,7 @@ class FeltgateCore {
   }
 
   typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick, bool held) const;
-  typename Decoder::In decoder_inputs(const In& in, bool zero, bool clear) const;
+  typename Decoder::In decoder_inputs(const In& in, bool zero, bool clear, bool open = false) const;
   Pwm::In pwm_inputs(bool enable, std::int16_t duty) const;
   std::uint8_t wanted_scene(const In& in) const;
   TestPulse pulse(const In& in) const;

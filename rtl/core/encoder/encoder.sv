@@ -87,7 +87,7 @@ module encoder (
   end else begin : g_absolute
     localparam int PeriodW = $clog2(feltgate_pkg::ABSOLUTE_PERIOD + 1);
     logic [PeriodW-1:0] wait_q;  // ticks to the next reading
-    logic [4:0] faults, faults_q;
+    logic [4:0] faults, faults_q, seen_q;
     logic signed [31:0] angle, last_q, count_q, zero_q, change;
     logic begins, valid, unused_busy, changed_q, waits_q;
 
@@ -101,7 +101,8 @@ module encoder (
         .select_no(encoder_select_no), .serial_clock_o(encoder_clock_o), .command_o(encoder_command_o),
         .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .faults_o(faults)
     );
-    assign absolute_state_o = {waits_q, faults};  // waits_q: no reading yet
+    // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared.
+    assign absolute_state_o = {waits_q, faults | seen_q};
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
     // again is no motion. moved_o: a reading since the tick before differs.
@@ -110,6 +111,7 @@ module encoder (
       if (!rst_ni) begin
         wait_q    <= '0;
         faults_q  <= '1;
+        seen_q    <= '0;
         last_q    <= '0;
         count_q   <= '0;
         zero_q    <= '0;
@@ -122,6 +124,8 @@ module encoder (
         if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE])
           wait_q <= begins ? PeriodW'(feltgate_pkg::ABSOLUTE_PERIOD - 1) : wait_q - 1'b1;
         faults_q <= faults;
+        if (clear_i) seen_q <= '0;
+        else if (gates_enable_i) seen_q <= seen_q | faults;
         position <= count_q - zero_q;
         if (set_zero_i) zero_q <= count_q;
         if (wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]) begin

@@ -76,14 +76,16 @@ struct Rig {
 struct Seen {
   std::int64_t armed = -1, off = -1;
   std::uint32_t named = 0;  ///< faults.absolute in the tick after the gates closed
+  std::uint32_t state = 0;  ///< faults.absolute, the last
   double fastest_rad_s = 0;
   CoreOut last;
 
   void add(std::int64_t cycle, const CoreOut& out) {
     if (out.armed && armed < 0) armed = cycle;
     if (armed >= 0 && off < 0 && !out.gates_enable && out.gates == 0) off = cycle;
-    if (off >= 0 && named == 0 && out.word_valid && out.word_slot == Map::R::faults)
-      named = out.word_data >> C::faults_absolute;
+    if (out.word_valid && out.word_slot == Map::R::faults)
+      state = out.word_data >> C::faults_absolute;
+    if (off >= 0 && named == 0) named = state;
     fastest_rad_s =
         std::max(fastest_rad_s,
                  std::abs(std::ldexp(static_cast<double>(out.velocity), -D::f.velocity.fraction)));
@@ -223,4 +225,17 @@ TEST_CASE(
   CHECK(seen.last.armed);
   CHECK(seen.last.position == counts(1.5));
   CHECK(seen.fastest_rad_s == 0);
+}
+
+TEST_CASE("absolute: what closed the gates is told until the faults are cleared") {
+  Rig rig;
+  rig.defect = Defect::half_a_turn_off;
+  rig.mended = kReady + 20 * kPeriod;
+  Seen seen = run(rig, rig.mended + 4 * kPeriod);
+  CHECK(seen.last.faults == fault_bit(Fault::encoder));
+  CHECK(seen.state == 8);
+  seen = run(rig, rig.mended + 8 * kPeriod);
+  CHECK(seen.last.armed);
+  CHECK(seen.last.faults == 0);
+  CHECK(seen.state == 0);
 }

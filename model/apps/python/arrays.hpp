@@ -25,15 +25,24 @@ namespace py = pybind11;
 /// Any sequence of numbers, converted to contiguous doubles.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// A contiguous numpy array of `size` values at `data`, or of its own. The stride is given:
+/// pybind11 before 2.12 reads the size of an element where numpy 2 no longer has it, and gets a
+/// stride of 0.
+template <class T>
+py::array_t<T> contiguous(std::size_t size, const T* data = nullptr, py::handle owner = {}) {
+  return py::array_t<T>({static_cast<py::ssize_t>(size)}, {static_cast<py::ssize_t>(sizeof(T))},
+                        data, owner);
+}
+
 /// A numpy array that owns the vector; nothing is copied.
 template <class T>
 py::array_t<T> to_array(std::vector<T>&& values) {
   auto owner = std::make_unique<std::vector<T>>(std::move(values));
-  T* data = owner->data();
-  const auto size = static_cast<py::ssize_t>(owner->size());
+  const T* data = owner->data();
+  const std::size_t size = owner->size();
   const py::capsule keeper(owner.release(),
                            [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  return py::array_t<T>(size, data, keeper);
+  return contiguous(size, data, keeper);
 }
 
 /// A one-dimensional array of finite numbers as a vector. Throws std::invalid_argument, which names

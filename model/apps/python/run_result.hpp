@@ -36,7 +36,7 @@ class RowArrays {
   template <class T>
   struct Filled {
     Filled(const Column& c, std::size_t rows)
-        : column(c), array(static_cast<py::ssize_t>(rows)), data(array.mutable_data()) {}
+        : column(c), array(contiguous<T>(rows)), data(array.mutable_data()) {}
     Column column;
     py::array_t<T> array;
     T* data;

@@ -16,7 +16,8 @@ from pathlib import Path
 
 from testing import Scratch, text_of
 
-sys.path += map(str, Path(sys.argv.pop(1)).glob("lib/python3*/site-packages"))
+# First, so that the arrays are those of its numpy, which is newer than Debian's.
+sys.path[:0] = map(str, Path(sys.argv.pop(1)).glob("lib/python3*/site-packages"))
 try:
     import mujoco
     import numpy as np

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace feltgate::plant {
 
@@ -43,6 +44,14 @@ struct SupplyParameters {
   double current_limit_a = 0.0;
   double bus_capacitance_f = 0.0;
   double diode_drop_v = 0.0;  ///< of each free-wheeling diode of the bridge
+};
+
+/// One harmonic of the motor's cogging: torque on the lever of
+/// amplitude_nm * sin(per_turn * angle + phase_rad).
+struct CoggingHarmonic {
+  int per_turn = 0;
+  double amplitude_nm = 0.0;
+  double phase_rad = 0.0;
 };
 
 /// End stops of the lever: a spring at each end returns restitution^2 of the energy that it took,
@@ -96,8 +105,9 @@ struct Parameters {
   LugreParameters lugre;
   SupplyParameters supply;
   EncoderParameters encoder;
-  std::optional<EndStops> end_stops;  ///< nullopt: the lever turns freely
-  Effects effects;                    ///< defaults of the file; a scene may override each
+  std::optional<EndStops> end_stops;     ///< nullopt: the lever turns freely
+  std::vector<CoggingHarmonic> cogging;  ///< empty: the motor has none
+  Effects effects;                       ///< defaults of the file; a scene may override each
 };
 
 /// Viscous torque per speed, from the effects that are on.

@@ -88,6 +88,14 @@ double Plant::advance_current(const Bridge& bridge, double omega_rad_s) {
   return mean_a;
 }
 
+double Plant::cogging_nm(double theta_rad) const {
+  double torque_nm = 0.0;
+  for (const CoggingHarmonic& h : p_.cogging) {
+    torque_nm += h.amplitude_nm * std::sin(h.per_turn * theta_rad + h.phase_rad);
+  }
+  return torque_nm;
+}
+
 // Adds the torque of an end stop; its spring is softer on the way back.
 void Plant::push_back(const EndStops& stops, ShaftTorque& torque) const {
   const bool low = shaft_.theta_rad < stops.low_rad;
@@ -101,6 +109,8 @@ void Plant::push_back(const EndStops& stops, ShaftTorque& torque) const {
 
 void Plant::advance_shaft(double motor_nm, double friction_nm, double omega_mid_rad_s) {
   const double before_rad_s = shaft_.omega_rad_s;
+  // At the middle of the step, where the other torques that depend on the motion are taken.
+  if (!p_.cogging.empty()) motor_nm += cogging_nm(shaft_.theta_rad + 0.5 * dt_s_ * omega_mid_rad_s);
   if (hand_.imposes()) {
     shaft_ = hand_.target();
     const double gain_nm = (shaft_.omega_rad_s - before_rad_s) * per_s_ * p_.lever.inertia_kg_m2;

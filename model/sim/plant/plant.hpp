@@ -93,6 +93,7 @@ class Plant {
   void set_step(Clock clocks);
   [[noreturn]] void refuse_motion(double way_rad) const;
   double advance_current(const Bridge& bridge, double omega_rad_s);
+  double cogging_nm(double theta_rad) const;
   void push_back(const EndStops& stops, ShaftTorque& torque) const;
   void advance_shaft(double motor_nm, double friction_nm, double omega_mid_rad_s);
 

@@ -118,6 +118,20 @@ EncoderParameters read_encoder(config::TomlReader table) {
   return encoder;
 }
 
+// [[cogging]]: harmonics, each a table of its own.
+std::vector<CoggingHarmonic> read_cogging(std::vector<config::TomlReader> tables) {
+  std::vector<CoggingHarmonic> harmonics;
+  for (config::TomlReader& table : tables) {
+    CoggingHarmonic h;
+    h.per_turn = static_cast<int>(table.integer("per_turn", 1, 1000));
+    h.amplitude_nm = table.number("amplitude_nm", config::kNotNegative);
+    h.phase_rad = table.number("phase_rad", config::kAnyNumber);
+    table.finish();
+    harmonics.push_back(h);
+  }
+  return harmonics;
+}
+
 Effects read_all_effects(config::TomlReader table) { return read_flags(std::move(table), nullptr); }
 
 }  // namespace
@@ -147,6 +161,7 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   parameters.supply = read_supply(reader.section("supply"));
   parameters.encoder = read_encoder(reader.section("encoder"));
   if (reader.has("end_stops")) parameters.end_stops = read_end_stops(reader.section("end_stops"));
+  parameters.cogging = read_cogging(reader.sections("cogging"));
   parameters.effects = read_all_effects(reader.section("effects"));
   reader.finish();
   return parameters;

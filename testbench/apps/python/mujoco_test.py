@@ -32,8 +32,10 @@ LIMIT = 0.5  # percent
 STEP_S, END_S = 1e-6, 0.1
 PARTS = {
     "inertia": (), "viscous": ("viscous",), "friction": ("lugre",), "back-EMF": ("back_emf",),
-    "winding": ("inductance",), "together": ("viscous", "lugre", "back_emf", "inductance"),
+    "winding": ("inductance",), "cogging": ("cogging",),
+    "together": ("viscous", "lugre", "back_emf", "inductance", "cogging"),
 }  # fmt: skip
+COGGING = {"per_turn": 12, "amplitude_nm": 0.009, "phase_rad": 0.4}
 NOBODY = ([0, 1], [0, 0])
 #: Volts at a time, the hand's torque in Nm at times, whether the lever is held.
 MOTIONS = {
@@ -54,6 +56,7 @@ DEFECTS = {
     "lugre.stiffness_nm_rad": ("friction", "sine"),
     "motor.back_emf_constant_v_s_rad": ("back-EMF", "load step"),
     "motor.inductance_h": ("winding", "stall"),
+    "amplitude_nm": ("cogging", "coasting"),
 }
 SHOWN = ("theta_rad", "omega_rad_s", "motor_torque_nm", "friction_nm")
 MJCF = """<mujoco>
@@ -65,6 +68,7 @@ MJCF = """<mujoco>
 <actuator>
   <{motor} name="motor" joint="lever"/>
   <dcmotor name="friction" joint="lever" input="none" motorconst="0" resistance="1" lugre="{lugre}"/>
+  <dcmotor name="cogging" joint="lever" input="none" motorconst="0" resistance="1" cogging="{cogging}"/>
 </actuator>
 <sensor><actuatorfrc actuator="motor"/><actuatorfrc actuator="friction"/></sensor>
 </mujoco>"""
@@ -82,9 +86,11 @@ def theirs(p, effects, volts, hand_nm, held):
     lugre = [p[f"lugre.{name}"] if "lugre" in effects else 0 for name in names]
     owners = {"lever": "viscous", "lugre": "lugre"}
     damping = sum(p[f"{o}.viscous_nm_s_rad"] for o, effect in owners.items() if effect in effects)
+    amplitude = COGGING["amplitude_nm"] if "cogging" in effects else 0
+    cogging = amplitude, COGGING["per_turn"], COGGING["phase_rad"]
     model = mujoco.MjModel.from_xml_string(MJCF.format(
         step=STEP_S, inertia=1e6 if held else p["lever.inertia_kg_m2"], damping=damping,
-        motor=motor, lugre=" ".join(map(str, lugre))))  # fmt: skip
+        motor=motor, lugre=" ".join(map(str, lugre)), cogging=" ".join(map(str, cogging))))  # fmt: skip
     kind = mujoco.mjtState
     start = np.zeros((1, mujoco.mj_stateSize(model, kind.mjSTATE_FULLPHYSICS)))
     state, torque = rollout.rollout(
@@ -103,11 +109,15 @@ class Mujoco(Scratch):
         hand = feltgate.Hand.motion(*NOBODY) if held else feltgate.Hand.torque(times, torques)
         switches = r"(?m)^(viscous|lugre|back_emf|inductance|dead_voltage|dead_time) = \w+"
         effects = PARTS[part]
-        file = self.put("plant.toml", re.sub(
+        text = re.sub(
             switches, lambda m: f"{m[1]} = {str(m[1] in effects).lower()}",
-            text_of("vectors/plants/p24.toml")))  # fmt: skip
+            text_of("vectors/plants/p24.toml"))  # fmt: skip
+        if "cogging" in effects:
+            constants = {k: v * (1.02 if k == wrong else 1) for k, v in COGGING.items()}
+            text += "\n[[cogging]]\n" + "".join(f"{k} = {v}\n" for k, v in constants.items())
+        file = self.put("plant.toml", text)
         p = feltgate.Plant(file).parameters
-        plant = feltgate.Plant(file, set=wrong and {wrong: 1.02 * p[wrong]}, hand=hand)
+        plant = feltgate.Plant(file, set={wrong: 1.02 * p[wrong]} if wrong in p else None, hand=hand)
         ours = plant.run(volts_at(t) / p["supply.voltage_v"], step_clocks=round(STEP_S * 50e6))
         hand_nm = np.interp(t + STEP_S / 2, times, torques)
         pairs = zip((ours[name] for name in SHOWN), theirs(p, effects, volts_at(t), hand_nm, held))

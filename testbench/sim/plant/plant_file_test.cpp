@@ -114,6 +114,11 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
                  "\"high_rad\" is not above \"low_rad\"; leave the lever a way: raise it"));
   CHECK(contains(plant_error(replaced(stops, "restitution = 0.5", "restitution = 1.5")),
                  "out of range"));
+  const std::string cogging =
+      good + "\n[[cogging]]\nper_turn = 12\namplitude_nm = 0.01\nphase_rad = 0\n";
+  CHECK(plant_error(cogging) == "no error");
+  CHECK(contains(plant_error(replaced(cogging, "per_turn = 12", "per_turn = 0")), "per_turn"));
+  CHECK(contains(plant_error(replaced(cogging, "phase_rad = 0", "")), "\"phase_rad\" is missing"));
   CHECK(contains(plant_error(replaced(good, "lines = 1024", "lines = 10.5")), "not an integer"));
   CHECK(contains(plant_error(replaced(good, "lugre = true", "lugre = 1")), "true or false"));
   CHECK(contains(plant_error(replaced(good, "lugre = true", "")), "\"lugre\" is missing"));

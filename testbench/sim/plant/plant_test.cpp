@@ -101,6 +101,38 @@ TEST_CASE("no-load speed does not depend on the step", "[plant]") {
   CHECK(no_load_rad_s(p, 25, 1.5) == Approx(expected).epsilon(1e-6));
 }
 
+TEST_CASE("a lever swings in its cogging as in a potential", "[plant]") {
+  Parameters p = shipped("linear");
+  p.end_stops.reset();
+  // Rest is where sin(12 angle + 0.4) falls through 0.
+  const double stable_rad = (kTwoPi / 2 - 0.4) / 12, amplitude_nm = 0.01;
+  p.cogging = {{12, amplitude_nm, 0.4}};
+  Hand hand = hand_of(HandPhase::Kind::kFree);
+  for (const double out_rad : {0.001, 0.1}) {
+    hand.start_rad = stable_rad + out_rad;
+    Plant plant(p, kNoEffects, Drive{}, hand);
+    double fastest_rad_s = 0, first_s = 0;
+    for (int k = 0; first_s == 0 && k < 200'000; ++k) {
+      plant.advance(Bridge::averaged(0), 25);
+      const Observables& o = plant.observables();
+      fastest_rad_s = larger(fastest_rad_s, std::abs(o.omega_rad_s));
+      if (o.theta_rad < stable_rad) first_s = static_cast<double>(plant.now()) / kClockHz;
+    }
+    // Energy: J w^2 / 2 = A / 12 (1 - cos(12 out)).
+    const double energy_j = amplitude_nm / 12 * (1 - std::cos(12 * out_rad));
+    CHECK(fastest_rad_s == Approx(std::sqrt(2 * energy_j / p.lever.inertia_kg_m2)).epsilon(1e-4));
+    // A quarter of a swing, for small ones.
+    const double quarter_s = kTwoPi / 4 * std::sqrt(p.lever.inertia_kg_m2 / (12 * amplitude_nm));
+    if (out_rad < 0.01) CHECK(first_s == Approx(quarter_s).epsilon(1e-3));
+  }
+  // Several harmonics add up; a hand that imposes the angle feels them.
+  p.cogging = {{12, amplitude_nm, 0.4}, {36, 0.003, -1.0}};
+  Plant held(p, kNoEffects, Drive{}, hand_of(HandPhase::Kind::kLocked));
+  held.advance(Bridge::averaged(0), 25);
+  CHECK(held.observables().hand_torque_nm ==
+        Approx(-(amplitude_nm * std::sin(0.4) + 0.003 * std::sin(-1.0))).epsilon(1e-9));
+}
+
 TEST_CASE("an explicit step would be wrong without a warning", "[plant]") {
   CHECK(naive_no_load_rad_s(shipped("p24"), 0.3) < 400.0);
 }

@@ -4,10 +4,13 @@
 // Poles of the closed loop: against published and closed-form numbers, and what is refused.
 // The numbers for voltage gain 1 were computed apart from this code, with the N-method's gain
 // exactly 1 and without the tick of delay; hence the tolerances. Documentation: docs/designs.md
+#include <algorithm>
 #include <cmath>
 
 #include "../../design/design/design_fixture.hpp"
 #include "sim/plant/plant_file.hpp"
+#include "studies/stability/eigenvalues.hpp"
+#include "studies/stability/linear_loop.hpp"
 #include "studies/stability/loop_poles.hpp"
 #include "studies/stability/winding.hpp"
 
@@ -258,4 +261,28 @@ TEST_CASE("the table shows the poles", "[poles]") {
   CHECK(contains(table, "torque up to 0.15 Nm, gain 1.25 ohm:"));
   CHECK(contains(table, "(stable)"));
   CHECK(contains(table, "lever blocked: tau_hat at -391.6"));
+}
+
+TEST_CASE("the readings of an absolute encoder are a delay of the wall", "[poles]") {
+  LoopModel m = make_model(shipped("lever_absolute"), shipped_plant("linear"));
+  CHECK(m.reading_ticks == 96);
+  CHECK(m.reading_delay_ticks == 4);
+  const double with = border(m, 0.001, 1).stiffness_nm_rad;
+  CHECK(std::abs(closed_form_with_estimator(m, 0.001, 1) / with - 1) < 0.03);
+  LoopModel edges = m;
+  edges.reading_ticks = 1;
+  edges.reading_delay_ticks = 0;
+  CHECK(with < 0.8 * border(edges, 0.001, 1).stiffness_nm_rad);
+  // The whole matrix has its two states more.
+  m.raw_rad_s_rad *= static_cast<double>(m.m1) / 40;
+  m.m1 = 40;
+  const Wall wall{5, 0.005, 1};
+  int ticks = 0;
+  const Eigen::MatrixXd all = monodromy(m, wall, &ticks);
+  CHECK(all.rows() == m.m1 + 12);
+  CHECK(ticks == 480);  // of 20 in a PWM period
+  double radius = 0;
+  for (const Pole& z : eigenvalues(all)) radius = std::max(radius, std::abs(z));
+  const double growth = std::log(radius) / (ticks * m.tick_s);
+  CHECK(std::abs(poles(m, wall).front().real() - growth) < 1e-5 * std::abs(growth));
 }

@@ -22,12 +22,12 @@ SCENE_ROW = "core without read-back, registered"
 SNAPSHOT_PORTS = (
     "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
     "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o arm_request_o ready_o testing_o "
-    "measured_o zeroed_o current_clock_o current_o encoder_select_no encoder_clock_o encoder_command_o"
+    "measured_o zeroed_o current_clock_o current_o heartbeat_o encoder_select_no encoder_clock_o encoder_command_o"
 ).split()
 # Inputs of a core that is alone and has no engine.
 ALONE = (
     "law_torque_i law_late_i law_restart_i axis_fault_i axis_silent_i axis_blocked_i "
-    "axis_testing_i axis_waits_i current_data_i encoder_data_i"
+    "axis_testing_i axis_waits_i current_data_i driver_fault_i encoder_data_i"
 ).split()
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
@@ -103,8 +103,8 @@ def axes_targets():
             {"AxisCount": str(count)},
             registered,
             tuple(set(SNAPSHOT_PORTS)
-                  - {"arm_request_o", "ready_o", "testing_o", "current_clock_o", "current_o", "encoder_select_no",
-                     "encoder_clock_o", "encoder_command_o"}),
+                  - {"arm_request_o", "ready_o", "testing_o", "current_clock_o", "current_o", "heartbeat_o",
+                     "encoder_select_no", "encoder_clock_o", "encoder_command_o"}),
             ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i"),
         )
         for count in (1, 2, 3)

@@ -73,6 +73,7 @@ struct Design {
   bool current_loop = false;
   double current_full_scale_a = 0;  ///< at which the modulator clips; a power of two
   double current_bandwidth_hz = 0, inductance_h = 0, overcurrent_a = 0;
+  bool driver_fault = false, heartbeat = false;  ///< pins of the core
   // [absolute_encoder], optional: it takes the place of A, B and Z.
   bool absolute = false;
   int absolute_framing = 0, absolute_bits = 0, absolute_diagnosis = 0;

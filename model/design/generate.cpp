@@ -177,7 +177,9 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
        "clock of the PWM period in which a window begins"},
       {"feed_gain", given(std::lround(std::ldexp(per_lsb, drop))),
        "mantissa: parts of the supply per LSB of the voltage"},
-      {"feed_drop", given(drop), "its fraction bits"}};
+      {"feed_drop", given(drop), "its fraction bits"},
+      {"driver_fault", given(d.driver_fault ? 1 : 0), "1: the driver tells of its faults"},
+      {"heartbeat", given(d.heartbeat ? 1 : 0), "1: a pin beats for a watchdog outside"}};
 }
 
 /// Words of the absolute encoder; 0 without it.

@@ -230,6 +230,8 @@ void read_current_loop(config::TomlReader& r, Design& d) {
   d.current_bandwidth_hz = r.number("bandwidth_hz", {10, 20'000});
   d.inductance_h = r.number("inductance_h", {1e-7, 1});
   d.overcurrent_a = r.number("overcurrent_a", {0.01, 512});
+  d.driver_fault = r.has("driver_fault") && r.integer("driver_fault", 0, 1) == 1;
+  d.heartbeat = r.has("heartbeat") && r.integer("heartbeat", 0, 1) == 1;
 }
 
 }  // namespace

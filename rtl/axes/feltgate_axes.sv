@@ -122,7 +122,7 @@ module feltgate_axes #(
   logic [AxisCount*TorqueW-1:0] law_torque;
   logic [AxisCount-1:0] in_law;
   logic law_late, law_restart, unchecked, unfit;
-  logic [AxisCount-1:0] current_clock;    // no axis has a current loop
+  logic [AxisCount-1:0] current_clock, heartbeat;  // no axis has a current loop
   logic [19*AxisCount-1:0] current;
   logic [3*AxisCount-1:0] serial;         // nor an absolute encoder
 
@@ -142,6 +142,7 @@ module feltgate_axes #(
         .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
         .encoder_data_i(1'b0), .encoder_select_no(serial[3*n]), .encoder_clock_o(serial[3*n+1]), .encoder_command_o(serial[3*n+2]),
         .current_data_i(1'b0), .current_clock_o(current_clock[n]), .current_o(current[19*n+:19]),
+        .driver_fault_i(1'b0), .heartbeat_o(heartbeat[n]),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
         .law_torque_i(law_torque[n*TorqueW+:TorqueW]),
         .law_late_i(law_late), .law_restart_i(law_restart),
@@ -213,7 +214,7 @@ module feltgate_axes #(
 
   logic unused;
   always_comb begin
-    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, current, serial};
+    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, heartbeat, current, serial};
     for (int k = 0; k < AxisCount; k++) unused = unused ^ (^{word_slot[k], tick_count[k]});
   end
 endmodule

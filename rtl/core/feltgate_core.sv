@@ -32,6 +32,8 @@ module feltgate_core #(
     input  logic               current_data_i,
     output logic               current_clock_o,
     output logic signed [18:0] current_o,   // measured, [1,1,17] of full scale
+    input  logic               driver_fault_i,  // fault of the bridge's driver, for the option DRIVER_FAULT; else 0
+    output logic               heartbeat_o,     // to a watchdog outside, for the option HEARTBEAT
 
     // Panel: used while the control word does not give control to the host
     input  logic       arm_i,       // level; its rising edge arms
@@ -106,9 +108,10 @@ module feltgate_core #(
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   // actuation, safety
   logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
-  logic [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state;
+  logic [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state;
   logic [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
+  logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;  // measured, if there is a current loop
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
   logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0] test_result;
   // Each room's faults and limits, by bit
@@ -125,16 +128,14 @@ module feltgate_core #(
       .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
       .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]), .set_zero_i(set_zero), .clear_i(clear),
       .position_o(position_o), .scene_position_o(scene_position), .travel_o(travel),
-      .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
-      .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
+      .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error), .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
       .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits), .trips_o(encoder_trips)
   );
 
   estimators u_estimators (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .armed_i(armed_o), .travel_i(travel),
       .velocity_difference_o(velocity_difference), .velocity_product_i(velocity_product),
-      .observer_difference_o(observer_difference), .dob_product_i(dob_product),
-      .velocity_o(velocity_o), .tau_hat_o(tau_hat_o), .limits_o(estimator_limits), .trips_o(estimator_trips)
+      .observer_difference_o(observer_difference), .dob_product_i(dob_product), .velocity_o(velocity_o), .tau_hat_o(tau_hat_o), .limits_o(estimator_limits), .trips_o(estimator_trips)
   );
 
   scenes u_scenes (
@@ -147,13 +148,12 @@ module feltgate_core #(
   actuation u_actuation (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .armed_i(armed_o), .paused_i(paused),
       .mode_i(mode), .scene_i(scene_o), .restart_i(restart || (tick && law && law_restart_i)),
-      .frozen_i(chatters), .derated_i(derated),
-      .early_term_i(scene_early | pulse),  // during the self-test the scene gives 0
+      .frozen_i(chatters), .derated_i(derated), .early_term_i(scene_early | pulse),  // during the self-test the scene gives 0
       .early_up_i(scene_up), .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
       .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high),
       .tau_ref_o(tau_ref_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
-      .limits_o(actuation_limits),
-      .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(current_o),
+      .limits_o(actuation_limits), .current_data_i(current_data_i), .current_clock_o(current_clock_o),
+      .current_o(current_o), .motor_current_o(motor_current), .driver_fault_i(driver_fault_i),
       .current_state_o(current_state), .trips_o(actuation_trips), .clear_i(clear),
       .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
       .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
@@ -176,7 +176,7 @@ module feltgate_core #(
       .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked),
       .gates_enable_o(gates_enable_o), .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o),
       .limits_o(safety_limits), .current_estimate_o(current_estimate), .derated_o(derated),
-      .testing_o(testing_o), .pulse_o(pulse), .test_result_o(test_result)
+      .heartbeat_o(heartbeat_o), .testing_o(testing_o), .pulse_o(pulse), .test_result_o(test_result)
   );
 
   assign limits_o = encoder_limits | estimator_limits | actuation_limits | safety_limits;
@@ -193,7 +193,7 @@ module feltgate_core #(
       .word_valid_o(word_valid_o), .word_slot_o(word_slot_o), .word_data_o(word_data_o),
       .velocity_difference_i(velocity_difference), .observer_difference_i(observer_difference),
       .distance_i(distance), .square_i(square), .applied_i(applied), .velocity_i(velocity_o),
-      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .current_ref_i(current_ref_o), .voltage_i(voltage_o), .current_estimate_i(current_estimate),
+      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .motor_current_i(motor_current), .voltage_i(voltage_o), .current_estimate_i(current_estimate),
       .velocity_product_o(velocity_product), .dob_product_o(dob_product), .scene_product_o(scene_product),
       .control_product_o(control_product), .supervisor_product_o(supervisor_product)
   );

@@ -103,7 +103,7 @@ module feltgate_linked #(
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
         .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
         .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
-        .current_data_i(1'b0), .current_clock_o(), .current_o(),
+        .current_data_i(1'b0), .current_clock_o(), .current_o(), .driver_fault_i(1'b0), .heartbeat_o(),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
         .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
         .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),

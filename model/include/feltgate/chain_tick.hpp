@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "feltgate/dob.hpp"
@@ -38,6 +39,7 @@ class ChainTick {
  public:
   using Velocity = typename VelocityLaw<D, N>::Velocity;
   using Torque = typename DobLaw<D, N>::Torque;
+  using Current = decltype(TorqueControlStep<D, N>::current);
 
   /// The state after a reset; the parameter words stay, as in the RTL.
   void reset() {
@@ -46,6 +48,7 @@ class ChainTick {
     estimator_ = {};
     observer_ = {};
     control_ = {};
+    measured_ = {};
   }
 
   Words<D, N>& words() { return words_; }
@@ -88,8 +91,20 @@ class ChainTick {
     bool unused = false;
     return N::raw(VelocityLaw<D, N>::raw(travel_difference(travel, line_.oldest()), &unused));
   }
-  /// Stage 2: tau_hat from the velocity and the current of the tick before.
-  void observe(bool armed) { observer_.tick(words_, armed, control_.current, velocity()); }
+  /// With a current loop: the measured current, raw in the format of the current, before observe().
+  void measure(std::int32_t raw) {
+    if constexpr (N::is_fixed) {
+      measured_ = Current::from_raw(raw);
+    } else {
+      measured_ =
+          static_cast<Current>(std::ldexp(static_cast<double>(raw), -D::f.current.fraction));
+    }
+  }
+  /// Stage 2: tau_hat from the velocity and the current: the measured one, or the reference of the
+  /// tick before.
+  void observe(bool armed) {
+    observer_.tick(words_, armed, D::current_loop != 0 ? measured_ : control_.current, velocity());
+  }
   /// Stage 3: tau_ref from the position, and from the velocity in a damper.
   void render(bool armed, int scene, std::int32_t position, Relief relief = {},
               TestPulse pulse = TestPulse::none) {
@@ -132,6 +147,7 @@ class ChainTick {
   ObserverStep<D, N> observer_;
   ScenesLaw<D, N> scenes_;
   TorqueControlStep<D, N> control_;
+  Current measured_{};
 };
 
 }  // namespace feltgate

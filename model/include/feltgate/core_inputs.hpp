@@ -18,7 +18,7 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
   sup->axis_silent = in.axis_silent || loop_.waits() || absolute_state(decoder_) >> 5 != 0;
-  sup->axis_blocked = in.axis_blocked || loop_.state() != 0 || absolute_state(decoder_) != 0;
+  sup->axis_blocked = in.axis_blocked || !loop_.ready() || absolute_state(decoder_) != 0;
 }
 
 template <class D, bool ReadBack>
@@ -30,7 +30,7 @@ bool FeltgateCore<D, ReadBack>::arm_request(const In& in) const {
 
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::ready() const {
-  return supervisor_.ready(host()) && loop_.state() == 0 && absolute_state(decoder_) == 0;
+  return supervisor_.ready(host()) && loop_.ready() && absolute_state(decoder_) == 0;
 }
 
 /// The scene that is asked for: by the control word if the host has control, else by the panel.
@@ -100,8 +100,12 @@ template <class D, bool ReadBack>
 auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
   typename CurrentLoop<D>::In l;
   l.data = in.current_data;
+  l.driver_fault = in.driver_fault;
   l.gates_enable = supervisor_.out().gates_enable;
   l.direct = mode() == Mode::voltage;
+  l.polarity = bit(registers_.out().control, D::C::control_motor_polarity);
+  l.beats = clock_ == D::clocks_per_tick - 1 && supervisor_.out().first_fault == 0;
+  l.tick_count = out_.tick_count;
   l.clear = clear;
   l.wave_clock = clock_ - Map::first_wave_clock;
   if (l.wave_clock == T::voltage) {

@@ -20,6 +20,7 @@ struct CoreIn {
   EncoderPins encoder;
   bool encoder_data = false;  ///< of an absolute encoder
   bool current_data = false;  ///< of the modulator of a current loop
+  bool driver_fault = false;  ///< of the bridge's driver, in a design with this pin
   bool arm = false;           ///< the panel's request
   bool stop = false;          ///< the stop input was active since the last clock, however shortly
   bool set_zero = false;      ///< one clock: the position becomes 0 at the end of the tick
@@ -48,6 +49,7 @@ struct CoreOut {
   std::int32_t position = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0;
   std::int32_t current = 0;    ///< measured by a current loop, [1,1,17] of full scale
   bool current_clock = false;  ///< to its modulator
+  bool heartbeat = false;      ///< to a watchdog outside, in a design with this pin
   std::uint8_t serial = 1;  ///< to an absolute encoder: bit 0 select_n, bit 1 clock, bit 2 command
   /// Clocks of the PWM period: as computed, and as in force.
   std::int16_t duty = 0, duty_active = 0;
@@ -68,7 +70,8 @@ struct CoreOut {
            armed == o.armed && gates_enable == o.gates_enable &&
            snapshot_valid == o.snapshot_valid && reg_busy == o.reg_busy &&
            word_valid == o.word_valid && word_slot == o.word_slot && word_data == o.word_data &&
-           current == o.current && current_clock == o.current_clock && serial == o.serial;
+           current == o.current && current_clock == o.current_clock && heartbeat == o.heartbeat &&
+           serial == o.serial;
   }
 };
 

@@ -11,6 +11,7 @@
 #include "feltgate/chain_tick.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
+#include "feltgate/current_loop.hpp"
 
 namespace feltgate {
 
@@ -72,6 +73,7 @@ class CoreWave {
         out.velocity = chain_.velocity().raw();
         break;
       case Step::tau_hat:
+        if constexpr (D::current_loop != 0) chain_.measure(motor_current<D>(out.current));
         chain_.observe(out.armed);
         out.tau_hat = static_cast<std::int32_t>(chain_.tau_hat().raw());
         set(Map::L::tau_hat, chain_.limit_tau_hat());

@@ -81,7 +81,7 @@ class FeltgateCore {
       if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
       if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
-    if (loop_.state() != 0 && open) sup.trips |= fault_bit(Fault::current);
+    if (!loop_.ready() && open) sup.trips |= fault_bit(Fault::current);
     if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
     Pwm::In pwm = pwm_inputs(open, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);
@@ -220,7 +220,8 @@ class FeltgateCore {
     if (t == M::inverse_resistance) sup.product = operand_v_;
     if (t == M::emf_over_resistance) sup.product = operand_w_;
     if (t == M::current_square) {
-      const std::int64_t estimate = supervisor_.out().current_estimate;
+      std::int64_t estimate = supervisor_.out().current_estimate;
+      if constexpr (kLoop) estimate = loop_.heat_current();
       sup.product = estimate * estimate;
     }
     return sup;
@@ -366,10 +367,7 @@ class FeltgateCore {
     out_.first_fault = supervisor_.out().first_fault;
     out_.duty_active = gates_.duty_active();
     out_.gates = gates_.bits();
-    if constexpr (kLoop) {
-      out_.current = static_cast<std::int32_t>(loop_.sense().current);
-      out_.current_clock = loop_.sense().modulator_clock;
-    }
+    if constexpr (kLoop) loop_.show(&out_);
     if constexpr (kAbsolute) out_.serial = decoder_.serial();
     out_.limits = wave_.limits(out_.gates_enable);
   }

@@ -27,6 +27,7 @@ struct Snapshot {
   std::int32_t position = 0;  ///< counts
   /// Raw, in the design's formats; duty in clocks of the PWM period.
   std::int64_t velocity = 0, tau_hat = 0, tau_ref = 0, current_ref = 0, voltage = 0, duty = 0;
+  std::int32_t current = 0;  ///< measured by a current loop, [1,1,17] of full scale
   std::uint8_t scene = 0, first_fault = 0;
   std::uint16_t limits = 0, faults = 0;
   bool armed = false;
@@ -51,6 +52,7 @@ struct Snapshot {
         current_ref(o.current_ref),
         voltage(o.voltage),
         duty(o.duty),
+        current(o.current),
         scene(o.scene),
         first_fault(o.first_fault),
         limits(o.limits),
@@ -61,8 +63,9 @@ struct Snapshot {
   bool operator==(const Snapshot& o) const {
     return tick == o.tick && position == o.position && velocity == o.velocity &&
            tau_hat == o.tau_hat && tau_ref == o.tau_ref && current_ref == o.current_ref &&
-           voltage == o.voltage && duty == o.duty && scene == o.scene && limits == o.limits &&
-           faults == o.faults && first_fault == o.first_fault && armed == o.armed;
+           voltage == o.voltage && duty == o.duty && current == o.current && scene == o.scene &&
+           limits == o.limits && faults == o.faults && first_fault == o.first_fault &&
+           armed == o.armed;
   }
 };
 

@@ -24,14 +24,14 @@ namespace feltgate {
           apply(limits) apply(faults) apply(first_fault) apply(armed) apply(gates_enable)        \
               apply(snapshot_valid) apply(reg_busy) apply(reg_rdata) apply(word_valid)           \
                   apply(word_slot) apply(word_data) apply(current) apply(current_clock)          \
-                      apply(serial)
+                      apply(heartbeat) apply(serial)
 
 /// Does not compile if CoreOut gained or lost an output that the list above lacks or has.
 inline void count_outputs(const CoreOut& out) {
   [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w,
-                                x, y] = out;
+                                x, y, z] = out;
 #define FELTGATE_ONE(name) +1
-  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 25, "an output is not in the list above");
+  static_assert(FELTGATE_EACH_OUTPUT(FELTGATE_ONE) == 26, "an output is not in the list above");
 #undef FELTGATE_ONE
 }
 

@@ -63,6 +63,7 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   } else {
     rtl.encoder_data_i = in.encoder_data;
     rtl.current_data_i = in.current_data;
+    rtl.driver_fault_i = in.driver_fault;
     rtl.axis_fault_i = in.axis_fault;
     rtl.axis_silent_i = in.axis_silent;
     rtl.axis_blocked_i = in.axis_blocked;
@@ -102,6 +103,7 @@ CoreOut read_outputs(const Rtl& rtl) {
   if constexpr (has_current<Rtl>) {
     o.current = detail::narrow_word(rtl.current_o, 19);
     o.current_clock = rtl.current_clock_o != 0;
+    o.heartbeat = rtl.heartbeat_o != 0;
     o.serial = static_cast<std::uint8_t>(rtl.encoder_select_no | rtl.encoder_clock_o << 1 |
                                          rtl.encoder_command_o << 2);
   }

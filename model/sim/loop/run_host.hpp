@@ -86,8 +86,8 @@ class RunHost {
       const Snapshot& s = axes[n];
       const bool restart =
           beside_[n].restart(s.armed, s.scene) || (axes[0].law_restart && renders_law(s));
-      in[n] = {s.position, s.travel,           s.armed, s.scene, beside_[n].mode(),
-               restart,    relief_of(s.limits)};
+      in[n] = {s.position,          s.travel, s.armed, s.scene, beside_[n].mode(), restart,
+               relief_of(s.limits), s.current};
     }
     return in;
   }

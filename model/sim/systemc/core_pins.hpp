@@ -20,6 +20,7 @@
   X(bool, enc_z_i)               \
   X(bool, encoder_data_i)        \
   X(bool, current_data_i)        \
+  X(bool, driver_fault_i)        \
   X(bool, arm_i)                 \
   X(bool, stop_i)                \
   X(bool, set_zero_i)            \
@@ -45,6 +46,7 @@
   X(bool, encoder_command_o)      \
   X(bool, current_clock_o)        \
   X(std::uint32_t, current_o)     \
+  X(bool, heartbeat_o)            \
   X(bool, arm_request_o)          \
   X(bool, ready_o)                \
   X(bool, testing_o)              \

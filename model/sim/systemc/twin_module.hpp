@@ -53,6 +53,7 @@ class TwinModule : public sc_core::sc_module {
     in.encoder = {enc_a_i.read(), enc_b_i.read(), enc_z_i.read()};
     in.encoder_data = encoder_data_i.read();
     in.current_data = current_data_i.read();
+    in.driver_fault = driver_fault_i.read();
     in.arm = arm_i.read();
     in.stop = stop_seen_ || stop_i.read();
     in.set_zero = set_zero_i.read();
@@ -97,6 +98,7 @@ class TwinModule : public sc_core::sc_module {
     encoder_command_o.write((o.serial & 4u) != 0);
     current_clock_o.write(o.current_clock);
     current_o.write(static_cast<std::uint32_t>(o.current) & 0x7ffff);
+    heartbeat_o.write(o.heartbeat);
     reg_busy_o.write(o.reg_busy);
     reg_rdata_o.write(o.reg_rdata);
     snapshot_valid_o.write(o.snapshot_valid);

@@ -86,7 +86,7 @@ class MixedChain {
 
   void tick(const ChainIn& in) {
     estimate(in.travel);
-    observe(in.armed);
+    observe(in);
     if (in.restart) scenes_.ramp().restart();
     scenes_.tick(words<ScenesBlock>(), in.armed, in.scene, scene_position(in.position),
                  input<ScenesBlock, finer(D::f.velocity).key()>(velocity_), in.relief);
@@ -170,18 +170,27 @@ class MixedChain {
                                          Velocity::Filter::operand(gain_ * counts, velocity_) * a1);
     }
   }
-  void observe(bool armed) {
+  /// Measured, which is exact, or the reference of the tick before.
+  auto current_of(const ChainIn& in) const {
+    if constexpr (D::current_loop != 0) {
+      return static_cast<Quad>(std::ldexp(motor_current<D>(in.current), -D::f.current.fraction));
+    } else {
+      return control_.current;
+    }
+  }
+  void observe(const ChainIn& in) {
+    const bool armed = in.armed;
     const auto& w = words<DobBlock>();
-    const auto current = input<DobBlock, finer(D::f.current).key()>(control_.current);
+    const auto current = input<DobBlock, finer(D::f.current).key()>(current_of(in));
     const auto velocity = input<DobBlock, finer(D::f.velocity).key()>(velocity_);
     const auto drive =
         armed ? Observer::drive(current * w.torque_constant()) : typename Observer::Drive{};
     const auto inertia = Observer::inertia(velocity * w.inertia_gain());
-    const auto in = Observer::input(drive, inertia);
+    const auto sum = Observer::input(drive, inertia);
     const auto a1 = w.observer_a1();
     observer_ =
-        armed ? Observer::Filter::next(observer_, Observer::Filter::operand(in, observer_) * a1)
-              : in;
+        armed ? Observer::Filter::next(observer_, Observer::Filter::operand(sum, observer_) * a1)
+              : sum;
     bool saturated = false;
     tau_hat_ = Observer::tau_hat(observer_, inertia, &saturated);
   }

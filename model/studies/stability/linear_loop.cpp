@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 #include "studies/stability/axis_chain.hpp"
 #include "studies/stability/eigenvalues.hpp"
@@ -139,6 +140,12 @@ LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters
 }
 
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
+  if (e.design.current_loop) {
+    throw std::invalid_argument("design " + e.design.name +
+                                " controls a measured current, which this linear loop does not; "
+                                "the borders of its walls are "
+                                "in docs/blocks/current_control.md");
+  }
   LoopModel m;
   static_cast<LinearLoop&>(m) = make_linear_loop(e, p);
   m.pwm_ticks = e.design.pwm_period_clocks() / e.design.clocks_per_tick();

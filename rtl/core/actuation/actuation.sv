@@ -35,9 +35,11 @@ module actuation (
     output logic signed [        feltgate_pkg::DUTY_W-1:0]  duty_o,         // clocks of on-time
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,   // bit n: limit n acted
     input  logic                                            current_data_i,    // of the modulator of a current loop
+    input  logic                                            driver_fault_i,    // of the bridge's driver, asynchronous
     output logic                                            current_clock_o,   // to it
-    output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale
-    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_o,  // why it is not to be relied on
+    output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale; new after EVENT_AT_SAMPLE
+    output logic signed [     feltgate_pkg::CURRENT_W-1:0]  motor_current_o,   // A: that one; without a current loop current_ref_o
+    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0]  current_state_o,   // why it is not to be relied on; top bit: the driver
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   trips_o,           // bit n: cause n
     input  logic                                            clear_i,           // of the over-current
     input  logic                                            gates_enable_i,
@@ -128,13 +130,15 @@ module actuation (
     assign bridge_duty     = duty_o;
     assign current_clock_o = 1'b0;
     assign current_o       = '0;
+    assign motor_current_o = current_ref_o;
     assign current_state_o = '0;
     logic unused_loop;
-    assign unused_loop = ^{current_data_i, clear_i};
+    assign unused_loop = ^{current_data_i, driver_fault_i, clear_i};
   end else begin : g_current_loop
     localparam int Period = feltgate_pkg::PWM_PERIOD;
     localparam int EmfDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_EMF_CONSTANT_F - feltgate_pkg::VOLTAGE_F;
     localparam int CurrentDrop = feltgate_pkg::CURRENT_DROP;
+    localparam int CurrentW = feltgate_pkg::CURRENT_W;
     localparam int SupplyF = 17;  // voltages of the loop are [1,0,17] of the supply
     localparam logic [11:0] LimitGain = 12'((1 << SupplyF) / Period);
 
@@ -177,6 +181,7 @@ module actuation (
     // The middle of a window is that of the pulse at the terminals.
     logic [11:0] since_q;  // clocks since a period began
     logic measured, calibrated;
+    logic signed [18:0] at_shunt, current, mean_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) since_q <= '0;
       else since_q <= period_start_o ? 12'd1 : since_q + 12'd1;
@@ -188,18 +193,50 @@ module actuation (
         .strobe_i(since_q == 12'(feltgate_pkg::CURRENT_STROBE)),
         .armed_i(gates_enable_i), .clear_i(clear_i),
         .threshold_i(8'(feltgate_pkg::CURRENT_OVERCURRENT)),
-        .current_o(current_o), .valid_o(), .aligned_o(measured),
+        .current_o(at_shunt), .valid_o(), .aligned_o(measured),
         .overcurrent_o(current_state_o[0]), .calibrated_o(calibrated), .offset_fault_o(current_state_o[3]),
         .stuck_o(current_state_o[1]), .saturated_o(current_state_o[2])
     );
     assign current_state_o[4] = !calibrated;
+
+    // With the gates enabled, the driver's fault is kept until the faults are cleared.
+    logic driver_q, driver_q2, driver_kept_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        driver_q      <= 1'b0;
+        driver_q2     <= 1'b0;
+        driver_kept_q <= 1'b0;
+      end else begin
+        driver_q      <= driver_fault_i && feltgate_pkg::DRIVER_FAULT != 0;
+        driver_q2     <= driver_q;
+        driver_kept_q <= (driver_q2 && gates_enable_i) || (driver_kept_q && !clear_i);
+      end
+    end
+    assign current_state_o[5] = driver_q2 || driver_kept_q;
+
+    // The current that makes tau_ref positive: in a motor that is connected the other way round, against that at the
+    // shunt. The observer and the heat take the mean of the last period whose window was whole.
+    logic signed [31:0] in_format;
+    assign current = polarity_i ? -at_shunt : at_shunt;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        mean_q    <= '0;
+        current_o <= '0;
+      end else begin
+        if (measured) mean_q <= current;
+        if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) current_o <= mean_q;
+      end
+    end
+    assign in_format       = 32'(current_o) <<< CurrentDrop;
+    assign motor_current_o = (in_format[31:CurrentW-1] == {(33 - CurrentW) {in_format[31]}}) ? in_format[CurrentW-1:0]
+                             : {in_format[31], {(CurrentW - 1) {!in_format[31]}}};
 
     logic signed [17:0] voltage;
     logic signed [43:0] share;
     logic signed [feltgate_pkg::DUTY_W-1:0] duty_q;
     current_control u_current_control (
         .clk_i(clk_i), .rst_ni(rst_ni),
-        .armed_i(drives), .valid_i(measured), .reference_i(reference_q), .current_i(current_o),
+        .armed_i(drives), .valid_i(measured), .reference_i(reference_q), .current_i(current),
         .emf_i(feed_forward),
         .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
         .limit_i(limit_q),

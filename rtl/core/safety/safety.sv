@@ -32,7 +32,7 @@ module safety (
     input  logic                                              axis_waits_i,
     output logic                                              arm_request_o,
     output logic                                              ready_o,         // may be armed
-    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_i,  // of the current loop, 0: ready
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of the current loop, 0: ready; top bit: its driver
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder, 0: ready
     // What is watched
     input  logic        [ feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,        // causes of other rooms, by bit
@@ -57,6 +57,7 @@ module safety (
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,      // bit n: limit n acted
     output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,  // A
     output logic                                              derated_o,       // the torque limit is hold_limit
+    output logic                                              heartbeat_o,     // changes every 512 ticks without a fault
     output logic                                              testing_o,       // the self-test runs
     output logic signed [   feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_o,         // its pulse: a torque beyond every limit; the limit makes it
     output logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0]   test_result_o
@@ -130,6 +131,18 @@ module safety (
       .gates_enable_o(gates_enable_o), .gates_clear_o(gates_clear_o),
       .faults_o(faults_o), .first_fault_o(first_fault_o)
   );
+
+  // For a watchdog outside. It stands with the clock, with the ticks, and while a fault is latched.
+  generate
+  if (feltgate_pkg::HEARTBEAT == 0) begin : g_no_heartbeat
+    assign heartbeat_o = 1'b0;
+  end else begin : g_heartbeat
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) heartbeat_o <= 1'b0;
+      else if (tick_i && first_fault_o == '0) heartbeat_o <= tick_count_i[9];
+    end
+  end
+  endgenerate
 
   assign ready_o  = ready && current_state_i == '0 && absolute_state_i == '0;
   assign limits_o = feltgate_map_pkg::W_STATUS_LIMITS'(!gates_enable_o) << feltgate_map_pkg::L_GATES_CLOSED;

@@ -46,7 +46,7 @@ module wave #(
     input  logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_i,
-    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT-1:0] current_state_i,  // of a current loop
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of a current loop; top bit: its driver
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder
     input  logic                                             encoder_error_i,
     input  logic        [                              15:0] error_count_i,
@@ -65,7 +65,7 @@ module wave #(
     input  logic signed [      feltgate_pkg::VELOCITY_W-1:0] velocity_i,
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_hat_i,
     input  logic signed [        feltgate_pkg::TORQUE_W-1:0] tau_ref_i,
-    input  logic signed [       feltgate_pkg::CURRENT_W-1:0] current_ref_i,
+    input  logic signed [       feltgate_pkg::CURRENT_W-1:0] motor_current_i,
     input  logic signed [       feltgate_pkg::VOLTAGE_W-1:0] voltage_i,
     input  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_i,
     output logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] velocity_product_o,
@@ -75,12 +75,14 @@ module wave #(
     output logic signed [    feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product_o
 );
   localparam int OperandW = feltgate_pkg::MULTIPLIER_A_BITS;
+  localparam int EstimateW = feltgate_pkg::CURRENT_ESTIMATE_W;
+  localparam int HeatDrop = (feltgate_pkg::CURRENT_LOOP == 0) ? 0 : feltgate_pkg::CURRENT_F - feltgate_pkg::CURRENT_ESTIMATE_F;
   logic [3:0] scene_wanted;
   logic [5:0] slot_fetch;
   logic scene_slot_fetch, refused, word_error, signed_word, square_distance_q, square_estimate, direct_q;
   logic [31:0] status, faults;
   logic signed [OperandW-1:0] operand, dob_operand, scene_operand, control_operand, supervisor_operand;
-  logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_operand;
+  logic signed [EstimateW-1:0] heat_current, estimate_operand;
 
   sequencer u_sequencer (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -118,7 +120,7 @@ module wave #(
 
   assign faults = (32'(faults_i) << feltgate_map_pkg::B_FAULTS_SEEN) |
                   (32'(first_fault_i) << feltgate_map_pkg::B_FAULTS_FIRST) |
-                  (32'(current_state_i) << feltgate_map_pkg::B_FAULTS_CURRENT) |
+                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1:0]) << feltgate_map_pkg::B_FAULTS_CURRENT) |
                   (32'(absolute_state_i) << feltgate_map_pkg::B_FAULTS_ABSOLUTE);
   assign status = (32'(limits_i) << feltgate_map_pkg::B_STATUS_LIMITS) |
                   (32'(scene_o) << feltgate_map_pkg::B_STATUS_SCENE) |
@@ -127,6 +129,7 @@ module wave #(
                    << feltgate_map_pkg::B_STATUS_MODE) |
                   (32'(test_result_i) << feltgate_map_pkg::B_STATUS_SELF_TEST) |
                   (32'(paused_i) << feltgate_map_pkg::B_STATUS_TESTING) |
+                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT]) << feltgate_map_pkg::B_STATUS_DRIVER_FAULT) |
                   (32'(encoder_error_i) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) |
                   (32'(unkicked_i) << feltgate_map_pkg::B_STATUS_UNKICKED);
@@ -154,6 +157,10 @@ module wave #(
       .valid_o(word_valid_o), .slot_o(word_slot_o), .data_o(word_data_o)
   );
 
+  // I2t takes a measured current, if there is one.
+  assign heat_current = (feltgate_pkg::CURRENT_LOOP == 0)
+                        ? current_estimate_i
+                        : EstimateW'(motor_current_i >>> HeatDrop);
   operand_bus u_operand_bus (
       .clk_i(clk_i),
       .param_next_inverse_resistance_i(wave_o[feltgate_map_pkg::PARAM_AT_INVERSE_RESISTANCE-1]),
@@ -173,8 +180,8 @@ module wave #(
       .limited_i(applied_i),
       .velocity_i(velocity_i),
       .tau_hat_i(tau_hat_i), .tau_ref_i(tau_ref_i),
-      .current_ref_i(current_ref_i), .voltage_i(voltage_i),
-      .current_estimate_i(current_estimate_i),
+      .current_ref_i(motor_current_i), .voltage_i(voltage_i),
+      .current_estimate_i(heat_current),
       .operand_o(operand),
       .dob_o(dob_operand), .scene_o(scene_operand),
       .control_o(control_operand), .supervisor_o(supervisor_operand),

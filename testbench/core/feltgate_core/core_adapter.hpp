@@ -52,6 +52,7 @@ struct CoreAdapter {
     check("encoder_command", rtl.encoder_command_o, (out.serial >> 2) & 1u);
     check("current", sign_extend<19>(rtl.current_o), out.current);
     check("current_clock", rtl.current_clock_o, out.current_clock);
+    check("heartbeat", rtl.heartbeat_o, out.heartbeat);
     FELTGATE_COMPARE(check, rtl, out, gates_enable, scene, limits, faults, first_fault, armed,
                      snapshot_valid, reg_busy, reg_rdata, word_valid, word_slot, word_data);
   }

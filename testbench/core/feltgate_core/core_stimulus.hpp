@@ -19,10 +19,10 @@
 namespace feltgate::test {
 
 /// The modulator at a winding that the duty in force drives; at times its line stands, it has an
-/// offset, or the winding is shorted.
+/// offset, or the winding is shorted; or the driver has a fault.
 class CurrentStimulus {
  public:
-  bool bit(const CoreOut& out) {
+  void set(const CoreOut& out, CoreIn* in) {
     if (left_-- <= 0) {
       left_ = 1'000 + random_.below(150'000);
       trouble_ = random_.below(8);
@@ -34,7 +34,8 @@ class CurrentStimulus {
     const bool rises = out.current_clock && !clock_;
     clock_ = out.current_clock;
     if (rises) bit_ = modulator_.next(current_a_ + (trouble_ == 1 ? 40 : 0));
-    return trouble_ == 2 || bit_;
+    in->current_data = trouble_ == 2 || bit_;
+    in->driver_fault = trouble_ == 4 && left_ < 200;
   }
 
  private:
@@ -70,7 +71,7 @@ class CoreStimulus {
       if (outside_.one_in(400)) in_.axis_waits = !in_.axis_waits;
     }
     first_ = last;
-    if constexpr (D::current_loop != 0) in_.current_data = current_.bit(out);
+    if constexpr (D::current_loop != 0) current_.set(out, &in_);
     if constexpr (D::absolute_encoder != 0) {
       const double rad = (static_cast<double>(counted_) + 0.5) * D::count_rad;
       sensor_.turn(rad, rad, clock, 1);

@@ -2,10 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core with a current loop, RTL against twin in every clock, around a winding that its gates
-// switch: a torque step, the over-current, a sensor that fails, what arming waits for.
+// switch: a torque step, what tau_hat and I2t take, the over-current, a sensor or a driver that
+// fails, the heartbeat, what arming waits for.
 // Documentation: docs/blocks/current_control.md
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
@@ -22,15 +25,18 @@ namespace {
 static_assert(D::current_loop != 0);
 constexpr double kFull = 32, kLsb = kFull / (1 << 17);
 constexpr std::int64_t kArmed = 520'000, kSettled = kArmed + 60'000;
+constexpr double kKt = 0.0302;  // Nm/A
 
 /// A host that arms the set-point after the calibration, and the winding with its modulator. From
 /// kSettled on something may happen.
 struct Rig {
-  enum class Event { none, shorted, stands };
+  enum class Event { none, shorted, stands, driver };
   Event event = Event::none;
   double torque_nm = 0.2, ohm = 0.42;
   std::uint32_t duty_limit = word_of_design(A::duty_limit);
-  bool early = false;  ///< asks to be armed before the calibration
+  bool early = false;                                ///< asks to be armed before the calibration
+  std::uint32_t control = 0;                         ///< further bits of the control word
+  std::vector<std::pair<int, std::uint32_t>> words;  ///< further ones, before arming
 
   feltgate::plant::SigmaDelta modulator{kFull};
   double current_a = 0;
@@ -46,6 +52,7 @@ struct Rig {
     if (out.current_clock && !clock_was) in.current_data = modulator.next(current_a);
     clock_was = out.current_clock;
     if (happens && event == Event::stands) in.current_data = false;
+    in.driver_fault = happens && event == Event::driver && cycle < kSettled + 3;
     return in;
   }
 
@@ -59,7 +66,7 @@ struct Rig {
     return leg(gates & 1u, gates & 2u, true) - leg(gates & 4u, gates & 8u, false);
   }
   void host(std::int64_t cycle) {
-    constexpr auto scene = static_cast<std::uint32_t>(D::S::setpoint) << C::control_scene;
+    const auto given = control | static_cast<std::uint32_t>(D::S::setpoint) << C::control_scene;
     const std::int64_t arm_at = early ? kArmed - 20'000 : kArmed;
     const auto write = [&](std::int64_t at, int address, std::uint32_t word) {
       if (cycle == at) in.reg_addr = static_cast<std::uint16_t>(address), in.reg_wdata = word;
@@ -69,20 +76,25 @@ struct Rig {
     write(2'000, A::ramp_step, 0x7ffffff);
     write(3'000, A::setpoint_torque,
           low(std::llround(std::ldexp(torque_nm, D::f.torque.fraction))));
-    write(4'000, C::control, kHost | scene);
+    write(4'000, C::control, kHost | given);
     write(5'000, A::duty_limit, duty_limit);
-    write(arm_at, C::control, kHost | scene | 1u << C::control_arm);
+    std::int64_t at = 6'000;
+    for (const auto& [address, word] : words) write(std::exchange(at, at + 1'000), address, word);
+    write(arm_at, C::control, kHost | given | 1u << C::control_arm);
   }
 };
 
-/// Clocks of events, and the mean of the measured currents from a clock on.
+/// Clocks of events; the mean of the current in the 20'000 clocks before `clocks` or, with an
+/// event, before it; the sum of its square over the armed ticks.
 struct Seen {
-  std::int64_t armed = -1, beyond = -1, off = -1, results = 0;
-  double sum_a = 0, reference_a = 0, peak_a = 0;
+  std::int64_t armed = -1, beyond = -1, off = -1, beats = 0;
+  double mean_a = 0, reference_a = 0, peak_a = 0, squares_a2 = 0, tau_hat_nm = 0;
+  std::uint32_t faults_word = 0, status_word = 0;
   CoreOut last;
 };
 
 Seen run(const Rig& rig, std::int64_t clocks) {
+  const std::int64_t until = rig.event == Rig::Event::none ? clocks : kSettled;
   Seen seen;
   std::int64_t cycle = 0;
   double current_a = 0;
@@ -101,10 +113,14 @@ Seen run(const Rig& rig, std::int64_t clocks) {
       seen.off = cycle;
     }
     seen.peak_a = std::max(seen.peak_a, std::abs(current_a));
-    if (cycle > kSettled - 20'000 && cycle <= kSettled) {
-      seen.sum_a += current_a;
-      ++seen.results;
-    }
+    if (cycle >= until - 20'000 && cycle < until) seen.mean_a += current_a / 20'000;
+    if (seen.armed >= 0 && seen.off < 0) seen.squares_a2 += current_a * current_a / kTick;
+    if (out.heartbeat != seen.last.heartbeat) ++seen.beats;
+    if (out.word_valid && out.word_slot == feltgate::Map::R::faults)
+      seen.faults_word = out.word_data;
+    if (out.word_valid && out.word_slot == feltgate::Map::R::status)
+      seen.status_word = out.word_data;
+    seen.tau_hat_nm = std::ldexp(out.tau_hat, -D::f.torque.fraction);
     seen.reference_a = std::ldexp(out.current_ref, -D::f.current.fraction);
     seen.last = out;
     ++cycle;
@@ -124,12 +140,68 @@ TEST_CASE("loop: the current is that of the reference, whatever the resistance")
       const Seen seen = run(rig, kSettled + 100);
       INFO(ohm << " ohm, " << torque_nm << " Nm");
       REQUIRE(seen.last.armed);
-      CHECK(std::abs(seen.reference_a - torque_nm / 0.0302) < 0.01);
-      const double mean_a = seen.sum_a / static_cast<double>(seen.results);
-      CHECK(std::abs(mean_a - seen.reference_a) < 0.003 * std::abs(seen.reference_a));
+      CHECK(std::abs(seen.reference_a - torque_nm / kKt) < 0.01);
+      CHECK(std::abs(seen.mean_a - seen.reference_a) < 0.003 * std::abs(seen.reference_a));
       CHECK(std::abs(seen.last.current * kLsb - seen.reference_a) < 0.1);
     }
   }
+}
+
+TEST_CASE("loop: a motor that is connected the other way round") {
+  Rig rig;
+  rig.control = 1u << C::control_motor_polarity;
+  const Seen seen = run(rig, kSettled + 100);
+  REQUIRE(seen.last.armed);
+  CHECK(std::abs(seen.mean_a + seen.reference_a) < 0.003 * seen.reference_a);
+  CHECK(std::abs(seen.last.current * kLsb - seen.reference_a) < 0.1);
+}
+
+/// Voltage mode at this voltage.
+Rig direct(double voltage_v, double ohm) {
+  Rig rig;
+  rig.ohm = ohm;
+  rig.control = static_cast<std::uint32_t>(feltgate::Map::mode_voltage) << C::control_mode;
+  rig.words = {
+      {A::voltage_setpoint, low(std::llround(std::ldexp(voltage_v, D::f.voltage.fraction)))},
+      {A::voltage_step, (1u << (D::f.voltage.width() - 1)) - 1}};
+  return rig;
+}
+
+TEST_CASE("loop: tau_hat is of the measured current, not of the command") {
+  Rig limited;  // to 4 A of 6.6 A
+  limited.duty_limit = 95;
+  for (const Rig& rig : {limited, direct(2.4, 0.504), direct(-2.4, 0.25)}) {
+    const Seen seen = run(rig, kArmed + 700'000);
+    REQUIRE(seen.last.armed);
+    CHECK(std::abs(seen.mean_a) > 3);
+    CHECK(std::abs(seen.mean_a - seen.reference_a) > 0.15 * std::abs(seen.reference_a));
+    CHECK(std::abs(seen.tau_hat_nm - kKt * seen.mean_a) < 0.004 * kKt * std::abs(seen.mean_a));
+  }
+}
+
+TEST_CASE("loop: I2t is of the measured current") {
+  Rig rig = direct(2.4, 0.12);  // by the resistance of the design less than the nominal current
+  rig.words.emplace_back(A::i2t_budget, static_cast<std::uint32_t>(D::i2t_start));
+  const Seen seen = run(rig, kArmed + 260'000);
+  REQUIRE(seen.off > 0);
+  CHECK(seen.last.faults == fault_bit(Fault::i2t));
+  // From the reset on the heat sinks by the nominal square in each tick.
+  const double cooled_a2 =
+      std::ldexp(word_of_design(A::nominal_current_squared), -D::f.i2t.fraction) *
+      static_cast<double>(seen.off) / kTick;
+  CHECK(std::abs(seen.squares_a2 / cooled_a2 - 1) < 0.02);  // in the rise a period late
+}
+
+TEST_CASE("loop: a fault of the driver closes the gates, and is kept; the heart beats until then") {
+  Rig rig;
+  rig.event = Rig::Event::driver;
+  const Seen seen = run(rig, kSettled + 60'000);
+  REQUIRE(seen.off > 0);
+  CHECK(seen.off - kSettled <= 6);
+  CHECK(seen.last.faults == fault_bit(Fault::current));
+  CHECK(seen.faults_word >> C::faults_current == 0);
+  CHECK((seen.status_word >> C::status_driver_fault & 1u) == 1);
+  CHECK(seen.beats == kSettled / kTick / 512);
 }
 
 TEST_CASE("loop: a negative limit of the duty is 0") {

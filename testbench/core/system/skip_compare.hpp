@@ -25,13 +25,13 @@ struct Stretch {
 
 inline bool same(const CoreIn& a, const CoreIn& b) {
   return a.encoder == b.encoder && a.encoder_data == b.encoder_data &&
-         a.current_data == b.current_data && a.arm == b.arm && a.stop == b.stop &&
-         a.set_zero == b.set_zero && a.scene == b.scene && a.reg_addr == b.reg_addr &&
-         a.reg_wdata == b.reg_wdata && a.reg_write == b.reg_write && a.law_torque == b.law_torque &&
-         a.law_late == b.law_late && a.law_restart == b.law_restart &&
-         a.axis_fault == b.axis_fault && a.axis_silent == b.axis_silent &&
-         a.axis_blocked == b.axis_blocked && a.axis_testing == b.axis_testing &&
-         a.axis_waits == b.axis_waits;
+         a.current_data == b.current_data && a.driver_fault == b.driver_fault && a.arm == b.arm &&
+         a.stop == b.stop && a.set_zero == b.set_zero && a.scene == b.scene &&
+         a.reg_addr == b.reg_addr && a.reg_wdata == b.reg_wdata && a.reg_write == b.reg_write &&
+         a.law_torque == b.law_torque && a.law_late == b.law_late &&
+         a.law_restart == b.law_restart && a.axis_fault == b.axis_fault &&
+         a.axis_silent == b.axis_silent && a.axis_blocked == b.axis_blocked &&
+         a.axis_testing == b.axis_testing && a.axis_waits == b.axis_waits;
 }
 
 /// Over what a tick shows.

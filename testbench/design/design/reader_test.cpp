@@ -189,12 +189,16 @@ TEST_CASE("the M/T estimator: its keys, its constants, and what knows the N-meth
 TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
   const std::string good = file_text(design_path("lever_current"));
   const std::string package = systemverilog_package(shipped("lever_current"));
-  for (const char* line : {"int CURRENT_LOOP = 1;", "int CURRENT_PROPORTIONAL = 11842;",
-                           "int CURRENT_INTEGRAL = 12762;", "int CURRENT_STROBE = 135;",
-                           "int CURRENT_OVERCURRENT = 192;"}) {
+  for (const char* line :
+       {"int CURRENT_LOOP = 1;", "int CURRENT_PROPORTIONAL = 11842;",
+        "int CURRENT_INTEGRAL = 12762;", "int CURRENT_STROBE = 135;",
+        "int CURRENT_OVERCURRENT = 192;", "int DRIVER_FAULT = 1;", "int HEARTBEAT = 1;"}) {
     CHECK(contains(package, line));
   }
-  CHECK(contains(systemverilog_package(shipped("lever")), "int CURRENT_LOOP = 0;"));
+  for (const char* line :
+       {"int CURRENT_LOOP = 0;", "int DRIVER_FAULT = 0;", "int HEARTBEAT = 0;"}) {
+    CHECK(contains(systemverilog_package(shipped("lever")), line));
+  }
   const auto refused = [&](const char* from, const char* to, const char* message) {
     const std::string error = design_error(replaced(good, from, to));
     INFO(error);
@@ -208,6 +212,7 @@ TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
   refused("frequency_hz = 50_000", "frequency_hz = 100_000",
           "a current is measured and controlled");
   refused("[current_loop]", "[axes]\ncount = 2\n[current_loop]", "has no pins of a modulator");
+  refused("heartbeat = 1", "heartbeat = 2", "heartbeat");
   refused("bandwidth_hz = 2000.0", "", "key \"bandwidth_hz\" is missing in [current_loop]");
 }
 

@@ -33,6 +33,7 @@ void set_inputs(Vpair& pair, const CoreIn& in) {
   put("enc_z_i", in.encoder.z);
   put("encoder_data_i", in.encoder_data);
   put("current_data_i", in.current_data);
+  put("driver_fault_i", in.driver_fault);
   put("arm_i", in.arm);
   put("stop_i", in.stop);
   put("set_zero_i", in.set_zero);

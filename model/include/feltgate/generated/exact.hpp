@@ -58,6 +58,8 @@ struct Exact {
   static constexpr int current_strobe = 0;  // clock of the PWM period in which a window begins
   static constexpr int feed_gain = 0;  // mantissa: parts of the supply per LSB of the voltage
   static constexpr int feed_drop = 0;  // its fraction bits
+  static constexpr int driver_fault = 0;  // 1: the driver tells of its faults
+  static constexpr int heartbeat = 0;  // 1: a pin beats for a watchdog outside
   static constexpr int absolute_encoder = 0;  // 1: the position is of an absolute encoder
   static constexpr int absolute_framing = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
   static constexpr int absolute_bits = 0;  // of a turn

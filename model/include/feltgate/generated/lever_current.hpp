@@ -58,6 +58,8 @@ struct LeverCurrent {
   static constexpr int current_strobe = 135;  // clock of the PWM period in which a window begins
   static constexpr int feed_gain = 341;  // mantissa: parts of the supply per LSB of the voltage
   static constexpr int feed_drop = 10;  // its fraction bits
+  static constexpr int driver_fault = 1;  // 1: the driver tells of its faults
+  static constexpr int heartbeat = 1;  // 1: a pin beats for a watchdog outside
   static constexpr int absolute_encoder = 0;  // 1: the position is of an absolute encoder
   static constexpr int absolute_framing = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
   static constexpr int absolute_bits = 0;  // of a turn
@@ -66,7 +68,7 @@ struct LeverCurrent {
   static constexpr int absolute_period = 0;  // ticks from reading to reading
   static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xa9dea84a;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x689945cb;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {

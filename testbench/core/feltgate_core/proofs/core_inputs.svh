@@ -10,6 +10,7 @@
     input logic                                     enc_z_i,
     input logic                                     encoder_data_i,
     input logic                                     current_data_i,
+    input logic                                     driver_fault_i,
     input logic                                     arm_i,
     input logic                                     stop_i,
     input logic                                     set_zero_i,

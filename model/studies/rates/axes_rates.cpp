@@ -44,11 +44,9 @@ class AxesSweep : public Sweep {
     report_.axes = axes_of(scene_);
     report_.simulated_s = scene_.scenario.duration_s;
     sweep(std::move(fast), 0);
-    if (!continuous_law_.lines.empty()) {
-      report_.notes.emplace_back("no margin: the law has a delay line");
-    } else if (keeps_time(source_)) {
-      report_.notes.emplace_back(
-          "no margin: the law's springs and masses are states, not its slope");
+    if (whole_torque()) {
+      margins_by_states([this](const Place& p) { return around(p.at_rad); }, places_, link(),
+                        words());
     } else {
       margins();
     }
@@ -64,6 +62,9 @@ class AxesSweep : public Sweep {
     Continuous::Setting set = setting(scene.scenario);
     set.axes = static_cast<std::size_t>(report_.axes);
     set.slope = set.floor = last();
+    set.places = last() && (options_.whole_torque || scene_.plane || keeps_time(source_) ||
+                            !continuous_law_.lines.empty());
+    set.words = words();
     set.inertia = [&](const Eigen::VectorXd& at) { return inertia_kg_m2(scene_.device, at); };
     Continuous continuous(continuous_law_, {}, set);
     tell_all(continuous, *loaded);
@@ -92,8 +93,37 @@ class AxesSweep : public Sweep {
       if (x.kept()) continue;
       row.broken.push_back(fmt::format("{} = {:.4g}, expected {}", x.figure, x.value, x.wanted()));
     }
+    if (set.places) places_ = continuous.places();
     row.cpu_s_per_s = cpu_s(scene, *loaded) / result.simulated_s;
     add(std::move(row), continuous, set);
+  }
+
+  bool whole_torque() const {
+    return options_.whole_torque || !continuous_law_.lines.empty() || keeps_time(source_) ||
+           places_.any_host();
+  }
+  stability::AxesLoopModel around(const Eigen::VectorXd& at_rad) const {
+    const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
+    return stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, at_rad));
+  }
+
+  /// What the host of [plane] sends of a pose.
+  HostWords words() const {
+    if (!scene_.plane) return {};
+    return [this](const Eigen::VectorXd&, const Eigen::VectorXd& sampled,
+                  law::Evaluation<double>& law) {
+      for (const auto& [name, si] : plane_words(*scene_.plane, pen_m(scene_.device, sampled))) {
+        for (std::size_t i = 0; i < continuous_law_.parameters.size(); ++i) {
+          if (continuous_law_.parameters[i].name == name) law.set_parameter(i, si);
+        }
+      }
+    };
+  }
+  /// A sample is half of the jitter late, on average.
+  stability::HostLink link() const {
+    if (!scene_.plane) return {};
+    const PlaneHostSettings& p = *scene_.plane;
+    return host_link(p.rate_hz, p.latency_s + p.jitter_s / 2, 1);
   }
 
   /// Around the steepest place; what a host holds there stays as it is.
@@ -107,9 +137,7 @@ class AxesSweep : public Sweep {
       report_.notes.emplace_back("no margin: the motion met the law nowhere stiff or damped");
       return;
     }
-    const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
-    const stability::AxesLoopModel model =
-        stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, report_.slope.at_rad));
+    const stability::AxesLoopModel model = around(report_.slope.at_rad);
     report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
     for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
     if (report_.rows.back().margin.of == Margin::Of::damping) {
@@ -129,6 +157,7 @@ class AxesSweep : public Sweep {
   }
 
   const AxesScene& scene_;
+  Places places_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "studies/rates/device_joints.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/plant/pantograph/linkage_dynamics.hpp"
 
@@ -61,6 +62,18 @@ plant::Parameters joint_of(const DeviceSetup& device, plant::Effects on) {
 
 Eigen::MatrixXd inertia_kg_m2(const DeviceSetup& device, const Eigen::VectorXd& angle_rad) {
   return std::visit([&](const auto& d) { return inertia(d.parameters, angle_rad); }, device);
+}
+
+plant::Vec3 pen_m(const DeviceSetup& device, const Eigen::VectorXd& at) {
+  if (const auto* p = std::get_if<PantographSetup>(&device)) {
+    const plant::Vec2 pen = plant::Linkage(p->parameters.linkage).pose({at[0], at[1]}).pen;
+    return {pen.x, pen.y, 0};
+  }
+  if (const auto* s = std::get_if<StylusSetup>(&device)) {
+    const double per = s->parameters.lever.lever.radius_m;
+    return {per * at[0], per * at[1], per * at[2]};
+  }
+  throw std::invalid_argument("this device has no pen");
 }
 
 }  // namespace feltgate::rates

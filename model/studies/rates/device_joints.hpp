@@ -18,4 +18,7 @@ plant::Parameters joint_of(const DeviceSetup& device, plant::Effects on);
 /// Inertia matrix of all joints at these angles, kg m^2.
 Eigen::MatrixXd inertia_kg_m2(const DeviceSetup& device, const Eigen::VectorXd& angle_rad);
 
+/// Where the pen of a device that has one is at these angles.
+plant::Vec3 pen_m(const DeviceSetup& device, const Eigen::VectorXd& angle_rad);
+
 }  // namespace feltgate::rates

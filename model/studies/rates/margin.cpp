@@ -62,7 +62,7 @@ Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_t
   });
 }
 
-Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law,
+Margin margin(const stability::AxesLoopModel& model, const stability::LinearLaw& law,
               double steepness_nm_rad, int scene_ticks, int delay_ticks) {
   return search(Margin::Of::torque, steepness_nm_rad, [&](double ratio) {
     const auto all =

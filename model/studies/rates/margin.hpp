@@ -25,8 +25,9 @@ struct Margin {
 Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks);
 
-/// The margin of a law with states at a place: it scales the whole torque.
-Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law,
+/// The margin of a law with states, or on what a host sends, at a place: it scales the whole
+/// torque.
+Margin margin(const stability::AxesLoopModel& model, const stability::LinearLaw& law,
               double steepness_nm_rad, int scene_ticks, int delay_ticks);
 
 /// The same for several axes: it scales the whole matrix of the stiffness, or of the damping.

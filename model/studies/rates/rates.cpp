@@ -57,12 +57,10 @@ class LeverSweep : public Sweep {
     if (block_ != nullptr) report_.block_gates = block_->gates;
     sweep(std::move(fast), block_ != nullptr ? 1 : 0);
     if (block_ != nullptr) run_block();
-    if (!continuous_law_.lines.empty()) {
-      report_.notes.emplace_back("no margin: the law has a delay line");
-    } else if (scene_.tracker) {
-      report_.notes.emplace_back("no margin: the tracker, its noise and its delay are in the loop");
-    } else if (places_.any_states() || keeps_time(source_)) {
-      margins_by_states();
+    if (whole_torque()) {
+      margins_by_states(
+          [this](const Place&) { return stability::make_axes_model(e_, linear_plant()); }, places_,
+          link(), words());
     } else {
       margins();
     }
@@ -86,6 +84,7 @@ class LeverSweep : public Sweep {
     Continuous::Setting set = setting(scene);
     set.slope = set.floor = row.block || (block_ == nullptr && last());
     set.places = set.floor;
+    set.words = words();
     // A law's parameter is what its word says, so its rounding is no error.
     Continuous continuous(
         continuous_law_,
@@ -125,45 +124,46 @@ class LeverSweep : public Sweep {
     return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
 
+  bool whole_torque() const {
+    return options_.whole_torque || !continuous_law_.lines.empty() || scene_.tracker ||
+           places_.any_states() || keeps_time(source_);
+  }
+
+  /// What the tracker's host makes of its samples.
+  HostWords words() const {
+    if (!scene_.tracker) return {};
+    const auto index = [&](const std::string& name) {
+      const auto& all = continuous_law_.parameters;
+      const auto at = std::find_if(all.begin(), all.end(),
+                                   [&](const law::Parameter& p) { return p.name == name; });
+      return static_cast<std::size_t>(at - all.begin());
+    };
+    const std::size_t angle = index(scene_.tracker->mailbox);
+    const bool both = !scene_.tracker->encoder_mailbox.empty();
+    const std::size_t encoder = both ? index(scene_.tracker->encoder_mailbox) : angle;
+    return [=](const Eigen::VectorXd& filtered, const Eigen::VectorXd& sampled,
+               law::Evaluation<double>& law) {
+      law.set_parameter(angle, filtered[0]);
+      if (both) law.set_parameter(encoder, sampled[0]);
+    };
+  }
+  stability::HostLink link() const {
+    if (!scene_.tracker) return {};
+    const TrackerSettings& t = *scene_.tracker;
+    return host_link(t.rate_hz, t.latency_s, t.alpha);
+  }
+
   /// Enables the lever's linear friction, which plant files contain for such studies.
-  stability::LoopModel linear_loop() {
+  plant::Parameters linear_plant() const {
     plant::Parameters plant = plant_;
     plant.effects = scene_.effects;
     plant.effects.viscous = true;
-    const stability::LoopModel model = stability::make_model(e_, plant);
-    report_.damping_nm_s_rad = model.damping_nm_s_rad;
-    return model;
-  }
-
-  /// Of a law whose springs and masses are states, as it runs at each rate.
-  void margins_by_states() {
-    const Place* place = places_.steepest();
-    if (place == nullptr) {
-      report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
-      return;
-    }
-    const stability::LoopModel model = linear_loop();
-    for (RateRow& r : report_.rows) {
-      const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
-      const auto linear = linearised(law, *place, design_.count_rad);
-      if (!linear) continue;
-      const Margin m = margin(model, *linear, place->most_nm_rad, r.ticks, delay_of(r));
-      if (m.ratio > 0) {
-        r.margin = m;
-      } else {
-        note_once(
-            "where there is a - for the margin, no torque is stable at that place, not even a "
-            "ten-thousandth: the law pushes away there, or the rate is far too low");
-      }
-    }
-    report_.notes.emplace_back(
-        "the margin is that of the law's whole torque with its states, at the place of the motion "
-        "where it is the stiffest spring at 50 Hz; the border is the torque per angle there, the "
-        "largest at 5, 50 and 500 Hz, times the margin");
+    return plant;
   }
 
   void margins() {
-    const stability::LoopModel model = linear_loop();
+    const stability::LoopModel model = stability::make_model(e_, linear_plant());
+    report_.damping_nm_s_rad = model.damping_nm_s_rad;
     for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
   }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,13 +51,15 @@ struct Report {
   ErrorFigure floor;               ///< of counts and estimated velocity, at every tick, all axes
   double damping_nm_s_rad = 0;     ///< of the lever or each joint, for the margins
   std::vector<RateRow> rows;       ///< the slowest rate first
+  std::optional<Place> place;      ///< of a margin of the whole torque
   std::vector<std::string> notes;  ///< why rates or margins are missing
 };
 
 struct Options {
   std::vector<double> rates_hz{144, 490, 1e3, 10e3, 40e3, 100e3};
-  bool lock_step = false;                     ///< the RTL beside the twin
-  std::function<void(double done)> progress;  ///< 0..1; may be empty
+  bool lock_step = false;                          ///< the RTL beside the twin
+  std::function<void(double done)> progress = {};  ///< 0..1; may be empty
+  bool whole_torque = false;                       ///< margins of the whole torque, of any law
 };
 
 /// The designs on which blocks and laws run.

@@ -39,6 +39,12 @@ class Sweep {
   void tell_all(Continuous& continuous, const SceneLaw& law) const;
   /// Ticks from the samples of a run to the first tick with its torque.
   int delay_of(const RateRow& row) const;
+  stability::HostLink host_link(double rate_hz, double latency_s, double alpha) const;
+  /// Margins of the whole torque, of a law whose springs and masses are states, which has delay
+  /// lines, or whose host samples the device; as it runs at each rate.
+  void margins_by_states(const std::function<stability::AxesLoopModel(const Place&)>& around,
+                         const Places& places, const stability::HostLink& host,
+                         const HostWords& words);
   /// Notes the ticks without torque, which are not compared.
   void note_stale(const Acted& stale);
   void note_once(const std::string& note);

@@ -47,6 +47,7 @@ class AxesSweep : public Sweep {
     if (whole_torque()) {
       margins_by_states([this](const Place& p) { return around(p.at_rad); }, places_, link(),
                         words());
+      if (options_.bits && report_.place) judge();
     } else {
       margins();
     }
@@ -143,6 +144,49 @@ class AxesSweep : public Sweep {
     if (report_.rows.back().margin.of == Margin::Of::damping) {
       report_.notes.emplace_back("the margin is that of the law's damping: it is nowhere stiff");
     }
+  }
+
+  void judge() {
+    report_.gains.push_back(judged("alone", around(report_.place->at_rad), link(), words(),
+                                   [this](law::Compiled law, const Let& let, const auto& seen) {
+                                     swing(std::move(law), let, seen);
+                                   }));
+  }
+
+  void swing(law::Compiled law, const Let& let,
+             const std::function<void(double, const Eigen::VectorXd&)>& seen) {
+    AxesScene s = scene_;
+    s.scenario.duration_s = let.end_s;
+    s.scenario.arm_s = 0.01;
+    s.scenario.events.clear();
+    s.scenario.expectations.clear();
+    s.scenario.parameters = linear_parameters(law.law, let.rest);
+    s.scenario = fitted(std::move(s.scenario), law.image);
+    plant::Effects& on = s.scenario.effects;
+    on.viscous = true;
+    on.lugre = on.dead_voltage = on.dead_time = on.supply_limit = on.encoder_imperfect = false;
+    if (s.plane) {
+      s.plane->latency_s += s.plane->jitter_s / 2;
+      s.plane->jitter_s = s.plane->lost = 0;
+    }
+    hold_and_let_go(s.device, let.rest.inputs.head(report_.axes), let.offset_rad, let.hand_nm,
+                    let.begin_s);
+    const std::unique_ptr<SceneLaw> loaded =
+        make_axes_law(std::move(law), source_.path, design_, report_.axes);
+    AxesRunOptions o;
+    o.design = design_.name;
+    o.engine = "twin";
+    o.law = loaded.get();
+    std::int64_t tick = 0;
+    o.axes = [&](const std::vector<Row>& rows) {
+      if (tick++ % let.row_every != 0) return;
+      Eigen::VectorXd at(static_cast<Eigen::Index>(rows.size()));
+      for (std::size_t n = 0; n < rows.size(); ++n) {
+        at[static_cast<Eigen::Index>(n)] = rows[n].theta_rad;
+      }
+      seen(rows[0].time_s, at);
+    };
+    run_axes(s, o);
   }
 
   /// CPU time of the closed loop alone, without observers.

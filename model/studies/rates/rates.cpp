@@ -61,6 +61,7 @@ class LeverSweep : public Sweep {
       margins_by_states(
           [this](const Place&) { return stability::make_axes_model(e_, linear_plant()); }, places_,
           link(), words());
+      if (options_.bits && report_.place) judge();
     } else {
       margins();
     }
@@ -151,6 +152,74 @@ class LeverSweep : public Sweep {
     if (!scene_.tracker) return {};
     const TrackerSettings& t = *scene_.tracker;
     return host_link(t.rate_hz, t.latency_s, t.alpha);
+  }
+
+  /// Without a hand, and with the scene's if it has a mass.
+  void judge() {
+    const auto swings = [&](const plant::HandPhase* hand) {
+      return [this, hand](law::Compiled law, const Let& let, const auto& seen) {
+        swing(std::move(law), let, hand, seen);
+      };
+    };
+    report_.gains.push_back(judged("alone", stability::make_axes_model(e_, linear_plant()), link(),
+                                   words(), swings(nullptr)));
+    const auto& phases = scene_.hand.phases;
+    if (phases.empty() || phases.back().kind != plant::HandPhase::Kind::kImpedance) return;
+    const plant::HandDynamics hand = plant::dynamics_of(phases.back().impedance, hand_radius_m());
+    report_.gains.push_back(judged("with the scene's hand",
+                                   stability::make_axes_model(e_, linear_plant(), &hand), link(),
+                                   words(), swings(&phases.back())));
+  }
+  double hand_radius_m() const { return scene_.hand.radius_m.value_or(plant_.lever.radius_m); }
+
+  void swing(law::Compiled law, const Let& let, const plant::HandPhase* hand,
+             const std::function<void(double, const Eigen::VectorXd&)>& seen) {
+    using Phase = plant::HandPhase;
+    using Segment = plant::Segment;
+    Scenario s;
+    s.name = s.path = scene_.name;
+    s.duration_s = let.end_s;
+    s.scene = "law";
+    s.law = law.law.name;
+    s.arm_s = 0.01;
+    s.parameters = linear_parameters(law.law, let.rest);
+    s.tracker = scene_.tracker;
+    if (s.tracker) s.tracker->noise_rad = s.tracker->resolution_rad = 0;
+    const auto& all = law.law.parameters;
+    const bool mailbox =
+        std::any_of(all.begin(), all.end(), [](const auto& p) { return p.mailbox; });
+    if (mailbox && !s.tracker) s.feed_hz = 500;
+    const plant::Parameters plant = linear_plant();
+    s.effects = plant.effects;
+    s.effects.lugre = s.effects.dead_voltage = s.effects.dead_time = false;
+    s.effects.supply_limit = s.effects.encoder_imperfect = false;
+    s.effects.hand_dynamics = true;
+    const double held_rad = let.rest.inputs[0] + let.offset_rad[0];
+    Phase bring;
+    bring.kind = Phase::Kind::kPrescribed;
+    bring.duration_s = let.begin_s;
+    bring.profile = {{Segment::Kind::kHold, 0.02}, {Segment::Kind::kMinimumJerk, 0.1, held_rad}};
+    Phase free;
+    free.kind = Phase::Kind::kTorque;
+    double to = let.hand_nm[0];
+    if (hand != nullptr) {
+      free.kind = Phase::Kind::kImpedance;
+      free.impedance = hand->impedance;
+      const plant::HandDynamics d = plant::dynamics_of(hand->impedance, hand_radius_m());
+      to = let.rest.inputs[0] + to * (1 / d.stiffness_nm_rad + 1 / d.grip_stiffness_nm_rad);
+    }
+    free.profile = {{Segment::Kind::kStep, 1, to}};
+    s.hand.radius_m = scene_.hand.radius_m;
+    s.hand.phases = {bring, free};
+    s = fitted(std::move(s), law.image);
+    const std::unique_ptr<SceneLaw> loaded = make_scene_law(std::move(law), design_);
+    RunOptions o;
+    o.design = law_design;
+    o.engine = "twin";
+    o.law = loaded.get();
+    o.row_every = let.row_every;
+    o.row = [&](const Row& r) { seen(r.time_s, Eigen::VectorXd::Constant(1, r.theta_rad)); };
+    run_scenario(s, plant, o);
   }
 
   /// Enables the lever's linear friction, which plant files contain for such studies.

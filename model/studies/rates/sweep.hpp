@@ -45,6 +45,23 @@ class Sweep {
   void margins_by_states(const std::function<stability::AxesLoopModel(const Place&)>& around,
                          const Places& places, const stability::HostLink& host,
                          const HostWords& words);
+  /// A device that a hand holds off its rest by `offset_rad` and then lets go.
+  struct Let {
+    Place rest;
+    Eigen::VectorXd hand_nm;  ///< what holds the device at rest
+    Eigen::VectorXd offset_rad;
+    double begin_s = 0, end_s = 0;  ///< of the swing
+    int row_every = 1;
+  };
+  /// Lets the device go with this law, on a linear plant, and shows the angles to `seen`.
+  using Swing = std::function<void(
+      law::Compiled law, const Let& let,
+      const std::function<void(double time_s, const Eigen::VectorXd& angles_rad)>& seen)>;
+  /// The margin at rest near the report's place, by the linear loop and by the bits.
+  GainMargin judged(const std::string& of, const stability::AxesLoopModel& model,
+                    const stability::HostLink& host, const HostWords& words, const Swing& swing);
+  /// Parameters of a run without what is not linear: the law's at a place, and the core's.
+  std::map<std::string, double> linear_parameters(const law::Law& law, const Place& place) const;
   /// Notes the ticks without torque, which are not compared.
   void note_stale(const Acted& stale);
   void note_once(const std::string& note);

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -22,6 +23,7 @@ using Index = Eigen::Index;
 struct Setting {
   double gain = 1, held_nm_rad = 0;
   int scene_ticks = 1, delay_ticks = 0;
+  double host_phase_ticks = 0;  ///< its first sample
 };
 
 /// What all ticks of a run share, so that none allocates.
@@ -44,7 +46,7 @@ class AxesTicks {
     for (const LinearLaw::Tap& t : law.taps) longest_ = std::max(longest_, t.runs);
     if (sampled_.size() > 0) {
       // Samples of before the first tick that are still to come.
-      const double late = std::max(0.0, law.host.age_ticks);
+      const double late = std::max(0.0, law.host.age_ticks + set_.host_phase_ticks);
       under_way_ = static_cast<Index>(std::ceil(late / law.host.period_ticks));
     }
   }
@@ -105,9 +107,10 @@ class AxesTicks {
     double at = 0;
     Vector what;
   };
-  double arrival(long sample) const {
-    return static_cast<double>(sample) * law_.host.period_ticks + law_.host.age_ticks;
+  double sampled_at(long sample) const {
+    return static_cast<double>(sample) * law_.host.period_ticks + set_.host_phase_ticks;
   }
+  double arrival(long sample) const { return sampled_at(sample) + law_.host.age_ticks; }
 
   Vector packed(Index size) const {
     Vector out(size);
@@ -144,7 +147,7 @@ class AxesTicks {
 
   void sample(long k) {
     const HostLink& h = law_.host;
-    if (static_cast<double>(k) >= static_cast<double>(samples_) * h.period_ticks) {
+    if (static_cast<double>(k) >= sampled_at(samples_)) {
       const auto angles = state_.segment(2 * axes_, axes_);
       smooth_ = h.alpha * angles + (1 - h.alpha) * smooth_;
       Vector both(2 * axes_);
@@ -219,19 +222,42 @@ class AxesTicks {
   long samples_ = 0;
 };
 
-/// Ticks after which the loop repeats, its host's samples to a thousandth of their period.
+/// Ticks after which the loop repeats. With a host it is a multiple of the law's period after which
+/// the host's samples fall within half a percent of their period; the bridge's phase, 20 us at
+/// most, may jump there too.
 int repeats_ticks(const LoopModel& m, const LinearLaw& law, int scene_ticks) {
-  const int own = std::lcm(m.pwm_ticks, scene_ticks);
-  if (law.host.period_ticks <= 0) return own;
-  int best = own;
+  if (law.host.period_ticks <= 0) return std::lcm(m.pwm_ticks, scene_ticks);
+  int best = scene_ticks;
   double least_off = 1;
-  for (int ticks = own; ticks * m.tick_s <= 1; ticks += own) {
+  for (int ticks = scene_ticks; ticks * m.tick_s <= 1; ticks += scene_ticks) {
     const double samples = ticks / law.host.period_ticks;
     const double off = std::abs(samples - std::round(samples));
     if (samples < 0.5 || off >= least_off) continue;
     least_off = off;
     best = ticks;
-    if (off < 1e-3) break;
+    if (off < 5e-3) break;
+  }
+  return best;
+}
+
+/// The phase of the host in which its words wait for half a run on average, as they do where the
+/// phase is any or drifts.
+double mean_phase_ticks(const LinearLaw& law, int scene_ticks, int ticks) {
+  const HostLink& h = law.host;
+  if (h.period_ticks <= 0) return 0;
+  double best = 0, least_off = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 64; ++i) {
+    const double phase = scene_ticks * i / 64.0;
+    double waits = 0;
+    const int samples = std::max(1, static_cast<int>(std::lround(ticks / h.period_ticks)));
+    for (int j = 0; j < samples; ++j) {
+      const double at = j * h.period_ticks + phase + h.age_ticks;
+      waits += std::ceil(at / scene_ticks) * scene_ticks - at;
+    }
+    const double off = std::abs(waits / samples - scene_ticks / 2.0);
+    if (off >= least_off) continue;
+    least_off = off;
+    best = phase;
   }
   return best;
 }
@@ -282,8 +308,9 @@ std::vector<Pole> poles(const AxesLoopModel& model, const AxesWall& wall) {
 
 std::vector<Pole> poles(const AxesLoopModel& model, const LinearLaw& law, double gain,
                         double held_nm_rad, int scene_ticks, int delay_ticks) {
-  AxesTicks run(model, law, {gain, held_nm_rad, scene_ticks, delay_ticks});
   const int ticks = apart_ticks(model.axis, repeats_ticks(model.axis, law, scene_ticks));
+  const double phase = mean_phase_ticks(law, scene_ticks, ticks);
+  AxesTicks run(model, law, {gain, held_nm_rad, scene_ticks, delay_ticks, phase});
   return dominant_poles([&](const Vector& v) { return run.after(v, ticks); }, run.start(),
                         24 * law.axes(), ticks * model.axis.tick_s);
 }

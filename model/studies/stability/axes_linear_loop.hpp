@@ -48,7 +48,8 @@ std::vector<Pole> poles(const AxesLoopModel& model, const AxesWall& wall);
 
 /// Of the loop in which the law's torques count `gain` times; springs of `held_nm_rad` hold all
 /// axes. Scene and delay as in Wall. Where the periods of a host and of the law have no common
-/// multiple within a second, the host's phase jumps there by a thousandth of its period at most.
+/// multiple, a near one is taken, to half a percent of the host's period; its
+/// words wait for half a run of the law on average.
 std::vector<Pole> poles(const AxesLoopModel& model, const LinearLaw& law, double gain,
                         double held_nm_rad, int scene_ticks, int delay_ticks);
 

@@ -77,30 +77,33 @@ LinearLaw in_loop(const LinearLaw& law) {
   return out;
 }
 
-Steepness steepness(const LinearLaw& law, double period_s, const Eigen::MatrixXd& per_torque) {
+Eigen::MatrixXcd torque_per_angle(const LinearLaw& law, double period_s, double hz) {
   using Complex = std::complex<double>;
   using Matrix = Eigen::MatrixXcd;
   const Index n = law.a.rows(), axes = law.axes();
+  const Complex rate(0, 2 * 3.141592653589793 * hz), z = std::exp(rate * period_s);
+  // Of angles that swing with this frequency, and their velocities.
   const Matrix own = Matrix::Identity(axes, axes);
+  Matrix u = Matrix::Zero(law.d.cols(), axes);
+  u.topRows(axes) = own;
+  u.middleRows(axes, axes) = rate * own;
+  for (Index from = 3 * axes; from < u.rows(); from += axes) u.middleRows(from, axes) = own;
+  Matrix nm_rad = law.d.cast<Complex>() * u;
+  if (n == 0) return nm_rad;
+  Matrix of_z = z * Matrix::Identity(n, n) - law.a.cast<Complex>();
+  Matrix shows = law.c.cast<Complex>();
+  for (const LinearLaw::Tap& t : law.taps) {
+    const Complex late = std::pow(z, -t.runs);
+    of_z.col(t.from) -= late * t.to.head(n);
+    shows.col(t.from) += late * t.to.tail(axes);
+  }
+  return nm_rad + shows * of_z.partialPivLu().solve(law.b.cast<Complex>() * u);
+}
+
+Steepness steepness(const LinearLaw& law, double period_s, const Eigen::MatrixXd& per_torque) {
   Steepness out;
   for (const double hz : {5.0, 50.0, 500.0}) {
-    const Complex rate(0, 2 * 3.141592653589793 * hz), z = std::exp(rate * period_s);
-    // Of angles that swing with this frequency, and their velocities.
-    Matrix u = Matrix::Zero(law.d.cols(), axes);
-    u.topRows(axes) = own;
-    u.middleRows(axes, axes) = rate * own;
-    for (Index from = 3 * axes; from < u.rows(); from += axes) u.middleRows(from, axes) = own;
-    Matrix nm_rad = law.d.cast<Complex>() * u;
-    if (n > 0) {
-      Matrix of_z = z * Matrix::Identity(n, n) - law.a.cast<Complex>();
-      Matrix shows = law.c.cast<Complex>();
-      for (const LinearLaw::Tap& t : law.taps) {
-        const Complex late = std::pow(z, -t.runs);
-        of_z.col(t.from) -= late * t.to.head(n);
-        shows.col(t.from) += late * t.to.tail(axes);
-      }
-      nm_rad += shows * of_z.partialPivLu().solve(law.b.cast<Complex>() * u);
-    }
+    const Eigen::MatrixXcd nm_rad = torque_per_angle(law, period_s, hz);
     if (hz == 50.0) {
       const Eigen::MatrixXd spring = -nm_rad.real();
       out.spring_nm_rad = eigenvalues(spring).real().maxCoeff();

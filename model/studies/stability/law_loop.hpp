@@ -37,6 +37,10 @@ struct LinearLaw {
 /// itself has an eigenvalue of 1, which says nothing of the loop.
 LinearLaw in_loop(const LinearLaw& law);
 
+/// Torques per angle of a swing with this frequency, as complex numbers; a host's delay is left
+/// out. For runs every `period_s`.
+Eigen::MatrixXcd torque_per_angle(const LinearLaw& law, double period_s, double hz);
+
 /// Torque per angle at 5, 50 and 500 Hz; of several axes along the direction with the most. The
 /// delay of a host is left out.
 struct Steepness {

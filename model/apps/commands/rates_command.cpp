@@ -151,6 +151,7 @@ std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs)
 int print_gains(const rates::Report& r, files::Outputs& outputs) {
   constexpr double tolerance = 0.05;
   bool off = false;
+  std::size_t shown = 0;
   std::string text = fmt::format("scene {}: {}\nlaw {} at {}, {}{} without what is not linear\n",
                                  r.scene, r.title, r.law, rates::rate_text(r.rows.back().rate_hz),
                                  r.axes > 1 ? "device " : "plant ", r.plant);
@@ -163,12 +164,15 @@ int print_gains(const rates::Report& r, files::Outputs& outputs) {
     text += fmt::format("{:<24}{:>10.4g}", g.of, g.linear);
     if (std::isnan(g.bits)) {
       text += fmt::format("{:>10}  {}\n", "-", g.why);
+      off = off || g.disagrees;
       continue;
     }
     text += fmt::format("{:>10.4g}{:>+8.1f} %{:>7.3g} Hz{:>8.3g}\n", g.bits, 100 * part,
                         g.rad_s / 6.283185307179586, g.swing_counts);
     off = off || !(std::abs(part) <= tolerance);
+    ++shown;
   }
+  text += fmt::format("{} of {} shown by the bits\n", shown, r.gains.size());
   for (const std::string& note : r.notes) text += "note: " + note + "\n";
   outputs.say(text);
   return off ? exit_failed : exit_ok;
@@ -227,6 +231,7 @@ int scene_stability(const std::string& scene, const std::string& json, bool bits
   files::OutputFile* file = outputs.open("--json", json);
   rates::Options options;
   options.rates_hz.clear();
+  options.gains = true;
   options.bits = bits;
   options.whole_torque = true;
   const rates::Report report = measured(w, options);

@@ -47,7 +47,7 @@ class AxesSweep : public Sweep {
     if (whole_torque()) {
       margins_by_states([this](const Place& p) { return around(p.at_rad); }, places_, link(),
                         words());
-      if (options_.bits && report_.place) judge();
+      if (options_.gains && report_.place) judge();
     } else {
       margins();
     }

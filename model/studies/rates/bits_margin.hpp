@@ -55,7 +55,8 @@ struct GainMargin {
   double rad_s = 0;         ///< of its swing there
   double swing_counts = 0;  ///< how large the swing of the bits begins
   double bits = std::numeric_limits<double>::quiet_NaN();  ///< factor at which bits begin to grow
-  std::string why;                                         ///< why bits are missing
+  bool disagrees = false;  ///< the bits were tried and show no border near
+  std::string why;         ///< why bits are missing
 };
 
 /// Finds the factor at which a swing neither grows nor dies, near `linear`, to 1 % and

@@ -16,6 +16,9 @@ struct Margin {
   double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping; of a
                       ///< law with states the largest stable torque per angle at its place
   double ratio = 0;   ///< border divided by the law's value; at 1 the loop oscillates for ever
+  /// Growth without a swing at the law's own torque: a pen slides off a round body whose planes a
+  /// host sends. It is no part of the margin then.
+  double slides_1_s = 0;
 };
 
 /// Computes the margin by the eigenvalues of the linear loop: it scales the stiffness at the law's

@@ -61,7 +61,7 @@ class LeverSweep : public Sweep {
       margins_by_states(
           [this](const Place&) { return stability::make_axes_model(e_, linear_plant()); }, places_,
           link(), words());
-      if (options_.bits && report_.place) judge();
+      if (options_.gains && report_.place) judge();
     } else {
       margins();
     }

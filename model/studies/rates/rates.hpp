@@ -61,7 +61,8 @@ struct Options {
   std::vector<double> rates_hz{144, 490, 1e3, 10e3, 40e3, 100e3};
   bool lock_step = false;                          ///< the RTL beside the twin
   std::function<void(double done)> progress = {};  ///< 0..1; may be empty
-  bool bits = false;                               ///< Report::gains
+  bool gains = false;                              ///< Report::gains
+  bool bits = false;                               ///< of those, also by the bits
   bool whole_torque = false;                       ///< margins of the whole torque, of any law
 };
 

@@ -217,6 +217,7 @@ std::string reports_json(const std::vector<Report>& reports) {
                                 {"bits", std::isnan(g.bits) ? Json(nullptr) : Json(g.bits)},
                                 {"rad_s", g.rad_s},
                                 {"swing_counts", g.swing_counts},
+                                {"disagrees", g.disagrees},
                                 {"why", g.why}});
     }
     j["scenes"].push_back(scene);

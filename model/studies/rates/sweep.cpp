@@ -151,6 +151,12 @@ void Sweep::margins_by_states(const std::function<stability::AxesLoopModel(const
       "the margin is that of the law's whole torque with its states, at the place of the motion "
       "where it is the stiffest spring at 50 Hz; the border is the torque per angle there, the "
       "largest at 5, 50 and 500 Hz, times the margin");
+  if (report_.rows.back().margin.slides_1_s > least_slide_1_s) {
+    report_.notes.push_back(fmt::format(
+        "the plane turns with the pen: without a hand it slides off the body, by {:.3g} 1/s; the "
+        "margin is that of the swing alone",
+        report_.rows.back().margin.slides_1_s));
+  }
   if (words) {
     report_.notes.emplace_back(
         "the host is in the loop of the margin: its samples, their age and its filter, without "

@@ -15,6 +15,9 @@
 
 namespace feltgate::rates {
 
+/// Below it nothing slides: the springs that hold an axis in the linear loop are that soft.
+constexpr double least_slide_1_s = 0.01;
+
 /// Runs one law at all rates, by the virtual run_law().
 class Sweep {
  public:

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Margins of laws whose host samples the device, and of scenes at rest: against closed forms and
+// the swing of the core's bits. Documentation: docs/stability.md
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+
+#include "sim/plant/plant_file.hpp"
+#include "studies/rates/device_joints.hpp"
+#include "studies/rates/margin.hpp"
+#include "studies/rates/rates.hpp"
+#include "wall_loop.hpp"
+
+using namespace feltgate;
+using namespace feltgate::rates;
+
+namespace {
+
+const std::string root = FELTGATE_ROOT, built = FELTGATE_BUILD_DIR;
+
+design::Elaborated elaborated(const std::string& name) {
+  return design::elaborate(design::read_design(root + "/rtl/designs/" + name + ".toml"),
+                           design::read_registers(root + "/rtl/registers.toml"));
+}
+AxesScene scene_of(const std::string& name) {
+  return read_axes_scene(root + "/vectors/scenes/" + name + ".toml", [](const std::string& device) {
+    return root + "/vectors/devices/" + device + ".toml";
+  });
+}
+
+/// The report of a shipped scene at its own rate, with margins by bits.
+Report judged(const std::string& name) {
+  Options o;
+  o.rates_hz = {};
+  o.gains = o.bits = o.whole_torque = true;
+  const std::string path = root + "/vectors/scenes/" + name + ".toml";
+  if (names_device(path)) {
+    AxesScene s = scene_of(name);
+    const auto e = elaborated(axes_design(s));
+    const LawSource source{root + "/rtl/laws/" + s.scenario.law + ".law", ""};
+    return measure(s, source, e, o);
+  }
+  Scenario s = read_scenario(path);
+  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/" + s.plant + ".toml");
+  resolve_effects(s, p.effects);
+  const BlockLaw* block = block_law(s.scene);
+  const std::string file = block != nullptr ? block->file : s.law;
+  const LawSource source = block != nullptr && file.empty()
+                               ? LawSource{"the law for " + block->scene, block->text}
+                               : LawSource{root + "/rtl/laws/" + file + ".law", ""};
+  return measure(s, source, p, elaborated("lever_law"), o);
+}
+
+}  // namespace
+
+TEST_CASE("a wall on a tracker ends where its samples and their age say, and where bits swing") {
+  // Samples of 2 kHz that are 0.5 ms old, in a law of 8 kHz: half of each period and the age late.
+  const std::string path = built + "/tracker_margin.toml";
+  std::ofstream(path)
+      << "title = \"tracked\"\nabout = \"-\"\nduration_s = 0.06\nplant = \"linear\"\n[core]\n"
+         "scene = \"law\"\nlaw = \"x\"\narm_s = 0.002\n[tracker]\nmailbox = \"seen\"\n"
+         "rate_hz = 2000\nlatency_s = 0.0005\nnoise_rad = 0.001\n[[hand.phase]]\n"
+         "kind = \"prescribed\"\nmotion = [{ kind = \"hold\", duration_s = 0.02 }, { kind = "
+         "\"minimum_jerk\", duration_s = 0.03, to_rad = 0.05 }]\n";
+  Scenario scene = read_scenario(path);
+  std::remove(path.c_str());
+  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
+  resolve_effects(scene, p.effects);
+  Options options;
+  options.rates_hz = {};
+  options.gains = options.bits = true;
+  const Report r = measure(scene,
+                           {"x.law",
+                            "rate = 8 kHz\nmailbox seen = 0 rad in -4 .. 4 rad max_age 50 ms\n"
+                            "out torque = -1 Nm * seen\n"},
+                           p, elaborated("lever_law"), options);
+  REQUIRE(r.gains.size() == 1);
+  const GainMargin& g = r.gains.front();
+  CAPTURE(g.why);
+  plant::Parameters friction = p;
+  friction.effects.viscous = true;
+  const stability::LoopModel m = stability::make_model(elaborated("lever_law"), friction);
+  const double b = m.motor_damping_nm_s_rad * (1 - m.compensated) + m.damping_nm_s_rad;
+  const double late_s =
+      0.25e-3 + 0.5e-3 + 33e-6 + 62.5e-6 + 2e-6 + stability::actuator_delay_s(m, 1);
+  CHECK(g.linear == Approx(b / late_s).epsilon(0.06));
+  CHECK(g.bits == Approx(g.linear).epsilon(0.05));
+  CHECK(r.rows.back().margin.ratio == Approx(g.linear).epsilon(0.01));
+}
+
+namespace {
+
+/// What the scene's host sends of a pose.
+HostWords of_plane(const AxesScene& scene, const law::Law& law) {
+  return [&](const Eigen::VectorXd&, const Eigen::VectorXd& sampled, law::Evaluation<double>& at) {
+    for (const auto& [name, si] : plane_words(*scene.plane, pen_m(scene.device, sampled))) {
+      for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+        if (law.parameters[i].name == name) at.set_parameter(i, si);
+      }
+    }
+  };
+}
+
+}  // namespace
+
+TEST_CASE("planes of a sphere: a pen slides off, and swings as on a floor") {
+  AxesScene scene = scene_of("stylus_sphere");
+  const auto e = elaborated("stylus_law");
+  const law::Law law = read({root + "/rtl/laws/local_space.law", ""}, 100e3);
+  const HostWords words = of_plane(scene, law);
+  const auto& p = std::get<StylusSetup>(scene.device).parameters;
+  const double per_m = 1 / p.lever.lever.radius_m;
+  // 2 mm deep on top of a sphere of 30 mm.
+  Place place{Eigen::VectorXd::Zero(9), {}, {}};
+  place.inputs[2] = 0.028 * per_m;
+  for (const law::Parameter& q : law.parameters) place.parameters.push_back(q.initial);
+  plant::Effects on = scene.scenario.effects;
+  on.lugre = false;
+  const auto model = stability::make_axes_model(e, joint_of(scene.device, on),
+                                                inertia_kg_m2(scene.device, place.inputs.head(3)));
+  auto linear = linearised(law, place, 1e-4, words);
+  REQUIRE(linear);
+  linear->host = {1000, 1533, 1};
+  const Margin found = margin(model, *linear, 1, 10, 10);
+  // The force of 0.6 N turns with the pen, by 1/28 mm; late by the age it also damps. Friction is
+  // what the joint has.
+  const double k = 300 * 0.002 / 0.028, m = p.lever.lever.inertia_kg_m2 * per_m * per_m;
+  const double late_s = 0.5e-3 + 1.533e-3 + 15e-6 + stability::actuator_delay_s(model.axis, 1);
+  const double c = (k * late_s + model.axis.damping_nm_s_rad * per_m * per_m) / (2 * m);
+  CHECK(found.slides_1_s == Approx(std::sqrt(c * c + k / m) - c).epsilon(0.03));
+  // A floor through the same point: nothing of it turns.
+  linear->b.rightCols(6).setZero();
+  linear->d.rightCols(6).setZero();
+  const Margin floor = margin(model, *linear, 1, 10, 10);
+  CHECK(found.ratio == Approx(floor.ratio).epsilon(0.02));
+  CHECK(floor.slides_1_s < 0.01);
+}
+
+TEST_CASE("a floor whose forces a host sends ends where the host's period and age say") {
+  AxesScene scene = scene_of("plane_floor");
+  scene.plane->sends_force = true;
+  const auto e = elaborated("pantograph_law");
+  const law::Law law = read({root + "/rtl/laws/sent_force.law", ""}, 100e3);
+  const HostWords words = of_plane(scene, law);
+  // The pen stands at (0, 0.1) m, 10 mm deep: cranks of 0.1 m at 30 and 150 degrees.
+  const double first = std::asin(0.5);
+  Place place{Eigen::VectorXd::Zero(6), {}, {}};
+  place.inputs.head(2) << first, 3.14159265358979323846 - first;
+  for (const law::Parameter& p : law.parameters) place.parameters.push_back(p.initial);
+  plant::Effects on = scene.scenario.effects;
+  on.lugre = false;
+  const auto model = stability::make_axes_model(e, joint_of(scene.device, on),
+                                                inertia_kg_m2(scene.device, place.inputs.head(2)));
+  const auto border_n_m = [&](double latency_ticks) {
+    auto linear = linearised(law, place, 1e-4, words);
+    REQUIRE(linear);
+    linear->host = {1000, latency_ticks + 33, 1};
+    return scene.plane->stiffness_n_m * margin(model, *linear, 1, 10, 10).ratio;
+  };
+  // K times what the force is late is taken off the pen's friction; the lag of the back-EMF's
+  // compensation, which this leaves out, helps where the swing is fast.
+  test::WallLoop floor;
+  const double turn = floor.turn_rad_m(std::get<PantographSetup>(scene.device).parameters);
+  const double b = 2 * model.axis.damping_nm_s_rad * turn * turn;
+  const double late_s = 0.5e-3 + 33e-6 + 15e-6 + stability::actuator_delay_s(model.axis, 1);
+  CHECK(border_n_m(1500) == Approx(b / (late_s + 1.5e-3)).epsilon(0.08));
+  CHECK(border_n_m(0) == Approx(b / late_s).epsilon(0.25));
+  CHECK(border_n_m(50) < 0.99 * border_n_m(0));
+}
+
+TEST_CASE("margins of shipped scenes beside the bits", "[.table]") {
+  std::ifstream names(root + "/build/margin_scenes.txt");
+  for (std::string name; std::getline(names, name);) {
+    try {
+      const Report r = judged(name);
+      for (const GainMargin& g : r.gains) {
+        fmt::print("{:<24}{:<24}{:10.4g}{:10.4g}{:+8.1f} %{:8.3g} Hz{:8.3g}  {}\n", name, g.of,
+                   g.linear, g.bits, 100 * (g.bits / g.linear - 1), g.rad_s / 6.2832,
+                   g.swing_counts, g.why);
+      }
+      if (r.gains.empty()) fmt::print("{:<24}{}\n", name, r.notes.empty() ? "-" : r.notes.back());
+    } catch (const std::exception& error) {
+      fmt::print("{:<24}refused: {}\n", name, error.what());
+    }
+    std::fflush(stdout);
+  }
+}

@@ -147,9 +147,9 @@ std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs)
 }
 
 /// A margin of a scene's law, as `feltgate stability` prints it. Exit code 1: bits and linear loop
-/// differ by more than 5 %.
+/// differ by more than 5 % for a swing of enough counts.
 int print_gains(const rates::Report& r, files::Outputs& outputs) {
-  constexpr double tolerance = 0.05;
+  constexpr double tolerance = 0.05, enough_counts = 8;
   bool off = false;
   std::size_t shown = 0;
   std::string text = fmt::format("scene {}: {}\nlaw {} at {}, {}{} without what is not linear\n",
@@ -169,7 +169,7 @@ int print_gains(const rates::Report& r, files::Outputs& outputs) {
     }
     text += fmt::format("{:>10.4g}{:>+8.1f} %{:>7.3g} Hz{:>8.3g}\n", g.bits, 100 * part,
                         g.rad_s / 6.283185307179586, g.swing_counts);
-    off = off || !(std::abs(part) <= tolerance);
+    off = off || (g.swing_counts >= enough_counts && !(std::abs(part) <= tolerance));
     ++shown;
   }
   text += fmt::format("{} of {} shown by the bits\n", shown, r.gains.size());

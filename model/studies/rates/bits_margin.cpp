@@ -230,7 +230,7 @@ std::map<std::string, double> Sweep::linear_parameters(const law::Law& law,
 
 GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& model,
                          const stability::HostLink& host, const HostWords& words,
-                         const Swing& swing) {
+                         const Swing& swing, double give_rad_nm) {
   GainMargin out;
   out.of = of;
   // A law in the engine stands for a block of the core.
@@ -303,6 +303,12 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
   look(*best);
   out.linear = ratio();
   out.swing_counts = range_rad / design_.count_rad;
+  const double gives_rad = out.linear * nm.cwiseAbs().maxCoeff() * give_rad_nm;
+  if (gives_rad > 0.3 * range_rad) {
+    out.why = fmt::format("the grip gives way by {:.3g} counts, and the law is linear over {:.3g}",
+                          gives_rad / design_.count_rad, out.swing_counts);
+    return out;
+  }
   const auto poles = stability::poles(model, *linear, out.linear, 1e-7, row.ticks, delay_of(row));
   out.rad_s = poles.front().imag();
   if (!(out.rad_s > 1)) {

@@ -42,6 +42,9 @@ Margin search(Margin::Of of, double own, const std::function<bool(double)>& stab
   return m;
 }
 
+/// Two directions that slide alike are a pair with next to no frequency.
+bool swings(const stability::Pole& p) { return std::abs(p.imag()) > 0.05 * std::abs(p); }
+
 double scaled(Margin::Of of, const Slope& slope) {
   return of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad;
 }
@@ -71,13 +74,13 @@ Margin margin(const stability::AxesLoopModel& model, const stability::LinearLaw&
   };
   Margin out = search(Margin::Of::torque, steepness_nm_rad, [&](double ratio) {
     for (const stability::Pole& p : all(ratio)) {
-      if (!(may_slide && p.imag() == 0) && !(p.real() < 0)) return false;
+      if (!(may_slide && !swings(p)) && !(p.real() < 0)) return false;
     }
     return true;
   });
   if (!may_slide) return out;
   for (const stability::Pole& p : all(1)) {
-    if (p.imag() == 0) out.slides_1_s = std::max(out.slides_1_s, p.real());
+    if (!swings(p)) out.slides_1_s = std::max(out.slides_1_s, p.real());
   }
   return out;
 }

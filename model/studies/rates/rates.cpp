@@ -166,9 +166,9 @@ class LeverSweep : public Sweep {
     const auto& phases = scene_.hand.phases;
     if (phases.empty() || phases.back().kind != plant::HandPhase::Kind::kImpedance) return;
     const plant::HandDynamics hand = plant::dynamics_of(phases.back().impedance, hand_radius_m());
-    report_.gains.push_back(judged("with the scene's hand",
-                                   stability::make_axes_model(e_, linear_plant(), &hand), link(),
-                                   words(), swings(&phases.back())));
+    report_.gains.push_back(
+        judged("with the scene's hand", stability::make_axes_model(e_, linear_plant(), &hand),
+               link(), words(), swings(&phases.back()), 1 / hand.grip_stiffness_nm_rad));
   }
   double hand_radius_m() const { return scene_.hand.radius_m.value_or(plant_.lever.radius_m); }
 

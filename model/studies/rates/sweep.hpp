@@ -60,9 +60,11 @@ class Sweep {
   using Swing = std::function<void(
       law::Compiled law, const Let& let,
       const std::function<void(double time_s, const Eigen::VectorXd& angles_rad)>& seen)>;
-  /// The margin at rest near the report's place, by the linear loop and by the bits.
+  /// The margin at rest near the report's place, by the linear loop and by the bits. `give_rad_nm`:
+  /// how far the hand's grip gives way, which begins when the hand lets go; 0: a hand without mass.
   GainMargin judged(const std::string& of, const stability::AxesLoopModel& model,
-                    const stability::HostLink& host, const HostWords& words, const Swing& swing);
+                    const stability::HostLink& host, const HostWords& words, const Swing& swing,
+                    double give_rad_nm = 0);
   /// Parameters of a run without what is not linear: the law's at a place, and the core's.
   std::map<std::string, double> linear_parameters(const law::Law& law, const Place& place) const;
   /// Notes the ticks without torque, which are not compared.

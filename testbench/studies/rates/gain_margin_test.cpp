@@ -58,12 +58,13 @@ Report judged(const std::string& name) {
 }  // namespace
 
 TEST_CASE("a wall on a tracker ends where its samples and their age say, and where bits swing") {
-  // Samples of 2 kHz that are 0.5 ms old, in a law of 8 kHz: half of each period and the age late.
+  // Samples of 1.87 kHz that are 0.5 ms old, in a law of 8 kHz: half of each period and the age
+  // late.
   const std::string path = built + "/tracker_margin.toml";
   std::ofstream(path)
       << "title = \"tracked\"\nabout = \"-\"\nduration_s = 0.06\nplant = \"linear\"\n[core]\n"
          "scene = \"law\"\nlaw = \"x\"\narm_s = 0.002\n[tracker]\nmailbox = \"seen\"\n"
-         "rate_hz = 2000\nlatency_s = 0.0005\nnoise_rad = 0.001\n[[hand.phase]]\n"
+         "rate_hz = 1870\nlatency_s = 0.0005\nnoise_rad = 0.001\n[[hand.phase]]\n"
          "kind = \"prescribed\"\nmotion = [{ kind = \"hold\", duration_s = 0.02 }, { kind = "
          "\"minimum_jerk\", duration_s = 0.03, to_rad = 0.05 }]\n";
   Scenario scene = read_scenario(path);
@@ -84,10 +85,10 @@ TEST_CASE("a wall on a tracker ends where its samples and their age say, and whe
   plant::Parameters friction = p;
   friction.effects.viscous = true;
   const stability::LoopModel m = stability::make_model(elaborated("lever_law"), friction);
-  const double b = m.motor_damping_nm_s_rad * (1 - m.compensated) + m.damping_nm_s_rad;
-  const double late_s =
-      0.25e-3 + 0.5e-3 + 33e-6 + 62.5e-6 + 2e-6 + stability::actuator_delay_s(m, 1);
-  CHECK(g.linear == Approx(b / late_s).epsilon(0.06));
+  // A wall of the host's own that is as late: by its hold alone, and the two ticks of that host.
+  const double late_s = 0.5 / 1870 + 0.5e-3 + 33e-6 + 62.5e-6;
+  const double wall = stability::border(m, 0, static_cast<int>(2e6 * late_s)).stiffness_nm_rad;
+  CHECK(g.linear == Approx(wall).epsilon(0.03));
   CHECK(g.bits == Approx(g.linear).epsilon(0.05));
   CHECK(r.rows.back().margin.ratio == Approx(g.linear).epsilon(0.01));
 }
@@ -126,12 +127,19 @@ TEST_CASE("planes of a sphere: a pen slides off, and swings as on a floor") {
   REQUIRE(linear);
   linear->host = {1000, 1533, 1};
   const Margin found = margin(model, *linear, 1, 10, 10);
-  // The force of 0.6 N turns with the pen, by 1/28 mm; late by the age it also damps. Friction is
-  // what the joint has.
+  // The force of 0.6 N turns with the pen, by 1/28 mm, and is late; friction is the joint's and, as
+  // the compensation of the back-EMF is late too, a part of the motor's.
   const double k = 300 * 0.002 / 0.028, m = p.lever.lever.inertia_kg_m2 * per_m * per_m;
   const double late_s = 0.5e-3 + 1.533e-3 + 15e-6 + stability::actuator_delay_s(model.axis, 1);
-  const double c = (k * late_s + model.axis.damping_nm_s_rad * per_m * per_m) / (2 * m);
-  CHECK(found.slides_1_s == Approx(std::sqrt(c * c + k / m) - c).epsilon(0.03));
+  const double motor = model.axis.motor_damping_nm_s_rad * per_m * per_m;
+  const double own = model.axis.damping_nm_s_rad * per_m * per_m;
+  double slides = 1;
+  const auto left_n_m = [&](double s) {
+    const double taken = model.axis.compensated * std::exp(-s * model.axis.velocity_delay_s);
+    return k * std::exp(-s * late_s) - (own + motor * (1 - taken)) * s - m * s * s;
+  };
+  while (left_n_m(slides) > 0) slides *= 1.001;
+  CHECK(found.slides_1_s == Approx(slides).epsilon(0.02));
   // A floor through the same point: nothing of it turns.
   linear->b.rightCols(6).setZero();
   linear->d.rightCols(6).setZero();

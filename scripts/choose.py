@@ -222,8 +222,8 @@ def verified(choosing, files, best, seconds):
         # Of the law at rest, which may be beside the place of the motion that the margin is for.
         gains = ask("stability", files.scene_path)["scenes"][0].get("gains", [{"bits": None, "why": "none at rest"}])
         bits, linear = gains[0]["bits"], gains[0].get("linear", 0.0)
-        if bits is None and not gains[0].get("disagrees"):
-            choosing.leave_out("margin on the bits", gains[0]["why"])
+        if not gains[0].get("large") and not gains[0].get("disagrees"):
+            choosing.leave_out("margin on the bits", gains[0]["why"] or "too small a swing to compare")
         else:
             check("margin at rest on the core's bits", bits or 0.0, linear, abs((bits or 0.0) / linear - 1) <= AGREES)
     else:

@@ -28,6 +28,18 @@ law::Evaluation<double> placed(const law::Law& law, const Place& place) {
   return out;
 }
 
+/// The law as it is at rest there, with its states and lines.
+law::Evaluation<double> resting(const law::Law& law, const Place& rest) {
+  law::Evaluation<double> out = placed(law, rest);
+  for (std::size_t i = 0; i < law.states.size(); ++i) out.set_state(i, rest.states[i]);
+  for (std::size_t i = 0; i < rest.lines.size(); ++i) {
+    for (std::size_t k = 0; k < rest.lines[i].size(); ++k) {
+      out.set_line(i, k + 1, rest.lines[i][k]);
+    }
+  }
+  return out;
+}
+
 /// Torques of a run at these angles; the host has sampled the same angles.
 Eigen::VectorXd run(const law::Law& law, law::Evaluation<double>& at, const Eigen::VectorXd& u,
                     const HostWords& words) {
@@ -161,17 +173,41 @@ double border_of(double linear, const std::function<double(double factor)>& grow
   return (low + (high - low) * dies / (dies - grows)) * linear;
 }
 
+namespace {
+
+/// Torques of a swing by `by` along `direction` in its third period, less those at rest.
+Eigen::MatrixXd swung_nm(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
+                         double by, double rad_s, double run_s, const HostWords& words) {
+  const Index axes = direction.size();
+  law::Evaluation<double> at = resting(law, rest);
+  const auto period = static_cast<Index>(std::ceil(2 * 3.141592653589793 / (rad_s * run_s)));
+  Eigen::MatrixXd out(axes, period);
+  law::Evaluation<double> still = resting(law, rest);
+  const Eigen::VectorXd rest_nm = run(law, still, rest.inputs, words);
+  for (Index i = 0; i < 3 * period; ++i) {
+    const double phase = rad_s * run_s * static_cast<double>(i);
+    Eigen::VectorXd u = rest.inputs;
+    u.head(axes) += by * std::sin(phase) * direction;
+    u.segment(axes, axes) += by * rad_s * std::cos(phase) * direction;
+    out.col(i % period) = run(law, at, u, words) - rest_nm;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool swings_linearly(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
+                     double by, double rad_s, double run_s, const HostWords& words) {
+  const Eigen::MatrixXd wide = swung_nm(law, rest, direction, by, rad_s, run_s, words);
+  const Eigen::MatrixXd narrow = 16 * swung_nm(law, rest, direction, by / 16, rad_s, run_s, words);
+  return (wide - narrow).norm() <= 0.05 * narrow.norm();
+}
+
 double linear_range_rad(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
                         double count_rad, double most_rad, const HostWords& words) {
   const Index axes = direction.size();
   const auto nm = [&](double by) {
-    law::Evaluation<double> at = placed(law, rest);
-    for (std::size_t i = 0; i < law.states.size(); ++i) at.set_state(i, rest.states[i]);
-    for (std::size_t i = 0; i < rest.lines.size(); ++i) {
-      for (std::size_t k = 0; k < rest.lines[i].size(); ++k) {
-        at.set_line(i, k + 1, rest.lines[i][k]);
-      }
-    }
+    law::Evaluation<double> at = resting(law, rest);
     Eigen::VectorXd u = rest.inputs;
     u.head(axes) += by * direction;
     return run(law, at, u, words);
@@ -273,6 +309,12 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
     out.why = fmt::format("the pen slides off by {:.3g} 1/s and shows no swing", slides_1_s);
     return out;
   }
+  const auto poles = stability::poles(model, *linear, out.linear, 1e-7, row.ticks, delay_of(row));
+  out.rad_s = poles.front().imag();
+  if (!(out.rad_s > 1)) {
+    out.why = "at the border the device drifts away and does not swing";
+    return out;
+  }
   const Eigen::VectorXd direction = steepest_direction(*linear, run_s, model.per_torque);
   // Beside that place, as steep: where the law is linear over the widest swing that the motor can
   // follow.
@@ -286,10 +328,14 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
     const double here = stability::steepness(*linear, run_s, model.per_torque).most_nm_rad;
     if (!(std::abs(here - steep) < 0.02 * steep)) continue;
     const double left_nm = most_nm / (1.1 * out.linear) - nm.cwiseAbs().maxCoeff();
-    const double most_rad = std::min(most_counts * design_.count_rad, left_nm / steep);
-    const double range =
-        linear_range_rad(law, *rest, direction, design_.count_rad, most_rad, words);
-    if (range <= range_rad) continue;
+    const double most_rad = std::min(
+        (direction.size() > 1 ? 0.4 : 1) * most_counts * design_.count_rad, left_nm / steep);
+    double range = linear_range_rad(law, *rest, direction, design_.count_rad, most_rad, words);
+    while (range > range_rad && range >= 5 * design_.count_rad &&
+           !swings_linearly(law, *rest, direction, range, out.rad_s, run_s, words)) {
+      range *= 0.7;
+    }
+    if (range <= range_rad || range < 5 * design_.count_rad) continue;
     range_rad = range;
     best = beside;
   }
@@ -303,16 +349,14 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
   look(*best);
   out.linear = ratio();
   out.swing_counts = range_rad / design_.count_rad;
+  out.swing_nm = out.linear * steep * range_rad;
+  const double duty_nm =
+      model.axis.torque_per_volt * e_.design.supply_v / e_.design.pwm_period_clocks();
+  out.large = out.swing_counts >= 8 && out.swing_nm >= 8 * duty_nm;
   const double gives_rad = out.linear * nm.cwiseAbs().maxCoeff() * give_rad_nm;
   if (gives_rad > 0.3 * range_rad) {
     out.why = fmt::format("the grip gives way by {:.3g} counts, and the law is linear over {:.3g}",
                           gives_rad / design_.count_rad, out.swing_counts);
-    return out;
-  }
-  const auto poles = stability::poles(model, *linear, out.linear, 1e-7, row.ticks, delay_of(row));
-  out.rad_s = poles.front().imag();
-  if (!(out.rad_s > 1)) {
-    out.why = "at the border the device drifts away and does not swing";
     return out;
   }
   const double period_s = 2 * 3.141592653589793 / out.rad_s;

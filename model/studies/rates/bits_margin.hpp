@@ -55,6 +55,9 @@ struct GainMargin {
   double rad_s = 0;         ///< of its swing there
   double swing_counts = 0;  ///< how large the swing of the bits begins
   double bits = std::numeric_limits<double>::quiet_NaN();  ///< factor at which bits begin to grow
+  double swing_nm = 0;  ///< and the law's torque in it, at the border
+  /// The swing spans 8 counts and 8 steps of the duty: less says nothing of a linear loop.
+  bool large = false;
   bool disagrees = false;  ///< the bits were tried and show no border near
   std::string why;         ///< why bits are missing
 };
@@ -67,5 +70,9 @@ double border_of(double linear, const std::function<double(double factor)>& grow
 /// that the law's torque is linear within 2 %; 0: not even 5 counts.
 double linear_range_rad(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
                         double count_rad, double most_rad, const HostWords& words);
+
+/// Whether the law's torque in a swing of that size, and as fast, is that of a small one, to 5 %.
+bool swings_linearly(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
+                     double by, double rad_s, double run_s, const HostWords& words);
 
 }  // namespace feltgate::rates

@@ -217,6 +217,8 @@ std::string reports_json(const std::vector<Report>& reports) {
                                 {"bits", std::isnan(g.bits) ? Json(nullptr) : Json(g.bits)},
                                 {"rad_s", g.rad_s},
                                 {"swing_counts", g.swing_counts},
+                                {"swing_nm", g.swing_nm},
+                                {"large", g.large},
                                 {"disagrees", g.disagrees},
                                 {"why", g.why}});
     }

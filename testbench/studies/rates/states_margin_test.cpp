@@ -246,6 +246,27 @@ TEST_CASE("a spring behind a delay line ends where its delay says, and where the
   }
 }
 
+TEST_CASE("a delay line of two runs is two states") {
+  const auto linear_of = [](const LawSource& source, const std::vector<double>& states) {
+    const auto linear =
+        linearised(read(source, 40e3), Place{Eigen::Vector3d(0.01, 0, 0), states, {0.1}}, 1e-3);
+    REQUIRE(linear);
+    return *linear;
+  };
+  const std::string head = "rate = 40 kHz\nparam stiffness = 0.1 Nm in 0.01 .. 20 Nm\n";
+  const auto line = linear_of(late_spring(2), {});
+  const auto states = linear_of(
+      {"states.law", head + "state a = 0 in -4 .. 4\nnext a = clamp(position, -4, 4)\n"
+                            "state b = 0 in -4 .. 4\nnext b = a\nout torque = -stiffness * b\n"},
+      {0.01, 0.01});
+  const stability::AxesLoopModel m = stability::make_axes_model(law_core(), lever());
+  const double found = margin(m, line, 0.1, 25, 25).ratio;
+  CHECK(found == Approx(margin(m, states, 0.1, 25, 25).ratio).epsilon(2e-3));
+  CHECK(std::fabs(found / margin(m, linear_of(late_spring(3), {}), 0.1, 25, 25).ratio - 1) > 0.02);
+  CHECK(stability::steepness(line, 25e-6, alone).most_nm_rad ==
+        Approx(stability::steepness(states, 25e-6, alone).most_nm_rad));
+}
+
 TEST_CASE("a filtered floor of two axes ends where its own matrix does") {
   const AxesScene scene = scene_of("pantograph_wall_filtered");
   const auto& parameters = std::get<PantographSetup>(scene.device).parameters;

@@ -56,7 +56,7 @@ struct GainMargin {
   double swing_counts = 0;  ///< how large the swing of the bits begins
   double bits = std::numeric_limits<double>::quiet_NaN();  ///< factor at which bits begin to grow
   double swing_nm = 0;  ///< and the law's torque in it, at the border
-  /// The swing spans 8 counts and 8 steps of the duty: less says nothing of a linear loop.
+  /// The swing spans 8 counts and 4 steps of the duty: less says nothing of a linear loop.
   bool large = false;
   bool disagrees = false;  ///< the bits were tried and show no border near
   std::string why;         ///< why bits are missing
@@ -71,7 +71,8 @@ double border_of(double linear, const std::function<double(double factor)>& grow
 double linear_range_rad(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
                         double count_rad, double most_rad, const HostWords& words);
 
-/// Whether the law's torque in a swing of that size, and as fast, is that of a small one, to 5 %.
+/// Whether the law's torque in a swing of that size, and as fast, is that of a small one, to 3 % of
+/// what has the frequency of the swing.
 bool swings_linearly(const law::Law& law, const Place& rest, const Eigen::VectorXd& direction,
                      double by, double rad_s, double run_s, const HostWords& words);
 

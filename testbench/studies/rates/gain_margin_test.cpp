@@ -32,29 +32,6 @@ AxesScene scene_of(const std::string& name) {
   });
 }
 
-/// The report of a shipped scene at its own rate, with margins by bits.
-Report judged(const std::string& name) {
-  Options o;
-  o.rates_hz = {};
-  o.gains = o.bits = o.whole_torque = true;
-  const std::string path = root + "/vectors/scenes/" + name + ".toml";
-  if (names_device(path)) {
-    AxesScene s = scene_of(name);
-    const auto e = elaborated(axes_design(s));
-    const LawSource source{root + "/rtl/laws/" + s.scenario.law + ".law", ""};
-    return measure(s, source, e, o);
-  }
-  Scenario s = read_scenario(path);
-  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/" + s.plant + ".toml");
-  resolve_effects(s, p.effects);
-  const BlockLaw* block = block_law(s.scene);
-  const std::string file = block != nullptr ? block->file : s.law;
-  const LawSource source = block != nullptr && file.empty()
-                               ? LawSource{"the law for " + block->scene, block->text}
-                               : LawSource{root + "/rtl/laws/" + file + ".law", ""};
-  return measure(s, source, p, elaborated("lever_law"), o);
-}
-
 }  // namespace
 
 TEST_CASE("a wall on a tracker ends where its samples and their age say, and where bits swing") {
@@ -178,22 +155,4 @@ TEST_CASE("a floor whose forces a host sends ends where the host's period and ag
   CHECK(border_n_m(1500) == Approx(b / (late_s + 1.5e-3)).epsilon(0.08));
   CHECK(border_n_m(0) == Approx(b / late_s).epsilon(0.25));
   CHECK(border_n_m(50) < 0.99 * border_n_m(0));
-}
-
-TEST_CASE("margins of shipped scenes beside the bits", "[.table]") {
-  std::ifstream names(root + "/build/margin_scenes.txt");
-  for (std::string name; std::getline(names, name);) {
-    try {
-      const Report r = judged(name);
-      for (const GainMargin& g : r.gains) {
-        fmt::print("{:<24}{:<24}{:10.4g}{:10.4g}{:+8.1f} %{:8.3g} Hz{:8.3g}  {}\n", name, g.of,
-                   g.linear, g.bits, 100 * (g.bits / g.linear - 1), g.rad_s / 6.2832,
-                   g.swing_counts, g.why);
-      }
-      if (r.gains.empty()) fmt::print("{:<24}{}\n", name, r.notes.empty() ? "-" : r.notes.back());
-    } catch (const std::exception& error) {
-      fmt::print("{:<24}refused: {}\n", name, error.what());
-    }
-    std::fflush(stdout);
-  }
 }

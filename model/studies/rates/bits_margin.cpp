@@ -58,24 +58,6 @@ Eigen::VectorXd run(const law::Law& law, law::Evaluation<double>& at, const Eige
 
 }  // namespace
 
-law::Law scaled(law::Law law, double gain) {
-  for (law::Output& o : law.outputs) {
-    law::Node factor;
-    factor.op = law::Op::constant;
-    factor.value = gain;
-    factor.place = o.place;
-    law::Node product;
-    product.op = law::Op::multiply;
-    product.unit = law.nodes[static_cast<std::size_t>(o.value)].unit;
-    product.place = o.place;
-    product.arguments = {o.value, static_cast<law::NodeId>(law.nodes.size())};
-    law.nodes.push_back(factor);
-    law.nodes.push_back(product);
-    o.value = static_cast<law::NodeId>(law.nodes.size() - 1);
-  }
-  return law;
-}
-
 std::optional<Place> at_rest(const law::Law& law, const Place& place, double run_s,
                              const HostWords& words, Eigen::VectorXd* nm) {
   Place rest = place;
@@ -235,6 +217,7 @@ constexpr double most_counts = 100, enough_counts = 60;  ///< of a swing
 constexpr double hold_s = 0.14;                          ///< arming, and the way to the place
 constexpr double settle_s = 0.3;                         ///< as at_rest()
 constexpr int periods = 9;
+constexpr double begins = 0.7;  ///< a swing, of the range in which the law is linear
 
 double largest(const ParameterInfo& p) {
   const int bits = p.format.width() - p.format.sign;
@@ -275,10 +258,22 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
   out.of = of;
   // A law in the engine stands for a block of the core.
   const auto& rows = report_.rows;
-  const RateRow& row = rows.back().block ? rows[rows.size() - 2] : rows.back();
-  const double tick_s = model.axis.tick_s, run_s = row.ticks * tick_s;
-  law::Law law = read(source_, 1 / run_s);
-  law.rate_hz = 1 / run_s;
+  RateRow row = rows.back().block ? rows[rows.size() - 2] : rows.back();
+  const double tick_s = model.axis.tick_s;
+  law::Law law = read(source_, 1 / (row.ticks * tick_s));
+  law.rate_hz = 1 / (row.ticks * tick_s);
+  if (row.ticks == 1) {
+    // With its factor it takes a few more clocks, for which a tick may be too short.
+    try {
+      law::compile(scaled(law, 1.5), target_);
+    } catch (const law::Refused&) {
+      row.ticks = 2;
+      law = read(source_, 1 / (row.ticks * tick_s));
+      law.rate_hz = 1 / (row.ticks * tick_s);
+      out.of += ", at " + rate_text(law.rate_hz);
+    }
+  }
+  const double run_s = row.ticks * tick_s;
   std::optional<Place> rest;
   std::optional<stability::LinearLaw> linear;
   Eigen::VectorXd nm;
@@ -352,11 +347,11 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
   }
   look(*best);
   out.linear = ratio();
-  out.swing_counts = range_rad / design_.count_rad;
-  out.swing_nm = out.linear * steep * range_rad;
+  out.swing_counts = begins * range_rad / design_.count_rad;
+  out.swing_nm = out.linear * steep * begins * range_rad;
   const double duty_nm =
       model.axis.torque_per_volt * e_.design.supply_v / e_.design.pwm_period_clocks();
-  out.large = out.swing_counts >= 8 && out.swing_nm >= 4 * duty_nm;
+  out.large = out.swing_counts >= 6 && out.swing_nm >= 2.5 * duty_nm;
   const double gives_rad = out.linear * nm.cwiseAbs().maxCoeff() * give_rad_nm;
   if (gives_rad > 0.3 * range_rad) {
     out.why = fmt::format("the grip gives way by {:.3g} counts, and the law is linear over {:.3g}",
@@ -368,12 +363,12 @@ GainMargin Sweep::judged(const std::string& of, const stability::AxesLoopModel& 
     out.bits = border_of(out.linear, [&](double factor) {
       law::Compiled compiled = law::compile(scaled(law, factor), target_);
       const bool remembers = !law.states.empty() || !law.lines.empty();
-      Let let{*rest, -factor * nm, range_rad * direction, hold_s, 0, 1};
+      Let let{*rest, -factor * nm, begins * range_rad * direction, hold_s, 0, 1};
       if (remembers || words) let.begin_s += settle_s;
       let.end_s = let.begin_s + (periods + 2) * period_s;
       let.row_every = std::max(1, static_cast<int>(period_s / tick_s / 64));
       Envelope envelope(let.begin_s + period_s, period_s, 2.5 * design_.count_rad,
-                        3 * range_rad * direction.norm(), periods);
+                        1.05 * range_rad * direction.norm(), periods);
       swing(std::move(compiled), let,
             [&](double t, const Eigen::VectorXd& at) { envelope.add(t, at); });
       return envelope.growth_1_s();

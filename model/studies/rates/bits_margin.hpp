@@ -16,9 +16,6 @@
 
 namespace feltgate::rates {
 
-/// The law with `gain` times its torques.
-law::Law scaled(law::Law law, double gain);
-
 /// Where the law comes to rest if the device is held at the angles of `place`: with its states and
 /// lines. Nothing if its torque still changes after 0.3 s. `nm`: its torques there.
 std::optional<Place> at_rest(const law::Law& law, const Place& place, double run_s,
@@ -56,7 +53,7 @@ struct GainMargin {
   double swing_counts = 0;  ///< how large the swing of the bits begins
   double bits = std::numeric_limits<double>::quiet_NaN();  ///< factor at which bits begin to grow
   double swing_nm = 0;  ///< and the law's torque in it, at the border
-  /// The swing spans 8 counts and 4 steps of the duty: less says nothing of a linear loop.
+  /// The swing spans 6 counts and 2.5 steps of the duty: less says nothing of a linear loop.
   bool large = false;
   bool disagrees = false;  ///< the bits were tried and show no border near
   std::string why;         ///< why bits are missing

@@ -47,7 +47,7 @@ high = 0
 figure = "theta_rad.0.end"
 high = 0.01
 """
-SOFT = SCENE.replace("wall_contact = 5", "wall_contact = 0.005\nwall_stiffness = 1\nwall_damping = 0")
+SOFT = SCENE.replace("wall_contact = 5", "wall_contact = 0.005\nwall_stiffness = 0.001534\nwall_damping = 0")
 NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 5\n", "")
 
 
@@ -154,7 +154,7 @@ class Rates(Scratch):
         # A wall without damping in its law: docs/stability.md has 6.1 Nm/rad where that is 1 mNms/rad.
         self.assertTrue(5 < gain["linear"] < 8, gain)
         self.assertLess(abs(gain["bits"] / gain["linear"] - 1), 0.05, gain)
-        self.assertGreater(gain["swing_counts"], 8)
+        self.assertTrue(gain["large"])
         done = ran(PROGRAM, "stability", "soft.toml", "--no-bits", cwd=self.folder, env=environment)
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
 

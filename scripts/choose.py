@@ -218,6 +218,14 @@ def verified(choosing, files, best, seconds):
         bits = (border or 0.0) / choosing.report["stiffness_nm_rad"]
         said = best["margin"]["margin"]
         check("margin on the chain's bits", bits, said, abs(bits / said - 1) <= AGREES)
+    elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "torque":
+        # Of the law at rest, which may be beside the place of the motion that the margin is for.
+        gains = ask("stability", files.scene_path)["scenes"][0].get("gains", [{"bits": None, "why": "none at rest"}])
+        bits, linear = gains[0]["bits"], gains[0].get("linear", 0.0)
+        if not gains[0].get("large") and not gains[0].get("disagrees"):
+            choosing.leave_out("margin on the bits", gains[0]["why"] or "too small a swing to compare")
+        else:
+            check("margin at rest on the core's bits", bits or 0.0, linear, abs((bits or 0.0) / linear - 1) <= AGREES)
     else:
         why = "the law is nowhere stiff, and it is that of its damping"
         why = best["margin_by"] if best["margin"] is None else why

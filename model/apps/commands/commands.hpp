@@ -25,6 +25,8 @@ void add_replay(CLI::App& app, int* exit_code);
 void add_import(CLI::App& app, int* exit_code);
 void add_design(CLI::App& app, int* exit_code);
 void add_stability(CLI::App& app, int* exit_code);
+/// `feltgate stability SCENE`: the margin of the scene's law.
+int scene_stability(const std::string& scene, const std::string& json, bool bits);
 void add_rates(CLI::App& app, int* exit_code);
 void add_controllers(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -145,6 +146,39 @@ std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs)
   return all;
 }
 
+/// A margin of a scene's law, as `feltgate stability` prints it. Exit code 1: bits and linear loop
+/// differ by more than 5 % for a swing of enough counts.
+int print_gains(const rates::Report& r, files::Outputs& outputs) {
+  constexpr double tolerance = 0.05;
+  bool off = false;
+  std::size_t shown = 0;
+  std::string text = fmt::format("scene {}: {}\nlaw {} at {}, {}{} without what is not linear\n",
+                                 r.scene, r.title, r.law, rates::rate_text(r.rows.back().rate_hz),
+                                 r.axes > 1 ? "device " : "plant ", r.plant);
+  text += fmt::format("friction of a joint {:g} Nm s/rad, without noise and lost words\n\n",
+                      r.damping_nm_s_rad);
+  text += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}\n", "factor on the torque",
+                      "linear", "bits", "off", "swing", "counts", "mNm");
+  for (const rates::GainMargin& g : r.gains) {
+    const double part = g.bits / g.linear - 1;
+    text += fmt::format("{:<24}{:>10.4g}", g.of, g.linear);
+    if (std::isnan(g.bits)) {
+      text += fmt::format("{:>10}  {}\n", "-", g.why);
+      off = off || g.disagrees;
+      continue;
+    }
+    text += fmt::format("{:>10.4g}{:>+8.1f} %{:>7.3g} Hz{:>8.3g}{:>9.3g}{}\n", g.bits, 100 * part,
+                        g.rad_s / 6.283185307179586, g.swing_counts, 1e3 * g.swing_nm,
+                        g.large ? "" : "  too small a swing to compare");
+    off = off || (g.large && !(std::abs(part) <= tolerance));
+    shown += g.large ? 1 : 0;
+  }
+  text += fmt::format("{} of {} compared with the bits\n", shown, r.gains.size());
+  for (const std::string& note : r.notes) text += "note: " + note + "\n";
+  outputs.say(text);
+  return off ? exit_failed : exit_ok;
+}
+
 int run(const RatesArguments& a) {
   files::Outputs outputs;
   std::vector<Wanted> scenes;
@@ -191,6 +225,22 @@ int run(const RatesArguments& a) {
 }
 
 }  // namespace
+
+int scene_stability(const std::string& scene, const std::string& json, bool bits) {
+  files::Outputs outputs;
+  const Wanted w = wanted(scene, {}, outputs);
+  files::OutputFile* file = outputs.open("--json", json);
+  rates::Options options;
+  options.rates_hz.clear();
+  options.gains = true;
+  options.bits = bits;
+  options.whole_torque = true;
+  const rates::Report report = measured(w, options);
+  if (file != nullptr) file->write(rates::reports_json({report}));
+  const int status = print_gains(report, outputs);
+  outputs.commit();
+  return status;
+}
 
 void add_rates(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<RatesArguments>();

@@ -12,6 +12,8 @@
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "files/output_file.hpp"
+#include "files/toml/toml_reader.hpp"
+#include "sim/loop/scenario.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/stability/report.hpp"
 
@@ -44,20 +46,15 @@ int verdict(const stability::Study& study, const files::Outputs& outputs) {
   return off == 0 ? exit_ok : exit_failed;
 }
 
-/// The border is that of a wall on a design; how far a scene's own torque is from it, `rates` says.
-void refuse_scene(const std::string& name) {
-  const fs::path path(name), scenes = fs::path(repository()) / "vectors/scenes";
-  const fs::path scene = scenes / (path.stem().string() + ".toml");
-  std::error_code error;
-  const bool is_design = fs::exists(fs::path(repository()) / "rtl/designs" / (name + ".toml"));
-  if (is_design || !fs::exists(scene)) return;
-  const bool is_file = path.has_parent_path() || path.extension() == ".toml";
-  if (is_file && !fs::equivalent(path, scene, error)) return;
-  throw std::invalid_argument(
-      fmt::format("{0} is a scene, and stability takes a design, whose walls it looks at; the "
-                  "margin of a one-lever "
-                  "scene's own torque, by the same eigenvalues, is in: ./feltgate rates {0}",
-                  path.stem().string()));
+/// Whether this is a scene and no design: a name in vectors/scenes, or a file with a torque law.
+bool is_scene(const std::string& name) {
+  const fs::path path(name);
+  if (path.has_parent_path() || path.has_extension()) {
+    return fs::exists(path) &&
+           (names_device(name) || config::parse_toml_file(name).contains("core"));
+  }
+  return !fs::exists(fs::path(repository()) / "rtl/designs" / (name + ".toml")) &&
+         fs::exists(fs::path(repository()) / "vectors/scenes" / (name + ".toml"));
 }
 
 /// Whether two designs differ at most in what registers hold.
@@ -132,6 +129,17 @@ int run(const StabilityArguments& a) {
   return options.bits ? verdict(study, outputs) : exit_ok;
 }
 
+int scene(const StabilityArguments& a) {
+  if (!a.rates.empty() || !a.damping.empty() || !a.plot.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{} is a scene, which has its own rate and damping and no plot; leave out "
+                    "--rate, --damping "
+                    "and --plot, or name a design",
+                    a.design));
+  }
+  return scene_stability(a.design, a.json, !a.no_bits);
+}
+
 }  // namespace
 
 void add_stability(CLI::App& app, int* exit_code) {
@@ -144,16 +152,25 @@ void add_stability(CLI::App& app, int* exit_code) {
       "of\n"
       "the scene its torque is held: a host reads, computes and writes the setpoint; at the tick\n"
       "rate it is the core's own wall. Then counts, friction and noise in the full plant.\n"
+      "Of a scene: the factor on its law's torque at which the device begins to swing by itself, "
+      "by\n"
+      "the linear loop of the law's own derivative (filters, states, delay lines, and the host of "
+      "a\n"
+      "tracker or a plane) and by the swing of the core's bits; without a hand, and with the "
+      "scene's\n"
+      "if it has a mass.\n"
       "  feltgate stability lever                          all of it, about 40 s\n"
+      "  feltgate stability wall_tracked                   a scene, in a minute\n"
       "  feltgate stability lever --plot out               with pictures in out/\n"
       "  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments\n"
-      "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing spans 8 counts),\n"
-      "1 otherwise, 2 unusable input. docs/stability.md explains every column.");
+      "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1\n"
+      "otherwise, 2 unusable input. docs/stability.md explains every column.");
   sub->add_option("design", a->design,
-                  "design that was built in, by its name in rtl/designs; or a file, whose bits are "
+                  "a scene, in vectors/scenes or a path; or a design that was built in, by its "
+                  "name in rtl/designs; or a file, whose bits are "
                   "those of a built-in design of the same structure with its cut-offs")
       ->capture_default_str()
-      ->type_name("DESIGN");
+      ->type_name("SCENE|DESIGN");
   sub->add_option("--linear-plant", a->linear,
                   "plant of the borders, in vectors/plants or a path: without friction, dead "
                   "voltage and dead time")
@@ -175,10 +192,7 @@ void add_stability(CLI::App& app, int* exit_code) {
   sub->add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
   sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder")
       ->type_name("DIR");
-  sub->callback([a, exit_code] {
-    refuse_scene(a->design);
-    *exit_code = run(*a);
-  });
+  sub->callback([a, exit_code] { *exit_code = is_scene(a->design) ? scene(*a) : run(*a); });
 }
 
 }  // namespace feltgate

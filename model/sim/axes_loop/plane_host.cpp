@@ -132,8 +132,7 @@ PlaneHost::PlaneHost(const PlaneHostSettings& settings, std::int64_t clock_hz)
 
 void PlaneHost::check(const PlaneHostSettings& settings, const std::string& path,
                       const SceneLaw& law) {
-  const PlaneHost host(settings, 1);
-  for (const auto& [name, value] : host.words({})) {
+  for (const auto& [name, value] : plane_words(settings, {})) {
     if (law.is_mailbox(name)) continue;
     throw config::ConfigError(
         fmt::format("{}:{}: law {} has no mailbox \"{}\", which [plane] sends; take the law {}",
@@ -152,18 +151,18 @@ Clock PlaneHost::next() const {
   return under_way_.empty() ? next_sample_ : std::min(next_sample_, under_way_.front().at);
 }
 
-std::map<std::string, double> PlaneHost::words(const Update& u) const {
+std::map<std::string, double> plane_words(const PlaneHostSettings& world, Vec3 pen_m) {
+  const Plane plane = nearest_plane(world, pen_m);
   std::map<std::string, double> words;
-  const int axes = settings_.axes;
-  if (settings_.sends_force) {
-    add_words(words, "force", spring_force(settings_, u.plane, u.pen_m), axes);
+  if (world.sends_force) {
+    add_words(words, "force", spring_force(world, plane, pen_m), world.axes);
     return words;
   }
-  words = {{"stiffness", settings_.stiffness_n_m},
-           {"damping", settings_.damping_ns_m},
-           {"friction", settings_.friction}};
-  add_words(words, "point", u.plane.point_m, axes);
-  add_words(words, "normal", u.plane.normal, axes);
+  words = {{"stiffness", world.stiffness_n_m},
+           {"damping", world.damping_ns_m},
+           {"friction", world.friction}};
+  add_words(words, "point", plane.point_m, world.axes);
+  add_words(words, "normal", plane.normal, world.axes);
   return words;
 }
 
@@ -185,7 +184,7 @@ std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
     if (!before_) before_ = now_;
     now_ = under_way_.front();
     ++arrived_;
-    arriving = words(*now_);
+    arriving = plane_words(settings_, now_->pen_m);
   }
   return arriving;
 }

@@ -54,6 +54,8 @@ struct Plane {
 
 /// The plane that touches the world at the point nearest to the pen.
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
+/// What the host sends of a pose, by the names of the law's mailboxes.
+std::map<std::string, double> plane_words(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// Force of the spring behind a plane, N.
 plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
 
@@ -91,7 +93,6 @@ class PlaneHost {
     plant::Vec3 pen_m;
   };
   Clock clock_of(std::int64_t sample) const;
-  std::map<std::string, double> words(const Update& u) const;
 
   PlaneHostSettings settings_;
   double clock_hz_;

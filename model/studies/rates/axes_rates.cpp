@@ -44,11 +44,10 @@ class AxesSweep : public Sweep {
     report_.axes = axes_of(scene_);
     report_.simulated_s = scene_.scenario.duration_s;
     sweep(std::move(fast), 0);
-    if (!continuous_law_.lines.empty()) {
-      report_.notes.emplace_back("no margin: the law has a delay line");
-    } else if (keeps_time(source_)) {
-      report_.notes.emplace_back(
-          "no margin: the law's springs and masses are states, not its slope");
+    if (whole_torque()) {
+      margins_by_states([this](const Place& p) { return around(p.at_rad); }, places_, link(),
+                        words());
+      if (options_.gains && report_.place) judge();
     } else {
       margins();
     }
@@ -64,6 +63,9 @@ class AxesSweep : public Sweep {
     Continuous::Setting set = setting(scene.scenario);
     set.axes = static_cast<std::size_t>(report_.axes);
     set.slope = set.floor = last();
+    set.places = last() && (options_.whole_torque || scene_.plane || keeps_time(source_) ||
+                            !continuous_law_.lines.empty());
+    set.words = words();
     set.inertia = [&](const Eigen::VectorXd& at) { return inertia_kg_m2(scene_.device, at); };
     Continuous continuous(continuous_law_, {}, set);
     tell_all(continuous, *loaded);
@@ -92,8 +94,37 @@ class AxesSweep : public Sweep {
       if (x.kept()) continue;
       row.broken.push_back(fmt::format("{} = {:.4g}, expected {}", x.figure, x.value, x.wanted()));
     }
+    if (set.places) places_ = continuous.places();
     row.cpu_s_per_s = cpu_s(scene, *loaded) / result.simulated_s;
     add(std::move(row), continuous, set);
+  }
+
+  bool whole_torque() const {
+    return options_.whole_torque || !continuous_law_.lines.empty() || keeps_time(source_) ||
+           places_.any_host();
+  }
+  stability::AxesLoopModel around(const Eigen::VectorXd& at_rad) const {
+    const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
+    return stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, at_rad));
+  }
+
+  /// What the host of [plane] sends of a pose.
+  HostWords words() const {
+    if (!scene_.plane) return {};
+    return [this](const Eigen::VectorXd&, const Eigen::VectorXd& sampled,
+                  law::Evaluation<double>& law) {
+      for (const auto& [name, si] : plane_words(*scene_.plane, pen_m(scene_.device, sampled))) {
+        for (std::size_t i = 0; i < continuous_law_.parameters.size(); ++i) {
+          if (continuous_law_.parameters[i].name == name) law.set_parameter(i, si);
+        }
+      }
+    };
+  }
+  /// A sample is half of the jitter late, on average.
+  stability::HostLink link() const {
+    if (!scene_.plane) return {};
+    const PlaneHostSettings& p = *scene_.plane;
+    return host_link(p.rate_hz, p.latency_s + p.jitter_s / 2, 1);
   }
 
   /// Around the steepest place; what a host holds there stays as it is.
@@ -107,14 +138,55 @@ class AxesSweep : public Sweep {
       report_.notes.emplace_back("no margin: the motion met the law nowhere stiff or damped");
       return;
     }
-    const plant::Parameters joint = joint_of(scene_.device, scene_.scenario.effects);
-    const stability::AxesLoopModel model =
-        stability::make_axes_model(e_, joint, inertia_kg_m2(scene_.device, report_.slope.at_rad));
+    const stability::AxesLoopModel model = around(report_.slope.at_rad);
     report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
     for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
     if (report_.rows.back().margin.of == Margin::Of::damping) {
       report_.notes.emplace_back("the margin is that of the law's damping: it is nowhere stiff");
     }
+  }
+
+  void judge() {
+    report_.gains.push_back(judged("alone", around(report_.place->at_rad), link(), words(),
+                                   [this](law::Compiled law, const Let& let, const auto& seen) {
+                                     swing(std::move(law), let, seen);
+                                   }));
+  }
+
+  void swing(law::Compiled law, const Let& let,
+             const std::function<void(double, const Eigen::VectorXd&)>& seen) {
+    AxesScene s = scene_;
+    s.scenario.duration_s = let.end_s;
+    s.scenario.arm_s = 0.01;
+    s.scenario.events.clear();
+    s.scenario.expectations.clear();
+    s.scenario.parameters = linear_parameters(law.law, let.rest);
+    s.scenario = fitted(std::move(s.scenario), law.image);
+    plant::Effects& on = s.scenario.effects;
+    on.viscous = true;
+    on.lugre = on.dead_voltage = on.dead_time = on.supply_limit = on.encoder_imperfect = false;
+    if (s.plane) {
+      s.plane->latency_s += s.plane->jitter_s / 2;
+      s.plane->jitter_s = s.plane->lost = 0;
+    }
+    hold_and_let_go(s.device, let.rest.inputs.head(report_.axes), let.offset_rad, let.hand_nm,
+                    let.begin_s);
+    const std::unique_ptr<SceneLaw> loaded =
+        make_axes_law(std::move(law), source_.path, design_, report_.axes);
+    AxesRunOptions o;
+    o.design = design_.name;
+    o.engine = "twin";
+    o.law = loaded.get();
+    std::int64_t tick = 0;
+    o.axes = [&](const std::vector<Row>& rows) {
+      if (tick++ % let.row_every != 0) return;
+      Eigen::VectorXd at(static_cast<Eigen::Index>(rows.size()));
+      for (std::size_t n = 0; n < rows.size(); ++n) {
+        at[static_cast<Eigen::Index>(n)] = rows[n].theta_rad;
+      }
+      seen(rows[0].time_s, at);
+    };
+    run_axes(s, o);
   }
 
   /// CPU time of the closed loop alone, without observers.
@@ -129,6 +201,7 @@ class AxesSweep : public Sweep {
   }
 
   const AxesScene& scene_;
+  Places places_;
 };
 
 }  // namespace

@@ -47,6 +47,7 @@ Continuous::Continuous(const law::Law& law, std::vector<Change> changes, const S
       setting_(setting),
       true_(law),
       sampled_(law),
+      lines_(law.lines.size()),
       seen_(setting.axes),
       counted_(setting.axes),
       axes_(setting.axes) {
@@ -132,13 +133,8 @@ void Continuous::look() {
   const Eigen::MatrixXd stiffness = wide / (2 * h);
   const Eigen::MatrixXd damping =
       fall(&Sample::velocity_rad_s, speed_step_rad_s) / (2 * speed_step_rad_s);
-  Eigen::VectorXd at_rad(wide.cols());
-  for (std::size_t n = 0; n < axes_.size(); ++n) {
-    at_rad[static_cast<Eigen::Index>(n)] = seen_[n].position_rad + axes_[n].zero_rad;
-  }
-  const Eigen::MatrixXd per_torque = setting_.inertia
-                                         ? setting_.inertia(at_rad).inverse().eval()
-                                         : Eigen::MatrixXd::Identity(wide.rows(), wide.cols());
+  const Eigen::VectorXd at = at_rad();
+  const Eigen::MatrixXd per_torque = this->per_torque(at);
   const auto largest = [](const Eigen::MatrixXd& m) {
     return stability::eigenvalues(m).real().maxCoeff();
   };
@@ -163,20 +159,40 @@ void Continuous::look() {
   if (observes_) {
     slope_.observed = -fall(&Sample::tau_hat_nm, observed_step_nm) / (2 * observed_step_nm);
   }
-  slope_.at_rad = at_rad;
+  slope_.at_rad = at;
   steepest_ = std::max(compared, steepest_);
   steepest_nm_ = here_nm;
 }
 
+Eigen::VectorXd Continuous::at_rad() const {
+  Eigen::VectorXd at(static_cast<Eigen::Index>(axes_.size()));
+  for (std::size_t n = 0; n < axes_.size(); ++n) {
+    at[static_cast<Eigen::Index>(n)] = seen_[n].position_rad + axes_[n].zero_rad;
+  }
+  return at;
+}
+
+Eigen::MatrixXd Continuous::per_torque(const Eigen::VectorXd& at_rad) const {
+  if (setting_.inertia) return setting_.inertia(at_rad).inverse();
+  return Eigen::MatrixXd::Identity(at_rad.size(), at_rad.size());
+}
+
 void Continuous::look_at_place() {
-  Place here{seen_[0].position_rad, seen_[0].velocity_rad_s, seen_[0].tau_hat_nm, {}, {}};
+  const auto axes = static_cast<Eigen::Index>(axes_.size());
+  Place here{Eigen::VectorXd(3 * axes), {}, {}, lines_, at_rad()};
+  for (Eigen::Index n = 0; n < axes; ++n) {
+    const Sample& s = seen_[static_cast<std::size_t>(n)];
+    here.inputs[n] = s.position_rad;
+    here.inputs[axes + n] = s.velocity_rad_s;
+    here.inputs[2 * axes + n] = s.tau_hat_nm;
+  }
   for (std::size_t i = 0; i < law_.states.size(); ++i) here.states.push_back(true_.state(i));
   for (std::size_t i = 0; i < law_.parameters.size(); ++i) {
     here.parameters.push_back(true_.parameter(i));
   }
-  const auto linear = linearised(law_, here, setting_.count_rad);
-  if (!linear || std::fabs(probe(seen_)[0]) >= setting_.limit_nm) return;
-  places_.note(here, *linear, setting_.run_s);
+  const auto linear = linearised(law_, here, setting_.count_rad, setting_.words);
+  if (!linear || probe(seen_).cwiseAbs().maxCoeff() >= setting_.limit_nm) return;
+  places_.note(here, *linear, setting_.run_s, per_torque(here.at_rad));
 }
 
 void Continuous::place(const Row* rows) {
@@ -200,6 +216,7 @@ void Continuous::tick(const Row* rows) {
   if ((rows[0].limits & static_cast<int>(limit::gates_closed)) != 0) {
     true_.reset();
     sampled_.reset();
+    lines_.assign(lines_.size(), {});
     ticks_ = 0;
     return;
   }
@@ -215,6 +232,11 @@ void Continuous::tick(const Row* rows) {
     ++runs_;
     if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
     run(true_, seen_, &Axis::ideal_nm);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      lines_[i].insert(lines_[i].begin(), true_.value(law_.lines[i].written));
+      const auto length = static_cast<std::size_t>(law_.lines[i].length);
+      if (lines_[i].size() > length) lines_[i].pop_back();
+    }
   }
   for (std::size_t n = 0; n < axes_.size(); ++n) {
     Axis& a = axes_[n];

@@ -58,7 +58,8 @@ class Continuous {
     /// Inertia of several axes at these angles, kg m^2: the steepest place is the one with the
     /// fastest oscillation.
     std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> inertia;
-    bool places = false;  ///< search the places of a law of one axis
+    bool places = false;  ///< search the place for a law with states or a host
+    HostWords words;      ///< of that host; empty: none
     bool floor = false;   ///< also run the law from the counts
   };
   /// The law must outlive this.
@@ -107,12 +108,15 @@ class Continuous {
   bool smooth(const Eigen::MatrixXd& wide, const Eigen::MatrixXd& narrow);
   void look();
   void look_at_place();
+  Eigen::MatrixXd per_torque(const Eigen::VectorXd& at_rad) const;
+  Eigen::VectorXd at_rad() const;
 
   const law::Law& law_;
   std::vector<Change> changes_;
   Setting setting_;
   law::Evaluation<double> true_, sampled_;
   std::vector<double> inputs_;
+  std::vector<std::vector<double>> lines_;  ///< what the true law wrote into each, newest first
   std::vector<Sample> seen_, counted_;
   std::vector<Axis> axes_;
   std::size_t next_ = 0;

@@ -5,6 +5,7 @@
 #include "studies/rates/device_joints.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/plant/pantograph/linkage_dynamics.hpp"
 
@@ -61,6 +62,65 @@ plant::Parameters joint_of(const DeviceSetup& device, plant::Effects on) {
 
 Eigen::MatrixXd inertia_kg_m2(const DeviceSetup& device, const Eigen::VectorXd& angle_rad) {
   return std::visit([&](const auto& d) { return inertia(d.parameters, angle_rad); }, device);
+}
+
+namespace {
+
+using plant::Segment;
+
+plant::Profile way(double to) {
+  return {{Segment::Kind::kHold, 0.02}, {Segment::Kind::kMinimumJerk, 0.1, to}};
+}
+plant::Profile step(double to) { return {{Segment::Kind::kStep, 1, to}}; }
+
+}  // namespace
+
+void hold_and_let_go(DeviceSetup& device, const Eigen::VectorXd& at, const Eigen::VectorXd& beside,
+                     const Eigen::VectorXd& nm, double hold_s) {
+  const auto levers = [&](auto& hands) {
+    for (std::size_t n = 0; n < hands.size(); ++n) {
+      const auto i = static_cast<Eigen::Index>(n);
+      plant::HandPhase bring, free;
+      bring.kind = plant::HandPhase::Kind::kPrescribed;
+      bring.duration_s = hold_s;
+      bring.profile = way(at[i] + beside[i]);
+      free.kind = plant::HandPhase::Kind::kTorque;
+      free.profile = step(nm[i]);
+      hands[n].phases = {bring, free};
+    }
+  };
+  if (auto* p = std::get_if<PantographSetup>(&device)) {
+    const plant::Linkage linkage(p->parameters.linkage);
+    const plant::Vec2 pen = linkage.pose({at[0] + beside[0], at[1] + beside[1]}).pen;
+    const plant::Vec2 force = linkage.pose({at[0], at[1]}).force({nm[0], nm[1]});
+    plant::PenPhase bring, free;
+    bring.kind = plant::PenPhase::Kind::kPrescribed;
+    bring.duration_s = hold_s;
+    bring.x = way(pen.x);
+    bring.y = way(pen.y);
+    free.kind = plant::PenPhase::Kind::kForce;
+    free.x = step(force.x);
+    free.y = step(force.y);
+    p->hand.phases = {bring, free};
+  } else if (auto* s = std::get_if<StylusSetup>(&device)) {
+    levers(s->hand);
+  } else if (auto* t = std::get_if<TwoLeversSetup>(&device)) {
+    levers(t->hand);
+  } else {
+    throw std::invalid_argument("no hand lets a handle in rings go at a place");
+  }
+}
+
+plant::Vec3 pen_m(const DeviceSetup& device, const Eigen::VectorXd& at) {
+  if (const auto* p = std::get_if<PantographSetup>(&device)) {
+    const plant::Vec2 pen = plant::Linkage(p->parameters.linkage).pose({at[0], at[1]}).pen;
+    return {pen.x, pen.y, 0};
+  }
+  if (const auto* s = std::get_if<StylusSetup>(&device)) {
+    const double per = s->parameters.lever.lever.radius_m;
+    return {per * at[0], per * at[1], per * at[2]};
+  }
+  throw std::invalid_argument("this device has no pen");
 }
 
 }  // namespace feltgate::rates

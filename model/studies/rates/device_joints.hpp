@@ -18,4 +18,11 @@ plant::Parameters joint_of(const DeviceSetup& device, plant::Effects on);
 /// Inertia matrix of all joints at these angles, kg m^2.
 Eigen::MatrixXd inertia_kg_m2(const DeviceSetup& device, const Eigen::VectorXd& angle_rad);
 
+/// Gives the device a hand that brings it beside the angles `at_rad` and lets it go after `hold_s`;
+/// from then on it applies `nm` at the joints. Errors: std::invalid_argument for a gimbal.
+void hold_and_let_go(DeviceSetup& device, const Eigen::VectorXd& at_rad,
+                     const Eigen::VectorXd& beside_rad, const Eigen::VectorXd& nm, double hold_s);
+/// Where the pen of a device that has one is at these angles.
+plant::Vec3 pen_m(const DeviceSetup& device, const Eigen::VectorXd& angle_rad);
+
 }  // namespace feltgate::rates

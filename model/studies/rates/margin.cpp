@@ -4,6 +4,7 @@
 // Documentation: docs/rates.md
 #include "studies/rates/margin.hpp"
 
+#include <algorithm>
 #include <functional>
 
 namespace feltgate::rates {
@@ -41,6 +42,9 @@ Margin search(Margin::Of of, double own, const std::function<bool(double)>& stab
   return m;
 }
 
+/// Two directions that slide alike are a pair with next to no frequency.
+bool swings(const stability::Pole& p) { return std::abs(p.imag()) > 0.05 * std::abs(p); }
+
 double scaled(Margin::Of of, const Slope& slope) {
   return of == Margin::Of::stiffness ? slope.stiffness_nm_rad : slope.damping_nm_s_rad;
 }
@@ -62,13 +66,23 @@ Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_t
   });
 }
 
-Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law,
+Margin margin(const stability::AxesLoopModel& model, const stability::LinearLaw& law,
               double steepness_nm_rad, int scene_ticks, int delay_ticks) {
-  return search(Margin::Of::torque, steepness_nm_rad, [&](double ratio) {
-    const auto all =
-        stability::poles(model, law, ratio, next_to_none_nm_rad, scene_ticks, delay_ticks);
-    return all.front().real() < 0;
+  const bool may_slide = law.host.period_ticks > 0 && law.axes() > 1;
+  const auto all = [&](double ratio) {
+    return stability::poles(model, law, ratio, next_to_none_nm_rad, scene_ticks, delay_ticks);
+  };
+  Margin out = search(Margin::Of::torque, steepness_nm_rad, [&](double ratio) {
+    for (const stability::Pole& p : all(ratio)) {
+      if (!(may_slide && !swings(p)) && !(p.real() < 0)) return false;
+    }
+    return true;
   });
+  if (!may_slide) return out;
+  for (const stability::Pole& p : all(1)) {
+    if (!swings(p)) out.slides_1_s = std::max(out.slides_1_s, p.real());
+  }
+  return out;
 }
 
 Margin margin(const stability::AxesLoopModel& model, const Slope& slope, int scene_ticks,

@@ -16,6 +16,9 @@ struct Margin {
   double border = 0;  ///< largest stable stiffness at the law's damping, Nm/rad; or damping; of a
                       ///< law with states the largest stable torque per angle at its place
   double ratio = 0;   ///< border divided by the law's value; at 1 the loop oscillates for ever
+  /// Growth without a swing at the law's own torque: a pen slides off a round body whose planes a
+  /// host sends. It is no part of the margin then.
+  double slides_1_s = 0;
 };
 
 /// Computes the margin by the eigenvalues of the linear loop: it scales the stiffness at the law's
@@ -25,8 +28,9 @@ struct Margin {
 Margin margin(const stability::LoopModel& model, const Slope& slope, int scene_ticks,
               int delay_ticks);
 
-/// The margin of a law with states at a place: it scales the whole torque.
-Margin margin(const stability::LoopModel& model, const stability::LinearLaw& law,
+/// The margin of a law with states, or on what a host sends, at a place: it scales the whole
+/// torque.
+Margin margin(const stability::AxesLoopModel& model, const stability::LinearLaw& law,
               double steepness_nm_rad, int scene_ticks, int delay_ticks);
 
 /// The same for several axes: it scales the whole matrix of the stiffness, or of the damping.

@@ -57,12 +57,11 @@ class LeverSweep : public Sweep {
     if (block_ != nullptr) report_.block_gates = block_->gates;
     sweep(std::move(fast), block_ != nullptr ? 1 : 0);
     if (block_ != nullptr) run_block();
-    if (!continuous_law_.lines.empty()) {
-      report_.notes.emplace_back("no margin: the law has a delay line");
-    } else if (scene_.tracker) {
-      report_.notes.emplace_back("no margin: the tracker, its noise and its delay are in the loop");
-    } else if (places_.any_states() || keeps_time(source_)) {
-      margins_by_states();
+    if (whole_torque()) {
+      margins_by_states(
+          [this](const Place&) { return stability::make_axes_model(e_, linear_plant()); }, places_,
+          link(), words());
+      if (options_.gains && report_.place) judge();
     } else {
       margins();
     }
@@ -86,6 +85,7 @@ class LeverSweep : public Sweep {
     Continuous::Setting set = setting(scene);
     set.slope = set.floor = row.block || (block_ == nullptr && last());
     set.places = set.floor;
+    set.words = words();
     // A law's parameter is what its word says, so its rounding is no error.
     Continuous continuous(
         continuous_law_,
@@ -125,45 +125,114 @@ class LeverSweep : public Sweep {
     return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
 
+  bool whole_torque() const {
+    return options_.whole_torque || !continuous_law_.lines.empty() || scene_.tracker ||
+           places_.any_states() || keeps_time(source_);
+  }
+
+  /// What the tracker's host makes of its samples.
+  HostWords words() const {
+    if (!scene_.tracker) return {};
+    const auto index = [&](const std::string& name) {
+      const auto& all = continuous_law_.parameters;
+      const auto at = std::find_if(all.begin(), all.end(),
+                                   [&](const law::Parameter& p) { return p.name == name; });
+      return static_cast<std::size_t>(at - all.begin());
+    };
+    const std::size_t angle = index(scene_.tracker->mailbox);
+    const bool both = !scene_.tracker->encoder_mailbox.empty();
+    const std::size_t encoder = both ? index(scene_.tracker->encoder_mailbox) : angle;
+    return [=](const Eigen::VectorXd& filtered, const Eigen::VectorXd& sampled,
+               law::Evaluation<double>& law) {
+      law.set_parameter(angle, filtered[0]);
+      if (both) law.set_parameter(encoder, sampled[0]);
+    };
+  }
+  stability::HostLink link() const {
+    if (!scene_.tracker) return {};
+    const TrackerSettings& t = *scene_.tracker;
+    return host_link(t.rate_hz, t.latency_s, t.alpha);
+  }
+
+  /// Without a hand, and with the scene's if it has a mass.
+  void judge() {
+    const auto swings = [&](const plant::HandPhase* hand) {
+      return [this, hand](law::Compiled law, const Let& let, const auto& seen) {
+        swing(std::move(law), let, hand, seen);
+      };
+    };
+    report_.gains.push_back(judged("alone", stability::make_axes_model(e_, linear_plant()), link(),
+                                   words(), swings(nullptr)));
+    const auto& phases = scene_.hand.phases;
+    if (phases.empty() || phases.back().kind != plant::HandPhase::Kind::kImpedance) return;
+    const plant::HandDynamics hand = plant::dynamics_of(phases.back().impedance, hand_radius_m());
+    report_.gains.push_back(
+        judged("with the scene's hand", stability::make_axes_model(e_, linear_plant(), &hand),
+               link(), words(), swings(&phases.back()), 1 / hand.grip_stiffness_nm_rad));
+  }
+  double hand_radius_m() const { return scene_.hand.radius_m.value_or(plant_.lever.radius_m); }
+
+  void swing(law::Compiled law, const Let& let, const plant::HandPhase* hand,
+             const std::function<void(double, const Eigen::VectorXd&)>& seen) {
+    using Phase = plant::HandPhase;
+    using Segment = plant::Segment;
+    Scenario s;
+    s.name = s.path = scene_.name;
+    s.duration_s = let.end_s;
+    s.scene = "law";
+    s.law = law.law.name;
+    s.arm_s = 0.01;
+    s.parameters = linear_parameters(law.law, let.rest);
+    s.tracker = scene_.tracker;
+    if (s.tracker) s.tracker->noise_rad = s.tracker->resolution_rad = 0;
+    const auto& all = law.law.parameters;
+    const bool mailbox =
+        std::any_of(all.begin(), all.end(), [](const auto& p) { return p.mailbox; });
+    if (mailbox && !s.tracker) s.feed_hz = 500;
+    const plant::Parameters plant = linear_plant();
+    s.effects = plant.effects;
+    s.effects.lugre = s.effects.dead_voltage = s.effects.dead_time = false;
+    s.effects.supply_limit = s.effects.encoder_imperfect = false;
+    s.effects.hand_dynamics = true;
+    const double held_rad = let.rest.inputs[0] + let.offset_rad[0];
+    Phase bring;
+    bring.kind = Phase::Kind::kPrescribed;
+    bring.duration_s = let.begin_s;
+    bring.profile = {{Segment::Kind::kHold, 0.02}, {Segment::Kind::kMinimumJerk, 0.1, held_rad}};
+    Phase free;
+    free.kind = Phase::Kind::kTorque;
+    double to = let.hand_nm[0];
+    if (hand != nullptr) {
+      free.kind = Phase::Kind::kImpedance;
+      free.impedance = hand->impedance;
+      const plant::HandDynamics d = plant::dynamics_of(hand->impedance, hand_radius_m());
+      to = let.rest.inputs[0] + to * (1 / d.stiffness_nm_rad + 1 / d.grip_stiffness_nm_rad);
+    }
+    free.profile = {{Segment::Kind::kStep, 1, to}};
+    s.hand.radius_m = scene_.hand.radius_m;
+    s.hand.phases = {bring, free};
+    s = fitted(std::move(s), law.image);
+    const std::unique_ptr<SceneLaw> loaded = make_scene_law(std::move(law), design_);
+    RunOptions o;
+    o.design = law_design;
+    o.engine = "twin";
+    o.law = loaded.get();
+    o.row_every = let.row_every;
+    o.row = [&](const Row& r) { seen(r.time_s, Eigen::VectorXd::Constant(1, r.theta_rad)); };
+    run_scenario(s, plant, o);
+  }
+
   /// Enables the lever's linear friction, which plant files contain for such studies.
-  stability::LoopModel linear_loop() {
+  plant::Parameters linear_plant() const {
     plant::Parameters plant = plant_;
     plant.effects = scene_.effects;
     plant.effects.viscous = true;
-    const stability::LoopModel model = stability::make_model(e_, plant);
-    report_.damping_nm_s_rad = model.damping_nm_s_rad;
-    return model;
-  }
-
-  /// Of a law whose springs and masses are states, as it runs at each rate.
-  void margins_by_states() {
-    const Place* place = places_.steepest();
-    if (place == nullptr) {
-      report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
-      return;
-    }
-    const stability::LoopModel model = linear_loop();
-    for (RateRow& r : report_.rows) {
-      const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
-      const auto linear = linearised(law, *place, design_.count_rad);
-      if (!linear) continue;
-      const Margin m = margin(model, *linear, place->most_nm_rad, r.ticks, delay_of(r));
-      if (m.ratio > 0) {
-        r.margin = m;
-      } else {
-        note_once(
-            "where there is a - for the margin, no torque is stable at that place, not even a "
-            "ten-thousandth: the law pushes away there, or the rate is far too low");
-      }
-    }
-    report_.notes.emplace_back(
-        "the margin is that of the law's whole torque with its states, at the place of the motion "
-        "where it is the stiffest spring at 50 Hz; the border is the torque per angle there, the "
-        "largest at 5, 50 and 500 Hz, times the margin");
+    return plant;
   }
 
   void margins() {
-    const stability::LoopModel model = linear_loop();
+    const stability::LoopModel model = stability::make_model(e_, linear_plant());
+    report_.damping_nm_s_rad = model.damping_nm_s_rad;
     for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
   }
 

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "design/design.hpp"
 #include "sim/axes_loop/axes_scene.hpp"
 #include "sim/plant/parameters.hpp"
+#include "studies/rates/bits_margin.hpp"
 #include "studies/rates/block_laws.hpp"
 #include "studies/rates/margin.hpp"
 #include "studies/rates/slow_law.hpp"
@@ -50,13 +52,18 @@ struct Report {
   ErrorFigure floor;               ///< of counts and estimated velocity, at every tick, all axes
   double damping_nm_s_rad = 0;     ///< of the lever or each joint, for the margins
   std::vector<RateRow> rows;       ///< the slowest rate first
+  std::optional<Place> place;      ///< of a margin of the whole torque
+  std::vector<GainMargin> gains;   ///< of the last row at rest, beside the bits; if asked for
   std::vector<std::string> notes;  ///< why rates or margins are missing
 };
 
 struct Options {
   std::vector<double> rates_hz{144, 490, 1e3, 10e3, 40e3, 100e3};
-  bool lock_step = false;                     ///< the RTL beside the twin
-  std::function<void(double done)> progress;  ///< 0..1; may be empty
+  bool lock_step = false;                          ///< the RTL beside the twin
+  std::function<void(double done)> progress = {};  ///< 0..1; may be empty
+  bool gains = false;                              ///< Report::gains
+  bool bits = false;                               ///< of those, also by the bits
+  bool whole_torque = false;                       ///< margins of the whole torque, of any law
 };
 
 /// The designs on which blocks and laws run.

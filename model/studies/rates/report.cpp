@@ -4,6 +4,7 @@
 // Documentation: docs/rates.md
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "files/json_text.hpp"
@@ -209,6 +210,17 @@ std::string reports_json(const std::vector<Report>& reports) {
         one["clocks_available"] = row.clocks_available;
       }
       scene["rates"].push_back(one);
+    }
+    for (const GainMargin& g : r.gains) {
+      scene["gains"].push_back({{"of", g.of},
+                                {"linear", g.linear},
+                                {"bits", std::isnan(g.bits) ? Json(nullptr) : Json(g.bits)},
+                                {"rad_s", g.rad_s},
+                                {"swing_counts", g.swing_counts},
+                                {"swing_nm", g.swing_nm},
+                                {"large", g.large},
+                                {"disagrees", g.disagrees},
+                                {"why", g.why}});
     }
     j["scenes"].push_back(scene);
   }

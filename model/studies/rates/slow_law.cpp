@@ -130,6 +130,18 @@ Law held(Law law, int runs, const law::Target& target) {
   return law;
 }
 
+Law scaled(Law law, double gain) {
+  const double most_nm = 12 / gain;  // the product fits the torque's word
+  Builder b(law, law.outputs.front().place);
+  for (law::Output& o : law.outputs) {
+    const law::Unit unit = law.nodes[static_cast<std::size_t>(o.value)].unit;
+    const NodeId above = b.two(Op::maximum, o.value, b.constant(-most_nm, unit));
+    const NodeId within = b.two(Op::minimum, above, b.constant(most_nm, unit));
+    o.value = b.two(Op::multiply, within, b.constant(gain));
+  }
+  return law;
+}
+
 law::Compiled at_rate(const LawSource& source, const law::Target& target, int ticks) {
   const double tick_hz = static_cast<double>(target.tick_hz);
   int runs = (ticks + largest_divider - 1) / largest_divider;

@@ -30,6 +30,9 @@ law::Compiled fastest(const LawSource& source, const law::Target& target);
 /// first; outputs are held in between. Events also happen only in these runs.
 law::Law held(law::Law law, int runs, const law::Target& target);
 
+/// The law with `gain` times its torques, which end at 12 Nm.
+law::Law scaled(law::Law law, double gain);
+
 /// Compiles the law for a run every `ticks` ticks, by the engine's divider; beyond the divider's
 /// range the law is held for several runs. Throws LawError, Refused, and std::invalid_argument for
 /// a law with a delay line, which counts runs and so behaves differently at another rate.

@@ -21,6 +21,9 @@ namespace feltgate::rates {
 
 namespace {
 
+/// From a host's write to the first run with its words: a word a tick, and the engine's comparison.
+constexpr double commit_ticks = 33;
+
 /// The rate that the file gives; 0: none.
 double own_rate_hz(const LawSource& source) {
   try {
@@ -112,6 +115,53 @@ void Sweep::leave_out(int ticks, const std::string& reason) {
 int Sweep::delay_of(const RateRow& row) const {
   const int run = (row.clocks_used + target_.clocks_per_tick - 1) / target_.clocks_per_tick;
   return std::min(run, row.ticks);
+}
+
+stability::HostLink Sweep::host_link(double rate_hz, double latency_s, double alpha) const {
+  const auto tick_hz = static_cast<double>(target_.tick_hz);
+  return {tick_hz / rate_hz, latency_s * tick_hz + commit_ticks, alpha};
+}
+
+void Sweep::margins_by_states(const std::function<stability::AxesLoopModel(const Place&)>& around,
+                              const Places& places, const stability::HostLink& host,
+                              const HostWords& words) {
+  const Place* place = places.steepest();
+  if (place == nullptr) {
+    report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
+    return;
+  }
+  report_.place = *place;
+  const stability::AxesLoopModel model = around(*place);
+  report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
+  for (RateRow& r : report_.rows) {
+    const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
+    auto linear = linearised(law, *place, design_.count_rad, words);
+    if (!linear) continue;
+    linear->host = host;
+    const Margin m = margin(model, *linear, place->most_nm_rad, r.ticks, delay_of(r));
+    if (m.ratio > 0) {
+      r.margin = m;
+    } else {
+      note_once(
+          "where there is a - for the margin, no torque is stable at that place, not even a "
+          "ten-thousandth: the law pushes away there, or the rate is far too low");
+    }
+  }
+  report_.notes.emplace_back(
+      "the margin is that of the law's whole torque with its states, at the place of the motion "
+      "where it is the stiffest spring at 50 Hz; the border is the torque per angle there, the "
+      "largest at 5, 50 and 500 Hz, times the margin");
+  if (report_.rows.back().margin.slides_1_s > least_slide_1_s) {
+    report_.notes.push_back(fmt::format(
+        "the plane turns with the pen: without a hand it slides off the body, by {:.3g} 1/s; the "
+        "margin is that of the swing alone",
+        report_.rows.back().margin.slides_1_s));
+  }
+  if (words) {
+    report_.notes.emplace_back(
+        "the host is in the loop of the margin: its samples, their age and its filter, without "
+        "noise and lost words");
+  }
 }
 
 void Sweep::note_once(const std::string& note) {

@@ -15,6 +15,9 @@
 
 namespace feltgate::rates {
 
+/// Below it nothing slides: the springs that hold an axis in the linear loop are that soft.
+constexpr double least_slide_1_s = 0.01;
+
 /// Runs one law at all rates, by the virtual run_law().
 class Sweep {
  public:
@@ -39,6 +42,31 @@ class Sweep {
   void tell_all(Continuous& continuous, const SceneLaw& law) const;
   /// Ticks from the samples of a run to the first tick with its torque.
   int delay_of(const RateRow& row) const;
+  stability::HostLink host_link(double rate_hz, double latency_s, double alpha) const;
+  /// Margins of the whole torque, of a law whose springs and masses are states, which has delay
+  /// lines, or whose host samples the device; as it runs at each rate.
+  void margins_by_states(const std::function<stability::AxesLoopModel(const Place&)>& around,
+                         const Places& places, const stability::HostLink& host,
+                         const HostWords& words);
+  /// A device that a hand holds off its rest by `offset_rad` and then lets go.
+  struct Let {
+    Place rest;
+    Eigen::VectorXd hand_nm;  ///< what holds the device at rest
+    Eigen::VectorXd offset_rad;
+    double begin_s = 0, end_s = 0;  ///< of the swing
+    int row_every = 1;
+  };
+  /// Lets the device go with this law, on a linear plant, and shows the angles to `seen`.
+  using Swing = std::function<void(
+      law::Compiled law, const Let& let,
+      const std::function<void(double time_s, const Eigen::VectorXd& angles_rad)>& seen)>;
+  /// The margin at rest near the report's place, by the linear loop and by the bits. `give_rad_nm`:
+  /// how far the hand's grip gives way, which begins when the hand lets go; 0: a hand without mass.
+  GainMargin judged(const std::string& of, const stability::AxesLoopModel& model,
+                    const stability::HostLink& host, const HostWords& words, const Swing& swing,
+                    double give_rad_nm = 0);
+  /// Parameters of a run without what is not linear: the law's at a place, and the core's.
+  std::map<std::string, double> linear_parameters(const law::Law& law, const Place& place) const;
   /// Notes the ticks without torque, which are not compared.
   void note_stale(const Acted& stale);
   void note_once(const std::string& note);

@@ -85,11 +85,12 @@ double back_emf_of(const plant::Parameters& p) {
 }  // namespace
 
 Eigen::MatrixXd plant_change(const plant::Parameters& p, double damping_nm_s_rad,
-                             const Eigen::MatrixXd& per_torque, double tick_s) {
+                             const Eigen::MatrixXd& per_torque, double tick_s,
+                             const plant::HandDynamics* hand) {
   const double r = p.motor.resistance_ohm, l = p.motor.inductance_h;
   const double kt = p.motor.torque_constant_nm_a, ke = back_emf_of(p);
-  const Eigen::Index n = per_torque.rows();
-  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(4 * n, 4 * n);
+  const Eigen::Index n = per_torque.rows(), size = 4 * n + (hand != nullptr ? 2 : 0);
+  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(size, size);
   const auto block = [&](Eigen::Index to, Eigen::Index from) {
     return rate.block(to * n, from * n, n, n);
   };
@@ -106,6 +107,18 @@ Eigen::MatrixXd plant_change(const plant::Parameters& p, double damping_nm_s_rad
   }
   block(Of::kSpeed, Of::kSpeed) = -damping * per_torque;
   block(Of::kAngle, Of::kSpeed).setIdentity();
+  if (hand != nullptr) {
+    const Eigen::Index speed = 4, angle = 5;  // of the hand's mass
+    const double k = hand->grip_stiffness_nm_rad, d = hand->grip_damping_nm_s_rad;
+    const Eigen::Vector4d grip(-d, -k, d, k),
+        own(d, k, -d - hand->damping_nm_s_rad, -k - hand->stiffness_nm_rad);
+    const Eigen::Index of[] = {Of::kSpeed, Of::kAngle, speed, angle};
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      rate(Of::kSpeed, of[i]) += per_torque(0, 0) * grip[i];
+      rate(speed, of[i]) += hand->inverse_inertia * own[i];
+    }
+    rate(angle, speed) = 1;
+  }
   Eigen::MatrixXd change = matrix_exp_minus_one(rate, tick_s);
   // A current that follows at once is no state: nothing of it remains after a tick.
   if (!p.effects.inductance) change.topLeftCorner(n, n) = -Eigen::MatrixXd::Identity(n, n);

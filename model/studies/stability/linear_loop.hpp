@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "design/design.hpp"
+#include "sim/plant/mechanics.hpp"
 #include "sim/plant/parameters.hpp"
 #include "studies/stability/dominant_poles.hpp"
 
@@ -67,9 +68,11 @@ struct LoopModel : LinearLoop {
 };
 
 /// The change of all currents, speeds, angles and voltages over one tick in which these are held,
-/// by the exact exponential; `per_torque`: inverse of the inertia of all axes.
+/// by the exact exponential; `per_torque`: inverse of the inertia of all axes. `hand`: on a single
+/// axis, speed and angle of its mass come last; nullptr: none.
 Eigen::MatrixXd plant_change(const plant::Parameters& plant, double damping_nm_s_rad,
-                             const Eigen::MatrixXd& per_torque, double tick_s);
+                             const Eigen::MatrixXd& per_torque, double tick_s,
+                             const plant::HandDynamics* hand = nullptr);
 
 /// Ticks of a torque's period that are repeated so that poles stand apart, about 1 ms: up to 500 Hz
 /// no turn is lost by that.

@@ -126,8 +126,8 @@ class CommandLine(Bench):
             (("run", "membrane", "--plant", "p42"), '"p42" is not in vectors/plants; did you mean'),
             (("extremes", "warp_32"), 'case "warp_32" is unknown; did you mean "wrap_32"?'),
             (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
-            (("stability", "detent"), "detent is a scene, and stability takes a design"),
-            (("stability", ROOT / "vectors/scenes/detent.toml"), "in: ./feltgate rates detent"),
+            (("stability", "detent", "--rate", "500"), "detent is a scene, which has its own rate"),
+            (("stability", ROOT / "vectors/scenes/detent.toml", "--plot", "out"), "leave out --rate, --damping"),
             (("budget", "membrane", "--design", "levr"), 'did you mean "lever"?'),
         ):
             with self.subTest(words):

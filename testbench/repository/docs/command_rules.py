@@ -63,6 +63,7 @@ RULES = (
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim (detent|coupled_levers)$", "BY", "choose.command"),
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
+    Rule(r"feltgate stability (?:SCENE|wall_tracked|ceiling)", "BY", "rates.command"),
     Rule(r"feltgate stability .*--rate", "WHOLE"),
     Rule(r"feltgate stability .*--no-bits", "WHOLE"),
     Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),

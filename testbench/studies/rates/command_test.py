@@ -47,6 +47,7 @@ high = 0
 figure = "theta_rad.0.end"
 high = 0.01
 """
+SOFT = SCENE.replace("wall_contact = 5", "wall_contact = 0.005\nwall_stiffness = 0.001534\nwall_damping = 0")
 NO_TORQUE = SCENE.replace('"wall"', '"free"').replace("[parameters]\nwall_contact = 5\n", "")
 
 
@@ -140,6 +141,22 @@ class Rates(Scratch):
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
         for word in ("torque error, mNm", "border / scene", "swing, mNm"):
             self.assertIn(word, svg)
+
+    def test_stability_of_a_scene_is_the_same_by_eigenvalues_and_bits(self):
+        self.put("soft.toml", SOFT)
+        environment = {**os.environ, "FELTGATE_PYTHON": sys.executable}
+        done = ran(PROGRAM, "stability", "soft.toml", "--json", "a.json", cwd=self.folder, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        for word in ("factor on the torque", "alone", "law wall at 1 MHz"):
+            self.assertIn(word, done.stdout)
+        (scene,) = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["scenes"]
+        (gain,) = scene["gains"]
+        # A wall without damping in its law: docs/stability.md has 6.1 Nm/rad where that is 1 mNms/rad.
+        self.assertTrue(5 < gain["linear"] < 8, gain)
+        self.assertLess(abs(gain["bits"] / gain["linear"] - 1), 0.05, gain)
+        self.assertTrue(gain["large"])
+        done = ran(PROGRAM, "stability", "soft.toml", "--no-bits", cwd=self.folder, env=environment)
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
 
     def test_rtl_and_twin_are_equal_at_every_rate(self):
         done = self.ended(self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-"))

@@ -125,7 +125,7 @@ TEST_CASE("what a tracker sends is in the continuous law") {
   CHECK(r.largest_nm > 0.1);
   CHECK(r.rows[1].error.rms() < 0.1 * r.largest_nm);
   CHECK(r.rows[1].error.rms() < r.rows[0].error.rms());
-  CHECK(r.rows[1].margin.of == Margin::Of::none);
+  CHECK(r.rows[1].margin.of == Margin::Of::torque);
 }
 
 TEST_CASE("where the torque ramps all the time nothing is compared") {

@@ -6,7 +6,7 @@ import re
 import shutil
 import statistics
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import rtl_sources
@@ -29,6 +29,13 @@ ALONE = (
     "law_torque_i law_late_i law_restart_i axis_fault_i axis_silent_i axis_blocked_i "
     "axis_testing_i axis_waits_i current_data_i driver_fault_i encoder_data_i"
 ).split()
+# Pins of an option of the design, which count where it has the option.
+OPTION_PINS = {
+    "CURRENT_LOOP": ("current_data_i", "current_clock_o"),
+    "DRIVER_FAULT": ("driver_fault_i",),
+    "HEARTBEAT": ("heartbeat_o",),
+    "ABSOLUTE_ENCODER": ("encoder_data_i", "encoder_select_no", "encoder_clock_o", "encoder_command_o"),
+}
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
     "pwm": {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
@@ -183,6 +190,17 @@ endmodule
 """
 
 
+def with_option_pins(target, package):
+    """The target of a design whose package has this text: the pins of its options are pins."""
+    used = {pin for option, pins in OPTION_PINS.items() for pin in pins
+            if not re.search(rf"int {option} = 0;", package)}
+    return replace(
+        target,
+        open_ports=tuple(p for p in target.open_ports if p not in used),
+        tied_ports=tuple(p for p in target.tied_ports if p not in used),
+    )
+
+
 def file_name(target):
     return re.sub(r"[^a-z0-9_]+", "_", target.name)
 
@@ -231,6 +249,7 @@ def measure(tools, root, design, target, seeds):
     """Figures of one target: a dictionary whose keys are those of docs/synthesis.md's JSON."""
     name = file_name(target)
     read = read_commands(copy_sources(root, design, tools.folder), target)
+    target = with_option_pins(target, (tools.folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))
     write_tops(tools, name, target, read)
     area = [*read, f"read_verilog -sv {name}_area.sv"]
     figures = ecp5_figures(tools.synthesize_ecp5(f"{name}_area", "area_top", area))

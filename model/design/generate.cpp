@@ -179,7 +179,8 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
        "mantissa: parts of the supply per LSB of the voltage"},
       {"feed_drop", given(drop), "its fraction bits"},
       {"driver_fault", given(d.driver_fault ? 1 : 0), "1: the driver tells of its faults"},
-      {"heartbeat", given(d.heartbeat ? 1 : 0), "1: a pin beats for a watchdog outside"}};
+      {"heartbeat", given(d.heartbeat ? 512 : 0),
+       "ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin"}};
 }
 
 /// Words of the absolute encoder; 0 without it.

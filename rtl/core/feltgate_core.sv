@@ -87,14 +87,13 @@ module feltgate_core #(
     output logic        [                          31:0] word_data_o
 );
   feltgate_checks u_checks ();
-
   // wave: time, words and products for all rooms
   logic tick, set_zero, clear_faults, kick, disarm, host_stop, restart, paused;
   logic [feltgate_map_pkg::WAVE_LENGTH-1:0] wave;
   logic [31:0] param;
   logic [feltgate_map_pkg::W_CONTROL-1:0] control;
-  logic [feltgate_map_pkg::W_CONTROL_MODE-1:0] mode;
-  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product, control_product, supervisor_product;
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product, control_product;
+  logic signed [feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product;
   // encoder, estimators, scenes
   logic signed [31:0] index_position;
   logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position;
@@ -104,7 +103,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::VELOCITY_DIFFERENCE_W-1:0] velocity_difference;
   logic signed [feltgate_pkg::OBSERVER_DIFFERENCE_W-1:0] observer_difference;
   logic signed [feltgate_pkg::SCENE_DISTANCE_W-1:0] distance;
-  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early, pulse;
+  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0] scene_early, pulse;  // in a self-test the scene gives 0
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   // actuation, safety
   logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
@@ -117,85 +116,80 @@ module feltgate_core #(
   // Each room's faults and limits, by bit
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] encoder_trips, estimator_trips, actuation_trips, wave_trips;
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] encoder_limits, estimator_limits, actuation_limits, safety_limits;
-
-  assign mode   = control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
   assign paused = testing_o || axis_testing_i;
 
   encoder u_encoder (
-      .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o),
-      .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i), .encoder_data_i(encoder_data_i),
-      .encoder_select_no(encoder_select_no), .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o),
-      .filter_i(control[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
-      .polarity_i(control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]), .set_zero_i(set_zero), .clear_i(clear),
-      .position_o(position_o), .scene_position_o(scene_position), .travel_o(travel),
-      .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error), .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
-      .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits), .trips_o(encoder_trips)
+      .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o), .enc_a_i(enc_a_i), .enc_b_i(enc_b_i),
+      .enc_z_i(enc_z_i), .encoder_data_i(encoder_data_i), .encoder_select_no(encoder_select_no),
+      .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o), .control_i(control),
+      .set_zero_i(set_zero), .clear_i(clear), .position_o(position_o), .scene_position_o(scene_position),
+      .travel_o(travel), .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
+      .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
+      .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits),
+      .trips_o(encoder_trips)
   );
 
   estimators u_estimators (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .armed_i(armed_o), .travel_i(travel),
       .velocity_difference_o(velocity_difference), .velocity_product_i(velocity_product),
-      .observer_difference_o(observer_difference), .dob_product_i(dob_product), .velocity_o(velocity_o), .tau_hat_o(tau_hat_o), .limits_o(estimator_limits), .trips_o(estimator_trips)
+      .observer_difference_o(observer_difference), .dob_product_i(dob_product), .velocity_o(velocity_o),
+      .tau_hat_o(tau_hat_o), .limits_o(estimator_limits), .trips_o(estimator_trips)
   );
 
   scenes u_scenes (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .armed_i(armed_o && !paused), .scene_i(scene_o),
-      .position_i(scene_position), .product_i(scene_product), .over_limit_i(over_limit),
-      .law_torque_i(law_torque_i), .law_late_i(law_late_i), .law_o(law),
-      .distance_o(distance), .square_o(square), .early_term_o(scene_early), .early_up_o(scene_up), .late_term_o(scene_late), .late_not_o(scene_not), .late_up_o(scene_late_up)
+      .position_i(scene_position), .product_i(scene_product), .over_limit_i(over_limit), .law_torque_i(law_torque_i),
+      .law_late_i(law_late_i), .law_o(law), .distance_o(distance), .square_o(square), .early_term_o(scene_early),
+      .early_up_o(scene_up), .late_term_o(scene_late), .late_not_o(scene_not), .late_up_o(scene_late_up)
   );
 
   actuation u_actuation (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .armed_i(armed_o), .paused_i(paused),
-      .mode_i(mode), .scene_i(scene_o), .restart_i(restart || (tick && law && law_restart_i)),
-      .frozen_i(chatters), .derated_i(derated), .early_term_i(scene_early | pulse),  // during the self-test the scene gives 0
-      .early_up_i(scene_up), .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
-      .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high),
-      .tau_ref_o(tau_ref_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
-      .limits_o(actuation_limits), .current_data_i(current_data_i), .current_clock_o(current_clock_o),
-      .current_o(current_o), .motor_current_o(motor_current), .driver_fault_i(driver_fault_i),
-      .current_state_o(current_state), .trips_o(actuation_trips), .clear_i(clear),
-      .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
-      .pwm_mode_i(control[feltgate_map_pkg::B_CONTROL_PWM_MODE]),
-      .polarity_i(control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY]),
+      .control_i(control), .scene_i(scene_o), .restart_i(restart || (tick && law && law_restart_i)),
+      .frozen_i(chatters), .derated_i(derated), .early_term_i(scene_early | pulse), .early_up_i(scene_up),
+      .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
+      .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high), .tau_ref_o(tau_ref_o),
+      .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o), .limits_o(actuation_limits),
+      .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(current_o),
+      .motor_current_o(motor_current), .driver_fault_i(driver_fault_i), .current_state_o(current_state),
+      .trips_o(actuation_trips), .clear_i(clear), .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .period_start_o(period_start), .duty_active_o(duty_active_o)
   );
 
   safety u_safety (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .tick_i(tick), .tick_count_i(tick_count_o),
-      .period_start_i(period_start), .host_i(control[feltgate_map_pkg::B_CONTROL_HOST]),
-      .host_arm_i(control[feltgate_map_pkg::B_CONTROL_ARM]), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
-      .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear),
-      .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
-      .axis_waits_i(axis_waits_i), .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state), .absolute_state_i(absolute_state),
-      .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips), .illegal_i(illegal), .moved_i(moved),
-      .travel_i(travel[1:0]), .velocity_i(velocity_o), .current_ref_i(current_ref_o), .product_i(supervisor_product),
-      .over_limit_i(over_limit), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
-      .law_i(law), .law_late_i(law_late_i),
-      .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked),
-      .gates_enable_o(gates_enable_o), .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o),
-      .limits_o(safety_limits), .current_estimate_o(current_estimate), .derated_o(derated),
-      .heartbeat_o(heartbeat_o), .testing_o(testing_o), .pulse_o(pulse), .test_result_o(test_result)
+      .period_start_i(period_start), .control_i(control), .host_stop_i(host_stop), .arm_i(arm_i), .stop_i(stop_i),
+      .disarm_i(disarm), .clear_faults_i(clear_faults), .kick_i(kick), .clear_o(clear), .axis_fault_i(axis_fault_i),
+      .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i), .axis_waits_i(axis_waits_i),
+      .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state),
+      .absolute_state_i(absolute_state), .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips),
+      .illegal_i(illegal), .moved_i(moved), .travel_i(travel[1:0]), .velocity_i(velocity_o),
+      .current_ref_i(current_ref_o), .product_i(supervisor_product), .over_limit_i(over_limit), .law_i(law),
+      .law_late_i(law_late_i), .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked), .gates_enable_o(gates_enable_o),
+      .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o), .limits_o(safety_limits),
+      .current_estimate_o(current_estimate), .derated_o(derated), .heartbeat_o(heartbeat_o), .testing_o(testing_o),
+      .pulse_o(pulse), .test_result_o(test_result)
   );
 
   assign limits_o = encoder_limits | estimator_limits | actuation_limits | safety_limits;
   wave #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_wave (
       .clk_i(clk_i), .rst_ni(rst_ni), .tick_o(tick), .tick_count_o(tick_count_o), .wave_o(wave), .param_o(param),
-      .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
-      .reg_busy_o(reg_busy_o), .reg_rdata_o(reg_rdata_o),
-      .set_zero_i(set_zero_i), .scene_i(scene_i), .scene_o(scene_o), .control_o(control), .set_zero_o(set_zero),
-      .clear_faults_o(clear_faults), .kick_o(kick), .disarm_o(disarm), .stop_o(host_stop), .restart_o(restart),
-      .trips_o(wave_trips), .locked_i(armed_o || arms), .region_high_i(region_high), .derated_i(derated),
-      .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked), .test_result_i(test_result),
-      .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o), .current_state_i(current_state), .absolute_state_i(absolute_state), .encoder_error_i(encoder_error),
-      .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o), .index_position_i(index_position),
-      .word_valid_o(word_valid_o), .word_slot_o(word_slot_o), .word_data_o(word_data_o),
-      .velocity_difference_i(velocity_difference), .observer_difference_i(observer_difference),
-      .distance_i(distance), .square_i(square), .applied_i(applied), .velocity_i(velocity_o),
-      .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .motor_current_i(motor_current), .voltage_i(voltage_o), .current_estimate_i(current_estimate),
-      .velocity_product_o(velocity_product), .dob_product_o(dob_product), .scene_product_o(scene_product),
-      .control_product_o(control_product), .supervisor_product_o(supervisor_product)
+      .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i), .reg_busy_o(reg_busy_o),
+      .reg_rdata_o(reg_rdata_o), .set_zero_i(set_zero_i), .scene_i(scene_i), .scene_o(scene_o), .control_o(control),
+      .set_zero_o(set_zero), .clear_faults_o(clear_faults), .kick_o(kick), .disarm_o(disarm), .stop_o(host_stop),
+      .restart_o(restart), .trips_o(wave_trips), .locked_i(armed_o || arms), .region_high_i(region_high),
+      .derated_i(derated), .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked),
+      .test_result_i(test_result), .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o),
+      .current_state_i(current_state), .absolute_state_i(absolute_state), .encoder_error_i(encoder_error),
+      .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o),
+      .index_position_i(index_position), .word_valid_o(word_valid_o), .word_slot_o(word_slot_o),
+      .word_data_o(word_data_o), .velocity_difference_i(velocity_difference),
+      .observer_difference_i(observer_difference), .distance_i(distance), .square_i(square), .applied_i(applied),
+      .velocity_i(velocity_o), .tau_hat_i(tau_hat_o), .tau_ref_i(tau_ref_o), .motor_current_i(motor_current),
+      .voltage_i(voltage_o), .current_estimate_i(current_estimate), .velocity_product_o(velocity_product),
+      .dob_product_o(dob_product), .scene_product_o(scene_product), .control_product_o(control_product),
+      .supervisor_product_o(supervisor_product)
   );
 
   assign zeroed_o         = set_zero;

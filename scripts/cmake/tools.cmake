@@ -62,6 +62,17 @@ target_compile_definitions(feltgate_rates PRIVATE
 feltgate_library(feltgate_controllers studies/controllers feltgate_stability feltgate_loop)
 target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
+# Sizes of the blocks of `lever`, as `feltgate synth --update` wrote them.
+set(budget scripts/synth_budget.toml)
+set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${budget})
+file(READ "${CMAKE_SOURCE_DIR}/${budget}" figures)
+foreach(block dob lowpass)
+  if(NOT figures MATCHES "\\[figures\\.lever\\.\"${block}\"\\][^[]*lut4_equivalents = ([0-9]+)")
+    message(FATAL_ERROR "${budget}: no size of lever's ${block}; run `feltgate synth --update`")
+  endif()
+  string(TOUPPER ${block} upper)
+  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${CMAKE_MATCH_1})
+endforeach()
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen

@@ -10,6 +10,7 @@
 
 #include "feltgate/absolute_encoder.hpp"
 #include "feltgate/encoder_monitor.hpp"
+#include "feltgate/generated/map.hpp"
 #include "feltgate/quad_decoder.hpp"
 
 namespace feltgate {
@@ -76,8 +77,11 @@ class AbsolutePosition {
   }
   /// faults.absolute: why the position is not to be relied on; the core arms only with 0.
   std::uint32_t state() const {
-    return static_cast<std::uint32_t>(encoder_.out().faults | seen_ | waits_ << 5);
+    return static_cast<std::uint32_t>(encoder_.out().faults | seen_ |
+                                      waits_ << (Map::C::faults_absolute_width - 1));
   }
+  /// No reading yet: a request to arm waits.
+  bool waits() const { return waits_; }
   /// A reading since the tick before differs from the one before it.
   bool moved() const { return moved_; }
 
@@ -99,6 +103,11 @@ inline std::uint32_t absolute_state(const QuadDecoder&) { return 0; }
 template <class D>
 std::uint32_t absolute_state(const AbsolutePosition<D>& p) {
   return p.state();
+}
+inline bool waits(const QuadDecoder&) { return false; }
+template <class D>
+bool waits(const AbsolutePosition<D>& p) {
+  return p.waits();
 }
 inline bool moved(const QuadDecoder&, const EncoderMonitorLaw& monitor) { return monitor.moved(); }
 template <class D>

@@ -17,7 +17,7 @@ void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* su
   sup->host_arm = bit(registers_.out().control, D::C::control_arm);
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
-  sup->axis_silent = in.axis_silent || loop_.waits() || absolute_state(decoder_) >> 5 != 0;
+  sup->axis_silent = in.axis_silent || loop_.waits() || waits(decoder_);
   sup->axis_blocked = in.axis_blocked || !loop_.ready() || absolute_state(decoder_) != 0;
 }
 

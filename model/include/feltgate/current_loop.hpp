@@ -75,7 +75,7 @@ class CurrentLoop<D, true> {
     duty_ = static_cast<std::int16_t>(
         (std::int64_t{control_.out().voltage} * D::pwm_period + CurrentControl::kSupply / 2) >>
         kCurrentControlBits);
-    if (D::heartbeat != 0 && in.beats) heartbeat_ = ((in.tick_count >> 9) & 1u) != 0;
+    if (D::heartbeat != 0 && in.beats) heartbeat_ = (in.tick_count & D::heartbeat) != 0;
     driver_kept_ = (driver_2_ && in.gates_enable) || (driver_kept_ && !in.clear);
     driver_2_ = driver_1_;
     driver_1_ = in.driver_fault && D::driver_fault != 0;

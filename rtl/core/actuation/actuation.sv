@@ -15,7 +15,7 @@ module actuation (
     input  logic        [                             31:0] param_i,
     input  logic                                            armed_i,
     input  logic                                            paused_i,       // a self-test runs: no torque of a scene
-    input  logic        [                              1:0] mode_i,         // 0 closed, 1 open loop, 2 voltage
+    input  logic        [   feltgate_map_pkg::W_CONTROL-1:0] control_i,
     input  logic        [                              3:0] scene_i,
     input  logic                                            restart_i,      // last clock of a tick: ramp from now on
     input  logic                                            frozen_i,       // the torque may shrink, and rise from below 0 to a positive target
@@ -44,8 +44,6 @@ module actuation (
     input  logic                                            clear_i,           // of the over-current
     input  logic                                            gates_enable_i,
     input  logic                                            gates_clear_i,  // asynchronous
-    input  logic                                            pwm_mode_i,
-    input  logic                                            polarity_i,     // of the motor
     output logic                                            gate_a_hi_o,
     output logic                                            gate_a_lo_o,
     output logic                                            gate_b_hi_o,
@@ -55,6 +53,11 @@ module actuation (
 );
   localparam int Wide = feltgate_pkg::LIMITER_INPUT_W;
   localparam int LimitsW = feltgate_map_pkg::W_STATUS_LIMITS;
+
+  logic polarity;  // of the motor
+  logic [feltgate_map_pkg::W_CONTROL_MODE-1:0] mode;
+  assign polarity = control_i[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY];
+  assign mode     = control_i[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE];
 
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] limited, addend;
   logic signed [Wide-1:0] control_early, control_late;
@@ -93,7 +96,7 @@ module actuation (
 
   torque_control u_torque_control (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_i), .mode_i(mode_i),
+      .armed_i(armed_i), .mode_i(mode),
       .product_is_emf_constant_i(wave_i[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]),
       .product_is_observer_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN]),
       .at_border_i(wave_i[feltgate_map_pkg::EVENT_AT_BORDER]),
@@ -149,7 +152,7 @@ module actuation (
     endfunction
 
     logic drives;
-    assign drives = gates_enable_i && mode_i != 2'(feltgate_map_pkg::MODE_VOLTAGE);
+    assign drives = gates_enable_i && mode != 2'(feltgate_map_pkg::MODE_VOLTAGE);
 
     // From the wave, once per tick: the reference; back-EMF and dead voltage, which are fed forward; the limit.
     logic signed [31:0] emf_q, dead_q;
@@ -217,7 +220,7 @@ module actuation (
     // The current that makes tau_ref positive: in a motor that is connected the other way round, against that at the
     // shunt. The observer and the heat take the mean of the last period whose window was whole.
     logic signed [31:0] in_format;
-    assign current = polarity_i ? -at_shunt : at_shunt;
+    assign current = polarity ? -at_shunt : at_shunt;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         mean_q    <= '0;
@@ -248,7 +251,7 @@ module actuation (
       if (!rst_ni) duty_q <= '0;
       else duty_q <= feltgate_pkg::DUTY_W'(share >>> SupplyF);
     end
-    assign bridge_duty = (mode_i == 2'(feltgate_map_pkg::MODE_VOLTAGE)) ? duty_o : duty_q;
+    assign bridge_duty = (mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)) ? duty_o : duty_q;
   end
   endgenerate
   assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'(gates_enable_i && current_state_o != '0)
@@ -258,7 +261,7 @@ module actuation (
         .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .clear_i(gates_clear_i),
-      .enable_i(gates_enable_i), .mode_i(pwm_mode_i), .polarity_i(polarity_i),
+      .enable_i(gates_enable_i), .mode_i(control_i[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(polarity),
       .duty_i(bridge_duty),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
       .period_start_o(period_start_o),
@@ -275,7 +278,7 @@ module actuation (
                     (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY);
 
   logic unused;
-  assign unused = ^wave_i;  // a room takes its own clocks of the wave
+  assign unused = ^{wave_i, control_i};  // a room takes its own clocks of the wave and its own fields of the control word
 endmodule
 
 `default_nettype wire

@@ -19,8 +19,7 @@ module encoder (
     output logic                                             encoder_select_no,
     output logic                                             encoder_clock_o,
     output logic                                             encoder_command_o,
-    input  logic        [feltgate_map_pkg::W_CONTROL_FILTER-1:0] filter_i,
-    input  logic                                             polarity_i,
+    input  logic        [   feltgate_map_pkg::W_CONTROL-1:0] control_i,
     input  logic                                             set_zero_i,        // the position becomes 0
     input  logic                                             clear_i,           // clears errors and index evidence
     output logic signed [                              31:0] position_o,        // counts; sampled, wraps
@@ -43,6 +42,8 @@ module encoder (
 
   localparam bit Edges = feltgate_pkg::ABSOLUTE_ENCODER == 0;  // the encoder is incremental
 
+  logic polarity;
+  assign polarity = control_i[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY];
   logic signed [31:0] position, decoded, count, zero;
   logic [15:0] travel;
   logic signed [1:0] step;
@@ -52,7 +53,8 @@ module encoder (
   quad_decoder #(.IndexCounts(feltgate_pkg::INDEX_COUNTS)) u_quad_decoder (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .a_i(Edges && enc_a_i), .b_i(Edges && enc_b_i), .z_i(Edges && enc_z_i),
-      .filter_i(filter_i), .polarity_i(polarity_i),
+      .filter_i(control_i[feltgate_map_pkg::B_CONTROL_FILTER+:feltgate_map_pkg::W_CONTROL_FILTER]),
+      .polarity_i(polarity),
       .set_zero_i(set_zero_i),
       .clear_error_i(clear_i),
       .position_o(decoded), .travel_o(travel),
@@ -106,7 +108,7 @@ module encoder (
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
     // again is no motion. moved_o: a reading since the tick before differs.
-    assign change = polarity_i ? last_q - angle : angle - last_q;
+    assign change = polarity ? last_q - angle : angle - last_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         wait_q    <= '0;
@@ -164,7 +166,7 @@ module encoder (
                    (FaultsW'(flip_trip) << feltgate_map_pkg::FAULT_WORD);
 
   logic unused;
-  assign unused = ^wave_i;  // a room takes its own clocks of the wave
+  assign unused = ^{wave_i, control_i};  // a room takes its own clocks of the wave and its own fields of the control word
 endmodule
 
 `default_nettype wire

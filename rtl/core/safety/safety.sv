@@ -16,8 +16,7 @@ module safety (
     input  logic        [                               31:0] tick_count_i,
     input  logic                                              period_start_i,  // of the PWM
     // Who may arm, and the commands
-    input  logic                                              host_i,          // the host has control, not the panel
-    input  logic                                              host_arm_i,
+    input  logic        [    feltgate_map_pkg::W_CONTROL-1:0] control_i,
     input  logic                                              host_stop_i,
     input  logic                                              arm_i,           // of the panel
     input  logic                                              stop_i,          // asynchronous
@@ -43,7 +42,6 @@ module safety (
     input  logic signed [        feltgate_pkg::CURRENT_W-1:0] current_ref_i,   // A
     input  logic signed [     feltgate_pkg::PRODUCT_BITS-1:0] product_i,
     input  logic                                              over_limit_i,    // of the limiter
-    input  logic                                              direct_i,        // voltage mode: no self-test
     input  logic                                              law_i,           // the scene is a program's
     input  logic                                              law_late_i,      // its torque is not valid
     // What follows
@@ -57,7 +55,7 @@ module safety (
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,      // bit n: limit n acted
     output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,  // A
     output logic                                              derated_o,       // the torque limit is hold_limit
-    output logic                                              heartbeat_o,     // changes every 512 ticks without a fault
+    output logic                                              heartbeat_o,     // changes every HEARTBEAT ticks without a fault
     output logic                                              testing_o,       // the self-test runs
     output logic signed [   feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_o,         // its pulse: a torque beyond every limit; the limit makes it
     output logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0]   test_result_o
@@ -77,7 +75,9 @@ module safety (
 
   self_test u_self_test (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .armed_i(armed_o), .direct_i(direct_i), .waits_i(axis_waits_i),
+      .armed_i(armed_o), .waits_i(axis_waits_i),
+      .direct_i(control_i[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE] ==
+                2'(feltgate_map_pkg::MODE_VOLTAGE)),  // voltage mode: no self-test
       .travel_i(travel_i), .tick_count_i(tick_count_i),
       .at_sample_i(wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]),
       .at_scene_rounded_i(wave_i[feltgate_map_pkg::EVENT_AT_SCENE_ROUNDED]),
@@ -93,7 +93,8 @@ module safety (
   supervisor u_supervisor (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .tick_i(tick_i), .period_start_i(period_start_i),
-      .host_i(host_i), .host_arm_i(host_arm_i), .arm_i(arm_i), .disarm_i(disarm_i),
+      .host_i(control_i[feltgate_map_pkg::B_CONTROL_HOST]),
+      .host_arm_i(control_i[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm_i),
       .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready),
       // A request waits for a current loop's first offset and an absolute encoder's first reading, the top bits; the others refuse it.
       .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1] ||
@@ -139,7 +140,7 @@ module safety (
   end else begin : g_heartbeat
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) heartbeat_o <= 1'b0;
-      else if (tick_i && first_fault_o == '0) heartbeat_o <= tick_count_i[9];
+      else if (tick_i && first_fault_o == '0) heartbeat_o <= (tick_count_i & 32'(feltgate_pkg::HEARTBEAT)) != '0;
     end
   end
   endgenerate
@@ -148,7 +149,7 @@ module safety (
   assign limits_o = feltgate_map_pkg::W_STATUS_LIMITS'(!gates_enable_o) << feltgate_map_pkg::L_GATES_CLOSED;
 
   logic unused;
-  assign unused = ^wave_i;  // a room takes its own clocks of the wave
+  assign unused = ^{wave_i, control_i};  // a room takes its own clocks of the wave and its own fields of the control word
 endmodule
 
 `default_nettype wire

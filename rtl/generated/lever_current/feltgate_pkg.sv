@@ -45,7 +45,7 @@ package feltgate_pkg;
   localparam int FEED_GAIN = 341;  // mantissa: parts of the supply per LSB of the voltage
   localparam int FEED_DROP = 10;  // its fraction bits
   localparam int DRIVER_FAULT = 1;  // 1: the driver tells of its faults
-  localparam int HEARTBEAT = 1;  // 1: a pin beats for a watchdog outside
+  localparam int HEARTBEAT = 512;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
   localparam int ABSOLUTE_ENCODER = 0;  // 1: the position is of an absolute encoder
   localparam int ABSOLUTE_FRAMING = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
   localparam int ABSOLUTE_BITS = 0;  // of a turn
@@ -54,7 +54,7 @@ package feltgate_pkg;
   localparam int ABSOLUTE_PERIOD = 0;  // ticks from reading to reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h689945cb;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h6c0bc60c;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]

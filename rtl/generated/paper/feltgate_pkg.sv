@@ -45,7 +45,7 @@ package feltgate_pkg;
   localparam int FEED_GAIN = 0;  // mantissa: parts of the supply per LSB of the voltage
   localparam int FEED_DROP = 0;  // its fraction bits
   localparam int DRIVER_FAULT = 0;  // 1: the driver tells of its faults
-  localparam int HEARTBEAT = 0;  // 1: a pin beats for a watchdog outside
+  localparam int HEARTBEAT = 0;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
   localparam int ABSOLUTE_ENCODER = 0;  // 1: the position is of an absolute encoder
   localparam int ABSOLUTE_FRAMING = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
   localparam int ABSOLUTE_BITS = 0;  // of a turn

@@ -109,6 +109,18 @@ class Wrapper(unittest.TestCase):
         for port in synth_measure.SNAPSHOT_PORTS:
             self.assertRegex(core, rf"\boutput logic [^;]*\b{port}\b")
 
+    def test_pins_of_an_option_count_where_the_design_has_it(self):
+        core = synth_measure.scene_target(ROOT)
+        def free(design):
+            text = (ROOT / f"rtl/generated/{design}/feltgate_pkg.sv").read_text(encoding="utf-8")
+            target = synth_measure.with_option_pins(core, text)
+            pins = {pin for some in synth_measure.OPTION_PINS.values() for pin in some}
+            return sorted(pins - {*target.open_ports, *target.tied_ports})
+
+        self.assertEqual(free("lever"), [])
+        self.assertEqual(free("lever_current"), ["current_clock_o", "current_data_i", "driver_fault_i", "heartbeat_o"])
+        self.assertEqual(len(free("lever_absolute")), 4)
+
 
 class Report(Scratch):
     def test_goals_say_what_is_missed(self):

@@ -94,11 +94,26 @@ run_tests() {
   fetch_for_tests neighbours "FuseSoC and LiteX" 'register_files|neighbours\.|board\.host'
   fetch_for_tests mujoco MuJoCo 'plant\.mujoco'
   rm -f "$results"
+  local built_s
+  children_cpu_s built_s
   # One more than there are processors: some tests wait for a browser, a device or a pipe.
   ctest --test-dir "$BUILD" --output-on-failure --no-tests=error -j "$(($(nproc) + 1))" \
     --output-junit "$results" "${options[@]}" || status=$?
-  if [[ ! $name && -f $results ]]; then tests_say minutes "${chosen[@]}" --results "$results"; fi
+  if [[ ! $name && -f $results ]]; then
+    tests_say minutes "${chosen[@]}" --results "$results"
+    local all_s
+    children_cpu_s all_s
+    printf '\nCPU minutes: %d of packages and build, %d of tests; %d minutes by the clock\n' \
+      $((built_s / 60)) $(((all_s - built_s) / 60)) $((SECONDS / 60))
+  fi
   report_tests "$status" "$results" "$name"
+}
+
+# children_cpu_s NAME: sets NAME to the CPU seconds of all programs that have ended. No subshell may
+# ask: it has children of its own.
+children_cpu_s() {
+  times >"$STATE/times"
+  printf -v "$1" %s "$(awk -F'[ms ]+' 'NR == 2 { print int($1 * 60 + $2 + $3 * 60 + $4) }' "$STATE/times")"
 }
 
 # fetch_for_tests VENV WHAT TESTS: the venv of tests whose names match TESTS, where one of them is

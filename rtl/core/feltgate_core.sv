@@ -49,7 +49,7 @@ module feltgate_core #(
     input  logic axis_silent_i,   // another axis, or the program's CRC, does not let it arm
     input  logic axis_blocked_i,  // another axis is not ready, or the program's CRC is wrong
     input  logic axis_testing_i,  // another axis runs its self-test: the scene waits
-    input  logic axis_waits_i,    // an axis of a lower number does: the self-test waits
+    input  logic axis_waits_i,    // an axis of a lower number runs its self-test: this one waits
     output logic arm_request_o,          // state of this axis for the others: requests arming
     output logic ready_o,
     output logic testing_o,

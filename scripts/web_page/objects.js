@@ -52,14 +52,21 @@ const SCENES = {
 
 // What a fault says to someone who plays; docs/safety.md has the rest.
 const FAULTS = {
-  encoder: "illegal steps at the encoder",
+  encoder: "illegal steps at the encoder, or it fails",
   speed: "faster than the design allows",
   polarity: "the lever runs away from the torque: wires are swapped",
   i2t: "too much current for too long: the motor would get too hot",
+  watchdog: "the host is silent",
   stop: "the stop is pressed, or was",
   channel: "one channel of the encoder is dead",
   jump: "the velocity jumped",
+  self_test: "the lever did not answer the first pulse as it should",
+  tick: "the clock of the ticks stands still",
+  index: "the count at the index is wrong",
   word: "a word changed by itself",
+  engine: "the program's torque came too late",
+  axis: "another axis has a fault",
+  current: "too much current, or the current is not measured",
 };
 
 const fixed = (x, digits = 3) => (x === undefined ? "?" : x.toFixed(digits).replace("-", "−"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/safety/supervisor.sv: arming, seven of the fourteen causes of fault, and the
+// Twin of rtl/core/safety/supervisor.sv: arming, seven of the fifteen causes of fault, and the
 // gate enable. A fault is latched, and the gate enable falls, one clock after its cause is seen.
 // Estimated current [1,8,8] A, I2t sum [0,31,2] A^2 tick. Documentation: docs/blocks/supervisor.md
 #pragma once

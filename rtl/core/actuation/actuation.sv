@@ -38,7 +38,7 @@ module actuation (
     input  logic                                            driver_fault_i,    // of the bridge's driver, asynchronous
     output logic                                            current_clock_o,   // to it
     output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale; new after EVENT_AT_SAMPLE
-    output logic signed [     feltgate_pkg::CURRENT_W-1:0]  motor_current_o,   // A: that one; without a current loop current_ref_o
+    output logic signed [     feltgate_pkg::CURRENT_W-1:0]  motor_current_o,   // ampere: the measured current; without a current loop current_ref_o
     output logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0]  current_state_o,   // why it is not to be relied on; top bit: the driver
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   trips_o,           // bit n: cause n
     input  logic                                            clear_i,           // of the over-current

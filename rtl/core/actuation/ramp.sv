@@ -21,7 +21,7 @@ module ramp (
     input  logic        [                       31:0] param_i,
     input  logic signed [ feltgate_pkg::TORQUE_W-1:0] limited_i,
     input  logic                                      over_limit_i,
-    input  logic                                      frozen_i,   // 1: it may shrink; from below 0 also to any positive target
+    input  logic                                      frozen_i,   // 1: the torque may only shrink, or rise from below 0 to a positive target
     input  logic                                      derated_i,  // 1: the limit is hold_limit
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts

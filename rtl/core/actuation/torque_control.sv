@@ -5,8 +5,8 @@
 //   I = Jn*Kp/Ktn * tau_ref + (1 - Jn*Kp)/Ktn * tau_hat        limited; the observer gets it
 //   V = gain*I + Ke*w + dead voltage                           V - Ke*w is limited (the window)
 //   duty = V * period/supply                                   limited
-// The core's one limiter limits the sums. A sum is at its input with the limit's word, the result, with addend_o
-// added, on limited_i one clock later and in the output one more clock later.
+// The core's one limiter limits the sums and then adds addend_o. The limiter gets a sum in the clock of the limit's
+// word. One clock later limited_i is the result, and one more clock later the output has it.
 // docs/blocks/torque_control.md
 
 `default_nettype none

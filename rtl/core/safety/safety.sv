@@ -57,7 +57,7 @@ module safety (
     output logic                                              derated_o,       // the torque limit is hold_limit
     output logic                                              heartbeat_o,     // changes every HEARTBEAT ticks without a fault
     output logic                                              testing_o,       // the self-test runs
-    output logic signed [   feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_o,         // its pulse: a torque beyond every limit; the limit makes it
+    output logic signed [   feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_o,         // its pulse, larger than every limit: the limit in force is the torque
     output logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0]   test_result_o
 );
   localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
@@ -96,7 +96,7 @@ module safety (
       .host_i(control_i[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control_i[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm_i),
       .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready),
-      // A request waits for a current loop's first offset and an absolute encoder's first reading, the top bits; the others refuse it.
+      // The top bit of a sensor's state: it has no first offset or reading yet, and a request to arm waits. The other bits refuse it.
       .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1] ||
                      absolute_state_i[feltgate_map_pkg::W_FAULTS_ABSOLUTE-1]),
       .axis_blocked_i(axis_blocked_i || current_state_i != '0 || absolute_state_i != '0),

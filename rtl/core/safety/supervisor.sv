@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fourteen
+// Supervisor: arms, latches faults, and alone enables the gates. It detects seven of the fifteen
 // fault causes itself; other blocks report theirs on trips_i. A fault is latched and
 // gates_enable_o falls one clock after the cause is seen; the gates are off a clock later. A limit
 // is compared in the clock PARAM_AT_* in which it is on the parameter bus, and acts in the next,
@@ -51,8 +51,8 @@ module supervisor (
   output logic               arms_o,           // in the clock of tick_i: armed from the next one on
   output logic               ready_o,          // this axis can be armed
   output logic               clear_o,          // clear_faults_i while there is no request to arm
-  input  logic               axis_silent_i,    // another axis does not request arming
-  input  logic               axis_blocked_i,   // another axis is not ready
+  input  logic               axis_silent_i,    // another axis does not request arming, or a sensor has given no value yet: a request waits
+  input  logic               axis_blocked_i,   // another axis, or a sensor, is not ready: a request is refused
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
   output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o  // number of the first, 0: none

@@ -3,10 +3,10 @@
 //
 // Room: all scenes, with one distance from the reference, one sum of their terms and one rounding.
 // A scene that is not built gives torque 0. Latency: distance_o [1,18,8] counts one clock after the
-// reference's word, for two clocks. The torque, not limited, is on early_term_o in the clock before the torque
-// limit's word, with early_up_o, by which the limiter completes its rounding, or on late_term_o in the clock of that word. Earlier, early_term_o shows a
-// charge's distance, which the limiter compares with the core's half-width, and late_term_o shows
-// quotient bits that nothing uses. docs/blocks/scenes.md
+// reference's word, for two clocks. The unlimited torque goes to the limiter: either on early_term_o, one clock
+// before the torque limit's word, or on late_term_o, in the clock of that word. The limiter adds early_up_o, which
+// completes the rounding. In an earlier clock early_term_o is a charge's distance, for its comparison with the core.
+// docs/blocks/scenes.md
 
 `default_nettype none
 

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "feltgate/absolute_encoder.hpp"
 #include "feltgate/encoder_source.hpp"
@@ -50,6 +52,22 @@ class AbsoluteSensor {
   explicit AbsoluteSensor(const AbsoluteEncoder::Parameters& parameters) : p_(parameters) {}
 
   void set(Defect defect) { defect_ = defect; }
+  /// What it shows beyond the angle: cosine 1, sine 1, cosine 2, ... of what it shows, rad.
+  void set_error(std::vector<double> terms_rad) { error_rad_ = std::move(terms_rad); }
+  /// What it shows at an angle, before rounding.
+  double shown_rad(double rad) const {
+    double shown = rad;
+    for (int round = 0; round < 8 && !error_rad_.empty();
+         ++round) {  // the error is of what it shows
+      double sum = 0;
+      for (std::size_t k = 0; k < error_rad_.size(); ++k) {
+        const double x = static_cast<double>(k / 2 + 1) * shown;
+        sum += error_rad_[k] * (k % 2 == 0 ? std::cos(x) : std::sin(x));
+      }
+      shown = rad + sum;
+    }
+    return shown;
+  }
   /// The shaft turns from one angle to another in the `clocks` from `begin` on.
   void turn(double from_rad, double to_rad, Clock begin, Clock clocks) {
     from_rad_ = from_rad;
@@ -81,7 +99,7 @@ class AbsoluteSensor {
     edges_ = command_ = 0;
     if (defect_ != Defect::held) {
       constexpr double turn_rad = 6.283185307179586;
-      const double rad = from_rad_ + slope_ * static_cast<double>(now - begin_);
+      const double rad = shown_rad(from_rad_ + slope_ * static_cast<double>(now - begin_));
       count_ = static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, p_.bits)));
     }
     word_ = word();
@@ -110,6 +128,7 @@ class AbsoluteSensor {
 
   AbsoluteEncoder::Parameters p_;
   Defect defect_ = Defect::none;
+  std::vector<double> error_rad_;
   double from_rad_ = 0, slope_ = 0;  // per clock
   Clock begin_ = 0, edge_at_ = 0;
   bool reads_ = false, high_ = false;

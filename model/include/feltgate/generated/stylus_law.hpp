@@ -72,6 +72,7 @@ struct StylusLaw {
       0;                                     // clocks before the serial clock and between readings
   static constexpr int absolute_period = 0;  // ticks from reading to reading
   static constexpr int absolute_diagnosis = 0;             // SPI: address of the diagnosis
+  static constexpr int absolute_table = 0;                 // 1: readings are corrected by a table
   static constexpr Round rounding = Round::half_up;        // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x45f29bea;  // by which a host knows the design
 

@@ -244,8 +244,8 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   refused("[absolute_encoder]", "[axes]\ncount = 2\n[absolute_encoder]",
           "has no pins for its lines");
   // A table: its corrections are in the package and in the CRC, and only where there is an error.
-  const auto with = [&](const char* terms) {
-    return replaced(good, "error_mrad = []", fmt::format("error_mrad = [{}]", terms));
+  const auto with = [&](const std::string& terms) {
+    return replaced(good, "error_mrad = []", "error_mrad = [" + terms + "]");
   };
   const Elaborated table =
       elaborate(design_from_text(with("8.0, 0.0"), "t.toml"), shipped_registers());

@@ -163,33 +163,33 @@ namespace {
 constexpr double kTurnRad = 2 * 3.14159265358979323846;
 constexpr double kFewestTurns = 3;
 constexpr double kEnds = 0.25;       ///< of a turn, left out at both ends: friction near rest
-constexpr double kTurnsPerKnot = 2;  ///< so the smooth motion cannot follow the shaft
-constexpr std::size_t kMostKnots = 40;
+constexpr double kTurnsPerKnot = 1;  ///< so the smooth motion cannot follow the shaft
+constexpr std::size_t kMostKnots = 60;
 
-/// Cubic B-splines over the time, with knots where the shaft has turned by equal parts.
+/// B-splines of degree 5 over the time, with knots where the shaft has turned by equal parts.
 class Splines {
  public:
   Splines(const std::vector<double>& time_s, const std::vector<double>& angle_rad) {
     const double way = angle_rad.back() - angle_rad.front();
     const auto parts = std::clamp<std::size_t>(
         static_cast<std::size_t>(std::abs(way) / (kTurnRad * kTurnsPerKnot)), 1, kMostKnots);
-    knots_.assign(4, time_s.front());
+    knots_.assign(kDegree + 1, time_s.front());
     std::size_t row = 0;
     for (std::size_t k = 1; k < parts; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(parts);
       while ((angle_rad[row] - angle_rad.front()) / way < share) ++row;
       knots_.push_back(time_s[row]);
     }
-    knots_.insert(knots_.end(), 4, time_s.back());
+    knots_.insert(knots_.end(), kDegree + 1, time_s.back());
   }
-  Index size() const { return static_cast<Index>(knots_.size()) - 4; }
+  Index size() const { return static_cast<Index>(knots_.size() - kDegree - 1); }
 
   /// The values of all splines at a time, after de Boor.
   VectorXd at(double t) const {
-    std::size_t span = 3;
-    while (span + 5 < knots_.size() && t >= knots_[span + 1]) ++span;
-    double b[4] = {1, 0, 0, 0};
-    for (std::size_t degree = 1; degree <= 3; ++degree) {
+    std::size_t span = kDegree;
+    while (span + kDegree + 2 < knots_.size() && t >= knots_[span + 1]) ++span;
+    double b[kDegree + 1] = {1};
+    for (std::size_t degree = 1; degree <= kDegree; ++degree) {
       double carried = 0;
       for (std::size_t k = 0; k < degree; ++k) {
         const double right = knots_[span + 1 + k], left = knots_[span + 1 + k - degree];
@@ -200,11 +200,12 @@ class Splines {
       b[degree] = carried;
     }
     VectorXd all = VectorXd::Zero(size());
-    for (std::size_t k = 0; k < 4; ++k) all[static_cast<Index>(span - 3 + k)] = b[k];
+    for (std::size_t k = 0; k <= kDegree; ++k) all[static_cast<Index>(span - kDegree + k)] = b[k];
     return all;
   }
 
  private:
+  static constexpr std::size_t kDegree = 5;
   std::vector<double> knots_;
 };
 
@@ -298,7 +299,8 @@ EncoderError identify_encoder(const Recording& turn, int harmonics, double count
   if (e.noise_rad > 3 * 0.29 * count_rad) {
     e.warnings.push_back(fmt::format(
         "{:.2g} counts are left over, and rounding to counts leaves 0.29: the motion was not "
-        "smooth, or the encoder is noisy, or it needs more --harmonics",
+        "smooth, the readings are not all of the same age, the encoder is noisy, or it needs "
+        "more --harmonics",
         e.noise_rad / count_rad));
   }
   return e;

@@ -167,8 +167,9 @@ std::string readings_csv(const std::vector<Reading>& readings, bool closed) {
 int calibrate_encoder(Session& session, const CalibrateArguments& a) {
   if (a.from.empty()) {
     throw std::invalid_argument(
-        "calibrate encoder needs a recorded turn: --from FILE, of `feltgate host PORT record` or "
-        "of a run");
+        "calibrate encoder needs a recorded turn: --from FILE with time_s and position, as the CSV "
+        "of "
+        "a run has it");
   }
   const BenchDesign known(session, "");
   const design::Design& d = known.design().design;

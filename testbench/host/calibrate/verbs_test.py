@@ -116,9 +116,7 @@ class Calibrate(VerbTest):
     def test_the_table_of_an_encoder_is_right_on_another_seed(self):
         turn(self.folder / "turn.csv", seed=1)
         words = ("--design", "lever_absolute", "calibrate", "encoder", "--from")
-        said = self.host(
-            "-", *words, "turn.csv", "--json", "e.json", "--write", "mine.toml"
-        )
+        said = self.host("-", *words, "turn.csv", "--json", "e.json", "--write", "mine.toml")
         self.assertIn("turns at", said)
         found = json.loads((self.folder / "e.json").read_text(encoding="utf-8"))
         self.assertEqual(found["procedure"], "encoder")
@@ -130,7 +128,8 @@ class Calibrate(VerbTest):
         # Its table, as the generator has it, on another turn.
         self.builds(self.folder / "mine.toml")
         header = (self.folder / "mine.hpp").read_text(encoding="utf-8")
-        table = [int(n) for n in re.search(r"corrections\[256\] = {(.*?)}", header, re.S)[1].split(",")]
+        entries = re.search(r"corrections\[256\] = {(.*?)}", header, re.S)[1]
+        table = [int(n) for n in entries.split(",")]
         self.assertEqual(len(table), 256)
         before, after = [], []
         for angle in turn(self.folder / "again.csv", seed=2, fastest=40):
@@ -144,15 +143,16 @@ class Calibrate(VerbTest):
             mean = sum(values) / len(values)
             return math.sqrt(sum((v - mean) ** 2 for v in values) / len(values))
 
+        # A tenth, and what noise and rounding to counts leave of a perfect encoder.
         self.assertLess(mean_square(after), mean_square(before) / 10 + 0.6 * ANGLE_COUNT)
-        # The new design with a turn that its core has corrected: nothing more to find.
+        # The other turn gives nearly the same.
         said = self.host("-", *words, "again.csv", "--harmonics", "2")
         self.assertIn("error_mrad = [7.", said)
 
     def test_encoders_without_a_table(self):
         turn(self.folder / "turn.csv", seed=1)
         for words, needle in (
-            (("calibrate", "encoder", "--from", "turn.csv"), "design lever has no absolute encoder"),
+            (("calibrate", "encoder", "--from", "turn.csv"), "lever has no absolute encoder"),
             (("calibrate", "encoder"), "needs a recorded turn"),
             (("calibrate", "magnet", "--from", "turn.csv"), "encoder"),
         ):

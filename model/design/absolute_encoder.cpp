@@ -19,6 +19,10 @@ constexpr double kTurnRad = 2 * 3.14159265358979323846;
 /// Readings in which each fault is named, with a reading that begins just before it.
 constexpr int kReadingsToFault = 18;
 constexpr double kNamedIn_s = 2e-3;
+constexpr std::size_t kMostTerms = 32;
+/// The table: an entry has 16 bits with its sign. With half of this slope the shorter way around
+/// and the order of the angles stay what they are.
+constexpr double kMostError_mrad = 190, kMostSlope_mrad = 500;
 
 int whole(double value) { return static_cast<int>(std::lround(value)); }
 bool is_whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
@@ -49,6 +53,20 @@ void read_absolute_encoder(config::TomlReader& r, Design& d) {
     r.fail("diagnosis", "only SPI asks for a register of the diagnosis", "leave it out");
   }
   d.lines = (1 << d.absolute_bits) / 4;
+  if (r.has("error_mrad")) d.absolute_error_mrad = r.numbers("error_mrad", {-190, 190});
+}
+
+std::array<std::int16_t, 256> Design::absolute_corrections() const {
+  std::array<std::int16_t, 256> table{};
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    double sum_mrad = 0;
+    for (std::size_t term = 0; term < absolute_error_mrad.size(); ++term) {
+      const double x = static_cast<double>((term / 2 + 1) * k) * kTurnRad / 256;
+      sum_mrad += absolute_error_mrad[term] * (term % 2 == 0 ? std::cos(x) : std::sin(x));
+    }
+    table[k] = static_cast<std::int16_t>(std::lround(std::ldexp(-1e-3 * sum_mrad / kTurnRad, 20)));
+  }
+  return table;
 }
 
 AbsoluteEncoder::Parameters Design::absolute_parameters() const {
@@ -71,8 +89,43 @@ int Design::absolute_delay_ticks() const {
   const AbsoluteEncoder::Parameters p = absolute_parameters();
   // BiSS-C: of a sensor that begins two serial clocks after its acknowledge.
   const int wait = p.framing == AbsoluteEncoder::kBiss ? 10 * p.half_clocks : 0;
-  return (p.reading_clocks() + wait + to_position + clocks_per_tick() - 1) / clocks_per_tick();
+  const int table = absolute_table() ? absolute_bits - 4 : 0;
+  return (p.reading_clocks() + wait + table + to_position + clocks_per_tick() - 1) /
+         clocks_per_tick();
 }
+
+namespace {
+
+void check_error(const Design& d) {
+  if (!d.absolute_table()) return;
+  const auto& terms = d.absolute_error_mrad;
+  const auto wrong = [&d](const std::string& what, const char* mend) {
+    d.fail("absolute_encoder.error_mrad", what, mend);
+  };
+  if (terms.size() % 2 != 0 || terms.size() > kMostTerms) {
+    wrong(fmt::format("{} numbers are no cosines and sines of up to {} harmonics", terms.size(),
+                      kMostTerms / 2),
+          "write two for each harmonic of a turn, or []");
+  }
+  double error = 0, slope = 0;
+  for (std::size_t k = 0; k < terms.size(); k += 2) {
+    const double size = std::hypot(terms[k], terms[k + 1]);
+    error += size;
+    slope += static_cast<double>(k / 2 + 1) * size;
+  }
+  if (error > kMostError_mrad || slope > kMostSlope_mrad) {
+    wrong(fmt::format("the harmonics may add up to {:.4g} mrad and a slope of {:.4g} mrad per "
+                      "radian, more than {:g} and {:g}",
+                      error, slope, kMostError_mrad, kMostSlope_mrad),
+          "mount the magnet better");
+  }
+  if (d.absolute_bits > 19) {
+    wrong(fmt::format("the table has steps of 2^-20 turn, too coarse for {} bits", d.absolute_bits),
+          "leave it out, or take up to 19 bits");
+  }
+}
+
+}  // namespace
 
 void check_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p = d.absolute_parameters();
@@ -84,6 +137,7 @@ void check_absolute_encoder(const Design& d) {
     d.fail("velocity.estimator", "M/T needs the clocks of edges, which an absolute encoder lacks",
            "take estimator = \"n_method\"");
   }
+  check_error(d);
   const auto clocks = static_cast<double>(d.clock_hz);
   if (!is_whole(clocks / (2 * d.absolute_serial_hz)) || p.half_clocks < 4) {
     d.fail("absolute_encoder.serial_hz",

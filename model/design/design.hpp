@@ -5,6 +5,7 @@
 // formats derived from it. Documentation: docs/designs.md
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -78,6 +79,8 @@ struct Design {
   bool absolute = false;
   int absolute_framing = 0, absolute_bits = 0, absolute_diagnosis = 0;
   double absolute_serial_hz = 0, absolute_gap_s = 0, absolute_period_s = 0;
+  /// What the sensor shows beyond the angle: cosine 1, sine 1, cosine 2, ... of a turn; empty: 0.
+  std::vector<double> absolute_error_mrad;
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
   std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 
@@ -100,6 +103,9 @@ struct Design {
   AbsoluteEncoder::Parameters absolute_parameters() const;
   int absolute_period_ticks() const;  ///< from reading to reading
   int absolute_delay_ticks() const;   ///< from the angle to the tick whose wave has it
+  bool absolute_table() const { return !absolute_error_mrad.empty(); }
+  /// What is added to a reading at 256 angles of a turn, in 2^-20 turn; all 0 without a table.
+  std::array<std::int16_t, 256> absolute_corrections() const;
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;

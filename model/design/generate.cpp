@@ -198,6 +198,11 @@ std::vector<Constant> of_absolute_encoder(const Design& d) {
       {"absolute_diagnosis", p.diag_address, "SPI: address of the diagnosis"}};
 }
 
+/// Table against its error; not in the CRC of designs without one.
+Constant of_absolute_table(const Design& d) {
+  return {"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"};
+}
+
 }  // namespace
 
 std::uint32_t design_crc(const Elaborated& e) {
@@ -216,6 +221,11 @@ std::uint32_t design_crc(const Elaborated& e) {
   if (e.design.absolute) {
     for (const Constant& c : of_absolute_encoder(e.design))
       text += fmt::format("{} {}\n", c.name, c.value);
+  }
+  if (e.design.absolute_table()) {
+    for (const int correction : e.design.absolute_corrections()) {
+      text += fmt::format("correction {}\n", correction);
+    }
   }
   for (const auto& [name, f] : named_formats(e.formats)) {
     text += fmt::format("{} {} {} {}\n", name, f.sign, f.integer, f.fraction);
@@ -236,8 +246,11 @@ std::string systemverilog_package(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(e.design), of_estimator(e.design), of_current_loop(e),
-                           of_absolute_encoder(e.design)}) {
+  for (const auto& list : {further(e.design),
+                           of_estimator(e.design),
+                           of_current_loop(e),
+                           of_absolute_encoder(e.design),
+                           {of_absolute_table(e.design)}}) {
     for (const Constant& c : list) {
       s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
     }
@@ -269,6 +282,17 @@ std::string systemverilog_package(const Elaborated& e) {
       << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
   }
   s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
+    << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
+    << "  function automatic logic [15:0] absolute_correction(input logic [7:0] part);\n"
+    << "    case (part)\n";
+  if (e.design.absolute_table()) {
+    const auto table = e.design.absolute_corrections();
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      s << "      8'd" << k << ": absolute_correction = 16'd"
+        << static_cast<std::uint16_t>(table[k]) << ";\n";
+    }
+  }
+  s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n"
     << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();
 }
@@ -294,8 +318,11 @@ std::string cpp_header(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list :
-       {further(d), of_estimator(d), of_current_loop(e), of_absolute_encoder(d)}) {
+  for (const auto& list : {further(d),
+                           of_estimator(d),
+                           of_current_loop(e),
+                           of_absolute_encoder(d),
+                           {of_absolute_table(d)}}) {
     for (const Constant& c : list) {
       s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
     }
@@ -306,6 +333,14 @@ std::string cpp_header(const Elaborated& e) {
       "  static constexpr std::uint32_t design_crc = 0x{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
+  if (d.absolute_table()) {
+    s << "\n  /// What is added to an absolute encoder's reading, 2^-20 turn.\n"
+      << "  static constexpr std::int16_t absolute_corrections[256] = {";
+    const auto table = d.absolute_corrections();
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      s << (k % 16 == 0 ? "\n      " : " ") << table[k] << (k + 1 < table.size() ? "," : "};\n");
+    }
+  }
   s << "\n  /// Formats of the parameters.\n  struct P {\n";
   for (const Word& w : e.words) {
     s << "    static constexpr Format " << w.parameter.name << triple(w.format) << ";\n";

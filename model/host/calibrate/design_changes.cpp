@@ -41,6 +41,13 @@ std::string measured(const Interval& i, double confidence) {
 
 }  // namespace
 
+std::string toml_of(const Change& c) {
+  if (c.values.empty()) return fmt::format("{:.6g}", c.value);
+  std::string list;
+  for (const double v : c.values) list += fmt::format("{}{:.4f}", list.empty() ? "" : ", ", v);
+  return "[" + list + "]";
+}
+
 std::string text_of(const Interval& i) {
   // As many digits as the interval justifies, and one more.
   const double size = std::max(std::abs(i.low), std::abs(i.high)), half = std::abs(i.half());
@@ -100,7 +107,7 @@ std::string changed_design(const std::string& path, const std::string& name,
   design::TextEdit edit(path, "measured");
   for (const Change& c : changes) {
     edit.because(c.reason);
-    edit.set(c.section, c.key, fmt::format("{:.6g}", c.value));
+    edit.set(c.section, c.key, toml_of(c));
   }
   const auto old = edit.text_of("", "description");
   if (old && old->size() > 2) {

@@ -17,8 +17,12 @@ namespace feltgate::host {
 struct Change {
   std::string section, key;
   double value = 0;
-  std::string reason;  ///< becomes the comment
+  std::string reason;            ///< becomes the comment
+  std::vector<double> values{};  ///< of a key with a list, in place of the value
 };
+
+/// The value or the list, as a design file has it.
+std::string toml_of(const Change& change);
 
 /// Text such as "0.4197 (0.4172 to 0.4223)".
 std::string text_of(const Interval& i);

@@ -110,7 +110,7 @@ std::string report_text(const ClosedLoop& closed, const design::Elaborated& e) {
 std::string changes_text(const std::vector<Change>& changes) {
   std::string text;
   for (const Change& c : changes) {
-    text += fmt::format("  [{}] {} = {:.6g}  # {}\n", c.section, c.key, c.value, c.reason);
+    text += fmt::format("  [{}] {} = {}  # {}\n", c.section, c.key, toml_of(c), c.reason);
   }
   return text;
 }
@@ -167,7 +167,9 @@ ordered_json report_json(const ClosedLoop& closed) {
 ordered_json report_json(const std::vector<Change>& changes) {
   ordered_json rows = ordered_json::array();
   for (const Change& c : changes) {
-    rows.push_back({{"key", c.section + "." + c.key}, {"value", c.value}, {"reason", c.reason}});
+    ordered_json row{{"key", c.section + "." + c.key}, {"value", c.value}, {"reason", c.reason}};
+    if (!c.values.empty()) row["value"] = c.values;
+    rows.push_back(row);
   }
   return rows;
 }

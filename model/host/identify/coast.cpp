@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Evaluates a coast-down of the lever: the angle has a closed form, which is fitted to the counts.
-// Documentation: docs/identify.md
+// And a turn of a free shaft: what repeats with it is the error of its encoder.
+// Documentation: docs/identify.md, docs/calibration.md
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "host/identify/identify.hpp"
@@ -154,6 +156,154 @@ Coast identify_coast(const Recording& recording, double confidence) {
     c.fastest_rad_s = std::max(c.fastest_rad_s, std::abs(w->speed_rad_s));
   }
   return c;
+}
+
+namespace {
+
+constexpr double kTurnRad = 2 * 3.14159265358979323846;
+constexpr double kFewestTurns = 3;
+constexpr double kEnds = 0.25;       ///< of a turn, left out at both ends: friction near rest
+constexpr double kTurnsPerKnot = 1;  ///< so the smooth motion cannot follow the shaft
+constexpr std::size_t kMostKnots = 60;
+
+/// B-splines of degree 5 over the time, with knots where the shaft has turned by equal parts.
+class Splines {
+ public:
+  Splines(const std::vector<double>& time_s, const std::vector<double>& angle_rad) {
+    const double way = angle_rad.back() - angle_rad.front();
+    const auto parts = std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::abs(way) / (kTurnRad * kTurnsPerKnot)), 1, kMostKnots);
+    knots_.assign(kDegree + 1, time_s.front());
+    std::size_t row = 0;
+    for (std::size_t k = 1; k < parts; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(parts);
+      while ((angle_rad[row] - angle_rad.front()) / way < share) ++row;
+      knots_.push_back(time_s[row]);
+    }
+    knots_.insert(knots_.end(), kDegree + 1, time_s.back());
+  }
+  Index size() const { return static_cast<Index>(knots_.size() - kDegree - 1); }
+
+  /// The values of all splines at a time, after de Boor.
+  VectorXd at(double t) const {
+    std::size_t span = kDegree;
+    while (span + kDegree + 2 < knots_.size() && t >= knots_[span + 1]) ++span;
+    double b[kDegree + 1] = {1};
+    for (std::size_t degree = 1; degree <= kDegree; ++degree) {
+      double carried = 0;
+      for (std::size_t k = 0; k < degree; ++k) {
+        const double right = knots_[span + 1 + k], left = knots_[span + 1 + k - degree];
+        const double part = b[k] / (right - left);
+        b[k] = carried + (right - t) * part;
+        carried = (t - left) * part;
+      }
+      b[degree] = carried;
+    }
+    VectorXd all = VectorXd::Zero(size());
+    for (std::size_t k = 0; k <= kDegree; ++k) all[static_cast<Index>(span - kDegree + k)] = b[k];
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kDegree = 5;
+  std::vector<double> knots_;
+};
+
+/// Without its ends.
+Recording inner(const Recording& turn) {
+  std::size_t first = 0, last = turn.rows() - 1;
+  const auto far = [&](std::size_t a, std::size_t b) {
+    return std::abs(turn.angle_rad[a] - turn.angle_rad[b]) > kEnds * kTurnRad;
+  };
+  while (first < last && !far(first, 0)) ++first;
+  while (last > first && !far(last, turn.rows() - 1)) --last;
+  Recording r;
+  r.name = turn.name;
+  const auto cut = [&](const std::vector<double>& v) {
+    using Way = std::vector<double>::difference_type;
+    return std::vector<double>(v.begin() + static_cast<Way>(first),
+                               v.begin() + static_cast<Way>(last) + 1);
+  };
+  r.time_s = cut(turn.time_s);
+  r.angle_rad = cut(turn.angle_rad);
+  if (!turn.reference_rad.empty()) r.reference_rad = cut(turn.reference_rad);
+  return r;
+}
+
+/// The slowest and fastest of eighths of a turn.
+void speeds(const Recording& r, EncoderError* e) {
+  e->slowest_rad_s = std::numeric_limits<double>::infinity();
+  for (std::size_t from = 0, to = 0; to < r.rows(); ++to) {
+    const double way = std::abs(r.angle_rad[to] - r.angle_rad[from]);
+    if (way < kTurnRad / 8) continue;
+    const double speed = way / (r.time_s[to] - r.time_s[from]);
+    e->slowest_rad_s = std::min(e->slowest_rad_s, speed);
+    e->fastest_rad_s = std::max(e->fastest_rad_s, speed);
+    from = to;
+  }
+}
+
+}  // namespace
+
+double error_rad(const std::vector<double>& terms_rad, double angle_rad) {
+  double sum = 0;
+  for (std::size_t k = 0; k < terms_rad.size(); ++k) {
+    const double x = static_cast<double>(k / 2 + 1) * angle_rad;
+    sum += terms_rad[k] * (k % 2 == 0 ? std::cos(x) : std::sin(x));
+  }
+  return sum;
+}
+
+EncoderError identify_encoder(const Recording& turn, int harmonics, double count_rad,
+                              double confidence) {
+  const Recording r = inner(turn);
+  EncoderError e;
+  e.turns = std::abs(r.angle_rad.back() - r.angle_rad.front()) / kTurnRad;
+  e.by_reference = !r.reference_rad.empty();
+  if (e.turns < kFewestTurns) {
+    throw MeasurementError(fmt::format(
+        "{}: {:.2g} turns one way, without a quarter at each end; turn the shaft by at least {:g}, "
+        "better ten",
+        r.name, e.turns, kFewestTurns));
+  }
+  const Splines motion(r.time_s, r.angle_rad);
+  const auto rows = static_cast<Index>(r.rows());
+  const Index smooth = e.by_reference ? 1 : motion.size();
+  MatrixXd x(rows, smooth + 2 * harmonics);
+  VectorXd y(rows);
+  for (Index k = 0; k < rows; ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    y[k] = r.angle_rad[row] - (e.by_reference ? r.reference_rad[row] : 0);
+    if (e.by_reference) {
+      x(k, 0) = 1;
+    } else {
+      x.row(k).head(smooth) = motion.at(r.time_s[row]);
+    }
+    for (int n = 1; n <= harmonics; ++n) {
+      x(k, smooth + 2 * n - 2) = std::cos(n * r.angle_rad[row]);
+      x(k, smooth + 2 * n - 1) = std::sin(n * r.angle_rad[row]);
+    }
+  }
+  const Regression fit(x, y, confidence);
+  std::vector<double> terms;
+  for (Index k = 0; k < 2 * harmonics; ++k) {
+    e.terms_rad.push_back(fit.coefficient(smooth + k));
+    terms.push_back(fit.value(smooth + k));
+  }
+  for (int k = 0; k < 1024; ++k) {
+    e.largest_rad = std::max(e.largest_rad, std::abs(error_rad(terms, k * kTurnRad / 1024)));
+  }
+  e.noise_rad = fit.sigma();
+  e.freedom = fit.freedom();
+  speeds(r, &e);
+  if (e.noise_rad > 3 * 0.29 * count_rad) {
+    e.warnings.push_back(fmt::format(
+        "{:.2g} counts are left over, and rounding to counts leaves 0.29: the motion was not "
+        "smooth, the readings are not all of the same age, the encoder is noisy, or it needs "
+        "more --harmonics",
+        e.noise_rad / count_rad));
+  }
+  return e;
 }
 
 }  // namespace feltgate::host

@@ -58,6 +58,26 @@ Coast identify_coast(const Recording& recording, double confidence);
 Weighed identify_weight(const Recording& recording, double mass_kg, double radius_m,
                         double level_rad, double electrical_s, double confidence);
 
+/// What an absolute encoder shows beyond the angle of its shaft, as harmonics of the angle that it
+/// shows: the sum of cosines and sines of n times the angle, n from 1 on.
+struct EncoderError {
+  std::vector<Interval> terms_rad;  ///< cosine 1, sine 1, cosine 2, ...
+  double largest_rad = 0;           ///< of the sum, over a turn
+  double noise_rad = 0;             ///< left over; rounding to counts gives 0.29 count
+  double turns = 0, slowest_rad_s = 0, fastest_rad_s = 0;
+  bool by_reference = false;
+  int freedom = 0;
+  std::vector<std::string> warnings;
+};
+
+/// From a turn that no torque disturbs, over three revolutions or more: whatever repeats with the
+/// shaft is the encoder's error, and the rest is a smooth motion. With a reference, from that.
+/// Errors: MeasurementError if the recording does not determine the result.
+EncoderError identify_encoder(const Recording& turn, int harmonics, double count_rad,
+                              double confidence);
+/// The error at an angle.
+double error_rad(const std::vector<double>& terms_rad, double angle_rad);
+
 /// Measurements that separate the constants; each may be missing.
 struct Separation {
   std::optional<double> resistance_ohm;  ///< from an ohmmeter, with wiring and bridge

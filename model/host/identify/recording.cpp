@@ -67,4 +67,18 @@ Recording recording_of(const ColumnTable& table, double count_rad, double tick_s
   return r;
 }
 
+Recording turn_of(const ColumnTable& table, double count_rad, double tick_s) {
+  Recording r = recording_of(table, count_rad, tick_s, false);
+  const auto counts = table.find({"position", "position_counts", "count", "counts"});
+  const auto reference = table.find({"reference_rad"});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (counts) r.angle_rad[row] = table.at(row, *counts) * count_rad;
+    if (reference) r.reference_rad.push_back(table.at(row, *reference));
+    if (!std::isfinite(r.angle_rad[row]) || (reference && !std::isfinite(r.reference_rad[row]))) {
+      table.fail(row, "a field is empty", "take the row out");
+    }
+  }
+  return r;
+}
+
 }  // namespace feltgate::host

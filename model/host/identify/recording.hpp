@@ -16,6 +16,7 @@ namespace feltgate::host {
 struct Recording {
   std::string name;
   std::vector<double> time_s, voltage_v, angle_rad;
+  std::vector<double> reference_rad;  ///< of a better encoder on the same shaft; empty: none
 
   std::size_t rows() const { return time_s.size(); }
   double length_s() const { return rows() > 0 ? time_s.back() - time_s.front() : 0; }
@@ -26,5 +27,8 @@ struct Recording {
 /// or if there are too few rows.
 Recording recording_of(const ColumnTable& table, double count_rad, double tick_s,
                        bool needs_voltage);
+/// A turn for the error of an encoder: what it counts, not what a simulated shaft does, and the
+/// column reference_rad, if there is one.
+Recording turn_of(const ColumnTable& table, double count_rad, double tick_s);
 
 }  // namespace feltgate::host

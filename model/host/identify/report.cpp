@@ -94,6 +94,45 @@ ordered_json report_json(const Drive& drive, const std::optional<Coast>& coast, 
   return j;
 }
 
+std::string report_text(const EncoderError& e, double confidence) {
+  std::string text = fmt::format("{:.3g} turns at {:.3g} to {:.3g} rad/s{}; intervals: {:g} %\n",
+                                 e.turns, e.slowest_rad_s, e.fastest_rad_s,
+                                 e.by_reference ? ", against the reference" : "", 100 * confidence);
+  text += fmt::format("{:>9}  {:>30}  {:>30}\n", "per turn", "cosine, mrad", "sine, mrad");
+  for (std::size_t k = 0; k + 1 < e.terms_rad.size(); k += 2) {
+    text += fmt::format("{:>9}  {:>30}  {:>30}\n", k / 2 + 1, text_of(e.terms_rad[k].times(1e3)),
+                        text_of(e.terms_rad[k + 1].times(1e3)));
+  }
+  text += fmt::format("largest error {:.3g} mrad; left over {:.2g} mrad\n", 1e3 * e.largest_rad,
+                      1e3 * e.noise_rad);
+  for (const std::string& w : e.warnings) text += "note: " + w + "\n";
+  return text;
+}
+
+ordered_json report_json(const EncoderError& e, double confidence) {
+  ordered_json j{{"schema", "feltgate-calibrate/1"}, {"procedure", "encoder"},
+                 {"confidence", confidence},         {"turns", e.turns},
+                 {"slowest_rad_s", e.slowest_rad_s}, {"fastest_rad_s", e.fastest_rad_s},
+                 {"by_reference", e.by_reference},   {"largest_rad", e.largest_rad},
+                 {"noise_rad", e.noise_rad},         {"freedom", e.freedom}};
+  j["harmonics"] = ordered_json::array();
+  for (std::size_t k = 0; k + 1 < e.terms_rad.size(); k += 2) {
+    j["harmonics"].push_back({{"per_turn", k / 2 + 1},
+                              {"cosine_rad", report_json(e.terms_rad[k])},
+                              {"sine_rad", report_json(e.terms_rad[k + 1])}});
+  }
+  j["warnings"] = e.warnings;
+  return j;
+}
+
+std::vector<Change> changes_of(const EncoderError& e, const design::Elaborated& design) {
+  std::vector<double> terms = design.design.absolute_error_mrad;
+  terms.resize(std::max(terms.size(), e.terms_rad.size()));
+  for (std::size_t k = 0; k < e.terms_rad.size(); ++k) terms[k] += 1e3 * e.terms_rad[k].value;
+  return {{"absolute_encoder", "error_mrad", 0, fmt::format("measured over {:.3g} turns", e.turns),
+           terms}};
+}
+
 std::vector<Change> changes_of(const Constants& c, const design::Elaborated& e, double confidence) {
   std::vector<Change> changes;
   const auto add_change = [&](const char* section, const char* key,

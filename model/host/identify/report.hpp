@@ -19,6 +19,11 @@ std::string report_text(const Drive& drive, const std::optional<Coast>& coast, c
 nlohmann::ordered_json report_json(const Drive& drive, const std::optional<Coast>& coast,
                                    const Constants& c, double confidence);
 
+std::string report_text(const EncoderError& error, double confidence);
+nlohmann::ordered_json report_json(const EncoderError& error, double confidence);
+/// The design's table with this error; what it has already is in the recording no more, and stays.
+std::vector<Change> changes_of(const EncoderError& error, const design::Elaborated& design);
+
 /// The changes to a design that follow from the known constants.
 std::vector<Change> changes_of(const Constants& c, const design::Elaborated& design,
                                double confidence);

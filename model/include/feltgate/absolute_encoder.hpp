@@ -10,6 +10,20 @@
 
 namespace feltgate {
 
+/// A position [2^-bits turn] with the correction of its angle, interpolated between 256 of 2^-20
+/// turn and rounded to counts, half up: within half a count of the straight lines between them.
+/// bits: 12 to 19.
+inline std::int32_t corrected(std::int32_t position, const std::int16_t* corrections, int bits) {
+  const int part_bits = bits - 8;
+  const auto angle = static_cast<std::uint32_t>(position);
+  const auto part = static_cast<std::int32_t>(angle & ((1u << part_bits) - 1));
+  const std::uint32_t segment = angle >> part_bits;
+  const std::int32_t from = corrections[segment & 255], to = corrections[(segment + 1) & 255];
+  // In 2^-12 count: the entries have 2^(20 - bits) in a count, the parts 2^(bits - 8).
+  const std::int32_t sum = from * ((1 << part_bits) - part) + to * part;
+  return static_cast<std::int32_t>(angle + static_cast<std::uint32_t>((sum + (1 << 11)) >> 12));
+}
+
 /// Bit-exact and clock-exact with the RTL.
 class AbsoluteEncoder {
  public:

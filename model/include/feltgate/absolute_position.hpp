@@ -54,12 +54,11 @@ class AbsolutePosition {
       moved_ = changed_;
       changed_ = false;
     }
-    if (read.valid) {
-      const auto angle = static_cast<std::uint32_t>(read.position);
-      const std::uint32_t change = in.polarity ? last_ - angle : angle - last_;
-      last_ = angle;
+    if (reads(read)) {
+      const std::uint32_t change = in.polarity ? last_ - reading_ : reading_ - last_;
+      last_ = reading_;
       count_ += change;
-      if (faults_ == 0) out_.travel = static_cast<std::uint16_t>(out_.travel + change);
+      if (!found_) out_.travel = static_cast<std::uint16_t>(out_.travel + change);
       changed_ |= change != 0;
       waits_ = false;
     }
@@ -90,11 +89,33 @@ class AbsolutePosition {
   static bool index_rests(const In&) { return true; }
 
  private:
+  /// In the clock in which a reading is in reading_. With a table this is bits - 4 clocks later.
+  bool reads(const AbsoluteEncoder::Out& read) {
+    if constexpr (D::absolute_table != 0) {
+      constexpr int part_bits = D::absolute_bits - 8;
+      const bool ends = left_ != 0 && --left_ == 0;
+      if (read.valid) {
+        left_ = part_bits + 4;
+        found_ = faults_ != 0;
+        reading_ = static_cast<std::uint32_t>(
+            corrected(read.position, D::absolute_corrections, D::absolute_bits));
+      }
+      return ends;
+    } else {
+      found_ = faults_ != 0;
+      reading_ = static_cast<std::uint32_t>(read.position);
+      return read.valid;
+    }
+  }
+
   AbsoluteEncoder encoder_{absolute_parameters<D>()};
   Out out_;
   int wait_ = 0;  // ticks to the next reading
   int faults_ = AbsoluteEncoder::kMissing, seen_ = 0;
   std::uint32_t last_ = 0, count_ = 0, zero_ = 0;
+  std::uint32_t reading_ = 0;
+  int left_ = 0;        // clocks until it is taken
+  bool found_ = false;  // it ends a fault
   bool changed_ = false, moved_ = false, waits_ = true;
 };
 

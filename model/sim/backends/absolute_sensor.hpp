@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "feltgate/absolute_encoder.hpp"
 #include "feltgate/encoder_source.hpp"
@@ -40,6 +42,21 @@ inline std::uint64_t closed(const AbsoluteEncoder::Parameters& p, std::uint64_t 
   return said << 6 | (crc6(said << 6, p.bits + (biss ? 8 : 10)) ^ (biss ? 0x3fU : 0U));
 }
 
+/// What a sensor shows at an angle, before rounding. Its error is a sum of terms_rad, cosine 1,
+/// sine 1, cosine 2, ... of what it shows.
+inline double shown_angle(double rad, const std::vector<double>& terms_rad) {
+  double shown = rad;
+  for (int round = 0; round < 8 && !terms_rad.empty(); ++round) {
+    double sum = 0;
+    for (std::size_t k = 0; k < terms_rad.size(); ++k) {
+      const double x = static_cast<double>(k / 2 + 1) * shown;
+      sum += terms_rad[k] * (k % 2 == 0 ? std::cos(x) : std::sin(x));
+    }
+    shown = rad + sum;
+  }
+  return shown;
+}
+
 /// One sensor, clock by clock of the core.
 class AbsoluteSensor {
  public:
@@ -50,6 +67,10 @@ class AbsoluteSensor {
   explicit AbsoluteSensor(const AbsoluteEncoder::Parameters& parameters) : p_(parameters) {}
 
   void set(Defect defect) { defect_ = defect; }
+  /// See shown_angle().
+  void set_error(std::vector<double> terms_rad) { error_rad_ = std::move(terms_rad); }
+  /// What it shows at an angle, before rounding.
+  double shown_rad(double rad) const { return shown_angle(rad, error_rad_); }
   /// The shaft turns from one angle to another in the `clocks` from `begin` on.
   void turn(double from_rad, double to_rad, Clock begin, Clock clocks) {
     from_rad_ = from_rad;
@@ -81,7 +102,7 @@ class AbsoluteSensor {
     edges_ = command_ = 0;
     if (defect_ != Defect::held) {
       constexpr double turn_rad = 6.283185307179586;
-      const double rad = from_rad_ + slope_ * static_cast<double>(now - begin_);
+      const double rad = shown_rad(from_rad_ + slope_ * static_cast<double>(now - begin_));
       count_ = static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, p_.bits)));
     }
     word_ = word();
@@ -110,6 +131,7 @@ class AbsoluteSensor {
 
   AbsoluteEncoder::Parameters p_;
   Defect defect_ = Defect::none;
+  std::vector<double> error_rad_;
   double from_rad_ = 0, slope_ = 0;  // per clock
   Clock begin_ = 0, edge_at_ = 0;
   bool reads_ = false, high_ = false;

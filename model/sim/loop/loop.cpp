@@ -14,6 +14,7 @@
 
 #include "feltgate/current_sense.hpp"
 #include "files/toml/toml_reader.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 #include "sim/loop/drag.hpp"
 #include "sim/loop/ensemble.hpp"
 #include "sim/loop/rest.hpp"
@@ -55,6 +56,10 @@ class ScenarioRun {
         counter_(plant_.encoder().pins()) {
     if (looped_) check_loop();
     last_.theta_rad = plant_.observables().theta_rad;
+    if (scenario.effects.encoder_imperfect) {
+      for (const double mrad : plant.encoder.absolute_error_mrad) error_rad_.push_back(1e-3 * mrad);
+    }
+    shown_rad_ = shown_angle(last_.theta_rad, error_rad_);
     if (scenario.rest_from_s) rest_.from_clock = session_.clock_of(*scenario.rest_from_s);
     if (scenario.drag_from_s) drag_.from_clock = session_.clock_of(*scenario.drag_from_s);
   }
@@ -192,7 +197,9 @@ class ScenarioRun {
       if (recorder_) recorder_->add(e);
     }
     if (looped_) core_.lead().set_current_bit(modulator_.next(o.motor_current_a));
-    core_.lead().turn_encoder(before_.theta_rad, o.theta_rad, clocks);
+    const double shown_rad = shown_angle(o.theta_rad, error_rad_);
+    core_.lead().turn_encoder(shown_rad_, shown_rad, clocks);
+    shown_rad_ = shown_rad;
     core_.advance(clocks, events.data(), events.data() + events.size(),
                   [this](const Snapshot& s) { tick(s); });
   }
@@ -323,7 +330,9 @@ class ScenarioRun {
   struct {
     double theta_rad = 0, omega_rad_s = 0, hand_torque_nm = 0, motor_mean_nm = 0;
   } before_;
-  int duty_clocks_ = 0;  ///< duty of the bridge; duty_ is its share of a period
+  std::vector<double> error_rad_;  // of an absolute encoder
+  double shown_rad_ = 0;           // by it
+  int duty_clocks_ = 0;            ///< duty of the bridge; duty_ is its share of a period
   double duty_ = 0;
   double absorbed_j_ = 0;
   SignalRange tau_ref_, tau_hat_, velocity_, theta_;

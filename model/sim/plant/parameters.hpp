@@ -67,6 +67,9 @@ struct EncoderParameters {
   std::array<double, 4> edge_offset_counts = {};  ///< of the edges 4k, 4k+1, 4k+2, 4k+3
   double line_jitter_counts_rms = 0.0;            ///< one draw per line, shared by its edges
   std::uint64_t seed = 0;
+  /// What an absolute encoder shows beyond the angle: cosine 1, sine 1, cosine 2, ... of what it
+  /// shows; only with the effect encoder_imperfect.
+  std::vector<double> absolute_error_mrad;
 };
 
 /// Switches of the model. An effect that is off is neither evaluated nor part of the state vector.

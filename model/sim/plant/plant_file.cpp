@@ -17,6 +17,7 @@ namespace {
 // With offsets and 4-sigma jitter below one count, the edges keep their order on the circle.
 constexpr config::Range kEdgeOffset{-0.25, 0.25};
 constexpr config::Range kLineJitter{0.0, 0.05};
+constexpr config::Range kAbsoluteError{-200.0, 200.0};
 
 LeverParameters read_lever(config::TomlReader table) {
   LeverParameters lever;
@@ -114,6 +115,9 @@ EncoderParameters read_encoder(config::TomlReader table) {
   encoder.line_jitter_counts_rms = table.number("line_jitter_counts_rms", kLineJitter);
   encoder.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  if (table.has("absolute_error_mrad")) {
+    encoder.absolute_error_mrad = table.numbers("absolute_error_mrad", kAbsoluteError);
+  }
   table.finish();
   return encoder;
 }

@@ -103,12 +103,63 @@ module encoder (
         .select_no(encoder_select_no), .serial_clock_o(encoder_clock_o), .command_o(encoder_command_o),
         .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .faults_o(faults)
     );
+    // What a reading says. found: it ends a fault.
+    logic signed [31:0] reading;
+    logic reads, found;
+    if (feltgate_pkg::ABSOLUTE_TABLE == 0) begin : g_as_read
+      assign reading = angle;
+      assign reads   = valid;
+      assign found   = faults_q != '0;
+    end else begin : g_corrected
+      // Interpolates between 256 corrections c of 2^-20 turn, bit by bit of the part p of n bits between two of them:
+      // c0 (2^n - p) + c1 p = c0 + the sum of 2^k c(bit k of p). It begins with half a count, so the sum's top bits are rounded.
+      localparam int PartW = feltgate_pkg::ABSOLUTE_BITS - 8;
+      localparam int SumW = 17 + PartW;
+      localparam int StepW = $clog2(PartW + 5);
+      logic [15:0] corrections [0:255];
+      initial for (int i = 0; i < 256; i++) corrections[i] = feltgate_pkg::absolute_correction(8'(i));
+      logic [StepW-1:0] step_q;  // 0: rests
+      logic [PartW-1:0] part_q;
+      logic [7:0] segment_q;
+      logic signed [15:0] entry_q;
+      logic signed [SumW-1:0] sum_q;
+      logic found_q;
+      always_ff @(posedge clk_i) entry_q <= corrections[segment_q + 8'(part_q[PartW-1])];
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          step_q    <= '0;
+          part_q    <= '0;
+          segment_q <= '0;
+          sum_q     <= '0;
+          found_q   <= 1'b0;
+          reading   <= '0;
+          reads     <= 1'b0;
+        end else begin
+          reads <= step_q == StepW'(1);
+          if (valid) begin
+            step_q    <= StepW'(PartW + 3);
+            segment_q <= angle[feltgate_pkg::ABSOLUTE_BITS-1-:8];
+            part_q    <= angle[PartW-1:0];
+            found_q   <= faults_q != '0;
+          end else if (step_q != '0) begin
+            step_q <= step_q - 1'b1;
+            part_q <= part_q << 1;  // at the end zeros: c0 alone
+          end
+          if (step_q == StepW'(PartW + 3)) sum_q <= SumW'(1) <<< (11 - PartW);
+          else if (step_q > StepW'(2)) sum_q <= (sum_q <<< 1) + SumW'(entry_q);
+          else if (step_q == StepW'(2)) sum_q <= sum_q + SumW'(entry_q);
+          reading <= angle + 32'($signed(sum_q[SumW-1:12]));
+        end
+      end
+      assign found = found_q;
+    end
+
     // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared.
     assign absolute_state_o = {waits_q, faults | seen_q};
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
     // again is no motion. moved_o: a reading since the tick before differs.
-    assign change = polarity ? last_q - angle : angle - last_q;
+    assign change = polarity ? last_q - reading : reading - last_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         wait_q    <= '0;
@@ -134,11 +185,11 @@ module encoder (
           moved_o   <= changed_q;
           changed_q <= 1'b0;
         end
-        if (valid) begin
-          last_q  <= angle;
+        if (reads) begin
+          last_q  <= reading;
           waits_q <= 1'b0;
           count_q <= count_q + change;
-          if (faults_q == '0) travel_o <= travel_o + feltgate_pkg::TRAVEL_BITS'(change);
+          if (!found) travel_o <= travel_o + feltgate_pkg::TRAVEL_BITS'(change);
           if (change != '0) changed_q <= 1'b1;
         end
       end

@@ -53,6 +53,7 @@ package feltgate_pkg;
   localparam int ABSOLUTE_GAP_CLOCKS = 0;  // clocks before the serial clock and between readings
   localparam int ABSOLUTE_PERIOD = 0;  // ticks from reading to reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
+  localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h258ab7cb;  // by which a host knows the design
 
@@ -212,6 +213,13 @@ package feltgate_pkg;
       9'd290: parameter_reset = 32'd5147;  // wall_stiffness
       9'd298: parameter_reset = 32'd4194;  // wall_damping
       default: parameter_reset = 32'd0;
+    endcase
+  endfunction
+
+  // What is added to an absolute encoder's reading, 2^-20 turn.
+  function automatic logic [15:0] absolute_correction(input logic [7:0] part);
+    case (part)
+      default: absolute_correction = 16'd0;
     endcase
   endfunction
 endpackage

@@ -20,6 +20,7 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "host/calibrate/report.hpp"
+#include "host/identify/report.hpp"
 #include "law/amount.hpp"
 
 namespace feltgate::host {
@@ -27,10 +28,11 @@ namespace feltgate::host {
 namespace {
 
 struct CalibrateArguments {
-  std::string from, write, json, save;
+  std::string what, from, write, json, save;
   bool closed = false;
   std::vector<double> points;
   double arm_m = 0, torque_constant = 0, gain = 1, confidence = 0.95, hold_s = 3;
+  int harmonics = 4;
 };
 
 constexpr double kSettle_s = 0.1;
@@ -161,7 +163,41 @@ std::string readings_csv(const std::vector<Reading>& readings, bool closed) {
   return text;
 }
 
+/// calibrate encoder: the table of an absolute encoder, from a recorded turn.
+int calibrate_encoder(Session& session, const CalibrateArguments& a) {
+  if (a.from.empty()) {
+    throw std::invalid_argument(
+        "calibrate encoder needs a recorded turn: --from FILE with time_s and position, as the CSV "
+        "of "
+        "a run has it");
+  }
+  const BenchDesign known(session, "");
+  const design::Design& d = known.design().design;
+  if (!d.absolute) {
+    throw std::invalid_argument(
+        fmt::format("design {} has no absolute encoder; give one that has with --design", d.name));
+  }
+  files::Outputs outputs;
+  if (a.from != "-") outputs.reads(a.from);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* write = outputs.open("--write", a.write);
+  Recording turn = turn_of(ColumnTable::of_file(a.from), d.count_rad(), d.tick_s());
+  if (d.encoder_polarity != 0) {  // the table is that of the sensor's own angle
+    for (double& angle : turn.angle_rad) angle = -angle;
+    for (double& angle : turn.reference_rad) angle = -angle;
+  }
+  const EncoderError error = identify_encoder(turn, a.harmonics, d.count_rad(), a.confidence);
+  const std::vector<Change> changes = changes_of(error, known.design());
+  auto result = report_json(error, a.confidence);
+  result["changes"] = report_json(changes);
+  outputs.say(report_text(error, a.confidence) + known.write(changes, write, a.write));
+  if (json != nullptr) json->write(files::json_text(result));
+  outputs.commit();
+  return exit_ok;
+}
+
 int calibrate(Session& session, CalibrateArguments a) {
+  if (!a.what.empty()) return calibrate_encoder(session, a);
   if (!a.from.empty() && !a.save.empty()) {
     throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
   }
@@ -237,11 +273,19 @@ Run add_calibrate(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 calibrate --arm 0.011 --write mine.toml\n"
       "  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv\n"
       "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
+      "  feltgate host - --design mine calibrate encoder --from turn.csv --write mine.toml\n"
       "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
       "and\n"
       "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
       "do not say it, 3 the link broke down.");
+  sub.add_option("what", a->what, "encoder: the table of an absolute encoder, from a turn")
+      ->type_name("encoder")
+      ->check(CLI::IsMember({"encoder"}));
+  sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(checks::number(1, 16, ""));
   sub.add_flag("--closed", a->closed, "the closed-loop calibration");
   sub.add_option("--from", a->from, "readings of this file instead of a board; - is the input")
       ->type_name("FILE")

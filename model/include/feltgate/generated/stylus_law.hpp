@@ -25,54 +25,50 @@ struct StylusLaw {
   static constexpr double supply_v = 24.0;
   static constexpr int clocks_per_tick = 50;  // clocks
   static constexpr int m1 = 767;  // ticks between the two positions of the velocity estimator
-  static constexpr int velocity_shift = 1;     // raw velocity = 2^n * counts
-  static constexpr int velocity_gain = 0;      // mantissa of the gain that stands for 2^n; 0: none
-  static constexpr int velocity_gain_f = 17;   // its fraction bits
-  static constexpr int index_counts = 4096;    // counts from index to index; 0: not checked
-  static constexpr int pwm_period = 1000;      // clocks
-  static constexpr int dead_clocks = 25;       // clocks
-  static constexpr int shortest_clocks = 1;    // clocks, of a pulse at a gate
-  static constexpr int scene_mask = 1029;      // bit n: scene n is built
-  static constexpr int control_reset = 0;      // control word after reset
+  static constexpr int velocity_shift = 1;  // raw velocity = 2^n * counts
+  static constexpr int velocity_gain = 0;  // mantissa of the gain that stands for 2^n; 0: none
+  static constexpr int velocity_gain_f = 17;  // its fraction bits
+  static constexpr int index_counts = 4096;  // counts from index to index; 0: not checked
+  static constexpr int pwm_period = 1000;  // clocks
+  static constexpr int dead_clocks = 25;  // clocks
+  static constexpr int shortest_clocks = 1;  // clocks, of a pulse at a gate
+  static constexpr int scene_mask = 1029;  // bit n: scene n is built
+  static constexpr int control_reset = 0;  // control word after reset
   static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
   static constexpr int parallel_multipliers = 0;  // 1: each block has its own
-  static constexpr int multiplier_a_bits = 35;    // bits
-  static constexpr int multiplier_b_bits = 18;    // bits
-  static constexpr int product_bits = 53;         // bits
-  static constexpr int travel_bits = 16;          // bits
+  static constexpr int multiplier_a_bits = 35;  // bits
+  static constexpr int multiplier_b_bits = 18;  // bits
+  static constexpr int product_bits = 53;  // bits
+  static constexpr int travel_bits = 16;  // bits
   static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
   static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
-  static constexpr int emf_in_law = 1;        // 1: the voltage law gives back the back-EMF
-  static constexpr int i2t_start =
-      25000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
-  static constexpr int axes = 3;               // motors with an encoder each
-  static constexpr int engine = 1;             // 1: programs give the torque of the scene law
+  static constexpr int emf_in_law = 1;  // 1: the voltage law gives back the back-EMF
+  static constexpr int i2t_start = 25000000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
+  static constexpr int axes = 3;  // motors with an encoder each
+  static constexpr int engine = 1;  // 1: programs give the torque of the scene law
   static constexpr int engine_max_age = 1000;  // ticks without a fresh torque that are borne
-  static constexpr int mt_counts =
-      0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
-  static constexpr int mt_window = 0;     // clocks: of a shorter span twice the cycles
+  static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
+  static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
   static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
   static constexpr int current_loop = 0;  // 1: a measured current is controlled
-  static constexpr int current_drop =
-      0;  // fraction bits of the current reference below an LSB of the measured current
+  static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
   static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
-  static constexpr int current_integral = 0;      // [0,0,17]
-  static constexpr int current_overcurrent = 0;   // [0,0,8] of full scale
+  static constexpr int current_integral = 0;  // [0,0,17]
+  static constexpr int current_overcurrent = 0;  // [0,0,8] of full scale
   static constexpr int current_strobe = 0;  // clock of the PWM period in which a window begins
-  static constexpr int feed_gain = 0;       // mantissa: parts of the supply per LSB of the voltage
-  static constexpr int feed_drop = 0;       // its fraction bits
-  static constexpr int driver_fault = 0;    // 1: the driver tells of its faults
-  static constexpr int heartbeat =
-      0;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
-  static constexpr int absolute_encoder = 0;      // 1: the position is of an absolute encoder
-  static constexpr int absolute_framing = 0;      // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
-  static constexpr int absolute_bits = 0;         // of a turn
+  static constexpr int feed_gain = 0;  // mantissa: parts of the supply per LSB of the voltage
+  static constexpr int feed_drop = 0;  // its fraction bits
+  static constexpr int driver_fault = 0;  // 1: the driver tells of its faults
+  static constexpr int heartbeat = 0;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
+  static constexpr int absolute_encoder = 0;  // 1: the position is of an absolute encoder
+  static constexpr int absolute_framing = 0;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
+  static constexpr int absolute_bits = 0;  // of a turn
   static constexpr int absolute_half_clocks = 0;  // clocks: half a serial clock
-  static constexpr int absolute_gap_clocks =
-      0;                                     // clocks before the serial clock and between readings
+  static constexpr int absolute_gap_clocks = 0;  // clocks before the serial clock and between readings
   static constexpr int absolute_period = 0;  // ticks from reading to reading
-  static constexpr int absolute_diagnosis = 0;             // SPI: address of the diagnosis
-  static constexpr Round rounding = Round::half_up;        // where the chain rounds
+  static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
+  static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
+  static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x45f29bea;  // by which a host knows the design
 
   /// Formats of the parameters.
@@ -140,115 +136,138 @@ struct StylusLaw {
   using A = Map::A;
   using S = Map::S;
   using C = Map::C;
-  static constexpr int scene_number(std::string_view scene) { return Map::scene_number(scene); }
+  static constexpr int scene_number(std::string_view scene) {
+    return Map::scene_number(scene);
+  }
   static constexpr const auto& scene_names = Map::scene_names;
 
-  static constexpr BaseFormats base{{1, 10, 21},
-                                    {1, 1, 19},
-                                    {1, 3, 18},
-                                    {1, 5, 14},
-                                    30,
-                                    velocity_shift,
-                                    velocity_gain != 0,
-                                    {0, 0, 17},
-                                    P::velocity_a1,
-                                    P::torque_constant,
-                                    P::inertia_gain,
-                                    P::observer_a1,
-                                    P::torque_gain,
-                                    P::observer_gain,
-                                    P::voltage_gain,
-                                    P::emf_constant,
-                                    P::dead_voltage_slope,
-                                    P::voltage_to_current,
-                                    P::duty_gain,
-                                    P::inverse_resistance,
-                                    P::emf_over_resistance,
-                                    P::compression_stiffness,
-                                    P::tension_stiffness,
-                                    P::attract_core_slope,
-                                    P::repel_core_slope,
-                                    P::wall_stiffness,
-                                    P::damper_damping,
-                                    P::wall_damping};
+  static constexpr BaseFormats base{
+      {1, 10, 21}, {1, 1, 19}, {1, 3, 18}, {1, 5, 14},
+      30, velocity_shift, velocity_gain != 0, {0, 0, 17},
+      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,
+      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,
+      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,
+      P::inverse_resistance, P::emf_over_resistance, P::compression_stiffness,
+      P::tension_stiffness, P::attract_core_slope, P::repel_core_slope, P::wall_stiffness,
+      P::damper_damping, P::wall_damping};
   static constexpr Formats f = derive(base);
 
   /// Parameters: name, unit, address, format, exact value, integer.
   static constexpr ParameterInfo parameters[] = {
-      {"velocity_a1", "1", A::velocity_a1, P::velocity_a1, 0.00049987502083072939, 67092},
+      {"velocity_a1", "1", A::velocity_a1, P::velocity_a1,
+       0.00049987502083072939, 67092},
       {"inverse_resistance", "1/ohm", A::inverse_resistance, P::inverse_resistance,
        0.4098360655737705, 107436},
       {"emf_over_resistance", "A s/rad", A::emf_over_resistance, P::emf_over_resistance,
        0.0095901639344262296, 80448},
-      {"torque_constant", "Nm/A", A::torque_constant, P::torque_constant, 0.023400000000000001,
-       98147},
-      {"inertia_gain", "Nm s/rad", A::inertia_gain, P::inertia_gain, 0.0022500000000000003, 75497},
+      {"torque_constant", "Nm/A", A::torque_constant, P::torque_constant,
+       0.023400000000000001, 98147},
+      {"inertia_gain", "Nm s/rad", A::inertia_gain, P::inertia_gain,
+       0.0022500000000000003, 75497},
       {"nominal_current_squared", "A^2", A::nominal_current_squared, P::nominal_current_squared,
        1.0, 4},
-      {"observer_a1", "1", A::observer_a1, P::observer_a1, 0.00049987502083072939, 67092},
-      {"overspeed", "rad/s", A::overspeed, P::overspeed, 600.0, 1258291200},
-      {"i2t_budget", "A^2 tick", A::i2t_budget, P::i2t_budget, 12500000.0, 50000000},
-      {"polarity_speed", "rad/s", A::polarity_speed, P::polarity_speed, 16.0, 33554432},
-      {"polarity_current", "A", A::polarity_current, P::polarity_current, 1.0, 262144},
-      {"polarity_ticks", "tick", A::polarity_ticks, P::polarity_ticks, 4000.0, 4000},
-      {"emf_constant", "V s/rad", A::emf_constant, P::emf_constant, 0.023400000000000001, 98147},
-      {"observer_gain", "A/Nm", A::observer_gain, P::observer_gain, 0.0, 0},
-      {"voltage_setpoint", "V", A::voltage_setpoint, P::voltage_setpoint, 0.0, 0},
-      {"voltage_step", "V/tick", A::voltage_step, P::voltage_step, 0.00238037109375, 39},
-      {"torque_limit", "Nm", A::torque_limit, P::torque_limit, 0.035000000000000003, 18350},
-      {"ramp_step", "Nm/tick", A::ramp_step, P::ramp_step, 3.5759999999999997e-07, 6},
+      {"observer_a1", "1", A::observer_a1, P::observer_a1,
+       0.00049987502083072939, 67092},
+      {"overspeed", "rad/s", A::overspeed, P::overspeed,
+       600.0, 1258291200},
+      {"i2t_budget", "A^2 tick", A::i2t_budget, P::i2t_budget,
+       12500000.0, 50000000},
+      {"polarity_speed", "rad/s", A::polarity_speed, P::polarity_speed,
+       16.0, 33554432},
+      {"polarity_current", "A", A::polarity_current, P::polarity_current,
+       1.0, 262144},
+      {"polarity_ticks", "tick", A::polarity_ticks, P::polarity_ticks,
+       4000.0, 4000},
+      {"emf_constant", "V s/rad", A::emf_constant, P::emf_constant,
+       0.023400000000000001, 98147},
+      {"observer_gain", "A/Nm", A::observer_gain, P::observer_gain,
+       0.0, 0},
+      {"voltage_setpoint", "V", A::voltage_setpoint, P::voltage_setpoint,
+       0.0, 0},
+      {"voltage_step", "V/tick", A::voltage_step, P::voltage_step,
+       0.00238037109375, 39},
+      {"torque_limit", "Nm", A::torque_limit, P::torque_limit,
+       0.035000000000000003, 18350},
+      {"ramp_step", "Nm/tick", A::ramp_step, P::ramp_step,
+       3.5759999999999997e-07, 6},
       {"voltage_to_current", "1/ohm", A::voltage_to_current, P::voltage_to_current,
        0.4098360655737705, 107436},
-      {"torque_gain", "A/Nm", A::torque_gain, P::torque_gain, 42.735042735042732, 87521},
+      {"torque_gain", "A/Nm", A::torque_gain, P::torque_gain,
+       42.735042735042732, 87521},
       {"dead_voltage_slope", "V/Nm", A::dead_voltage_slope, P::dead_voltage_slope,
        975.00000000000011, 124800},
-      {"region_torque", "Nm", A::region_torque, P::region_torque, 0.035000000000000003, 18350},
-      {"hold_torque", "Nm", A::hold_torque, P::hold_torque, 0.017500000000000002, 9175},
-      {"hold_time", "1024 ticks", A::hold_time, P::hold_time, 4883.0, 4883},
-      {"hold_limit", "Nm", A::hold_limit, P::hold_limit, 0.0087500000000000008, 4588},
-      {"current_limit", "A", A::current_limit, P::current_limit, 1.5, 393216},
-      {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain, 2.4399999999999999, 79954},
-      {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high, 2.4399999999999999,
-       79954},
-      {"dead_voltage", "V", A::dead_voltage, P::dead_voltage, 0.97500000000000009, 15974},
-      {"voltage_window", "V", A::voltage_window, P::voltage_window, 4.8789999999999996, 79938},
-      {"duty_gain", "clock/V", A::duty_gain, P::duty_gain, 41.666666666666664, 85333},
-      {"duty_limit", "clock", A::duty_limit, P::duty_limit, 974.0, 974},
-      {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks, 100000.0, 100000},
-      {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque, 0.02, 10486},
-      {"self_test_quiet", "128 ticks", A::self_test_quiet, P::self_test_quiet, 157.0, 157},
-      {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse, 0.0, 0},
-      {"self_test_arms", "1", A::self_test_arms, P::self_test_arms, 3.0, 3},
-      {"setpoint_torque", "Nm", A::setpoint_torque, P::setpoint_torque, 0.0, 0},
-      {"membrane_lower", "count", A::membrane_lower, P::membrane_lower, 325.94932345220167, 83443},
-      {"membrane_upper", "count", A::membrane_upper, P::membrane_upper, 456.3290528330823, 116820},
-      {"membrane_torque", "Nm", A::membrane_torque, P::membrane_torque, 0.029999999999999999,
-       15729},
+      {"region_torque", "Nm", A::region_torque, P::region_torque,
+       0.035000000000000003, 18350},
+      {"hold_torque", "Nm", A::hold_torque, P::hold_torque,
+       0.017500000000000002, 9175},
+      {"hold_time", "1024 ticks", A::hold_time, P::hold_time,
+       4883.0, 4883},
+      {"hold_limit", "Nm", A::hold_limit, P::hold_limit,
+       0.0087500000000000008, 4588},
+      {"current_limit", "A", A::current_limit, P::current_limit,
+       1.5, 393216},
+      {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain,
+       2.4399999999999999, 79954},
+      {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high,
+       2.4399999999999999, 79954},
+      {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
+       0.97500000000000009, 15974},
+      {"voltage_window", "V", A::voltage_window, P::voltage_window,
+       4.8789999999999996, 79938},
+      {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
+       41.666666666666664, 85333},
+      {"duty_limit", "clock", A::duty_limit, P::duty_limit,
+       974.0, 974},
+      {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
+       100000.0, 100000},
+      {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,
+       0.02, 10486},
+      {"self_test_quiet", "128 ticks", A::self_test_quiet, P::self_test_quiet,
+       157.0, 157},
+      {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse,
+       0.0, 0},
+      {"self_test_arms", "1", A::self_test_arms, P::self_test_arms,
+       3.0, 3},
+      {"setpoint_torque", "Nm", A::setpoint_torque, P::setpoint_torque,
+       0.0, 0},
+      {"membrane_lower", "count", A::membrane_lower, P::membrane_lower,
+       325.94932345220167, 83443},
+      {"membrane_upper", "count", A::membrane_upper, P::membrane_upper,
+       456.3290528330823, 116820},
+      {"membrane_torque", "Nm", A::membrane_torque, P::membrane_torque,
+       0.029999999999999999, 15729},
       {"compression_contact", "count", A::compression_contact, P::compression_contact,
        325.94932345220167, 83443},
       {"compression_stiffness", "Nm/count", A::compression_stiffness, P::compression_stiffness,
        3.0679615757712826e-05, 65884},
-      {"tension_rest", "count", A::tension_rest, P::tension_rest, 0.0, 0},
+      {"tension_rest", "count", A::tension_rest, P::tension_rest,
+       0.0, 0},
       {"tension_stiffness", "Nm/count", A::tension_stiffness, P::tension_stiffness,
        1.5339807878856413e-05, 32942},
-      {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping, 2.0000000000000002e-05,
-       85899},
-      {"attract_centre", "count", A::attract_centre, P::attract_centre, 0.0, 0},
+      {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping,
+       2.0000000000000002e-05, 85899},
+      {"attract_centre", "count", A::attract_centre, P::attract_centre,
+       0.0, 0},
       {"attract_strength", "Nm count^2", A::attract_strength, P::attract_strength,
        509.96621500295026, 33421146},
-      {"attract_core", "count", A::attract_core, P::attract_core, 130.0, 130},
+      {"attract_core", "count", A::attract_core, P::attract_core,
+       130.0, 130},
       {"attract_core_slope", "Nm/count", A::attract_core_slope, P::attract_core_slope,
        0.00023009711818284609, 123532},
-      {"repel_centre", "count", A::repel_centre, P::repel_centre, 0.0, 0},
-      {"repel_strength", "Nm count^2", A::repel_strength, P::repel_strength, 509.96621500295026,
-       33421146},
-      {"repel_core", "count", A::repel_core, P::repel_core, 130.0, 130},
+      {"repel_centre", "count", A::repel_centre, P::repel_centre,
+       0.0, 0},
+      {"repel_strength", "Nm count^2", A::repel_strength, P::repel_strength,
+       509.96621500295026, 33421146},
+      {"repel_core", "count", A::repel_core, P::repel_core,
+       130.0, 130},
       {"repel_core_slope", "Nm/count", A::repel_core_slope, P::repel_core_slope,
        0.00023009711818284609, 123532},
-      {"wall_contact", "count", A::wall_contact, P::wall_contact, 325.94932345220167, 83443},
-      {"wall_stiffness", "Nm/count", A::wall_stiffness, P::wall_stiffness, 0.00015339807878856412,
-       5147},
-      {"wall_damping", "Nm s/rad", A::wall_damping, P::wall_damping, 1.0000000000000001e-05, 5369},
+      {"wall_contact", "count", A::wall_contact, P::wall_contact,
+       325.94932345220167, 83443},
+      {"wall_stiffness", "Nm/count", A::wall_stiffness, P::wall_stiffness,
+       0.00015339807878856412, 5147},
+      {"wall_damping", "Nm s/rad", A::wall_damping, P::wall_damping,
+       1.0000000000000001e-05, 5369},
   };
 };
 

@@ -62,7 +62,8 @@ class AbsolutePosition {
       changed_ |= change != 0;
       waits_ = false;
     }
-    if (in.gates_enable) seen_ |= read.faults;
+    // After a jump the angle may be wrong for ever, so it is kept with the gates closed as well.
+    seen_ |= in.gates_enable ? read.faults : read.faults & AbsoluteEncoder::kJump;
     if (in.clear) seen_ = 0;
     faults_ = read.faults;
     encoder_.clock({begins, in.data});

@@ -154,7 +154,9 @@ module encoder (
       assign found = found_q;
     end
 
-    // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared.
+    // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared; a jump also while they are
+    // closed, since the angle may be wrong for ever after it.
+    localparam logic [4:0] Jump = 5'b01000;
     assign absolute_state_o = {waits_q, faults | seen_q};
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
@@ -178,7 +180,7 @@ module encoder (
           wait_q <= begins ? PeriodW'(feltgate_pkg::ABSOLUTE_PERIOD - 1) : wait_q - 1'b1;
         faults_q <= faults;
         if (clear_i) seen_q <= '0;
-        else if (gates_enable_i) seen_q <= seen_q | faults;
+        else seen_q <= seen_q | (gates_enable_i ? faults : faults & Jump);
         position <= count_q - zero_q;
         if (set_zero_i) zero_q <= count_q;
         if (wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]) begin

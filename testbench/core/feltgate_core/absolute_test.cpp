@@ -251,6 +251,21 @@ TEST_CASE(
   CHECK(seen.fastest_rad_s == 0);
 }
 
+TEST_CASE(
+    "absolute: after a jump while disarmed the core does not arm until the faults are cleared") {
+  Rig rig;
+  rig.defect = Defect::half_a_turn_off;
+  rig.arm_at = kReady + 20 * kPeriod;  // the sensor is steady again, half a turn off
+  rig.mended = kReady + 40 * kPeriod;
+  Seen seen = run(rig, rig.mended);
+  CHECK(seen.armed < 0);
+  CHECK(seen.last.faults == 0);
+  CHECK(seen.state == 8);
+  seen = run(rig, rig.mended + 10 * kPeriod);
+  CHECK(seen.armed > rig.mended + 6 * kPeriod);
+  CHECK(seen.state == 0);
+}
+
 TEST_CASE("absolute: what closed the gates is told until the faults are cleared") {
   Rig rig;
   rig.defect = Defect::half_a_turn_off;

@@ -75,7 +75,7 @@ void add_controllers(CLI::App& app, int* exit_code) {
       "It prints Markdown tables, in ten seconds.\n"
       "With --estimators instead: feed-forward with the N-method and with M/T, walls, noise, "
       "drag.\n"
-      "With --current instead: a loop of the motor's current, which no core has yet, its blocks\n"
+      "With --current instead: a loop of the motor's current, as in `lever_current`: its blocks\n"
       "bit by bit around a winding that the gates switch, beside closed forms.\n"
       "  feltgate controllers\n"
       "  feltgate controllers --estimators\n"

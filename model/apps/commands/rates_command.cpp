@@ -155,8 +155,10 @@ int print_gains(const rates::Report& r, files::Outputs& outputs) {
   std::string text = fmt::format("scene {}: {}\nlaw {} at {}, {}{} without what is not linear\n",
                                  r.scene, r.title, r.law, rates::rate_text(r.rows.back().rate_hz),
                                  r.axes > 1 ? "device " : "plant ", r.plant);
-  text += fmt::format("friction of a joint {:g} Nm s/rad, without noise and lost words\n\n",
-                      r.damping_nm_s_rad);
+  text += fmt::format(
+      "friction of a joint {:g} Nm s/rad, also where the scene leaves it out; without noise and "
+      "lost words\n\n",
+      r.damping_nm_s_rad);
   text += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}\n", "factor on the torque",
                       "linear", "bits", "off", "swing", "counts", "mNm");
   for (const rates::GainMargin& g : r.gains) {

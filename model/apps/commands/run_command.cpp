@@ -129,6 +129,18 @@ std::vector<std::string> scene_notes(const Scenario& s, double count_rad) {
         "cannot clear one",
         e.at_s, stopped_s));
   }
+  double asked_s = s.arm_s;  // -1: the request is low
+  for (const Event& e : s.events) {
+    if (!e.arm) continue;
+    if (*e.arm && asked_s >= 0 && asked_s < e.at_s && stopped_s < 0) {
+      notes.push_back(
+          fmt::format("arm = true at {:g} s is no new request, that of {:g} s still stands; an "
+                      "event with arm = "
+                      "false before it ends that one",
+                      e.at_s, asked_s));
+    }
+    asked_s = *e.arm ? e.at_s : -1;
+  }
   return notes;
 }
 
@@ -242,6 +254,11 @@ int run(const RunArguments& a) {
   if (scenario.arm_s >= scenario.duration_s &&
       std::none_of(scenario.events.begin(), scenario.events.end(), arms)) {
     labels.never_armed_s = scenario.arm_s;
+  }
+  if (elaborated.design.absolute) {
+    labels.encoder =
+        fmt::format("absolute, {} bits, a reading every {} ticks", elaborated.design.absolute_bits,
+                    elaborated.design.absolute_period_ticks());
   }
   labels.notes = scene_notes(scenario, elaborated.design.count_rad());
   for (files::OutputFile* file : {json, report_json}) {

@@ -32,6 +32,7 @@ struct RunLabels {
   std::string plant_as_named = {};                  ///< the user's name of the plant, for the mend
   std::vector<std::string> speed_jumps = {};        ///< speed jumps of the hand, a sentence each
   double never_armed_s = 0;                         ///< arm_s if the scene ends before it; 0: none
+  std::string encoder = {};                         ///< what it is, unless A, B and Z are read
   std::vector<std::string> notes = {};              ///< further sentences, for the text only
 };
 

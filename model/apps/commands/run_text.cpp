@@ -208,9 +208,11 @@ std::string run_text(const RunResult& r, const RunLabels& labels) {
   if (!labels.plant.empty()) text += fmt::format(", plant {}", labels.plant);
   text += fmt::format("\n{:.6g} s, {} clocks, {} ticks", r.simulated_s, r.clocks, r.ticks);
   if (r.lock_step) text += fmt::format("; mismatches between RTL and twin: {}", r.mismatches);
-  text += fmt::format("\nencoder: {} step{}, {} illegal, {} reversal{}\n", r.position.steps,
-                      r.position.steps == 1 ? "" : "s", r.position.illegal, r.position.reversals,
-                      r.position.reversals == 1 ? "" : "s");
+  text += labels.encoder.empty()
+              ? fmt::format("\nencoder: {} step{}, {} illegal, {} reversal{}\n", r.position.steps,
+                            r.position.steps == 1 ? "" : "s", r.position.illegal,
+                            r.position.reversals, r.position.reversals == 1 ? "" : "s")
+              : fmt::format("\nencoder: {}\n", labels.encoder);
   if (r.felt.closed_loop) {
     const bool longer = r.longest_step_clocks > labels.step_clocks;
     text += fmt::format("plant: steps of {}{} clocks; effects off: {}\n", labels.step_clocks,

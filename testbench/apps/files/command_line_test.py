@@ -163,6 +163,12 @@ class CommandLine(Bench):
         self.assertIn("arm = true at 0.001 s does nothing: the stop of 0.0005 s", out)
         self.path("short.toml").write_text(begin.replace('"wall"', '"damper"'))
         self.assertNotIn("note: ", self.run_it().out)
+        again = begin.replace('"wall"', '"damper"') + event.format(0.001, "arm")
+        self.path("short.toml").write_text(again)
+        self.assertIn("arm = true at 0.001 s is no new request", self.run_it().out)
+        low = '[[event]]\nat_s = 0.0005\narm = false\n'
+        self.path("short.toml").write_text(again.replace("[[event]]", low + "[[event]]", 1))
+        self.assertNotIn("note: ", self.run_it().out)
 
     def test_a_design_by_its_path(self):
         ours = ROOT / "rtl/designs/lever.toml"

@@ -127,7 +127,7 @@ class Files:
         q = choosing.question
         self.folder.mkdir(parents=True, exist_ok=True)
         self.scene_path = self.folder / f"{q.name}.toml"
-        scene = choosing.scene_of(best["set"])
+        scene = choosing.scene_of(best)
         if q.law:
             self.law_path = self.folder / f"{q.law.stem}.law"
             law = q.law.read_text(encoding="utf-8")
@@ -137,11 +137,12 @@ class Files:
         head = [f"{q.name} as `feltgate choose` chose it: {choose_text.in_words(best)}."]
         self.scene = scene
         self._put(self.scene_path, made_scene.toml_text(head, scene))
-        self.design_path = best["design"]
+        self.design_path, self.design_text = best["design"], ""
         if best["set"]:
             self.design_path = self.folder / f"{best['design']}.toml"
             point = {"base": choosing.design, "set": best["set"]}
-            self._put(self.design_path, self._named(design_text(command_line.root(), point), point))
+            self.design_text = self._named(design_text(command_line.root(), point), point)
+            self._put(self.design_path, self.design_text)
 
     @staticmethod
     def _named(text, point):
@@ -156,6 +157,9 @@ class Files:
     def commands(self, choosing):
         """What a user may go on with."""
         q, scene = choosing.question, self.scene_path
+        if not self.best["built"]:  # a program of its own, as docs/designs.md has it
+            first = [f"cp {self.design_path} rtl/designs/", "./feltgate generate"]
+            return [*first, f"./feltgate run {scene} --design {self.best['design']}"]
         found = [f"./feltgate run {scene} --report REPORT" if not q.device else f"./feltgate run {scene}"]
         if not q.device:
             found.append(f"./feltgate design {self.design_path}")
@@ -176,7 +180,9 @@ def armed_check(scene, seconds):
 
 def verified(choosing, files, best, seconds):
     """The choice in RTL and twin: [{what, measured, limit, holds}], and what was run."""
-    q, ask = choosing.question, choosing.programs.ask
+    q = choosing.question
+    programs, design = choosing.programs_of(best, files.design_text)
+    ask = programs.ask
     kind = "axes" if q.device else q.kind()
     seconds = min(seconds or RTL_SECONDS[kind], files.scene["duration_s"])
     short = files.folder / f".{q.name}_rtl.toml"
@@ -188,13 +194,15 @@ def verified(choosing, files, best, seconds):
     short.write_text(made_scene.toml_text([], made_scene.cut(files.scene, seconds)), encoding="utf-8")
     try:
         engines = "rtl" if q.device else "rtl,twin,quad"
-        run = ask("run", short, "--design", choosing.design, "--engine", engines, "--quiet")
+        run = ask("run", short, "--design", design, "--engine", engines, "--quiet")
     finally:
         short.unlink()
     check("mismatches between RTL and twin", run["mismatches"], 0, run["mismatches"] == 0)
     checks.append(armed_check(files.scene, seconds))
-    rates = ask("rates", files.scene_path, "--rate", f"{best['rate_hz']:.9g}", "--quiet")["scenes"][0]
-    row = next(r for r in rates["rates"] if r["by"] == best["by"] and r["ticks"] == best["ticks"])
+    own = () if best["built"] else ("--design", design)
+    rates = ask("rates", files.scene_path, "--rate", f"{best['rate_hz']:.9g}", *own, "--quiet")["scenes"][0]
+    rows = [r for r in rates["rates"] if r["by"] == best["by"]]
+    row = min(rows, key=lambda r: abs(r["rate_hz"] - best["rate_hz"]))
     rms, worst = row["error_rms_nm"], row["error_max_nm"]
     if not q.device:
         core = run["engines"]["rtl"]["torque_nm"]
@@ -214,10 +222,12 @@ def verified(choosing, files, best, seconds):
     elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "stiffness":
         words = ("--linear-plant", choosing.plant, "--rate", f"{best['rate_hz']:.9g}")
         words += ("--damping", f"{choosing.report['damping_nm_s_rad']:.9g}", "--no-experiments")
-        border = ask("stability", choosing.design_file(best), *words)["borders"][0]["bits_nm_rad"]
+        border = ask("stability", choosing.of_chain(best, design), *words)["borders"][0]["bits_nm_rad"]
         bits = (border or 0.0) / choosing.report["stiffness_nm_rad"]
         said = best["margin"]["margin"]
         check("margin on the chain's bits", bits, said, abs(bits / said - 1) <= AGREES)
+    elif best["margin"] is not None and not best["built"]:
+        choosing.leave_out("margin on the bits", "of a law with states only on the designs that are built in")
     elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "torque":
         # Of the law at rest, which may be beside the place of the motion that the margin is for.
         gains = ask("stability", files.scene_path)["scenes"][0].get("gains", [{"bits": None, "why": "none at rest"}])

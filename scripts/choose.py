@@ -8,7 +8,6 @@ docs/choose.md
 """
 
 import json
-import re
 import sys
 import tempfile
 import tomllib
@@ -17,8 +16,7 @@ from pathlib import Path
 import command_line
 import outputs
 from exploration import choice, choose_text, made_scene
-from exploration.choosing import NAME, Choosing, Programs, Question, named
-from exploration.design_text import design_text
+from exploration.choosing import NAME, Choosing, Programs, Question
 
 SCHEMA = "feltgate-choose/1"
 RTL_SECONDS = {"block": 1.5, "law": 0.4, "axes": 0.15}  # by default: half a minute of one core
@@ -103,7 +101,7 @@ def arguments_of(words):
     outputs.check(parser, json=options.json)
     outputs.check_folder(parser, "--output", options.output)
     try:
-        named(options.scene)
+        made_scene.named(options.scene)
     except command_line.Refused as error:
         parser.error(str(error))
     return options
@@ -137,19 +135,10 @@ class Files:
         head = [f"{q.name} as `feltgate choose` chose it: {choose_text.in_words(best)}."]
         self.scene = scene
         self._put(self.scene_path, made_scene.toml_text(head, scene))
-        self.design_path, self.design_text = best["design"], ""
+        self.design_path = best["design"]
         if best["set"]:
             self.design_path = self.folder / f"{best['design']}.toml"
-            point = {"base": choosing.design, "set": best["set"]}
-            self.design_text = self._named(design_text(command_line.root(), point), point)
-            self._put(self.design_path, self.design_text)
-
-    @staticmethod
-    def _named(text, point):
-        """The design's text with a head and a description of its own, not those of its base."""
-        what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
-        text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)
-        return re.sub(r"^description = .*$", lambda _: f"description = {json.dumps(what)}", text, count=1, flags=re.M)
+            self._put(self.design_path, choosing.text_of(best))
 
     def _put(self, path, text):
         outputs.write_whole(path, text)
@@ -181,7 +170,7 @@ def armed_check(scene, seconds):
 def verified(choosing, files, best, seconds):
     """The choice in RTL and twin: [{what, measured, limit, holds}], and what was run."""
     q = choosing.question
-    programs, design = choosing.programs_of(best, files.design_text)
+    programs, design = choosing.programs_of(best)
     ask = programs.ask
     kind = "axes" if q.device else q.kind()
     seconds = min(seconds or RTL_SECONDS[kind], files.scene["duration_s"])
@@ -199,10 +188,7 @@ def verified(choosing, files, best, seconds):
         short.unlink()
     check("mismatches between RTL and twin", run["mismatches"], 0, run["mismatches"] == 0)
     checks.append(armed_check(files.scene, seconds))
-    own = () if best["built"] else ("--design", design)
-    rates = ask("rates", files.scene_path, "--rate", f"{best['rate_hz']:.9g}", *own, "--quiet")["scenes"][0]
-    rows = [r for r in rates["rates"] if r["by"] == best["by"]]
-    row = min(rows, key=lambda r: abs(r["rate_hz"] - best["rate_hz"]))
+    _, row = choosing.row_of(best, files.scene_path)
     rms, worst = row["error_rms_nm"], row["error_max_nm"]
     if not q.device:
         core = run["engines"]["rtl"]["torque_nm"]
@@ -251,6 +237,9 @@ def answer_of(options, folder):
     choosing.measure()
     all_of = choosing.alternatives()
     best, front = choice.choose(all_of, wishes)
+    while best["set"] and not best["own_motion"]:  # what is recommended runs by itself first
+        choosing.run_itself(best)
+        best, front = choice.choose(all_of, wishes)
     out = options.output or command_line.build_folder() / "choose" / question.name
     files = Files(out, choosing, best)
     told = {"schema": SCHEMA, "scene": question.name, "title": question.scene["title"]}

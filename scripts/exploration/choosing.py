@@ -6,7 +6,6 @@ Documentation: docs/choose.md
 """
 
 import csv
-import difflib
 import itertools
 import json
 import os
@@ -19,7 +18,7 @@ import command_line
 import interrupts
 from command_line import Refused
 from exploration import choice, made_scene
-from exploration.design_text import design_text, own_program
+from exploration.design_text import design_text, named, own_program
 
 NAME = "choose"
 TABLE = "vectors/spaces/trade.csv"
@@ -59,26 +58,6 @@ class Programs:
         return path
 
 
-def named(given):
-    """(path of a scene, None) or (None, path of a law)."""
-    root, path = command_line.root(), Path(given)
-    scenes = {p.stem: p for p in root.glob("vectors/scenes/*.toml")}
-    laws = {p.stem: p for p in root.glob("rtl/laws/*.law")}
-    scene = scenes.get(given) or (path if given.endswith(".toml") else None)
-    law = laws.get(given) or (path if given.endswith(".law") else None)
-    found = scene or law
-    if found is None:
-        near = difflib.get_close_matches(given, [*scenes, *laws], 1)
-        mend = f"did you mean {near[0]}? Or " if near else ""
-        raise Refused(
-            f'"{given}" is neither a scene nor a law; {mend}give a name in vectors/scenes or rtl/laws, '
-            "or the path of a .toml or .law file"
-        )
-    if not found.is_file():
-        raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes or rtl/laws")
-    return (scene, None) if scene else (None, law)
-
-
 class Question:
     """A scene, read; for a law without one, the scene in which a hand sweeps it."""
 
@@ -106,7 +85,7 @@ class Question:
 
     def _find(self, given, root, programs):
         """(path of the scene, whether it was made for a law)."""
-        scene, law = named(given)
+        scene, law = made_scene.named(given)
         if scene:
             return scene, False
         for scene in sorted(root.glob("vectors/scenes/*.toml")):  # one that renders a shipped law
@@ -300,6 +279,7 @@ class Choosing:
                     "cutoff_rad_s": row.get(choice.CUTOFF),
                     "set": row.change,
                     "built": row.in_registers(),
+                    "own_motion": not row.change,
                     "table_id": row.figures["id"],
                     "by": by,
                     "rate_hz": rate["rate_hz"],
@@ -360,11 +340,39 @@ class Choosing:
         text = design_text(command_line.root(), {"base": "lever", "set": best["set"]})
         return self.programs.put("chain.toml", text)
 
-    def programs_of(self, best, text):
+    def text_of(self, best):
+        """The choice as a design file."""
+        point = {"base": self.design, "set": best["set"]}
+        return named(design_text(command_line.root(), point), point)
+
+    def row_of(self, best, scene):
+        """(report, row) of `rates` for the choice."""
+        programs, design = self.programs_of(best)
+        own = () if best["built"] else ("--design", design)
+        words = ("--rate", f"{best['rate_hz']:.9g}", *own, "--quiet")
+        report = programs.ask("rates", scene, *words)["scenes"][0]
+        rows = [r for r in report["rates"] if r["by"] == best["by"]]
+        return report, min(rows, key=lambda r: abs(r["rate_hz"] - best["rate_hz"]))
+
+    def run_itself(self, best):
+        """A hand that gives way moves another design otherwise, even where the law has no speed: each
+        part is the larger of that on the motion of `lever` and on its own."""
+        text = made_scene.toml_text([], self.scene_of(best))
+        scene = self.programs.put(f"{self.question.name}.toml", text)
+        report, row = self.row_of(best, scene)
+        programs, design = self.programs_of(best)
+        counts = [report[key] for key in ("counts_alone_rms_nm", "counts_alone_max_nm")]
+        rate = [max(0.0, row[key] - of) for key, of in zip(("error_rms_nm", "error_max_nm"), counts, strict=True)]
+        for part, own in zip(best["error"]["parts"], (counts, rate, rounding_part(programs, scene, design)), strict=False):
+            part["rms_nm"], part["worst_nm"] = max(part["rms_nm"], own[0]), max(part["worst_nm"], own[1])
+        best["error"] = choice.error_of(best["error"]["parts"], self.largest_nm)
+        best["own_motion"] = True
+
+    def programs_of(self, best):
         """The programs that run the choice, and the design's name there."""
         if best["built"]:
             return self.programs, self.design
-        environment = own_program(NAME, best["design"], text)
+        environment = own_program(NAME, best["design"], self.text_of(best))
         programs = Programs(self.programs.folder, self.programs.quiet, environment)
         programs.name = f"feltgate_{best['design']}"
         return programs, best["design"]

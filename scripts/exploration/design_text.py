@@ -82,6 +82,13 @@ def design_text(root, point):
     return "\n".join(lines) + "\n"
 
 
+def named(text, point):
+    """The design's text with a head and a description of its own, not those of its base."""
+    what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
+    text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)
+    return re.sub(r"^description = .*$", lambda _: f"description = {json.dumps(what)}", text, count=1, flags=re.M)
+
+
 def own_program(command, name, text):
     """Builds feltgate_NAME, a program with this design, in the build folder; the environment in which
     it knows the design's file: the repository, by links, with that among the others."""

@@ -4,9 +4,12 @@
 motion for a law that has no scene. Documentation: docs/choose.md
 """
 
+import difflib
 import re
 from pathlib import Path
 
+import command_line
+from command_line import Refused
 from exploration.design_text import toml_value
 
 # There is no motion in a law file: a hand that comes from the middle, goes both ways, and rests.
@@ -36,6 +39,26 @@ motion = [
 figure = "mismatches"
 high = 0
 """
+
+
+def named(given):
+    """(path of a scene, None) or (None, path of a law)."""
+    root, path = command_line.root(), Path(given)
+    scenes = {p.stem: p for p in root.glob("vectors/scenes/*.toml")}
+    laws = {p.stem: p for p in root.glob("rtl/laws/*.law")}
+    scene = scenes.get(given) or (path if given.endswith(".toml") else None)
+    law = laws.get(given) or (path if given.endswith(".law") else None)
+    found = scene or law
+    if found is None:
+        near = difflib.get_close_matches(given, [*scenes, *laws], 1)
+        mend = f"did you mean {near[0]}? Or " if near else ""
+        raise Refused(
+            f'"{given}" is neither a scene nor a law; {mend}give a name in vectors/scenes or rtl/laws, '
+            "or the path of a .toml or .law file"
+        )
+    if not found.is_file():
+        raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes or rtl/laws")
+    return (scene, None) if scene else (None, law)
 
 
 def inline(value):

@@ -108,6 +108,45 @@ class Rates(Scratch):
         self.assertIn("torque error, mNm", svg)
         self.assertIn("border / scene", svg)
 
+    def told(self, *words):
+        done = self.call(*words, "--quiet", "--json", "a.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["scenes"][0]
+
+    def test_designs_beside_have_the_bits_velocity_and_margin(self):
+        """A design's estimate in double against the bits of `lever` with its cut-off in a register."""
+        text = (ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8")
+        quick = self.put("quick.toml", text.replace("cutoff_rad_s = 500.0", "cutoff_rad_s = 950.0", 1))
+        slow = self.put("slow.toml", text.replace("tick_hz = 1_000_000", "tick_hz = 500_000").replace("m1 = 767", "m1 = 384"))
+        own = self.put("own.toml", SCENE.replace("wall_contact = 5", "wall_contact = 5\nvelocity_a1 = 9.495489e-4"))
+        scene = self.told("short.toml", "--rate", "1000,1000000", "--beside", f"lever,{quick},{slow}")
+        in_a_register = self.told(own, "--rate", "1000,1000000")
+        lever, other, half = scene["beside"]
+        for found, whole in ((lever, scene), (other, in_a_register)):
+            for key in ("counts_alone_rms_nm", "counts_alone_max_nm"):
+                self.assertAlmostEqual(found[key] / whole[key], 1, delta=1e-3)
+            for ours, row in zip(found["margins"], whole["rates"], strict=True):
+                self.assertAlmostEqual(ours / row["margin"], 1, delta=2e-3)
+        self.assertGreater(other["margins"][-1], 1.1 * lever["margins"][-1])
+        # Half the ticks, the same window: the same loop but for half a microsecond; no law at 1 MHz.
+        self.assertAlmostEqual(half["counts_alone_rms_nm"] / lever["counts_alone_rms_nm"], 1, delta=0.01)
+        self.assertIsNone(half["margins"][1])
+        self.assertAlmostEqual(half["margins"][0] / lever["margins"][0], 1, delta=0.01)
+
+    def test_a_scenes_own_cut_off_is_in_the_margin_of_its_states(self):
+        self.put("damped.law", "let slow = lowpass(position, 100 Hz)\nout torque = -(2 mNm s/rad) * velocity - (1 Nm/rad) * slow\n")
+        law = SCENE.replace('"wall"', '"law"\nlaw = "damped.law"').replace("wall_contact = 5", "velocity_a1 = 9.495489e-4")
+        with_own = self.put("with.toml", law)
+        without = self.put("without.toml", law.replace("[parameters]\nvelocity_a1 = 9.495489e-4\n", ""))
+        text = (ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8")
+        quick = self.put("quick.toml", text.replace("cutoff_rad_s = 500.0", "cutoff_rad_s = 950.0", 1))
+        plain = self.told(without, "--rate", "10000", "--beside", quick)
+        own = self.told(with_own, "--rate", "10000")
+        for row, ours, lever in zip(own["rates"], plain["beside"][0]["margins"], plain["rates"], strict=True):
+            self.assertEqual(row["border_of"], "torque")
+            self.assertAlmostEqual(row["margin"] / ours, 1, delta=0.02)
+            self.assertGreater(abs(row["margin"] / lever["margin"] - 1), 0.05)
+
     def test_a_device_has_its_axes_and_what_is_kept(self):
         done = self.call(
             *("levers.toml", "--rate", "144,10000", "--json", "a.json", "--csv", "a.csv"),

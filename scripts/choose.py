@@ -42,7 +42,7 @@ def number(least, most, unit):
     def read(text):
         share = unit == "share" and text.endswith("%")
         try:
-            value = float(text.rstrip("%")) / (100 if share else 1)
+            value = float(text.removesuffix("%" if share else "")) / (100 if share else 1)
         except ValueError:
             value = float("nan")
         if not least <= value <= most:

@@ -9,6 +9,7 @@ import csv
 import itertools
 import json
 import os
+import re
 import shlex
 import tomllib
 from pathlib import Path
@@ -49,6 +50,8 @@ class Programs:
         done = interrupts.run(words, env=self.environment, **interrupts.CAPTURED)
         if done.returncode not in codes or not answer.exists():
             said = (done.stderr or done.stdout).strip().removeprefix("feltgate: ")
+            # Of a file that is made for the moment, the place means nothing to a user.
+            said = re.sub(rf"{re.escape(str(self.folder))}/[^\s:]+(:\d+)*: ", "", said)
             raise Refused(said or f"{command} ended with {done.returncode}")
         return json.loads(answer.read_text(encoding="utf-8"))
 
@@ -127,19 +130,6 @@ def plant_part(trim, largest_nm):
     motions = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
     worst = {key: max(m["torque"][key] for m in motions) for key in ("rms", "peak")}
     return worst["rms"] * largest_nm, worst["peak"] * largest_nm
-
-
-def linear_plant(question):
-    """The scene's plant as the margins of `feltgate rates` take it: linear, its viscous friction on."""
-    name = question.scene.get("plant", "p24")
-    own = "/" in name or name.endswith(".toml")
-    path = Path(name) if own else command_line.root() / "vectors/plants" / f"{name}.toml"
-    plant = tomllib.loads(path.read_text(encoding="utf-8"))
-    on = ("inductance", "back_emf", "viscous")
-    effects = plant["effects"] | question.scene.get("effects", {}) | {"viscous": True}
-    plant["effects"] = {key: key in on and effects[key] for key in plant["effects"]}
-    plant["motor"]["dead_voltage_v"] = plant["supply"]["diode_drop_v"] = 0.0
-    return made_scene.toml_text(["Linear, with viscous friction."], plant)
 
 
 class Choosing:
@@ -228,7 +218,7 @@ class Choosing:
             self.leave_out("rounding behind the law", "not measured apart for several axes")
             self.leave_out("delay of PWM and winding", "`feltgate stability` takes one lever")
             return None
-        self.plant = self.programs.put("linear_viscous.toml", linear_plant(q))
+        self.plant = self.programs.put("linear_viscous.toml", made_scene.linear_plant(q.scene))
         words = ("--linear-plant", self.plant, "--damping", 0, "--rate", 1e6, "--no-bits", "--no-experiments")
         self.actuator_s = self.programs.ask("stability", "lever", *words)["actuator_delay_s"]
         return rounding_part(self.programs, self.path, self.design)

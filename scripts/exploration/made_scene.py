@@ -6,6 +6,7 @@ motion for a law that has no scene. Documentation: docs/choose.md
 
 import difflib
 import re
+import tomllib
 from pathlib import Path
 
 import command_line
@@ -77,6 +78,19 @@ def toml_text(head, scene):
     for name, table in tables.items():
         lines += ["", f"[{name}]", *(f"{key} = {inline(value)}" for key, value in table.items())]
     return "\n".join(lines) + "\n"
+
+
+def linear_plant(scene):
+    """The scene's plant as the margins of `feltgate rates` take it: linear, its viscous friction on."""
+    name = scene.get("plant", "p24")
+    own = "/" in name or name.endswith(".toml")
+    path = Path(name) if own else command_line.root() / "vectors/plants" / f"{name}.toml"
+    plant = tomllib.loads(path.read_text(encoding="utf-8"))
+    on = ("inductance", "back_emf", "viscous")
+    effects = plant["effects"] | scene.get("effects", {}) | {"viscous": True}
+    plant["effects"] = {key: key in on and effects[key] for key in plant["effects"]}
+    plant["motor"]["dead_voltage_v"] = plant["supply"]["diode_drop_v"] = 0.0
+    return toml_text(["Linear, with viscous friction."], plant)
 
 
 def moved(value, folder):

@@ -278,6 +278,12 @@ class Chosen(Scratch):
             self.assertFalse((self.folder / "out").exists())
 
 
+    def test_a_scene_without_a_law_is_refused_by_its_own_name(self):
+        status, _, err = called(choose.main, "free_lever", "-o", self.folder / "out", "--quiet")
+        self.assertEqual(status, 2)
+        self.assertRegex(err, "^feltgate choose: the scene renders no torque law")
+
+
 class Border(Scratch):
     def test_the_bits_of_a_file_have_its_cut_off(self):
         text = (ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8")

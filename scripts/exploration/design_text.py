@@ -95,14 +95,12 @@ def own_program(command, name, text):
     build, root = command_line.build_folder(), command_line.root()
     folder = build / "own" / name
     generated, file, shadow = folder / "feltgate/generated", folder / f"{name}.toml", folder / "root"
-    if not file.is_file() or file.read_text(encoding="utf-8") != text:
-        generated.mkdir(parents=True, exist_ok=True)
-        outputs.write_whole(file, text)
-        words = [build / "feltgate_generate", root, "--design", file, "--output", generated]
-        done = interrupts.run(words, **interrupts.CAPTURED)
-        if done.returncode:
-            file.unlink()
-            raise command_line.Refused(done.stderr.strip() or f"{name}: feltgate_generate failed")
+    generated.mkdir(parents=True, exist_ok=True)
+    outputs.write_whole(file, text)
+    words = [build / "feltgate_generate", root, "--design", file, "--output", generated]
+    done = interrupts.run(words, **interrupts.CAPTURED)  # it leaves what has not changed
+    if done.returncode:
+        raise command_line.Refused(done.stderr.strip() or f"{name}: feltgate_generate failed")
     for source in (*root.iterdir(), *(root / "rtl").iterdir(), *(root / "rtl/designs").iterdir(), file):
         at = shadow / (Path("rtl/designs") / file.name if source == file else source.relative_to(root))
         if source in (root / "rtl", root / "rtl/designs") or at.exists():

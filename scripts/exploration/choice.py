@@ -19,6 +19,7 @@ LOOP = (TICK, "velocity.m1", "velocity.n", "velocity.gain", CUTOFF)
 BEFORE, AFTER = "front", "bound_holds"  # the columns of the table between these are the design's
 NOT_ASKED = "left out, see below"
 MORE = 5  # alternatives that are shown
+ALIKE = 0.02  # of the logarithms: what misses the wishes by next to the same is alike
 
 
 @dataclass(frozen=True)
@@ -261,7 +262,7 @@ def choose(all_of, wishes):
     stated_only = wishes["objective"] is not None
     near = {id(o): distance(o, wishes, stated_only) for o in all_of}
     least = min(near.values())
-    able = [o for o in all_of if near[id(o)] <= least + 1e-12]
+    able = [o for o in all_of if near[id(o)] <= (least + ALIKE if least else 0.0)]
     best = min(able, key=order(wishes["objective"]))
     front = [o for o in all_of if not any(beats(measures(p), measures(o)) for p in all_of)]
     others = sorted((o for o in front if o is not best), key=lambda o: (near[id(o)], order(None)(o)))

@@ -35,7 +35,7 @@ class Programs:
 
     def __init__(self, folder, quiet, environment=()):
         self.folder, self.quiet = Path(folder), quiet
-        self.environment = os.environ | dict(environment)
+        self.environment, self.about = os.environ | dict(environment), ""
         self.name = "feltgate_lever_law"
 
     def ask(self, command, *words, codes=(0, 1)):
@@ -51,7 +51,7 @@ class Programs:
         if done.returncode not in codes or not answer.exists():
             said = (done.stderr or done.stdout).strip().removeprefix("feltgate: ")
             # Of a file that is made for the moment, the place means nothing to a user.
-            said = re.sub(rf"{re.escape(str(self.folder))}/[^\s:]+(:\d+)*: ", "", said)
+            said = re.sub(rf"{re.escape(str(self.folder))}/[^\s:]+(:\d+)*: ", f"{self.about}: ", said)
             raise Refused(said or f"{command} ended with {done.returncode}")
         return json.loads(answer.read_text(encoding="utf-8"))
 
@@ -65,7 +65,7 @@ class Question:
     """A scene, read; for a law without one, the scene in which a hand sweeps it."""
 
     def __init__(self, given, programs):
-        root = command_line.root()
+        root, programs.about = command_line.root(), given
         self.path, self.made = self._find(given, root, programs)
         try:
             self.scene = tomllib.loads(self.path.read_text(encoding="utf-8"))

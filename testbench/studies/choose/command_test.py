@@ -281,7 +281,7 @@ class Chosen(Scratch):
     def test_a_scene_without_a_law_is_refused_by_its_own_name(self):
         status, _, err = called(choose.main, "free_lever", "-o", self.folder / "out", "--quiet")
         self.assertEqual(status, 2)
-        self.assertRegex(err, "^feltgate choose: the scene renders no torque law")
+        self.assertRegex(err, "^feltgate choose: free_lever: the scene renders no torque law")
 
 
 class Border(Scratch):

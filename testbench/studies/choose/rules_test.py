@@ -70,6 +70,12 @@ class Choice(unittest.TestCase):
         self.assertEqual((told["wish"], told["is"], told["best"], told["stated"]), ("margin", 5.0, 5.0, True))
         self.assertFalse(told["alone"])
 
+    def test_what_misses_a_wish_by_the_same_is_alike(self):
+        table = one(1e4, 0.01330, 4.0, 0.3, 3000, built=False)
+        all_of = [one(1e6, 0.01331, 4.0, 0.3, 3000), table, one(1e6, 0.02, 4.0, 0.3, 3000)]
+        self.assertIs(choice.choose(all_of, wishes())[0], all_of[0])
+        self.assertIs(choice.choose(all_of[1:], wishes())[0], table)
+
     def test_wishes_that_are_met_apart_alone(self):
         all_of = [one(1e3, 0.001, 1.0, 0.2, 3000), one(1e6, 0.1, 9.0, 0.2, 3000)]
         asked = wishes(margin=8.0, torque_error=0.002)

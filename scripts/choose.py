@@ -205,6 +205,8 @@ def verified(choosing, files, best, seconds):
         check("expectations of the scene broken", len(row["broken"]), 0, not row["broken"])
         why = "for several axes it is by eigenvalues alone; the scene's expectations stand beside it"
         choosing.leave_out("margin on the bits", why)
+    elif best["margin"] is not None and not best["built"] and best["by"] == "engine" and best["ticks"] == 1:
+        choosing.leave_out("margin on the bits", "in each tick only on designs that are built in")
     elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "stiffness":
         words = ("--linear-plant", choosing.plant, "--rate", f"{best['rate_hz']:.9g}")
         words += ("--damping", f"{choosing.report['damping_nm_s_rad']:.9g}", "--no-experiments")

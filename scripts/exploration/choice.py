@@ -148,6 +148,18 @@ def error_parts(counts, rate, rounding, plant, rounded_by="run: measured and pro
     return told
 
 
+def added(row, counts):
+    """(rms, worst) of what a rate adds to the counts alone."""
+    return [max(0.0, row[f"error_{key}_nm"] - of) for key, of in zip(("rms", "max"), counts, strict=True)]
+
+
+def plant_part(trim, largest_nm):
+    """(rms, worst) of what the left-out effects change in the torque, over all motions tried."""
+    motions = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
+    worst = {key: max(m["torque"][key] for m in motions) for key in ("rms", "peak")}
+    return worst["rms"] * largest_nm, worst["peak"] * largest_nm
+
+
 def summed(parts, key):
     return {"parts": parts, key: total(parts, key)}
 

@@ -125,13 +125,6 @@ def rounding_part(programs, scene, design):
     return min(rms, errors["max_error"]), max(errors["bound"] or 0.0, errors["max_error"])
 
 
-def plant_part(trim, largest_nm):
-    """(rms, worst) of what the left-out effects change in the torque, over all motions tried."""
-    motions = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
-    worst = {key: max(m["torque"][key] for m in motions) for key in ("rms", "peak")}
-    return worst["rms"] * largest_nm, worst["peak"] * largest_nm
-
-
 class Choosing:
     """What the commands found out about a question, and the alternatives that follow."""
 
@@ -193,7 +186,8 @@ class Choosing:
     def kept_designs(self):
         """The designs of the table that may render the scene, or the device's own alone."""
         q = self.question
-        self.kept, left = choice.designs(self.table, self.base, q.scene["core"]["scene"] if q.of_block() else None)
+        scene = q.scene["core"]["scene"] if q.of_block() else None
+        self.kept, left = choice.designs(self.table, self.base, scene)
         self.own_row = next(row for row in self.kept if not row.change)
         if q.device:
             left = {"for one lever: a device has a design of its own": len(self.table) - 1}
@@ -246,7 +240,7 @@ class Choosing:
     def alternatives(self):
         """All of them, as the JSON has them."""
         rounding = self.rounding()
-        plant = plant_part(self.trim, self.largest_nm) if self.trim else None
+        plant = choice.plant_part(self.trim, self.largest_nm) if self.trim else None
         cells = self.budget["figures"]["lever"]["core without read-back, inferred"]
         cells_per_lut4 = cells["cyclone_cells"] / cells["lut4_equivalents"]
         engine = ("engine", self.budget["figures"]["lever"]["axes_engine"])
@@ -264,6 +258,7 @@ class Choosing:
                 elif rate["rate_hz"] > 1.001 * tick_hz:
                     continue
                 margin = self.margin(row, i)
+                parts = self.error_parts(row, rate, counts, rounding, plant)
                 found.append({
                     "design": self.name_of(row),
                     "cutoff_rad_s": row.get(choice.CUTOFF),
@@ -275,7 +270,7 @@ class Choosing:
                     "rate_hz": rate["rate_hz"],
                     "ticks": max(1, round(tick_hz / rate["rate_hz"])),
                     "clocks": [rate.get("clocks_used", 0), rate.get("clocks_available", 0)],
-                    "error": choice.error_of(self.error_parts(row, rate, counts, rounding, plant), self.largest_nm),
+                    "error": choice.error_of(parts, self.largest_nm),
                     "margin": margin,
                     "margin_by": self.margin_by(margin),
                     "latency": choice.latency_of(rate, self.delays(row)),
@@ -292,12 +287,13 @@ class Choosing:
     def name_of(self, row):
         if not row.change:
             return self.design
-        return f"{self.design}_{row.get(choice.CUTOFF):g}" if row.in_registers() else f"{self.design}_{row.figures['id'][:6]}"
+        own = f"{row.get(choice.CUTOFF):g}" if row.in_registers() else row.figures["id"][:6]
+        return f"{self.design}_{own}"
 
     def error_parts(self, row, rate, counts, rounding, plant):
         """Of a design and a rate: what the rate adds is measured on `lever`."""
         own, _ = self.of_loop(self.report, self.own_row)
-        more = [max(0.0, rate[key] - of) for key, of in zip(("error_rms_nm", "error_max_nm"), own, strict=True)]
+        more = choice.added(rate, own)
         if not row.change:
             return choice.error_parts(counts, more, rounding, plant)
         table = [float(row.figures[key]) for key in ("torque_error_max_nm", "bound_torque_nm")]
@@ -320,8 +316,9 @@ class Choosing:
 
     def scene_of(self, best):
         """The scene on what is left of the plant; a cut-off that a register of `lever` holds is in it."""
-        words = {"velocity_a1": choice.word(best["cutoff_rad_s"], TICK_HZ)} if best["set"] and best["built"] else {}
-        return made_scene.with_values(self.scene, **words)
+        if not best["set"] or not best["built"]:
+            return made_scene.with_values(self.scene)
+        return made_scene.with_values(self.scene, velocity_a1=choice.word(best["cutoff_rad_s"], TICK_HZ))
 
     def of_chain(self, best, design):
         """The design for `feltgate stability`: a file is `lever` with the cut-off of the choice."""
@@ -352,8 +349,8 @@ class Choosing:
         report, row = self.row_of(best, scene)
         programs, design = self.programs_of(best)
         counts = [report[key] for key in ("counts_alone_rms_nm", "counts_alone_max_nm")]
-        rate = [max(0.0, row[key] - of) for key, of in zip(("error_rms_nm", "error_max_nm"), counts, strict=True)]
-        for part, own in zip(best["error"]["parts"], (counts, rate, rounding_part(programs, scene, design)), strict=False):
+        found = (counts, choice.added(row, counts), rounding_part(programs, scene, design))
+        for part, own in zip(best["error"]["parts"], found, strict=False):
             part["rms_nm"], part["worst_nm"] = max(part["rms_nm"], own[0]), max(part["worst_nm"], own[1])
         best["error"] = choice.error_of(best["error"]["parts"], self.largest_nm)
         best["own_motion"] = True
@@ -388,7 +385,7 @@ class Choosing:
         """Of a scene of the core: the slowest rate at which a host's law would meet error and margin."""
         if not self.question.of_block():
             return None
-        plant = plant_part(self.trim, self.largest_nm) if self.trim else (0.0, 0.0)
+        plant = choice.plant_part(self.trim, self.largest_nm) if self.trim else (0.0, 0.0)
         for row in self.report["rates"]:
             if row["by"] == "block" or row["error_rms_nm"] is None:
                 continue

@@ -86,7 +86,8 @@ def named(text, point):
     """The design's text with a head and a description of its own, not those of its base."""
     what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
     text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)
-    return re.sub(r"^description = .*$", lambda _: f"description = {json.dumps(what)}", text, count=1, flags=re.M)
+    line = f"description = {json.dumps(what)}"
+    return re.sub(r"^description = .*$", lambda _: line, text, count=1, flags=re.M)
 
 
 def own_program(command, name, text):

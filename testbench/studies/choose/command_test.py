@@ -220,8 +220,7 @@ class Chosen(Scratch):
     def test_a_hand_that_gives_way_moves_another_design_otherwise(self):
         """The law has no speed, and yet the cut-off is in the motion, by the back-EMF."""
         self.put("spring.law", LAW)
-        hand = "[[hand.phase]]\nkind = \"impedance\"\nmotion = [{ kind = \"minimum_jerk\", duration_s = 0.02, to_rad = 0.3 }]\n"
-        scene = self.put("soft.toml", SPRING.split("[hand]")[0] + "[hand]\n" + hand)
+        scene = self.put("soft.toml", SPRING.replace("prescribed", "impedance").replace("0.06, to_rad", "0.02, to_rad"))
         asked = {"torque_error": 0.2, "margin": 2.0, "stated": [], "objective": None, "chip": None, "latency": None}
         programs = choosing.Programs(self.folder, quiet=True)
         found = choosing.Choosing(choosing.Question(str(scene), programs), programs, asked)

@@ -141,7 +141,8 @@ class Rates(Scratch):
         self.assertAlmostEqual(half["margins"][0] / lever["margins"][0], 1, delta=0.01)
 
     def test_a_scenes_own_cut_off_is_in_the_margin_of_its_states(self):
-        self.put("damped.law", "let slow = lowpass(position, 100 Hz)\nout torque = -(2 mNm s/rad) * velocity - (1 Nm/rad) * slow\n")
+        damped = "let slow = lowpass(position, 100 Hz)\nout torque = -(2 mNm s/rad) * velocity - (1 Nm/rad) * slow\n"
+        self.put("damped.law", damped)
         law = SCENE.replace('"wall"', '"law"\nlaw = "damped.law"').replace("wall_contact = 5", "velocity_a1 = 9.495489e-4")
         with_own = self.put("with.toml", law)
         without = self.put("without.toml", law.replace("[parameters]\nvelocity_a1 = 9.495489e-4\n", ""))

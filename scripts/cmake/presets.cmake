@@ -37,7 +37,8 @@ foreach(design IN LISTS FELTGATE_PRESETS own_names)
   add_executable(feltgate_${design}
     $<TARGET_OBJECTS:preset_${design}> $<TARGET_OBJECTS:feltgate> $<TARGET_OBJECTS:feltgate_run_parts>)
   target_link_libraries(feltgate_${design} PRIVATE ${libraries} core_${design})
-  if(design IN_LIST own_names)  # `feltgate rates` also takes the law of a block
+  if(NOT design STREQUAL "lever_law" AND NOT design IN_LIST FELTGATE_AXES_PRESETS)
+    # `feltgate rates` also takes the law of a block.
     target_sources(feltgate_${design} PRIVATE $<TARGET_OBJECTS:preset_lever_law>)
     target_link_libraries(feltgate_${design} PRIVATE core_lever_law)
   endif()

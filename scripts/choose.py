@@ -25,7 +25,8 @@ LEAST_ARMED_S = 0.001  # of the scene, in RTL
 AGREES = 0.05  # bits and eigenvalues, as `feltgate stability` demands
 EPILOG = """SCENE is a name in vectors/scenes or a path; LAW a name in rtl/laws or the path of a law file of
 your own, which a hand then sweeps. Without a wish the aims are 1% and a margin of 2. The answer is
-the fewest gates, then the slowest law, that meet all of them. Its error is the sum of its parts:
+a design that is built in, with the fewest gates, then the slowest law, that meet all of them; else one
+of the explored table, for which a program is built. Its error is the sum of its parts:
 encoder, rate, rounding, plant effects left out, each from the command that measures it. It is then
 verified: RTL and twin in lock-step, the error, and the margin on the chain's bits.
 

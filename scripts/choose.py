@@ -8,7 +8,6 @@ docs/choose.md
 """
 
 import json
-import re
 import sys
 import tempfile
 import tomllib
@@ -17,8 +16,7 @@ from pathlib import Path
 import command_line
 import outputs
 from exploration import choice, choose_text, made_scene
-from exploration.choosing import NAME, Choosing, Programs, Question, named
-from exploration.design_text import design_text
+from exploration.choosing import NAME, Choosing, Programs, Question
 
 SCHEMA = "feltgate-choose/1"
 RTL_SECONDS = {"block": 1.5, "law": 0.4, "axes": 0.15}  # by default: half a minute of one core
@@ -27,7 +25,8 @@ LEAST_ARMED_S = 0.001  # of the scene, in RTL
 AGREES = 0.05  # bits and eigenvalues, as `feltgate stability` demands
 EPILOG = """SCENE is a name in vectors/scenes or a path; LAW a name in rtl/laws or the path of a law file of
 your own, which a hand then sweeps. Without a wish the aims are 1% and a margin of 2. The answer is
-the fewest gates, then the slowest law, that meet all of them. Its error is the sum of its parts:
+a design that is built in, with the fewest gates, then the slowest law, that meet all of them; else one
+of the explored table, for which a program is built. Its error is the sum of its parts:
 encoder, rate, rounding, plant effects left out, each from the command that measures it. It is then
 verified: RTL and twin in lock-step, the error, and the margin on the chain's bits.
 
@@ -44,7 +43,7 @@ def number(least, most, unit):
     def read(text):
         share = unit == "share" and text.endswith("%")
         try:
-            value = float(text.rstrip("%")) / (100 if share else 1)
+            value = float(text.removesuffix("%" if share else "")) / (100 if share else 1)
         except ValueError:
             value = float("nan")
         if not least <= value <= most:
@@ -103,7 +102,7 @@ def arguments_of(words):
     outputs.check(parser, json=options.json)
     outputs.check_folder(parser, "--output", options.output)
     try:
-        named(options.scene)
+        made_scene.named(options.scene)
     except command_line.Refused as error:
         parser.error(str(error))
     return options
@@ -127,7 +126,7 @@ class Files:
         q = choosing.question
         self.folder.mkdir(parents=True, exist_ok=True)
         self.scene_path = self.folder / f"{q.name}.toml"
-        scene = choosing.scene_of(best["set"])
+        scene = choosing.scene_of(best)
         if q.law:
             self.law_path = self.folder / f"{q.law.stem}.law"
             law = q.law.read_text(encoding="utf-8")
@@ -140,15 +139,7 @@ class Files:
         self.design_path = best["design"]
         if best["set"]:
             self.design_path = self.folder / f"{best['design']}.toml"
-            point = {"base": choosing.design, "set": best["set"]}
-            self._put(self.design_path, self._named(design_text(command_line.root(), point), point))
-
-    @staticmethod
-    def _named(text, point):
-        """The design's text with a head and a description of its own, not those of its base."""
-        what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
-        text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)
-        return re.sub(r"^description = .*$", lambda _: f"description = {json.dumps(what)}", text, count=1, flags=re.M)
+            self._put(self.design_path, choosing.text_of(best))
 
     def _put(self, path, text):
         outputs.write_whole(path, text)
@@ -156,6 +147,9 @@ class Files:
     def commands(self, choosing):
         """What a user may go on with."""
         q, scene = choosing.question, self.scene_path
+        if not self.best["built"]:  # a program of its own, as docs/designs.md has it
+            first = [f"cp {self.design_path} rtl/designs/", "./feltgate generate"]
+            return [*first, f"./feltgate run {scene} --design {self.best['design']}"]
         found = [f"./feltgate run {scene} --report REPORT" if not q.device else f"./feltgate run {scene}"]
         if not q.device:
             found.append(f"./feltgate design {self.design_path}")
@@ -176,7 +170,9 @@ def armed_check(scene, seconds):
 
 def verified(choosing, files, best, seconds):
     """The choice in RTL and twin: [{what, measured, limit, holds}], and what was run."""
-    q, ask = choosing.question, choosing.programs.ask
+    q = choosing.question
+    programs, design = choosing.programs_of(best)
+    ask = programs.ask
     kind = "axes" if q.device else q.kind()
     seconds = min(seconds or RTL_SECONDS[kind], files.scene["duration_s"])
     short = files.folder / f".{q.name}_rtl.toml"
@@ -188,13 +184,12 @@ def verified(choosing, files, best, seconds):
     short.write_text(made_scene.toml_text([], made_scene.cut(files.scene, seconds)), encoding="utf-8")
     try:
         engines = "rtl" if q.device else "rtl,twin,quad"
-        run = ask("run", short, "--design", choosing.design, "--engine", engines, "--quiet")
+        run = ask("run", short, "--design", design, "--engine", engines, "--quiet")
     finally:
         short.unlink()
     check("mismatches between RTL and twin", run["mismatches"], 0, run["mismatches"] == 0)
     checks.append(armed_check(files.scene, seconds))
-    rates = ask("rates", files.scene_path, "--rate", f"{best['rate_hz']:.9g}", "--quiet")["scenes"][0]
-    row = next(r for r in rates["rates"] if r["by"] == best["by"] and r["ticks"] == best["ticks"])
+    _, row = choosing.row_of(best, files.scene_path)
     rms, worst = row["error_rms_nm"], row["error_max_nm"]
     if not q.device:
         core = run["engines"]["rtl"]["torque_nm"]
@@ -211,13 +206,17 @@ def verified(choosing, files, best, seconds):
         check("expectations of the scene broken", len(row["broken"]), 0, not row["broken"])
         why = "for several axes it is by eigenvalues alone; the scene's expectations stand beside it"
         choosing.leave_out("margin on the bits", why)
+    elif best["margin"] is not None and not best["built"] and best["by"] == "engine" and best["ticks"] == 1:
+        choosing.leave_out("margin on the bits", "in each tick only on designs that are built in")
     elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "stiffness":
         words = ("--linear-plant", choosing.plant, "--rate", f"{best['rate_hz']:.9g}")
         words += ("--damping", f"{choosing.report['damping_nm_s_rad']:.9g}", "--no-experiments")
-        border = ask("stability", choosing.design_file(best), *words)["borders"][0]["bits_nm_rad"]
+        border = ask("stability", choosing.of_chain(best, design), *words)["borders"][0]["bits_nm_rad"]
         bits = (border or 0.0) / choosing.report["stiffness_nm_rad"]
         said = best["margin"]["margin"]
         check("margin on the chain's bits", bits, said, abs(bits / said - 1) <= AGREES)
+    elif best["margin"] is not None and not best["built"]:
+        choosing.leave_out("margin on the bits", "of a law with states only on the designs that are built in")
     elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "torque":
         # Of the law at rest, which may be beside the place of the motion that the margin is for.
         gains = ask("stability", files.scene_path)["scenes"][0].get("gains", [{"bits": None, "why": "none at rest"}])
@@ -241,6 +240,9 @@ def answer_of(options, folder):
     choosing.measure()
     all_of = choosing.alternatives()
     best, front = choice.choose(all_of, wishes)
+    while best["set"] and not best["own_motion"]:  # what is recommended runs by itself first
+        choosing.run_itself(best)
+        best, front = choice.choose(all_of, wishes)
     out = options.output or command_line.build_folder() / "choose" / question.name
     files = Files(out, choosing, best)
     told = {"schema": SCHEMA, "scene": question.name, "title": question.scene["title"]}

@@ -12,11 +12,11 @@ list(TRANSFORM FELTGATE_CORE_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
 file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_axes.f" FELTGATE_AXES_SOURCES REGEX "^[^/]")
 list(TRANSFORM FELTGATE_AXES_SOURCES PREPEND "${FELTGATE_ROOT}/rtl/")
 
-# feltgate_core_of(<design> <top> <sources>): the module that a back-end of the design runs, and its
+# feltgate_core_of(<folder of its package> <top> <sources>): the module that a back-end of the design runs, and its
 # files: the core, or with an engine of laws one axis and that.
-function(feltgate_core_of design top sources)
+function(feltgate_core_of folder top sources)
   set(of core)
-  file(STRINGS "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv" engine REGEX " ENGINE = 1;")
+  file(STRINGS "${folder}/feltgate_pkg.sv" engine REGEX " ENGINE = 1;")
   if(engine)
     set(of axes)
   endif()
@@ -28,7 +28,7 @@ endfunction()
 add_library(feltgate_rtl STATIC "${FELTGATE_ROOT}/model/sim/backends/rtl_backends.cpp")
 foreach(design IN LISTS FELTGATE_DESIGNS)
   set(type ${FELTGATE_TYPE_${design}})
-  feltgate_core_of(${design} top sources)
+  feltgate_core_of("${FELTGATE_ROOT}/rtl/generated/${design}" top sources)
   feltgate_verilate(core_${design} ${top}
     "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${sources}"
     CLASS Vcore_${design} FASTEST)

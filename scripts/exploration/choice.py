@@ -7,15 +7,19 @@ All figures come from the program's JSON and the committed tables; this adds and
 Documentation: docs/choose.md
 """
 
+import json
 import math
 from dataclasses import dataclass
 
 from exploration.front import beats
 
-CUTOFF, OBSERVER = "velocity.cutoff_rad_s", "observer.cutoff_rad_s"
+CUTOFF, OBSERVER, INCLUDE = "velocity.cutoff_rad_s", "observer.cutoff_rad_s", "scenes.include"
+TICK = "clock.tick_hz"
+LOOP = (TICK, "velocity.m1", "velocity.n", "velocity.gain", CUTOFF)
 BEFORE, AFTER = "front", "bound_holds"  # the columns of the table between these are the design's
 NOT_ASKED = "left out, see below"
 MORE = 5  # alternatives that are shown
+ALIKE = 0.02  # of the logarithms: what misses the wishes by next to the same is alike
 
 
 @dataclass(frozen=True)
@@ -51,19 +55,47 @@ def word(cutoff_rad_s, tick_hz):
     return -math.expm1(-cutoff_rad_s / tick_hz)
 
 
-def designs(rows, base):
-    """({cut-off of the velocity: row}, {why the others are left out: how many}) of the table's rows.
-    `base` is the parsed design file of `lever`: with another cut-off of the velocity it runs in the
-    built programs, by a register. The observer stays that of `lever`, which only displays."""
-    tick_hz, own = base["clock"]["tick_hz"], base["velocity"]["cutoff_rad_s"]
+def value_of(text):
+    """A value of the table as a design file has it."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
 
-    def octave(cutoff):
-        return math.frexp(word(cutoff, tick_hz))[1]
 
-    kept, left = {}, {}
+@dataclass(frozen=True)
+class Row:
+    """A design of the table: what it changes in `lever`. Its observer, which only displays, stays."""
+
+    figures: dict
+    change: dict
+    base: dict
+
+    def get(self, key):
+        section, name = key.split(".")
+        return self.change.get(key, self.base.get(section, {}).get(name))
+
+    def loop(self):
+        """What decides the velocity estimate and the linear loop."""
+        return {key: self.change[key] for key in LOOP if key in self.change}
+
+    def in_registers(self):
+        """Whether the built programs of `lever` run it, by a value in a register."""
+        tick_hz, own = self.base["clock"]["tick_hz"], self.base["velocity"]["cutoff_rad_s"]
+        octave = [math.frexp(word(cutoff, tick_hz))[1] for cutoff in (self.get(CUTOFF), own)]
+        return not set(self.change) - {CUTOFF} and octave[0] == octave[1]
+
+
+def designs(rows, base, scene):
+    """([Row], {why the others are left out: how many}) of the table's rows for a scene of the core,
+    or None: a law. `base` is the parsed design file of `lever`."""
+    kept, left, seen = [], {}, set()
     for row in rows:
-        change = settings(row)
-        cutoff = float(change.get(CUTOFF, own))
+        change = {key: value_of(text) for key, text in settings(row).items()}
+        observer = change.pop(OBSERVER, None)
+        own = Row(row, {}, base)
+        change = {key: value for key, value in change.items() if value != own.get(key)}
+        included = change.get(INCLUDE)
         why = ""
         if row["status"] != "ok" or row["mismatches"] != "0":
             why = "not measured"
@@ -71,17 +103,16 @@ def designs(rows, base):
             why = "too coarse for use"
         elif row["stable"] != "True":
             why = "unstable around p24"
-        elif set(change) - {CUTOFF, OBSERVER}:
-            why = "another tick, window, format or list of scenes: in no built program (preset exact)"
-        elif octave(cutoff) != octave(own):
-            why = "a cut-off beyond the register of `lever`: in no built program (preset fast)"
-        elif cutoff in kept:
-            why = "another cut-off of the observer alone, which no torque feels"
+        elif included is not None and scene not in included:
+            why = "without this scene" if scene else "other scenes: a law needs the set-point alone"
+        elif json.dumps(change) in seen:
+            why = "the same as another" if observer is None else "another cut-off of the observer alone"
         else:
-            kept[cutoff] = row
+            seen.add(json.dumps(change))
+            kept.append(Row(row, change, base))
         if why:
             left[why] = left.get(why, 0) + 1
-    return dict(sorted(kept.items())), left
+    return kept, left
 
 
 def total(parts, key):
@@ -99,17 +130,13 @@ def error_of(parts, largest_nm):
     }
 
 
-def error_parts(row, counts, rounding, plant):
+def error_parts(counts, rate, rounding, plant, rounded_by="run: measured and proven worst"):
     """Of one rate: counts alone, what the rate adds to it, the rounding behind the law, and the plant
-    that is left out; (rms, worst) each but the row of `feltgate rates`, None where no command says."""
-    rate = [
-        max(0.0, row["error_rms_nm"] - counts[0]),
-        max(0.0, row["error_max_nm"] - counts[1]),
-    ]
+    that is left out; (rms, worst) each, None where no command says."""
     named = (
         ("encoder and velocity estimate", counts, "rates: counts alone"),
         ("rate and bits of the law", rate, "rates: this rate, less the counts"),
-        ("rounding behind the law", rounding, "run: measured and proven worst"),
+        ("rounding behind the law", rounding, rounded_by),
         ("plant effects left out", plant, "trim: own and unseen motions"),
         ("simulation engine twin", (0.0, 0.0), "the RTL's bits, verified below"),
     )
@@ -121,6 +148,18 @@ def error_parts(row, counts, rounding, plant):
     return told
 
 
+def added(row, counts):
+    """(rms, worst) of what a rate adds to the counts alone."""
+    return [max(0.0, row[f"error_{key}_nm"] - of) for key, of in zip(("rms", "max"), counts, strict=True)]
+
+
+def plant_part(trim, largest_nm):
+    """(rms, worst) of what the left-out effects change in the torque, over all motions tried."""
+    motions = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
+    worst = {key: max(m["torque"][key] for m in motions) for key in ("rms", "peak")}
+    return worst["rms"] * largest_nm, worst["peak"] * largest_nm
+
+
 def summed(parts, key):
     return {"parts": parts, key: total(parts, key)}
 
@@ -130,7 +169,7 @@ def margin_of(at_fastest, at_rate, of_design):
     steps = (at_fastest, at_rate, of_design)
     if None in steps:
         return None
-    names = ("at the fastest rate", "this rate", "cut-off of the velocity")
+    names = ("lever at the fastest rate", "this rate", "this design")
     values = (steps[0], steps[1] - steps[0], steps[2] - steps[1])
     return summed([{"part": p, "margin": v} for p, v in zip(names, values, strict=True)], "margin")
 
@@ -216,13 +255,15 @@ def measures(one):
 
 
 def order(objective):
-    """What the choice is by: the objective first, then gates, the slowest law, and the error."""
+    """What the choice is by: the objective first, then gates, the slowest law, and the error. Without
+    an objective a design of the built programs goes first: it needs no program of its own."""
     keys = {"fastest": lambda o: o["latency"]["ms"], "stiffest": lambda o: measures(o)[1]}
+    keys |= {"smallest": lambda o: alike(o["gates"]["lut4_equivalents"])}
 
     def sorted_by(one):
+        first = keys[objective](one) if objective else not one["built"]
         gates = alike(one["gates"]["lut4_equivalents"])
-        first = keys[objective](one) if objective in keys else gates
-        return first, gates, one["rate_hz"], one["error"]["share"], one["cutoff_rad_s"]
+        return first, gates, not one["built"], one["rate_hz"], one["error"]["share"], one["cutoff_rad_s"]
 
     return sorted_by
 
@@ -233,7 +274,7 @@ def choose(all_of, wishes):
     stated_only = wishes["objective"] is not None
     near = {id(o): distance(o, wishes, stated_only) for o in all_of}
     least = min(near.values())
-    able = [o for o in all_of if near[id(o)] <= least + 1e-12]
+    able = [o for o in all_of if near[id(o)] <= (least + ALIKE if least else 0.0)]
     best = min(able, key=order(wishes["objective"]))
     front = [o for o in all_of if not any(beats(measures(p), measures(o)) for p in all_of)]
     others = sorted((o for o in front if o is not best), key=lambda o: (near[id(o)], order(None)(o)))

@@ -19,6 +19,11 @@ def in_words(one):
     return f"design {one['design']}, {by} at {rate(one['rate_hz'])}"
 
 
+def changes(one):
+    """What a design of the table changes in `lever`."""
+    return ", ".join(f"{key} {value}" for key, value in one["set"].items()).replace('"', "")
+
+
 def of_wish(wish, value):
     """A value in the unit of its wish."""
     if value is None:
@@ -94,6 +99,8 @@ def front(told):
             f"{mark} {in_words(one):<54}{100 * one['error']['share']:6.3g} %{margin:>9}"
             f"{one['latency']['ms']:7.3g} ms{one['gates']['lut4_equivalents']:9}"
         )
+        if one["set"]:
+            lines.append(f"    {changes(one)}")
     left = told["designs"]["left_out"]
     whole = told["designs"]["in_table"]
     lines.append(f"left out of the {whole} designs of the table: {sum(left.values())}")
@@ -143,6 +150,8 @@ def text(told):
     if told["made_motion"]:
         lines.append("a law has no motion: a hand sweeps 0.8 rad to both sides; give a scene for yours")
     lines += ["", f"CHOICE      {in_words(one)}"]
+    if one["set"]:
+        lines.append(f"            lever with {changes(one)}")
     if one["by"] == "engine":
         lines.append(f"            a run takes {one['clocks'][0]} of {one['clocks'][1]} clocks of the engine")
     lines += [*simulation(told), *sums(one, asked["largest_nm"])]

@@ -6,13 +6,12 @@ Documentation: docs/choose.md
 """
 
 import csv
-import difflib
 import itertools
 import json
 import os
+import re
 import shlex
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import building
@@ -20,7 +19,7 @@ import command_line
 import interrupts
 from command_line import Refused
 from exploration import choice, made_scene
-from exploration.design_text import design_text
+from exploration.design_text import design_text, named, own_program
 
 NAME = "choose"
 TABLE = "vectors/spaces/trade.csv"
@@ -32,8 +31,11 @@ TICK_HZ = 1_000_000  # of `lever`
 class Programs:
     """The C++ program, its answers as JSON."""
 
-    def __init__(self, folder, quiet):
-        self.folder, self.quiet, self.numbers = Path(folder), quiet, itertools.count()
+    numbers = itertools.count()  # of all answers
+
+    def __init__(self, folder, quiet, environment=()):
+        self.folder, self.quiet = Path(folder), quiet
+        self.environment, self.about = os.environ | dict(environment), ""
         self.name = "feltgate_lever_law"
 
     def ask(self, command, *words, codes=(0, 1)):
@@ -45,9 +47,11 @@ class Programs:
         words = [program, command, *map(str, words), "--json", answer]
         if not self.quiet:
             command_line.say(NAME, shlex.join([command, *map(str, words[2:-2])]))
-        done = interrupts.run(words, **interrupts.CAPTURED)
+        done = interrupts.run(words, env=self.environment, **interrupts.CAPTURED)
         if done.returncode not in codes or not answer.exists():
             said = (done.stderr or done.stdout).strip().removeprefix("feltgate: ")
+            # Of a file that is made for the moment, the place means nothing to a user.
+            said = re.sub(rf"{re.escape(str(self.folder))}/[^\s:]+(:\d+)*: ", f"{self.about}: ", said)
             raise Refused(said or f"{command} ended with {done.returncode}")
         return json.loads(answer.read_text(encoding="utf-8"))
 
@@ -57,31 +61,11 @@ class Programs:
         return path
 
 
-def named(given):
-    """(path of a scene, None) or (None, path of a law)."""
-    root, path = command_line.root(), Path(given)
-    scenes = {p.stem: p for p in root.glob("vectors/scenes/*.toml")}
-    laws = {p.stem: p for p in root.glob("rtl/laws/*.law")}
-    scene = scenes.get(given) or (path if given.endswith(".toml") else None)
-    law = laws.get(given) or (path if given.endswith(".law") else None)
-    found = scene or law
-    if found is None:
-        near = difflib.get_close_matches(given, [*scenes, *laws], 1)
-        mend = f"did you mean {near[0]}? Or " if near else ""
-        raise Refused(
-            f'"{given}" is neither a scene nor a law; {mend}give a name in vectors/scenes or rtl/laws, '
-            "or the path of a .toml or .law file"
-        )
-    if not found.is_file():
-        raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes or rtl/laws")
-    return (scene, None) if scene else (None, law)
-
-
 class Question:
     """A scene, read; for a law without one, the scene in which a hand sweeps it."""
 
     def __init__(self, given, programs):
-        root = command_line.root()
+        root, programs.about = command_line.root(), given
         self.path, self.made = self._find(given, root, programs)
         try:
             self.scene = tomllib.loads(self.path.read_text(encoding="utf-8"))
@@ -104,7 +88,7 @@ class Question:
 
     def _find(self, given, root, programs):
         """(path of the scene, whether it was made for a law)."""
-        scene, law = named(given)
+        scene, law = made_scene.named(given)
         if scene:
             return scene, False
         for scene in sorted(root.glob("vectors/scenes/*.toml")):  # one that renders a shipped law
@@ -141,25 +125,6 @@ def rounding_part(programs, scene, design):
     return min(rms, errors["max_error"]), max(errors["bound"] or 0.0, errors["max_error"])
 
 
-def plant_part(trim, largest_nm):
-    """(rms, worst) of what the left-out effects change in the torque, over all motions tried."""
-    motions = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
-    worst = {key: max(m["torque"][key] for m in motions) for key in ("rms", "peak")}
-    return worst["rms"] * largest_nm, worst["peak"] * largest_nm
-
-
-def linear_plant(question):
-    """The scene's plant as the margins of `feltgate rates` take it: linear, its viscous friction on."""
-    name = question.scene.get("plant", "p24")
-    own = "/" in name or name.endswith(".toml")
-    path = Path(name) if own else command_line.root() / "vectors/plants" / f"{name}.toml"
-    plant = tomllib.loads(path.read_text(encoding="utf-8"))
-    on = ("inductance", "back_emf", "viscous")
-    plant["effects"] = {key: key in on for key in plant["effects"]}
-    plant["motor"]["dead_voltage_v"] = plant["supply"]["diode_drop_v"] = 0.0
-    return made_scene.toml_text(["Linear, with viscous friction."], plant)
-
-
 class Choosing:
     """What the commands found out about a question, and the alternatives that follow."""
 
@@ -192,77 +157,65 @@ class Choosing:
             self.leave_out("plant effects", told)
         if q.law:
             self.scene["core"]["law"] = str(q.law.resolve())
-        self.report = ask("rates", self.path, "--rate", RATES[q.kind()], "--quiet")["scenes"][0]
-        if self.path != q.path:
-            self.margins_of_the_whole()
+        self.kept_designs()
+        self.report = self.rates(self.path)
         self.largest_nm = self.report["largest_nm"]
         if self.report["counts_alone_rms_nm"] is None or self.largest_nm <= 0:
             raise Refused(f"{q.path}: the law asks for no torque on this motion; give a scene that meets it")
+        self.whole = self.rates(q.path) if self.trims_the_loop() else self.report
 
-    def margins_of_the_whole(self):
-        """Where trimming took a part of the linear loop, margins without borders are those with it."""
-        own, off = self.trim["full"]["effects_off"], self.trim["trimmed"]["effects_off"]
-        borders = not self.question.device and self.report["rates"][-1].get("border_of") == "stiffness"
-        if borders or not {"inductance", "back_emf", "viscous"} & (set(off) - set(own)):
-            return
+    def rates(self, path):
+        """The scene's `rates`, with each velocity estimate of the table's designs beside that of `lever`."""
+        self.loops = {json.dumps(row.loop()): row.loop() for row in self.kept if row.loop()}
+        files = []
+        for number, loop in enumerate(self.loops.values()):
+            text = design_text(command_line.root(), {"base": "lever", "set": loop})
+            files.append(str(self.programs.put(f"beside{number}.toml", text)))
+        beside = ("--beside", ",".join(files)) if files else ()
         rates = RATES[self.question.kind()]
-        whole = self.programs.ask("rates", self.question.path, "--rate", rates, "--quiet")["scenes"][0]
-        for row, full in zip(self.report["rates"], whole["rates"], strict=True):
-            row["margin"] = full.get("margin")
+        return self.programs.ask("rates", path, "--rate", rates, *beside, "--quiet")["scenes"][0]
+
+    def trims_the_loop(self):
+        """Whether the linear loop lost a part of the scene's plant; the margins keep it."""
+        if not self.trim:
+            return False
+        own, off = self.trim["full"]["effects_off"], self.trim["trimmed"]["effects_off"]
+        linear = {"inductance", "back_emf"} | ({"viscous"} if self.question.device else set())
+        return bool(linear & (set(off) - set(own)))
 
     def kept_designs(self):
-        """{cut-off: row of the table}, or the device's own design alone."""
-        kept, left = choice.designs(self.table, self.base)
-        own = self.base["velocity"]["cutoff_rad_s"]
-        if self.question.device:
-            left = {"for one lever: a device has a design of its own": len(self.table)}
-            kept = {own: kept[own]}
-        elif "velocity_a1" in self.question.scene.get("parameters", {}):
-            left["the scene sets the cut-off itself"] = len(kept) - 1
-            kept = {own: kept[own]}
-        self.designs_left, self.own = left, own
-        return kept
+        """The designs of the table that may render the scene, or the device's own alone."""
+        q = self.question
+        scene = q.scene["core"]["scene"] if q.of_block() else None
+        self.kept, left = choice.designs(self.table, self.base, scene)
+        self.own_row = next(row for row in self.kept if not row.change)
+        if q.device:
+            left = {"for one lever: a device has a design of its own": len(self.table) - 1}
+            self.kept = [self.own_row]
+        elif "velocity_a1" in q.scene.get("parameters", {}):
+            left["the scene sets the cut-off of `lever` itself"] = len(self.kept) - 1
+            self.kept = [self.own_row]
+        self.designs_left = left
 
-    def variants(self, kept):
-        """{cut-off: (report, rounding)}: runs again where the velocity is in the torque."""
-        q, programs = self.question, self.programs
-        same = not q.uses_velocity(self.report)
+    def of_loop(self, report, row):
+        """(counts alone, margins) of a design's velocity estimate."""
+        keys = ("counts_alone_rms_nm", "counts_alone_max_nm")
+        if not row.loop():
+            return [report[key] for key in keys], [r.get("margin") for r in report["rates"]]
+        found = report["beside"][list(self.loops).index(json.dumps(row.loop()))]
+        return [found[key] for key in keys], found["margins"]
 
-        def one(cutoff):
-            if cutoff == self.own:
-                scene, report = self.path, self.report
-            else:
-                text = made_scene.toml_text([], self.scene_of({choice.CUTOFF: cutoff}))
-                scene = programs.put(f"{q.name}_{cutoff:g}.toml", text)
-                rates = TICK_HZ if q.of_block() else RATES["law"]  # a block has one rate
-                report = programs.ask("rates", scene, "--rate", rates, "--quiet")["scenes"][0]
-            return report, rounding_part(programs, scene, self.design)
-
+    def rounding(self):
+        """(rms, worst) behind the law, of the built design; None for several axes."""
+        q = self.question
         if q.device:
             self.leave_out("rounding behind the law", "not measured apart for several axes")
-            return {self.own: (self.report, None)}
-        if same:
-            return dict.fromkeys(kept, one(self.own))
-        with ThreadPoolExecutor(2) as pool:
-            return dict(zip(kept, pool.map(one, kept), strict=True))
-
-    def borders(self, kept):
-        """{cut-off: border by eigenvalues at each rate} of a wall with the law's damping."""
-        q, damping = self.question, f"{self.report['damping_nm_s_rad']:.9g}"
-        if q.device:
             self.leave_out("delay of PWM and winding", "`feltgate stability` takes one lever")
-            return {}
-        self.plant = self.programs.put("linear_viscous.toml", linear_plant(q))
-        rates = ",".join(f"{r['rate_hz']:.9g}" for r in self.report["rates"])
-        found = {}
-        for cutoff in kept:
-            text = design_text(command_line.root(), {"base": "lever", "set": {choice.CUTOFF: cutoff}})
-            file = self.programs.put(f"cutoff_{cutoff:g}.toml", text)
-            words = ("--linear-plant", self.plant, "--damping", damping, "--rate", rates)
-            told = self.programs.ask("stability", file, *words, "--no-bits", "--no-experiments")
-            self.actuator_s = told["actuator_delay_s"]
-            found[cutoff] = [b["eigenvalues_nm_rad"] for b in told["borders"]]
-        return found
+            return None
+        self.plant = self.programs.put("linear_viscous.toml", made_scene.linear_plant(q.scene))
+        words = ("--linear-plant", self.plant, "--damping", 0, "--rate", 1e6, "--no-bits", "--no-experiments")
+        self.actuator_s = self.programs.ask("stability", "lever", *words)["actuator_delay_s"]
+        return rounding_part(self.programs, self.path, self.design)
 
     def core(self, row):
         """(what, gates) of a design's core."""
@@ -270,50 +223,52 @@ class Choosing:
             name = f"{self.report['axes']} axes, registered"
             return f"core, {name}", self.budget["figures"]["lever"][name]
         if self.question.of_block():
-            return "core, nine scenes", row
+            return "core, its scenes", row.figures
         alone = self.budget["scene_sets"]["lever"]["setpoint"]
-        more = int(row["lut4_equivalents"]) - int(self.own_row["lut4_equivalents"])
-        return "core, set-point alone", alone | {"lut4_equivalents": alone["lut4_equivalents"] + more}
+        own = self.own_row.figures
+        more = {k: int(row.figures[k]) - int(own[k]) for k in ("lut4_equivalents", "mult18", "bram")}
+        return "core, set-point alone", {k: alone[k] + more[k] for k in more}
 
     def delays(self, row):
-        parts = {"core: from the sample to the duty": float(row["latency_us"]) / 1e6}
+        parts = {"core: from the sample to the duty": float(row.figures["latency_us"]) / 1e6}
         if not self.question.device:
             parts["PWM and winding"] = self.actuator_s
         if self.question.uses_velocity(self.report):
-            parts["velocity estimate"] = float(row["delay_s"])
+            parts["velocity estimate"] = float(row.figures["delay_s"])
         return {"clock_hz": self.base["clock"]["clock_hz"], "parts": parts}
 
     def alternatives(self):
         """All of them, as the JSON has them."""
-        kept = self.kept_designs()
-        self.own_row = kept[self.own]
-        variants, borders = self.variants(kept), self.borders(kept)
-        self.found_borders = borders
-        plant = plant_part(self.trim, self.largest_nm) if self.trim else None
+        rounding = self.rounding()
+        plant = choice.plant_part(self.trim, self.largest_nm) if self.trim else None
         cells = self.budget["figures"]["lever"]["core without read-back, inferred"]
         cells_per_lut4 = cells["cyclone_cells"] / cells["lut4_equivalents"]
         engine = ("engine", self.budget["figures"]["lever"]["axes_engine"])
         by = "block" if self.question.of_block() else "engine"
         found = []
-        for cutoff, row in kept.items():
-            report, rounding = variants[cutoff]
-            counts = (report["counts_alone_rms_nm"], report["counts_alone_max_nm"])
-            for rate in report["rates"]:
+        for row in self.kept:
+            counts, _ = self.of_loop(self.report, row)
+            gates = choice.gates_of(self.core(row), engine if by == "engine" else None)
+            for i, rate in enumerate(self.report["rates"]):
                 if rate["by"] != by or rate["error_rms_nm"] is None or rate["fault"]:
                     continue
-                same = [(r["by"], r["ticks"]) for r in self.report["rates"]]
-                i = same.index((rate["by"], rate["ticks"]))
-                margin = self.margin(borders, cutoff, i)
-                gates = choice.gates_of(self.core(row), engine if by == "engine" else None)
-                parts = choice.error_parts(rate, counts, rounding, plant)
+                tick_hz = row.get(choice.TICK)
+                if by == "block":
+                    rate = rate | {"rate_hz": tick_hz}
+                elif rate["rate_hz"] > 1.001 * tick_hz:
+                    continue
+                margin = self.margin(row, i)
+                parts = self.error_parts(row, rate, counts, rounding, plant)
                 found.append({
-                    "design": self.design if cutoff == self.own else f"{self.design}_{cutoff:g}",
-                    "cutoff_rad_s": cutoff,
-                    "set": {} if cutoff == self.own else {choice.CUTOFF: cutoff},
-                    "table_id": row["id"],
+                    "design": self.name_of(row),
+                    "cutoff_rad_s": row.get(choice.CUTOFF),
+                    "set": row.change,
+                    "built": row.in_registers(),
+                    "own_motion": not row.change,
+                    "table_id": row.figures["id"],
                     "by": by,
                     "rate_hz": rate["rate_hz"],
-                    "ticks": rate["ticks"],
+                    "ticks": max(1, round(tick_hz / rate["rate_hz"])),
                     "clocks": [rate.get("clocks_used", 0), rate.get("clocks_available", 0)],
                     "error": choice.error_of(parts, self.largest_nm),
                     "margin": margin,
@@ -329,34 +284,85 @@ class Choosing:
             raise Refused(f"{path}: a fault opens the gates at every rate; see `feltgate rates`")
         return found
 
-    def margin(self, borders, cutoff, i):
-        """Of a stiff law on one lever by the borders of the whole plant, else as `feltgate rates` has it."""
-        rates, stiffness = self.report["rates"], self.report["stiffness_nm_rad"]
-        if rates[i].get("border_of") == "stiffness" and borders:
-            values = (borders[self.own][-1], borders[self.own][i], borders[cutoff][i])
-            return choice.margin_of(*(value / stiffness for value in values))
-        own = rates[i].get("margin") if cutoff == self.own else None
-        return choice.margin_of(rates[-1].get("margin"), own, own)
+    def name_of(self, row):
+        if not row.change:
+            return self.design
+        own = f"{row.get(choice.CUTOFF):g}" if row.in_registers() else row.figures["id"][:6]
+        return f"{self.design}_{own}"
+
+    def error_parts(self, row, rate, counts, rounding, plant):
+        """Of a design and a rate: what the rate adds is measured on `lever`."""
+        own, _ = self.of_loop(self.report, self.own_row)
+        more = choice.added(rate, own)
+        if not row.change:
+            return choice.error_parts(counts, more, rounding, plant)
+        table = [float(row.figures[key]) for key in ("torque_error_max_nm", "bound_torque_nm")]
+        rounding = [max(pair) for pair in zip(rounding, table, strict=True)]
+        return choice.error_parts(counts, more, rounding, plant, "explore: largest measured, and bound")
+
+    def margin(self, row, i):
+        """From the fastest rate on `lever` to this rate and this design, of the scene's whole plant."""
+        _, own = self.of_loop(self.whole, self.own_row)
+        _, here = self.of_loop(self.whole, row)
+        return choice.margin_of(own[-1], own[i], here[i])
 
     def margin_by(self, margin):
         notes = [n for n in self.report["notes"] if n.startswith("no margin")]
-        last = self.report["rates"][-1]
-        if margin is None and last.get("border_of") in ("damping", "torque"):
-            return "no margin: that of the law's damping or states is known for the cut-off of `lever` alone"
         if margin is None:
             return notes[0] if notes else "no margin: the motion met the law nowhere stiff"
         fastest = margin["parts"][0]["margin"]
         held = "the rate" if fastest >= self.wishes["margin"] else "the law's own stiffness and damping"
         return f"{held}: {fastest:.3g} at the fastest"
 
-    def scene_of(self, change):
-        """The scene on what is left of the plant, on `lever` with these cut-offs."""
-        words = {"velocity_a1": choice.word(value, TICK_HZ) for value in change.values()}
-        return made_scene.with_values(self.scene, **words)
+    def scene_of(self, best):
+        """The scene on what is left of the plant; a cut-off that a register of `lever` holds is in it."""
+        if not best["set"] or not best["built"]:
+            return made_scene.with_values(self.scene)
+        return made_scene.with_values(self.scene, velocity_a1=choice.word(best["cutoff_rad_s"], TICK_HZ))
 
-    def design_file(self, best):
-        """A file for `feltgate stability`: `lever` with the cut-offs of the choice."""
-        return self.programs.folder / f"cutoff_{best['cutoff_rad_s']:g}.toml"
+    def of_chain(self, best, design):
+        """The design for `feltgate stability`: a file is `lever` with the cut-off of the choice."""
+        if not best["built"]:
+            return design
+        text = design_text(command_line.root(), {"base": "lever", "set": best["set"]})
+        return self.programs.put("chain.toml", text)
+
+    def text_of(self, best):
+        """The choice as a design file."""
+        point = {"base": self.design, "set": best["set"]}
+        return named(design_text(command_line.root(), point), point)
+
+    def row_of(self, best, scene):
+        """(report, row) of `rates` for the choice."""
+        programs, design = self.programs_of(best)
+        own = () if best["built"] else ("--design", design)
+        words = ("--rate", f"{best['rate_hz']:.9g}", *own, "--quiet")
+        report = programs.ask("rates", scene, *words)["scenes"][0]
+        rows = [r for r in report["rates"] if r["by"] == best["by"]]
+        return report, min(rows, key=lambda r: abs(r["rate_hz"] - best["rate_hz"]))
+
+    def run_itself(self, best):
+        """A hand that gives way moves another design otherwise, even where the law has no speed: each
+        part is the larger of that on the motion of `lever` and on its own."""
+        text = made_scene.toml_text([], self.scene_of(best))
+        scene = self.programs.put(f"{self.question.name}.toml", text)
+        report, row = self.row_of(best, scene)
+        programs, design = self.programs_of(best)
+        counts = [report[key] for key in ("counts_alone_rms_nm", "counts_alone_max_nm")]
+        found = (counts, choice.added(row, counts), rounding_part(programs, scene, design))
+        for part, own in zip(best["error"]["parts"], found, strict=False):
+            part["rms_nm"], part["worst_nm"] = max(part["rms_nm"], own[0]), max(part["worst_nm"], own[1])
+        best["error"] = choice.error_of(best["error"]["parts"], self.largest_nm)
+        best["own_motion"] = True
+
+    def programs_of(self, best):
+        """The programs that run the choice, and the design's name there."""
+        if best["built"]:
+            return self.programs, self.design
+        environment = own_program(NAME, best["design"], self.text_of(best))
+        programs = Programs(self.programs.folder, self.programs.quiet, environment)
+        programs.name = f"feltgate_{best['design']}"
+        return programs, best["design"]
 
     def simulation(self, best):
         """The engine: the fastest whose bits are the RTL's, by the committed benchmark."""
@@ -379,13 +385,12 @@ class Choosing:
         """Of a scene of the core: the slowest rate at which a host's law would meet error and margin."""
         if not self.question.of_block():
             return None
-        plant, borders = plant_part(self.trim, self.largest_nm), self.found_borders
-        stiffness = self.report["stiffness_nm_rad"]
-        for i, row in enumerate(self.report["rates"]):
+        plant = choice.plant_part(self.trim, self.largest_nm) if self.trim else (0.0, 0.0)
+        for row in self.report["rates"]:
             if row["by"] == "block" or row["error_rms_nm"] is None:
                 continue
             share = (row["error_rms_nm"] + plant[0]) / self.largest_nm
-            margin = borders[self.own][i] / stiffness if row.get("border_of") == "stiffness" else None
+            margin = row.get("margin")
             if share <= self.wishes["torque_error"] and (margin is None or margin >= self.wishes["margin"]):
                 return row["rate_hz"]
         return None

@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A point as a design file: the base's text, with the lines changed that the point sets.
+"""A point as a design file: the base's text, with the lines changed that the point sets; and as a
+program of its own.
 
 Documentation: docs/explore.md
 """
 
 import json
+import os
 import re
+from pathlib import Path
 
+import building
+import command_line
+import interrupts
+import outputs
 from exploration import space
 
 # Of two such keys a design has one: setting one takes the other out.
@@ -73,3 +80,33 @@ def design_text(root, point):
         of_n_method = {key_line(lines, "velocity", key) for key in ("m1", "n", "gain")}
         lines = [line for i, line in enumerate(lines) if i not in of_n_method]
     return "\n".join(lines) + "\n"
+
+
+def named(text, point):
+    """The design's text with a head and a description of its own, not those of its base."""
+    what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
+    text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)
+    line = f"description = {json.dumps(what)}"
+    return re.sub(r"^description = .*$", lambda _: line, text, count=1, flags=re.M)
+
+
+def own_program(command, name, text):
+    """Builds feltgate_NAME, a program with this design, in the build folder; the environment in which
+    it knows the design's file: the repository, by links, with that among the others."""
+    build, root = command_line.build_folder(), command_line.root()
+    folder = build / "own" / name
+    generated, file, shadow = folder / "feltgate/generated", folder / f"{name}.toml", folder / "root"
+    generated.mkdir(parents=True, exist_ok=True)
+    outputs.write_whole(file, text)
+    words = [build / "feltgate_generate", root, "--design", file, "--output", generated]
+    done = interrupts.run(words, **interrupts.CAPTURED)  # it leaves what has not changed
+    if done.returncode:
+        raise command_line.Refused(done.stderr.strip() or f"{name}: feltgate_generate failed")
+    for source in (*root.iterdir(), *(root / "rtl").iterdir(), *(root / "rtl/designs").iterdir(), file):
+        at = shadow / (Path("rtl/designs") / file.name if source == file else source.relative_to(root))
+        if source in (root / "rtl", root / "rtl/designs") or at.exists():
+            continue
+        at.parent.mkdir(parents=True, exist_ok=True)
+        at.symlink_to(source.resolve())
+    building.make(command, build, [f"feltgate_{name}"], os.cpu_count())
+    return {"FELTGATE_ROOT": str(shadow)}

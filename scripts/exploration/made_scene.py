@@ -4,9 +4,13 @@
 motion for a law that has no scene. Documentation: docs/choose.md
 """
 
+import difflib
 import re
+import tomllib
 from pathlib import Path
 
+import command_line
+from command_line import Refused
 from exploration.design_text import toml_value
 
 # There is no motion in a law file: a hand that comes from the middle, goes both ways, and rests.
@@ -38,6 +42,26 @@ high = 0
 """
 
 
+def named(given):
+    """(path of a scene, None) or (None, path of a law)."""
+    root, path = command_line.root(), Path(given)
+    scenes = {p.stem: p for p in root.glob("vectors/scenes/*.toml")}
+    laws = {p.stem: p for p in root.glob("rtl/laws/*.law")}
+    scene = scenes.get(given) or (path if given.endswith(".toml") else None)
+    law = laws.get(given) or (path if given.endswith(".law") else None)
+    found = scene or law
+    if found is None:
+        near = difflib.get_close_matches(given, [*scenes, *laws], 1)
+        mend = f"did you mean {near[0]}? Or " if near else ""
+        raise Refused(
+            f'"{given}" is neither a scene nor a law; {mend}give a name in vectors/scenes or rtl/laws, '
+            "or the path of a .toml or .law file"
+        )
+    if not found.is_file():
+        raise Refused(f"{given}: there is no such file; give one, or a name in vectors/scenes or rtl/laws")
+    return (scene, None) if scene else (None, law)
+
+
 def inline(value):
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {inline(v)}" for key, v in value.items()) + " }"
@@ -54,6 +78,19 @@ def toml_text(head, scene):
     for name, table in tables.items():
         lines += ["", f"[{name}]", *(f"{key} = {inline(value)}" for key, value in table.items())]
     return "\n".join(lines) + "\n"
+
+
+def linear_plant(scene):
+    """The scene's plant as the margins of `feltgate rates` take it: linear, its viscous friction on."""
+    name = scene.get("plant", "p24")
+    own = "/" in name or name.endswith(".toml")
+    path = Path(name) if own else command_line.root() / "vectors/plants" / f"{name}.toml"
+    plant = tomllib.loads(path.read_text(encoding="utf-8"))
+    on = ("inductance", "back_emf", "viscous")
+    effects = plant["effects"] | scene.get("effects", {}) | {"viscous": True}
+    plant["effects"] = {key: key in on and effects[key] for key in plant["effects"]}
+    plant["motor"]["dead_voltage_v"] = plant["supply"]["diode_drop_v"] = 0.0
+    return toml_text(["Linear, with viscous friction."], plant)
 
 
 def moved(value, folder):

@@ -30,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RatesArguments {
-  std::vector<std::string> scenes;
-  std::string plant, json, csv, picture;
+  std::vector<std::string> scenes, beside;
+  std::string design, plant, json, csv, picture;
   std::vector<double> rates;
   bool lock_step = false, quiet = false;
 };
@@ -58,6 +58,11 @@ rates::LawSource law_of(const Scenario& s) {
   return {law_file(s), ""};
 }
 
+/// The design whose engine runs the law.
+std::string law_design_of(const Scenario& s, const std::string& asked) {
+  return asked.empty() || s.scene != "law" ? rates::law_design : asked;
+}
+
 /// The design of the device; this program may lack it.
 const AxesDesignMakers* made_for(const AxesScene& scene) {
   return find_axes_design(own_design(scene));
@@ -65,9 +70,13 @@ const AxesDesignMakers* made_for(const AxesScene& scene) {
 
 /// A scene that names a device.
 Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Outputs& outputs) {
-  if (!a.plant.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "--plant is for scenes of one lever, and {} names a device; leave it out", path));
+  if (!a.plant.empty() || !a.design.empty() || !a.beside.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{} is for scenes of one lever, and {} names a device; leave it out",
+                    !a.plant.empty()    ? "--plant"
+                    : !a.design.empty() ? "--design"
+                                        : "--beside",
+                    path));
   }
   Wanted w;
   w.device = read_axes_scene(
@@ -102,20 +111,32 @@ Wanted wanted(const std::string& name, const RatesArguments& a, files::Outputs& 
   if (!a.plant.empty()) w.scene.plant = a.plant;
   rates::require_one_law(w.scene);
   w.law = law_of(w.scene);
+  const std::string block = a.design.empty() ? rates::block_design : a.design;
   const std::string plant_path = find_file(w.scene.plant, "vectors/plants");
   w.plant = plant::read_plant_file(plant_path);
   resolve_effects(w.scene, w.plant.effects);
-  if (w.scene.scene != "law") resolve_amounts(w.scene, design_named(rates::block_design));
+  if (w.scene.scene != "law") resolve_amounts(w.scene, design_named(block));
   if (has_amounts(w.scene)) {
-    const DesignInfo& design = design_named(rates::law_design);
+    const DesignInfo& design = design_named(law_design_of(w.scene, a.design));
     resolve_amounts(w.scene, design, make_scene_law(w.law.path, design).get());
   }
-  if (w.scene.scene != "law") check_scenario(w.scene, w.plant, design_named(rates::block_design));
+  if (w.scene.scene != "law") check_scenario(w.scene, w.plant, design_named(block));
   outputs.reads(path);
   outputs.reads(plant_path);
   if (w.law.text.empty()) outputs.reads(w.law.path);
   for (const auto& phase : w.scene.hand.phases) outputs.reads(phase.trace.file);
   return w;
+}
+
+/// The design with what the scene writes into its registers, such as another cut-off.
+design::Elaborated with_registers(design::Elaborated e, const Scenario& scene) {
+  for (design::Word& w : e.words) {
+    const auto set = scene.parameters.find(w.parameter.name);
+    if (set == scene.parameters.end()) continue;
+    w.si = set->second;
+    w.raw = std::llround(std::ldexp(w.si, w.format.fraction));
+  }
+  return e;
 }
 
 rates::Report measured(const Wanted& w, const rates::Options& options) {
@@ -125,7 +146,9 @@ rates::Report measured(const Wanted& w, const rates::Options& options) {
     const std::string design = made_for(*w.device) ? own_design(*w.device) : other;
     return rates::measure(*w.device, w.law, elaborated_design(design), options);
   }
-  return rates::measure(w.scene, w.law, w.plant, elaborated_design(rates::law_design), options);
+  const std::string design = law_design_of(w.scene, options.design);
+  const auto e = with_registers(elaborated_design(design), w.scene);
+  return rates::measure(w.scene, w.law, w.plant, e, options);
 }
 
 /// All scenes of vectors/scenes that render a law; the others are reported.
@@ -194,6 +217,13 @@ int run(const RatesArguments& a) {
   rates::Options options;
   if (!a.rates.empty()) options.rates_hz = a.rates;
   options.lock_step = a.lock_step;
+  options.design = a.design;
+  const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
+  for (const std::string& name : a.beside) {
+    const std::string path = find_file(name, "rtl/designs");
+    options.beside.push_back(elaborate(design::read_design(path), registers));
+    outputs.reads(path);
+  }
   std::vector<rates::Report> reports;
   std::int64_t mismatches = 0;
   for (const Wanted& w : scenes) {
@@ -273,6 +303,16 @@ void add_rates(CLI::App& app, int* exit_code) {
       ->transform(checks::number(1, 1e6, "Hz"));
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
+  sub->add_option("--design", a->design,
+                  "the built design whose block runs, or whose engine of a scene \"law\"; default: "
+                  "lever and lever_law")
+      ->type_name("DESIGN");
+  sub->add_option(
+         "--beside", a->beside,
+         "other designs, names or files: in the JSON their counts alone, by their velocity "
+         "estimate in double, and their margins")
+      ->type_name("DESIGN,...")
+      ->delimiter(',');
   sub->add_flag("--lock-step", a->lock_step,
                 "the RTL beside the twin, every output compared: about 20 times slower");
   sub->add_option("-o,--output", a->picture, "error and margin over the rate as a picture, SVG")

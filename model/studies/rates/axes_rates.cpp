@@ -45,8 +45,9 @@ class AxesSweep : public Sweep {
     report_.simulated_s = scene_.scenario.duration_s;
     sweep(std::move(fast), 0);
     if (whole_torque()) {
-      margins_by_states([this](const Place& p) { return around(p.at_rad); }, places_, link(),
-                        words());
+      margins_by_states(
+          [this](const Place& p, const design::Elaborated&) { return around(p.at_rad); }, places_,
+          link(), words());
       if (options_.gains && report_.place) judge();
     } else {
       margins();

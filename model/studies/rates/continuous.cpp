@@ -55,6 +55,16 @@ Continuous::Continuous(const law::Law& law, std::vector<Change> changes, const S
   for (const law::Input& in : law.inputs) {
     observes_ = observes_ || in.source == law::Source::tau_hat;
   }
+  for (const Estimator& by : setting.beside) {
+    const auto m1 = static_cast<std::size_t>(by.m1);
+    beside_.push_back({by,
+                       law::Evaluation<double>(law),
+                       std::vector<double>(m1),
+                       0,
+                       std::vector<Sample>(1),
+                       0,
+                       {}});
+  }
 }
 
 double Continuous::mean_error_nm(std::size_t axis) const {
@@ -65,6 +75,7 @@ double Continuous::mean_error_nm(std::size_t axis) const {
 void Continuous::set(std::size_t parameter, double si) {
   true_.set_parameter(parameter, si);
   sampled_.set_parameter(parameter, si);
+  for (Beside& b : beside_) b.law.set_parameter(parameter, si);
 }
 
 double Continuous::limited(double nm) const {
@@ -207,8 +218,19 @@ void Continuous::place(const Row* rows) {
   }
 }
 
+void Continuous::estimate(Beside& b, const Row& row) const {
+  const std::int64_t tick = b.ticks++;
+  if (tick % b.by.every != 0) return;
+  double& oldest_rad = b.travelled_rad[static_cast<std::size_t>(tick / b.by.every % b.by.m1)];
+  const double raw = b.by.raw_rad_s_rad * (row.position_rad - oldest_rad);
+  oldest_rad = row.position_rad;
+  Sample& s = b.held.front();
+  s = {row.position_rad, s.velocity_rad_s + b.by.a1 * (raw - s.velocity_rad_s), row.tau_hat_nm};
+}
+
 void Continuous::tick(const Row* rows) {
   place(rows);
+  for (Beside& b : beside_) estimate(b, *rows);
   for (; next_ < changes_.size() && changes_[next_].at_s <= rows[0].time_s; ++next_) {
     set(changes_[next_].parameter, changes_[next_].si);
   }
@@ -216,6 +238,7 @@ void Continuous::tick(const Row* rows) {
   if ((rows[0].limits & static_cast<int>(limit::gates_closed)) != 0) {
     true_.reset();
     sampled_.reset();
+    for (Beside& b : beside_) b.law.reset();
     lines_.assign(lines_.size(), {});
     ticks_ = 0;
     return;
@@ -231,6 +254,10 @@ void Continuous::tick(const Row* rows) {
     if (setting_.places && runs_ % every == 0) look_at_place();
     ++runs_;
     if (setting_.floor) run(sampled_, counted_, &Axis::of_counts_nm);
+    for (Beside& b : beside_) {
+      run(b.law, b.held, &Axis::ideal_nm);
+      b.of_counts_nm = axes_[0].ideal_nm;
+    }
     run(true_, seen_, &Axis::ideal_nm);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       lines_[i].insert(lines_[i].begin(), true_.value(law_.lines[i].written));
@@ -247,6 +274,7 @@ void Continuous::tick(const Row* rows) {
     error_.add(off_nm);
     largest_nm_ = larger(largest_nm_, std::fabs(a.ideal_nm));
     if (setting_.floor) floor_.add(a.of_counts_nm - a.ideal_nm);
+    for (Beside& b : beside_) b.error.add(b.of_counts_nm - a.ideal_nm);
   }
 }
 

@@ -44,6 +44,15 @@ struct Change {
 /// The changes of a scene that runs this law, in order of time; changes before the run are at 0 s.
 std::vector<Change> changes_of(const Scenario& scene, const law::Law& law);
 
+/// A design's velocity estimate in double, from the counts of one axis; its inputs of a law are
+/// held over its tick.
+struct Estimator {
+  int every = 1;  ///< ticks of the run in one of the design
+  int m1 = 1;
+  double raw_rad_s_rad = 0;  ///< raw velocity per radian of travel in m1 ticks
+  double a1 = 1;
+};
+
 /// The evaluation for a device with one or several axes; a row holds the loop's values of an axis
 /// in a tick.
 class Continuous {
@@ -58,9 +67,10 @@ class Continuous {
     /// Inertia of several axes at these angles, kg m^2: the steepest place is the one with the
     /// fastest oscillation.
     std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> inertia;
-    bool places = false;  ///< search the place for a law with states or a host
-    HostWords words;      ///< of that host; empty: none
-    bool floor = false;   ///< also run the law from the counts
+    bool places = false;            ///< search the place for a law with states or a host
+    HostWords words;                ///< of that host; empty: none
+    bool floor = false;             ///< also run the law from the counts
+    std::vector<Estimator> beside;  ///< of one axis: also run it from the counts by these
   };
   /// The law must outlive this.
   Continuous(const law::Law& law, std::vector<Change> changes, const Setting& setting);
@@ -80,6 +90,8 @@ class Continuous {
   /// The same error for the law in double in every tick, computed from the counts and the velocity
   /// of the core: no rate can reduce it.
   const ErrorFigure& floor() const { return floor_; }
+  /// The same error with the n-th estimator of the setting.
+  const ErrorFigure& beside(std::size_t n) const { return beside_[n].error; }
   const Slope& slope() const { return slope_; }
   const Places& places() const { return places_; }
   double largest_nm() const { return largest_nm_; }  ///< largest limited torque of any axis
@@ -95,6 +107,16 @@ class Continuous {
     double ideal_nm = 0, of_counts_nm = 0, sum_nm = 0;
     ErrorFigure error;
   };
+  struct Beside {
+    Estimator by;
+    law::Evaluation<double> law;
+    std::vector<double> travelled_rad;  ///< of the last m1 ticks, a ring
+    std::int64_t ticks = 0;
+    std::vector<Sample> held;
+    double of_counts_nm = 0;
+    ErrorFigure error;
+  };
+  void estimate(Beside& b, const Row& row) const;
   void tick(const Row* rows);
   void place(const Row* rows);
   void run(law::Evaluation<double>& law, const std::vector<Sample>& samples, double Axis::*to_nm);
@@ -119,6 +141,7 @@ class Continuous {
   std::vector<std::vector<double>> lines_;  ///< what the true law wrote into each, newest first
   std::vector<Sample> seen_, counted_;
   std::vector<Axis> axes_;
+  std::vector<Beside> beside_;
   std::size_t next_ = 0;
   std::int64_t ticks_ = 0, runs_ = 0;
   bool placed_ = false;

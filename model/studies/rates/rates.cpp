@@ -37,13 +37,15 @@ class LeverSweep : public Sweep {
  public:
   LeverSweep(const Scenario& scene, const LawSource& source, const plant::Parameters& plant,
              const design::Elaborated& e, const Options& options)
-      : Sweep(source, design_named(law_design), e, options),
+      : Sweep(source, design_named(law_of(scene, options)), e, options),
         scene_(scene),
         plant_(plant),
-        block_(block_law(scene.scene)) {
+        block_(block_law(scene.scene)),
+        on_block_(options.design.empty() ? block_design : options.design),
+        on_law_(law_of(scene, options)) {
     require_one_law(scene);
     scene_.expectations.clear();
-    of_law_ = block_ != nullptr ? as_law(scene_, *block_, design_named(block_design)) : scene_;
+    of_law_ = block_ != nullptr ? as_law(scene_, *block_, design_named(on_block_)) : scene_;
   }
 
   Report run() {
@@ -59,8 +61,10 @@ class LeverSweep : public Sweep {
     if (block_ != nullptr) run_block();
     if (whole_torque()) {
       margins_by_states(
-          [this](const Place&) { return stability::make_axes_model(e_, linear_plant()); }, places_,
-          link(), words());
+          [this](const Place&, const design::Elaborated& e) {
+            return stability::make_axes_model(e, linear_plant());
+          },
+          places_, link(), words());
       if (options_.gains && report_.place) judge();
     } else {
       margins();
@@ -69,16 +73,21 @@ class LeverSweep : public Sweep {
   }
 
  private:
+  static std::string law_of(const Scenario& scene, const Options& options) {
+    return options.design.empty() || block_law(scene.scene) != nullptr ? law_design
+                                                                       : options.design;
+  }
+
   void run_law(law::Compiled law, RateRow row) override {
     const Scenario scene = fitted(of_law_, law.image);
     const std::unique_ptr<SceneLaw> loaded = make_scene_law(std::move(law), design_);
-    run(scene, law_design, loaded.get(), row);
+    run(scene, on_law_, loaded.get(), row);
   }
 
   void run_block() {
     RateRow row;
     row.block = true;
-    run(scene_, block_design, nullptr, row);
+    run(scene_, on_block_, nullptr, row);
   }
 
   void run(const Scenario& scene, const std::string& design, SceneLaw* law, RateRow row) {
@@ -86,6 +95,9 @@ class LeverSweep : public Sweep {
     set.slope = set.floor = row.block || (block_ == nullptr && last());
     set.places = set.floor;
     set.words = words();
+    for (std::size_t n = 0; set.floor && n < options_.beside.size(); ++n) {
+      set.beside.push_back(estimator(options_.beside[n], design_named(design)));
+    }
     // A law's parameter is what its word says, so its rounding is no error.
     Continuous continuous(
         continuous_law_,
@@ -111,7 +123,16 @@ class LeverSweep : public Sweep {
     if (row.fault.empty()) note_stale(result.law_stale);
     row.cpu_s_per_s = cpu_s(scene, design, law) / result.simulated_s;
     if (set.places) places_ = continuous.places();
+    for (std::size_t n = 0; n < set.beside.size(); ++n) {
+      report_.beside.push_back({options_.beside[n].design.path, continuous.beside(n), {}});
+    }
     add(std::move(row), continuous, set);
+  }
+
+  Estimator estimator(const design::Elaborated& e, const DesignInfo& of_run) const {
+    const stability::LinearLoop loop = stability::make_linear_loop(e, linear_plant());
+    const auto every = std::lround(loop.tick_s * static_cast<double>(of_run.tick_hz));
+    return {std::max(1, static_cast<int>(every)), loop.m1, loop.raw_rad_s_rad, loop.velocity_a1};
   }
 
   /// CPU time of the closed loop alone, without observers.
@@ -183,6 +204,7 @@ class LeverSweep : public Sweep {
     s.law = law.law.name;
     s.arm_s = 0.01;
     s.parameters = linear_parameters(law.law, let.rest);
+    s.parameters.insert(of_law_.parameters.begin(), of_law_.parameters.end());  // such as a cut-off
     s.tracker = scene_.tracker;
     if (s.tracker) s.tracker->noise_rad = s.tracker->resolution_rad = 0;
     const auto& all = law.law.parameters;
@@ -214,7 +236,7 @@ class LeverSweep : public Sweep {
     s = fitted(std::move(s), law.image);
     const std::unique_ptr<SceneLaw> loaded = make_scene_law(std::move(law), design_);
     RunOptions o;
-    o.design = law_design;
+    o.design = on_law_;
     o.engine = "twin";
     o.law = loaded.get();
     o.row_every = let.row_every;
@@ -233,12 +255,25 @@ class LeverSweep : public Sweep {
   void margins() {
     const stability::LoopModel model = stability::make_model(e_, linear_plant());
     report_.damping_nm_s_rad = model.damping_nm_s_rad;
-    for (RateRow& r : report_.rows) r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
+    for (RateRow& r : report_.rows) {
+      if (r.block && !options_.design.empty()) continue;
+      r.margin = margin(model, report_.slope, r.ticks, delay_of(r));
+    }
+    for (std::size_t n = 0; n < report_.beside.size(); ++n) {
+      const design::Elaborated& e = options_.beside[n];
+      const stability::LoopModel other = stability::make_model(e, linear_plant());
+      for (const RateRow& r : report_.rows) {
+        const auto in = in_ticks_of(e, r);
+        const Margin of = in ? margin(other, report_.slope, in->first, in->second) : Margin{};
+        report_.beside[n].margins.push_back(of);
+      }
+    }
   }
 
   Scenario scene_, of_law_;
   const plant::Parameters& plant_;
   const BlockLaw* block_;
+  std::string on_block_, on_law_;  ///< designs
   Places places_;
 };
 

@@ -42,6 +42,13 @@ struct RateRow {
   std::string fault;  ///< first fault that opened the gates, with its time; empty: none
 };
 
+/// Another design at the same scene, by its linear loop and its velocity estimate in double.
+struct Beside {
+  std::string path;
+  ErrorFigure floor;            ///< of its counts and velocity, held over its tick
+  std::vector<Margin> margins;  ///< for each row; of a block in the design's own tick
+};
+
 struct Report {
   std::string scene, title, law, plant;  ///< plant: or device
   int axes = 1;
@@ -52,6 +59,7 @@ struct Report {
   ErrorFigure floor;               ///< of counts and estimated velocity, at every tick, all axes
   double damping_nm_s_rad = 0;     ///< of the lever or each joint, for the margins
   std::vector<RateRow> rows;       ///< the slowest rate first
+  std::vector<Beside> beside;      ///< as the options name them
   std::optional<Place> place;      ///< of a margin of the whole torque
   std::vector<GainMargin> gains;   ///< of the last row at rest, beside the bits; if asked for
   std::vector<std::string> notes;  ///< why rates or margins are missing
@@ -64,6 +72,10 @@ struct Options {
   bool gains = false;                              ///< Report::gains
   bool bits = false;                               ///< of those, also by the bits
   bool whole_torque = false;                       ///< margins of the whole torque, of any law
+  std::vector<design::Elaborated> beside = {};     ///< of one lever: Report::beside
+  /// Of one lever: the design whose block, or whose engine for a scene "law", runs; empty: those
+  /// below. Its block then has no margin here.
+  std::string design = {};
 };
 
 /// The designs on which blocks and laws run.
@@ -72,8 +84,8 @@ inline constexpr const char* law_design = "lever_law";
 
 /// Measures a scene of one lever. The fastest rate is always measured: that of the law, and the
 /// tick rate if a block renders the scene; the options add slower rates. `law` is the scene's law,
-/// or the law for its block. `e` is law_design. Throws as require_one_law(), LawError, and
-/// std::invalid_argument for a law of several axes.
+/// or the law for its block. `e` is the design of the law. Throws as require_one_law(), LawError,
+/// and std::invalid_argument for a law of several axes.
 Report measure(const Scenario& scene, const LawSource& law, const plant::Parameters& plant,
                const design::Elaborated& e, const Options& options);
 

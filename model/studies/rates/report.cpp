@@ -211,6 +211,16 @@ std::string reports_json(const std::vector<Report>& reports) {
       }
       scene["rates"].push_back(one);
     }
+    for (const Beside& b : r.beside) {
+      Json one{{"design", b.path},
+               {"counts_alone_rms_nm", measured_json(b.floor, b.floor.rms())},
+               {"counts_alone_max_nm", measured_json(b.floor, b.floor.max())},
+               {"margins", Json::array()}};
+      for (const Margin& m : b.margins) {
+        one["margins"].push_back(m.of == Margin::Of::none ? Json(nullptr) : Json(m.ratio));
+      }
+      scene["beside"].push_back(one);
+    }
     for (const GainMargin& g : r.gains) {
       scene["gains"].push_back({{"of", g.of},
                                 {"linear", g.linear},

@@ -122,21 +122,35 @@ stability::HostLink Sweep::host_link(double rate_hz, double latency_s, double al
   return {tick_hz / rate_hz, latency_s * tick_hz + commit_ticks, alpha};
 }
 
-void Sweep::margins_by_states(const std::function<stability::AxesLoopModel(const Place&)>& around,
-                              const Places& places, const stability::HostLink& host,
-                              const HostWords& words) {
+std::optional<std::pair<int, int>> Sweep::in_ticks_of(const design::Elaborated& e,
+                                                      const RateRow& row) const {
+  if (row.block) return std::pair(1, 0);
+  const design::Design& d = e.design;
+  if (row.rate_hz > 1.001 * static_cast<double>(d.tick_hz)) return std::nullopt;
+  const int every = stability::scene_ticks(d, row.rate_hz);
+  const int run = (row.clocks_used + d.clocks_per_tick() - 1) / d.clocks_per_tick();
+  return std::pair(every, std::min(run, every));
+}
+
+void Sweep::margins_by_states(const Around& around, const Places& places,
+                              const stability::HostLink& host, const HostWords& words) {
   const Place* place = places.steepest();
   if (place == nullptr) {
     report_.notes.emplace_back("no margin: the motion met no place where the law has a slope");
     return;
   }
   report_.place = *place;
-  const stability::AxesLoopModel model = around(*place);
+  const stability::AxesLoopModel model = around(*place, e_);
+  std::vector<stability::AxesLoopModel> others;
+  for (const design::Elaborated& e : options_.beside) others.push_back(around(*place, e));
   report_.damping_nm_s_rad = model.axis.damping_nm_s_rad;
   for (RateRow& r : report_.rows) {
     const law::Law law = read(source_, static_cast<double>(target_.tick_hz) / r.ticks);
     auto linear = linearised(law, *place, design_.count_rad, words);
-    if (!linear) continue;
+    if (!linear) {
+      for (Beside& b : report_.beside) b.margins.emplace_back();
+      continue;
+    }
     linear->host = host;
     const Margin m = margin(model, *linear, place->most_nm_rad, r.ticks, delay_of(r));
     if (m.ratio > 0) {
@@ -145,6 +159,18 @@ void Sweep::margins_by_states(const std::function<stability::AxesLoopModel(const
       note_once(
           "where there is a - for the margin, no torque is stable at that place, not even a "
           "ten-thousandth: the law pushes away there, or the rate is far too low");
+    }
+    for (std::size_t n = 0; n < others.size(); ++n) {
+      const design::Elaborated& e = options_.beside[n];
+      const double ticks =
+          static_cast<double>(e.design.tick_hz) / static_cast<double>(target_.tick_hz);
+      linear->host.period_ticks = ticks * host.period_ticks;
+      linear->host.age_ticks = ticks * host.age_ticks;
+      Margin of;
+      if (const auto in = in_ticks_of(e, r)) {
+        of = margin(others[n], *linear, place->most_nm_rad, in->first, in->second);
+      }
+      report_.beside[n].margins.push_back(of.ratio > 0 ? of : Margin{});
     }
   }
   report_.notes.emplace_back(

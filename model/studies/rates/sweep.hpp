@@ -6,7 +6,9 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/loop/felt.hpp"
@@ -42,12 +44,15 @@ class Sweep {
   void tell_all(Continuous& continuous, const SceneLaw& law) const;
   /// Ticks from the samples of a run to the first tick with its torque.
   int delay_of(const RateRow& row) const;
+  /// The same row in the ticks of another design: {every, delay}; nothing: its tick is slower.
+  std::optional<std::pair<int, int>> in_ticks_of(const design::Elaborated& e,
+                                                 const RateRow& row) const;
   stability::HostLink host_link(double rate_hz, double latency_s, double alpha) const;
   /// Margins of the whole torque, of a law whose springs and masses are states, which has delay
   /// lines, or whose host samples the device; as it runs at each rate.
-  void margins_by_states(const std::function<stability::AxesLoopModel(const Place&)>& around,
-                         const Places& places, const stability::HostLink& host,
-                         const HostWords& words);
+  using Around = std::function<stability::AxesLoopModel(const Place&, const design::Elaborated&)>;
+  void margins_by_states(const Around& around, const Places& places,
+                         const stability::HostLink& host, const HostWords& words);
   /// A device that a hand holds off its rest by `offset_rad` and then lets go.
   struct Let {
     Place rest;

@@ -31,7 +31,7 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
       chain_(s.made_chain ? s.made_chain() : make_real_chain(design.design.name, s.chain)),
       plant_(s.plant, s.plant.effects, plant::drive_of(design_named(design.design.name)), s.hand),
       count_rad_(design.design.count_rad()),
-      pwm_ticks_(design.design.pwm_period_clocks() / design.design.clocks_per_tick()),
+      pwm_ticks_(pwm_ticks(design.design)),
       pwm_clocks_(design.design.pwm_period_clocks()),
       clocks_per_tick_(design.design.clocks_per_tick()),
       setpoint_address_(address("setpoint_torque")) {

@@ -115,7 +115,7 @@ HostFigures host_wall(const design::Elaborated& design, const plant::Parameters&
 
 int scene_ticks(const design::Design& d, double rate_hz) {
   const double ticks = static_cast<double>(d.tick_hz) / rate_hz;
-  const int pwm = d.pwm_period_clocks() / d.clocks_per_tick();
+  const int pwm = pwm_ticks(d);
   const int whole = std::max(1, static_cast<int>(std::lround(ticks / pwm))) * pwm;
   if (std::abs(whole - ticks) < 0.01 * ticks) return whole;
   return std::max(1, static_cast<int>(std::lround(ticks)));

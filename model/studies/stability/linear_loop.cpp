@@ -152,6 +152,10 @@ LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters
   return m;
 }
 
+int pwm_ticks(const design::Design& d) {
+  return std::max(1, d.pwm_period_clocks() / d.clocks_per_tick());
+}
+
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
   if (e.design.current_loop) {
     throw std::invalid_argument("design " + e.design.name +
@@ -161,7 +165,7 @@ LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
   }
   LoopModel m;
   static_cast<LinearLoop&>(m) = make_linear_loop(e, p);
-  m.pwm_ticks = e.design.pwm_period_clocks() / e.design.clocks_per_tick();
+  m.pwm_ticks = pwm_ticks(e.design);
   m.voltage_gain = e.word("voltage_gain").quantised();
   m.plant = (Eigen::Matrix4d::Identity() + m.change).topRows<3>();
   const double r = p.motor.resistance_ohm, kt = p.motor.torque_constant_nm_a;

@@ -78,6 +78,10 @@ Eigen::MatrixXd plant_change(const plant::Parameters& plant, double damping_nm_s
 /// no turn is lost by that.
 int apart_ticks(const LoopModel& model, int period_ticks);
 
+/// Ticks of a PWM period. Where a tick is longer, a duty waits here for its end, longer than in the
+/// core: the borders are on the safe side.
+int pwm_ticks(const design::Design& d);
+
 /// Of two voltage gains, the low one.
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& plant);
 

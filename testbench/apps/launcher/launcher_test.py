@@ -204,6 +204,7 @@ class Presets(Machine):
         self.assertEqual(self.built("design", "fast"), [["feltgate"]])
         self.assertEqual(self.built("run", "wall", "--design", "paper"), [["feltgate"]])
         self.assertEqual(self.built("run", "wall", "--design", "my/own.toml"), [["feltgate"]])
+        self.assertEqual(self.built("rates", "wall", "--design", "fast"), [["feltgate_fast"]])
         # Programs of their own and scripts have all designs, or none.
         out = str(self.folder / "out")
         for words, target in (
@@ -211,7 +212,6 @@ class Presets(Machine):
             (("board", "--design", "lever_law", "--rtl"), "feltgate_board_rtl"),
             (("host", "PORT", "info", "--design", "lever_law"), "feltgate_host"),
             (("product", "board", "--design", "fast", "-o", out), "feltgate_generate"),
-            (("rates", "wall", "--design", "fast"), "feltgate_lever_law"),
         ):
             self.assertEqual(self.built(*words), [[target]])
         # That none has the name is said by any program.

@@ -3,15 +3,18 @@
 """feltgate choose as a user calls it, on short scenes: the sum against awk's own, RTL beside the twin,
 a device of two axes, a law of one's own, a wish that cannot be, and what is refused."""
 
+import csv
 import json
 import math
 import subprocess
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from testing import BUILD, ROOT, Scratch, called, ran
 
 import choose
+from exploration import choosing, design_text, made_scene
 
 PROGRAM = BUILD / "feltgate_lever_law"
 SCENE = """title = "Short"
@@ -89,6 +92,9 @@ class Chosen(Scratch):
         told, out = self.call(0, scene, "--margin", "2", "--torque-error", "20%")
         self.assertEqual((told["schema"], told["choice"]["by"]), ("feltgate-choose/1", "block"))
         checks = self.kept(told, "margin on the chain's bits", "rounding in the RTL, worst, Nm")
+        self.assertEqual(told["choice"]["design"], "lever_700")  # of the table, in a register of lever
+        with open(ROOT / "vectors/spaces/trade.csv", newline="", encoding="utf-8") as file:
+            (listed,) = [r for r in csv.DictReader(file) if r["id"] == told["choice"]["table_id"]]
         # The same by the commands themselves.
         trim = self.ask("trim", scene, "--tolerance", "20%")
         trimmed = self.folder / "out/short.toml"
@@ -97,10 +103,12 @@ class Chosen(Scratch):
         run = self.ask("run", trimmed, "--engine", "twin,quad")["engines"]["twin"]["torque_nm"]
         losses = [trim["own_motion"], *(m["difference"] for m in trim["unseen"])]
         rounding_rms = min(run["rms_error"] + run["max_error_in_bounds"], run["max_error"])
+        rounding_rms = max(rounding_rms, float(listed["torque_error_max_nm"]))
+        proven = max(run["bound"], run["max_error"], float(listed["bound_torque_nm"]))
         error = told["choice"]["error"]
         for of, peak, key, rounding in (
             ("rms", "rms", "rms_nm", rounding_rms),
-            ("max", "peak", "worst_nm", max(run["bound"], run["max_error"])),
+            ("max", "peak", "worst_nm", proven),
         ):
             wanted = self.awk(
                 counts=rates[f"counts_alone_{of}_nm"],
@@ -108,7 +116,7 @@ class Chosen(Scratch):
                 rounding=rounding,
                 plant=max(m["torque"][peak] for m in losses) * rates["largest_nm"],
             )
-            self.assertAlmostEqual(error[key], wanted, delta=1e-9 * wanted, msg=key)
+            self.assertAlmostEqual(error[key], wanted, delta=1e-6 * wanted, msg=key)
         self.assertAlmostEqual(error["share"], error["rms_nm"] / rates["largest_nm"])
         # The margin is that of the whole plant, whatever was left out of it: its parts as a product.
         (whole,) = self.ask("rates", scene, "--rate", "1000000")["scenes"]
@@ -119,10 +127,12 @@ class Chosen(Scratch):
         self.assertAlmostEqual(parts[0] / whole["rates"][-1]["margin"], 1, delta=0.01)
         bits = checks["margin on the chain's bits"]["measured"]
         self.assertAlmostEqual(bits / product, 1, delta=0.05)
-        # Two more alternatives that lever's program runs, and all of the table are accounted for.
-        self.assertEqual(told["measured"], 4)
-        self.assertEqual(sum(told["designs"]["left_out"].values()) + 4, told["designs"]["in_table"])
-        self.assertTrue(2 <= len(told["front"]) <= 5)
+        # All of the table are accounted for, and the front is from it.
+        self.assertGreater(told["measured"], 80)
+        left = sum(told["designs"]["left_out"].values())
+        self.assertEqual(left + told["measured"], told["designs"]["in_table"])
+        self.assertEqual(len(told["front"]), 5)
+        self.assertGreater(len({o["gates"]["lut4_equivalents"] for o in told["front"]}), 2)
         # Its files go on: the scene runs, trimmed, and the page of commands names them.
         self.assertIn(str(self.folder / "out/short.toml"), out)
         self.assertIn("<svg", (self.folder / "out/choose.svg").read_text(encoding="utf-8")[:100])
@@ -194,7 +204,8 @@ class Chosen(Scratch):
         self.assertIn(f"rate = {one['rate_hz']:.9g} Hz", law)
 
     def test_a_wish_that_cannot_be(self):
-        scene = self.put("short.toml", SCENE)
+        # With a cut-off of its own it runs on lever alone.
+        scene = self.put("short.toml", SCENE.replace("wall_contact = 5", "wall_contact = 5\nvelocity_a1 = 0.00095"))
         words = ("--margin", "900", "--latency", "5", "--rtl-seconds", "0.01")
         told, out = self.call(1, scene, "--torque-error", "20%", *words)
         (why,) = told["why_not"]
@@ -203,12 +214,51 @@ class Chosen(Scratch):
         # The nearest: the stiffest of all.
         self.assertEqual(why["is"], max(o["margin"]["margin"] for o in told["front"]))
         self.assertEqual(why["is"], told["choice"]["margin"]["margin"])
-        # Its cut-off is not lever's: the design is a file, its bits are the RTL's.
-        self.assertEqual(told["choice"]["design"], "lever_950")
-        design = (self.folder / "out/lever_950.toml").read_text(encoding="utf-8")
-        self.assertIn('description = "lever with velocity.cutoff', design)
-        self.assertNotIn("default", design.split("[")[0])
-        self.kept(told, "margin on the chain's bits")
+        self.assertEqual(told["choice"]["design"], "lever")
+        self.kept(told)
+
+    def test_a_hand_that_gives_way_moves_another_design_otherwise(self):
+        """The law has no speed, and yet the cut-off is in the motion, by the back-EMF."""
+        self.put("spring.law", LAW)
+        scene = self.put("soft.toml", SPRING.replace("prescribed", "impedance").replace("0.06, to_rad", "0.02, to_rad"))
+        asked = {"torque_error": 0.2, "margin": 2.0, "stated": [], "objective": None, "chip": None, "latency": None}
+        programs = choosing.Programs(self.folder, quiet=True)
+        found = choosing.Choosing(choosing.Question(str(scene), programs), programs, asked)
+        found.measure()
+        (one,) = [o for o in found.alternatives() if o["design"] == "lever_law_950" and o["rate_hz"] == 1000]
+
+        def said():
+            return sum(part["worst_nm"] for part in one["error"]["parts"][:2])
+
+        own = self.put("own.toml", made_scene.toml_text([], found.scene_of(one)))
+        rows = self.ask("rates", own, "--rate", "1000")["scenes"][0]["rates"]
+        self.assertLess(said(), rows[0]["error_max_nm"])
+        found.run_itself(one)
+        self.assertGreaterEqual(said(), rows[0]["error_max_nm"] * (1 - 1e-9))
+
+    def test_a_design_of_the_table_as_a_program(self):
+        """Its package, its file among the repository's, and what is built; the build itself takes minutes."""
+        point = {"base": "lever", "set": {"velocity.cutoff_rad_s": 1900, "formats.rounding": "floor"}}
+        text = design_text.named(design_text.design_text(ROOT, point), point)
+        folder = Path(self.folder) / "build"
+        folder.mkdir()
+        (folder / "feltgate_generate").symlink_to(BUILD / "feltgate_generate")
+        built = []
+        with (
+            mock.patch.object(design_text.command_line, "build_folder", lambda: folder),
+            mock.patch.object(design_text.building, "make", lambda *words: built.append(words[2])),
+        ):
+            environment = design_text.own_program("choose", "lever_1", text)
+            self.assertEqual(environment, design_text.own_program("choose", "lever_1", text))
+            with self.assertRaisesRegex(Exception, "lever_2.toml.*rounding"):
+                design_text.own_program("choose", "lever_2", text.replace('"floor"', '"up"'))
+        self.assertEqual(built, [["feltgate_lever_1"]] * 2)
+        package = (folder / "own/lever_1/feltgate/generated/feltgate_pkg.sv").read_text(encoding="utf-8")
+        self.assertIn("package feltgate_pkg", package)
+        root = Path(environment["FELTGATE_ROOT"])
+        self.assertEqual((root / "rtl/designs/lever_1.toml").read_text(encoding="utf-8"), text)
+        for same in ("rtl/registers.toml", "rtl/designs/lever.toml", "vectors/scenes/wall.toml"):
+            self.assertEqual((root / same).read_bytes(), (ROOT / same).read_bytes())
 
     def test_rtl_that_was_hardly_armed_verifies_nothing(self):
         scene = {"core": {"arm_s": 0.05}}
@@ -225,6 +275,12 @@ class Chosen(Scratch):
             self.assertEqual((status, out), (2, ""), err)
             self.assertIn(said, err)
             self.assertFalse((self.folder / "out").exists())
+
+
+    def test_a_scene_without_a_law_is_refused_by_its_own_name(self):
+        status, _, err = called(choose.main, "free_lever", "-o", self.folder / "out", "--quiet")
+        self.assertEqual(status, 2)
+        self.assertRegex(err, "^feltgate choose: free_lever: the scene renders no torque law")
 
 
 class Border(Scratch):

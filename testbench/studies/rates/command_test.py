@@ -12,6 +12,8 @@ import unittest
 
 from testing import BUILD, ROOT, Scratch, ran
 
+from exploration.design_text import design_text
+
 BUDGET = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
 ENGINE = f'engine {BUDGET["figures"]["lever"]["axes_engine"]["lut4_equivalents"]} LUT4 eq'
 PROGRAM, OF_DEVICE = BUILD / "feltgate_lever_law", BUILD / "feltgate_two_levers_law"
@@ -107,6 +109,50 @@ class Rates(Scratch):
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
         self.assertIn("torque error, mNm", svg)
         self.assertIn("border / scene", svg)
+
+    def design(self, name, **changes):
+        return self.put(name, design_text(ROOT, {"base": "lever", "set": changes}))
+
+    def told(self, *words):
+        done = self.call(*words, "--quiet", "--json", "a.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.folder / "a.json").read_text(encoding="utf-8"))["scenes"][0]
+
+    def test_designs_beside_have_the_bits_velocity_and_margin(self):
+        """A design's estimate in double against the bits of `lever` with its cut-off in a register."""
+        quick = self.design("quick.toml", **{"velocity.cutoff_rad_s": 950})
+        slow = self.design("slow.toml", **{"clock.tick_hz": 500_000, "velocity.m1": 384, "velocity.gain": "exact"})
+        own = self.put("own.toml", SCENE.replace("wall_contact = 5", "wall_contact = 5\nvelocity_a1 = 9.495489e-4"))
+        # A tick longer than a PWM period: a margin, and that of a wall that is sampled 100 times as rarely.
+        rare = self.design("rare.toml", **{"clock.tick_hz": 10_000, "velocity.m1": 8, "velocity.gain": "exact"})
+        scene = self.told("short.toml", "--rate", "1000,1000000", "--beside", f"lever,{quick},{slow},{rare}")
+        in_a_register = self.told(own, "--rate", "1000,1000000")
+        lever, other, half, tenth = scene["beside"]
+        self.assertTrue(0.6 * lever["margins"][-1] < tenth["margins"][-1] < lever["margins"][-1])
+        for found, whole in ((lever, scene), (other, in_a_register)):
+            for key in ("counts_alone_rms_nm", "counts_alone_max_nm"):
+                self.assertAlmostEqual(found[key] / whole[key], 1, delta=1e-3)
+            for ours, row in zip(found["margins"], whole["rates"], strict=True):
+                self.assertAlmostEqual(ours / row["margin"], 1, delta=2e-3)
+        self.assertGreater(other["margins"][-1], 1.1 * lever["margins"][-1])
+        # Half the ticks, the same window: the same loop but for half a microsecond; no law at 1 MHz.
+        self.assertAlmostEqual(half["counts_alone_rms_nm"] / lever["counts_alone_rms_nm"], 1, delta=0.01)
+        self.assertIsNone(half["margins"][1])
+        self.assertAlmostEqual(half["margins"][0] / lever["margins"][0], 1, delta=0.01)
+
+    def test_a_scenes_own_cut_off_is_in_the_margin_of_its_states(self):
+        damped = "let slow = lowpass(position, 100 Hz)\nout torque = -(2 mNm s/rad) * velocity - (1 Nm/rad) * slow\n"
+        self.put("damped.law", damped)
+        law = SCENE.replace('"wall"', '"law"\nlaw = "damped.law"').replace("wall_contact = 5", "velocity_a1 = 9.495489e-4")
+        with_own = self.put("with.toml", law)
+        without = self.put("without.toml", law.replace("[parameters]\nvelocity_a1 = 9.495489e-4\n", ""))
+        quick = self.design("quick.toml", **{"velocity.cutoff_rad_s": 950})
+        plain = self.told(without, "--rate", "10000", "--beside", quick)
+        own = self.told(with_own, "--rate", "10000")
+        for row, ours, lever in zip(own["rates"], plain["beside"][0]["margins"], plain["rates"], strict=True):
+            self.assertEqual(row["border_of"], "torque")
+            self.assertAlmostEqual(row["margin"] / ours, 1, delta=0.02)
+            self.assertGreater(abs(row["margin"] / lever["margin"] - 1), 0.05)
 
     def test_a_device_has_its_axes_and_what_is_kept(self):
         done = self.call(

@@ -46,7 +46,8 @@ std::string mend(const Program& program, const Bound& b) {
 }
 
 constexpr const char* kFiner =
-    "Give what is compared finer formats (narrower ranges), or compare what is exact";
+    "Give what is compared finer formats (clamp what it is made of, or narrow its ranges), or "
+    "compare what is exact";
 
 /// Reports the comparison that comes out otherwise in the most runs, relative to its rarer side by
 /// the law. A law that acts near 0 only does so in few of all positions.

@@ -139,6 +139,11 @@ TEST_CASE("a law that acts near 0 only, and is rendered wrongly there, is told")
                Catch::StartsWith(begin) && Contains("   without " + left_out +
                                                     " of 262145 positions, which are in strips\n"));
     CHECK(verdict(c, m).failures.empty() == (begin[0] == 'w'));
+    // The mend that it says.
+    std::string mended = law;
+    mended.replace(law.find("position^"), 8, "clamp(position, -4, 4)");
+    const Compiled again = compiled(mended);
+    CHECK_THAT(text(verdict(again, measure_all(again))), !Contains("came out otherwise"));
   }
   // What the bound covers is no matter, whatever its strip: here both ways are nearly equal, and
   // here no run goes another way.

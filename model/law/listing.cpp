@@ -123,12 +123,16 @@ std::string report(const Compiled& c, const Measured& m) {
   const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
   s += fmt::format("\n{:<14} {:>12} {:>10} {:>12} {:>14}\n", "output", "bound Nm", "in LSB",
                    "as set Nm", m.all_inputs ? "exact maximum" : "measured Nm");
+  const std::string without =
+      m.in_strips > 0 ? fmt::format("   without {} of {} {}, which are in strips", m.in_strips,
+                                    m.runs, m.all_inputs ? "positions" : "runs")
+                      : "";
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const Output& output = c.law.outputs[o];
     const std::string name = name_of(output, c.law);
-    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}\n", name, c.bound.output[o],
+    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}{}\n", name, c.bound.output[o],
                      c.bound.output[o] / lsb, c.bound.as_set[o],
-                     m.output.empty() ? 0.0 : m.output[o]);
+                     m.output.empty() ? 0.0 : m.output[o], without);
   }
   const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
   const double end = std::ldexp(1.0, c.target.torque.integer);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
@@ -21,7 +22,9 @@ namespace {
 
 class Meter {
  public:
-  explicit Meter(const Compiled& c) : c_(c), law_(c.law), machine_(memory(c.image)) {
+  /// `bound`: of the outputs, for the parameters of the runs.
+  Meter(const Compiled& c, const std::vector<double>& bound)
+      : c_(c), bound_(bound), law_(c.law), machine_(memory(c.image)) {
     result_.output.assign(c.law.outputs.size(), 0);
     result_.reached.assign(c.law.outputs.size(), {infinity, -infinity});
     result_.move.assign(c.law.states.size(), 0);
@@ -30,6 +33,12 @@ class Meter {
       for (const Strip& s : c.bound.strips) {
         if (s.step == step && s.condition >= 0) strips_.back() = &s;
       }
+    }
+    for (const Strip& s : c.bound.strips) {
+      const bool compares = s.condition >= 0 && c.law.nodes[at(s.condition)].op == Op::less;
+      if (!compares || side_of_.count(s.condition) > 0) continue;
+      side_of_[s.condition] = result_.sides.size();
+      result_.sides.push_back({s.place});
     }
     set([](const ImageWord& w) { return static_cast<double>(w.initial); });
   }
@@ -98,23 +107,33 @@ class Meter {
       Span& reached = result_.reached[o];
       reached = {smaller(reached.lo, law_.outputs()[o]), larger(reached.hi, law_.outputs()[o])};
     }
+    for (const auto& [condition, side] : side_of_) {
+      Sides& of = result_.sides[side];
+      ++(law_.value(condition) > 0 ? of.holds : of.fails);
+    }
     bool otherwise = false, kept = false;
+    crossed_.clear();
     const MachineRun& run = machine_.run_seen(
         c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {
           const Strip* s = strips_[at(address - c_.target.thread * EngineMap::thread_words)];
           if (s == nullptr || !crossed(*s, x, y)) return;
           (free_running || shows(*s) ? otherwise : kept) = true;
+          crossed_.insert(s->condition);
         });
     ++result_.runs;
     if (kept && !otherwise) ++result_.kept_otherwise;
-    if (otherwise) {
-      ++result_.in_strips;
-      return;
-    }
+    if (otherwise) ++result_.in_strips;
+    std::vector<double> off;
     for (std::size_t o = 0; o < result_.output.size(); ++o) {
       const double torque =
           run.outputs[at(c_.law.outputs[o].axis)] * std::ldexp(1.0, -c_.target.torque.fraction);
-      result_.output[o] = larger(result_.output[o], std::fabs(torque - law_.outputs()[o]));
+      off.push_back(std::fabs(torque - law_.outputs()[o]));
+      if (!otherwise) result_.output[o] = larger(result_.output[o], off.back());
+    }
+    if (crossed_.empty() || (!outside(off, bound_) && !kept_outside())) return;
+    for (const NodeId condition : crossed_) {
+      const auto side = side_of_.find(condition);
+      if (side != side_of_.end()) ++result_.sides[side->second].outside;
     }
   }
 
@@ -124,6 +143,25 @@ class Meter {
   std::int32_t state_word(std::size_t k) const {
     const int first = c_.target.thread * EngineMap::private_words;
     return machine_.memory().data_at(first + c_.assembled.state_address[k]);
+  }
+  static bool outside(const std::vector<double>& off, const std::vector<double>& bound) {
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      if (!(off[i] <= bound[i] * (1 + 1e-9) + 1e-9)) return true;
+    }
+    return false;
+  }
+  /// Whether the run may have left something that is not the law's. What it left in a line, and
+  /// whether an event happened, are not compared.
+  bool kept_outside() const {
+    if (!c_.law.lines.empty() || !c_.law.events.empty()) return true;
+    std::vector<double> off;
+    for (std::size_t k = 0; k < c_.law.states.size(); ++k) {
+      const State& s = c_.law.states[k];
+      double apart = std::fabs(state_word(k) * c_.program.states[k].scale - law_.state(k));
+      if (s.phase) apart = std::min(apart, std::fabs(s.range.upper - s.range.lower - apart));
+      off.push_back(apart);
+    }
+    return outside(off, c_.bound.states_bounded ? c_.bound.state : c_.bound.drift);
   }
   /// Sets the law's line to the words of its ring, starting at the word that is written next.
   void take_line(std::size_t i) {
@@ -168,9 +206,12 @@ class Meter {
   }
 
   const Compiled& c_;
+  const std::vector<double>& bound_;
   Evaluation<double> law_;
   Machine machine_;
-  std::vector<const Strip*> strips_;  ///< of each instruction
+  std::vector<const Strip*> strips_;       ///< of each instruction
+  std::map<NodeId, std::size_t> side_of_;  ///< Measured::sides of each comparison with a strip
+  std::set<NodeId> crossed_;               ///< comparisons that came out otherwise in this run
   Measured result_;
   bool started_ = false;
 };
@@ -184,7 +225,7 @@ std::int64_t low_of(const Input& input, const Target& t) {
 }  // namespace
 
 Measured measure(const Compiled& c, std::uint64_t seed, std::int64_t runs, bool free_running) {
-  Meter meter(c);
+  Meter meter(c, c.bound.output);
   SplitMix64 random(seed);
   const auto below = [&random](std::int64_t n) { return random.below(n); };
   for (std::int64_t i = 0; i < runs; ++i) {
@@ -217,7 +258,7 @@ Measured measure(const Compiled& c, std::uint64_t seed, std::int64_t runs, bool 
 Measured measure_all(const Compiled& c) {
   const bool one = c.law.inputs.size() == 1 && c.law.inputs[0].source == Source::position;
   if (!one || !c.program.states.empty() || !c.law.lines.empty()) return {};
-  Meter meter(c);
+  Meter meter(c, c.bound.as_set);
   const auto end = static_cast<std::int32_t>(Target::position_counts);
   for (std::int32_t position = -end; position <= end; ++position) {
     meter.run([position](const Input&) { return position; }, true);

@@ -12,12 +12,20 @@
 
 namespace feltgate::law {
 
+/// A comparison with a strip: in how many runs it is true and false by the law, and in how many the
+/// words decide otherwise and their results are outside of their bounds.
+struct Sides {
+  Place place;
+  std::int64_t holds = 0, fails = 0, outside = 0;
+};
+
 struct Measured {
   std::vector<double> output;  ///< largest difference, Nm, as Law::outputs
   std::vector<Span> reached;   ///< the law's least and largest output, Nm, as Law::outputs
   std::int64_t runs = 0;
   std::int64_t in_strips = 0;       ///< runs excluded from `output`: a comparison was in its strip
   std::int64_t kept_otherwise = 0;  ///< further runs in a strip that shows in no output of the run
+  std::vector<Sides> sides;         ///< of each comparison with a strip
   std::vector<double> move;  ///< SI: largest change of a state in a run of the law, as Law::states
   bool all_inputs = false;   ///< ran every value of the only input, with default parameters
 };

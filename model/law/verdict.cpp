@@ -45,16 +45,47 @@ std::string mend(const Program& program, const Bound& b) {
   return words;
 }
 
+constexpr const char* kFiner =
+    "Give what is compared finer formats (clamp what it is made of, or narrow its ranges), or "
+    "compare what is exact";
+
+/// Reports the comparison that comes out otherwise in the most runs, relative to its rarer side by
+/// the law. A law that acts near 0 only does so in few of all positions.
+void sides(const Measured& m, Verdict* v) {
+  const auto share = [](const Sides& s) {
+    const auto rare = static_cast<double>(std::min(s.holds, s.fails));
+    return s.outside == 0 ? 0 : rare > 0 ? static_cast<double>(s.outside) / rare : infinity;
+  };
+  const auto tell = [&](double above, double most, std::vector<std::string>* list) {
+    std::vector<const Sides*> told;
+    for (const Sides& s : m.sides) {
+      if (share(s) > above && share(s) <= most) told.push_back(&s);
+    }
+    if (told.empty()) return;
+    const Sides& worst =
+        **std::max_element(told.begin(), told.end(),
+                           [&](const Sides* a, const Sides* b) { return share(*a) < share(*b); });
+    const std::int64_t rare = std::min(worst.holds, worst.fails);
+    list->push_back(fmt::format(
+        "line {}, column {}: by the law this comparison is {} in {} of {} runs; in {}{} it came "
+        "out otherwise, within its strip, with a result outside of the bound{}. {}",
+        worst.place.line, worst.place.column, rare == worst.holds ? "true" : "false", rare, m.runs,
+        worst.outside, rare > 0 ? fmt::format(" ({:.4g} %)", 100 * share(worst)) : "",
+        told.size() > 1 ? fmt::format("; so do {} more comparisons", told.size() - 1) : "",
+        kFiner));
+  };
+  tell(kTooMany, infinity, &v->failures);
+  tell(kTold, kTooMany, &v->warnings);
+}
+
 void runs_left_out(const Measured& m, Verdict* v) {
   const auto tell = [&](std::int64_t runs, const char* what) {
     const double share =
         static_cast<double>(runs) / static_cast<double>(std::max<std::int64_t>(m.runs, 1));
     if (share <= kTold) return;
     auto& list = share > kTooMany ? v->failures : v->warnings;
-    list.push_back(
-        fmt::format("{:.3g} % of the runs ({} of {}) {}. Give what is compared finer "
-                    "formats (narrower ranges), or compare what is exact",
-                    100 * share, runs, m.runs, what));
+    list.push_back(fmt::format("{:.3g} % of the runs ({} of {}) {}. {}", 100 * share, runs, m.runs,
+                               what, kFiner));
   };
   tell(m.in_strips,
        "are left out: a comparison came out otherwise than the law's, within its strip; the bound "
@@ -289,6 +320,8 @@ void refuse_idle_bounds(const Law& law, const Target& target, const Program& pro
 
 Verdict verdict(const Compiled& c, const Measured& m) {
   Verdict v;
+  sides(m, &v);
+  runs_left_out(m, &v);
   const std::vector<Span> spans = output_ranges(c.law, c.target);
   const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
@@ -315,7 +348,6 @@ Verdict verdict(const Compiled& c, const Measured& m) {
         fmt::format("line {}, column {}: \"{}\" is never used; use it, or take it out",
                     u.place.line, u.place.column, u.name));
   }
-  runs_left_out(m, &v);
   states(c, m, &v);
   parameters(c, &v);
   computed(c, &v);

@@ -187,10 +187,11 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
       "  feltgate law detent --design lever_law --memories memories\n"
-      "Exit code: 0 all well, 1 a run left its bound, more than half of the runs had to be left\n"
-      "out, the bound is as large as all that the law gave in the runs, or Gappa did not prove a\n"
-      "lemma, 2 unusable input: a law that cannot be read, proven, fitted or scheduled, or whose\n"
-      "bound is as large as its output's range, with line, reason and mend.");
+      "Exit code: 0 all well, 1 a run left its bound, more than half of the runs, or of those on\n"
+      "one side of a comparison, had to be left out, the bound is as large as all that the law\n"
+      "gave in the runs, or Gappa did not prove a lemma, 2 unusable input: a law that cannot be\n"
+      "read, proven, fitted or scheduled, or whose bound is as large as its output's range, with\n"
+      "line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");

@@ -214,5 +214,32 @@ TEST_CASE("a bound that ends at the output's range hides no strip") {
   CHECK(c.bound.strips.size() == 2);
 }
 
+TEST_CASE("a comparison that decides what is kept counts where what is kept is not the law's") {
+  const auto sides = [](const std::string& law) {
+    const Compiled c = compiled(law);
+    const Measured m = measure(c, 1, 20000);
+    REQUIRE(m.sides.size() == 1);
+    CHECK(m.sides[0].holds + m.sides[0].fails == m.runs);
+    CHECK(m.kept_otherwise > 0);
+    CHECK(m.in_strips == 0);
+    return std::pair{m.sides[0].outside, m.kept_otherwise};
+  };
+  const std::string torque = "out torque = 0.1 Nm * ", near = "if position^4 < 0.01 then ";
+  for (const std::string& law :
+       {"bool b = false\nnext b = position^4 < 0.01\n" + torque + "(if b then 1 else 0)\n",
+        "state kept = 0 in 0 .. 1\nnext kept = " + near + "1 else 0\n" + torque + "kept\n",
+        "phase kept = 0 in 0 .. 1\nnext kept = " + near + "0.5 else 0\n" + torque + "kept\n",
+        "line kept[2] in 0 .. 1\nnext kept = " + near + "1 else 0\n" + torque + "kept[2]\n",
+        torque + "0\nevent e when position^4 < 0.01\n"}) {
+    INFO(law);
+    const auto [outside, otherwise] = sides(law);
+    CHECK(outside == otherwise);
+  }
+  INFO("as near to the law's as its error allows, whichever way");
+  CHECK(
+      sides("state kept = 0 in 0 .. 1\nnext kept = " + near + "1e-12 else 0\n" + torque + "kept\n")
+          .first == 0);
+}
+
 }  // namespace
 }  // namespace feltgate::law

@@ -67,6 +67,94 @@ TEST_CASE("runs that are left out are told from a share on, and fail from anothe
   CHECK(verdict(c, m).failures.size() == 1);
 }
 
+TEST_CASE("runs that are left out are counted against the rarer side of their comparison") {
+  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  Measured m;
+  m.output = {0};
+  m.runs = 100000;
+  m.sides = {{{3, 7}, 100, 99900, 5}, {{4, 2}, 50000, 50000, 0}, {{5, 1}, 0, 100000, 0}};
+  CHECK(text(verdict(c, m)).empty());
+  m.sides[0].outside = 6;
+  CHECK_THAT(report(c, m),
+             Catch::StartsWith("warning: line 3, column 7: by the law this comparison "
+                               "is true in 100 of 100000 runs; in 6 (6 %) it came"));
+  CHECK(verdict(c, m).failures.empty());
+  m.sides[0].outside = 50;
+  CHECK(verdict(c, m).failures.empty());
+  m.sides[0] = {{3, 7}, 99900, 100, 51};
+  CHECK_THAT(report(c, m), Catch::StartsWith("failed: line 3, column 7: by the law this comparison "
+                                             "is false in 100 of 100000 runs; in 51 (51 %) it"));
+  CHECK(verdict(c, m).failures.size() == 1);
+  CHECK(verdict(c, m).warnings.empty());
+  // The words go where the law never does; the other comparison is one more.
+  m.sides[2].outside = 1;
+  CHECK_THAT(report(c, m),
+             Catch::StartsWith("failed: line 5, column 1: by the law this comparison is true in 0 "
+                               "of 100000 runs; in 1 it came out otherwise") &&
+                 Contains("; so do 1 more comparisons. Give what is compared finer formats"));
+}
+
+TEST_CASE("a law that acts near 0 only, and is rendered wrongly there, is told") {
+  const std::string k = "param k = 0.1 Nm in 0 .. 0.5 Nm\n", f = "param f = 0.5 Nm in 0 .. 1 Nm\n";
+  const std::string edge = k + "param edge = 0.7 in 0.2 .. 1.5\n";
+  const std::string r = "let r = sqrt(position^2 + 0.001)\n";
+  const struct {
+    std::string law, begin, left_out;
+  } laws[] = {
+      {k + "let q = position^4\nout torque = if q < 0.01 then -k else 0\n",
+       "failed: line 3, column 19: by the law this comparison is true in 413 of 262145 runs; in "
+       "6494 (1572 %) it came out otherwise",
+       "6494"},
+      {edge + r + "out torque = if r < edge then -k * (edge - r) else 0\n",
+       "failed: line 4, column 19: by the law this comparison is true in 911 of 262145 runs; in "
+       "911 (100 %)",
+       "911"},
+      {f + "let r = sqrt(position^2 + 0.01)\nout torque = if r < 0.3 then -f * (0.3 - r) else 0\n",
+       "failed: line 3, column 19: by the law this comparison is true in 369 of 262145 runs; in "
+       "369 (100 %)",
+       "369"},
+      {edge + r + "out torque = if r < edge then -k * (edge - r) * clamp(position, -1, 1) else 0\n",
+       "failed: line 4, column 19: by the law this comparison is true in 911 of 262145 runs; in "
+       "910 (99.89 %)",
+       "911"},
+      {k + r + "out torque = if r < 0.7 then -k * (0.7 - r) * clamp(position, -1, 1) else 0\n",
+       "failed: line 3, column 19: by the law this comparison is true in 911 of 262145 runs; in "
+       "910 (99.89 %)",
+       "911"},
+      {"param k = 0.5 Nm in 0 .. 1 Nm\nlet r = sqrt(position^2 + 0.0001)\nout torque = if r < 1 "
+       "then -k * (1 - r) * sgn(position) else if r > 2 then -0.1 Nm * sgn(position) else 0\n",
+       "failed: line 3, column 19: by the law this comparison is true in 1303 of 262145 runs; in "
+       "1303 (100 %)",
+       "1706"},
+      {k + "let q = position^2\nout torque = if q < 0.04 then -k else 0\n",
+       "warning: line 3, column 19: by the law this comparison is true in 261 of 262145 runs; in "
+       "25 (9.579 %)",
+       "25"},
+  };
+  for (const auto& [law, begin, left_out] : laws) {
+    INFO(law);
+    const Compiled c = compiled(law);
+    const Measured m = measure_all(c);
+    CHECK_THAT(report(c, m),
+               Catch::StartsWith(begin) && Contains("   without " + left_out +
+                                                    " of 262145 positions, which are in strips\n"));
+    CHECK(verdict(c, m).failures.empty() == (begin[0] == 'w'));
+    // The mend that it says.
+    std::string mended = law;
+    mended.replace(law.find("position^"), 8, "clamp(position, -4, 4)");
+    const Compiled again = compiled(mended);
+    CHECK_THAT(text(verdict(again, measure_all(again))), !Contains("came out otherwise"));
+  }
+  // What the bound covers is no matter, whatever its strip: here both ways are nearly equal, and
+  // here no run goes another way.
+  for (const char* const fine :
+       {"if position^4 < 0.01 then 1e-6 Nm else 0", "if position^4 < 1e10 then 0.1 Nm else 0"}) {
+    const Compiled c = compiled(std::string("out torque = ") + fine + "\n");
+    INFO(fine);
+    CHECK(text(verdict(c, measure_all(c))).empty());
+  }
+}
+
 TEST_CASE("what was measured above the bound, or is no number, fails") {
   const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
   Measured m;

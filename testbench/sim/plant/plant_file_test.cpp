@@ -92,7 +92,8 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
   CHECK(plant_error(unknown) ==
         "x.toml:" + std::to_string(line_of(unknown, "sed = 1")) +
             ": key \"sed\" is unknown in [encoder]; did you mean \"seed\"? "
-            "remove it or use one of: edge_offset_counts, line_jitter_counts_rms, lines, seed");
+            "remove it or use one of: absolute_error_mrad, edge_offset_counts, line_jitter_counts_rms, "
+            "lines, seed");
   const std::string missing = replaced(good, "coulomb_nm = 3.5e-3\n", "");
   CHECK(plant_error(missing) == "x.toml:" + std::to_string(line_of(missing, "[lugre]")) +
                                     ": key \"coulomb_nm\" is missing in [lugre]; add it");

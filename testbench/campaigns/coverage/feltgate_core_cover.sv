@@ -18,7 +18,7 @@ module feltgate_core_cover (
   input logic position_over,
   input logic reg_write_i,
   input logic stop_i,
-  input logic [ 1:0] mode,
+  input logic [feltgate_map_pkg::W_CONTROL-1:0] control,
   input logic [11:0] limits_o,
   input logic [ 3:0] scene_o,
   input logic [ 3:0] scene_wanted,
@@ -43,7 +43,8 @@ module feltgate_core_cover (
     first: cover property (@(posedge clk_i) disable iff (!rst_ni) tick && first_fault_o == 5'(n));
   end
   for (genvar n = 0; n < 3; n++) begin : g_mode
-    armed_in: cover property (@(posedge clk_i) disable iff (!rst_ni) tick && gates_enable_o && mode == 2'(n));
+    armed_in: cover property (@(posedge clk_i) disable iff (!rst_ni) tick && gates_enable_o &&
+                              control[feltgate_map_pkg::B_CONTROL_MODE+:feltgate_map_pkg::W_CONTROL_MODE] == 2'(n));
   end
   by_panel:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick && armed_o && !host);
   by_host:           cover property (@(posedge clk_i) disable iff (!rst_ni) tick && armed_o && host);

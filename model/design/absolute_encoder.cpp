@@ -53,18 +53,25 @@ void read_absolute_encoder(config::TomlReader& r, Design& d) {
     r.fail("diagnosis", "only SPI asks for a register of the diagnosis", "leave it out");
   }
   d.lines = (1 << d.absolute_bits) / 4;
-  if (r.has("error_mrad")) d.absolute_error_mrad = r.numbers("error_mrad", {-190, 190});
+  if (r.has("error_mrad"))
+    d.absolute_error_mrad = r.numbers("error_mrad", {-kMostError_mrad, kMostError_mrad});
 }
 
-std::array<std::int16_t, 256> Design::absolute_corrections() const {
-  std::array<std::int16_t, 256> table{};
+double harmonics(const std::vector<double>& terms, double angle_rad) {
+  double sum = 0;
+  for (std::size_t term = 0; term < terms.size(); ++term) {
+    const double x = static_cast<double>(term / 2 + 1) * angle_rad;
+    sum += terms[term] * (term % 2 == 0 ? std::cos(x) : std::sin(x));
+  }
+  return sum;
+}
+
+Corrections Design::absolute_corrections() const {
+  Corrections table{};
   for (std::size_t k = 0; k < table.size(); ++k) {
-    double sum_mrad = 0;
-    for (std::size_t term = 0; term < absolute_error_mrad.size(); ++term) {
-      const double x = static_cast<double>((term / 2 + 1) * k) * kTurnRad / 256;
-      sum_mrad += absolute_error_mrad[term] * (term % 2 == 0 ? std::cos(x) : std::sin(x));
-    }
-    table[k] = static_cast<std::int16_t>(std::lround(std::ldexp(-1e-3 * sum_mrad / kTurnRad, 20)));
+    const double angle_rad = static_cast<double>(k) * kTurnRad / static_cast<double>(table.size());
+    const double turns = 1e-3 * harmonics(absolute_error_mrad, angle_rad) / kTurnRad;
+    table[k] = static_cast<std::int16_t>(std::lround(std::ldexp(-turns, Map::absolute_entry_bits)));
   }
   return table;
 }
@@ -89,7 +96,7 @@ int Design::absolute_delay_ticks() const {
   const AbsoluteEncoder::Parameters p = absolute_parameters();
   // BiSS-C: of a sensor that begins two serial clocks after its acknowledge.
   const int wait = p.framing == AbsoluteEncoder::kBiss ? 10 * p.half_clocks : 0;
-  const int table = absolute_table() ? absolute_bits - 4 : 0;
+  const int table = absolute_table() ? correction_clocks(absolute_bits) : 0;
   return (p.reading_clocks() + wait + table + to_position + clocks_per_tick() - 1) /
          clocks_per_tick();
 }

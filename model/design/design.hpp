@@ -23,6 +23,11 @@ class TomlReader;
 
 namespace feltgate::design {
 
+/// The table of an absolute encoder.
+using Corrections = std::array<std::int16_t, 1 << Map::absolute_segment_bits>;
+/// The sum of harmonics at an angle: cosine 1, sine 1, cosine 2, ...
+double harmonics(const std::vector<double>& terms, double angle_rad);
+
 /// The numbers of a design file; units are in the names.
 struct Design {
   std::string name, path, description;
@@ -104,8 +109,9 @@ struct Design {
   int absolute_period_ticks() const;  ///< from reading to reading
   int absolute_delay_ticks() const;   ///< from the angle to the tick whose wave has it
   bool absolute_table() const { return !absolute_error_mrad.empty(); }
-  /// What is added to a reading at 256 angles of a turn, in 2^-20 turn; all 0 without a table.
-  std::array<std::int16_t, 256> absolute_corrections() const;
+  /// What is added to a reading at even angles of a turn, in 2^-absolute_entry_bits turn; all 0
+  /// without a table.
+  Corrections absolute_corrections() const;
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;

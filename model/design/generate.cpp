@@ -283,12 +283,13 @@ std::string systemverilog_package(const Elaborated& e) {
   }
   s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
     << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
-    << "  function automatic logic [15:0] absolute_correction(input logic [7:0] part);\n"
+    << "  function automatic logic [15:0] absolute_correction(input logic ["
+    << Map::absolute_segment_bits - 1 << ":0] part);\n"
     << "    case (part)\n";
   if (e.design.absolute_table()) {
     const auto table = e.design.absolute_corrections();
     for (std::size_t k = 0; k < table.size(); ++k) {
-      s << "      8'd" << k << ": absolute_correction = 16'd"
+      s << "      " << Map::absolute_segment_bits << "'d" << k << ": absolute_correction = 16'd"
         << static_cast<std::uint16_t>(table[k]) << ";\n";
     }
   }
@@ -335,7 +336,7 @@ std::string cpp_header(const Elaborated& e) {
       design_crc(e));
   if (d.absolute_table()) {
     s << "\n  /// What is added to an absolute encoder's reading, 2^-20 turn.\n"
-      << "  static constexpr std::int16_t absolute_corrections[256] = {";
+      << "  static constexpr std::int16_t absolute_corrections[" << Corrections{}.size() << "] = {";
     const auto table = d.absolute_corrections();
     for (std::size_t k = 0; k < table.size(); ++k) {
       s << (k % 16 == 0 ? "\n      " : " ") << table[k] << (k + 1 < table.size() ? "," : "};\n");

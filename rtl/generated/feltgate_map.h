@@ -435,6 +435,9 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_SELF_TEST_HELD_BIT 0  /* of self_test_arms: the scene begins though the lever is held */
 #define FELTGATE_SELF_TEST_MOVING_BIT 1  /* of self_test_arms: the scene begins though the lever moves */
 #define FELTGATE_KICKLESS_BITS 24  /* bits of the longest time without a kick [tick] */
+#define FELTGATE_ABSOLUTE_JUMP_BIT 3  /* of faults.absolute: the angle has jumped */
+#define FELTGATE_ABSOLUTE_ENTRY_BITS 20  /* a correction of an absolute encoder's table is in steps of a turn / 2^20 */
+#define FELTGATE_ABSOLUTE_SEGMENT_BITS 8  /* its table has 2^8 corrections over a turn */
 #define FELTGATE_ONE_CHANNEL_EDGES 16  /* edges of one channel in a row from which it is chatter or a dead channel */
 #define FELTGATE_DEAD_CHANNEL_EDGES 24  /* as many are a dead channel */
 #define FELTGATE_EDGE_UNIT_BITS 6  /* bits of the ticks in which the time between edges is counted */

@@ -19,7 +19,7 @@ import command_line
 import interrupts
 from command_line import Refused
 from exploration import choice, made_scene
-from exploration.design_text import design_text, named, own_program
+from exploration.design_text import described, design_text, own_program
 
 NAME = "choose"
 TABLE = "vectors/spaces/trade.csv"
@@ -330,7 +330,7 @@ class Choosing:
     def text_of(self, best):
         """The choice as a design file."""
         point = {"base": self.design, "set": best["set"]}
-        return named(design_text(command_line.root(), point), point)
+        return described(design_text(command_line.root(), point), point)
 
     def row_of(self, best, scene):
         """(report, row) of `rates` for the choice."""

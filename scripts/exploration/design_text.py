@@ -82,7 +82,7 @@ def design_text(root, point):
     return "\n".join(lines) + "\n"
 
 
-def named(text, point):
+def described(text, point):
     """The design's text with a head and a description of its own, not those of its base."""
     what = f"{point['base']} with " + ", ".join(f"{k} = {v}" for k, v in point["set"].items())
     text = re.sub(r"\A(#.*\n)*", lambda _: f"# {what}: written by `feltgate choose`.\n", text)

@@ -135,8 +135,7 @@ std::vector<std::string> scene_notes(const Scenario& s, double count_rad) {
     if (*e.arm && asked_s >= 0 && asked_s < e.at_s && stopped_s < 0) {
       notes.push_back(
           fmt::format("arm = true at {:g} s is no new request, that of {:g} s still stands; an "
-                      "event with arm = "
-                      "false before it ends that one",
+                      "event with arm = false before it ends that one",
                       e.at_s, asked_s));
     }
     asked_s = *e.arm ? e.at_s : -1;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "design/design.hpp"
 #include "host/identify/identify.hpp"
 
 namespace feltgate::host {
@@ -245,15 +246,6 @@ void speeds(const Recording& r, EncoderError* e) {
 
 }  // namespace
 
-double error_rad(const std::vector<double>& terms_rad, double angle_rad) {
-  double sum = 0;
-  for (std::size_t k = 0; k < terms_rad.size(); ++k) {
-    const double x = static_cast<double>(k / 2 + 1) * angle_rad;
-    sum += terms_rad[k] * (k % 2 == 0 ? std::cos(x) : std::sin(x));
-  }
-  return sum;
-}
-
 EncoderError identify_encoder(const Recording& turn, int harmonics, double count_rad,
                               double confidence) {
   const Recording r = inner(turn);
@@ -291,7 +283,8 @@ EncoderError identify_encoder(const Recording& turn, int harmonics, double count
     terms.push_back(fit.value(smooth + k));
   }
   for (int k = 0; k < 1024; ++k) {
-    e.largest_rad = std::max(e.largest_rad, std::abs(error_rad(terms, k * kTurnRad / 1024)));
+    const double error_rad = design::harmonics(terms, k * kTurnRad / 1024);
+    e.largest_rad = std::max(e.largest_rad, std::abs(error_rad));
   }
   e.noise_rad = fit.sigma();
   e.freedom = fit.freedom();

@@ -75,8 +75,6 @@ struct EncoderError {
 /// Errors: MeasurementError if the recording does not determine the result.
 EncoderError identify_encoder(const Recording& turn, int harmonics, double count_rad,
                               double confidence);
-/// The error at an angle.
-double error_rad(const std::vector<double>& terms_rad, double angle_rad);
 
 /// Measurements that separate the constants; each may be missing.
 struct Separation {

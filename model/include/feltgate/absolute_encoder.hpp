@@ -8,20 +8,28 @@
 
 #include <cstdint>
 
+#include "feltgate/generated/map.hpp"
+
 namespace feltgate {
 
-/// A position [2^-bits turn] with the correction of its angle, interpolated between 256 of 2^-20
-/// turn and rounded to counts, half up: within half a count of the straight lines between them.
-/// bits: 12 to 19.
+/// Clocks from a reading to the one that the table has corrected.
+constexpr int correction_clocks(int bits) { return bits - Map::absolute_segment_bits + 4; }
+
+/// A position [2^-bits turn] with the correction of its angle, interpolated between
+/// 2^absolute_segment_bits of 2^-absolute_entry_bits turn and rounded to counts, half up: within
+/// half a count of the straight lines between them. bits: 12 to 19.
 inline std::int32_t corrected(std::int32_t position, const std::int16_t* corrections, int bits) {
-  const int part_bits = bits - 8;
+  constexpr int below_count = Map::absolute_entry_bits - Map::absolute_segment_bits;
+  constexpr std::uint32_t last = (1u << Map::absolute_segment_bits) - 1;
+  const int part_bits = bits - Map::absolute_segment_bits;
   const auto angle = static_cast<std::uint32_t>(position);
   const auto part = static_cast<std::int32_t>(angle & ((1u << part_bits) - 1));
   const std::uint32_t segment = angle >> part_bits;
-  const std::int32_t from = corrections[segment & 255], to = corrections[(segment + 1) & 255];
-  // In 2^-12 count: the entries have 2^(20 - bits) in a count, the parts 2^(bits - 8).
+  const std::int32_t from = corrections[segment & last], to = corrections[(segment + 1) & last];
+  // In 2^-below_count of a count: an entry has entry_bits - bits below it, a part part_bits.
   const std::int32_t sum = from * ((1 << part_bits) - part) + to * part;
-  return static_cast<std::int32_t>(angle + static_cast<std::uint32_t>((sum + (1 << 11)) >> 12));
+  const std::int32_t counts = (sum + (1 << (below_count - 1))) >> below_count;
+  return static_cast<std::int32_t>(angle + static_cast<std::uint32_t>(counts));
 }
 
 /// Bit-exact and clock-exact with the RTL.
@@ -29,7 +37,13 @@ class AbsoluteEncoder {
  public:
   enum Framing : int { kSpi = 0, kSsi = 1, kBiss = 2 };
   /// Bits of Out::faults.
-  enum Fault : int { kMissing = 1, kCheck = 2, kSensor = 4, kJump = 8, kFrozen = 16 };
+  enum Fault : int {
+    kMissing = 1,
+    kCheck = 2,
+    kSensor = 4,
+    kJump = 1 << Map::absolute_jump_bit,
+    kFrozen = 16
+  };
   /// Those of the RTL, with its defaults.
   struct Parameters {
     int framing = kSpi;

@@ -90,13 +90,13 @@ class AbsolutePosition {
   static bool index_rests(const In&) { return true; }
 
  private:
-  /// In the clock in which a reading is in reading_. With a table this is bits - 4 clocks later.
+  /// In the clock in which a reading is in reading_. With a table this is correction_clocks()
+  /// later.
   bool reads(const AbsoluteEncoder::Out& read) {
     if constexpr (D::absolute_table != 0) {
-      constexpr int part_bits = D::absolute_bits - 8;
       const bool ends = left_ != 0 && --left_ == 0;
       if (read.valid) {
-        left_ = part_bits + 4;
+        left_ = correction_clocks(D::absolute_bits);
         found_ = faults_ != 0;
         reading_ = static_cast<std::uint32_t>(
             corrected(read.position, D::absolute_corrections, D::absolute_bits));

@@ -111,20 +111,22 @@ module encoder (
       assign reads   = valid;
       assign found   = faults_q != '0;
     end else begin : g_corrected
-      // Interpolates between 256 corrections c of 2^-20 turn, bit by bit of the part p of n bits between two of them:
+      // Interpolates between two corrections c of the table, bit by bit of the part p of n bits between them:
       // c0 (2^n - p) + c1 p = c0 + the sum of 2^k c(bit k of p). It begins with half a count, so the sum's top bits are rounded.
-      localparam int PartW = feltgate_pkg::ABSOLUTE_BITS - 8;
+      localparam int SegmentW = feltgate_map_pkg::ABSOLUTE_SEGMENT_BITS;
+      localparam int BelowW = feltgate_map_pkg::ABSOLUTE_ENTRY_BITS - SegmentW;  // bits below a count
+      localparam int PartW = feltgate_pkg::ABSOLUTE_BITS - SegmentW;
       localparam int SumW = 17 + PartW;
       localparam int StepW = $clog2(PartW + 5);
-      logic [15:0] corrections [0:255];
-      initial for (int i = 0; i < 256; i++) corrections[i] = feltgate_pkg::absolute_correction(8'(i));
+      logic [15:0] corrections [0:(1<<SegmentW)-1];
+      initial for (int i = 0; i < (1 << SegmentW); i++) corrections[i] = feltgate_pkg::absolute_correction(SegmentW'(i));
       logic [StepW-1:0] step_q;  // 0: rests
       logic [PartW-1:0] part_q;
-      logic [7:0] segment_q;
+      logic [SegmentW-1:0] segment_q;
       logic signed [15:0] entry_q;
       logic signed [SumW-1:0] sum_q;
       logic found_q;
-      always_ff @(posedge clk_i) entry_q <= corrections[segment_q + 8'(part_q[PartW-1])];
+      always_ff @(posedge clk_i) entry_q <= corrections[segment_q + SegmentW'(part_q[PartW-1])];
       always_ff @(posedge clk_i or negedge rst_ni) begin
         if (!rst_ni) begin
           step_q    <= '0;
@@ -138,17 +140,17 @@ module encoder (
           reads <= step_q == StepW'(1);
           if (valid) begin
             step_q    <= StepW'(PartW + 3);
-            segment_q <= angle[feltgate_pkg::ABSOLUTE_BITS-1-:8];
+            segment_q <= angle[feltgate_pkg::ABSOLUTE_BITS-1-:SegmentW];
             part_q    <= angle[PartW-1:0];
             found_q   <= faults_q != '0;
           end else if (step_q != '0) begin
             step_q <= step_q - 1'b1;
             part_q <= part_q << 1;  // at the end zeros: c0 alone
           end
-          if (step_q == StepW'(PartW + 3)) sum_q <= SumW'(1) <<< (11 - PartW);
+          if (step_q == StepW'(PartW + 3)) sum_q <= SumW'(1) <<< (BelowW - 1 - PartW);
           else if (step_q > StepW'(2)) sum_q <= (sum_q <<< 1) + SumW'(entry_q);
           else if (step_q == StepW'(2)) sum_q <= sum_q + SumW'(entry_q);
-          reading <= angle + 32'($signed(sum_q[SumW-1:12]));
+          reading <= angle + 32'($signed(sum_q[SumW-1:BelowW]));
         end
       end
       assign found = found_q;
@@ -156,7 +158,7 @@ module encoder (
 
     // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared; a jump also while they are
     // closed, since the angle may be wrong for ever after it.
-    localparam logic [4:0] Jump = 5'b01000;
+    localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
     assign absolute_state_o = {waits_q, faults | seen_q};
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found

@@ -36,7 +36,7 @@ constexpr double kClock_s = 1.0 / D::clock_hz;
 const std::vector<double> kError_rad = D::absolute_table != 0
                                            ? std::vector<double>{7.5e-3, 4.5e-3, -1.2e-3, 0.9e-3}
                                            : std::vector<double>{};
-constexpr int kLeft_counts = D::absolute_table;
+constexpr int kLeft_counts = D::absolute_table != 0 ? 1 : 0;
 
 /// A host that arms the set-point of 0 Nm, and a shaft with a sensor. At `at` the sensor breaks, at
 /// `mended` it is mended, and the host clears the faults and arms again.

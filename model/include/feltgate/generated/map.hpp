@@ -39,6 +39,9 @@ struct Map {
   static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
   static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
+  static constexpr int absolute_jump_bit = 3;  ///< of faults.absolute: the angle has jumped
+  static constexpr int absolute_entry_bits = 20;  ///< a correction of an absolute encoder's table is in steps of a turn / 2^20
+  static constexpr int absolute_segment_bits = 8;  ///< its table has 2^8 corrections over a turn
   static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
   static constexpr int edge_unit_bits = 6;  ///< bits of the ticks in which the time between edges is counted

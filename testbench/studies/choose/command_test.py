@@ -239,7 +239,7 @@ class Chosen(Scratch):
     def test_a_design_of_the_table_as_a_program(self):
         """Its package, its file among the repository's, and what is built; the build itself takes minutes."""
         point = {"base": "lever", "set": {"velocity.cutoff_rad_s": 1900, "formats.rounding": "floor"}}
-        text = design_text.named(design_text.design_text(ROOT, point), point)
+        text = design_text.described(design_text.design_text(ROOT, point), point)
         folder = Path(self.folder) / "build"
         folder.mkdir()
         (folder / "feltgate_generate").symlink_to(BUILD / "feltgate_generate")

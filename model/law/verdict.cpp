@@ -24,8 +24,9 @@ constexpr double kTold = 0.05;    ///< share of excluded runs above which it is 
 constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
 constexpr double kSlow = 0.01;  ///< reported error of a run beside the largest move of a state
-constexpr int kGivenRuns = 1000;  ///< runs to each side of 0 that show what a law gives
-constexpr double kAsSet = 0.1;    ///< reported relative error of the file's value, which is listed
+constexpr int kGivenRuns = 1000;    ///< runs to each side of 0 that show what a law gives
+constexpr double kLargeSeen = 0.1;  ///< reported bound beside what random runs gave
+constexpr double kAsSet = 0.1;  ///< reported relative error of the file's value, which is listed
 
 /// The mend for large bounds: limit the argument of the table with the worst error for its size.
 std::string mend(const Program& program, const Bound& b) {
@@ -230,10 +231,12 @@ struct Size {
   std::string of, mend;
 };
 
+double share_of(const Size& s) { return s.bound / s.range.width(); }
+
 /// Reports a bound that is a large part of its output's range, and one as large as this range.
 /// Returns whether it did.
 bool beside_its_output(const std::string& name, const Size& s, double lsb, Verdict* v) {
-  const double share = s.bound / s.range.width();
+  const double share = share_of(s);
   if (s.bound <= lsb || share <= kLargeShare) return false;
   const bool idle = share >= kIdle && s.bound > 2 * lsb;
   (idle ? v->failures : v->warnings)
@@ -334,13 +337,22 @@ Verdict verdict(const Compiled& c, const Measured& m) {
                       name, m.output[o], bound));
     }
     const std::string narrower = mend(c.program, c.bound);
-    const bool reached =
-        runs_reach_all(c.law) && o < m.reached.size() && m.reached[o].width() > 0 &&
-        beside_its_output(name,
-                          {bound, m.reached[o], "what the law gave in the measured runs", narrower},
-                          lsb, &v);
-    if (!reached) {
-      beside_its_output(name, {c.bound.output[o], spans[o], "its range", narrower}, lsb, &v);
+    const Size by_range{c.bound.output[o], spans[o], "its range", narrower};
+    if (o >= m.reached.size() || !(m.reached[o].width() > 0)) {
+      beside_its_output(name, by_range, lsb, &v);
+    } else if (runs_reach_all(c.law)) {
+      const Size seen{bound, m.reached[o], "what the law gave in the measured runs", narrower};
+      if (!beside_its_output(name, seen, lsb, &v)) beside_its_output(name, by_range, lsb, &v);
+    } else if (share_of(by_range) < kIdle && bound > 2 * lsb &&
+               bound > kLargeSeen * m.reached[o].width()) {
+      // A range by intervals may be far wider than what a law of several inputs gives.
+      v.warnings.push_back(fmt::format(
+          "{}: the bound, {:.3g} Nm, is {:.3g} % of what the law gave in the runs with random "
+          "inputs, {:.3g} .. {:.3g} Nm (its range, by intervals, is {:.3g} .. {:.3g} Nm); {}",
+          name, bound, 100 * bound / m.reached[o].width(), m.reached[o].lo, m.reached[o].hi,
+          spans[o].lo, spans[o].hi, narrower));
+    } else {
+      beside_its_output(name, by_range, lsb, &v);
     }
   }
   for (const Unused& u : c.law.unused) {

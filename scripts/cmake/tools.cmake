@@ -51,6 +51,7 @@ feltgate_library(feltgate_stability studies/stability EXCEPT "/constants\\.cpp$"
 target_link_libraries(feltgate_stability PRIVATE nlohmann_json::nlohmann_json)
 set_source_files_properties("${FELTGATE_ROOT}/model/studies/stability/eigenvalues.cpp" PROPERTIES COMPILE_OPTIONS -O1)
 
+target_compile_options(feltgate_stability PRIVATE -O1)
 # Scenes at several rates.
 feltgate_library(feltgate_rates studies/rates feltgate_stability feltgate_loop feltgate_law_loop
   feltgate_axes_loop)
@@ -58,6 +59,7 @@ target_link_libraries(feltgate_rates PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_rates PRIVATE
   FELTGATE_VERSION="${PROJECT_VERSION}")
 
+target_compile_options(feltgate_rates PRIVATE -O1)
 # The observer beside other controllers.
 feltgate_library(feltgate_controllers studies/controllers feltgate_stability feltgate_loop)
 target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
@@ -129,6 +131,7 @@ target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nl
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
 feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)
+target_compile_options(feltgate_shape PRIVATE -O1)
 # The templates of SVG++ take the compiler longest; -O1 takes it less than -O3.
 set_source_files_properties("${FELTGATE_ROOT}/model/studies/shape/read_svg.cpp" PROPERTIES COMPILE_OPTIONS -O1)
 # Height fields from images.

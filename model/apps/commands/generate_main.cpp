@@ -65,8 +65,8 @@ constexpr const char* usage =
     "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
     "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
     "packages in\n"
-    "rtl/generated, beside each the register map as C header, SystemRDL and CSV, the C++ headers\n"
-    "in model/include/feltgate/generated, and docs/registers.md.\n"
+    "rtl/generated, the C++ headers in model/include/feltgate/generated, docs/registers.md, and\n"
+    "for lever the register map as C header, SystemRDL and CSV.\n"
     "--check only compares; exit code 1 when a file is stale.\n"
     "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
     "DIR/parameters.mem,\n"
@@ -78,6 +78,7 @@ constexpr const char* usage =
     "what cannot work is refused all the same.\n"
     "  feltgate generate                                        after a change in rtl/designs\n"
     "  feltgate generate --design my_design.toml -o out          one design anywhere\n"
+    "  feltgate generate --design rtl/designs/fast.toml -o out   the C header of fast\n"
     "Exit code: 0 fine, 1 a file is stale, 2 a design or option that cannot be used.\n";
 
 struct Options {
@@ -171,8 +172,8 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
     stale |=
         update(o.root / "rtl/generated" / name / "parameters.mem", memory_text(e), o.check_only);
     stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
-    stale |= update_host_files(o.root / "rtl/generated" / name, e, o.check_only);
-    if (name == "lever") {
+    if (name == "lever") {  // the others' files for hosts are written on request
+      stale |= update_host_files(o.root / "rtl/generated" / name, e, o.check_only);
       stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
       stale |= update(o.root / "rtl/generated/feltgate_map.h", c_map_header(e), o.check_only);
     }

@@ -212,6 +212,7 @@ TEST_CASE("absolute: each defect closes the gates within 2 ms and is named") {
 }
 
 TEST_CASE("absolute: how long until the gates close, the longest of all moments") {
+  if (D::absolute_table != 0) return;  // a table changes the angle alone, no time
   std::string table = "| defect of the sensor | gates off, ms |\n|---|---|\n";
   for (const Defect defect : kDefects) {
     std::int64_t longest = 0;

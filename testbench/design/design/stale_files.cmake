@@ -37,8 +37,8 @@ file(READ "${COPY}/rtl/registers.toml" registers)
 string(REPLACE "\nslot = 46\nkind" "\nslot = 44\nkind" moved "${registers}")
 file(WRITE "${COPY}/rtl/registers.toml" "${moved}")
 expect(1 "moved slot" --check)
-foreach(file feltgate_map_pkg.sv feltgate_map.h map.hpp registers.md schedule.md tick.json paper/csr.csv
-    paper/feltgate.rdl)
+foreach(file feltgate_map_pkg.sv feltgate_map.h map.hpp registers.md schedule.md tick.json paper/feltgate_pkg.sv
+    lever/csr.csv lever/feltgate.rdl)
   if(NOT output MATCHES "${file}: stale; run `feltgate generate`")
     message(FATAL_ERROR "${file} is not named as stale:\n${output}")
   endif()

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The clocks of a result, and how far its legs are: bounds of the table's words and of their products with the amplitude.
+`default_nettype none
+
+module legs_proof (
+    input logic               clk_i,
+    input logic               rst_ni,
+    input logic               sample_i,
+    input logic signed [31:0] position_i,
+    input logic        [31:0] gain_i,
+    input logic        [31:0] offset_i,
+    input logic signed [12:0] amplitude_i,
+    input logic               polarity_i
+);
+  localparam int Period = feltgate_pkg::PWM_PERIOD;
+  localparam int Half = Period / 2;
+  localparam logic signed [12:0] Most = 13'(Period);
+  localparam int Latency = 85;
+  // Largest entries of the table, and 255/256 of them: largest words between two.
+  localparam logic signed [31:0] Highest = 32'sd65798;
+  localparam logic signed [31:0] HighestSine = 32'sd56983;
+  localparam logic signed [31:0] Word = 32'sd65540;
+  localparam logic signed [31:0] WordSine = 32'sd56760;
+
+  `include "reset.svh"
+
+  logic valid;
+  logic [11:0] on_a, on_b, on_c;
+  commutation #(
+      .Period(Period)
+  ) u_dut (
+      .*,
+      .on_a_o(on_a),
+      .on_b_o(on_b),
+      .on_c_o(on_c),
+      .valid_o(valid)
+  );
+  (* hierconn *) wire [1:0] \u_dut.state_q ;
+  (* hierconn *) wire [5:0] \u_dut.step_q ;
+  (* hierconn *) wire [1:0] \u_dut.pass_q ;
+  (* hierconn *) wire [16:0] \u_dut.factor_q ;
+  (* hierconn *) wire [17:0] \u_dut.sum_q ;
+  (* hierconn *) wire [12:0] \u_dut.amplitude_q ;
+  (* hierconn *) wire [12:0] \u_dut.difference_q ;
+  (* hierconn *) wire [11:0] \u_dut.leg_q ;
+  (* hierconn *) wire [11:0] \u_dut.leg_q2 ;
+  wire signed [31:0] factor = $signed({15'd0, \u_dut.factor_q });
+  wire signed [31:0] sum = 32'($signed(\u_dut.sum_q ));
+  wire signed [31:0] difference = 32'($signed(\u_dut.difference_q ));
+
+  // The clocks since a sample was taken.
+  logic [Latency:1] since_q;
+  logic take;
+  assign take = sample_i && since_q[Latency-1:1] == '0;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) since_q <= '0;
+    else since_q <= {since_q[Latency-1:1], take};
+  end
+  logic [6:0] place;
+  always_comb begin
+    place = 7'd0;
+    for (int k = 1; k < Latency; k++) if (since_q[k]) place = 7'(k);
+  end
+
+  // The amplitude as taken; low_q: those of its bits that are multiplied, other_q: the complement of the same bits. Both times
+  // the factor, as sums.
+  logic signed [12:0] taken_q;
+  logic signed [31:0] low_q, other_q, low_sum_q, other_sum_q, moved_q, bit_q, begin_q;
+  logic [12:0] left_q;
+  logic [5:0] step;
+  logic product, sine;
+  assign sine    = place >= 7'd59;
+  assign product = place >= 7'd36 && place < 7'd82;
+  assign step    = 6'(place - (sine ? 7'd59 : 7'd36));
+  always_ff @(posedge clk_i) begin
+    if (take) taken_q <= amplitude_i > Most ? Most : amplitude_i < -Most ? -Most : amplitude_i;
+    if (product && step == 6'd9) begin
+      low_q       <= '0;
+      other_q     <= '0;
+      low_sum_q   <= '0;
+      other_sum_q <= '0;
+      moved_q     <= sum;
+      bit_q       <= 32'sd1;
+      begin_q     <= !sine ? 32'sd32768 : difference[0] ? '0 : 32'sd65536;
+      left_q      <= taken_q;
+    end else if (product && step > 6'd9 && step < 6'd22) begin
+      if (left_q[0]) begin
+        low_q     <= low_q + bit_q;
+        low_sum_q <= low_sum_q + moved_q;
+      end else begin
+        other_q     <= other_q + bit_q;
+        other_sum_q <= other_sum_q + moved_q;
+      end
+      moved_q <= moved_q <<< 1;
+      bit_q   <= bit_q <<< 1;
+      left_q  <= left_q >> 1;
+    end
+  end
+
+  // What was there before.
+  logic running_q;
+  logic [35:0] legs_q;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) running_q <= 1'b0;
+    else running_q <= 1'b1;
+  end
+  always_ff @(posedge clk_i) legs_q <= {on_a, on_b, on_c};
+
+  always_comb begin
+    if (past_ok_q && rst_ni) begin
+      result_in_its_clock: assert (valid == since_q[Latency]);
+      within_the_period: assert (on_a <= 12'(Period) && on_b <= 12'(Period) && on_c <= 12'(Period));
+      held_between_results: assert (valid || !running_q || {on_a, on_b, on_c} == legs_q);
+      nothing_is_no_voltage: assert (!valid || taken_q != '0 || {on_a, on_b, on_c} == {3{12'(Half)}});
+      driven: cover (valid && on_a > on_b);
+      middle: cover (valid && taken_q == '0);
+    end
+    if (past_ok_q && !rst_ni) begin
+      reset_is_no_voltage: assert ({on_a, on_b, on_c} == {3{12'(Half)}} && !valid);
+    end
+  end
+
+  // Inside: the state by the clock.
+  logic [12:0] turned;  // the amplitude's bits as they have gone round
+  logic [3:0] gone;
+  assign gone = product && step > 6'd9 ? 4'(step - 6'd10) : 4'd0;
+  assign turned = 13'({taken_q, taken_q} >> gone);
+  logic signed [31:0] exact, most;
+  assign exact = low_sum_q + begin_q;
+  assign most  = sine && place != 7'd59 ? 32'(taken_q) * WordSine : 32'(taken_q) * Word;
+  logic signed [31:0] whole;  // after the sign bit: amplitude times factor
+  assign whole = low_sum_q - (taken_q[12] ? moved_q : '0) + begin_q;
+  logic summed, done;  // the sum of the last pass is whole
+  assign summed = product && step > 6'd9;
+  assign done = place == 7'd59 || place >= 7'd82;
+  always_comb begin
+    if (past_ok_q && rst_ni) begin
+      inside_since: assert ((since_q[Latency-1:1] & (since_q[Latency-1:1] - 1'b1)) == '0);
+      inside_state: assert (\u_dut.state_q == (place == '0 ? 2'd0 : place < 7'd36 ? 2'd1 : place < 7'd82 ? 2'd2 : 2'd3));
+      inside_step: assert (7'(\u_dut.step_q ) == (place == '0 ? 7'd0 : place < 7'd36 ? place - 7'd1 : product ? 7'(step) :
+                                                  place - 7'd82));
+      inside_pass: assert (!product || \u_dut.pass_q == (sine ? 2'd2 : 2'd0));
+      inside_taken: assert (place == '0 || (taken_q <= Most && taken_q >= -Most));
+      inside_turned: assert (place == '0 || \u_dut.amplitude_q == turned);
+      inside_node: assert (!(product && step > 6'd0 && step < 6'd9) ||
+                           factor <= (sine ? HighestSine : Highest));
+      inside_words: assert (!(product && step > 6'd0 && step < 6'd10) || (sum >= 0 &&
+          (sum <<< (step[3:0] - 4'd1)) <= (sine ? ((HighestSine <<< (step[3:0] - 4'd1)) - HighestSine) : ((Highest <<< (step[3:0] - 4'd1)) - Highest))));
+      inside_factor: assert (!summed || factor <= (sine ? WordSine : Word));
+      inside_begin: assert (!(summed || done) || begin_q == (sine && place != 7'd59 ? (difference[0] ? '0 : 32'sd65536) :
+                                                             32'sd32768));
+      inside_bit: assert (!summed || (bit_q == (32'sd1 <<< gone) && moved_q == (factor <<< gone)));
+      inside_left: assert (!summed || left_q == (taken_q >> gone));
+      inside_low: assert (!summed || (low_q == (32'($signed({1'b0, taken_q})) & (bit_q - 32'sd1)) &&
+                                      low_q + other_q + 32'sd1 == bit_q));
+      inside_sums: assert (!summed || (low_sum_q >= 0 && other_sum_q >= 0 &&
+          low_sum_q + other_sum_q + factor == moved_q &&
+          low_sum_q <= (sine ? low_q * WordSine : low_q * Word) &&
+          other_sum_q <= (sine ? other_q * WordSine : other_q * Word)));
+      inside_floor: assert (!summed || sum == (exact >>> gone));
+      inside_whole: assert (!done || sum == (whole >>> 13));
+      inside_bounded: assert (!done || (taken_q[12] ?
+          whole <= begin_q && whole >= most :
+          whole >= begin_q && whole <= begin_q + most));
+      inside_difference: assert (place < 7'd60 || (difference <= 32'(Most) && difference >= -(32'(Most))));
+      inside_no_difference: assert (place < 7'd60 || taken_q != '0 || difference == '0);
+      inside_leg: assert (place < 7'd83 || (\u_dut.leg_q <= 12'(Period) && (taken_q != '0 || \u_dut.leg_q == 12'(Half))));
+      inside_leg2: assert (place < 7'd84 || (\u_dut.leg_q2 <= 12'(Period) && (taken_q != '0 || \u_dut.leg_q2 == 12'(Half))));
+    end
+  end
+endmodule
+
+`default_nettype wire

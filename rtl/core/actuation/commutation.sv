@@ -232,16 +232,18 @@ module commutation #(
   // A leg. The outer legs are apart by the whole difference, so it is rounded to one clock, not to two; if it is odd, their
   // middle is half a clock off, away from the middle leg's sign, and the middle leg is rounded towards it.
   logic               is_middle, is_lowest, falls, negates, adds_one, unused_leg;
-  logic        [11:0] base, value, leg, leg_q, leg_q2;
+  logic        [11:0] base, outer, product, value, leg, leg_q, leg_q2;
   assign is_lowest = third_q == 2'd1;
   assign is_middle = !is_lowest && (third_q == 2'd0) == half_q;
   assign falls     = half_q != below_q;  // the middle leg's part is negative
+  assign outer     = difference_q[12:1];
+  assign product   = 12'(sum_q >>> 4);
   always_comb begin
-    value    = is_middle ? 12'(sum_q >>> 4) : difference_q[12:1];
+    value    = is_middle ? product : outer;
     negates  = is_middle ? falls : is_lowest;
     adds_one = is_middle ? falls : is_lowest ? !odd || falls : odd && falls;
     if (Sines && state_q == Product) begin
-      value    = 12'(sum_q >>> 4);
+      value    = product;
       negates  = !falls;
       adds_one = !falls;
     end

@@ -18,11 +18,10 @@ module legs_proof (
   localparam int Half = Period / 2;
   localparam logic signed [12:0] Most = 13'(Period);
   localparam int Latency = 85;
-  // Largest entries of the table, and 255/256 of them: largest words between two.
+  // Largest entries of the table. Words between two are 255/256 of them at most: the cosine's below 2^16 + 4, the sine's
+  // below 2^16 - 2^13.
   localparam logic signed [31:0] Highest = 32'sd65798;
   localparam logic signed [31:0] HighestSine = 32'sd56983;
-  localparam logic signed [31:0] Word = 32'sd65540;
-  localparam logic signed [31:0] WordSine = 32'sd56760;
 
   `include "reset.svh"
 
@@ -64,11 +63,9 @@ module legs_proof (
     for (int k = 1; k < Latency; k++) if (since_q[k]) place = 7'(k);
   end
 
-  // The amplitude as taken; low_q: those of its bits that are multiplied, other_q: the complement of the same bits. Both times
-  // the factor, as sums.
+  // The amplitude as taken, and what a product begins with.
   logic signed [12:0] taken_q;
-  logic signed [31:0] low_q, other_q, low_sum_q, other_sum_q, moved_q, bit_q, begin_q;
-  logic [12:0] left_q;
+  logic signed [31:0] begin_q;
   logic [5:0] step;
   logic product, sine;
   assign sine    = place >= 7'd59;
@@ -76,27 +73,7 @@ module legs_proof (
   assign step    = 6'(place - (sine ? 7'd59 : 7'd36));
   always_ff @(posedge clk_i) begin
     if (take) taken_q <= amplitude_i > Most ? Most : amplitude_i < -Most ? -Most : amplitude_i;
-    if (product && step == 6'd9) begin
-      low_q       <= '0;
-      other_q     <= '0;
-      low_sum_q   <= '0;
-      other_sum_q <= '0;
-      moved_q     <= sum;
-      bit_q       <= 32'sd1;
-      begin_q     <= !sine ? 32'sd32768 : difference[0] ? '0 : 32'sd65536;
-      left_q      <= taken_q;
-    end else if (product && step > 6'd9 && step < 6'd22) begin
-      if (left_q[0]) begin
-        low_q     <= low_q + bit_q;
-        low_sum_q <= low_sum_q + moved_q;
-      end else begin
-        other_q     <= other_q + bit_q;
-        other_sum_q <= other_sum_q + moved_q;
-      end
-      moved_q <= moved_q <<< 1;
-      bit_q   <= bit_q <<< 1;
-      left_q  <= left_q >> 1;
-    end
+    if (product && step == 6'd9) begin_q <= !sine ? 32'sd32768 : difference[0] ? '0 : 32'sd65536;
   end
 
   // What was there before.
@@ -114,27 +91,34 @@ module legs_proof (
       within_the_period: assert (on_a <= 12'(Period) && on_b <= 12'(Period) && on_c <= 12'(Period));
       held_between_results: assert (valid || !running_q || {on_a, on_b, on_c} == legs_q);
       nothing_is_no_voltage: assert (!valid || taken_q != '0 || {on_a, on_b, on_c} == {3{12'(Half)}});
-      driven: cover (valid && on_a > on_b);
-      middle: cover (valid && taken_q == '0);
+      result: cover (valid && taken_q != '0);
+      in_a_row: cover (valid && take);
     end
     if (past_ok_q && !rst_ni) begin
       reset_is_no_voltage: assert ({on_a, on_b, on_c} == {3{12'(Half)}} && !valid);
     end
   end
 
-  // Inside: the state by the clock.
+  // Inside: the state by the clock. A product's sum after n bits of the amplitude, low as a number, lies between bounds of
+  // low times the largest word; the last bit subtracts.
   logic [12:0] turned;  // the amplitude's bits as they have gone round
   logic [3:0] gone;
-  assign gone = product && step > 6'd9 ? 4'(step - 6'd10) : 4'd0;
-  assign turned = 13'({taken_q, taken_q} >> gone);
-  logic signed [31:0] exact, most;
-  assign exact = low_sum_q + begin_q;
-  assign most  = sine && place != 7'd59 ? 32'(taken_q) * WordSine : 32'(taken_q) * Word;
-  logic signed [31:0] whole;  // after the sign bit: amplitude times factor
-  assign whole = low_sum_q - (taken_q[12] ? moved_q : '0) + begin_q;
-  logic summed, done;  // the sum of the last pass is whole
+  logic signed [31:0] low, rest, one, most, least, first;
+  logic summed, done, cosine;
+  function automatic logic signed [31:0] bound(input logic signed [31:0] times, input logic of_cosine);
+    bound = (times <<< 16) + (of_cosine ? times <<< 2 : -(times <<< 13));
+  endfunction
   assign summed = product && step > 6'd9;
-  assign done = place == 7'd59 || place >= 7'd82;
+  assign done   = place == 7'd59 || place >= 7'd82;
+  assign cosine = place <= 7'd59;
+  assign gone   = summed ? 4'(step - 6'd10) : 4'd0;
+  assign turned = 13'({taken_q, taken_q} >> gone);
+  assign one    = 32'sd1 <<< gone;
+  assign low    = 32'($signed({1'b0, taken_q})) & (one - 32'sd1);
+  assign rest   = one - low;
+  assign most   = bound(low, cosine) + begin_q;
+  assign least  = bound(rest, cosine) - begin_q + one;
+  assign first  = bound(32'(taken_q), cosine) + begin_q;
   always_comb begin
     if (past_ok_q && rst_ni) begin
       inside_since: assert ((since_q[Latency-1:1] & (since_q[Latency-1:1] - 1'b1)) == '0);
@@ -144,26 +128,18 @@ module legs_proof (
       inside_pass: assert (!product || \u_dut.pass_q == (sine ? 2'd2 : 2'd0));
       inside_taken: assert (place == '0 || (taken_q <= Most && taken_q >= -Most));
       inside_turned: assert (place == '0 || \u_dut.amplitude_q == turned);
-      inside_node: assert (!(product && step > 6'd0 && step < 6'd9) ||
-                           factor <= (sine ? HighestSine : Highest));
+      inside_node: assert (!(product && step > 6'd0 && step < 6'd9) || factor <= (sine ? HighestSine : Highest));
       inside_words: assert (!(product && step > 6'd0 && step < 6'd10) || (sum >= 0 &&
-          (sum <<< (step[3:0] - 4'd1)) <= (sine ? ((HighestSine <<< (step[3:0] - 4'd1)) - HighestSine) : ((Highest <<< (step[3:0] - 4'd1)) - Highest))));
-      inside_factor: assert (!summed || factor <= (sine ? WordSine : Word));
-      inside_begin: assert (!(summed || done) || begin_q == (sine && place != 7'd59 ? (difference[0] ? '0 : 32'sd65536) :
-                                                             32'sd32768));
-      inside_bit: assert (!summed || (bit_q == (32'sd1 <<< gone) && moved_q == (factor <<< gone)));
-      inside_left: assert (!summed || left_q == (taken_q >> gone));
-      inside_low: assert (!summed || (low_q == (32'($signed({1'b0, taken_q})) & (bit_q - 32'sd1)) &&
-                                      low_q + other_q + 32'sd1 == bit_q));
-      inside_sums: assert (!summed || (low_sum_q >= 0 && other_sum_q >= 0 &&
-          low_sum_q + other_sum_q + factor == moved_q &&
-          low_sum_q <= (sine ? low_q * WordSine : low_q * Word) &&
-          other_sum_q <= (sine ? other_q * WordSine : other_q * Word)));
-      inside_floor: assert (!summed || sum == (exact >>> gone));
-      inside_whole: assert (!done || sum == (whole >>> 13));
-      inside_bounded: assert (!done || (taken_q[12] ?
-          whole <= begin_q && whole >= most :
-          whole >= begin_q && whole <= begin_q + most));
+          (sum <<< (step[3:0] - 4'd1)) <= (sine ? (HighestSine <<< (step[3:0] - 4'd1)) - HighestSine :
+                                                  (Highest <<< (step[3:0] - 4'd1)) - Highest)));
+      inside_factor: assert (!summed || factor <= bound(32'sd1, cosine));
+      inside_begin: assert (!(summed || done) || begin_q == (cosine ? 32'sd32768 : difference[0] ? '0 : 32'sd65536));
+      inside_most: assert (!summed || (sum >= 0 && sum <= 32'sd65540 && (sum <<< gone) <= most));
+      inside_least: assert (!summed || ((factor - sum) <<< gone) <= least);
+      inside_beyond: assert (!summed || ((sum - factor) <<< gone) <= begin_q);
+      inside_zero: assert (!(summed || done) || taken_q != '0 || sum == (begin_q >>> (done ? 4'd13 : gone)));
+      inside_done: assert (!done || (sum <= 32'sd65540 && sum >= -32'sd65540 && (taken_q[12] ?
+          (sum <<< 13) <= begin_q && (sum <<< 13) >= first - 32'sd8192 : sum >= 0 && (sum <<< 13) <= first)));
       inside_difference: assert (place < 7'd60 || (difference <= 32'(Most) && difference >= -(32'(Most))));
       inside_no_difference: assert (place < 7'd60 || taken_q != '0 || difference == '0);
       inside_leg: assert (place < 7'd83 || (\u_dut.leg_q <= 12'(Period) && (taken_q != '0 || \u_dut.leg_q == 12'(Half))));

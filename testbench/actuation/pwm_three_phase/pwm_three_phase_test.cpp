@@ -181,7 +181,7 @@ TEST_CASE("pwm_three_phase: pulses of all legs have one centre, to half a clock"
 }
 
 TEST_CASE("pwm_three_phase: new on-times wait for the period's end, and come together") {
-  const int before = kPeriod / 2 + 1, after = kPeriod / 4 + kDead + kShortest;
+  const int before = kPeriod - kDead - kShortest - 1, after = kDead + kShortest + 1;
   for (int clock = 0; clock < kPeriod; clock += kPeriod < 100 ? 1 : 49) {
     const auto stimulus = [=](std::int64_t c) {
       const int on = c - Bench::kFirstReset <= kPeriod + clock ? before : after;

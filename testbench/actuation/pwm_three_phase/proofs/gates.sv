@@ -17,6 +17,7 @@ module gates_proof (
   localparam int Dead = feltgate_pkg::DEAD_CLOCKS;
   localparam int Shortest = feltgate_pkg::SHORTEST_CLOCKS;
   localparam int Half = Period / 2;
+  localparam logic [11:0] Most = 12'(Period - Dead - Shortest);
   localparam bit AnyPulse = Shortest == 1;
   localparam int DeadBits = (Dead > 1) ? $clog2(Dead) : 1;
 
@@ -132,13 +133,12 @@ module gates_proof (
       no_pulse_too_short: assert (hi || lo || run_q == '0 || cut || count_q != 2'd2 || run_q >= 9'(Shortest));
       taken_at_the_boundary: assert (!after_q || taken == (!asked_enabled_q ? 12'd0 : period_start ? asked_q : taken_q));
       period_is_exact: assert (period_start == (clock_q == 12'(Period - 1) && after_q));
-      second_pulse: cover (after_q && count_q == 2'd2);
-      driven: cover (hi);
+      braked: cover (lo);
+      limited: cover (lo && threshold == Most);
     end
   end
 
   // The carrier by the clock; where a leg begins to be high, and the fewest clocks that it is low at an end of a period.
-  localparam logic [11:0] Most = 12'(Period - Dead - Shortest);
   localparam logic [13:0] LowHalf = 14'((Dead + Shortest) / 2);
   logic [13:0] done, first_on, length;
   assign done     = 14'(clock_q);

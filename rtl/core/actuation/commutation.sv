@@ -127,8 +127,8 @@ module commutation #(
 
   // Nodes 30/16 degrees apart, in 2^-17 of the amplitude: f(angle) * 2^17 * (1 + h^2/16) * 256/255 + 1/2, rounded, with
   // h = 30/16 degrees. The chords between them are as far above the curve as below it, and eight bits weigh 255/256.
-  function automatic logic [16:0] cosine(input logic [4:0] node);  // cos/2
-    case (node)
+  function automatic logic [16:0] cosine(input logic [4:0] at);  // cos/2
+    case (at)
       5'd0:    cosine = 17'd65798;
       5'd1:    cosine = 17'd65763;
       5'd2:    cosine = 17'd65657;
@@ -148,8 +148,8 @@ module commutation #(
       default: cosine = 17'd56983;
     endcase
   endfunction
-  function automatic logic [16:0] sine(input logic [4:0] node);  // sin * sqrt(3)/2
-    case (node)
+  function automatic logic [16:0] sine(input logic [4:0] at);  // sin * sqrt(3)/2
+    case (at)
       5'd0:    sine = 17'd1;
       5'd1:    sine = 17'd3729;
       5'd2:    sine = 17'd7454;
@@ -169,8 +169,8 @@ module commutation #(
       default: sine = 17'd56983;
     endcase
   endfunction
-  function automatic logic [16:0] third(input logic [4:0] node);  // sin / (2 sqrt(3))
-    case (node)
+  function automatic logic [16:0] third(input logic [4:0] at);  // sin / (2 sqrt(3))
+    case (at)
       5'd0:    third = 17'd1;
       5'd1:    third = 17'd1243;
       5'd2:    third = 17'd2485;

@@ -49,18 +49,18 @@ module legs_proof (
   wire signed [31:0] sum = 32'($signed(\u_dut.sum_q ));
   wire signed [31:0] difference = 32'($signed(\u_dut.difference_q ));
 
-  // The clocks since a sample was taken.
-  logic [Latency:1] since_q;
-  logic take;
-  assign take = sample_i && since_q[Latency-1:1] == '0;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) since_q <= '0;
-    else since_q <= {since_q[Latency-1:1], take};
-  end
+  // The clocks since a sample was taken, 0: none is.
   logic [6:0] place;
-  always_comb begin
-    place = 7'd0;
-    for (int k = 1; k < Latency; k++) if (since_q[k]) place = 7'(k);
+  logic take, due_q;
+  assign take = sample_i && place == '0;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      place <= 7'd0;
+      due_q <= 1'b0;
+    end else begin
+      place <= place == 7'(Latency - 1) ? 7'd0 : place != '0 || take ? place + 7'd1 : 7'd0;
+      due_q <= place == 7'(Latency - 1);
+    end
   end
 
   // The amplitude as taken, and what a product begins with.
@@ -87,7 +87,7 @@ module legs_proof (
 
   always_comb begin
     if (past_ok_q && rst_ni) begin
-      result_in_its_clock: assert (valid == since_q[Latency]);
+      result_in_its_clock: assert (valid == due_q);
       within_the_period: assert (on_a <= 12'(Period) && on_b <= 12'(Period) && on_c <= 12'(Period));
       held_between_results: assert (valid || !running_q || {on_a, on_b, on_c} == legs_q);
       nothing_is_no_voltage: assert (!valid || taken_q != '0 || {on_a, on_b, on_c} == {3{12'(Half)}});
@@ -121,7 +121,7 @@ module legs_proof (
   assign first  = bound(32'(taken_q), cosine) + begin_q;
   always_comb begin
     if (past_ok_q && rst_ni) begin
-      inside_since: assert ((since_q[Latency-1:1] & (since_q[Latency-1:1] - 1'b1)) == '0);
+      inside_place: assert (place < 7'(Latency) && (!due_q || place == '0));
       inside_state: assert (\u_dut.state_q == (place == '0 ? 2'd0 : place < 7'd36 ? 2'd1 : place < 7'd82 ? 2'd2 : 2'd3));
       inside_step: assert (7'(\u_dut.step_q ) == (place == '0 ? 7'd0 : place < 7'd36 ? place - 7'd1 : product ? 7'(step) :
                                                   place - 7'd82));

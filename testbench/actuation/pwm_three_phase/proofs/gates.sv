@@ -134,7 +134,7 @@ module gates_proof (
       taken_at_the_boundary: assert (!after_q || taken == (!asked_enabled_q ? 12'd0 : period_start ? asked_q : taken_q));
       period_is_exact: assert (period_start == (clock_q == 12'(Period - 1) && after_q));
       braked: cover (lo);
-      limited: cover (lo && threshold == Most);
+      left_out: cover (lo && threshold == 12'(Dead) && taken != 12'(Dead));
     end
   end
 
@@ -155,8 +155,6 @@ module gates_proof (
       inside_side: assert (wanted ? 8'(lo_off_q) >= waited : 8'(hi_off_q) >= waited);
       inside_enabled: assert (8'(enabled_q) >= waited);
       inside_on: assert (!(hi_reg || lo_reg) || waited == 8'(Dead - 1) || Dead == 1);
-      inside_off: assert ((!lo_reg || hi_off_q >= 7'(Dead)) && (!hi_reg || lo_off_q >= 7'(Dead)));
-      inside_enabled_on: assert ((!hi_reg && !lo_reg) || enabled_q >= 7'(Dead));
 
       inside_clock: assert (clock_q < 12'(Period) && (after_q || clock_q == 12'(Period - 2)));
       inside_rising: assert (rising == (done >= 14'(Half)));

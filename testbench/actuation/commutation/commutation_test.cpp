@@ -59,8 +59,8 @@ class Judge {
   const char* operator()(double angle, double amplitude, bool backward, double a, double b,
                          double c) {
     if (backward) std::swap(b, c);
-    // Sines have two clocks less at each end.
-    const double most = sines_ ? (period_ / 2.0 - 1) * std::sqrt(3) : period_;
+    // Sines have a clock less at each end of the period.
+    const double most = sines_ ? std::floor((period_ / 2.0 - 1) * std::sqrt(3)) : period_;
     const double length = std::fmax(-most, std::fmin(most, amplitude)) / std::sqrt(3);
     const Vector is(a, b, c);
     const double x = is.x - length * std::cos(angle), y = is.y - length * std::sin(angle);
@@ -68,13 +68,13 @@ class Judge {
     torque = x * std::cos(angle) + y * std::sin(angle);
     if (!(std::fmin(a, std::fmin(b, c)) >= 0)) return "no on-time is below 0";
     if (!(std::fmax(a, std::fmax(b, c)) <= period_)) return "no on-time is above the period";
-    const double slack = sines_ ? 1 : 0;  // the limit is rounded down
-    if (!(vector <= 0.45 + slack + 2e-4 * std::fabs(length))) return "the vector is as asked for";
+    if (!(vector <= 0.45 + 2e-4 * std::fabs(length))) return "the vector is as asked for";
     if (sines_) {
       const double on[] = {a, b, c};
       for (int leg = 0; leg < 3; ++leg) {
         const double wanted = period_ / 2.0 + length * std::cos(angle - leg * kThird);
-        if (!(std::fabs(on[leg] - wanted) <= 1.3 + slack)) return "a leg is a sine";
+        if (!(std::fabs(on[leg] - wanted) <= 1.5 + 2e-4 * std::fabs(length)))
+          return "a leg is a sine";
       }
       return nullptr;
     }

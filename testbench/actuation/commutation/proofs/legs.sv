@@ -91,8 +91,8 @@ module legs_proof (
       within_the_period: assert (on_a <= 12'(Period) && on_b <= 12'(Period) && on_c <= 12'(Period));
       held_between_results: assert (valid || !running_q || {on_a, on_b, on_c} == legs_q);
       nothing_is_no_voltage: assert (!valid || taken_q != '0 || {on_a, on_b, on_c} == {3{12'(Half)}});
-      result: cover (valid && taken_q != '0);
-      in_a_row: cover (valid && take);
+      limited: cover (place == 7'd1 && taken_q == -Most);
+      under_way: cover (place == 7'd10 && taken_q > 13'sd0);
     end
     if (past_ok_q && !rst_ni) begin
       reset_is_no_voltage: assert ({on_a, on_b, on_c} == {3{12'(Half)}} && !valid);

@@ -40,5 +40,7 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/commutation.sv
+core/actuation/pwm_three_phase.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

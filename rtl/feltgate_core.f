@@ -40,3 +40,5 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/commutation.sv
+core/actuation/pwm_three_phase.sv

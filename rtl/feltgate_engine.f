@@ -40,6 +40,8 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/commutation.sv
+core/actuation/pwm_three_phase.sv
 generated/feltgate_engine_pkg.sv
 engine/engine_alu.sv
 engine/engine_memory.sv

@@ -38,8 +38,9 @@ OPTION_PINS = {
 }
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
-    "pwm": {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
-        "ShortestClocks": "feltgate_pkg::SHORTEST_CLOCKS"},
+    **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
+        "ShortestClocks": "feltgate_pkg::SHORTEST_CLOCKS"}),
+    "commutation": {"Period": "feltgate_pkg::PWM_PERIOD"},
     "sequencer": {"ClocksPerTick": "feltgate_pkg::CLOCKS_PER_TICK"},
 }
 

@@ -135,6 +135,40 @@ module core_tb;
       .busy_o(),
       .faults_o()
   );
+  wire [11:0] leg_b, leg_c;
+  commutation u_commutation (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .sample_i(clocks % 1000 == 0),
+      .position_i({25'd0, sense_bits}),
+      .gain_i(32'h01234567),
+      .offset_i(32'd0),
+      .amplitude_i(13'sd700),
+      .polarity_i(1'b0),
+      .on_a_o(),
+      .on_b_o(leg_b),
+      .on_c_o(leg_c),
+      .valid_o()
+  );
+  pwm_three_phase #(
+      .Period(60),
+      .DeadClocks(2)
+  ) u_pwm_three_phase (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .clear_i(1'b0),
+      .enable_i(clocks % 1000 > 200),
+      .on_a_i(12'd30),
+      .on_b_i({7'd0, leg_b[4:0]}),
+      .on_c_i({7'd1, leg_c[4:0]}),
+      .gate_a_hi_o(),
+      .gate_a_lo_o(),
+      .gate_b_hi_o(),
+      .gate_b_lo_o(),
+      .gate_c_hi_o(),
+      .gate_c_lo_o(),
+      .period_start_o()
+  );
   always @(posedge sense_clock) sense_bits <= {sense_bits[5:0], sense_bits[6] ^ sense_bits[5]};
 
   // Read data are left out until the host has read: a RAM that was never written holds X.
@@ -169,7 +203,7 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
-      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control);
+      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control, u_commutation, u_pwm_three_phase);
       if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;

@@ -56,11 +56,14 @@ BAD = (
     ("velocity_mt", "VELOCITY_F", 39, "the_time_stamps_must_hold_the_window"),
     ("current_sense", "CLOCK_HZ", 39_000_000, "an_over_current_must_be_latched_within_5_us_and"),
     ("absolute_encoder", "HalfClocks", 3, "a_parameter_is_out_of_its_range"),
+    ("commutation", "Period", 999, "PERIOD_must_be_even_and_4_to_4094_and_MODULATION_0_or_1"),
+    ("pwm_three_phase", "DeadClocks", 0, "a_parameter_of_pwm_three_phase_is_out_of_its_range"),
 )
 WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
 TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer",
         "velocity_mt": "velocity_mt", "current_sense": "current_sense",
-        "absolute_encoder": "absolute_encoder"}
+        "absolute_encoder": "absolute_encoder", "commutation": "commutation",
+        "pwm_three_phase": "pwm_three_phase"}
 
 
 def rtl_of(top):

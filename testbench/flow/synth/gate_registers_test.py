@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The gates in the ECP5 netlist of pwm: four flip-flops whose outputs go to the pins and nowhere
+"""The gates in the ECP5 netlists of pwm and pwm_three_phase: flip-flops whose outputs go to the pins and nowhere
 else, with one asynchronous clear between them, so that they fit into the I/O cells.
-docs/blocks/pwm.md
+docs/blocks/pwm.md, docs/blocks/pwm_three_phase.md
 """
 
 import json
@@ -14,20 +14,23 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ["FELTGATE_ROOT"])
-GATES = [f"gate_{leg}_{side}_o" for leg in "ab" for side in ("hi", "lo")]
 
 
-def netlist(text):
-    """The module pwm of this source, as Yosys maps it."""
+def gates(legs):
+    return [f"gate_{leg}_{side}_o" for leg in legs for side in ("hi", "lo")]
+
+
+def netlist(text, name="pwm"):
+    """The module of this source, as Yosys maps it."""
     with tempfile.TemporaryDirectory() as folder:
-        source = Path(folder) / "pwm.sv"
+        source = Path(folder) / f"{name}.sv"
         source.write_text(text, encoding="utf-8")
-        script = f"read_verilog -sv {source}; synth_ecp5 -top pwm -json {folder}/pwm.json"
+        script = f"read_verilog -sv {source}; synth_ecp5 -top {name} -json {folder}/{name}.json"
         subprocess.run(["yosys", "-q", "-p", script], check=True, capture_output=True, text=True)
-        return json.loads((Path(folder) / "pwm.json").read_text())["modules"]["pwm"]
+        return json.loads((Path(folder) / f"{name}.json").read_text())["modules"][name]
 
 
-def findings(module):
+def findings(module, legs="ab"):
     drivers, loads = {}, {}
     for cell in module["cells"].values():
         for port, bits in cell["connections"].items():
@@ -37,7 +40,7 @@ def findings(module):
                 else:
                     loads.setdefault(bit, []).append(port)
     found, clears = [], set()
-    for gate in GATES:
+    for gate in gates(legs):
         bit = module["ports"][gate]["bits"][0]
         cell = drivers.get(bit)
         if cell is None or cell["type"] != "TRELLIS_FF":
@@ -62,6 +65,8 @@ class GateRegisters(unittest.TestCase):
 
     def test_they_fit_the_cells(self):
         self.assertEqual(findings(netlist(self.source)), [])
+        source = (ROOT / "rtl/core/actuation/pwm_three_phase.sv").read_text(encoding="utf-8")
+        self.assertEqual(findings(netlist(source, "pwm_three_phase"), "abc"), [])
 
     def test_other_circuits_are_found(self):
         for old, new, word in (

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Twin of rtl/core/actuation/commutation.sv: three on-times from a position and an amplitude, by
+// space vectors or sines; and the words of a motor. A result is computed as its sample is taken.
+// Documentation: docs/blocks/commutation.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace feltgate {
+
+/// Electrical turn per count, 2^-32 turn, modulo a turn: exact if counts_per_turn is a power of two
+/// up to 2^32, else within 2^-33 turn for each count.
+inline std::uint32_t commutation_gain(int pole_pairs, std::int64_t counts_per_turn) {
+  const auto counts = static_cast<std::uint64_t>(counts_per_turn);
+  const std::uint64_t turns = static_cast<std::uint64_t>(pole_pairs) << 32;
+  return static_cast<std::uint32_t>((turns + counts / 2) / counts);
+}
+/// An angle in electrical turns as a word, 2^-32 turn.
+inline std::uint32_t commutation_angle(double turns) {
+  return static_cast<std::uint32_t>(std::llround(std::ldexp(turns - std::floor(turns), 32)));
+}
+
+/// Bit-exact and clock-exact with the RTL.
+class Commutation {
+ public:
+  enum Modulation : int { kSines = 0, kSpaceVectors = 1 };
+  struct In {
+    bool sample = false;         ///< one clock: takes all; ignored while a result is computed
+    std::int32_t position = 0;   ///< counts; wraps
+    std::uint32_t gain = 0;      ///< 2^-32 electrical turn per count
+    std::uint32_t offset = 0;    ///< 2^-32 electrical turn
+    std::int16_t amplitude = 0;  ///< clocks, -4096..4095; saturates at +-period
+    bool polarity = false;       ///< true: legs B and C change places
+  };
+  struct Out {
+    std::int16_t on_a = 0;  ///< clocks of the high switch in a period, 0 to period
+    std::int16_t on_b = 0;
+    std::int16_t on_c = 0;
+    bool valid = false;  ///< one clock: the on-times are new
+  };
+
+  /// `period` in clocks: even, 4 to 4094.
+  explicit Commutation(int period = 1000, Modulation modulation = kSpaceVectors)
+      : half_(period / 2), modulation_(modulation) {
+    reset();
+  }
+
+  void reset() {
+    left_ = 0;
+    out_.on_a = out_.on_b = out_.on_c = static_cast<std::int16_t>(half_);
+    out_.valid = false;
+  }
+
+  void clock(const In& in) {
+    out_.valid = left_ == 1;
+    if (out_.valid) {
+      out_.on_a = next_[0];
+      out_.on_b = next_[1];
+      out_.on_c = next_[2];
+    }
+    if (left_ > 0) {
+      --left_;
+    } else if (in.sample) {
+      left_ = latency_clocks() - 1;
+      next_ = on_times(in);
+    }
+  }
+
+  const Out& out() const { return out_; }
+
+  /// From sample to valid; a sample may come with the valid before it.
+  int latency_clocks() const { return modulation_ == kSines ? 108 : 85; }
+  /// Greatest amplitude that is not limited, clocks.
+  int limit() const { return modulation_ == kSines ? (2 * half_ - 2) * 56755 / 65536 : 2 * half_; }
+
+  /// What the inputs give, legs A, B and C.
+  std::array<std::int16_t, 3> on_times(const In& in) const {
+    const std::uint32_t angle = in.gain * static_cast<std::uint32_t>(in.position) + in.offset;
+    const std::uint32_t sixth = (angle >> 14) * 3 >> 4;  // 2^-13 of a sixth of a turn
+    const std::uint32_t sector = sixth >> 13;
+    const bool below = (sixth & 0x1000) == 0;  // the sector's middle
+    const auto size = static_cast<int>(below ? ~sixth & 0xfff : sixth & 0xfff);
+    const int amplitude = std::clamp<int>(in.amplitude, -limit(), limit());
+
+    const int outer = scaled(kCosine, size, amplitude, kHalf / 2) >> 16;
+    const bool odd = (outer & 1) != 0;
+    const bool falls = (sector & 1) != (below ? 1U : 0U);
+    const int sign = falls ? -1 : 1;
+    const int middle = sign * (scaled(kSine, size, amplitude, odd ? 0 : kHalf) >> 17);
+    int base = half_;
+    if (modulation_ == kSines) base -= sign * (scaled(kThird, size, amplitude, kHalf) >> 17);
+    const int lower = (outer - (odd ? 1 : 0)) / 2;
+    const int highest = base + lower + (odd && falls ? 1 : 0);
+    const int lowest = base - lower - (odd && !falls ? 1 : 0);
+
+    std::array<std::int16_t, 3> legs{};
+    for (std::uint32_t leg = 0; leg < 3; ++leg) {
+      const std::uint32_t own = (sector + (in.polarity ? 2 : 4) * leg) % 6;
+      const int on = own == 1 || own == 4 ? base + middle : own == 0 || own == 5 ? highest : lowest;
+      legs[leg] = static_cast<std::int16_t>(on);
+    }
+    return legs;
+  }
+
+ private:
+  using Table = std::array<std::int32_t, 17>;
+  static constexpr int kHalf = 1 << 16;  // of a clock, in 2^-17
+  // As in the RTL, in 2^-17 at nodes 30/16 degrees apart: cos/2, sin sqrt(3)/2, sin/(2 sqrt(3)).
+  static constexpr Table kCosine = {65798, 65763, 65657, 65481, 65235, 64919, 64534, 64079, 63556,
+                                    62965, 62306, 61581, 60789, 59933, 59012, 58029, 56983};
+  static constexpr Table kSine = {1,     3729,  7454,  11171, 14876, 18565, 22234, 25879, 29497,
+                                  33083, 36633, 40144, 43613, 47034, 50406, 53723, 56983};
+  static constexpr Table kThird = {1,     1243,  2485,  3724,  4959,  6189,  7412,  8627, 9833,
+                                   11028, 12211, 13382, 14538, 15678, 16802, 17908, 18995};
+
+  /// Amplitude times the table at `size`, 2^-12 of 30 degrees; in 2^-17 clocks.
+  static int scaled(const Table& table, int size, int amplitude, int rounding) {
+    const auto node = static_cast<std::size_t>(size >> 8);
+    const int part = size & 0xff;
+    const int word = (table[node] * (255 - part) + table[node + 1] * part) >> 8;
+    return amplitude * word + rounding;
+  }
+
+  int half_;  // a period, clocks
+  Modulation modulation_;
+  int left_ = 0;  // clocks to the result
+  std::array<std::int16_t, 3> next_{};
+  Out out_;
+};
+
+}  // namespace feltgate

@@ -246,10 +246,12 @@ module actuation (
         .voltage_o(voltage), .valid_o(), .saturated_o()
     );
     /* verilator lint_on PINCONNECTEMPTY */
-    assign share = times(32'(voltage), 12'(Period)) + (44'sd1 <<< (SupplyF - 1));
+    // Rounded in two steps: with an adder of all bits Yosys lets two carry chains of an ECP5 begin with the same cells,
+    // which nextpnr refuses.
+    assign share = times(32'(voltage), 12'(Period)) >>> (SupplyF - 1);
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) duty_q <= '0;
-      else duty_q <= feltgate_pkg::DUTY_W'(share >>> SupplyF);
+      else duty_q <= feltgate_pkg::DUTY_W'((share + 44'sd1) >>> 1);
     end
     assign bridge_duty = (mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)) ? duty_o : duty_q;
   end

@@ -5,6 +5,7 @@
 Documentation: docs/boards/ulx3s.md, docs/boards/tang_nano_9k.md, docs/boards/de0_nano.md
 """
 
+import math
 import os
 import re
 import shutil
@@ -46,13 +47,20 @@ def clock_hz(folder):
 
 
 def with_clock(root, design, hz, folder):
-    """A design of rtl/designs with another clock as a file of its own; a user's own file as it is."""
+    """A design of rtl/designs with another clock as a file of its own; a user's own file as it is. The serial clock of
+    an absolute encoder becomes the fastest that is not above its own and that this clock can be divided to."""
     path = root / f"rtl/designs/{design}.toml"
     if hz is None or not path.is_file():
         return design
     text, count = re.subn(r"^clock_hz = [\d_]+", f"clock_hz = {hz:_}", path.read_text(encoding="utf-8"), flags=re.M)
     if count != 1:
         raise ToolError(f"{path} has {count} lines clock_hz; give one")
+    text = re.sub(
+        r"^serial_hz = ([\d_]+)",
+        lambda m: f"serial_hz = {hz / (2 * math.ceil(hz / (2 * int(m[1].replace('_', ''))))):.10g}",
+        text,
+        flags=re.M,
+    )
     folder.mkdir(parents=True, exist_ok=True)
     changed = folder / f"{design}_{hz // 1_000_000}mhz.toml"
     changed.write_text(text, encoding="utf-8")

@@ -32,6 +32,16 @@ module feltgate_linked #(
     output logic gate_b_hi_o,
     output logic gate_b_lo_o,
 
+    // Sensors and driver of a design with that option, as in feltgate_core; without it the inputs are not used
+    input  logic encoder_data_i,
+    output logic encoder_select_no,
+    output logic encoder_clock_o,
+    output logic encoder_command_o,
+    input  logic current_data_i,
+    output logic current_clock_o,
+    input  logic driver_fault_i,
+    output logic heartbeat_o,
+
     // Panel
     input  logic       arm_i,
     input  logic       stop_i,
@@ -96,14 +106,24 @@ module feltgate_linked #(
         .faults_o(faults_o), .first_fault_o(first_fault_o),
         .armed_o(armed_o), .gates_enable_o(gates_enable_o)
     );
+    // No design has an engine and one of these options: the generator refuses it.
+    assign encoder_select_no = 1'b1;
+    assign encoder_clock_o   = 1'b0;
+    assign encoder_command_o = 1'b0;
+    assign current_clock_o   = 1'b0;
+    assign heartbeat_o       = 1'b0;
+    logic unused;
+    assign unused = ^{encoder_data_i, current_data_i, driver_fault_i};
   end else begin : g_core
     feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
         .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-        .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
-        .current_data_i(1'b0), .current_clock_o(), .current_o(), .driver_fault_i(1'b0), .heartbeat_o(),
+        .encoder_data_i(encoder_data_i), .encoder_select_no(encoder_select_no),
+        .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o),
+        .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(),
+        .driver_fault_i(driver_fault_i), .heartbeat_o(heartbeat_o),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
         .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
         .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),

@@ -55,6 +55,7 @@ module axi_core (
     .clk_i(clk_i), .rst_ni(rst_ni),
     .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
     .gate_a_hi_o(gates_o[0]), .gate_a_lo_o(gates_o[1]), .gate_b_hi_o(gates_o[2]), .gate_b_lo_o(gates_o[3]),
+    // For a design without their options; one that has them needs these pins as ports of this module.
     .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
     .current_data_i(1'b0), .current_clock_o(), .current_o(), .driver_fault_i(1'b0), .heartbeat_o(),
     .arm_i(1'b0), .stop_i(stop_i), .set_zero_i(1'b0), .scene_i(4'd0),

@@ -50,6 +50,11 @@ module board_pins (
       .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
       .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+      // The design of this RTL, lever, has none of these options.
+      /* verilator lint_off PINCONNECTEMPTY */
+      .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
+      .current_data_i(1'b0), .current_clock_o(), .driver_fault_i(1'b0), .heartbeat_o(),
+      /* verilator lint_on PINCONNECTEMPTY */
       .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .clear_faults_i(1'b0),
       .scene_i(scene_i),
       .uart_rx_i(uart_rx_i), .uart_tx_o(uart_tx_o), .inputs_i(inputs_i),

@@ -28,6 +28,8 @@ namespace feltgate {
 /// Inputs in one clock.
 struct LinkedIn {
   EncoderPins encoder;
+  /// Of a design with these options, as in CoreIn; in others they are not used.
+  bool encoder_data = false, current_data = false, driver_fault = false;
   bool arm = false, stop = false, set_zero = false;
   bool clear_faults = false;  ///< one clock, like set_zero
   std::uint8_t scene = 0;
@@ -168,6 +170,9 @@ class LinkedCore {
   static CoreIn core_in(const LinkedIn& in, const typename LinkPort<D>::Out& does) {
     CoreIn c;
     c.encoder = in.encoder;
+    c.encoder_data = in.encoder_data;
+    c.current_data = in.current_data;
+    c.driver_fault = in.driver_fault;
     c.arm = in.arm;
     c.stop = in.stop;
     c.set_zero = in.set_zero;

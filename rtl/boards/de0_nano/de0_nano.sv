@@ -30,7 +30,16 @@ module de0_nano #(
   output logic       GATE_A_HI,
   output logic       GATE_A_LO,
   output logic       GATE_B_HI,
-  output logic       GATE_B_LO
+  output logic       GATE_B_LO,
+  // Of the design's options; without them the inputs are not used
+  input  logic       ENCODER_DATA, // absolute encoder
+  output logic       ENCODER_SELECT_N,
+  output logic       ENCODER_CLOCK,
+  output logic       ENCODER_COMMAND,
+  input  logic       CURRENT_DATA, // modulator of the motor's current
+  output logic       CURRENT_CLOCK,
+  input  logic       DRIVER_FAULT, // high: the bridge's driver has a fault, or it is not plugged in
+  output logic       HEARTBEAT   // to a watchdog outside
 );
 
   generate
@@ -66,6 +75,14 @@ module de0_nano #(
     .gate_a_lo_o(GATE_A_LO),
     .gate_b_hi_o(GATE_B_HI),
     .gate_b_lo_o(GATE_B_LO),
+    .encoder_data_i(ENCODER_DATA),
+    .encoder_select_no(ENCODER_SELECT_N),
+    .encoder_clock_o(ENCODER_CLOCK),
+    .encoder_command_o(ENCODER_COMMAND),
+    .current_data_i(CURRENT_DATA),
+    .current_clock_o(CURRENT_CLOCK),
+    .driver_fault_i(DRIVER_FAULT),
+    .heartbeat_o(HEARTBEAT),
     .arm_i(arm),
     .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),

@@ -30,7 +30,16 @@ module ulx3s #(
   output logic       gate_a_hi,
   output logic       gate_a_lo,
   output logic       gate_b_hi,
-  output logic       gate_b_lo
+  output logic       gate_b_lo,
+  // Of the design's options; without them the inputs are not used
+  input  logic       encoder_data, // absolute encoder
+  output logic       encoder_select_n,
+  output logic       encoder_clock,
+  output logic       encoder_command,
+  input  logic       current_data, // modulator of the motor's current
+  output logic       current_clock,
+  input  logic       driver_fault_n, // low: the bridge's driver has a fault, or it is not plugged in
+  output logic       heartbeat   // to a watchdog outside
 );
 
   logic       clk, locked;
@@ -70,6 +79,14 @@ module ulx3s #(
     .gate_a_lo_o(gate_a_lo),
     .gate_b_hi_o(gate_b_hi),
     .gate_b_lo_o(gate_b_lo),
+    .encoder_data_i(encoder_data),
+    .encoder_select_no(encoder_select_n),
+    .encoder_clock_o(encoder_clock),
+    .encoder_command_o(encoder_command),
+    .current_data_i(current_data),
+    .current_clock_o(current_clock),
+    .driver_fault_i(!driver_fault_n),
+    .heartbeat_o(heartbeat),
     .arm_i(arm),
     .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),

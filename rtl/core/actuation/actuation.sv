@@ -145,10 +145,21 @@ module actuation (
     localparam int SupplyF = 17;  // voltages of the loop are [1,0,17] of the supply
     localparam logic [11:0] LimitGain = 12'((1 << SupplyF) / Period);
 
-    // A product with a constant as a sum, so that no multiplier is inferred.
+    // A product with a constant as a sum, so that no multiplier is inferred. Carries are saved, so that one adder is
+    // left: of several Yosys lets two carry chains of an ECP5 begin with the same cells, which nextpnr refuses.
     function automatic logic signed [43:0] times(input logic signed [31:0] x, input logic [11:0] constant);
-      times = '0;
-      for (int n = 0; n < 12; n++) if (constant[n]) times = times + (44'(x) <<< n);
+      logic signed [43:0] sum, carry, term, both;
+      sum   = '0;
+      carry = '0;
+      for (int n = 0; n < 12; n++) begin
+        if (constant[n]) begin
+          term  = 44'(x) <<< n;
+          both  = (sum & carry) | (sum & term) | (carry & term);
+          sum   = sum ^ carry ^ term;
+          carry = both <<< 1;
+        end
+      end
+      times = sum + carry;
     endfunction
 
     logic drives;
@@ -246,10 +257,11 @@ module actuation (
         .voltage_o(voltage), .valid_o(), .saturated_o()
     );
     /* verilator lint_on PINCONNECTEMPTY */
-    assign share = times(32'(voltage), 12'(Period)) + (44'sd1 <<< (SupplyF - 1));
+    // Rounded in two steps, so that the second adder does not repeat low bits of the first.
+    assign share = times(32'(voltage), 12'(Period)) >>> (SupplyF - 1);
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) duty_q <= '0;
-      else duty_q <= feltgate_pkg::DUTY_W'(share >>> SupplyF);
+      else duty_q <= feltgate_pkg::DUTY_W'((share + 44'sd1) >>> 1);
     end
     assign bridge_duty = (mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)) ? duty_o : duty_q;
   end

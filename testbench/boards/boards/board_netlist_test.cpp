@@ -35,13 +35,13 @@ constexpr std::int64_t kClockHz = 54'000'000;
 constexpr const char *kKey = "key_n", *kSwitches = "sw_n", *kLamps = "led_n";
 constexpr const char *kFromHost = "uart_rx", *kToHost = "uart_tx";
 constexpr std::uint64_t kReleased = 1, kOff = 15, kDark = 63;
-constexpr int kOutputs = 11;
+constexpr int kOutputs = 16;
 #else
 constexpr std::int64_t kClockHz = 50'000'000;
 constexpr const char *kKey = "btn", *kSwitches = "sw", *kLamps = "led";
 constexpr const char *kFromHost = "ftdi_txd", *kToHost = "ftdi_rxd";
 constexpr std::uint64_t kReleased = 0, kOff = 0, kDark = 0;
-constexpr int kOutputs = 14;
+constexpr int kOutputs = 19;
 #endif
 
 static_assert(kInputBits <= 64 && kOutputBits <= 64, "pins are one integer in Verilator's class");
@@ -218,7 +218,7 @@ TEST_CASE("board: the netlist does at every pin what the RTL does") {
             << answered << " edges of answers\n";
   REQUIRE(armed > clocks / 5);
   REQUIRE(driving > clocks / 400);
-  REQUIRE(lamps.size() > (kOutputs == 14 ? 30 : 12));
+  REQUIRE(lamps.size() > (kOutputs == 19 ? 30 : 12));
   REQUIRE(answered > 300);
 }
 

@@ -43,8 +43,15 @@ def read_ports(text, board):
     return ports
 
 
-# Beginnings of the inputs that have to read high while their wire is open: no edge, not plugged in, stop.
+# Beginnings of the ports that have to be high while their wire is open: no edge, not plugged in, stop, data that stand.
 PULLED_UP = ("enc_", "estop", "sw_n", "key_n", "reset_n", "ftdi_txd", "uart_rx")
+PULLED_UP += ("encoder_data", "encoder_select_n", "current_data")
+# What has to be low: gates, a driver that is not plugged in, a heart that does not beat.
+PULLED_DOWN = {
+    "gate_": "an open gate would be on",
+    "driver_fault_n": "an unplugged driver would look healthy",
+    "heartbeat": "an open line would not stand",
+}
 
 
 def placement(texts, board, kind, key, places, settings, sources=None, pull="", standard="LVCMOS33"):
@@ -84,8 +91,9 @@ def placement(texts, board, kind, key, places, settings, sources=None, pull="", 
             found.append(f"{kind}: {port} has IO_TYPE {setting.get('IO_TYPE')}; {wanted}")
         if port.startswith(PULLED_UP) and setting.get(pull) != "UP":
             found.append(f"{kind}: {port} is not pulled up; open, it has to read high")
-        if port.startswith("gate_") and setting.get(pull) != "DOWN":
-            found.append(f"{kind}: {port} is not pulled down; an open gate would be on")
+        for begins, why in PULLED_DOWN.items():
+            if port.startswith(begins) and setting.get(pull) != "DOWN":
+                found.append(f"{kind}: {port} is not pulled down; {why}")
         line = f"| `{port}` | {row['signal']} | {row[key]} | {row['place']} |"
         if line not in texts["doc"]:
             found.append(f"doc: no row '{line}'; correct the table")

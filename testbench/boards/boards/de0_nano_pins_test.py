@@ -16,6 +16,8 @@ from board_pins import PinsTests, placement
 
 IO_STANDARD = "3.3-V LVTTL"
 GLOBALS = {"FAMILY": "Cyclone IV E", "DEVICE": "EP4CE22F17C6", "TOP_LEVEL_ENTITY": "de0_nano"}
+# Open: no edge, not plugged in, stop, an idle line, data that stand, a fault of the driver.
+PULLED_UP = ("ENC_A", "ENC_B", "ENC_Z", "ENC_LOOP", "ESTOP", "UART_RX", "ENCODER_DATA", "CURRENT_DATA", "DRIVER_FAULT")
 
 
 def read_qsf(text):
@@ -36,6 +38,9 @@ def findings(texts):
     """One line for everything that is wrong, as 'what; mend'."""
     locations, standards, settings = read_qsf(texts["qsf"])
     found = placement(texts, "de0_nano", "qsf", "pin", locations, standards, standard=IO_STANDARD)
+    for port in PULLED_UP:
+        if f"set_instance_assignment -name WEAK_PULL_UP_RESISTOR ON -to {port}\n" not in texts["qsf"]:
+            found.append(f"qsf: {port} is not pulled up; open, it has to read high")
     for name, value in GLOBALS.items():
         if (name, value) not in settings:
             found.append(f"qsf: {name} is not {value}; set it")
@@ -47,7 +52,7 @@ ENC_A = "set_location_assignment PIN_A5 -to ENC_A\n"
 
 
 class De0Nano(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 26, 13)
+    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 34, 18)
     WORDS = ("PIN_",)
     MISTAKES = (
         ("qsf", ENC_A, "", "port ENC_A is at None"),
@@ -61,10 +66,12 @@ class De0Nano(PinsTests, unittest.TestCase):
         ("qsf", "PIN_D9 -to", "PIN_A8 -to", "GATE_A_LO is an output, GPIO_0_IN[0] is not"),
         ("qsf", "PIN_J15 -to KEY[0]", "PIN_A2 -to KEY[0]", "the board has it at J15"),
         ("qsf", "PIN_D9 -to", "PIN_L3 -to", "use a header"),
-        ("sv", "output logic       GATE_B_LO\n", "output logic GATE_B_LO,\n  input logic NEW\n",
+        ("sv", "output logic       GATE_B_LO,\n", "output logic GATE_B_LO,\n  input logic NEW,\n",
          "port NEW is at None"),
         ("sv", "[3:0] SW,", "[4:0] SW,", "port SW[4] is at None"),
         ("qsf", "EP4CE22F17C6", "EP4CE10F17C8", "DEVICE is not"),
+        ("qsf", "WEAK_PULL_UP_RESISTOR ON -to DRIVER_FAULT\n", "WEAK_PULL_UP_RESISTOR OFF -to DRIVER_FAULT\n",
+         "DRIVER_FAULT is not pulled up"),
         ("doc", "GPIO_0[9] | D5 | JP1 pin 14", "GPIO_0[9] | D5 | JP1 pin 15", "doc: no row"),
     )
     read, findings = staticmethod(read_qsf), staticmethod(findings)

@@ -4,7 +4,7 @@
 """Checks tang_nano_9k.cst against the board's pins, the ports of tang_nano_9k.sv and the wiring page.
 
 As ulx3s_pins_test.py, with two rules more: what is on the board is named in the vendor's own files, and
-so are the stop, the encoder's A and B, its loop and the gates; and a pin of bank 3 has 1.8 V.
+so are the stop, the encoder's A, B, loop and data, the driver's fault, the heartbeat and the gates; and a pin of bank 3 has 1.8 V.
 Documentation: docs/boards/tang_nano_9k.md
 """
 
@@ -14,7 +14,7 @@ import unittest
 from board_pins import PinsTests, placement, read_pins, settings_in
 
 SOURCES = set("VALRMH")
-BY_VENDOR = ("estop", "enc_a", "enc_b", "enc_loop", "gate_")
+BY_VENDOR = ("estop", "enc_a", "enc_b", "enc_loop", "gate_", "driver_fault_n", "heartbeat", "encoder_data")
 
 
 def read_cst(text):
@@ -42,7 +42,7 @@ GATE = 'IO_PORT "gate_a_hi" IO_TYPE=LVCMOS33 PULL_MODE=DOWN'
 
 
 class TangNano9k(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "tang_nano_9k", "cst", "pin", (25, 24, 11)
+    BOARD, KIND, KEY, COUNTS = "tang_nano_9k", "cst", "pin", (32, 32, 16)
     WORDS = ("IO_LOC", "IO_PORT")
     MISTAKES = (
         ("cst", 'IO_LOC "enc_a" 33', 'IO_LOC "enc_a" 34', "pin 34 is used 2"),
@@ -56,6 +56,9 @@ class TangNano9k(PinsTests, unittest.TestCase):
         ("cst", GATE, GATE.replace("DOWN", "UP"), "not pulled down"),
         ("cst", 'IO_PORT "estop" IO_TYPE=LVCMOS33 PULL_MODE=UP',
          'IO_PORT "estop" IO_TYPE=LVCMOS33 PULL_MODE=NONE', "not pulled up"),
+        ("cst", 'IO_PORT "driver_fault_n" IO_TYPE=LVCMOS33 PULL_MODE=DOWN',
+         'IO_PORT "driver_fault_n" IO_TYPE=LVCMOS33 PULL_MODE=UP', "an unplugged driver would look healthy"),
+        ("cst", 'IO_LOC "driver_fault_n" 48', 'IO_LOC "driver_fault_n" 31', "in no file of the vendor"),
         ("cst", GATE, GATE.replace("33", "18"), "IO_TYPE LVCMOS18"),
         ("cst", 'IO_PORT "key_n" IO_TYPE=LVCMOS18', 'IO_PORT "key_n" IO_TYPE=LVCMOS33', "; LVCMOS18"),
         ("pins", "key_n,3,on board,in,LVCMOS18", "key_n,3,on board,in,LVCMOS33", "not its bank's"),
@@ -63,7 +66,7 @@ class TangNano9k(PinsTests, unittest.TestCase):
          "two are needed"),
         ("pins", "uart_tx,17,on board,out,LVCMOS33,V L R", "uart_tx,17,on board,out,LVCMOS33,L R",
          "in no file of the vendor"),
-        ("sv", "output logic       gate_b_lo\n", "output logic gate_b_lo, input logic new\n", "port new"),
+        ("sv", "output logic       gate_b_lo,\n", "output logic gate_b_lo, input logic new,\n", "port new"),
         ("doc", "| `enc_b` | pin 34 | 34 |", "| `enc_b` | pin 34 | 35 |", "doc: no row"),
     )
     read, findings = staticmethod(read_cst), staticmethod(findings)

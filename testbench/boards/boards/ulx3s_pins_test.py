@@ -38,7 +38,7 @@ GATE = 'IOBUF PORT "gate_a_hi" PULLMODE=DOWN'
 
 
 class Ulx3s(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 27, 14)
+    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 35, 19)
     WORDS = ("LOCATE COMP", "IOBUF PORT")
     MISTAKES = (
         ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"',
@@ -55,11 +55,15 @@ class Ulx3s(PinsTests, unittest.TestCase):
         ("lpf", GATE, GATE.replace("DOWN", "UP"), "not pulled down"),
         ("lpf", 'IOBUF PORT "estop" PULLMODE=UP', 'IOBUF PORT "estop" PULLMODE=DOWN',
          "not pulled up"),
+        ("lpf", 'IOBUF PORT "driver_fault_n" PULLMODE=DOWN', 'IOBUF PORT "driver_fault_n" PULLMODE=UP',
+         "an unplugged driver would look healthy"),
+        ("lpf", 'IOBUF PORT "current_data" PULLMODE=UP', 'IOBUF PORT "current_data" PULLMODE=NONE',
+         "current_data is not pulled up"),
         ("lpf", f"{GATE} IO_TYPE=LVCMOS33", f"{GATE} IO_TYPE=LVCMOS25", "IO_TYPE LVCMOS25"),
         ("lpf", "25 MHZ", "50 MHZ", "not its 25 MHz"),
         ("pins", "gp[0],B11,J1 pin 5+,inout,A B C", "gp[0],B11,J1 pin 5+,inout,A",
          "two are needed"),
-        ("sv", "output logic       gate_b_lo\n", "output logic gate_b_lo, input logic new\n",
+        ("sv", "output logic       gate_b_lo,\n", "output logic gate_b_lo, input logic new,\n",
          "port new"),
         ("doc", "| `enc_b` | gp[1] | A10 |", "| `enc_b` | gp[1] | A11 |", "doc: no row"),
     )

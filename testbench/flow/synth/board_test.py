@@ -135,6 +135,13 @@ class StandIns(Scratch):
         self.assertEqual((row["lut4_equivalents"], row["ff"], row["bram"], row["clock_mhz"]), (174, 12, 17, 54))
         self.assertIn("clock_hz = 54_000_000", self.design)
 
+    def test_the_tang_nano_divides_its_clock_for_an_absolute_encoder(self):
+        folder = Path(self.folder)
+        design = Path(synth_board.with_clock(ROOT, "lever_absolute", 54_000_000, folder))
+        words = re.findall(r"^serial_hz = (\d+)", design.read_text(encoding="utf-8"), re.M)
+        # Whole clocks in each half, at most the 5 MHz of the design.
+        self.assertEqual([54_000_000 / int(word) for word in words], [12])
+
     def test_the_tang_nano_takes_a_file_as_it_is(self):
         design = ROOT / "rtl/designs/lever.toml"
         done, written, _ = self.run_board("--board", "tang_nano_9k", "--design", design, clock=54)

@@ -43,6 +43,9 @@ struct Stimulus {
     line.clock(out.uart_tx);
     if (random.one_in(900)) phase += random.one_in(5) ? 3 : 1;
     in.encoder = pins_at(phase, (phase & 0xfffU) == 0);
+    in.encoder_data = random.coin();  // without the options nothing follows from these
+    in.current_data = random.coin();
+    in.driver_fault = random.coin();
     if (random.one_in(60'000)) in.arm = !in.arm;
     if (random.one_in(200'000)) in.scene = static_cast<std::uint8_t>(random.below(10));
     in.stop = random.one_in(400'000);

@@ -11,16 +11,24 @@
 #include "feltgate_linked_twin.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"
-#ifdef LAW
+#if defined(LAW)
 #include "feltgate/generated/lever_law.hpp"
+#elif defined(CURRENT)
+#include "feltgate/generated/lever_current.hpp"
+#elif defined(ABSOLUTE)
+#include "feltgate/generated/lever_absolute.hpp"
 #else
 #include "feltgate/generated/lever.hpp"
 #endif
 
 namespace feltgate::test {
 
-#ifdef LAW
+#if defined(LAW)
 using D = LeverLaw;
+#elif defined(CURRENT)
+using D = LeverCurrent;
+#elif defined(ABSOLUTE)
+using D = LeverAbsolute;
 #else
 using D = Lever;
 #endif
@@ -31,7 +39,8 @@ struct LinkedAdapter {
     rtl.enc_a_i = in.encoder.a;
     rtl.enc_b_i = in.encoder.b;
     rtl.enc_z_i = in.encoder.z;
-    FELTGATE_DRIVE(rtl, in, arm, stop, set_zero, clear_faults, scene, uart_rx, inputs);
+    FELTGATE_DRIVE(rtl, in, encoder_data, current_data, driver_fault, arm, stop, set_zero);
+    FELTGATE_DRIVE(rtl, in, clear_faults, scene, uart_rx, inputs);
   }
   static void at_edge(Vfeltgate_linked& rtl) { rtl.stop_i = 0; }
   template <class Check>
@@ -41,7 +50,11 @@ struct LinkedAdapter {
     check("gate_a_lo", rtl.gate_a_lo_o, (out.core.gates >> 1) & 1u);
     check("gate_b_hi", rtl.gate_b_hi_o, (out.core.gates >> 2) & 1u);
     check("gate_b_lo", rtl.gate_b_lo_o, (out.core.gates >> 3) & 1u);
+    check("encoder_select_n", rtl.encoder_select_no, out.core.serial & 1u);
+    check("encoder_clock", rtl.encoder_clock_o, (out.core.serial >> 1) & 1u);
+    check("encoder_command", rtl.encoder_command_o, (out.core.serial >> 2) & 1u);
     check("position", static_cast<std::int32_t>(rtl.position_o), out.core.position);
+    FELTGATE_COMPARE(check, rtl, out.core, current_clock, heartbeat);
     FELTGATE_COMPARE(check, rtl, out.core, limits, faults, first_fault, scene, armed, gates_enable,
                      snapshot_valid);
   }

@@ -23,6 +23,14 @@ module feltgate_linked #(
   output logic        gate_a_lo_o,
   output logic        gate_b_hi_o,
   output logic        gate_b_lo_o,
+  input  logic        encoder_data_i,
+  output logic        encoder_select_no,
+  output logic        encoder_clock_o,
+  output logic        encoder_command_o,
+  input  logic        current_data_i,
+  output logic        current_clock_o,
+  input  logic        driver_fault_i,
+  output logic        heartbeat_o,
   input  logic        arm_i,
   input  logic        stop_i,
   input  logic        set_zero_i,
@@ -60,6 +68,12 @@ module feltgate_linked #(
   assign gate_a_lo_o = enc_b_i;
   assign gate_b_hi_o = enc_z_i;
   assign gate_b_lo_o = scene_i == 4'd14;
+  // Each output of the options shows an input of theirs, and no two the same of all three.
+  assign encoder_select_no = !encoder_data_i;
+  assign encoder_clock_o   = encoder_data_i;
+  assign encoder_command_o = encoder_data_i && current_data_i;
+  assign current_clock_o   = current_data_i;
+  assign heartbeat_o       = driver_fault_i;
   assign uart_tx_o   = ^{inputs_i, uart_rx_i};
   assign faults_o    = {10'd0, fault_q, 5'd0};
   assign armed_o     = (arm_i || host_arm) && !host_say && !fault_q;

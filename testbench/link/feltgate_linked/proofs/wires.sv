@@ -11,6 +11,9 @@ module wires_proof (
     input logic       enc_a_i,
     input logic       enc_b_i,
     input logic       enc_z_i,
+    input logic       encoder_data_i,
+    input logic       current_data_i,
+    input logic       driver_fault_i,
     input logic       arm_i,
     input logic       stop_i,
     input logic       set_zero_i,
@@ -24,6 +27,7 @@ module wires_proof (
 
   // Outputs.
   logic a_hi, a_lo, b_hi, b_lo, tx, armed, gates_enable, snapshot_valid;
+  logic select_n, serial_clock, command, current_clock, heartbeat;
   logic [31:0] position;
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
@@ -32,7 +36,8 @@ module wires_proof (
   feltgate_linked u_dut (
       .*,
       .gate_a_hi_o(a_hi), .gate_a_lo_o(a_lo), .gate_b_hi_o(b_hi), .gate_b_lo_o(b_lo),
-      .uart_tx_o(tx),
+      .encoder_select_no(select_n), .encoder_clock_o(serial_clock), .encoder_command_o(command),
+      .current_clock_o(current_clock), .heartbeat_o(heartbeat), .uart_tx_o(tx),
       .position_o(position), .limits_o(limits), .faults_o(faults), .first_fault_o(first_fault),
       .scene_o(scene), .armed_o(armed), .gates_enable_o(gates_enable), .snapshot_valid_o(snapshot_valid)
   );
@@ -105,6 +110,14 @@ module wires_proof (
   wire [8:0] core_event_number_o = \u_dut.g_law.u_axes.event_number_o ;
   localparam logic [15:0] AddressMask = 16'hffff;
 `else
+  (* hierconn *) wire \u_dut.g_core.u_core.encoder_data_i ;
+  (* hierconn *) wire \u_dut.g_core.u_core.current_data_i ;
+  (* hierconn *) wire \u_dut.g_core.u_core.driver_fault_i ;
+  (* hierconn *) wire \u_dut.g_core.u_core.encoder_select_no ;
+  (* hierconn *) wire \u_dut.g_core.u_core.encoder_clock_o ;
+  (* hierconn *) wire \u_dut.g_core.u_core.encoder_command_o ;
+  (* hierconn *) wire \u_dut.g_core.u_core.current_clock_o ;
+  (* hierconn *) wire \u_dut.g_core.u_core.heartbeat_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.enc_a_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.enc_b_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.enc_z_i ;
@@ -257,6 +270,14 @@ module wires_proof (
       gates_are_the_cores: assert ({a_hi, a_lo, b_hi, b_lo} == {core_gate_a_hi_o, core_gate_a_lo_o, core_gate_b_hi_o, core_gate_b_lo_o});
       stop_and_panel_pass: assert ({core_stop_i, core_arm_i, core_set_zero_i, core_scene_i} == {stop_i, arm_i, set_zero_i, scene_i});
       encoder_passes: assert ({core_enc_a_i, core_enc_b_i, core_enc_z_i} == {enc_a_i, enc_b_i, enc_z_i});
+`ifdef LAW
+      options_pass: assert ({select_n, serial_clock, command, current_clock, heartbeat} == 5'b10000);
+`else
+      options_pass: assert ({\u_dut.g_core.u_core.encoder_data_i , \u_dut.g_core.u_core.current_data_i , \u_dut.g_core.u_core.driver_fault_i } ==
+          {encoder_data_i, current_data_i, driver_fault_i} && {select_n, serial_clock, command, current_clock, heartbeat} ==
+          {\u_dut.g_core.u_core.encoder_select_no , \u_dut.g_core.u_core.encoder_clock_o , \u_dut.g_core.u_core.encoder_command_o ,
+           \u_dut.g_core.u_core.current_clock_o , \u_dut.g_core.u_core.heartbeat_o });
+`endif
       lamps_pass: assert ({position, scene, limits, faults} == {core_position_o, core_scene_o, core_limits_o, core_faults_o} &&
           {first_fault, armed, gates_enable, snapshot_valid} == {core_first_fault_o, core_armed_o, core_gates_enable_o, core_snapshot_valid_o});
       host_writes: assert ({core_reg_write_i, core_reg_wdata_i} == {\u_dut.u_link_port.reg_write_o , \u_dut.u_link_port.reg_wdata_o });

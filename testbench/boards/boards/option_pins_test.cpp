@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A board's top level around a stub of feltgate_linked: each pin of a current loop, of the bridge's
+// driver and of an absolute encoder reaches its port of that block and no other. What the block
+// does with them: testbench/link/feltgate_linked/sensors_test.cpp. Documentation:
+// docs/boards/ulx3s.md
+#if defined(ULX3S)
+#include <Vulx3s.h>
+using Top = Vulx3s;
+#elif defined(TANG_NANO_9K)
+#include <Vtang_nano_9k.h>
+using Top = Vtang_nano_9k;
+#else
+#include <Vde0_nano.h>
+using Top = Vde0_nano;
+#endif
+
+#include <memory>
+
+#include "catch.hpp"
+#include "verilated.h"
+
+namespace {
+
+struct Inputs {
+  bool encoder_data, current_data, driver_fault;
+};
+struct Outputs {
+  int select_n, clock, command, current_clock, heartbeat;
+};
+
+Outputs outputs_of(const Inputs& in) {
+  const auto top = std::make_unique<Top>();
+#ifdef DE0_NANO
+  top->ENCODER_DATA = in.encoder_data;
+  top->CURRENT_DATA = in.current_data;
+  top->DRIVER_FAULT = in.driver_fault;  // behind an inverter; open and pulled up is a fault
+  top->eval();
+  return {top->ENCODER_SELECT_N, top->ENCODER_CLOCK, top->ENCODER_COMMAND, top->CURRENT_CLOCK,
+          top->HEARTBEAT};
+#else
+  top->encoder_data = in.encoder_data;
+  top->current_data = in.current_data;
+  top->driver_fault_n = !in.driver_fault;  // nFAULT; open and pulled down is a fault
+  top->eval();
+  return {top->encoder_select_n, top->encoder_clock, top->encoder_command, top->current_clock,
+          top->heartbeat};
+#endif
+}
+
+}  // namespace
+
+TEST_CASE("board: the pins of the options reach their ports") {
+  for (int k = 0; k < 8; ++k) {
+    const Inputs in{(k & 1) != 0, (k & 2) != 0, (k & 4) != 0};
+    const Outputs out = outputs_of(in);
+    INFO("encoder_data " << in.encoder_data << ", current_data " << in.current_data
+                         << ", a fault of the driver " << in.driver_fault);
+    // What the stub shows of its inputs.
+    CHECK(out.select_n == !in.encoder_data);
+    CHECK(out.clock == in.encoder_data);
+    CHECK(out.command == (in.encoder_data && in.current_data));
+    CHECK(out.current_clock == in.current_data);
+    CHECK(out.heartbeat == in.driver_fault);
+  }
+}

@@ -157,10 +157,13 @@ void LegModel::average(const Phases& duty, double bus_v, const std::array<bool, 
     leg.above = {high - lost, -diodes_v};
     leg.below = {high + gained, diodes_v};
     // The centred pulses of the other legs: from the middle of its pulse to its edge the current
-    // gains this much on its mean.
+    // gains this much on its mean. Where the current turns over, the dead times of both legs hide
+    // that much of the difference of two pulses.
     double gain = 0.0;
     for (std::size_t j = 0; j < kPhases; ++j) {
-      if (connected[j]) gain += std::abs(on[j] - high) * (on[j] < high ? low : high);
+      if (!connected[j]) continue;
+      const double apart = std::max(0.0, std::abs(on[j] - high) - 2.0 * dead_fraction_);
+      gain += apart * (on[j] < high ? low : high);
     }
     leg.edge_a = ripple_a_v_ * bus_v * gain / count;
   }

@@ -87,7 +87,7 @@ TEST_CASE("three phases: averaged legs have the means of the gates", "[phases]")
     const double diode_v = n % 2 == 0 ? 0.7 : 0, lost_v = 0.5e-6 * 50e3 * (bus_v + 2 * diode_v);
     Parameters p = shaft_on(bus_v, diode_v);
     p.effects.dead_time = true;
-    // Wide apart, around the ripple, and near one another, around any level.
+    // Wide apart, around the loss, and near one another, around any level.
     const int spread = n % 3 == 0 ? 400 : n % 3 == 1 ? 80 : 20;
     const auto level = random.between(100, 400);
     std::array<int, 3> on{};
@@ -119,6 +119,72 @@ TEST_CASE("three phases: averaged legs have the means of the gates", "[phases]")
   CAPTURE(worst, without, supply);
   CHECK(without > 1);
   CHECK(supply < 1e-4);
+}
+
+TEST_CASE("three phases: a current that turns over in its pulse", "[phases]") {
+  // One leg in the middle of the two others, its current around 0: it loses nothing while valley
+  // and peak of its ripple have opposite signs, and stays at the ripple's half beyond.
+  constexpr double bus_v = 24, lost_v = 0.5e-6 * 50e3 * bus_v;
+  Parameters p = shaft_on(bus_v);
+  p.effects.dead_time = true;
+  test::Random random(11);
+  double worst = 0, felt = 0;
+  for (int n = 0; n < 40; ++n) {
+    const int wide = 2 * static_cast<int>(random.between(40, 190));
+    const int middle = 500 + 2 * static_cast<int>(random.between(-40, 40));
+    const int off = 2 * static_cast<int>(random.between(-12, 12));
+    const std::array<int, 3> on{middle + wide, middle + off, middle - wide};
+    ThreePhasePlant coarse = locked(p, gimbal_motor());
+    for (int step = 0; step < 1600; ++step) coarse.advance(duties(on), 250);
+    const Phases mean_a = coarse.motor().phase_a();
+    const Period last = switched(coarse, on, 25, 60);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CAPTURE(on[0], on[1], on[2], k, mean_a[k], last.mean_a[k]);
+      const double error = std::abs(mean_a[k] - last.mean_a[k]) * 10 / lost_v;
+      CHECK(error < 0.02);
+      worst = larger(worst, error);
+    }
+    felt = larger(felt, std::abs(last.mean_a[1]) * 10 / lost_v);
+  }
+  CAPTURE(worst, felt);
+  CHECK(felt > 0.15);
+}
+
+TEST_CASE("three phases: the ripple between the edges of a leg's own pulse", "[phases]") {
+  constexpr double bus_v = 24;
+  PhaseParameters m = gimbal_motor();
+  m.resistance_ohm = 1;
+  Parameters p = shaft_on(bus_v);
+  p.effects.dead_time = true;
+  test::Random random(3);
+  for (int n = 0; n < 24; ++n) {
+    std::array<int, 3> on{};
+    for (int& o : on) o = 100 + 2 * static_cast<int>(random.below(400));
+    std::array<bool, 3> connected{true, true, true};
+    ThreePhasePlant plant(p, m, p.effects, drive_50khz(0), held_at(0));
+    if (n % 2 == 1) {
+      connected[static_cast<std::size_t>(n / 2 % 3)] = false;
+      plant.open_phase(static_cast<std::size_t>(n / 2 % 3));
+    }
+    for (int step = 0; step < 6000; ++step) plant.advance(duties(on), 250);
+    LegModel model(drive_50khz(1e-15), p.supply, m, p.effects);
+    const auto legs = model.curves(duties(on), bus_v, connected);
+    CentredGates gates(0);
+    Phases rise_a{}, fall_a{};
+    for (int clock = 0; clock < 2 * kPwmClocks; ++clock) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int begin = kPwmClocks + (kPwmClocks - on[k]) / 2;
+        if (clock == begin) rise_a[k] = plant.motor().phase_a()[k];
+        if (clock == begin + on[k]) fall_a[k] = plant.motor().phase_a()[k];
+      }
+      plant.advance(gates.clock(clock, on), 1);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      CAPTURE(on[0], on[1], on[2], n, k);
+      if (!connected[k]) continue;
+      CHECK(legs[k].edge_a == Approx((fall_a[k] - rise_a[k]) / 2).epsilon(0.01).margin(1e-4));
+    }
+  }
 }
 
 TEST_CASE("three phases: ripple of a star is 2/3 V x max(g, 1 - D)/(L f)", "[phases]") {

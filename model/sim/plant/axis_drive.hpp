@@ -5,10 +5,9 @@
 // the bridge's state, as in the plant of the lever. Documentation: docs/plant.md
 #pragma once
 
-#include "bridge.hpp"
+#include "brushed_motor.hpp"
 #include "lugre.hpp"
 #include "parameters.hpp"
-#include "winding.hpp"
 
 namespace feltgate::plant {
 
@@ -26,57 +25,32 @@ class AxisDrive {
   /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
   AxisDrive(const MotorParameters& motor, const LugreParameters& lugre,
             const SupplyParameters& supply, const Drive& drive, const Effects& effects)
-      : motor_(motor),
-        on_(effects),
-        bridge_(drive, supply, motor, effects),
-        winding_(motor.resistance_ohm, motor.inductance_h),
-        lugre_(lugre) {}
+      : motor_(motor, supply, drive, effects), lugre_on_(effects.lugre), lugre_(lugre) {}
 
   /// Sets the length of the following steps, s.
   void set_step(double dt_s) {
-    if (on_.inductance) winding_.set_step(dt_s);
-    if (on_.lugre) lugre_.set_step(dt_s);
+    motor_.set_step(dt_s);
+    if (lugre_on_) lugre_.set_step(dt_s);
   }
 
   /// One step with this bridge; bus voltage (V) and motor speed (rad/s) are held.
   AxisStep advance(const Bridge& bridge, double bus_v, double motor_rad_s) {
-    if (bridge.shoots_through()) shoot_through_ = true;
-    const BridgeVoltage voltage = bridge_.voltage(bridge, bus_v, current_a_);
-    const double emf_v = on_.back_emf ? motor_.back_emf_constant_v_s_rad * motor_rad_s : 0.0;
-    const double dead_v = on_.dead_voltage ? motor_.dead_voltage_v : 0.0;
-    const double positive_v = voltage.at_positive_v(bus_v) - emf_v - dead_v;
-    const double negative_v = voltage.at_negative_v(bus_v) - emf_v + dead_v;
-    AxisStep s;
-    if (on_.inductance) {
-      const CurrentStep step = winding_.advance(current_a_, positive_v, negative_v);
-      current_a_ = step.end_a;
-      s.current_a = step.mean_a;
-    } else {
-      s.current_a = current_a_ = winding_.settled_a(positive_v, negative_v);
-    }
-    s.bridge_a =
-        (s.current_a >= 0.0 ? voltage.share_positive : voltage.share_negative) * s.current_a;
-    s.motor_nm = motor_.torque_constant_nm_a * s.current_a;
-    s.friction_nm = friction_nm(motor_rad_s);
-    return s;
+    const MotorStep s = motor_.advance(bridge, bus_v, motor_rad_s);
+    return {s.current_a, s.torque_nm, friction_nm(motor_rad_s), s.bridge_a};
   }
 
   /// Mean torque of the bristles over one step, Nm, for a motor that something else drives.
-  double friction_nm(double motor_rad_s) { return on_.lugre ? lugre_.advance(motor_rad_s) : 0.0; }
+  double friction_nm(double motor_rad_s) { return lugre_on_ ? lugre_.advance(motor_rad_s) : 0.0; }
 
-  double current_a() const { return current_a_; }
+  double current_a() const { return motor_.current_a(); }
   double bristle_rad() const { return lugre_.z_rad(); }
   /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const { return shoot_through_; }
+  bool shoot_through() const { return motor_.shoot_through(); }
 
  private:
-  MotorParameters motor_;
-  Effects on_;
-  BridgeModel bridge_;
-  Winding winding_;
+  BrushedMotor motor_;
+  bool lugre_on_;
   Lugre lugre_;
-  double current_a_ = 0.0;
-  bool shoot_through_ = false;
 };
 
 }  // namespace feltgate::plant

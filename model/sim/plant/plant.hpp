@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The plant behind the H-bridge: motor, lever, friction, encoder, supply and hand. It closes the
-// loop in simulation. Equations, step and convergence: docs/plant.md
+// The plant behind the bridge: motor, lever, friction, encoder, supply and hand. It closes the loop
+// in simulation. The motor here has brushes; three_phase.hpp has one without on the same shaft.
+// Equations, step and convergence: docs/plant.md
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "bridge.hpp"
+#include "brushed_motor.hpp"
 #include "encoder.hpp"
 #include "feltgate/encoder_source.hpp"
 #include "hand_run.hpp"
@@ -18,7 +20,6 @@
 #include "mechanics.hpp"
 #include "parameters.hpp"
 #include "supply.hpp"
-#include "winding.hpp"
 
 namespace feltgate::plant {
 
@@ -26,7 +27,7 @@ namespace feltgate::plant {
 struct Observables {
   double theta_rad = 0.0;
   double omega_rad_s = 0.0;
-  double motor_current_a = 0.0;
+  double motor_current_a = 0.0;       ///< of three phases: that makes the torque
   double motor_current_mean_a = 0.0;  ///< over the last step
   double motor_torque_nm = 0.0;       ///< Kt*i, on the lever, before friction
   double motor_torque_mean_nm = 0.0;  ///< over the last step; feed PeriodMean with it
@@ -51,17 +52,9 @@ class MotionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The plant of a lever, step by step.
-class Plant {
+/// Everything of a plant but its motor: lever, friction, encoder, supply and hand, step by step.
+class ShaftPlant {
  public:
-  /// `hand` decides the angle at clock 0; the lever starts at rest, without current.
-  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
-  Plant(const Parameters& parameters, const Effects& effects, const Drive& drive, const Hand& hand);
-
-  /// Advances by `clocks` >= 1 FPGA clocks with this bridge. Equal steps are fastest; 25 clocks
-  /// (0.5 us) are recommended, at most 250 (5 us). Errors: MotionError.
-  void advance(const Bridge& bridge, Clock clocks);
-
   /// The first clock after now() at which the hand's motion changes; up to there one long step is
   /// as good as many short ones.
   Clock next_corner() { return hand_.next_corner(now_); }
@@ -72,10 +65,6 @@ class Plant {
   /// call. Call it after the first step of the phase; other hands ignore it.
   void steer(double theta_rad, double rad_s) { hand_.steer({theta_rad, rad_s}, now_); }
 
-  /// Shorts the motor's terminals: from now on the bridge drives the wiring to the short alone. The
-  /// motor's current is that of the wiring, and its torque means nothing any more.
-  void short_motor(double wiring_ohm, double wiring_h);
-
   /// Time since the start, in clocks; all times in seconds are computed from it.
   Clock now() const { return now_; }
   /// Pin changes during the last step; valid until the next advance().
@@ -83,27 +72,33 @@ class Plant {
   const Encoder& encoder() const { return encoder_; }
   const Observables& observables() const { return seen_; }
 
-  /// Number of continuous states that the present hand and the effects that are on need.
-  std::size_t state_size() const;
-  /// These states with their names, in a fixed order.
-  std::vector<StateValue> state() const;
-  Evaluations evaluations() const;
+ protected:
+  /// `hand` decides the angle at clock 0; the lever starts at rest.
+  ShaftPlant(const Parameters& parameters, const Effects& effects, double clock_hz,
+             const Hand& hand);
+
+  /// Advances by `clocks` with the motor's mean torque. `drive(bus_v, middle)` moves the motor by
+  /// the step, whose middle has this angle and speed, and returns its MotorStep.
+  template <class Motor, class Advance>
+  void step(Motor& motor, Clock clocks, const Advance& drive);
+  /// The motor gets its step's length again: for one whose constants have changed.
+  void renew_step() { step_clocks_ = -1; }
+  /// The states with the motor's own among them.
+  std::vector<StateValue> state_with(const std::vector<StateValue>& motor) const;
+  Evaluations evaluations_with(const Evaluations& motor) const;
 
  private:
   void set_step(Clock clocks);
-  [[noreturn]] void refuse_motion(double way_rad) const;
-  double advance_current(const Bridge& bridge, double omega_rad_s);
+  [[noreturn]] void refuse_motion(double way_rad, double motor_nm) const;
   double cogging_nm(double theta_rad) const;
   void push_back(const EndStops& stops, ShaftTorque& torque) const;
-  void advance_shaft(double motor_nm, double friction_nm, double omega_mid_rad_s);
+  void advance_shaft(double motor_nm, double friction_nm, const Shaft& middle);
 
   Parameters p_;
   Effects on_;
   double clock_hz_;
   double per_radius_;       ///< 1/m
   double smooth_nm_s_rad_;  ///< viscous torque per omega, from the effects that are on
-  BridgeModel bridge_;
-  Winding winding_;
   Lugre lugre_;
   Supply supply_;
   Mechanics mechanics_;
@@ -117,10 +112,89 @@ class Plant {
   double per_s_ = 0.0;                ///< 1/dt_s_
   double most_way_rad_ = 0.0;         ///< largest way in a step: one encoder state per clock
   double acceleration_rad_s2_ = 0.0;  ///< mean of the last step; predicts the next middle
-  double current_a_ = 0.0;
   std::vector<EncoderEvent> events_;
   Observables seen_;
   Evaluations evaluations_;
 };
+
+/// The plant of a lever whose motor has brushes.
+class Plant : public ShaftPlant {
+ public:
+  /// `hand` decides the angle at clock 0; the lever starts at rest, without current.
+  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
+  Plant(const Parameters& parameters, const Effects& effects, const Drive& drive, const Hand& hand)
+      : ShaftPlant(parameters, effects, drive.clock_hz, hand),
+        motor_(parameters.motor, parameters.supply, drive, effects),
+        inductance_(effects.inductance) {}
+
+  /// Advances by `clocks` >= 1 FPGA clocks with this bridge. Equal steps are fastest; 25 clocks
+  /// (0.5 us) are recommended, at most 250 (5 us). Errors: MotionError.
+  void advance(const Bridge& bridge, Clock clocks);
+
+  /// Shorts the motor's terminals: from now on the bridge drives the wiring to the short alone. The
+  /// motor's current is that of the wiring, and its torque means nothing any more.
+  void short_motor(double wiring_ohm, double wiring_h);
+
+  /// Number of continuous states that the present hand and the effects that are on need.
+  std::size_t state_size() const { return state().size(); }
+  /// These states with their names, in a fixed order.
+  std::vector<StateValue> state() const;
+  Evaluations evaluations() const { return evaluations_with(motor_.evaluations()); }
+
+ private:
+  BrushedMotor motor_;
+  bool inductance_;
+};
+
+template <class Motor, class Advance>
+void ShaftPlant::step(Motor& motor, Clock clocks, const Advance& drive) {
+  if (clocks != step_clocks_) {
+    set_step(clocks);
+    motor.set_step(dt_s_);
+  }
+  events_.clear();
+  hand_.begin_step(now_, dt_s_, shaft_);
+  if (hand_.kind() != HandPhase::Kind::kFree) ++evaluations_.hand;
+  if (on_.viscous) ++evaluations_.viscous;
+
+  const double before_rad = shaft_.theta_rad;
+  const double before_rad_s = shaft_.omega_rad_s;
+  const double omega_mid_rad_s = hand_.imposes()
+                                     ? (hand_.target().theta_rad - before_rad) * per_s_
+                                     : before_rad_s + 0.5 * dt_s_ * acceleration_rad_s2_;
+  const Shaft middle{before_rad + 0.5 * dt_s_ * omega_mid_rad_s, omega_mid_rad_s};
+  const MotorStep moved = drive(supply_.bus_v(), middle);
+  seen_.shoot_through = motor.shoot_through();
+  seen_.supply_current_a = moved.bridge_a;
+  if (on_.supply_limit) {
+    ++evaluations_.supply_limit;
+    seen_.supply_current_a = supply_.advance(moved.bridge_a, dt_s_);
+    seen_.bus_v = supply_.bus_v();
+  }
+  double friction_nm = 0.0;
+  if (on_.lugre) {
+    ++evaluations_.lugre;
+    friction_nm = lugre_.advance(omega_mid_rad_s);
+  }
+  advance_shaft(moved.torque_nm, friction_nm, middle);
+  acceleration_rad_s2_ = hand_.imposes() ? 0.0 : (shaft_.omega_rad_s - before_rad_s) * per_s_;
+
+  // Also true if a value is NaN.
+  const double way_rad = shaft_.theta_rad - before_rad;
+  if (!(std::abs(way_rad) <= most_way_rad_) ||
+      !std::isfinite(moved.torque_nm + shaft_.omega_rad_s)) {
+    refuse_motion(way_rad, moved.torque_nm);
+  }
+  encoder_.advance(shaft_.theta_rad, now_, clocks, events_);
+  now_ += clocks;
+  seen_.theta_rad = shaft_.theta_rad;
+  seen_.omega_rad_s = shaft_.omega_rad_s;
+  seen_.motor_current_a = motor.current_a();
+  seen_.motor_current_mean_a = moved.current_a;
+  seen_.motor_torque_nm = motor.torque_nm(shaft_.theta_rad);
+  seen_.motor_torque_mean_nm = moved.torque_nm;
+  seen_.friction_nm = friction_nm + smooth_nm_s_rad_ * omega_mid_rad_s;
+  seen_.hand_force_n = seen_.hand_torque_nm * per_radius_;
+}
 
 }  // namespace feltgate::plant

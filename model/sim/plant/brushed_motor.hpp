@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A motor with brushes behind its H-bridge: current, torque and supply current of a step.
+// Documentation: docs/plant.md
+#pragma once
+
+#include "bridge.hpp"
+#include "parameters.hpp"
+#include "winding.hpp"
+
+namespace feltgate::plant {
+
+/// Means of a motor over one step.
+struct MotorStep {
+  double current_a = 0.0;  ///< that makes the torque
+  double torque_nm = 0.0;  ///< before friction
+  double bridge_a = 0.0;   ///< drawn from the bus
+};
+
+/// Bridge and winding, step by step.
+class BrushedMotor {
+ public:
+  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
+  BrushedMotor(const MotorParameters& motor, const SupplyParameters& supply, const Drive& drive,
+               const Effects& effects)
+      : motor_(motor),
+        on_(effects),
+        bridge_(drive, supply, motor, effects),
+        winding_(motor.resistance_ohm, motor.inductance_h) {}
+
+  /// Sets the length of the following steps, s.
+  void set_step(double dt_s) {
+    if (on_.inductance) winding_.set_step(dt_s);
+  }
+
+  /// Shorts the terminals: the bridge drives this wiring alone. Set the step again afterwards.
+  void short_terminals(double wiring_ohm, double wiring_h) {
+    winding_ = Winding(wiring_ohm, wiring_h);
+    on_.back_emf = on_.dead_voltage = false;
+  }
+
+  /// One step with this bridge; bus voltage (V) and speed (rad/s) are held.
+  MotorStep advance(const Bridge& bridge, double bus_v, double omega_rad_s) {
+    if (on_.dead_time && bridge.mode == Bridge::Mode::kAveraged) ++evaluations_.dead_time;
+    if (bridge.shoots_through()) shoot_through_ = true;
+    const BridgeVoltage voltage = bridge_.voltage(bridge, bus_v, current_a_);
+    double positive_v = voltage.at_positive_v(bus_v);
+    double negative_v = voltage.at_negative_v(bus_v);
+    if (on_.back_emf) {
+      ++evaluations_.back_emf;
+      const double emf_v = motor_.back_emf_constant_v_s_rad * omega_rad_s;
+      positive_v -= emf_v;
+      negative_v -= emf_v;
+    }
+    if (on_.dead_voltage) {
+      ++evaluations_.dead_voltage;
+      positive_v -= motor_.dead_voltage_v;
+      negative_v += motor_.dead_voltage_v;
+    }
+    double mean_a = 0.0;
+    if (on_.inductance) {
+      ++evaluations_.inductance;
+      const CurrentStep step = winding_.advance(current_a_, positive_v, negative_v);
+      current_a_ = step.end_a;
+      mean_a = step.mean_a;
+    } else {
+      current_a_ = winding_.settled_a(positive_v, negative_v);
+      mean_a = current_a_;
+    }
+    const double share = mean_a >= 0.0 ? voltage.share_positive : voltage.share_negative;
+    return {mean_a, motor_.torque_constant_nm_a * mean_a, share * mean_a};
+  }
+
+  double current_a() const { return current_a_; }
+  /// At any angle, Nm.
+  double torque_nm(double /*theta_rad*/) const { return motor_.torque_constant_nm_a * current_a_; }
+  /// Whether both gates of a leg were ever on at once.
+  bool shoot_through() const { return shoot_through_; }
+  const Evaluations& evaluations() const { return evaluations_; }
+
+ private:
+  MotorParameters motor_;
+  Effects on_;
+  BridgeModel bridge_;
+  Winding winding_;
+  double current_a_ = 0.0;
+  bool shoot_through_ = false;
+  Evaluations evaluations_;
+};
+
+}  // namespace feltgate::plant

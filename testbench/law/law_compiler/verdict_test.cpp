@@ -212,6 +212,11 @@ TEST_CASE("a bound is also compared with what the law gave in the measured runs"
   CHECK(large.failures.empty());
   REQUIRE(large.warnings.size() == 1);
   CHECK_THAT(large.warnings[0], Contains("what the law gave in the measured runs, -0.1 .. 0.1 Nm"));
+  const Compiled two = compiled(
+      "let v = clamp(velocity / (1 rad/s), -1, 1)\n"
+      "out torque = 0.01 Nm * v * (position^2 / (1 + position^2))\n");
+  CHECK_THAT(text(verdict(two, measure(two, 1, 20000))),
+             Contains("what the law gave in the runs with random inputs, -0.0"));
 }
 
 TEST_CASE("a comparison that decides only what is kept is told, with its strip") {

@@ -88,13 +88,13 @@ class Commutation {
     const auto size = static_cast<int>(below ? ~sixth & 0xfff : sixth & 0xfff);
     const int amplitude = std::clamp<int>(in.amplitude, -limit(), limit());
 
-    const int outer = scaled(kCosine, size, amplitude, kHalf / 2) >> 16;
+    const int outer = scaled(cosine(), size, amplitude, kHalf / 2) >> 16;
     const bool odd = (outer & 1) != 0;
     const bool falls = (sector & 1) != (below ? 1U : 0U);
     const int sign = falls ? -1 : 1;
-    const int middle = sign * (scaled(kSine, size, amplitude, odd ? 0 : kHalf) >> 17);
+    const int middle = sign * (scaled(sine(), size, amplitude, odd ? 0 : kHalf) >> 17);
     int base = half_;
-    if (modulation_ == kSines) base -= sign * (scaled(kThird, size, amplitude, kHalf) >> 17);
+    if (modulation_ == kSines) base -= sign * (scaled(third(), size, amplitude, kHalf) >> 17);
     const int lower = (outer - (odd ? 1 : 0)) / 2;
     const int highest = base + lower + (odd && falls ? 1 : 0);
     const int lowest = base - lower - (odd && !falls ? 1 : 0);
@@ -111,13 +111,31 @@ class Commutation {
  private:
   using Table = std::array<std::int32_t, 17>;
   static constexpr int kHalf = 1 << 16;  // of a clock, in 2^-17
-  // As in the RTL, in 2^-17 at nodes 30/16 degrees apart: cos/2, sin sqrt(3)/2, sin/(2 sqrt(3)).
-  static constexpr Table kCosine = {65798, 65763, 65657, 65481, 65235, 64919, 64534, 64079, 63556,
-                                    62965, 62306, 61581, 60789, 59933, 59012, 58029, 56983};
-  static constexpr Table kSine = {1,     3729,  7454,  11171, 14876, 18565, 22234, 25879, 29497,
-                                  33083, 36633, 40144, 43613, 47034, 50406, 53723, 56983};
-  static constexpr Table kThird = {1,     1243,  2485,  3724,  4959,  6189,  7412,  8627, 9833,
-                                   11028, 12211, 13382, 14538, 15678, 16802, 17908, 18995};
+  /// `curve` at nodes 30/16 degrees apart, in 2^-17; docs/blocks/commutation.md has the factors.
+  template <class Curve>
+  static Table nodes(const Curve& curve) {
+    const double step_rad = std::acos(-1.0) / 6 / 16;
+    Table table{};
+    for (std::size_t n = 0; n < table.size(); ++n) {
+      const double value = curve(static_cast<double>(n) * step_rad);
+      const double raised = (1 + step_rad * step_rad / 16) * 256 / 255;
+      table[n] = static_cast<std::int32_t>(std::lround(std::ldexp(value, 17) * raised + 0.5));
+    }
+    return table;
+  }
+
+  static const Table& cosine() {
+    static const Table table = nodes([](double x) { return std::cos(x) / 2; });
+    return table;
+  }
+  static const Table& sine() {
+    static const Table table = nodes([](double x) { return std::sin(x) * std::sqrt(3) / 2; });
+    return table;
+  }
+  static const Table& third() {
+    static const Table table = nodes([](double x) { return std::sin(x) / std::sqrt(12); });
+    return table;
+  }
 
   /// Amplitude times the table at `size`, 2^-12 of 30 degrees; in 2^-17 clocks.
   static int scaled(const Table& table, int size, int amplitude, int rounding) {

@@ -72,8 +72,8 @@ class BrushedMotor {
     return {mean_a, motor_.torque_constant_nm_a * mean_a, share * mean_a};
   }
 
-  double current_a() const { return current_a_; }
-  /// At any angle, Nm.
+  /// The same at any angle.
+  double current_a(double /*theta_rad*/ = 0.0) const { return current_a_; }
   double torque_nm(double /*theta_rad*/) const { return motor_.torque_constant_nm_a * current_a_; }
   /// Whether both gates of a leg were ever on at once.
   bool shoot_through() const { return shoot_through_; }

@@ -189,7 +189,7 @@ void ShaftPlant::step(Motor& motor, Clock clocks, const Advance& drive) {
   now_ += clocks;
   seen_.theta_rad = shaft_.theta_rad;
   seen_.omega_rad_s = shaft_.omega_rad_s;
-  seen_.motor_current_a = motor.current_a();
+  seen_.motor_current_a = motor.current_a(shaft_.theta_rad);
   seen_.motor_current_mean_a = moved.current_a;
   seen_.motor_torque_nm = motor.torque_nm(shaft_.theta_rad);
   seen_.motor_torque_mean_nm = moved.torque_nm;

@@ -150,11 +150,10 @@ class ThreePhaseMotor {
   const Phases& phase_a() const { return star_.current_a(); }
   const Phases& phase_mean_a() const { return mean_a_; }
   /// Sinusoidal currents of this amplitude, in phase with a sinusoidal back-EMF, give the torque.
-  double current_a() const { return amplitude_a(torque_nm_); }
+  double current_a(double theta_rad) const { return amplitude_a(torque_nm(theta_rad)); }
   /// At this angle, with the present currents, Nm.
-  double torque_nm(double theta_rad) {
-    torque_nm_ = torque(shape(electrical_rad(theta_rad)), star_.current_a());
-    return torque_nm_;
+  double torque_nm(double theta_rad) const {
+    return torque(shape(electrical_rad(theta_rad)), star_.current_a());
   }
   /// Whether both gates of a leg were ever on at once.
   bool shoot_through() const { return shoot_through_; }
@@ -169,7 +168,6 @@ class ThreePhaseMotor {
   LegModel legs_;
   StarWinding star_;
   Phases mean_a_{};
-  double torque_nm_ = 0.0;
   bool shoot_through_ = false;
   Evaluations evaluations_;
 };

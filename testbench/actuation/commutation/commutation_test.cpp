@@ -338,7 +338,10 @@ TEST_CASE("commutation: words of a motor") {
       CHECK(std::fabs(error) <= std::ldexp(1, -33));
     }
   }
-  CHECK(360 * 4000 * 1000.0 * std::ldexp(1, -33) < 0.17);
+  for (const int pole_pairs : {1, 7, 11, 20}) {
+    const std::uint32_t angle = commutation_gain(pole_pairs, 4000) * 4'000'000U;
+    CHECK(std::fabs(std::ldexp(360.0 * static_cast<std::int32_t>(angle), -32)) < 0.17);
+  }
   CHECK(commutation_angle(0.25) == 0x40000000);
   CHECK(commutation_angle(-0.25) == 0xc0000000);
   // Aligning: a gain of 0 holds the angle of the offset, wherever the rotor is.

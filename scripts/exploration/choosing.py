@@ -25,6 +25,7 @@ NAME = "choose"
 TABLE = "vectors/spaces/trade.csv"
 BENCH = "docs/images/bench.json"
 RATES = {"law": "490,1000,10000,40000,100000", "block": "1000,10000"}  # the fastest is always added
+TRIM_S = 60  # of the search; a trim of most scenes takes 5 to 30
 TICK_HZ = 1_000_000  # of `lever`
 
 
@@ -147,13 +148,14 @@ class Choosing:
         self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
         trimmed = self.programs.folder / f"{q.name}_trimmed.toml"
         share = f"{self.wishes['torque_error']:.6g}"
-        self.trim = ask("trim", q.path, "--tolerance", share, "-o", trimmed, "--quiet")
+        limits = ("--tolerance", share, "--seconds", str(TRIM_S))
+        self.trim = ask("trim", q.path, *limits, "-o", trimmed, "--quiet")
         if trimmed.is_file():
             effects = tomllib.loads(trimmed.read_text(encoding="utf-8"))
             self.path, self.scene = trimmed, self.scene | effects
         else:
             self.trim = None
-            told = "`feltgate trim` finds none that the wished error allows: all of them stay on"
+            told = f"`feltgate trim` finds none in {TRIM_S} s that the wished error allows: all stay on"
             self.leave_out("plant effects", told)
         if q.law:
             self.scene["core"]["law"] = str(q.law.resolve())

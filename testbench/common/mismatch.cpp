@@ -4,6 +4,7 @@
 // Reports of lock-step runs, compiled once for all benches. Documentation: docs/testing.md
 #include "mismatch.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -54,6 +55,12 @@ std::int64_t scaled_clocks(std::int64_t n) {
   if (factor == nullptr) return n;
   const long long times = std::strtoll(factor, nullptr, 10);
   return times > 1 ? n * times : n;
+}
+
+bool defects_run() { return std::getenv("FELTGATE_DEFECT") != nullptr; }
+
+std::uint64_t seeds_of(std::uint64_t n) {
+  return defects_run() && !whole_run() ? std::max<std::uint64_t>(1, n / 4) : n;
 }
 
 bool whole_run() { return std::getenv("FELTGATE_WHOLE") != nullptr; }

@@ -78,6 +78,14 @@ std::string mismatch_file(const char* block);
 /// n, or n * $FELTGATE_LONG for the long regression.
 std::int64_t scaled_clocks(std::int64_t n);
 
+/// n; in a program of seeded defects, where $FELTGATE_DEFECT chooses one or none, n/4 but at
+/// least 1. For seeds that each can catch a defect; what a run must reach is checked without
+/// defects.
+std::uint64_t seeds_of(std::uint64_t n);
+
+/// True in a program of seeded defects.
+bool defects_run();
+
 /// True if $FELTGATE_WHOLE asks for all cases; a usual run tries only a part of them.
 bool whole_run();
 

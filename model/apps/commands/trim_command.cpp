@@ -152,6 +152,7 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
     s << (run == &r.full_run ? "full model" : "trimmed") << ": a fault opens the gates, "
       << run->fault << "\n";
   }
+  if (r.out_of_time) s << "the search took longer than --seconds: everything stays on\n";
   if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
   s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
@@ -188,6 +189,7 @@ std::string json_of(const trim::Report& r, const Trimmed& t, const TrimArguments
          {"own_motion", difference_json(r.own)},
          {"parts", Json::array()},
          {"unseen", Json::array()},
+         {"out_of_time", r.out_of_time},
          {"expectations_broken", r.trimmed_run.broken},
          {"runs", r.runs},
          {"search_cpu_s", r.cpu_s}};
@@ -381,6 +383,10 @@ void add_trim(CLI::App& app, int* exit_code) {
       ->capture_default_str()
       ->check(checks::whole(1, 64));
   old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
+  sub->add_option("--seconds", a->options.longest_s,
+                  "ends the search: everything stays on; default: no end")
+      ->type_name("SECONDS")
+      ->transform(checks::seconds());
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, sub, exit_code] {
     a->full_step = sub->count("--full-step") > 0;

@@ -28,6 +28,7 @@ struct Options {
   int timed_runs = 5;        ///< of both models, for Report::faster; 1 or more
   std::uint64_t seed = 1;    ///< of these motions
   int threads = 2;
+  double longest_s = 0;  ///< the search ends after it, with the full model; 0: no limit
   std::function<void(double done)> progress;  ///< called now and then with 0..1; may be empty
 };
 

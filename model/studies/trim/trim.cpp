@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -107,15 +108,35 @@ class Search {
     drop_effects();
     coarsen();
     final_check();
+    if (!out_.smaller()) return of_full();
     out_.trimmed_run = runner_.run(own_.course, out_.trimmed);
     out_.own = compare(own_.full, out_.trimmed_run);
     time_both();
+    return counted();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Report& counted() {
     out_.runs = runner_.runs;
     out_.cpu_s = runner_.cpu_s;
     return out_;
   }
 
- private:
+  // Nothing is left out: the same model needs no second run.
+  const Report& of_full() {
+    out_.trimmed_run = own_.full;
+    out_.faster = {1.0};
+    return counted();
+  }
+
+  bool out_of_time() {
+    const std::chrono::duration<double> taken = Clock::now() - begin_;
+    out_.out_of_time = options_.longest_s > 0 && taken.count() > options_.longest_s;
+    return out_.out_of_time;
+  }
+
   // The CPU time of a run varies by tens of percent on a busy machine: medians of several.
   void time_both() {
     std::vector<double> full{out_.full_run.cpu_s}, trimmed{out_.trimmed_run.cpu_s};
@@ -219,10 +240,10 @@ class Search {
   void final_check() {
     std::vector<Reference> motions;
     constexpr int rounds = 3;
-    for (int round = 0; round < rounds && !out_.holds; ++round) {
+    for (int round = 0; round < rounds && !out_.holds && !out_of_time(); ++round) {
       add_motions(motions);
       out_.holds = holds(motions);
-      while (!out_.holds) {
+      while (!out_.holds && !out_of_time()) {
         for (UnseenReport& u : out_.unseen) u.searched = true;
         if (!put_one_back(motions)) break;
         if (holds(motions)) break;
@@ -232,7 +253,9 @@ class Search {
     out_.trimmed = out_.full;
     for (PartReport& p : out_.parts) p.put_back |= p.dropped;
     for (PartReport& p : out_.parts) p.dropped = false;
-    out_.holds = holds(motions);
+    // Out of time, the full model is not run against itself.
+    for (UnseenReport& u : out_.unseen) u.difference = {};
+    out_.holds = out_.out_of_time || holds(motions);
   }
 
   void add_motions(std::vector<Reference>& motions) {
@@ -306,6 +329,7 @@ class Search {
     std::optional<Return> best;
     double least = 1e300;
     for (const Return& r : returns()) {
+      if (out_of_time()) return false;
       double worst = 0;
       for (const Difference& d : differences(motions, r.model)) worst = larger(worst, d.worst());
       // The gates cost ten times what all else does: they must mend clearly more.
@@ -328,6 +352,7 @@ class Search {
   const Options& options_;
   Runner runner_;
   Reference own_;
+  const Clock::time_point begin_ = Clock::now();
   double sum_ = 0;  ///< sum of the single losses of the removed parts
   Report out_;
 };

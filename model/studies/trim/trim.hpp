@@ -44,9 +44,10 @@ struct Report {
   std::vector<double> faster;
   double step_loss = 0;  ///< worst loss of the set in the coarsest step, on the own motion
   int runs = 0;
-  double cpu_s = 0;      ///< of all runs together
-  bool holds = false;    ///< the trimmed model is within the tolerance on all motions
-  bool smaller() const;  ///< something is left out, or the step is coarser
+  double cpu_s = 0;          ///< of all runs together
+  bool out_of_time = false;  ///< longest_s was over: nothing is left out
+  bool holds = false;        ///< the trimmed model is within the tolerance on all motions
+  bool smaller() const;      ///< something is left out, or the step is coarser
   /// The median of `faster`.
   double times_faster() const { return faster[faster.size() / 2]; }
 };

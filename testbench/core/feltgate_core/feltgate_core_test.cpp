@@ -13,7 +13,9 @@
 using feltgate::CoreIn;
 using D = feltgate::test::Design;
 using Twin = feltgate::test::CoreTwin;
+using feltgate::test::defects_run;
 using feltgate::test::scaled_clocks;
+using feltgate::test::seeds_of;
 
 namespace {
 
@@ -41,7 +43,7 @@ const char* differs_to_axes(const CoreIn& in, const Vfeltgate_core& rtl, const T
 
 TEST_CASE("core: random motion, scenes, modes and register traffic") {
   Coverage total;
-  const auto lives = static_cast<std::uint64_t>(scaled_clocks(kPrograms ? 6 : 4));
+  const auto lives = seeds_of(static_cast<std::uint64_t>(scaled_clocks(kPrograms ? 6 : 4)));
   for (std::uint64_t seed = 9; seed < 9 + lives; ++seed) {
     Bench bench("feltgate_core", seed);
     Coverage seen;
@@ -52,6 +54,7 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
               });
     total.merge(seen);
   }
+  if (defects_run()) return;
   INFO(total.text());
   // A design with slow ticks runs too few ticks for these checks.
   if (scaled_clocks(1'500'000) / D::clocks_per_tick < 10'000) return;

@@ -164,6 +164,21 @@ TEST_CASE("a set that is too loose is refused, and mended by the final check") {
   CHECK(worst_of(trim::check_unseen(subject, nothing, options, {1, 2, 3, 4})) > 0.5);
 }
 
+TEST_CASE("a search without time leaves everything on, and runs nothing a second time") {
+  trim::Options options;
+  options.longest_s = 1e-9;
+  const trim::Subject subject = trim::lever_subject(scene("push"), p24(), options);
+  const trim::Report r = trim::trim(subject, options);
+  CHECK(r.out_of_time);
+  CHECK(r.holds);
+  CHECK_FALSE(r.smaller());
+  CHECK_FALSE(dropped(r, "gates"));
+  CHECK(r.faster == std::vector<double>{1.0});
+  CHECK(r.unseen.empty());
+  options.longest_s = 1e9;
+  CHECK_FALSE(trim::trim(subject, options).out_of_time);
+}
+
 TEST_CASE("the trimmed scene is a scene file that says what is off") {
   for (const char* path :
        {"/testbench/studies/trim/sweep.toml", "/vectors/scenes/torque_step.toml"}) {

@@ -60,7 +60,7 @@ std::int64_t scaled_clocks(std::int64_t n) {
 bool defects_run() { return std::getenv("FELTGATE_DEFECT") != nullptr; }
 
 std::uint64_t seeds_of(std::uint64_t n) {
-  return defects_run() && !whole_run() ? std::max<std::uint64_t>(1, n / 4) : n;
+  return defects_run() && !whole_run() ? std::max<std::uint64_t>(1, n / 2) : n;
 }
 
 bool whole_run() { return std::getenv("FELTGATE_WHOLE") != nullptr; }

@@ -13,7 +13,7 @@
 #include "design/parameter_values.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {

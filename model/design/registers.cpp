@@ -8,7 +8,7 @@
 
 #include <set>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "design/schedule_check.hpp"
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
 namespace feltgate::design {

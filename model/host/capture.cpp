@@ -13,7 +13,7 @@
 
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 
 namespace feltgate::host {
 

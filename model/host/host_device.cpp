@@ -16,7 +16,7 @@
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 
 namespace feltgate::host {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "law/amount.hpp"
 
 namespace feltgate::host {

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "apps/commands/commands.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/output_file.hpp"
-#include "files/toml/nearest.hpp"
 #include "studies/claims/claims.hpp"
 
 namespace feltgate {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "apps/commands/commands.hpp"
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/unfinished.hpp"
 
 namespace feltgate {

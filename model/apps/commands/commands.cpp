@@ -17,8 +17,8 @@
 #include <stdexcept>
 
 #include "design/design.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/program.hpp"
-#include "files/toml/nearest.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/backends/backend.hpp"
 

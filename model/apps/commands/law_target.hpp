@@ -6,11 +6,16 @@
 
 #include <string>
 
-#include "law/compile.hpp"
+#include "apps/commands/commands.hpp"
+#include "design/law_target.hpp"
 
 namespace feltgate {
 
 /// Rates and formats of a design in rtl/designs. Throws std::invalid_argument as find_file().
-law::Target law_target(const std::string& design);
+inline law::Target law_target(const std::string& design) {
+  return design::law_target(
+      design::elaborate(design::read_design(find_file(design, "rtl/designs")),
+                        design::read_registers(repository() + "/rtl/registers.toml")));
+}
 
 }  // namespace feltgate

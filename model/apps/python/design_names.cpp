@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 
 namespace feltgate::python {
 

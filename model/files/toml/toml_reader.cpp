@@ -13,7 +13,7 @@
 #include <iterator>
 #include <utility>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/toml/toml_text.hpp"
 
 namespace feltgate::config {

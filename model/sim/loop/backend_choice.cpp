@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 
 namespace feltgate {
 

@@ -54,4 +54,15 @@ Felt FeltMeter::felt() {
   return f;
 }
 
+std::string first_fault(const std::map<std::string, Acted>& faults) {
+  const Acted* first = nullptr;
+  std::string text;
+  for (const auto& [name, acted] : faults) {
+    if (first != nullptr && acted.first_s >= first->first_s) continue;
+    first = &acted;
+    text = fmt::format("{} at {:.3g} s", name, acted.first_s);
+  }
+  return text;
+}
+
 }  // namespace feltgate

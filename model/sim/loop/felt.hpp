@@ -57,6 +57,9 @@ struct Acted {
   double seconds = 0, first_s = 0;
 };
 
+/// The earliest of these faults in words, with its time; empty if there is none.
+std::string first_fault(const std::map<std::string, Acted>& faults);
+
 /// Whether an expectation of the scene was kept.
 struct Expected {
   std::string figure;

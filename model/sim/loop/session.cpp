@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/loop/scenario_check.hpp"
 

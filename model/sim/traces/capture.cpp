@@ -4,7 +4,7 @@
 // Finding channels by name in a recording of logic levels. Documentation: docs/traces.md
 #include "sim/traces/capture.hpp"
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "sim/traces/error.hpp"
 #include "sim/traces/text.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "sim/traces/error.hpp"
 #include "sim/traces/text.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "sim/traces/error.hpp"
 
 namespace feltgate::traces {

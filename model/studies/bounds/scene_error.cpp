@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "feltgate/largest.hpp"
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 #include "studies/bounds/error_bounds.hpp"
 
 namespace feltgate::bounds::detail {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "sim/loop/felt.hpp"
-#include "sim/loop/first_fault.hpp"
 #include "studies/rates/rates.hpp"
 
 namespace feltgate::rates {

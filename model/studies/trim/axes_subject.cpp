@@ -9,7 +9,7 @@
 #include "sim/axes_loop/axes_columns.hpp"
 #include "sim/axes_loop/axes_run.hpp"
 #include "sim/backends/axes_cores.hpp"
-#include "sim/loop/first_fault.hpp"
+#include "sim/loop/felt.hpp"
 #include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 

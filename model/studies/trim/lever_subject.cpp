@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/loop/first_fault.hpp"
+#include "sim/loop/felt.hpp"
 #include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 

@@ -13,8 +13,8 @@
 
 #include "apps/commands/commands.hpp"
 #include "campaigns/extremes/table.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/output_file.hpp"
-#include "files/toml/nearest.hpp"
 
 namespace feltgate {
 

@@ -3,7 +3,7 @@
 //
 // The suggestion for a misspelt name, and the cases without a suggestion. Documentation:
 // docs/designs.md
-#include "files/toml/nearest.hpp"
+#include "feltgate/nearest.hpp"
 
 #include <set>
 

@@ -14,8 +14,8 @@
 #include "apps/commands/host/law_text.hpp"
 #include "apps/commands/host/session.hpp"
 #include "apps/commands/host/verbs.hpp"
+#include "feltgate/nearest.hpp"
 #include "files/output_file.hpp"
-#include "files/toml/nearest.hpp"
 
 namespace feltgate::host {
 

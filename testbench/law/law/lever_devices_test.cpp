@@ -166,3 +166,48 @@ TEST_CASE("moved detents: five in the mailbox feel like all of them") {
   }
   CHECK(moves == all.size() - 5);
 }
+
+TEST_CASE("cut string: a spring up to its strength, then nothing until the blades have opened") {
+  Running<> law(shipped("cut_string"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(0.2) == 0);
+  CHECK(at(0.35) == Approx(-0.1));
+  CHECK(at(0.32) == Approx(-0.04));  // not yet cut, it gives all back
+  CHECK(at(0.399) == Approx(-0.198));
+  CHECK(at(0.401) == 0);
+  CHECK(at(0.35) == 0);
+  CHECK(at(0.21) == 0);
+  CHECK(at(0.35) == 0);  // it has to open further
+  CHECK(at(0.19) == 0);
+  CHECK(at(0.35) == Approx(-0.1));
+  CHECK(at(0.19) == 0);
+  CHECK(taken_j(law, 0.19, 0.6) == Approx(0.2 * 0.2 / (2 * 2)).epsilon(1e-3));
+}
+
+TEST_CASE("throttle: dry friction on any way, and a notch that gives back what it takes") {
+  Running<> law(shipped("throttle"));
+  // Over the notch and back. Friction takes its torque times the way; at either end the spring of
+  // what sticks turns over first, from -friction to friction, which takes nothing.
+  const double taken = 0.06 * (0.6 - 2 * 0.06 / 4);
+  CHECK(taken_j(law, -0.3, 0.3) == Approx(taken).epsilon(1e-3));
+  CHECK(taken_j(law, 0.3, -0.3) == Approx(taken).epsilon(1e-3));
+  law.set("friction", 0);
+  for (double x = -0.2; x < 0.2; x += 0.01) {
+    const double off = std::min(std::max(x, -0.1), 0.1);
+    CHECK(law.torque({{"position", x}}) == Approx(-0.1 * std::sin(kPi * off / 0.1)).margin(1e-12));
+  }
+}
+
+TEST_CASE("lump: stiff at first, softer after a while, and stiff again where the lump lies") {
+  Running<> law(shipped("lump"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(0.2) == 0);
+  CHECK(at(0.3) == Approx(-0.5 * 0.1 - 0.4 * 0.1));
+  // 100 kHz: after 100 ms the quick part has 1/e left.
+  for (int k = 1; k < 10000; ++k) at(0.3);
+  CHECK(at(0.3) == Approx(-0.5 * 0.1 - 0.4 * 0.1 * std::exp(-1.0)).epsilon(1e-3));
+  for (int k = 0; k < 100000; ++k) at(0.3);
+  CHECK(at(0.3) == Approx(-0.05).epsilon(1e-3));
+  CHECK(at(0.45) == Approx(-0.5 * 0.25 - 0.4 * 0.15 - 2 * 0.05).epsilon(1e-3));
+  CHECK(at(0.25) == Approx(-0.025));  // it is left faster than it comes back
+}

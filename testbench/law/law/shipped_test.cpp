@@ -24,7 +24,8 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       "charge_far", "charge", "damper", "detent", "gimbal", "membrane", "spring", "quaternion",
       "pantograph", "pantograph_filtered", "coupled_levers", "wall",
       // lever_devices_test.cpp
-      "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents",
+      "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents", "cut_string",
+      "throttle", "lump",
       // virtual_objects_test.cpp
       "flywheel", "pendulum", "collision",
       // local_plane_law_test.cpp

@@ -51,9 +51,9 @@ RULES = (
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
     # Scenes of a law, which the launcher gives a design with an engine.
     Rule(
-        r"feltgate run (bowed_string|ceiling|collision|drums|end_stops|end_stops_thrown|flywheel"
-        r"|graded_membrane|material_(?:fields|object|stick_slip|stone)|moved_detents|pendulum"
-        r"|scroll_wheel|turn_switch)",
+        r"feltgate run (bowed_string|ceiling|collision|cut_string|drums|end_stops|end_stops_thrown|flywheel"
+        r"|graded_membrane|lump|material_(?:fields|object|stick_slip|stone)|moved_detents|pendulum"
+        r"|scroll_wheel|throttle|turn_switch)",
         "BY",
         r"scene.\1.lever_law",
     ),

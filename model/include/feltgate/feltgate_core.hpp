@@ -8,7 +8,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "feltgate/absolute_position.hpp"
 #include "feltgate/core_gates.hpp"
@@ -20,6 +22,7 @@
 #include "feltgate/registers.hpp"
 #include "feltgate/self_test.hpp"
 #include "feltgate/supervisor.hpp"
+#include "feltgate/three_phase_bridge.hpp"
 
 namespace feltgate {
 
@@ -83,7 +86,7 @@ class FeltgateCore {
     }
     if (!loop_.ready() && open) sup.trips |= fault_bit(Fault::current);
     if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
-    Pwm::In pwm = pwm_inputs(open, bridge_duty());
+    auto pwm = bridge_inputs(open, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     out_.word_valid = ReadBack && core_steps::stores_word(clock_);
@@ -138,8 +141,15 @@ class FeltgateCore {
   void keep_words(bool keep) { keep_words_ = keep; }
   /// A word of the running tick's snapshot by its slot; all are valid when on_snapshot() is called.
   std::uint32_t word(int slot) const { return registers_.running_word(slot); }
-  /// Clocks since reset for which each gate was on, in the order a_hi, a_lo, b_hi, b_lo.
-  std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }
+  /// Clocks since reset for which each gate was on, in the order a_hi, a_lo, b_hi, b_lo, c_hi,
+  /// c_lo; without a third leg its gates have none.
+  GateCounts gate_clocks() const { return gates_.on_clocks(); }
+  /// Of a bridge with three phases: the clocks for which a leg's high switch is wanted on in this
+  /// PWM period, out of D::pwm_period; legs 0, 1 and 2. An H-bridge has duty_active instead: 0.
+  int on_time([[maybe_unused]] std::size_t leg) const {
+    if constexpr (kThree) return gates_.on_time(leg);
+    return 0;
+  }
   /// Free-running count at the start of the running wave.
   std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
   /// Result of the self-test, as in the status word.
@@ -165,6 +175,15 @@ class FeltgateCore {
   using T = Map::T;
   static constexpr bool kAbsolute = D::absolute_encoder != 0;
   using Decoder = std::conditional_t<kAbsolute, AbsolutePosition<D>, QuadDecoder>;
+  static constexpr bool kThree = D::phases == 3;
+  using Bridge = std::conditional_t<kThree, ThreePhaseBridge, CoreGates>;
+  static Bridge make_bridge() {
+    if constexpr (kThree) {
+      return {D::pwm_period, D::dead_clocks, D::shortest_clocks, D::modulation};
+    } else {
+      return {D::pwm_period, D::dead_clocks, D::shortest_clocks};
+    }
+  }
 
   /// The clock of the tick after the one of wave clock t.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
@@ -304,7 +323,7 @@ class FeltgateCore {
 
   typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick, bool held) const;
   typename Decoder::In decoder_inputs(const In& in, bool zero, bool clear, bool open = false) const;
-  Pwm::In pwm_inputs(bool enable, std::int16_t duty) const;
+  auto bridge_inputs(bool enable, std::int16_t duty) const;
   std::uint8_t wanted_scene(const In& in) const;
   TestPulse pulse(const In& in) const;
   std::uint32_t status(const In& in, bool encoder_error) const;
@@ -382,7 +401,7 @@ class FeltgateCore {
   typename Supervisor<D>::Words supervisor_words_;
   SelfTestLaw self_test_;
   SelfTestLaw::Words self_test_words_;
-  CoreGates gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks};
+  Bridge gates_ = make_bridge();
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   std::int64_t writes_ = 0;
   int clock_ = 0;       ///< clock of the tick

@@ -31,6 +31,8 @@ module feltgate_linked #(
     output logic gate_a_lo_o,
     output logic gate_b_hi_o,
     output logic gate_b_lo_o,
+    output logic gate_c_hi_o,  // of a bridge with three phases; else 0
+    output logic gate_c_lo_o,
 
     // Sensors and driver of a design with that option, as in feltgate_core; without it the inputs are not used
     input  logic encoder_data_i,
@@ -107,6 +109,8 @@ module feltgate_linked #(
         .armed_o(armed_o), .gates_enable_o(gates_enable_o)
     );
     // No design has an engine and one of these options: the generator refuses it.
+    assign gate_c_hi_o       = 1'b0;
+    assign gate_c_lo_o       = 1'b0;
     assign encoder_select_no = 1'b1;
     assign encoder_clock_o   = 1'b0;
     assign encoder_command_o = 1'b0;
@@ -120,6 +124,7 @@ module feltgate_linked #(
         .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
         .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+        .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
         .encoder_data_i(encoder_data_i), .encoder_select_no(encoder_select_no),
         .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o),
         .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(),

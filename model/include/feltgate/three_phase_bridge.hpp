@@ -42,6 +42,7 @@ class ThreePhaseBridge {
     commutation_.reset();
     pwm_.reset();
     wait_ = 0;
+    fresh_ = false;
     gain_ = offset_ = 0;
     amplitude_ = active_ = 0;
     bits_ = 0;
@@ -78,10 +79,12 @@ class ThreePhaseBridge {
     angle.offset = offset_;
     angle.amplitude = in.amplitude;
     angle.polarity = in.polarity;
-    pwm_.clock({in.clear, in.enable, legs.on_a, legs.on_b, legs.on_c});
+    const bool opens = in.enable && fresh_;
+    pwm_.clock({in.clear, opens, legs.on_a, legs.on_b, legs.on_c});
     commutation_.clock(angle);
     if (legs.valid) active_ = amplitude_;
-    if (!in.enable) active_ = 0;
+    if (!opens) active_ = 0;
+    fresh_ = in.enable && (fresh_ || angle.sample);
     if (angle.sample) amplitude_ = in.amplitude;
     if (began.period_start) {
       wait_ = period_ - 1 - commutation_.latency_clocks();
@@ -99,7 +102,8 @@ class ThreePhaseBridge {
   int period_;
   Commutation commutation_;
   PwmThreePhase pwm_;
-  int wait_ = 0;  // 1: the clock of the sample
+  int wait_ = 0;        // 1: the clock of the sample
+  bool fresh_ = false;  // there was a sample since the enable: no on-times of the last arming
   std::uint32_t gain_ = 0, offset_ = 0;
   std::int16_t amplitude_ = 0, active_ = 0;  // of the sample; in force
   std::uint8_t bits_ = 0;

@@ -55,6 +55,11 @@ class ScenarioRun {
         session_(scenario, core_, options),
         counter_(plant_.encoder().pins()) {
     if (looped_) check_loop();
+    if (choice_.rider_drives && core_.design().phases == 3) {
+      throw std::invalid_argument("design " + options.design +
+                                  " turns its voltage with three legs, which chains in real "
+                                  "arithmetic do not; choose the back-ends rtl,twin");
+    }
     last_.theta_rad = plant_.observables().theta_rad;
     if (scenario.effects.encoder_imperfect) {
       for (const double mrad : plant.encoder.absolute_error_mrad) error_rad_.push_back(1e-3 * mrad);

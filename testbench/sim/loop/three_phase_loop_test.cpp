@@ -79,6 +79,33 @@ Share over_a_turn(double torque_nm, double turns_s, const plant::Parameters& p, 
 
 }  // namespace
 
+TEST_CASE("offsets") {
+  for (int e = 0; e < 360; e += 15) {
+    std::string line = fmt::format("offset {:3d}: ", e);
+    for (const int arms : {3, 2}) {
+      plant::Parameters p = gimbal_motor();
+      p.phases->offset_rad = e / 360.0 * kTurn;
+      Scenario s = asked(0.03, p);
+      s.parameters["self_test_pulse"] = 39;
+      s.parameters["self_test_arms"] = arms;
+      s.duration_s = 0.4;
+      RunOptions options;
+      options.design = "gimbal_motor";
+      options.engine = "twin";
+      double top = 0, begins = 0;
+      options.row = [&](const Row& r) {
+        if (begins == 0 && r.time_s > 0.03 && std::abs(r.tau_ref_nm) > 0.0085) begins = r.time_s;
+        top = std::max(top, std::abs(r.omega_rad_s));
+      };
+      const RunResult run = run_scenario(s, p, options);
+      line += fmt::format(" arms {}: begins {:.4f} top {:.1f} rad/s end {:.2f} rad;", arms, begins, top,
+                          run.figures.at("theta_end_rad"));
+      for (const auto& [name, at] : run.felt.faults) line += fmt::format(" {} at {:.4f}", name, at.first_s);
+    }
+    fmt::print("{}\n", line);
+  }
+}
+
 TEST_CASE("three phases: the torque over a turn is the one asked for", "[phases]") {
   plant::Parameters p = gimbal_motor();
   for (const bool dead : {false, true}) {

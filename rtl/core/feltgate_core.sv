@@ -125,10 +125,10 @@ module feltgate_core #(
       .enc_z_i(enc_z_i), .encoder_data_i(encoder_data_i), .encoder_select_no(encoder_select_no),
       .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o), .control_i(control),
       .set_zero_i(set_zero), .clear_i(clear), .position_o(position_o), .scene_position_o(scene_position),
-      .travel_o(travel), .count_o(count), .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
+      .travel_o(travel), .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
       .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
       .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits),
-      .trips_o(encoder_trips)
+      .trips_o(encoder_trips), .count_o(count)
   );
 
   estimators u_estimators (
@@ -155,10 +155,9 @@ module feltgate_core #(
       .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(current_o),
       .motor_current_o(motor_current), .driver_fault_i(driver_fault_i), .current_state_o(current_state),
       .trips_o(actuation_trips), .clear_i(clear), .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
-      .count_i(count),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-      .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
-      .period_start_o(period_start), .duty_active_o(duty_active_o)
+      .period_start_o(period_start), .duty_active_o(duty_active_o),
+      .count_i(count), .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o)
   );
 
   safety u_safety (

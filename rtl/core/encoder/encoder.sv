@@ -163,9 +163,10 @@ module encoder (
     localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
     assign absolute_state_o = {waits_q, faults | seen_q};
 
+    assign count_o = count_q;
+
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
     // again is no motion. moved_o: a reading since the tick before differs.
-    assign count_o = count_q;
     assign change = polarity ? last_q - reading : reading - last_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin

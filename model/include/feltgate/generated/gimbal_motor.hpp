@@ -71,7 +71,7 @@ struct GimbalMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xe917b472;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x8293ffe0;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -85,39 +85,39 @@ struct GimbalMotor {
     static constexpr Format overspeed{1, 10, 21};
     static constexpr Format i2t_budget{0, 30, 2};
     static constexpr Format polarity_speed{1, 10, 21};
-    static constexpr Format polarity_current{1, 5, 16};
+    static constexpr Format polarity_current{1, 3, 18};
     static constexpr Format polarity_ticks{0, 31, 0};
     static constexpr Format emf_constant{0, -4, 21};
     static constexpr Format observer_gain{1, 0, 17};
-    static constexpr Format voltage_setpoint{1, 5, 14};
-    static constexpr Format voltage_step{1, 5, 14};
-    static constexpr Format torque_limit{1, 4, 16};
-    static constexpr Format ramp_step{1, 4, 24};
+    static constexpr Format voltage_setpoint{1, 3, 16};
+    static constexpr Format voltage_step{1, 3, 16};
+    static constexpr Format torque_limit{1, 2, 18};
+    static constexpr Format ramp_step{1, 2, 24};
     static constexpr Format voltage_to_current{0, -1, 18};
     static constexpr Format torque_gain{0, 5, 12};
     static constexpr Format dead_voltage_slope{0, 7, 10};
-    static constexpr Format region_torque{1, 4, 16};
-    static constexpr Format hold_torque{1, 4, 16};
+    static constexpr Format region_torque{1, 2, 18};
+    static constexpr Format hold_torque{1, 2, 18};
     static constexpr Format hold_time{0, 31, 0};
-    static constexpr Format hold_limit{1, 4, 16};
-    static constexpr Format current_limit{1, 5, 16};
+    static constexpr Format hold_limit{1, 2, 18};
+    static constexpr Format current_limit{1, 3, 18};
     static constexpr Format voltage_gain{0, 2, 15};
     static constexpr Format voltage_gain_high{0, 2, 15};
-    static constexpr Format dead_voltage{1, 5, 14};
-    static constexpr Format voltage_window{1, 5, 14};
+    static constexpr Format dead_voltage{1, 3, 16};
+    static constexpr Format voltage_window{1, 3, 16};
     static constexpr Format duty_gain{0, 9, 8};
     static constexpr Format duty_limit{0, 31, 0};
     static constexpr Format watchdog_ticks{0, 31, 0};
-    static constexpr Format self_test_torque{1, 4, 16};
+    static constexpr Format self_test_torque{1, 2, 18};
     static constexpr Format self_test_quiet{0, 31, 0};
     static constexpr Format self_test_pulse{0, 31, 0};
     static constexpr Format self_test_arms{0, 31, 0};
     static constexpr Format commutation_gain{0, 0, 32};
     static constexpr Format commutation_offset{0, 0, 32};
-    static constexpr Format setpoint_torque{1, 4, 16};
+    static constexpr Format setpoint_torque{1, 2, 18};
     static constexpr Format membrane_lower{1, 17, 8};
     static constexpr Format membrane_upper{1, 17, 8};
-    static constexpr Format membrane_torque{1, 4, 16};
+    static constexpr Format membrane_torque{1, 2, 18};
     static constexpr Format compression_contact{1, 17, 8};
     static constexpr Format compression_stiffness{0, -14, 31};
     static constexpr Format tension_rest{1, 17, 8};
@@ -146,7 +146,7 @@ struct GimbalMotor {
   static constexpr const auto& scene_names = Map::scene_names;
 
   static constexpr BaseFormats base{
-      {1, 10, 21}, {1, 4, 16}, {1, 5, 16}, {1, 5, 14},
+      {1, 10, 21}, {1, 2, 18}, {1, 3, 18}, {1, 3, 16},
       30, velocity_shift, velocity_gain != 0, {0, 0, 17},
       P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,
       P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,
@@ -179,7 +179,7 @@ struct GimbalMotor {
       {"polarity_speed", "rad/s", A::polarity_speed, P::polarity_speed,
        3.0, 6291456},
       {"polarity_current", "A", A::polarity_current, P::polarity_current,
-       0.29999999999999999, 19661},
+       0.29999999999999999, 78643},
       {"polarity_ticks", "tick", A::polarity_ticks, P::polarity_ticks,
        6000.0, 6000},
       {"emf_constant", "V s/rad", A::emf_constant, P::emf_constant,
@@ -189,9 +189,9 @@ struct GimbalMotor {
       {"voltage_setpoint", "V", A::voltage_setpoint, P::voltage_setpoint,
        0.0, 0},
       {"voltage_step", "V/tick", A::voltage_step, P::voltage_step,
-       0.00238037109375, 39},
+       0.0023956298828125, 157},
       {"torque_limit", "Nm", A::torque_limit, P::torque_limit,
-       0.050000000000000003, 3277},
+       0.050000000000000003, 13107},
       {"ramp_step", "Nm/tick", A::ramp_step, P::ramp_step,
        4.9999999999999998e-07, 8},
       {"voltage_to_current", "1/ohm", A::voltage_to_current, P::voltage_to_current,
@@ -201,23 +201,23 @@ struct GimbalMotor {
       {"dead_voltage_slope", "V/Nm", A::dead_voltage_slope, P::dead_voltage_slope,
        101.85916357881301, 104304},
       {"region_torque", "Nm", A::region_torque, P::region_torque,
-       0.050000000000000003, 3277},
+       0.050000000000000003, 13107},
       {"hold_torque", "Nm", A::hold_torque, P::hold_torque,
-       0.025000000000000001, 1638},
+       0.025000000000000001, 6554},
       {"hold_time", "1024 ticks", A::hold_time, P::hold_time,
        4883.0, 4883},
       {"hold_limit", "Nm", A::hold_limit, P::hold_limit,
-       0.012500000000000001, 819},
+       0.012500000000000001, 3277},
       {"current_limit", "A", A::current_limit, P::current_limit,
-       0.85499999999999998, 56033},
+       0.85499999999999998, 224133},
       {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain,
        2.8999999999999999, 95027},
       {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high,
        2.8999999999999999, 95027},
       {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
-       0.20371832715762603, 3338},
+       0.20371832715762603, 13351},
       {"voltage_window", "V", A::voltage_window, P::voltage_window,
-       2.813718327157626, 46100},
+       2.813718327157626, 184400},
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
        346.41016151377545, 88681},
       {"duty_limit", "clock", A::duty_limit, P::duty_limit,
@@ -225,7 +225,7 @@ struct GimbalMotor {
       {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
        100000.0, 100000},
       {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,
-       0.0080000000000000002, 524},
+       0.0080000000000000002, 2097},
       {"self_test_quiet", "128 ticks", A::self_test_quiet, P::self_test_quiet,
        157.0, 157},
       {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse,
@@ -243,7 +243,7 @@ struct GimbalMotor {
       {"membrane_upper", "count", A::membrane_upper, P::membrane_upper,
        1825.3162113323292, 467281},
       {"membrane_torque", "Nm", A::membrane_torque, P::membrane_torque,
-       0.040000000000000001, 2621},
+       0.040000000000000001, 10486},
       {"compression_contact", "count", A::compression_contact, P::compression_contact,
        1303.7972938088067, 333772},
       {"compression_stiffness", "Nm/count", A::compression_stiffness, P::compression_stiffness,

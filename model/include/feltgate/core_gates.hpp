@@ -23,7 +23,7 @@ class CoreGates {
  public:
   using In = Pwm::In;
 
-  CoreGates(int period, int dead_clocks, int shortest_clocks = 1)
+  CoreGates(int period, int dead_clocks, int shortest_clocks = 1, int = 0)
       : pwm_(period, dead_clocks, shortest_clocks) {}
 
   void reset() {
@@ -54,6 +54,8 @@ class CoreGates {
 
   /// The gates: bit 0 a_hi, bit 1 a_lo, bit 2 b_hi, bit 3 b_lo.
   std::uint8_t bits() const { return bits_; }
+  /// The duty says it all.
+  static int on_time(std::size_t) { return 0; }
   std::int16_t duty_active() const { return pwm_.out().duty_active; }
   /// Clocks since reset for which each gate was on, in the same order.
   GateCounts on_clocks() const {

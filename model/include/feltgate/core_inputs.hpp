@@ -131,7 +131,7 @@ auto FeltgateCore<D, ReadBack>::bridge_inputs(bool enable, std::int16_t duty) co
   typename Bridge::In p;
   p.enable = enable;
   p.polarity = bit(control, D::C::control_motor_polarity);
-  if constexpr (kThree) {
+  if constexpr (D::phases == 3) {
     p.amplitude = duty;
     p.count = decoder_.count();
     p.wave_clock = clock_ - Map::first_wave_clock;

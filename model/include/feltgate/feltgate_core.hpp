@@ -7,13 +7,10 @@
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "feltgate/absolute_position.hpp"
-#include "feltgate/core_gates.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
@@ -141,15 +138,10 @@ class FeltgateCore {
   void keep_words(bool keep) { keep_words_ = keep; }
   /// A word of the running tick's snapshot by its slot; all are valid when on_snapshot() is called.
   std::uint32_t word(int slot) const { return registers_.running_word(slot); }
-  /// Clocks since reset for which each gate was on, in the order a_hi, a_lo, b_hi, b_lo, c_hi,
-  /// c_lo; without a third leg its gates have none.
+  /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo, c_hi, c_lo.
   GateCounts gate_clocks() const { return gates_.on_clocks(); }
-  /// Of a bridge with three phases: the clocks for which a leg's high switch is wanted on in this
-  /// PWM period, out of D::pwm_period; legs 0, 1 and 2. An H-bridge has duty_active instead: 0.
-  int on_time([[maybe_unused]] std::size_t leg) const {
-    if constexpr (kThree) return gates_.on_time(leg);
-    return 0;
-  }
+  /// Of three phases: clocks of this PWM period in which leg 0, 1 or 2 is to be high; else 0.
+  int on_time(std::size_t leg) const { return gates_.on_time(leg); }
   /// Free-running count at the start of the running wave.
   std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
   /// Result of the self-test, as in the status word.
@@ -175,16 +167,7 @@ class FeltgateCore {
   using T = Map::T;
   static constexpr bool kAbsolute = D::absolute_encoder != 0;
   using Decoder = std::conditional_t<kAbsolute, AbsolutePosition<D>, QuadDecoder>;
-  static constexpr bool kThree = D::phases == 3;
-  using Bridge = std::conditional_t<kThree, ThreePhaseBridge, CoreGates>;
-  static Bridge make_bridge() {
-    if constexpr (kThree) {
-      return {D::pwm_period, D::dead_clocks, D::shortest_clocks, D::modulation};
-    } else {
-      return {D::pwm_period, D::dead_clocks, D::shortest_clocks};
-    }
-  }
-
+  using Bridge = BridgeOf<D>;
   /// The clock of the tick after the one of wave clock t.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
   static constexpr int kSnapshot = core_steps::clock_of(T::snapshot);
@@ -401,7 +384,7 @@ class FeltgateCore {
   typename Supervisor<D>::Words supervisor_words_;
   SelfTestLaw self_test_;
   SelfTestLaw::Words self_test_words_;
-  Bridge gates_ = make_bridge();
+  Bridge gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks, D::modulation};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   std::int64_t writes_ = 0;
   int clock_ = 0;       ///< clock of the tick

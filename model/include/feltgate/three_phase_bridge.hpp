@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "feltgate/commutation.hpp"
 #include "feltgate/core_gates.hpp"
@@ -109,5 +110,9 @@ class ThreePhaseBridge {
   std::uint8_t bits_ = 0;
   GateCounts clocks_{};
 };
+
+/// The bridge of design D.
+template <class D>
+using BridgeOf = std::conditional_t<D::phases == 3, ThreePhaseBridge, CoreGates>;
 
 }  // namespace feltgate

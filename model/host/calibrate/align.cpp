@@ -17,7 +17,7 @@ namespace feltgate::host {
 namespace {
 
 constexpr double kTurn_rad = 6.283185307179586;
-/// The rotor rests where the torque of the voltage crosses zero: so far before it.
+/// The rotor rests where the torque of the voltage crosses zero and falls: so far ahead of it.
 constexpr double kQuarter = 0.25;
 
 /// The angle nearest to `before` that differs from `turns` by whole turns.

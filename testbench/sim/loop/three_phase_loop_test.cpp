@@ -216,6 +216,24 @@ TEST_CASE("three phases: the self-test sees an offset that is wrong by more than
   }
 }
 
+TEST_CASE("three phases: half a turn off runs away unseen without the self-test", "[phases]") {
+  // Against the command, until two back-EMFs, the motor's and the law's, have taken up its voltage:
+  // at torque * R/(2 Kt Ke), less what friction takes.
+  for (const double nm : {0.01, 0.05}) {
+    plant::Parameters p = gimbal_motor();
+    p.phases->offset_rad = kTurn / 2;
+    Scenario s = asked(nm, p);
+    s.duration_s = 0.5;
+    double rad_s = 0;
+    RunOptions options = by_twin();
+    options.row = [&](const Row& r) { rad_s = r.omega_rad_s; };
+    const RunResult run = run_scenario(s, p, options);
+    if (show()) fmt::print("half a turn off, {:g} mNm: {:.1f} rad/s\n", 1e3 * nm, rad_s);
+    CHECK(rad_s == Approx(-nm * 2.9 / (2 * 0.0585 * 0.039)).epsilon(0.06));
+    CHECK(run.felt.faults.empty());
+  }
+}
+
 TEST_CASE("three phases: an open phase takes the torque's part and trips nothing", "[phases]") {
   // With phase a open, b and c carry V sqrt(3) sin(e)/(2 R), which gives sin(e)^2 of the torque.
   const plant::Parameters p = gimbal_motor();
@@ -240,6 +258,14 @@ TEST_CASE("three phases: an open phase takes the torque's part and trips nothing
     CHECK(after_nm == Approx(0.03 * std::sin(e) * std::sin(e)).margin(0.0003));
     CHECK(run.felt.faults.empty());
   }
+  Scenario free = asked(0.05, p);
+  free.duration_s = 0.5;
+  Event late;
+  late.at_s = 0.3;
+  late.open_phase = 1;
+  free.events = {late};
+  CHECK(run_scenario(free, p, by_twin()).felt.faults.empty());
+  CHECK(start_of(p, {}, true, 0).begun);  // at e = 0, where it has no torque at all
   int seen = 0, angles = 0;
   for (int degrees = 0; degrees < 180; degrees += 15, ++angles) {
     plant::Hand hand;

@@ -4,6 +4,8 @@
 // The core with three phases, RTL against twin in every clock, with a sensor at its pins. What the
 // gates do is judged by vectors in double from the shaft's angle. Documentation:
 // docs/blocks/commutation.md
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,7 @@
 
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
+#include "page_figures.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/backends/rtl_model.hpp"
 
@@ -177,6 +180,8 @@ TEST_CASE("three: a new offset acts while armed") {
 TEST_CASE("three: how old the angle is that the voltages have") {
   // From the start of a reading to the middle of the PWM period that has its angle: 300 clocks of
   // reading, up to 800 to the sample, 85 to the on-times, 3 to the gates, and half a period.
+  std::string table =
+      "| speed, rad/s | the angle is old by, us | electrical degrees |\n|---|---|---|\n";
   for (const double rad_s : {60.0, -60.0}) {
     Rig rig;
     rig.volt = rad_s > 0 ? 2.4 : -2.4;
@@ -203,7 +208,11 @@ TEST_CASE("three: how old the angle is that the voltages have") {
     const double truncation = rad_s > 0 ? 0.5 * count_clocks : -0.5 * count_clocks;
     CHECK(age_clocks - truncation > 300 + 85 + 3 + kPeriod / 2);
     CHECK(age_clocks - truncation < 300 + 800 + 85 + 3 + kPeriod / 2 + 30);
+    table += fmt::format(
+        "| {:g} | {:.1f} | {:.2f} |\n", rad_s, 1e6 * (age_clocks - truncation) * kClock_s,
+        (age_clocks - truncation) * kClock_s * std::abs(rad_s) * kPairs * 180 / kPi);
   }
+  check_page_figures("commutation", table, "feltgate_core_three");
 }
 
 TEST_CASE("three: a zero of the position does not move the voltages") {

@@ -145,7 +145,7 @@ BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
     for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
-                 "lever_law", "mine")
+                 "lever_law", "gimbal_motor", "mine")
 }
 
 

@@ -71,7 +71,7 @@ struct GimbalMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x8293ffe0;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0xfb290b2a;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {

@@ -27,6 +27,8 @@ core/actuation/torque_control.sv
 core/actuation/current_sense.sv
 core/actuation/current_control.sv
 core/actuation/pwm.sv
+core/actuation/commutation.sv
+core/actuation/pwm_three_phase.sv
 core/actuation/actuation.sv
 core/safety/hold_timer.sv
 core/safety/self_test.sv
@@ -40,7 +42,5 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
-core/actuation/commutation.sv
-core/actuation/pwm_three_phase.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

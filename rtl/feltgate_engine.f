@@ -27,6 +27,8 @@ core/actuation/torque_control.sv
 core/actuation/current_sense.sv
 core/actuation/current_control.sv
 core/actuation/pwm.sv
+core/actuation/commutation.sv
+core/actuation/pwm_three_phase.sv
 core/actuation/actuation.sv
 core/safety/hold_timer.sv
 core/safety/self_test.sv
@@ -40,8 +42,6 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
-core/actuation/commutation.sv
-core/actuation/pwm_three_phase.sv
 generated/feltgate_engine_pkg.sv
 engine/engine_alu.sv
 engine/engine_memory.sv

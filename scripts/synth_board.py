@@ -33,6 +33,8 @@ EP4CE22_BITS = EP4CE22["m9k"] * 9216
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
+    if "int PHASES = 3;" in (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"):
+        raise ToolError(f"{design} has three phases, and {board} has no pins of a third leg")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)

@@ -22,7 +22,8 @@ SCENE_ROW = "core without read-back, registered"
 SNAPSHOT_PORTS = (
     "snapshot_valid_o tick_count_o position_o velocity_o tau_hat_o tau_ref_o current_ref_o "
     "voltage_o duty_o duty_active_o word_valid_o word_slot_o word_data_o arm_request_o ready_o testing_o "
-    "measured_o zeroed_o current_clock_o current_o heartbeat_o encoder_select_no encoder_clock_o encoder_command_o"
+    "measured_o zeroed_o current_clock_o current_o heartbeat_o encoder_select_no encoder_clock_o encoder_command_o "
+    "gate_c_hi_o gate_c_lo_o"
 ).split()
 # Inputs of a core that is alone and has no engine.
 ALONE = (
@@ -35,7 +36,9 @@ OPTION_PINS = {
     "DRIVER_FAULT": ("driver_fault_i",),
     "HEARTBEAT": ("heartbeat_o",),
     "ABSOLUTE_ENCODER": ("encoder_data_i", "encoder_select_no", "encoder_clock_o", "encoder_command_o"),
+    "PHASES": ("gate_c_hi_o", "gate_c_lo_o"),
 }
+WITHOUT = {"PHASES": 2}  # what a design without the option says, if not 0
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
     **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
@@ -112,7 +115,7 @@ def axes_targets():
             registered,
             tuple(set(SNAPSHOT_PORTS)
                   - {"arm_request_o", "ready_o", "testing_o", "current_clock_o", "current_o", "heartbeat_o",
-                     "encoder_select_no", "encoder_clock_o", "encoder_command_o"}),
+                     "encoder_select_no", "encoder_clock_o", "encoder_command_o", "gate_c_hi_o", "gate_c_lo_o"}),
             ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i"),
         )
         for count in (1, 2, 3)
@@ -194,7 +197,7 @@ endmodule
 def with_option_pins(target, package):
     """The target of a design whose package has this text: the pins of its options are pins."""
     used = {pin for option, pins in OPTION_PINS.items() for pin in pins
-            if not re.search(rf"int {option} = 0;", package)}
+            if not re.search(rf"int {option} = {WITHOUT.get(option, 0)};", package)}
     return replace(
         target,
         open_ports=tuple(p for p in target.open_ports if p not in used),

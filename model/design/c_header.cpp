@@ -139,7 +139,7 @@ std::string c_header(const Elaborated& e) {
     << "\n#define FELTGATE_PWM_PERIOD " << d.pwm_period_clocks() << comment("[clock]")
     << "#define FELTGATE_COUNT_RAD " << real_literal(d.count_rad())
     << comment("one count; an angle in rad / FELTGATE_COUNT_RAD is in counts")
-    << "#define FELTGATE_SUPPLY_V " << real_literal(d.supply_v) << "\n"
+    << "#define FELTGATE_SUPPLY_V " << real_literal(d.full_duty_v()) << "\n"
     << "\n/* NAME_WORD(value) is the word of a value in its unit, NAME_VALUE(word) the value of a "
        "word, NAME_DEFAULT\n   and NAME_RESET what configuration leaves there. Units: "
        "feltgate_map.h. */\n";

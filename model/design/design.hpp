@@ -86,11 +86,17 @@ struct Design {
   double absolute_serial_hz = 0, absolute_gap_s = 0, absolute_period_s = 0;
   /// What the sensor shows beyond the angle: cosine 1, sine 1, cosine 2, ... of a turn; empty: 0.
   std::vector<double> absolute_error_mrad;
+  // [commutation], with [pwm] phases = 3: three legs turn the voltage with the motor.
+  int phases = 2;  ///< legs of the bridge
+  int pole_pairs = 0, modulation = 0;
+  double commutation_offset_rad = 0;  ///< electrical
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
   std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 
   int clocks_per_tick() const { return static_cast<int>(clock_hz / tick_hz); }
   int pwm_period_clocks() const { return static_cast<int>(clock_hz / pwm_hz); }
+  /// The voltage of a duty of a whole period: the supply, of three phases supply_v/sqrt(3).
+  double full_duty_v() const;
   /// Whether the voltage law compensates the back-EMF.
   bool emf_in_law() const { return voltage_law == "motor_model"; }
   /// A time in the units of the self-test: 2^SELF_TEST_UNIT_BITS ticks.
@@ -156,6 +162,9 @@ Design design_from_text(const std::string& text, const std::string& path);
 /// Reads [absolute_encoder], and refuses what of it cannot work.
 void read_absolute_encoder(config::TomlReader& r, Design& d);
 void check_absolute_encoder(const Design& d);
+/// The same for [commutation].
+void read_commutation(config::TomlReader& r, Design& d);
+void check_commutation(const Design& d);
 
 /// Quantises the design against a register map and checks it. Throws config::ConfigError when a
 /// coefficient quantises to 0, a width exceeds the fabric, a parameter does not fit its word, the

@@ -266,6 +266,7 @@ void check(const Elaborated& e) {
   check_widths(e);
   if (d.current_loop) check_current_loop(d);
   if (d.absolute) check_absolute_encoder(d);
+  check_commutation(d);
   check_drops(e);
 }
 
@@ -328,6 +329,7 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
         p.place, name));
   };
   for (const Parameter& p : registers.parameters) {
+    if (p.option == "three_phases" && design.phases != 3) continue;
     const Value value = value_of(p, p.name);
     Word w{p, value.key, {}, value.si, 0};
     if (p.kind == "coefficient" || p.kind == "signed") {
@@ -349,6 +351,8 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
       w.format = signal_format(design, p);
     } else if (p.kind == "counts") {
       w.format = {1, 17, 8};
+    } else if (p.kind == "angle") {
+      w.format = {0, 0, 32};
     } else {
       w.format = {0, 31, 0};
     }

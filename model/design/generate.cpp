@@ -203,25 +203,39 @@ Constant of_absolute_table(const Design& d) {
   return {"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"};
 }
 
+/// Words of the commutation; only phases = 2 without it.
+std::vector<Constant> of_phases(const Design& d) {
+  return {{"phases", d.phases, "legs of the bridge: 2 of one motor current, 3 of three"},
+          {"modulation", d.modulation, "of three phases: 0 sines, 1 space vectors"}};
+}
+
+/// The constants of all options, in the order of the files.
+std::vector<Constant> of_options(const Elaborated& e) {
+  std::vector<Constant> all;
+  for (const auto& list : {further(e.design),
+                           of_estimator(e.design),
+                           of_current_loop(e),
+                           of_absolute_encoder(e.design),
+                           {of_absolute_table(e.design)},
+                           of_phases(e.design)}) {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
+}
+
 }  // namespace
 
 std::uint32_t design_crc(const Elaborated& e) {
   std::string text = fmt::format("clock_hz {}\ntick_hz {}\n", e.design.clock_hz, e.design.tick_hz);
-  for (const Constant& c : constants(e)) text += fmt::format("{} {}\n", c.name, c.value);
-  if (e.design.axes != 1 || e.design.engine) {
-    for (const Constant& c : further(e.design)) text += fmt::format("{} {}\n", c.name, c.value);
-  }
-  if (e.design.mt) {
-    for (const Constant& c : of_estimator(e.design))
-      text += fmt::format("{} {}\n", c.name, c.value);
-  }
-  if (e.design.current_loop) {
-    for (const Constant& c : of_current_loop(e)) text += fmt::format("{} {}\n", c.name, c.value);
-  }
-  if (e.design.absolute) {
-    for (const Constant& c : of_absolute_encoder(e.design))
-      text += fmt::format("{} {}\n", c.name, c.value);
-  }
+  const auto add = [&text](const std::vector<Constant>& list) {
+    for (const Constant& c : list) text += fmt::format("{} {}\n", c.name, c.value);
+  };
+  add(constants(e));
+  if (e.design.axes != 1 || e.design.engine) add(further(e.design));
+  if (e.design.mt) add(of_estimator(e.design));
+  if (e.design.current_loop) add(of_current_loop(e));
+  if (e.design.absolute) add(of_absolute_encoder(e.design));
+  if (e.design.phases == 3) add(of_phases(e.design));
   if (e.design.absolute_table()) {
     for (const int correction : e.design.absolute_corrections()) {
       text += fmt::format("correction {}\n", correction);
@@ -246,14 +260,8 @@ std::string systemverilog_package(const Elaborated& e) {
   for (const Constant& c : constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(e.design),
-                           of_estimator(e.design),
-                           of_current_loop(e),
-                           of_absolute_encoder(e.design),
-                           {of_absolute_table(e.design)}}) {
-    for (const Constant& c : list) {
-      s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
-    }
+  for (const Constant& c : of_options(e)) {
+    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
   s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
     << ";  // where the chain rounds: 0 half up, 1 floor, 2 convergent\n";
@@ -315,18 +323,12 @@ std::string cpp_header(const Elaborated& e) {
     << "  static constexpr double count_rad = " << real_literal(d.count_rad()) << ";\n"
     << "  static constexpr double velocity_gain_rad_s = "
     << real_literal(d.exact_gain ? d.velocity_gain_rad_s() : 0.0) << ";\n"
-    << "  static constexpr double supply_v = " << real_literal(d.supply_v) << ";\n";
+    << "  static constexpr double supply_v = " << real_literal(d.full_duty_v()) << ";\n";
   for (const Constant& c : constants(e)) {
     s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const auto& list : {further(d),
-                           of_estimator(d),
-                           of_current_loop(e),
-                           of_absolute_encoder(d),
-                           {of_absolute_table(d)}}) {
-    for (const Constant& c : list) {
-      s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
-    }
+  for (const Constant& c : of_options(e)) {
+    s << "  static constexpr int " << c.name << " = " << c.value << ";  // " << c.doc << "\n";
   }
   s << "  static constexpr Round rounding = Round::" << rounding(d.rounding).name
     << ";  // where the chain rounds\n";

@@ -7,9 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feltgate/commutation.hpp"
+
 namespace feltgate::design {
 
 namespace {
+
+constexpr double kPi = 3.14159265358979323846;
 
 double low_pass_a1(double cutoff_rad_s, double tick_s) {
   return -std::expm1(-cutoff_rad_s * tick_s);
@@ -17,9 +21,14 @@ double low_pass_a1(double cutoff_rad_s, double tick_s) {
 
 // Largest duty. A bootstrap driver is charged by the pulses of the low gate: the low gate of each
 // switching leg gets its shortest pulse in every period. If the period is too short, the limit is
-// half a period.
+// half a period. Of three legs with space vectors the highest is on for half a period and half the
+// amplitude, with sines for half a period and amplitude/sqrt(3).
 double duty_limit(const Design& d) {
-  const int period = d.pwm_period_clocks(), legs = d.pwm_mode == 1 ? 2 : 1;
+  const int period = d.pwm_period_clocks(), legs = d.pwm_mode == 1 || d.phases == 3 ? 2 : 1;
+  if (d.phases == 3 && d.modulation == Commutation::kSines) {
+    const int most = period / 2 - d.dead_clocks() - d.shortest_clocks() - 1;
+    return std::max<double>(period / 2, std::floor(most * std::sqrt(3.0)));
+  }
   return std::max(period / 2, period - legs * (d.dead_clocks() + d.shortest_clocks()));
 }
 
@@ -34,7 +43,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
   const double observer_part = 1.0 - jk;
   // Each switching leg turns on late by the dead time; until then the current flows through diodes.
   // The lost voltage opposes the current like a brush drop, so the same law compensates it.
-  const double legs = d.pwm_mode == 1 ? 2.0 : 1.0;
+  // Of three legs the sum of the three signs turns with the current: 4/pi on average.
+  const double legs = d.phases == 3 ? 4 / kPi : d.pwm_mode == 1 ? 2.0 : 1.0;
   const double lost_v =
       legs * (d.supply_v + 2 * d.diode_drop_v) * d.dead_clocks() / d.pwm_period_clocks();
   const double dead_v = (model ? d.dead_voltage_v : 0.0) + (d.compensate_dead_time ? lost_v : 0.0);
@@ -48,6 +58,7 @@ std::map<std::string, Value> parameter_values(const Design& d) {
       model ? d.current_limit_a
             : std::max(d.kv_low, d.kv_high) * one_ohm * d.current_limit_a / d.resistance_ohm;
   const double current_a = d.motor_current_limit_a > 0 ? d.motor_current_limit_a : law_a;
+  const double offset_turns = d.commutation_offset_rad / (2 * kPi);
   // A whole number of LSB, at least one, is exact in every engine.
   const double step_v = std::ldexp(
       std::max(1.0, std::round(std::ldexp(d.voltage_ramp_v_s / tick_hz, d.voltage.fraction))),
@@ -93,8 +104,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
         model ? "motor.resistance_ohm" : "voltage.kv_high"}},
       {"dead_voltage", {dead_v, "voltage.dead_voltage_v"}},
       {"voltage_window",
-       {std::min(d.resistance_ohm * current_a + dead_v, d.supply_v), "motor.resistance_ohm"}},
-      {"duty_gain", {d.pwm_period_clocks() / d.supply_v, "pwm.supply_v"}},
+       {std::min(d.resistance_ohm * current_a + dead_v, d.full_duty_v()), "motor.resistance_ohm"}},
+      {"duty_gain", {d.pwm_period_clocks() / d.full_duty_v(), "pwm.supply_v"}},
       {"duty_limit", {duty_limit(d), "pwm.frequency_hz"}},
       {"watchdog_ticks", {std::ceil(d.watchdog_s * tick_hz), "supervisor.watchdog_s"}},
       {"self_test_torque", {d.self_test_nm, "self_test.torque_nm"}},
@@ -107,6 +118,8 @@ std::map<std::string, Value> parameter_values(const Design& d) {
        {static_cast<double>(d.arm_when_held << Map::self_test_held_bit |
                             d.arm_when_moving << Map::self_test_moving_bit),
         "self_test.arm_when_held"}},
+      {"commutation_gain", {d.pole_pairs / (4.0 * std::max(1, d.lines)), "commutation.pole_pairs"}},
+      {"commutation_offset", {offset_turns - std::floor(offset_turns), "commutation.offset_rad"}},
       {"setpoint_torque", {d.setpoint_nm, "scenes.setpoint_nm"}},
       {"membrane_lower", {d.membrane_lower_rad / q, "scenes.membrane_lower_rad"}},
       {"membrane_upper", {d.membrane_upper_rad / q, "scenes.membrane_upper_rad"}},

@@ -344,6 +344,7 @@ Design design_of(const toml::table& root, const std::string& path) {
       r.fail("frequency_hz", "the PWM period is not a whole number of clocks up to 4095",
              "choose another frequency");
     }
+    if (r.has("phases")) d.phases = static_cast<int>(r.integer("phases", 2, 3));
     d.pwm_mode = static_cast<int>(r.choice("mode", {"sign_magnitude", "locked_antiphase"}));
     d.motor_polarity = static_cast<int>(r.integer("polarity", 0, 1));
     d.dead_time_s = r.number("dead_time_s", {0.0, 1e-5});
@@ -362,6 +363,7 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.compensate_dead_time = r.integer("compensate_dead_time", 0, 1) == 1;
     d.supply_v = r.number("supply_v", {1.0, 31.9});
   });
+  option("commutation", [&](config::TomlReader& r) { read_commutation(r, d); });
   section("supervisor", [&](config::TomlReader& r) { read_supervisor(r, d); });
   option("self_test", [&](config::TomlReader& r) { read_self_test(r, d); });
   section("scenes", [&](config::TomlReader& r) { read_scenes(r, d); });

@@ -59,8 +59,8 @@ int small(config::TomlReader& r, const std::string& key, std::int64_t high) {
 }
 
 Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<int>& used) {
-  static const std::vector<std::string> kinds{"coefficient", "signed", "signal", "counts",
-                                              "integer"};
+  static const std::vector<std::string> kinds{"coefficient", "signed",  "signal",
+                                              "counts",      "integer", "angle"};
   Parameter p;
   p.name = r.identifier("name");
   p.place = fmt::format("{}:{}", r.file(), r.line("name"));
@@ -79,6 +79,8 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
     r.fail("while_armed", "the port refuses words that all scenes share, and no others",
            "let it ramp");
   }
+  if (r.has("option"))
+    p.option = std::vector<std::string>{"three_phases"}[r.choice("option", {"three_phases"})];
   if (r.has("headroom_bits")) p.headroom_bits = small(r, "headroom_bits", 8);
   p.unit = plain_text(r, "unit");
   p.doc = r.text("doc");

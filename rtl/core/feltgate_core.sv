@@ -27,6 +27,8 @@ module feltgate_core #(
     output logic gate_a_lo_o,
     output logic gate_b_hi_o,
     output logic gate_b_lo_o,
+    output logic gate_c_hi_o,  // of a bridge with PHASES = 3; else 0
+    output logic gate_c_lo_o,
 
     // Modulator of the motor current, for the option CURRENT_LOOP; else tie the input to 0
     input  logic               current_data_i,
@@ -95,7 +97,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] velocity_product, dob_product, scene_product, control_product;
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product;
   // encoder, estimators, scenes
-  logic signed [31:0] index_position;
+  logic signed [31:0] index_position, count;
   logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;
@@ -126,7 +128,7 @@ module feltgate_core #(
       .travel_o(travel), .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
       .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
       .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits),
-      .trips_o(encoder_trips)
+      .trips_o(encoder_trips), .count_o(count)
   );
 
   estimators u_estimators (
@@ -154,7 +156,8 @@ module feltgate_core #(
       .motor_current_o(motor_current), .driver_fault_i(driver_fault_i), .current_state_o(current_state),
       .trips_o(actuation_trips), .clear_i(clear), .gates_enable_i(gates_enable_o), .gates_clear_i(gates_clear),
       .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-      .period_start_o(period_start), .duty_active_o(duty_active_o)
+      .period_start_o(period_start), .duty_active_o(duty_active_o),
+      .count_i(count), .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o)
   );
 
   safety u_safety (

@@ -84,6 +84,8 @@ package feltgate_map_pkg;
   localparam int PARAM_AT_SELF_TEST_QUIET = 37;
   localparam int PARAM_AT_SELF_TEST_PULSE = 38;
   localparam int PARAM_AT_SELF_TEST_ARMS = 41;
+  localparam int PARAM_AT_COMMUTATION_GAIN = 26;
+  localparam int PARAM_AT_COMMUTATION_OFFSET = 13;
   localparam int PARAM_AT_SETPOINT_TORQUE = 10;
   localparam int PARAM_AT_MEMBRANE_LOWER = 1;
   localparam int PARAM_AT_MEMBRANE_UPPER = 2;

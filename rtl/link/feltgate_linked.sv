@@ -31,6 +31,8 @@ module feltgate_linked #(
     output logic gate_a_lo_o,
     output logic gate_b_hi_o,
     output logic gate_b_lo_o,
+    output logic gate_c_hi_o,  // of a bridge with three phases; else 0
+    output logic gate_c_lo_o,
 
     // Sensors and driver of a design with that option, as in feltgate_core; without it the inputs are not used
     input  logic encoder_data_i,
@@ -107,6 +109,8 @@ module feltgate_linked #(
         .armed_o(armed_o), .gates_enable_o(gates_enable_o)
     );
     // No design has an engine and one of these options: the generator refuses it.
+    assign gate_c_hi_o       = 1'b0;
+    assign gate_c_lo_o       = 1'b0;
     assign encoder_select_no = 1'b1;
     assign encoder_clock_o   = 1'b0;
     assign encoder_command_o = 1'b0;
@@ -125,6 +129,7 @@ module feltgate_linked #(
         .current_data_i(current_data_i), .current_clock_o(current_clock_o), .current_o(),
         .driver_fault_i(driver_fault_i), .heartbeat_o(heartbeat_o),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
+        .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
         .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
         .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
         .arm_request_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),

@@ -62,6 +62,7 @@ Subject lever_subject(const std::string& path, const BudgetArguments& a, files::
     s.law = make_scene_law(law_file(s.scene), design_named(s.design));
     outputs.reads(law_file(s.scene));
   }
+  choose_plant(s.scene, design_named(s.design));
   if (!a.plant.empty()) s.scene.plant = a.plant;
   const std::string plant_path = find_file(s.scene.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);

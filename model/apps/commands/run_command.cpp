@@ -168,11 +168,12 @@ int run(const RunArguments& a) {
     return exit_ok;
   }
   Scenario scenario = read_scenario(scene_path);
+  const DesignInfo& design = design_named(a.design);
+  choose_plant(scenario, design);
   if (!a.plant.empty()) scenario.plant = a.plant;
   const std::string plant_path = find_file(scenario.plant, "vectors/plants");
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
-  const DesignInfo& design = design_named(a.design);
   const std::unique_ptr<SceneLaw> law = law_of(scenario, design);
   resolve_amounts(scenario, design, law.get());
   apply_settings(a.set, design, law.get(), scenario);

@@ -264,6 +264,7 @@ Trimmed trimmed_lever(const std::string& path, TrimArguments& a, files::Outputs&
   const trim::LawMaker law = law_of(scene, design, 1);
   const std::unique_ptr<SceneLaw> own = law ? law() : nullptr;
   resolve_amounts(scene, design, own.get());
+  choose_plant(scene, design);
   if (!a.plant.empty()) scene.plant = a.plant;
   cut(scene, a);
   const std::string plant_path = find_file(scene.plant, "vectors/plants");

@@ -54,6 +54,7 @@ module board_pins (
       /* verilator lint_off PINCONNECTEMPTY */
       .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
       .current_data_i(1'b0), .current_clock_o(), .driver_fault_i(1'b0), .heartbeat_o(),
+      .gate_c_hi_o(), .gate_c_lo_o(),
       /* verilator lint_on PINCONNECTEMPTY */
       .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .clear_faults_i(1'b0),
       .scene_i(scene_i),

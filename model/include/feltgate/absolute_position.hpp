@@ -70,6 +70,8 @@ class AbsolutePosition {
   }
 
   const Out& out() const { return out_; }
+  /// The count, whatever its zero: modulo a turn the angle.
+  std::int32_t count() const { return static_cast<std::int32_t>(count_); }
   /// CoreOut::serial.
   std::uint8_t serial() const {
     const AbsoluteEncoder::Out& o = encoder_.out();

@@ -14,10 +14,16 @@
 
 namespace feltgate {
 
+/// Gates of a bridge with three legs; an H-bridge has the first four.
+constexpr std::size_t kBridgeGates = 6;
+using GateCounts = std::array<std::int64_t, kBridgeGates>;
+
 /// The PWM of the core, with counters.
 class CoreGates {
  public:
-  CoreGates(int period, int dead_clocks, int shortest_clocks = 1)
+  using In = Pwm::In;
+
+  CoreGates(int period, int dead_clocks, int shortest_clocks = 1, int = 0)
       : pwm_(period, dead_clocks, shortest_clocks) {}
 
   void reset() {
@@ -28,7 +34,7 @@ class CoreGates {
   }
 
   /// Advances `clocks` clocks with `in` held.
-  void advance(const Pwm::In& in, int clocks) {
+  void advance(const In& in, int clocks) {
     if (quiet_for(clocks, in.enable) && !in.clear) {
       pass(clocks);
     } else {
@@ -48,16 +54,18 @@ class CoreGates {
 
   /// The gates: bit 0 a_hi, bit 1 a_lo, bit 2 b_hi, bit 3 b_lo.
   std::uint8_t bits() const { return bits_; }
+  /// The duty says it all.
+  static int on_time(std::size_t) { return 0; }
   std::int16_t duty_active() const { return pwm_.out().duty_active; }
   /// Clocks since reset for which each gate was on, in the same order.
-  std::array<std::int64_t, 4> on_clocks() const {
-    std::array<std::int64_t, 4> all = clocks_;
-    for (std::size_t g = 0; g < all.size(); ++g) all[g] += ((bits_ >> g) & 1u) * held_;
+  GateCounts on_clocks() const {
+    GateCounts all = clocks_;
+    for (std::size_t g = 0; g < 4; ++g) all[g] += ((bits_ >> g) & 1u) * held_;
     return all;
   }
 
  private:
-  void advance_to_events(const Pwm::In& in, int clocks) {
+  void advance_to_events(const In& in, int clocks) {
     settle();
     if (in.enable != enable_ || in.clear) quiet_ = 0;
     enable_ = in.enable;
@@ -97,7 +105,7 @@ class CoreGates {
   int quiet_ = 0;          ///< coming clocks without a change, while the enable stays enable_
   int passed_ = 0;         ///< clocks that the PWM must still be advanced
   bool enable_ = false;
-  std::array<std::int64_t, 4> clocks_{};
+  GateCounts clocks_{};
 };
 
 }  // namespace feltgate

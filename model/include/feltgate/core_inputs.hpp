@@ -126,13 +126,21 @@ std::int16_t FeltgateCore<D, ReadBack>::bridge_duty() const {
 }
 
 template <class D, bool ReadBack>
-Pwm::In FeltgateCore<D, ReadBack>::pwm_inputs(bool enable, std::int16_t duty) const {
+auto FeltgateCore<D, ReadBack>::bridge_inputs(bool enable, std::int16_t duty) const {
   const std::uint32_t control = registers_.out().control;
-  Pwm::In p;
+  typename Bridge::In p;
   p.enable = enable;
-  p.mode = bit(control, D::C::control_pwm_mode);
   p.polarity = bit(control, D::C::control_motor_polarity);
-  p.duty = duty;
+  if constexpr (D::phases == 3) {
+    p.amplitude = duty;
+    p.count = decoder_.count();
+    p.wave_clock = clock_ - Map::first_wave_clock;
+    const bool offset = p.wave_clock == Map::W::commutation_offset;
+    p.word = registers_.parameter(offset ? D::A::commutation_offset : D::A::commutation_gain);
+  } else {
+    p.duty = duty;
+    p.mode = bit(control, D::C::control_pwm_mode);
+  }
   return p;
 }
 

@@ -53,7 +53,7 @@ struct CoreOut {
   std::uint8_t serial = 1;  ///< to an absolute encoder: bit 0 select_n, bit 1 clock, bit 2 command
   /// Clocks of the PWM period: as computed, and as in force.
   std::int16_t duty = 0, duty_active = 0;
-  std::uint8_t gates = 0;                   ///< bit 0 a_hi, bit 1 a_lo, bit 2 b_hi, bit 3 b_lo
+  std::uint8_t gates = 0;  ///< bit 0 a_hi, 1 a_lo, 2 b_hi, 3 b_lo; of three phases 4 c_hi, 5 c_lo
   std::uint8_t scene = 0, first_fault = 0;  ///< numbers; first_fault 0: none
   std::uint8_t word_slot = 0;   ///< slot of word_data, the last word stored in the snapshot
   std::uint32_t word_data = 0;  ///< always 0 without read-back

@@ -56,7 +56,7 @@ void FeltgateCore<D, ReadBack>::run(const In& in, std::int64_t clocks, OnSnapsho
 /// Whether nothing is under way that needs clock(), such as an error, a stop or the first tick.
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::can_pass(const In& in) const {
-  return !kLoop && !kAbsolute && out_.tick_count != 0 && !registers_.flipped() &&
+  return !kLoop && !kAbsolute && D::phases == 2 && out_.tick_count != 0 && !registers_.flipped() &&
          !registers_.out().stop && supervisor_.steady(in.stop) &&
          !(supervisor_.stopped(in.stop) && supervisor_.out().gates_enable) &&
          !decoder_.out().illegal && !outside_trips(in) &&
@@ -243,11 +243,11 @@ void FeltgateCore<D, ReadBack>::gates_to(Stretch& s, int to) {
   if (s.quiet) return;
   const int end = std::min(to, s.open);
   if (s.gates_at < end) {
-    gates_.advance(pwm_inputs(true, out_.duty), end - s.gates_at);
+    gates_.advance(bridge_inputs(true, out_.duty), end - s.gates_at);
     s.gates_at = end;
   }
   if (s.gates_at < to) {
-    gates_.advance(pwm_inputs(false, out_.duty), to - s.gates_at);
+    gates_.advance(bridge_inputs(false, out_.duty), to - s.gates_at);
     s.gates_at = to;
   }
 }

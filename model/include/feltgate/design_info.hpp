@@ -34,6 +34,7 @@ struct DesignInfo {
   const char* name = "";
   std::int64_t clock_hz = 0, tick_hz = 0;
   int clocks_per_tick = 0, pwm_period = 0, dead_clocks = 0, shortest_clocks = 1, pwm_mode = 0;
+  int phases = 2;              ///< 3: the bridge has three legs, and turns the voltage
   int m1 = 0;                  ///< window of the N-method, in ticks; 0: M/T
   double rad_s_per_count = 0;  ///< velocity that one count in that window stands for
   double count_rad = 0, supply_v = 0;
@@ -108,6 +109,7 @@ DesignInfo design_info() {
   i.dead_clocks = D::dead_clocks;
   i.shortest_clocks = D::shortest_clocks;
   i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
+  i.phases = D::phases;
   i.m1 = D::m1;
   i.rad_s_per_count = D::velocity_gain == 0
                           ? std::ldexp(1.0, D::velocity_shift)

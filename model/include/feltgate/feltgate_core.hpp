@@ -7,11 +7,10 @@
 // Documentation: docs/blocks/feltgate_core.md
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "feltgate/absolute_position.hpp"
-#include "feltgate/core_gates.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
@@ -20,6 +19,7 @@
 #include "feltgate/registers.hpp"
 #include "feltgate/self_test.hpp"
 #include "feltgate/supervisor.hpp"
+#include "feltgate/three_phase_bridge.hpp"
 
 namespace feltgate {
 
@@ -83,7 +83,7 @@ class FeltgateCore {
     }
     if (!loop_.ready() && open) sup.trips |= fault_bit(Fault::current);
     if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
-    Pwm::In pwm = pwm_inputs(open, bridge_duty());
+    auto pwm = bridge_inputs(open, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);
     out_.snapshot_valid = false;
     out_.word_valid = ReadBack && core_steps::stores_word(clock_);
@@ -138,8 +138,10 @@ class FeltgateCore {
   void keep_words(bool keep) { keep_words_ = keep; }
   /// A word of the running tick's snapshot by its slot; all are valid when on_snapshot() is called.
   std::uint32_t word(int slot) const { return registers_.running_word(slot); }
-  /// Clocks since reset for which each gate was on, in the order a_hi, a_lo, b_hi, b_lo.
-  std::array<std::int64_t, 4> gate_clocks() const { return gates_.on_clocks(); }
+  /// Clocks since reset for which each gate was on: a_hi, a_lo, b_hi, b_lo, c_hi, c_lo.
+  GateCounts gate_clocks() const { return gates_.on_clocks(); }
+  /// Of three phases: clocks of this PWM period in which leg 0, 1 or 2 is to be high; else 0.
+  int on_time(std::size_t leg) const { return gates_.on_time(leg); }
   /// Free-running count at the start of the running wave.
   std::int16_t sampled_travel() const { return wave_.sampled_travel(); }
   /// Result of the self-test, as in the status word.
@@ -165,7 +167,7 @@ class FeltgateCore {
   using T = Map::T;
   static constexpr bool kAbsolute = D::absolute_encoder != 0;
   using Decoder = std::conditional_t<kAbsolute, AbsolutePosition<D>, QuadDecoder>;
-
+  using Bridge = BridgeOf<D>;
   /// The clock of the tick after the one of wave clock t.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }
   static constexpr int kSnapshot = core_steps::clock_of(T::snapshot);
@@ -304,7 +306,7 @@ class FeltgateCore {
 
   typename Registers<D, ReadBack>::In register_inputs(const In& in, bool tick, bool held) const;
   typename Decoder::In decoder_inputs(const In& in, bool zero, bool clear, bool open = false) const;
-  Pwm::In pwm_inputs(bool enable, std::int16_t duty) const;
+  auto bridge_inputs(bool enable, std::int16_t duty) const;
   std::uint8_t wanted_scene(const In& in) const;
   TestPulse pulse(const In& in) const;
   std::uint32_t status(const In& in, bool encoder_error) const;
@@ -382,7 +384,7 @@ class FeltgateCore {
   typename Supervisor<D>::Words supervisor_words_;
   SelfTestLaw self_test_;
   SelfTestLaw::Words self_test_words_;
-  CoreGates gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks};
+  Bridge gates_{D::pwm_period, D::dead_clocks, D::shortest_clocks, D::modulation};
   std::int64_t operand_v_ = 0, operand_w_ = 0;
   std::int64_t writes_ = 0;
   int clock_ = 0;       ///< clock of the tick

@@ -78,6 +78,9 @@ class PwmThreePhase {
   }
 
   const Out& out() const { return out_; }
+  /// Clocks of a leg's high switch in this period as it is taken, with the dead time in it; new
+  /// with period_start.
+  int on_time(std::size_t leg) const { return std::min(whole(legs_[leg].taken), period_); }
 
   /// Number of clocks before the clock that samples the on-times.
   int clocks_to_sample() const { return (2 * period_ - 2 - time_) % period_; }

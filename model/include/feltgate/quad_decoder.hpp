@@ -114,6 +114,8 @@ class QuadDecoder {
   }
 
   const Out& out() const { return out_; }
+  /// The count, whatever its zero.
+  std::int32_t count() const { return static_cast<std::int32_t>(out_.count); }
 
   /// Whether further clocks with these inputs change no register and no output, so that the clocks
   /// up to the next pin change may be skipped.

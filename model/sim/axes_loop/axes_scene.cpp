@@ -92,9 +92,9 @@ AxesScene read_axes_scene(const std::string& path,
     scene.plane = read_plane_host(top.section("plane"), axes_of(scene));
   });
   for (const Event& e : scene.scenario.events) {
-    if (!e.step_nm) continue;
-    throw config::ConfigError(
-        fmt::format("{}:{}: step_nm is for scenes of one lever; leave it out", path, e.line));
+    if (!e.step_nm && !e.open_phase) continue;
+    throw config::ConfigError(fmt::format("{}:{}: {} is for scenes of one lever; leave it out", path,
+                                          e.line, e.step_nm ? "step_nm" : "open_phase"));
   }
   const Scenario& s = scene.scenario;
   const int line = s.tracker ? s.tracker->line : s.rest_line > 0 ? s.rest_line : s.drag_line;

@@ -47,6 +47,11 @@ void AnyBackend::break_encoder(const std::string& defect) {
       fmt::format("design {} has no absolute encoder with a defect \"{}\"", design().name, defect));
 }
 
+int Backend::on_time(std::size_t) const {
+  throw std::invalid_argument(fmt::format(
+      "back-end {} does not show on-times; switch the bridge, or take twin or lockstep", name()));
+}
+
 void add_design(const DesignMakers& design) {
   for (DesignMakers& d : designs()) {
     if (d.name != design.name) continue;

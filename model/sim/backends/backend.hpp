@@ -86,6 +86,7 @@ struct Panel {
 /// Clocks for which each gate was on during the last advance().
 struct GateClocks {
   std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
+  std::int64_t c_hi = 0, c_lo = 0;  ///< of a bridge with three phases
 };
 
 /// What every back-end has, whatever its number of axes.
@@ -151,6 +152,9 @@ class Backend : public AnyBackend {
   /// Duty in force in the bridge, in clocks of the PWM period, and whether the gates are enabled.
   virtual int duty() const = 0;
   virtual bool gates_enabled() const = 0;
+  /// Of a bridge with three phases: FeltgateCore::on_time() of a leg. Errors: std::invalid_argument
+  /// for a back-end of the RTL alone, which shows its gates only.
+  virtual int on_time(std::size_t leg) const;
   /// Lock-step back-ends: time spent in one half ("rtl" or "twin"), s.
   virtual double busy_s(const std::string& half) const {
     (void)half;

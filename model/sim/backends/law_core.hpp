@@ -39,7 +39,8 @@ class LawCore {
   bool calm(const CoreIn& in, std::int64_t clocks) { return axes_.calm(axes_in(in), clocks); }
 
   const CoreOut& out() const { return out_; }
-  std::array<std::int64_t, 4> gate_clocks() const { return axes_.core(0).gate_clocks(); }
+  GateCounts gate_clocks() const { return axes_.core(0).gate_clocks(); }
+  int on_time(std::size_t leg) const { return axes_.core(0).on_time(leg); }
   int clock_of_tick() const { return axes_.clock_of_tick(); }
   std::int16_t sampled_travel() const { return axes_.core(0).sampled_travel(); }
   /// Writes to core and engine.

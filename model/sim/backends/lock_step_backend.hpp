@@ -63,11 +63,12 @@ class LockStepBackend : public ClockedBackend {
   GateClocks gates() const override {
     const auto after = core_.twin().gate_clocks();
     return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
-            after[3] - gates_before_[3]};
+            after[3] - gates_before_[3], after[4] - gates_before_[4], after[5] - gates_before_[5]};
   }
   std::vector<LawEvent> law_events() override { return core_.law_events(); }
   int duty() const override { return core_.twin().out().duty_active; }
   bool gates_enabled() const override { return core_.twin().out().gates_enable; }
+  int on_time(std::size_t leg) const override { return core_.twin().on_time(leg); }
 
  private:
   /// The core, after the RTL has caught up.
@@ -83,7 +84,7 @@ class LockStepBackend : public ClockedBackend {
   mutable LockStepCore<Rtl, D> core_;
   bool traced_ = false;
   SampledWatch twin_watch_;
-  std::array<std::int64_t, 4> gates_before_{};
+  GateCounts gates_before_{};
 };
 
 }  // namespace feltgate

@@ -35,7 +35,7 @@ constexpr bool is_axes = false;
 template <class Rtl>
 constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
 
-/// Whether Rtl has the pins of a current loop and of an absolute encoder: the core itself.
+/// Whether Rtl has the pins of the options, such as a current loop: the core itself.
 template <class Rtl, class = void>
 constexpr bool has_current = false;
 template <class Rtl>
@@ -101,6 +101,7 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.word_slot = rtl.word_slot_o;
   o.word_data = rtl.word_data_o;
   if constexpr (has_current<Rtl>) {
+    o.gates = static_cast<std::uint8_t>(o.gates | rtl.gate_c_hi_o << 4 | rtl.gate_c_lo_o << 5);
     o.current = detail::narrow_word(rtl.current_o, 19);
     o.current_clock = rtl.current_clock_o != 0;
     o.heartbeat = rtl.heartbeat_o != 0;

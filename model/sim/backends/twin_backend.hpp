@@ -81,7 +81,7 @@ class TwinBackend : public ClockedBackend {
   GateClocks gates() const override {
     const auto after = core_.gate_clocks();
     return {after[0] - gates_before_[0], after[1] - gates_before_[1], after[2] - gates_before_[2],
-            after[3] - gates_before_[3]};
+            after[3] - gates_before_[3], after[4] - gates_before_[4], after[5] - gates_before_[5]};
   }
   std::vector<LawEvent> law_events() override {
     settle();
@@ -89,6 +89,7 @@ class TwinBackend : public ClockedBackend {
   }
   int duty() const override { return core_.out().duty_active; }
   bool gates_enabled() const override { return core_.out().gates_enable; }
+  int on_time(std::size_t leg) const override { return core_.on_time(leg); }
 
  private:
   using Core = BackendCore<D, false>;  // nobody reads registers through a back-end
@@ -108,7 +109,7 @@ class TwinBackend : public ClockedBackend {
   Core core_;
   Clock waiting_ = 0;  ///< deferred clocks before now()
   bool gate_times_ = true;
-  std::array<std::int64_t, 4> gates_before_{};
+  GateCounts gates_before_{};
 };
 
 /// Makes the chain "fixed", "float", "double" or "quad". Errors: std::invalid_argument for another

@@ -16,13 +16,12 @@
 #include "files/toml/toml_reader.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/loop/drag.hpp"
+#include "sim/loop/driven_plant.hpp"
 #include "sim/loop/ensemble.hpp"
 #include "sim/loop/rest.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/step_plan.hpp"
-#include "sim/plant/drive.hpp"
 #include "sim/plant/period_mean.hpp"
-#include "sim/plant/plant.hpp"
 #include "sim/plant/sigma_delta.hpp"
 #include "sim/traces/statistics.hpp"
 #include "sim/traces/vector_file.hpp"
@@ -43,8 +42,9 @@ class ScenarioRun {
       : s_(scenario),
         options_(options),
         choice_(choose_backends(options.engine)),
-        plant_(plant, scenario.effects, plant::drive_of(design_named(options.design)),
-               scenario.hand),
+        driven_(plant, scenario.effects, scenario.hand, design_named(options.design),
+                scenario.switched),
+        plant_(driven_.shaft()),
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
         looped_(core_.design().current_full_scale_a > 0),
@@ -55,6 +55,11 @@ class ScenarioRun {
         session_(scenario, core_, options),
         counter_(plant_.encoder().pins()) {
     if (looped_) check_loop();
+    if (choice_.rider_drives && core_.design().phases == 3) {
+      throw std::invalid_argument("design " + options.design +
+                                  " turns its voltage with three legs, which chains in real "
+                                  "arithmetic do not; choose the back-ends rtl,twin");
+    }
     last_.theta_rad = plant_.observables().theta_rad;
     if (scenario.effects.encoder_imperfect) {
       for (const double mrad : plant.encoder.absolute_error_mrad) error_rad_.push_back(1e-3 * mrad);
@@ -134,6 +139,7 @@ class ScenarioRun {
                                   " uses the stop pin, which recorded inputs do not hold");
     }
     if (e.stop) plan_.stir(core_.lead().now(), 2 * core_.design().clocks_per_tick);
+    if (e.open_phase) driven_.open_phase(static_cast<std::size_t>(*e.open_phase));
     end_step();
     if (e.step_nm) {
       step_ = std::make_unique<StepRecord>(StepRecord{*e.step_nm, StepSamples(last_.tau_hat_nm),
@@ -149,24 +155,10 @@ class ScenarioRun {
     step_.reset();
   }
 
-  plant::Bridge bridge(Clock clocks) {
+  void drive(Clock clocks) {
     const Backend& lead = core_.lead_const();
-    if (choice_.rider_drives) {
-      const double duty = core_.rider(0)->out().duty_clocks / core_.design().pwm_period;
-      return plant::Bridge::averaged(std::clamp(duty, -1.0, 1.0), lead.gates_enabled());
-    }
-    if (s_.switched) {
-      const GateClocks gates = lead.gates();
-      const double n = static_cast<double>(std::max<Clock>(clocks, 1));  // 0 before the first step
-      return plant::Bridge::gates(
-          static_cast<double>(gates.a_hi) / n, static_cast<double>(gates.a_lo) / n,
-          static_cast<double>(gates.b_hi) / n, static_cast<double>(gates.b_lo) / n);
-    }
-    if (lead.duty() != duty_clocks_) {
-      duty_clocks_ = lead.duty();
-      duty_ = static_cast<double>(duty_clocks_) / core_.design().pwm_period;
-    }
-    return plant::Bridge::averaged(duty_, lead.gates_enabled());
+    if (!choice_.rider_drives) return driven_.advance(lead, last_clocks_, clocks);
+    driven_.advance(core_.rider(0)->out().duty_clocks, lead.gates_enabled(), clocks);
   }
 
   // The bridge state of the last interval drives the motor in this one, so no edge depends on its
@@ -175,7 +167,7 @@ class ScenarioRun {
   void step(Clock clocks) {
     const plant::Observables& o = plant_.observables();
     before_ = {o.theta_rad, o.omega_rad_s, o.hand_torque_nm, mean_.mean()};
-    plant_.advance(bridge(last_clocks_), clocks);
+    drive(clocks);
     if (clocks != last_clocks_) {
       longest_step_clocks_ = std::max(longest_step_clocks_, clocks);
       dt_s_ = static_cast<double>(clocks) / static_cast<double>(core_.design().clock_hz);
@@ -246,8 +238,8 @@ class ScenarioRun {
     RunResult out;
     session_.fill_result(out);
     out.longest_step_clocks = longest_step_clocks_;
-    out.plant_states = plant_.state_size();
-    out.evaluations = plant_.evaluations();
+    out.plant_states = driven_.state_size();
+    out.evaluations = driven_.evaluations();
     const traces::Statistics& p = counter_.result();
     out.position = {p.steps, p.illegal, p.reversals};
     out.largest_velocity_rad_s = core_.largest_velocity_rad_s();
@@ -313,7 +305,8 @@ class ScenarioRun {
   const Scenario& s_;
   const RunOptions& options_;
   BackendChoice choice_;
-  plant::Plant plant_;
+  DrivenPlant driven_;
+  plant::ShaftPlant& plant_;
   Ensemble core_;
   bool looped_;  ///< the core measures the motor's current
   plant::SigmaDelta modulator_;
@@ -332,8 +325,6 @@ class ScenarioRun {
   } before_;
   std::vector<double> error_rad_;  // of an absolute encoder
   double shown_rad_ = 0;           // by it
-  int duty_clocks_ = 0;            ///< duty of the bridge; duty_ is its share of a period
-  double duty_ = 0;
   double absorbed_j_ = 0;
   SignalRange tau_ref_, tau_hat_, velocity_, theta_;
   std::int32_t position_ = 0;  ///< counts, from the core's last output

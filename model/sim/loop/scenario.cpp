@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "feltgate/design_info.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/plant_table.hpp"
@@ -18,6 +19,7 @@ namespace feltgate {
 namespace {
 
 const std::vector<std::string> kModes{"closed_loop", "open_loop", "voltage"};
+const std::vector<std::string> kPhases{"a", "b", "c"};
 
 /// Reads numbers into `values`, and texts such as "4 Nm/deg" into `amounts`.
 void read_values(const toml::table& table, config::TomlReader reader,
@@ -52,14 +54,15 @@ Event read_event(config::TomlReader r, const toml::table& table, double duration
                                          AbsoluteSensor::defects.end());
     e.encoder = names[r.choice("encoder", names)];
   }
+  if (r.has("open_phase")) e.open_phase = static_cast<int>(r.choice("open_phase", kPhases));
   if (r.has("set")) {
     read_values(*table["set"].as_table(), r.section("set"), &e.set, &e.amounts);
   }
   if (r.has("step_nm")) e.step_nm = r.number("step_nm", config::kAnyNumber);
-  if (!e.scene && !e.mode && !e.arm && !e.stop && e.encoder.empty() && !e.step_nm &&
-      e.set.empty() && e.amounts.empty()) {
+  if (!e.scene && !e.mode && !e.arm && !e.stop && e.encoder.empty() && !e.open_phase &&
+      !e.step_nm && e.set.empty() && e.amounts.empty()) {
     r.fail("at_s", "the event does nothing",
-           "give it set, scene, mode, arm, stop, encoder or step_nm");
+           "give it set, scene, mode, arm, stop, encoder, open_phase or step_nm");
   }
   r.finish();
   return e;
@@ -186,7 +189,8 @@ Scenario read_scenario(const std::string& path) {
       top.fail("device", "a device of several axes",
                "take a scene of one lever, or `feltgate run`");
     }
-    s.plant = top.has("plant") ? top.text("plant") : "p24";
+    s.plant_given = top.has("plant");
+    s.plant = s.plant_given ? top.text("plant") : "p24";
     s.step_given = top.has("step_clocks");
     if (s.step_given) s.step_clocks = static_cast<int>(top.integer("step_clocks", 1, 250));
     if (top.has("bridge")) s.switched = top.choice("bridge", {"averaged", "switched"}) == 1;
@@ -227,6 +231,10 @@ std::set<std::string> scenes_used(const Scenario& scenario) {
     if (e.scene) used.insert(*e.scene);
   }
   return used;
+}
+
+void choose_plant(Scenario& scenario, const DesignInfo& design) {
+  if (!scenario.plant_given && design.phases == 3) scenario.plant = "gimbal_motor";
 }
 
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant) {

@@ -22,6 +22,7 @@ namespace feltgate {
 namespace config {
 class TomlReader;
 }
+struct DesignInfo;
 
 /// A timed event: the host changes scene, mode or parameters, or a pin changes.
 struct Event {
@@ -32,6 +33,7 @@ struct Event {
   std::optional<bool> arm;
   std::optional<bool> stop;
   std::string encoder;  ///< breaks an absolute encoder, or mends it: AbsoluteSensor::defects
+  std::optional<int> open_phase;  ///< 0, 1, 2: from now on this phase of the motor has no current
   std::map<std::string, double> set;           ///< parameters in their units
   std::map<std::string, std::string> amounts;  ///< given with units: resolve_amounts()
   std::optional<double> step_nm;               ///< a torque step to this reference starts here
@@ -58,6 +60,7 @@ struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
   std::string plant;        ///< name of the plant file
+  bool plant_given = false;  ///< else a design may have another: choose_plant()
   int step_clocks = 25;     ///< plant step in clocks
   bool step_given = false;  ///< steps without events are not made longer
   bool switched = false;    ///< gates drive the plant, instead of the mean duty
@@ -102,6 +105,9 @@ std::vector<std::string> effects_off(const Scenario& scenario);
 
 /// The torque laws that a scene renders: its own and those that its events select.
 std::set<std::string> scenes_used(const Scenario& scenario);
+
+/// Sets the plant of a scene that names none to one that fits the design.
+void choose_plant(Scenario& scenario, const DesignInfo& design);
 
 /// Sets scenario.effects: those of the plant, overridden by the scene.
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant);

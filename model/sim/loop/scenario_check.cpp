@@ -138,6 +138,23 @@ void check_encoder(const Scenario& s, const DesignInfo& design) {
   }
 }
 
+/// Motor and bridge have the same number of legs, and only a motor with phases loses one.
+void check_phases(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {
+  const bool three = plant.phases.has_value();
+  for (const Event& e : s.events) {
+    if (!e.open_phase || three) continue;
+    throw config::ConfigError(fmt::format(
+        "{}:{}: the motor of plant {} has no phase that could be open; choose a plant that has, "
+        "gimbal_motor say",
+        s.path, e.line, plant.name));
+  }
+  if (three == (design.phases == 3)) return;
+  throw config::ConfigError(fmt::format(
+      "plant {} has a motor {}, and design {} drives one {}; choose another plant or design",
+      plant.name, three ? "with three phases" : "with brushes", design.name,
+      three ? "with brushes" : "with three phases"));
+}
+
 /// Finds writes that an armed core would drop silently because the torque could jump.
 void check_held(const Scenario& s, const DesignInfo& design) {
   bool armed = false, asked = false;
@@ -236,6 +253,7 @@ void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* la
 void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design,
                     const SceneLaw* law) {
   check_asked(s, design, law);
+  check_phases(s, plant, design);
   check_step(s, plant, static_cast<double>(design.clock_hz));
 }
 

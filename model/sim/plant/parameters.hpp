@@ -23,6 +23,28 @@ struct MotorParameters {
   double dead_voltage_v = 0.0;  ///< brush drop, opposes the current
 };
 
+/// A harmonic of the back-EMF's shape: share*cos(order*x) beside the fundamental cos(x).
+struct EmfHarmonic {
+  int order = 0;
+  double share = 0.0;
+};
+
+/// Constants of a motor with three phases. Electrical angle = pole_pairs*theta + offset_rad;
+/// back-EMF of phase k = back_emf_v_s_rad*omega*shape(electrical angle - k*120 degrees).
+struct PhaseParameters {
+  double resistance_ohm = 0.0;  ///< of one phase, terminal to neutral, with its wiring and switch
+  double inductance_h = 0.0;    ///< of one phase: half of that between two terminals
+  int pole_pairs = 1;
+  double offset_rad = 0.0;
+  double back_emf_v_s_rad = 0.0;       ///< peak of one phase; also Nm/A of one phase
+  std::vector<EmfHarmonic> harmonics;  ///< empty: sinusoidal
+
+  /// Current: the peak of a phase, whose sinusoid is in phase with the back-EMF.
+  MotorParameters as_brushed() const {
+    return {1.5 * back_emf_v_s_rad, back_emf_v_s_rad, resistance_ohm, inductance_h, 0.0};
+  }
+};
+
 struct LeverParameters {
   double inertia_kg_m2 = 0.0;  ///< rotor and lever
   double viscous_nm_s_rad = 0.0;
@@ -103,7 +125,8 @@ inline constexpr EffectName effect_names[] = {{"inductance", &Effects::inductanc
 struct Parameters {
   std::string name;
   std::string place;  ///< "file:line" of the lever's inertia, for errors; empty: not from a file
-  MotorParameters motor;
+  MotorParameters motor;                  ///< of one with three phases: as_brushed()
+  std::optional<PhaseParameters> phases;  ///< nullopt: the motor has brushes
   LeverParameters lever;
   LugreParameters lugre;
   SupplyParameters supply;

@@ -121,11 +121,17 @@ class ShaftPlant {
 class Plant : public ShaftPlant {
  public:
   /// `hand` decides the angle at clock 0; the lever starts at rest, without current.
-  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
+  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel), and for a motor with
+  /// three phases.
   Plant(const Parameters& parameters, const Effects& effects, const Drive& drive, const Hand& hand)
       : ShaftPlant(parameters, effects, drive.clock_hz, hand),
         motor_(parameters.motor, parameters.supply, drive, effects),
-        inductance_(effects.inductance) {}
+        inductance_(effects.inductance) {
+    if (!parameters.phases) return;
+    throw std::invalid_argument("plant " + parameters.name +
+                                " has a motor with three phases, and here an H-bridge drives one "
+                                "with brushes; choose another plant");
+  }
 
   /// Advances by `clocks` >= 1 FPGA clocks with this bridge. Equal steps are fastest; 25 clocks
   /// (0.5 us) are recommended, at most 250 (5 us). Errors: MotionError.

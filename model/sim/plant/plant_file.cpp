@@ -77,6 +77,26 @@ MotorParameters read_motor(config::TomlReader table) {
   return motor;
 }
 
+// [motor] with phases = 3, and [[emf_harmonic]].
+PhaseParameters read_phases(config::TomlReader table, std::vector<config::TomlReader> harmonics) {
+  PhaseParameters motor;
+  (void)table.integer("phases", 2, 3);
+  motor.pole_pairs = static_cast<int>(table.integer("pole_pairs", 1, 1000));
+  motor.offset_rad = table.number("offset_rad", {-kTwoPi, kTwoPi});
+  motor.back_emf_v_s_rad = table.number("back_emf_v_s_rad", config::kPositive);
+  motor.resistance_ohm = table.number("resistance_ohm", config::kPositive);
+  motor.inductance_h = table.number("inductance_h", config::kPositive);
+  table.finish();
+  for (config::TomlReader& of : harmonics) {
+    EmfHarmonic h;
+    h.order = static_cast<int>(of.integer("order", 2, 1000));
+    h.share = of.number("share", {-1.0, 1.0});
+    of.finish();
+    motor.harmonics.push_back(h);
+  }
+  return motor;
+}
+
 LugreParameters read_lugre(config::TomlReader table) {
   LugreParameters lugre;
   lugre.stiffness_nm_rad = table.number("stiffness_nm_rad", config::kPositive);
@@ -157,7 +177,13 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   config::TomlReader reader(root, file, "the file");
   Parameters parameters;
   parameters.name = reader.text("name");
-  parameters.motor = read_motor(reader.section("motor"));
+  config::TomlReader motor = reader.section("motor");
+  if (motor.has("phases") && motor.integer("phases", 2, 3) == 3) {
+    parameters.phases = read_phases(std::move(motor), reader.sections("emf_harmonic"));
+    parameters.motor = parameters.phases->as_brushed();
+  } else {
+    parameters.motor = read_motor(std::move(motor));
+  }
   config::TomlReader lever = reader.section("lever");
   parameters.place = fmt::format("{}:{}", file, lever.line("inertia_kg_m2"));
   parameters.lever = read_lever(std::move(lever));
@@ -167,6 +193,10 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   if (reader.has("end_stops")) parameters.end_stops = read_end_stops(reader.section("end_stops"));
   parameters.cogging = read_cogging(reader.sections("cogging"));
   parameters.effects = read_all_effects(reader.section("effects"));
+  if (parameters.phases && parameters.effects.dead_voltage) {
+    reader.section("effects").fail("dead_voltage", "a motor with three phases has no brushes",
+                                   "write dead_voltage = false");
+  }
   reader.finish();
   return parameters;
 }

@@ -16,23 +16,6 @@ namespace feltgate::plant {
 /// One value of each phase or leg: A, B, C.
 using Phases = std::array<double, 3>;
 
-/// A harmonic of the back-EMF's shape: share*cos(order*x) beside the fundamental cos(x).
-struct EmfHarmonic {
-  int order = 0;
-  double share = 0.0;
-};
-
-/// Constants of the motor. Electrical angle = pole_pairs*theta + offset_rad; back-EMF of phase k =
-/// back_emf_v_s_rad*omega*shape(electrical angle - k*120 degrees).
-struct PhaseParameters {
-  double resistance_ohm = 0.0;  ///< of one phase, terminal to neutral, with its wiring and switch
-  double inductance_h = 0.0;    ///< of one phase: half of that between two terminals
-  int pole_pairs = 1;
-  double offset_rad = 0.0;
-  double back_emf_v_s_rad = 0.0;       ///< peak of one phase; also Nm/A of one phase
-  std::vector<EmfHarmonic> harmonics;  ///< empty: sinusoidal
-};
-
 /// State of the three half bridges during one step.
 struct Legs {
   enum class Mode {

@@ -41,6 +41,8 @@
   X(bool, gate_a_lo_o)            \
   X(bool, gate_b_hi_o)            \
   X(bool, gate_b_lo_o)            \
+  X(bool, gate_c_hi_o)            \
+  X(bool, gate_c_lo_o)            \
   X(bool, encoder_select_no)      \
   X(bool, encoder_clock_o)        \
   X(bool, encoder_command_o)      \

@@ -93,6 +93,8 @@ class TwinModule : public sc_core::sc_module {
     gate_a_lo_o.write((o.gates & 2u) != 0);
     gate_b_hi_o.write((o.gates & 4u) != 0);
     gate_b_lo_o.write((o.gates & 8u) != 0);
+    gate_c_hi_o.write((o.gates & 16u) != 0);
+    gate_c_lo_o.write((o.gates & 32u) != 0);
     encoder_select_no.write((o.serial & 1u) != 0);
     encoder_clock_o.write((o.serial & 2u) != 0);
     encoder_command_o.write((o.serial & 4u) != 0);

@@ -35,6 +35,12 @@ std::vector<Constant> shared_constants(const Design& d, const Parameters& p, con
     all.push_back({"dead voltage", "V", "voltage.dead_voltage_v", d.dead_voltage_v,
                    on.dead_voltage ? p.motor.dead_voltage_v : 0});
   }
+  if (d.phases == 3 && p.phases) {
+    all.push_back({"pole pairs", "", "commutation.pole_pairs", static_cast<double>(d.pole_pairs),
+                   static_cast<double>(p.phases->pole_pairs)});
+    all.push_back({"electrical offset", "rad", "commutation.offset_rad", d.commutation_offset_rad,
+                   p.phases->offset_rad});
+  }
   if (d.compensate_dead_time && (on.dead_time || d.diode_drop_v > 0)) {
     all.push_back({"diode drop", "V", "pwm.diode_drop_v", d.diode_drop_v,
                    on.dead_time ? p.supply.diode_drop_v : 0});

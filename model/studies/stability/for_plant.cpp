@@ -171,6 +171,12 @@ PlantDesign design_for_plant(const std::string& base, const Parameters& p,
            "the gains of the law \"" + d.voltage_law + "\" are not a plant's constants",
            "take a base with law = \"motor_model\", such as lever");
   }
+  if (p.phases.has_value() != (d.phases == 3)) {
+    d.fail("pwm.phases",
+           fmt::format("the motor of plant {} has {}", plant_name,
+                       p.phases ? "three phases" : "brushes"),
+           "take a base that drives such a motor");
+  }
   PlantDesign made;
   // Where the quantised compensation of the back-EMF would exceed it, the lever speeds up by
   // itself.

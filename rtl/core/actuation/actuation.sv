@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Room: the scene's torque to four gates. One limiter limits six values of a tick, one after the
+// Room: the scene's torque to four gates, or to six of a motor with three phases. One limiter limits six values of a tick, one after the
 // other (docs/blocks/limiter.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
 // the bridge takes it at the next start of a PWM period. With the option CURRENT_LOOP a controller of the measured
-// current gives the bridge its duty, one in each period (docs/blocks/current_control.md). docs/architecture.md
+// current gives the bridge its duty, one in each period (docs/blocks/current_control.md). With PHASES = 3 the duty is the
+// amplitude of three legs' voltages, which turn with the motor (docs/blocks/commutation.md). docs/architecture.md
 
 `default_nettype none
 
@@ -48,6 +49,9 @@ module actuation (
     output logic                                            gate_a_lo_o,
     output logic                                            gate_b_hi_o,
     output logic                                            gate_b_lo_o,
+    input  logic signed [                             31:0] count_i,        // of the encoder, for PHASES = 3
+    output logic                                            gate_c_hi_o,    // of PHASES = 3; else 0
+    output logic                                            gate_c_lo_o,
     output logic                                            period_start_o,
     output logic signed [        feltgate_pkg::DUTY_W-1:0]  duty_active_o   // in force in the bridge
 );
@@ -269,16 +273,70 @@ module actuation (
   assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'(gates_enable_i && current_state_o != '0)
                    << feltgate_map_pkg::FAULT_CURRENT;
 
-  pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
-        .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
-      .clk_i(clk_i), .rst_ni(rst_ni),
-      .clear_i(gates_clear_i),
-      .enable_i(gates_enable_i), .mode_i(control_i[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(polarity),
-      .duty_i(bridge_duty),
-      .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-      .period_start_o(period_start_o),
-      .duty_active_o(duty_active_o)
-  );
+  generate
+  if (feltgate_pkg::PHASES == 2) begin : g_two_legs
+    pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
+          .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .clear_i(gates_clear_i),
+        .enable_i(gates_enable_i), .mode_i(control_i[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(polarity),
+        .duty_i(bridge_duty),
+        .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+        .period_start_o(period_start_o),
+        .duty_active_o(duty_active_o)
+    );
+    assign gate_c_hi_o = 1'b0;
+    assign gate_c_lo_o = 1'b0;
+    logic unused_count;
+    assign unused_count = ^count_i;
+  end else begin : g_three_legs
+    // The commutation samples so early that its on-times are new in the clock in which the PWM takes them. The gates open
+    // with the first sample of an arming, so no on-times of the last one reach them.
+    localparam int Latency = (feltgate_pkg::MODULATION == 0) ? 108 : 85;
+    localparam int WaitW = $clog2(feltgate_pkg::PWM_PERIOD);
+    logic [WaitW-1:0] wait_q;  // 1: the clock of the sample
+    logic [31:0] gain_q, offset_q;
+    logic [11:0] on_a, on_b, on_c;
+    logic signed [feltgate_pkg::DUTY_W-1:0] amplitude_q;  // of the sample
+    logic samples, valid, fresh_q, opens;
+    assign samples = wait_q == WaitW'(1);
+    assign opens   = gates_enable_i && fresh_q;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) begin
+        wait_q        <= '0;
+        fresh_q       <= 1'b0;
+        gain_q        <= '0;
+        offset_q      <= '0;
+        amplitude_q   <= '0;
+        duty_active_o <= '0;
+      end else begin
+        if (period_start_o) wait_q <= WaitW'(feltgate_pkg::PWM_PERIOD - 1 - Latency);
+        else if (wait_q != '0) wait_q <= wait_q - 1'b1;
+        fresh_q <= gates_enable_i && (fresh_q || samples);
+        if (wave_i[feltgate_map_pkg::PARAM_AT_COMMUTATION_GAIN]) gain_q <= param_i;
+        if (wave_i[feltgate_map_pkg::PARAM_AT_COMMUTATION_OFFSET]) offset_q <= param_i;
+        if (samples) amplitude_q <= bridge_duty;
+        if (!opens) duty_active_o <= '0;
+        else if (valid) duty_active_o <= amplitude_q;
+      end
+    end
+    commutation #(.Period(feltgate_pkg::PWM_PERIOD), .Modulation(feltgate_pkg::MODULATION)) u_commutation (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .sample_i(samples), .position_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .amplitude_i(bridge_duty),
+        .polarity_i(polarity),
+        .on_a_o(on_a), .on_b_o(on_b), .on_c_o(on_c), .valid_o(valid)
+    );
+    pwm_three_phase #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
+                      .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .clear_i(gates_clear_i), .enable_i(opens),
+        .on_a_i(on_a), .on_b_i(on_b), .on_c_i(on_c),
+        .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
+        .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
+        .period_start_o(period_start_o)
+    );
+  end
+  endgenerate
 
   assign applied_o = limited;
 

@@ -25,6 +25,7 @@ module encoder (
     output logic signed [                              31:0] position_o,        // counts; sampled, wraps
     output logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position_o,  // the same, saturated
     output logic signed [     feltgate_pkg::TRAVEL_BITS-1:0] travel_o,          // counts, live: its readers sample it; never zeroed, wraps
+    output logic signed [                              31:0] count_o,           // counts, live, whatever the zero; an absolute encoder's angle, plus turns
     output logic                                             moved_o,           // an edge since the tick before
     output logic                                             chatters_o,        // edges on one channel only
     output logic                                             illegal_o,         // one clock: both channels changed
@@ -79,6 +80,7 @@ module encoder (
   if (Edges) begin : g_edges
     assign position          = decoded;
     assign travel_o          = travel;
+    assign count_o           = count;
     assign moved_o           = edge_moved;
     assign encoder_select_no = 1'b1;
     assign encoder_clock_o   = 1'b0;
@@ -160,6 +162,8 @@ module encoder (
     // closed, since the angle may be wrong for ever after it.
     localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
     assign absolute_state_o = {waits_q, faults | seen_q};
+
+    assign count_o = count_q;
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found
     // again is no motion. moved_o: a reading since the tick before differs.

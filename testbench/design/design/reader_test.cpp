@@ -273,6 +273,61 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   refused_alone(replaced(fine, "error_mrad = []", "error_mrad = [1, 1]"), "too coarse for 21 bits");
 }
 
+TEST_CASE("three phases: the words of the commutation, and what they refuse", "[reader]") {
+  const std::string good = file_text(design_path("gimbal_motor"));
+  const Elaborated e = shipped("gimbal_motor");
+  const std::string package = systemverilog_package(e);
+  CHECK(contains(package, "int PHASES = 3;"));
+  CHECK(contains(package, "int MODULATION = 1;"));
+  CHECK(e.word("commutation_gain").raw == 11 << 18);  // 11 turns of 2^32 in 2^14 counts
+  CHECK(e.word("commutation_offset").raw == 0);
+  // A whole period is 5 V over the root of 3; the highest leg leaves two dead times and two clocks.
+  CHECK(e.word("duty_gain").si == Approx(1000 / 2.8867513));
+  CHECK(e.word("duty_limit").raw == 948);
+  // The four thirds of a leg's loss, of which 3/pi turn with the current.
+  CHECK(e.word("dead_voltage").si == Approx(4.0 / 3 * 3 / 3.14159265 * 6.4 * 0.025));
+  const std::string two = systemverilog_package(shipped("lever"));
+  CHECK(contains(two, "int PHASES = 2;"));
+  CHECK_FALSE(contains(two, "commutation_gain"));
+  CHECK_THROWS_WITH(shipped("lever").word("commutation_gain"), Catch::Contains("is missing"));
+  const auto changed = [&](const char* from, const char* to) {
+    return elaborate(design_from_text(replaced(good, from, to), "t.toml"), shipped_registers());
+  };
+  CHECK(changed("offset_rad = 0.0 ", "offset_rad = -1.5707963267948966 ")
+            .word("commutation_offset")
+            .raw == 3LL << 30);
+  CHECK(changed("\"space_vectors\"", "\"sines\"").word("duty_limit").raw == 819);
+  CHECK(design_crc(changed("pole_pairs = 11", "pole_pairs = 7")) != design_crc(e));
+  const auto refused = [&](const char* from, const char* to, const char* message) {
+    const std::string error = design_error(replaced(good, from, to));
+    INFO(error);
+    CHECK(contains(error, message));
+  };
+  refused("phases = 3", "phases = 4", "\"phases\"");
+  refused("phases = 3", "", "only three phases are commutated");
+  refused("pole_pairs = 11", "pole_pairs = 0", "\"pole_pairs\"");
+  refused("\"space_vectors\"", "\"trapezoids\"", "\"modulation\"");
+  refused("\"sign_magnitude\"", "\"locked_antiphase\"", "three legs have one kind of pulses");
+  refused("frequency_hz = 50_000", "frequency_hz = 625_000", "the commutation of one takes 87");
+  const auto refused_alone = [&](const std::string& text, const char* message) {
+    const Design d = design_from_text(text, "changed.toml");
+    CHECK_THROWS_WITH(check_commutation(d), Catch::Contains(message));
+  };
+  refused_alone(replaced(replaced(good, "pole_pairs = 11", "pole_pairs = 100"),
+                         "overspeed_rad_s = 100.0", "overspeed_rad_s = 600.0"),
+                "an eighth of an electrical turn");
+  refused_alone(replaced(good, "[commutation]", "[axes]\ncount = 2\n[commutation]"),
+                "no pins of a third leg");
+  refused_alone(replaced(good, "[commutation]",
+                         "[current_loop]\nfull_scale_a = 8.0\nbandwidth_hz = 1000.0\n"
+                         "inductance_h = 2e-3\novercurrent_a = 1.5\n[commutation]"),
+                "one shunt does not measure three phases");
+  std::string without = good;
+  const auto from = without.find("[commutation]");
+  without.erase(from, without.find("[velocity]") - from);
+  CHECK(contains(design_error(without), "three phases need to know the motor"));
+}
+
 TEST_CASE("an engine and several axes", "[reader]") {
   const std::string good = file_text(design_path("lever_law"));
   CHECK(design_error(good) == "no error");

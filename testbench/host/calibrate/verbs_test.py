@@ -149,6 +149,30 @@ class Calibrate(VerbTest):
         said = self.host("-", *words, "again.csv", "--harmonics", "2")
         self.assertIn("error_mrad = [7.", said)
 
+    def test_an_alignment_gives_pole_pairs_and_offset(self):
+        rows = ["commutation_offset, position"]
+        for k in [*range(9), *range(8)[::-1]]:
+            friction = -2 if k < 8 else 2
+            rows.append(f"{k / 8 % 1}, {(k / 8 + 0.25 - 0.6) / 7 * 16384 + friction:.0f}")
+        (self.folder / "angles.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+        words = ("--design", "gimbal_motor", "calibrate", "align", "--from", "angles.csv")
+        said = self.host("-", *words, "--json", "a.json", "--write", "mine.toml")
+        self.assertIn("degrees of an electrical turn", said)
+        found = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
+        self.assertEqual(found["procedure"], "align")
+        self.assertEqual(found["whole_pole_pairs"], 7)
+        self.assertAlmostEqual(found["offset_turns"]["value"], 0.6, delta=0.003)
+        self.assertEqual([c["key"] for c in found["changes"]],
+                         ["commutation.pole_pairs", "commutation.offset_rad"])
+        self.builds(self.folder / "mine.toml")
+        self.assertIn("pole_pairs = 7 ", (self.folder / "mine.toml").read_text(encoding="utf-8"))
+        for words, needle in (
+            (("calibrate", "align", "--from", "angles.csv"), "lever drives no motor with three phases"),
+            (("calibrate", "align"), "needs readings: --from FILE"),
+        ):
+            with self.subTest(words):
+                self.assertIn(needle, self.host("-", *words, status=2))
+
     def test_encoders_without_a_table(self):
         turn(self.folder / "turn.csv", seed=1)
         for words, needle in (

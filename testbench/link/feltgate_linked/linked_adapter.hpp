@@ -50,6 +50,8 @@ struct LinkedAdapter {
     check("gate_a_lo", rtl.gate_a_lo_o, (out.core.gates >> 1) & 1u);
     check("gate_b_hi", rtl.gate_b_hi_o, (out.core.gates >> 2) & 1u);
     check("gate_b_lo", rtl.gate_b_lo_o, (out.core.gates >> 3) & 1u);
+    check("gate_c_hi", rtl.gate_c_hi_o, (out.core.gates >> 4) & 1u);
+    check("gate_c_lo", rtl.gate_c_lo_o, (out.core.gates >> 5) & 1u);
     check("encoder_select_n", rtl.encoder_select_no, out.core.serial & 1u);
     check("encoder_clock", rtl.encoder_clock_o, (out.core.serial >> 1) & 1u);
     check("encoder_command", rtl.encoder_command_o, (out.core.serial >> 2) & 1u);

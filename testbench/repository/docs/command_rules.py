@@ -37,6 +37,7 @@ RULES = (
         "scene.detent.lever_law",
     ),
     Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
+    Rule(r"feltgate run knob_detents", "BY", "scene.knob_detents.gimbal_motor"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
     Rule(r"feltgate run stylus_(?:floor|sphere|cube)", "BY", "stylus_test"),
@@ -144,7 +145,7 @@ BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
     for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
-                 "lever_law", "mine")
+                 "lever_law", "gimbal_motor", "mine")
 }
 
 

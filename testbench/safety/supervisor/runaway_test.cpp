@@ -190,13 +190,17 @@ std::int64_t scenes(Count& count, const std::string& design) {
   const std::filesystem::path folder = std::string(FELTGATE_ROOT) + "/vectors/scenes";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
-    // Scenes with several axes or with a law need an engine.
+    // Scenes with several axes or with a law need an engine, those with three phases their legs.
     if (names_device(entry.path().string()) || !read_scenario(entry.path().string()).law.empty()) {
       ++left_out;
       continue;
     }
     Scenario scene = read_scenario(entry.path().string());
     const plant::Parameters motor = motor_of(scene.plant);
+    if (motor.phases) {
+      ++left_out;
+      continue;
+    }
     resolve_effects(scene, motor.effects);
     Watchers<D> w;
     RunOptions options;

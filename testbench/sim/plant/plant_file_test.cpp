@@ -134,6 +134,69 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
   CHECK_THROWS_AS(read_plant_file("/nonexistent/plant.toml"), config::ConfigError);
 }
 
+TEST_CASE("a motor with three phases", "[plant_file]") {
+  std::string good = p24_text();
+  const auto from = good.find("[motor]"), to = good.find("[lever]");
+  good.replace(from, to - from, R"([motor]
+phases = 3
+pole_pairs = 11
+offset_rad = -0.5
+back_emf_v_s_rad = 0.05
+resistance_ohm = 10
+inductance_h = 2e-3
+
+[[emf_harmonic]]
+order = 5
+share = -0.06
+
+)");
+  good = replaced(good, "dead_voltage = true", "dead_voltage = false");
+  REQUIRE(plant_error(good) == "no error");
+  const Parameters p = read_plant(toml::parse(good), "x.toml");
+  REQUIRE(p.phases);
+  CHECK(p.phases->pole_pairs == 11);
+  CHECK(p.phases->offset_rad == -0.5);
+  CHECK(p.phases->back_emf_v_s_rad == 0.05);
+  REQUIRE(p.phases->harmonics.size() == 1);
+  CHECK(p.phases->harmonics[0].order == 5);
+  CHECK(p.phases->harmonics[0].share == -0.06);
+  // Its stall torque and power are those of the motor itself, at the peak of its currents.
+  CHECK(p.motor.torque_constant_nm_a == Approx(0.075));
+  CHECK(p.motor.back_emf_constant_v_s_rad == 0.05);
+  CHECK(p.motor.resistance_ohm == 10);
+  CHECK(p.motor.inductance_h == 2e-3);
+  CHECK(p.motor.dead_voltage_v == 0);
+  CHECK_FALSE(read_plant(toml::parse(p24_text()), "x.toml").phases);
+
+  const auto line = [](const std::string& text, const std::string& what) {
+    return "x.toml:" + std::to_string(line_of(text, what)) + ": ";
+  };
+  const std::string four = replaced(good, "phases = 3", "phases = 4");
+  CHECK(contains(plant_error(four), line(four, "phases = 4")));
+  CHECK(contains(plant_error(four), "from 2 to 3"));
+  for (const auto& [was, is] :
+       {std::pair<std::string, std::string>{"pole_pairs = 11", "pole_pairs = 0"},
+        {"pole_pairs = 11", "pole_pairs = 1.5"},
+        {"offset_rad = -0.5", "offset_rad = 40"},
+        {"back_emf_v_s_rad = 0.05", "back_emf_v_s_rad = 0"},
+        {"resistance_ohm = 10", "resistance_ohm = 0"},
+        {"inductance_h = 2e-3", "inductance_h = -2e-3"},
+        {"order = 5", "order = 1"},
+        {"share = -0.06", "share = 1.5"}}) {
+    const std::string bad = replaced(good, was, is);
+    CHECK(contains(plant_error(bad), line(bad, is)));
+  }
+  const std::string brushes = replaced(good, "dead_voltage = false", "dead_voltage = true");
+  CHECK(plant_error(brushes) == line(brushes, "dead_voltage = true") +
+                                    "a motor with three phases has no brushes; write "
+                                    "dead_voltage = false");
+  // The keys of one motor are none of the other.
+  const std::string both = replaced(good, "phases = 3", "phases = 3\ndead_voltage_v = 0.3");
+  CHECK(contains(plant_error(both), line(both, "dead_voltage_v") + "key \"dead_voltage_v\""));
+  const std::string two = replaced(p24_text(), "[motor]", "[motor]\nphases = 2\npole_pairs = 11");
+  CHECK(contains(plant_error(two), line(two, "pole_pairs") + "key \"pole_pairs\""));
+}
+
 TEST_CASE("a scene overrides single effects", "[plant_file]") {
   const toml::table table = toml::parse("[effects]\nsupply_limit = true\nlugre = false\n");
   const Effects effects = read_effects(

@@ -19,6 +19,7 @@
 #include "apps/commands/host/verbs.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "host/calibrate/align.hpp"
 #include "host/calibrate/report.hpp"
 #include "host/identify/report.hpp"
 #include "law/amount.hpp"
@@ -196,7 +197,38 @@ int calibrate_encoder(Session& session, const CalibrateArguments& a) {
   return exit_ok;
 }
 
+/// calibrate align: pole pairs and offset of a motor with three phases, from readings.
+int calibrate_align(Session& session, const CalibrateArguments& a) {
+  if (a.from.empty()) {
+    throw std::invalid_argument(
+        "calibrate align needs readings: --from FILE with commutation_offset and position, as "
+        "docs/calibration.md takes them");
+  }
+  const BenchDesign known(session, "");
+  const design::Design& d = known.design().design;
+  if (d.phases != 3) {
+    throw std::invalid_argument(
+        fmt::format("design {} drives no motor with three phases; give one that does with "
+                    "--design",
+                    d.name));
+  }
+  files::Outputs outputs;
+  if (a.from != "-") outputs.reads(a.from);
+  files::OutputFile* json = outputs.open("--json", a.json);
+  files::OutputFile* write = outputs.open("--write", a.write);
+  const Alignment found = fit_alignment(align_readings(ColumnTable::of_file(a.from)),
+                                        6.283185307179586 / d.count_rad(), a.confidence);
+  const std::vector<Change> changes = changes_of(found, known.design());
+  auto result = report_json(found);
+  result["changes"] = report_json(changes);
+  outputs.say(report_text(found) + known.write(changes, write, a.write));
+  if (json != nullptr) json->write(files::json_text(result));
+  outputs.commit();
+  return exit_ok;
+}
+
 int calibrate(Session& session, CalibrateArguments a) {
+  if (a.what == "align") return calibrate_align(session, a);
   if (!a.what.empty()) return calibrate_encoder(session, a);
   if (!a.from.empty() && !a.save.empty()) {
     throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
@@ -274,14 +306,17 @@ Run add_calibrate(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv\n"
       "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
       "  feltgate host - --design mine calibrate encoder --from turn.csv --write mine.toml\n"
+      "  feltgate host - --design mine calibrate align --from angles.csv --write mine.toml\n"
       "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
       "and\n"
       "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
       "do not say it, 3 the link broke down.");
-  sub.add_option("what", a->what, "encoder: the table of an absolute encoder, from a turn")
-      ->type_name("encoder")
-      ->check(CLI::IsMember({"encoder"}));
+  sub.add_option("what", a->what,
+                 "encoder: the table of an absolute encoder, from a turn; align: pole pairs and "
+                 "offset of a motor with three phases")
+      ->type_name("encoder|align")
+      ->check(CLI::IsMember({"encoder", "align"}));
   sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")
       ->type_name("N")
       ->capture_default_str()

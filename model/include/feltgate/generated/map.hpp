@@ -91,6 +91,8 @@ struct Map {
     static constexpr int self_test_quiet = 37;
     static constexpr int self_test_pulse = 38;
     static constexpr int self_test_arms = 41;
+    static constexpr int commutation_gain = 26;
+    static constexpr int commutation_offset = 13;
     static constexpr int setpoint_torque = 10;
     static constexpr int membrane_lower = 1;
     static constexpr int membrane_upper = 2;
@@ -586,6 +588,8 @@ struct Map {
     static constexpr int self_test_quiet = 37;
     static constexpr int self_test_pulse = 38;
     static constexpr int self_test_arms = 41;
+    static constexpr int commutation_gain = 26;
+    static constexpr int commutation_offset = 13;
     static constexpr int setpoint_torque = 74;
     static constexpr int membrane_lower = 97;
     static constexpr int membrane_upper = 98;

@@ -121,6 +121,12 @@ struct ParameterReader {
   auto self_test_arms() const {
     return word<D::P::self_test_arms.key()>(D::A::self_test_arms);
   }
+  auto commutation_gain() const {
+    return word<D::P::commutation_gain.key()>(D::A::commutation_gain);
+  }
+  auto commutation_offset() const {
+    return word<D::P::commutation_offset.key()>(D::A::commutation_offset);
+  }
   auto setpoint_torque() const {
     return word<D::P::setpoint_torque.key()>(D::A::setpoint_torque);
   }

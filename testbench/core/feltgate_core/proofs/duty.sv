@@ -18,10 +18,10 @@ module duty_proof (
 
   (* hierconn *) wire [31:0] \u_core.u_encoder.u_quad_decoder.position_o ;
   (* hierconn *) wire [feltgate_pkg::LIMITER_W-1:0] \u_core.u_actuation.limited ;
-  (* hierconn *) wire \u_core.u_actuation.u_pwm.period_start_o ;
-  (* hierconn *) wire [10:0] \u_core.u_actuation.u_pwm.level_q ;
-  (* hierconn *) wire \u_core.u_actuation.u_pwm.rising_q ;
-  wire start = \u_core.u_actuation.u_pwm.period_start_o ;
+  (* hierconn *) wire \u_core.u_actuation.g_two_legs.u_pwm.period_start_o ;
+  (* hierconn *) wire [10:0] \u_core.u_actuation.g_two_legs.u_pwm.level_q ;
+  (* hierconn *) wire \u_core.u_actuation.g_two_legs.u_pwm.rising_q ;
+  wire start = \u_core.u_actuation.g_two_legs.u_pwm.period_start_o ;
 
   // Clocks since the last sample, and since that of which the duty is.
   logic sampled_q, fresh_q;
@@ -108,9 +108,9 @@ module duty_proof (
           ((at > 10'(feltgate_map_pkg::EVENT_AT_DUTY + 1)) ? 16'(at) : 16'(at) + 16'(N)));
       inside_clock: assert (clock_q < 16'(Period) && ticks_q < 16'(Period / N) &&
                             since == ticks_q * 16'(N) + 16'(phase_q));
-      inside_level: assert (\u_core.u_actuation.u_pwm.rising_q ? 16'(\u_core.u_actuation.u_pwm.level_q ) == clock_q - 16'(Half)
-                                                   : 16'(\u_core.u_actuation.u_pwm.level_q ) == 16'(Half) - clock_q);
-      inside_rising: assert (\u_core.u_actuation.u_pwm.rising_q == (clock_q >= 16'(Half)));
+      inside_level: assert (\u_core.u_actuation.g_two_legs.u_pwm.rising_q ? 16'(\u_core.u_actuation.g_two_legs.u_pwm.level_q ) == clock_q - 16'(Half)
+                                                   : 16'(\u_core.u_actuation.g_two_legs.u_pwm.level_q ) == 16'(Half) - clock_q);
+      inside_rising: assert (\u_core.u_actuation.g_two_legs.u_pwm.rising_q == (clock_q >= 16'(Half)));
       inside_start: assert (start == (clock_q == 16'(Period - 1) && after_q));
       period_starts: cover (after_q && start);
       samples: cover (sample_q && position != '0);

@@ -104,8 +104,8 @@ module reads_proof (
   (* hierconn *) wire \u_other.u_encoder.u_quad_decoder.set_zero_i ;
   (* hierconn *) wire \u_other.u_encoder.u_quad_decoder.clear_error_i ;
   (* hierconn *) wire \u_other.u_encoder.u_encoder_monitor.set_zero_i ;
-  (* hierconn *) wire \u_other.u_actuation.u_pwm.mode_i ;
-  (* hierconn *) wire \u_other.u_actuation.u_pwm.polarity_i ;
+  (* hierconn *) wire \u_other.u_actuation.g_two_legs.u_pwm.mode_i ;
+  (* hierconn *) wire \u_other.u_actuation.g_two_legs.u_pwm.polarity_i ;
   (* hierconn *) wire [1:0] \u_other.u_actuation.u_torque_control.mode_i ;
   (* hierconn *) wire \u_other.u_safety.u_self_test.direct_i ;
   (* hierconn *) wire [3:0] \u_other.u_scenes.scene_i ;
@@ -194,7 +194,7 @@ module reads_proof (
           \u_core.u_encoder.u_quad_decoder.set_zero_i == \u_other.u_encoder.u_quad_decoder.set_zero_i &&
           \u_core.u_encoder.u_quad_decoder.clear_error_i == \u_other.u_encoder.u_quad_decoder.clear_error_i &&
           \u_core.u_encoder.u_encoder_monitor.set_zero_i == \u_other.u_encoder.u_encoder_monitor.set_zero_i &&
-          \u_core.u_actuation.u_pwm.mode_i == \u_other.u_actuation.u_pwm.mode_i && \u_core.u_actuation.u_pwm.polarity_i == \u_other.u_actuation.u_pwm.polarity_i &&
+          \u_core.u_actuation.g_two_legs.u_pwm.mode_i == \u_other.u_actuation.g_two_legs.u_pwm.mode_i && \u_core.u_actuation.g_two_legs.u_pwm.polarity_i == \u_other.u_actuation.g_two_legs.u_pwm.polarity_i &&
           \u_core.u_actuation.u_torque_control.mode_i == \u_other.u_actuation.u_torque_control.mode_i &&
           \u_core.u_safety.u_self_test.direct_i == \u_other.u_safety.u_self_test.direct_i &&
           \u_core.u_scenes.scene_i == \u_other.u_scenes.scene_i &&

@@ -123,8 +123,8 @@ module writes_proof (
       control_in_its_blocks: assert (
           \u_core.u_actuation.u_torque_control.mode_i == control[feltgate_map_pkg::B_CONTROL_MODE+:2] &&
           \u_core.u_safety.u_self_test.direct_i == (\u_core.u_actuation.u_torque_control.mode_i == 2'(feltgate_map_pkg::MODE_VOLTAGE)) &&
-          \u_core.u_actuation.u_pwm.mode_i == control[feltgate_map_pkg::B_CONTROL_PWM_MODE] &&
-          \u_core.u_actuation.u_pwm.polarity_i == control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY] &&
+          \u_core.u_actuation.g_two_legs.u_pwm.mode_i == control[feltgate_map_pkg::B_CONTROL_PWM_MODE] &&
+          \u_core.u_actuation.g_two_legs.u_pwm.polarity_i == control[feltgate_map_pkg::B_CONTROL_MOTOR_POLARITY] &&
           \u_core.u_encoder.u_quad_decoder.polarity_i == control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] &&
           \u_core.u_encoder.u_quad_decoder.filter_i == control[feltgate_map_pkg::B_CONTROL_FILTER+:4] &&
           \u_core.u_scenes.scene_i == scene && \u_core.u_actuation.u_ramp.scene_i == scene);

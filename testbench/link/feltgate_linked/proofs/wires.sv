@@ -26,7 +26,7 @@ module wires_proof (
   `include "reset.svh"
 
   // Outputs.
-  logic a_hi, a_lo, b_hi, b_lo, tx, armed, gates_enable, snapshot_valid;
+  logic a_hi, a_lo, b_hi, b_lo, c_hi, c_lo, tx, armed, gates_enable, snapshot_valid;
   logic select_n, serial_clock, command, current_clock, heartbeat;
   logic [31:0] position;
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
@@ -36,6 +36,7 @@ module wires_proof (
   feltgate_linked u_dut (
       .*,
       .gate_a_hi_o(a_hi), .gate_a_lo_o(a_lo), .gate_b_hi_o(b_hi), .gate_b_lo_o(b_lo),
+      .gate_c_hi_o(c_hi), .gate_c_lo_o(c_lo),
       .encoder_select_no(select_n), .encoder_clock_o(serial_clock), .encoder_command_o(command),
       .current_clock_o(current_clock), .heartbeat_o(heartbeat), .uart_tx_o(tx),
       .position_o(position), .limits_o(limits), .faults_o(faults), .first_fault_o(first_fault),
@@ -118,6 +119,8 @@ module wires_proof (
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_command_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.current_clock_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.heartbeat_o ;
+  (* hierconn *) wire \u_dut.g_core.u_core.gate_c_hi_o ;
+  (* hierconn *) wire \u_dut.g_core.u_core.gate_c_lo_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.enc_a_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.enc_b_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.enc_z_i ;
@@ -271,12 +274,13 @@ module wires_proof (
       stop_and_panel_pass: assert ({core_stop_i, core_arm_i, core_set_zero_i, core_scene_i} == {stop_i, arm_i, set_zero_i, scene_i});
       encoder_passes: assert ({core_enc_a_i, core_enc_b_i, core_enc_z_i} == {enc_a_i, enc_b_i, enc_z_i});
 `ifdef LAW
-      options_pass: assert ({select_n, serial_clock, command, current_clock, heartbeat} == 5'b10000);
+      options_pass: assert ({select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} == 7'b1000000);
 `else
       options_pass: assert ({\u_dut.g_core.u_core.encoder_data_i , \u_dut.g_core.u_core.current_data_i , \u_dut.g_core.u_core.driver_fault_i } ==
-          {encoder_data_i, current_data_i, driver_fault_i} && {select_n, serial_clock, command, current_clock, heartbeat} ==
+          {encoder_data_i, current_data_i, driver_fault_i} && {select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} ==
           {\u_dut.g_core.u_core.encoder_select_no , \u_dut.g_core.u_core.encoder_clock_o , \u_dut.g_core.u_core.encoder_command_o ,
-           \u_dut.g_core.u_core.current_clock_o , \u_dut.g_core.u_core.heartbeat_o });
+           \u_dut.g_core.u_core.current_clock_o , \u_dut.g_core.u_core.heartbeat_o , \u_dut.g_core.u_core.gate_c_hi_o ,
+           \u_dut.g_core.u_core.gate_c_lo_o });
 `endif
       lamps_pass: assert ({position, scene, limits, faults} == {core_position_o, core_scene_o, core_limits_o, core_faults_o} &&
           {first_fault, armed, gates_enable, snapshot_valid} == {core_first_fault_o, core_armed_o, core_gates_enable_o, core_snapshot_valid_o});

@@ -31,9 +31,11 @@ constexpr double kFarthestStep = kRevolution_rad / 64;
 constexpr std::size_t kRowsPerHarmonic = 8, kFewestPerTurn = 256, kMeansPerTurn = 2048;
 constexpr int kMostHarmonics = 128, kNeighbours = 16;
 constexpr double kStandsOut = 5;  ///< standard deviations: one of four million without cogging
-constexpr double kShareOfLargest = 0.01, kShareOfNominal = 5e-4;
+constexpr double kShareOfLargest = 0.01, kShareOfNominal = 1e-3;
 constexpr std::size_t kMostTerms = 8;
-constexpr double kMostLag = 0.12, kFastest_rad_s = 5;
+/// Phase by which the observer may be late: for the largest harmonic, and for one that is looked
+/// for.
+constexpr double kMostLag = 0.12, kSearchedLag = 0.3, kFastest_rad_s = 2.5;
 
 struct Pass {
   std::size_t first = 0, last = 0;  ///< rows
@@ -147,13 +149,14 @@ std::size_t judged(const ColumnTable& table, const Turn& turn, const Pass& way, 
   }
   if (way.rad_s > kFastest_rad_s) {
     table.fail(way.first, fmt::format("{:.2g} rad/s {} is too fast", way.rad_s, name),
-               "turn at 1 rad/s: the observer is late, and the inertia smooths the cogging");
+               "turn at 0.5 rad/s: the observer is late, and the inertia smooths the cogging");
   }
   const auto rows =
       static_cast<std::size_t>(static_cast<double>(way.last - way.first + 1) / way.turns);
   if (rows < kFewestPerTurn) {
-    table.fail(way.first, fmt::format("{} rows per turn {} are too few samples", rows, name),
-               fmt::format("record at least {} per turn, better one per millisecond", kFewestPerTurn));
+    table.fail(
+        way.first, fmt::format("{} rows per turn {} are too few samples", rows, name),
+        fmt::format("record at least {} per turn, better one per millisecond", kFewestPerTurn));
   }
   bool seen = false;
   for (std::size_t row = way.first; row <= way.last; ++row) {
@@ -254,10 +257,14 @@ double Cogging::at(double angle_rad) const {
 Cogging identify_cogging(const ColumnTable& table, const design::Elaborated& e, double confidence) {
   const Turn turn = read_turn(table, e);
   const auto [up, down] = ways_of(turn.at);
-  const std::size_t rows =
-      std::min(judged(table, turn, up, "up", "down"), judged(table, turn, down, "down", "up"));
+  const std::size_t rows_up = judged(table, turn, up, "up", "down");
+  const std::size_t rows = std::min(rows_up, judged(table, turn, down, "down", "up"));
   Cogging c;
-  c.searched = std::min(kMostHarmonics, static_cast<int>(rows / kRowsPerHarmonic));
+  // The observer is late by its own low-pass and by the velocity's.
+  const double late_s = 1 / e.design.observer_cutoff_rad_s + 1 / e.design.velocity_cutoff_rad_s;
+  c.searched =
+      std::min({kMostHarmonics, static_cast<int>(rows / kRowsPerHarmonic),
+                static_cast<int>(kSearchedLag / (std::max(up.rad_s, down.rad_s) * late_s))});
   c.least_nm = kShareOfNominal * e.design.nominal_current_a * e.design.torque_constant_nm_a;
   c.turns_up = up.turns;
   c.turns_down = down.turns;
@@ -273,9 +280,6 @@ Cogging identify_cogging(const ColumnTable& table, const design::Elaborated& e, 
     c.largest_nm = std::max(c.largest_nm, std::abs(c.at(k * kRevolution_rad / 4096)));
   }
   if (c.terms.empty()) return c;
-  // The observer is late by its own low-pass, the velocity's and half of the velocity's window.
-  const design::Design& d = e.design;
-  const double late_s = 1 / d.observer_cutoff_rad_s + 1 / d.velocity_cutoff_rad_s;
   const CoggingTerm& t = c.terms.front();
   const double most_rad_s = kMostLag / (t.per_turn * late_s);
   for (const auto& [way, name] : {std::pair<Pass, const char*>{up, "up"}, {down, "down"}}) {

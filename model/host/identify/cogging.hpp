@@ -61,8 +61,8 @@ Cogging identify_cogging(const ColumnTable& turn, const design::Elaborated& desi
 
 /// A law that turns the lever slowly up and down again.
 std::string slow_turn_law(const SmallTorque& small);
-/// The law `into` without the cogging; an empty text: a law that does nothing else. `name` is that
-/// of `into` in errors, `from` is the recording. Errors: std::invalid_argument.
+/// The law `into` without the cogging; `name` is its file in errors, and if that is empty, the law
+/// does nothing else. `from` is the recording. Errors: std::invalid_argument, law::LawError.
 std::string compensating_law(const Cogging& cogging, const SmallTorque& small,
                              const std::string& from, const std::string& into,
                              const std::string& name);

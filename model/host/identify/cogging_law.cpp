@@ -99,7 +99,7 @@ SmallTorque small_torque_of(const design::Elaborated& e) {
 std::string slow_turn_law(const SmallTorque& small) {
   return "# turns the lever slowly up and down again, for feltgate host - calibrate cogging\n"
          "rate = 40 kHz\n"
-         "param speed = 1 rad/s in 0.1 .. 4 rad/s\n"
+         "param speed = 0.5 rad/s in 0.1 .. 2 rad/s\n"
          "param far = 7.6 rad in 6.5 .. 31 rad             # the way up, and the way down\n"
          "bool back = false\n"
          "state gone = 0 rad in 0 .. 32 rad\n"
@@ -118,7 +118,8 @@ std::string slow_turn_law(const SmallTorque& small) {
 
 std::string compensating_law(const Cogging& c, const SmallTorque& small, const std::string& from,
                              const std::string& into, const std::string& name) {
-  std::string text = into.empty() ? "" : renamed(into, name);
+  const bool alone = name.empty();
+  std::string text = alone ? "" : renamed(into, name);
   text = fmt::format("{}# The cogging on the lever, measured: {}\n", text, from) +
          "param cogging_share = 1 in 0 .. 1                # of it that is taken away\n"
          "param cogging_zero = 0 rad in -7 .. 7 rad        # where the recording's position 0 is\n";
@@ -134,7 +135,7 @@ std::string compensating_law(const Cogging& c, const SmallTorque& small, const s
   const std::string end = c.period == 1 ? "1 turn" : fmt::format("1 turn / {}", c.period);
   text += fmt::format("table cogging(x) periodic on [0, {}] =\n  {}\n", end, sum);
   text += fmt::format("let cogging_wanted = {}cogging_share * cogging(position - cogging_zero)\n",
-                      into.empty() ? "-" : "cogging_felt - ");
+                      alone ? "-" : "cogging_felt - ");
   return text + output(small, "cogging_wanted");
 }
 

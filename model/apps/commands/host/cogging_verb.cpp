@@ -22,13 +22,9 @@ namespace feltgate::host {
 
 namespace {
 
-/// A law that the engine of the design takes, or LawError and Refused.
+/// Written once it is one that the engine of the design takes. Errors: LawError, law::Refused.
 void write_law(files::OutputFile* to, const std::string& path, const std::string& text,
                const design::Elaborated& e) {
-  if (!e.design.engine) {
-    throw std::invalid_argument(fmt::format(
-        "design {} has no engine for a law; give one that has with --design", e.design.name));
-  }
   (void)law::compile_text(text, path, design::law_target(e));
   to->write(text);
 }
@@ -47,6 +43,10 @@ int calibrate_cogging(Session& session, const CoggingArguments& a) {
   const BenchDesign known(session, "");
   const design::Elaborated& e = known.design();
   const SmallTorque small = small_torque_of(e);
+  if (!e.design.engine && !(a.write.empty() && a.slow_turn.empty())) {
+    throw std::invalid_argument(fmt::format(
+        "design {} has no engine for a law; give one that has with --design", e.design.name));
+  }
   files::Outputs outputs;
   std::string into, into_path;
   if (!a.into.empty()) {
@@ -54,6 +54,7 @@ int calibrate_cogging(Session& session, const CoggingArguments& a) {
     outputs.reads(into_path);
     std::ifstream in(into_path);
     into.assign(std::istreambuf_iterator<char>(in), {});
+    if (!in) throw std::invalid_argument(into_path + ": cannot be read; check the path");
   }
   if (!a.from.empty() && a.from != "-") outputs.reads(a.from);
   files::OutputFile* json = outputs.open("--json", a.json);
@@ -62,7 +63,7 @@ int calibrate_cogging(Session& session, const CoggingArguments& a) {
   if (slow != nullptr) {
     write_law(slow, a.slow_turn, slow_turn_law(small), e);
     outputs.say(
-        fmt::format("{}: turns the lever by 1.2 turns up and down in 16 s; record "
+        fmt::format("{}: turns the lever by 1.2 turns up and down in 31 s; record "
                     "position, tau_hat and tau_ref\n",
                     a.slow_turn));
     outputs.commit();

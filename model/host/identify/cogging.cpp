@@ -111,13 +111,17 @@ std::pair<Pass, Pass> ways_of(const Recording& r) {
   int direction = 0;
   const auto end = [&](std::size_t from, std::size_t to) {
     const double rad = r.angle_rad[to] - r.angle_rad[from];
-    if (rad > longest_up) longest_up = rad, up = {from, to, 0, 0};
-    if (-rad > longest_down) longest_down = -rad, down = {from, to, 0, 0};
+    double& longest = rad > 0 ? longest_up : longest_down;
+    if (std::abs(rad) <= longest) return;
+    longest = std::abs(rad);
+    (rad > 0 ? up : down) = {from, to, 0, 0};
   };
   for (std::size_t row = 1; row < r.rows(); ++row) {
     const double gone = r.angle_rad[row] - r.angle_rad[extreme];
     if (direction == 0) {
-      if (std::abs(gone) > kReversalRad) direction = gone > 0 ? 1 : -1, extreme = row;
+      if (std::abs(gone) <= kReversalRad) continue;
+      direction = gone > 0 ? 1 : -1;
+      extreme = row;
     } else if (gone * direction >= 0) {
       if (gone != 0) extreme = row;
     } else if (-gone * direction > kReversalRad) {

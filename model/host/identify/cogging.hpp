@@ -16,10 +16,10 @@ namespace feltgate::host {
 
 /// What a voltage law makes of a torque near zero: the dead voltage is proportional to the torque
 /// below linear_nm, so the motor gives nothing before edge_nm. command() is the reference for a
-/// torque, torque() is its inverse. Within rise_nm the edge rises: there the ripple of the current
-/// overcomes part of the dead time.
+/// torque, torque() is its inverse. No more than cap_nm is added, since the ripple of a small
+/// current overcomes part of the dead time, and that within rise_nm from 0.
 struct SmallTorque {
-  double linear_nm = 0, edge_nm = 0, rise_nm = 0;
+  double linear_nm = 0, edge_nm = 0, cap_nm = 0, rise_nm = 0;
 
   bool exact() const { return edge_nm == 0; }
   double command(double torque_nm) const;

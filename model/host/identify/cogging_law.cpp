@@ -17,8 +17,8 @@ namespace feltgate::host {
 
 namespace {
 
-/// With less the edge comes too early, for the ripple of the current is not modelled: see the page.
-constexpr double kRise_nm = 3e-3;
+/// Of the edge, up to here; found by trial with the simulated motor.
+constexpr double kCap = 0.64, kRise_nm = 0.5e-3;
 
 /// The output, from `wanted`; a name of its own for what a law may have too.
 std::string output(const SmallTorque& small, const std::string& wanted) {
@@ -26,9 +26,10 @@ std::string output(const SmallTorque& small, const std::string& wanted) {
   return fmt::format(
       "# The voltage law gives the dead voltage back in proportion to the torque below {0:g} mNm,\n"
       "# so the motor gives nothing below {1:g} mNm. What is missing is added.\n"
-      "let cogging_edge = {1:g} mNm * max(0, 1 - abs({3}) / ({0:g} mNm))\n"
+      "let cogging_edge = clamp({1:g} mNm * (1 - abs({3}) / ({0:g} mNm)), 0, {4:g} mNm)\n"
       "out torque = {3} + clamp({2:.6g} * {3}, -cogging_edge, cogging_edge)\n",
-      1e3 * small.linear_nm, 1e3 * small.edge_nm, small.edge_nm / small.rise_nm, wanted);
+      1e3 * small.linear_nm, 1e3 * small.edge_nm, small.cap_nm / small.rise_nm, wanted,
+      1e3 * small.cap_nm);
 }
 
 bool letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -70,16 +71,16 @@ std::string renamed(std::string text, const std::string& name) {
 
 double SmallTorque::command(double torque_nm) const {
   if (exact()) return torque_nm;
-  const double missing = edge_nm * std::max(0.0, 1 - std::abs(torque_nm) / linear_nm);
-  return torque_nm + std::clamp(torque_nm * edge_nm / rise_nm, -missing, missing);
+  const double missing = std::clamp(edge_nm * (1 - std::abs(torque_nm) / linear_nm), 0.0, cap_nm);
+  return torque_nm + std::clamp(torque_nm * cap_nm / rise_nm, -missing, missing);
 }
 
 double SmallTorque::torque(double command_nm) const {
   const double c = std::abs(command_nm);
   if (exact() || c >= linear_nm) return command_nm;
-  const double top = 1 / (1 / rise_nm + 1 / linear_nm);  // of the rise
+  // command() is the least of three lines.
   const double t =
-      c <= command(top) ? c / (1 + edge_nm / rise_nm) : (c - edge_nm) / (1 - edge_nm / linear_nm);
+      std::max({c / (1 + cap_nm / rise_nm), c - cap_nm, (c - edge_nm) / (1 - edge_nm / linear_nm)});
   return std::copysign(t, command_nm);
 }
 
@@ -92,7 +93,8 @@ SmallTorque small_torque_of(const design::Elaborated& e) {
   if (!(dead_v > 0)) return s;
   s.linear_nm = d.dead_voltage_linear_nm;
   s.edge_nm = dead_v / (volts_per_nm + dead_v / s.linear_nm);
-  s.rise_nm = kRise_nm;
+  s.cap_nm = kCap * s.edge_nm;
+  s.rise_nm = std::min(kRise_nm, s.linear_nm * (1 - kCap) / 2);
   return s;
 }
 
@@ -121,7 +123,7 @@ std::string compensating_law(const Cogging& c, const SmallTorque& small, const s
   const bool alone = name.empty();
   std::string text = alone ? "" : renamed(into, name);
   text = fmt::format("{}# The cogging on the lever, measured: {}\n", text, from) +
-         "param cogging_share = 1 in 0 .. 1                # of it that is taken away\n"
+         "param cogging_share = 1 in 0 .. 1.1              # of it that is taken away\n"
          "param cogging_zero = 0 rad in -7 .. 7 rad        # where the recording's position 0 is\n";
   std::string sum;
   for (const CoggingTerm& t : c.terms) {

@@ -133,7 +133,6 @@ class Cogging(CoggingTest):
 
     def test_5_percent_fall_to_half_a_percent(self):
         after, found = self.judged(PLAIN)
-        self.assertEqual(self.said.strip(), re.search(r"prints\n\n```\n(.*?)```", SECTION, re.S)[1].strip())
         before = self.felt("other.toml", "--set", "cogging_share=0")
         told("12, no law", before)
         for way in before:
@@ -154,6 +153,7 @@ class Cogging(CoggingTest):
         told("12, counted from elsewhere", elsewhere)
         for way in elsewhere:
             self.assertLess(way.peak(), 0.005 * NOMINAL_NM)
+        self.assertEqual(self.said.strip(), re.search(r"prints\n\n```\n(.*?)```", SECTION, re.S)[1].strip())
         # Without what the voltage law leaves out near zero the same table does little.
         law = (self.folder / "mine.law").read_text(encoding="utf-8").splitlines()
         kept = [line for line in law if not line.startswith(("let cogging_edge", "out "))]
@@ -219,7 +219,8 @@ class Cogging(CoggingTest):
         self.assertFalse((self.folder / "x.law").exists())
 
 
-def turn(path, up=7.6, down=7.6, rad_s=0.5, every_s=2e-3, cogging=(), noise_nm=0, seed=1, armed=True, kept=()):
+def turn(path, *, up=7.6, down=7.6, rad_s=0.5, every_s=2e-3, cogging=(), noise_nm=0, rough=(), seed=1, armed=True,
+         kept=()):  # fmt: skip
     """A recording that no core made: the load of an observer without inertia, friction of 4 mNm."""
     random.seed(seed)
     rows, t = ["time_s,position_rad,tau_hat_nm"], 0.0
@@ -228,6 +229,7 @@ def turn(path, up=7.6, down=7.6, rad_s=0.5, every_s=2e-3, cogging=(), noise_nm=0
             gone = n * every_s * rad_s
             angle = gone if sign > 0 else up - gone
             load = sign * 4e-3 - sum(a * math.sin(k * angle + q) for k, a, q in cogging)
+            load += sign * sum(a * math.sin(k * angle + q) for k, a, q in rough)
             load += random.gauss(0, noise_nm) if noise_nm else 0
             rows.append(f"{t:.6f},{round(angle / 1.534e-3) * 1.534e-3:.7f},{load if armed else 0:.6g}")
             t += every_s
@@ -257,6 +259,14 @@ class Recordings(CoggingTest):
             phase = math.atan2(h["cosine_nm"], h["sine_nm"])
             self.assertLess(abs(cmath.exp(1j * phase) - cmath.exp(1j * seed)), 0.2)
         self.assertGreaterEqual(inside, 9)  # of 95 %: fewer once in a thousand
+
+    def test_friction_that_depends_on_the_angle_is_no_cogging(self):
+        found = self.found(cogging=[(12, 8e-3, 0.4)], rough=[(9, 3e-3, 1)])
+        self.assertEqual([h["per_turn"] for h in found["harmonics"]], [12])
+        self.assertEqual(found["warnings"], [])
+        found = self.found(cogging=[(12, 4e-3, 0.4)], rough=[(12, 3e-3, 1)])
+        self.assertAlmostEqual(found["harmonics"][0]["amplitude_nm"]["value"], 4e-3, delta=0.1e-3)
+        self.assertIn("the friction depends on the angle", found["warnings"][0])
 
     def test_recordings_that_do_not_say_it(self):
         cogging = [(12, 8e-3, 0.4)]

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "host/calibrate/report.hpp"
@@ -122,6 +123,59 @@ ordered_json report_json(const EncoderError& e, double confidence) {
                               {"sine_rad", report_json(e.terms_rad[k + 1])}});
   }
   j["warnings"] = e.warnings;
+  return j;
+}
+
+std::string report_text(const Cogging& c, double confidence) {
+  std::string text =
+      fmt::format("{:.3g} turns up at {:.3g} rad/s, {:.3g} down at {:.3g}; intervals: {:g} %\n",
+                  c.turns_up, c.rad_s_up, c.turns_down, c.rad_s_down, 100 * confidence);
+  text += fmt::format("friction {:.3g} mNm, steady torque on the lever {:.3g} mNm\n",
+                      1e3 * c.friction_nm, 1e3 * c.steady_nm);
+  if (c.terms.empty()) {
+    return text + fmt::format("no cogging: none of {} harmonics has {:.2g} mNm and stands out\n",
+                              c.searched, 1e3 * c.least_nm);
+  }
+  text += fmt::format("{:>9}  {:>26}  {:>10}  {:>10}\n", "per turn", "amplitude, mNm", "phase, rad",
+                      "% of all");
+  double all = 0;
+  for (const CoggingTerm& t : c.terms) all += t.amplitude_nm.value;
+  for (const CoggingTerm& t : c.terms) {
+    text += fmt::format("{:>9}  {:>26}  {:>10.3f}  {:>10.1f}\n", t.per_turn,
+                        text_of(t.amplitude_nm.times(1e3)), std::atan2(t.cosine_nm, t.sine_nm),
+                        100 * t.amplitude_nm.value / all);
+  }
+  text += fmt::format(
+      "largest cogging {:.3g} mNm, repeats {} times per turn; of {} harmonics, "
+      "noise {:.2g} mNm\n",
+      1e3 * c.largest_nm, c.period, c.searched, 1e3 * c.noise_nm);
+  for (const std::string& w : c.warnings) text += "note: " + w + "\n";
+  return text;
+}
+
+ordered_json report_json(const Cogging& c, double confidence) {
+  ordered_json j{{"schema", "feltgate-calibrate/1"},
+                 {"procedure", "cogging"},
+                 {"confidence", confidence},
+                 {"turns_up", c.turns_up},
+                 {"turns_down", c.turns_down},
+                 {"rad_s_up", c.rad_s_up},
+                 {"rad_s_down", c.rad_s_down},
+                 {"friction_nm", c.friction_nm},
+                 {"steady_nm", c.steady_nm},
+                 {"largest_nm", c.largest_nm},
+                 {"period", c.period},
+                 {"noise_nm", c.noise_nm},
+                 {"searched", c.searched}};
+  j["harmonics"] = ordered_json::array();
+  for (const CoggingTerm& t : c.terms) {
+    j["harmonics"].push_back({{"per_turn", t.per_turn},
+                              {"cosine_nm", t.cosine_nm},
+                              {"sine_nm", t.sine_nm},
+                              {"amplitude_nm", report_json(t.amplitude_nm)},
+                              {"odd_nm", t.odd_nm}});
+  }
+  j["warnings"] = c.warnings;
   return j;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/calibrate/design_changes.hpp"
+#include "host/identify/cogging.hpp"
 #include "host/identify/identify.hpp"
 
 namespace feltgate::host {
@@ -21,6 +22,9 @@ nlohmann::ordered_json report_json(const Drive& drive, const std::optional<Coast
 
 std::string report_text(const EncoderError& error, double confidence);
 nlohmann::ordered_json report_json(const EncoderError& error, double confidence);
+std::string report_text(const Cogging& cogging, double confidence);
+nlohmann::ordered_json report_json(const Cogging& cogging, double confidence);
+
 /// The design's table with this error; what it has already is in the recording no more, and stays.
 std::vector<Change> changes_of(const EncoderError& error, const design::Elaborated& design);
 

@@ -10,6 +10,8 @@
 
 #include "bench.hpp"
 #include "catch.hpp"
+#include "design/design.hpp"
+#include "host/identify/cogging.hpp"
 #include "host/identify/identify.hpp"
 #include "host/identify/report.hpp"
 
@@ -275,4 +277,28 @@ TEST_CASE("identify: table for docs/identify.md", "[.][table]") {
                   off(*k.damping_nm_s_rad, t.b).c_str(), off(*k.friction_nm, kCoulomb_nm).c_str());
     }
   }
+}
+
+TEST_CASE("cogging: the command for a small torque and the torque of a command", "[cogging]") {
+  const auto registers = design::read_registers(FELTGATE_ROOT "/rtl/registers.toml");
+  const auto of = [&](const std::string& name) {
+    return small_torque_of(
+        elaborate(design::read_design(FELTGATE_ROOT "/rtl/designs/" + name + ".toml"), registers));
+  };
+  const SmallTorque small = of("lever_law");
+  // 10 mNm are 0.331 A; the voltage law asks for R I and a share of 0.34 V + 0.635 V.
+  CHECK(small.edge_nm == Approx(0.975 / (0.42 / 0.0302 + 97.5)).epsilon(1e-3));
+  double before = -1;
+  for (int k = -200; k <= 200; ++k) {
+    const double torque = k * 1e-4, command = small.command(torque);
+    CHECK(small.torque(command) == Approx(torque).margin(1e-12));
+    CHECK(command > before);
+    before = command;
+    if (std::abs(torque) >= small.linear_nm) CHECK(command == torque);
+    // Above the cap the law's voltage is the one that it has far from zero.
+    if (std::abs(torque) < 5e-3 || std::abs(torque) >= small.linear_nm) continue;
+    const double volts = (0.42 / 0.0302 + 97.5) * std::abs(command);
+    CHECK(volts == Approx(0.42 / 0.0302 * std::abs(torque) + 0.975).epsilon(1e-3));
+  }
+  for (const char* name : {"paper", "lever_current"}) CHECK(of(name).exact());
 }

@@ -36,6 +36,7 @@ RULES = (
         "BY",
         "scene.detent.lever_law",
     ),
+    Rule(r"feltgate run slow_turn\.toml", "BY", "calibrate.cogging"),
     Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
     Rule(r"feltgate run knob_detents", "BY", "scene.knob_detents.gimbal_motor"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),

@@ -29,7 +29,7 @@ namespace feltgate::host {
 namespace {
 
 struct CalibrateArguments {
-  std::string what, from, write, json, save;
+  std::string what, from, write, json, save, slow_turn, into;
   bool closed = false;
   std::vector<double> points;
   double arm_m = 0, torque_constant = 0, gain = 1, confidence = 0.95, hold_s = 3;
@@ -228,6 +228,12 @@ int calibrate_align(Session& session, const CalibrateArguments& a) {
 }
 
 int calibrate(Session& session, CalibrateArguments a) {
+  if (a.what == "cogging") {
+    return calibrate_cogging(session, {a.from, a.write, a.json, a.slow_turn, a.into, a.confidence});
+  }
+  if (!a.slow_turn.empty() || !a.into.empty()) {
+    throw std::invalid_argument("--slow-turn and --into belong to calibrate cogging");
+  }
   if (a.what == "align") return calibrate_align(session, a);
   if (!a.what.empty()) return calibrate_encoder(session, a);
   if (!a.from.empty() && !a.save.empty()) {
@@ -307,16 +313,21 @@ Run add_calibrate(CLI::App& sub) {
       "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
       "  feltgate host - --design mine calibrate encoder --from turn.csv --write mine.toml\n"
       "  feltgate host - --design mine calibrate align --from angles.csv --write mine.toml\n"
+      "  feltgate host - --design lever_law calibrate cogging --from turn.csv --write mine.law\n"
       "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
       "and\n"
       "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
       "do not say it, 3 the link broke down.");
   sub.add_option("what", a->what,
-                 "encoder: the table of an absolute encoder, from a turn; align: pole pairs and "
-                 "offset of a motor with three phases")
-      ->type_name("encoder|align")
-      ->check(CLI::IsMember({"encoder", "align"}));
+                 "encoder: a table, from a turn; cogging: a law, from a slow turn; align: pole "
+                 "pairs and offset of three phases")
+      ->type_name("encoder|cogging|align")
+      ->check(CLI::IsMember({"encoder", "cogging", "align"}));
+  sub.add_option("--slow-turn", a->slow_turn, "of cogging: write the law that turns the lever")
+      ->type_name("FILE");
+  sub.add_option("--into", a->into, "of cogging: the law to which --write adds the compensation")
+      ->type_name("LAW");
   sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")
       ->type_name("N")
       ->capture_default_str()
@@ -349,7 +360,8 @@ Run add_calibrate(CLI::App& sub) {
       ->capture_default_str()
       ->check(checks::number(0.5, 0.9999, ""));
   sub.add_option("--save", a->save, "write the readings as CSV")->type_name("FILE");
-  sub.add_option("--write", a->write, "write the design file with what was found")
+  sub.add_option("--write", a->write,
+                 "write the design file, of cogging the law, with what was found")
       ->type_name("FILE");
   sub.add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
   return [a](Session& session) { return calibrate(session, *a); };

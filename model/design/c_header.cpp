@@ -144,6 +144,8 @@ std::string c_header(const Elaborated& e) {
        "word, NAME_DEFAULT\n   and NAME_RESET what configuration leaves there. Units: "
        "feltgate_map.h. */\n";
   for (const HostWord& w : host_words(e)) {
+    const Parameter* p = e.registers.find(w.name);
+    if (p != nullptr && !p->option.empty()) word(s, w);  // feltgate_map.h has it not
     if (w.number) conversions(s, w);
     if (w.name == "control") {
       s << fmt::format("\n#define FELTGATE_CONTROL_RESET 0x{:08x}u\n",

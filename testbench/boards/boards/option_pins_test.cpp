@@ -57,7 +57,7 @@ TEST_CASE("board: the gates of the third leg reach their pins") {
     const auto top = std::make_unique<Top>();
     top->enc_a = k & 1u;
     top->enc_b = k >> 1 & 1u;
-    top->enc_z = k >> 2;
+    top->enc_z = k >> 2 & 1u;
     top->eval();
     // What the stub shows of the encoder.
     CHECK(top->gate_c_hi == (top->enc_a && top->enc_z));

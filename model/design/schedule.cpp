@@ -10,7 +10,6 @@
 #include <cctype>
 #include <set>
 
-#include "design/schedule_check.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 

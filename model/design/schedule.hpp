@@ -82,4 +82,8 @@ std::string schedule_page(const RegisterMap& map, const Schedule& s);
 /// Text of docs/images/tick.json, the source of the timing diagram.
 std::string timing_diagram(const RegisterMap& map, const Schedule& s);
 
+/// Throws config::ConfigError with file, line and reason for a late result, for words that collide,
+/// and for a clock outside the tick.
+void check_schedule(const RegisterMap& map, const Schedule& s);
+
 }  // namespace feltgate::design

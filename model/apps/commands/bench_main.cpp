@@ -12,7 +12,7 @@
 #include "feltgate/largest.hpp"
 #include "files/output_file.hpp"
 #include "studies/bench/report.hpp"
-#include "studies/bench/work_bounds.hpp"
+#include "studies/bench/work.hpp"
 
 namespace {
 

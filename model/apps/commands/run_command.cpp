@@ -21,7 +21,7 @@
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
 #include "sim/loop/bounded.hpp"
-#include "sim/loop/event_lines.hpp"
+#include "sim/loop/loop.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/speed_jumps.hpp"
 #include "sim/plant/plant_file.hpp"

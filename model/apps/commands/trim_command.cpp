@@ -23,7 +23,6 @@
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/rates/rates.hpp"
-#include "studies/trim/scene_file.hpp"
 #include "studies/trim/trim.hpp"
 
 namespace feltgate {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The events of a law as FUDI, for Pure Data. Documentation: docs/devices/drums.md
-#include "sim/loop/event_lines.hpp"
+#include "sim/loop/loop.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What holds the lever: a list of timed phases. hand_file.hpp reads it from the [hand] table of a
+// What holds the lever: a list of timed phases. hand_file.cpp reads it from the [hand] table of a
 // scene, hand_run.hpp executes it. Documentation: docs/plant.md
 #pragma once
 

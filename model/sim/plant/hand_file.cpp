@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reader of the [hand] table of a scene. Documentation: docs/plant.md
-#include "sim/plant/hand_file.hpp"
+#include "sim/plant/profile.hpp"
 
 #include <fmt/format.h>
 

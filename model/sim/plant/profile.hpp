@@ -75,4 +75,8 @@ class TraceRun {
   std::size_t index_ = 0;
 };
 
+/// Reads a recorded motion: a text table with the columns time_s and theta_rad.
+/// Errors: config::ConfigError with file and line of the first bad row.
+Trace read_trace_file(const std::string& path);
+
 }  // namespace feltgate::plant

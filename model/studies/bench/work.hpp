@@ -12,6 +12,7 @@
 #include "sim/loop/scenario.hpp"
 #include "sim/plant/parameters.hpp"
 #include "sim/reference/real_chain.hpp"
+#include "studies/bounds/error_bounds.hpp"
 
 namespace feltgate::bench {
 
@@ -47,5 +48,9 @@ Work record_scene(const Scene& scene, const std::string& design);
 /// Motion of single counts, back and forth and far apart, under torques of a few LSB, for
 /// `seconds`: quantisation is visible in it because no noise covers it.
 Work slow_small_signals(const std::string& design, double seconds);
+
+/// Proven error bounds (docs/error-bounds.md) for all scenes, modes and parameters of the work, up
+/// to its largest velocity.
+bounds::ErrorBounds work_bounds(const design::Elaborated& e, const Work& work);
 
 }  // namespace feltgate::bench

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The proven bounds for the motion of a work. Documentation: docs/error-bounds.md
-#include "studies/bench/work_bounds.hpp"
+#include "studies/bench/work.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -102,4 +102,8 @@ std::string json(const std::vector<Answer>& answers);
 /// The page docs/claims.md, of these answers.
 std::string page(const std::vector<Answer>& answers);
 
+/// The claims of papers with files of their own.
+std::vector<Source> touch_world();
+std::vector<Source> dimple();
+
 }  // namespace feltgate::claims

@@ -7,9 +7,10 @@
 
 #include "law/read_law.hpp"
 
-#include "studies/claims/other_papers.hpp"
+#include "studies/claims/claims.hpp"
 #include "studies/shape/pen_force.hpp"
 #include "studies/stability/linear_loop.hpp"
+#include "studies/stability/mass_loop.hpp"
 #include "studies/texture/texture_force.hpp"
 
 namespace feltgate::claims {

@@ -3,7 +3,8 @@
 //
 // Claims of the wrist device and of Haptic Hunt, and where the claims of the other papers are put
 // together. Documentation: docs/claims.md
-#include "studies/claims/other_papers.hpp"
+#include "studies/claims/claims.hpp"
+#include "studies/stability/mass_loop.hpp"
 
 #include "studies/stability/experiments.hpp"
 

@@ -7,8 +7,9 @@
 
 #include "sim/plant/plant.hpp"
 #include "sim/plant/pushing_hand.hpp"
+#include "studies/claims/claims.hpp"
 #include "studies/claims/haptic_lever.hpp"
-#include "studies/claims/other_papers.hpp"
+#include "studies/stability/mass_loop.hpp"
 #include "studies/texture/texture_force.hpp"
 
 namespace feltgate::claims {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A trimmed scene as a scene file. Documentation: docs/trim.md
-#include "studies/trim/scene_file.hpp"
+#include "studies/trim/trim.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -65,4 +65,10 @@ std::vector<UnseenReport> check_unseen(const Subject& subject, const Model& mode
 /// repeated on fresh motions. Throws as run_scenario does.
 Report trim(const Subject& subject, const Options& options);
 
+/// Text of the scene file `scene.path` with bridge, step and effects of `model`, and the plant that
+/// scene.plant names; of a device with the effects alone. The rest of the text is unchanged, but
+/// recordings and laws in the original's folder get their full path. `comment` comes first, with #
+/// before each line.
+std::string scene_text(const Scenario& scene, const Model& model, const std::string& comment);
+
 }  // namespace feltgate::trim

@@ -20,10 +20,10 @@
 #include "law/read_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/gimbal/gimbal_file.hpp"
-#include "sim/plant/hand_file.hpp"
 #include "sim/plant/pantograph/pantograph_file.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/plant_table.hpp"
+#include "sim/plant/profile.hpp"
 #include "sim/traces/open.hpp"
 #include "sim/traces/place.hpp"
 

@@ -12,7 +12,7 @@
 #include "files/toml/toml_reader.hpp"
 #include "loop_fixture.hpp"
 #include "sim/law_loop/scene_law.hpp"
-#include "sim/loop/event_lines.hpp"
+#include "sim/loop/loop.hpp"
 #include "sim/loop/tracker.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 
 #include "catch.hpp"
 #include "plant_fixture.hpp"
-#include "sim/plant/hand_file.hpp"
 #include "sim/plant/plant_table.hpp"
+#include "sim/plant/profile.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -89,11 +89,11 @@ TEST_CASE("errors of a plant file say file, line, what and mend", "[plant_file]"
   const std::string good = p24_text();
   CHECK(plant_error(good) == "no error");
   const std::string unknown = replaced(good, "seed = 1", "sed = 1\nseed = 1");
-  CHECK(plant_error(unknown) ==
-        "x.toml:" + std::to_string(line_of(unknown, "sed = 1")) +
-            ": key \"sed\" is unknown in [encoder]; did you mean \"seed\"? "
-            "remove it or use one of: absolute_error_mrad, edge_offset_counts, line_jitter_counts_rms, "
-            "lines, seed");
+  CHECK(plant_error(unknown) == "x.toml:" + std::to_string(line_of(unknown, "sed = 1")) +
+                                    ": key \"sed\" is unknown in [encoder]; did you mean \"seed\"? "
+                                    "remove it or use one of: absolute_error_mrad, "
+                                    "edge_offset_counts, line_jitter_counts_rms, "
+                                    "lines, seed");
   const std::string missing = replaced(good, "coulomb_nm = 3.5e-3\n", "");
   CHECK(plant_error(missing) == "x.toml:" + std::to_string(line_of(missing, "[lugre]")) +
                                     ": key \"coulomb_nm\" is missing in [lugre]; add it");

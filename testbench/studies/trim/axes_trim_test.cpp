@@ -15,7 +15,6 @@
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/trim/motions.hpp"
-#include "studies/trim/scene_file.hpp"
 #include "studies/trim/trim.hpp"
 
 using namespace feltgate;

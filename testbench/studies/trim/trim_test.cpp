@@ -13,7 +13,6 @@
 #include "catch.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/trim/motions.hpp"
-#include "studies/trim/scene_file.hpp"
 
 using namespace feltgate;
 

@@ -15,7 +15,6 @@
 #include "apps/commands/commands.hpp"
 #include "apps/commands/host/bench_design.hpp"
 #include "apps/commands/host/bench_motor.hpp"
-#include "apps/commands/host/typed.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Typed lines. Documentation: docs/calibration.md
-#include "apps/commands/host/typed.hpp"
+#include "apps/commands/host/verbs.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>

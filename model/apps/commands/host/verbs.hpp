@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 
 namespace feltgate::host {
 
@@ -37,5 +38,11 @@ struct CoggingArguments {
 };
 /// Writes the law that turns the lever slowly, or from its recording the one that compensates.
 int calibrate_cogging(Session& session, const CoggingArguments& a);
+
+/// Reads a line that a user types while a motor is held armed; calls `meanwhile` about twenty times
+/// a second while it waits. Returns nothing when `go_on` returns false. Throws
+/// std::invalid_argument at the end of the input; the message names `what` was expected.
+std::optional<std::string> typed_line(const std::string& what, const std::function<bool()>& go_on,
+                                      const std::function<void()>& meanwhile);
 
 }  // namespace feltgate::host

@@ -18,7 +18,7 @@ import synth_measure
 import synth_path
 from synth_tools import ToolError, Tools, package_of, version
 
-GATES = 4
+GATES = 4  # of a board without pins of a third leg
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
 GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
@@ -30,10 +30,14 @@ EP4CE22 = {"cells": 22320, "m9k": 66, "mult18": 66}
 EP4CE22_BITS = EP4CE22["m9k"] * 9216
 
 
+def legs(folder):
+    return int(re.search(r"int PHASES = (\d);", (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))[1])
+
+
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
-    if "int PHASES = 3;" in (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"):
+    if board != "ulx3s" and legs(folder) == 3:
         raise ToolError(f"{design} has three phases, and {board} has no pins of a third leg")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
@@ -94,7 +98,7 @@ class Ulx3s:
         tools.write_netlist(
             "board",
             "select -set gates w:gate_?_?? %ci1 t:TRELLIS_FF %i",
-            f"select -assert-count {GATES} @gates",
+            f"select -assert-count {2 * legs(tools.folder)} @gates",
             'setattr -set syn_useioff 1 -set ioff_dir "output" @gates',
         )
 
@@ -105,9 +109,10 @@ class Ulx3s:
         """A line about the gates' registers, or ToolError where they are not what they have to be."""
         configuration = tools.folder / f"board_{seed}.config"
         found = gate_cells(configuration.read_text(encoding="utf-8"))
-        if found != GATES:
-            raise ToolError(f"{found} of {GATES} gates leave from a register in an I/O cell: {configuration}")
-        return f"gate registers in I/O cells, cleared without a clock: {found} of {GATES}"
+        gates = 2 * legs(tools.folder)
+        if found != gates:
+            raise ToolError(f"{found} of {gates} gates leave from a register in an I/O cell: {configuration}")
+        return f"gate registers in I/O cells, cleared without a clock: {found} of {gates}"
 
     def pack(self, tools, seed):
         return tools.pack(f"board_{seed}")

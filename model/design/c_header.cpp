@@ -5,6 +5,7 @@
 // conversions between words and SI units. Documentation: docs/register-files.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -98,10 +99,19 @@ void word(std::ostringstream& s, const HostWord& w) {
   for (const Field& f : w.fields) field(s, name, f);
 }
 
+/// Whether only designs with an option have the word: then it is not in the map of all designs.
+bool of_option(const Elaborated& e, const HostWord& w) {
+  const Parameter* p = e.registers.find(w.name);
+  return p != nullptr && !p->option.empty();
+}
+
 }  // namespace
 
 std::string c_map_header(const Elaborated& e) {
-  const std::vector<HostWord> words = host_words(e);
+  std::vector<HostWord> words = host_words(e);
+  words.erase(std::remove_if(words.begin(), words.end(),
+                             [&](const HostWord& w) { return of_option(e, w); }),
+              words.end());
   std::ostringstream s;
   s << generated_banner("rtl/registers.toml", "")
     << "// The register map of all designs for C99 and C++: addresses, fields, numbers.\n"
@@ -110,7 +120,7 @@ std::string c_map_header(const Elaborated& e) {
   for (const HostWord& w : words) word(s, w);
   s << "\n/* What only the host's link has, no bus: docs/link.md. */\n";
   for (const HostWord& w : link_host_words(e.registers)) word(s, w);
-  s << "\n/* X(name, NAME) for each parameter. */\n#define FELTGATE_PARAMETERS(X)";
+  s << "\n/* X(name, NAME) for each parameter that all designs have. */\n#define FELTGATE_PARAMETERS(X)";
   for (const HostWord& w : words) {
     if (w.kind == "parameter") s << fmt::format(" \\\n  X({}, {})", w.name, upper(w.name));
   }
@@ -144,6 +154,7 @@ std::string c_header(const Elaborated& e) {
        "word, NAME_DEFAULT\n   and NAME_RESET what configuration leaves there. Units: "
        "feltgate_map.h. */\n";
   for (const HostWord& w : host_words(e)) {
+    if (of_option(e, w)) word(s, w);
     if (w.number) conversions(s, w);
     if (w.name == "control") {
       s << fmt::format("\n#define FELTGATE_CONTROL_RESET 0x{:08x}u\n",

@@ -4,6 +4,7 @@
 // Generates the register page and the table of a design. Documentation: docs/designs.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -40,12 +41,14 @@ std::string register_page(const Elaborated& e) {
        "(blocks/ramp.md#what-could-jump); a word\nof a scene ramps while that scene is in use.\n\n"
     << "| address | name | scene | slot | format | unit | value | armed | meaning |\n"
     << "|---|---|---|---|---|---|---|---|---|\n";
-  for (const Word& w : e.words) {
-    s << "| " << hex(w.parameter.address) << " | `" << w.parameter.name << "` | "
-      << (w.parameter.scene.empty() ? "all" : w.parameter.scene) << " | " << w.parameter.slot
-      << " | " << format_text(w.format) << " | " << w.parameter.unit << " | "
-      << fmt::format("{:.7g}", w.si) << " | " << w.parameter.while_armed << " | " << w.parameter.doc
-      << " |\n";
+  for (const Parameter& p : e.registers.parameters) {
+    const auto at = std::find_if(e.words.begin(), e.words.end(),
+                                 [&](const Word& w) { return w.parameter.name == p.name; });
+    const bool built = at != e.words.end();
+    s << "| " << hex(p.address) << " | `" << p.name << "` | " << (p.scene.empty() ? "all" : p.scene)
+      << " | " << p.slot << " | " << (built ? format_text(at->format) : "") << " | " << p.unit
+      << " | " << (built ? fmt::format("{:.7g}", at->si) : "no such word") << " | " << p.while_armed
+      << " | " << p.doc << " |\n";
   }
   s << "\n## Control\n\n| address | name | bits | meaning |\n|---|---|---|---|\n";
   for (const Control& c : e.registers.controls) {

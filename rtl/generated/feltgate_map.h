@@ -316,7 +316,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_LINK_CAPTURE_ROWS 0x1029u  /* rows that hold a tick */
 
-/* X(name, NAME) for each parameter. */
+/* X(name, NAME) for each parameter that all designs have. */
 #define FELTGATE_PARAMETERS(X) \
   X(velocity_a1, VELOCITY_A1) \
   X(inverse_resistance, INVERSE_RESISTANCE) \

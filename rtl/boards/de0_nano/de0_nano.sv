@@ -83,6 +83,8 @@ module de0_nano #(
     .current_clock_o(CURRENT_CLOCK),
     .driver_fault_i(DRIVER_FAULT),
     .heartbeat_o(HEARTBEAT),
+    .gate_c_hi_o(),
+    .gate_c_lo_o(),
     .arm_i(arm),
     .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),

@@ -85,6 +85,8 @@ module tang_nano_9k #(
     .current_clock_o(current_clock),
     .driver_fault_i(!driver_fault_n),
     .heartbeat_o(heartbeat),
+    .gate_c_hi_o(),
+    .gate_c_lo_o(),
     .arm_i(arm),
     .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),

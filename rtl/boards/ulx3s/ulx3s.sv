@@ -39,7 +39,9 @@ module ulx3s #(
   input  logic       current_data, // modulator of the motor's current
   output logic       current_clock,
   input  logic       driver_fault_n, // low: the bridge's driver has a fault, or it is not plugged in
-  output logic       heartbeat   // to a watchdog outside
+  output logic       heartbeat,  // to a watchdog outside
+  output logic       gate_c_hi,  // third leg, of a motor with three phases
+  output logic       gate_c_lo
 );
 
   logic       clk, locked;
@@ -87,6 +89,8 @@ module ulx3s #(
     .current_clock_o(current_clock),
     .driver_fault_i(!driver_fault_n),
     .heartbeat_o(heartbeat),
+    .gate_c_hi_o(gate_c_hi),
+    .gate_c_lo_o(gate_c_lo),
     .arm_i(arm),
     .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),

@@ -38,7 +38,7 @@ GATE = 'IOBUF PORT "gate_a_hi" PULLMODE=DOWN'
 
 
 class Ulx3s(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 35, 19)
+    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 37, 21)
     WORDS = ("LOCATE COMP", "IOBUF PORT")
     MISTAKES = (
         ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"',
@@ -47,7 +47,7 @@ class Ulx3s(PinsTests, unittest.TestCase):
          "port enc_b is used 2"),
         ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "Z99"',
          "Z99, which is not in"),
-        ("lpf", 'LOCATE COMP "gate_a_hi"', 'LOCATE COMP "gate_c_hi"', "gate_c_hi is no port"),
+        ("lpf", 'LOCATE COMP "gate_a_hi"', 'LOCATE COMP "gate_d_hi"', "gate_d_hi is no port"),
         ("lpf", 'SITE "B15"', 'SITE "V1"', "is an output, btn[4] is not"),
         ("lpf", 'SITE "B11"', 'SITE "U1"', "use a header"),
         ("lpf", 'LOCATE COMP "sw[0]" SITE "E8"', 'LOCATE COMP "sw[0]" SITE "C6"',

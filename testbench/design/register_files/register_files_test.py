@@ -98,6 +98,8 @@ def truth(design):
     coefficient = numbers["COEFFICIENT_BITS"]
     for p in listed["parameter"]:
         name, kind = p["name"], p["kind"]
+        if p.get("option") == "three_phases" and numbers["PHASES"] != 3:
+            continue
         fraction = numbers.get(f"P_{name.upper()}_F")
         if kind == "signal":
             signal = p["format"].upper()
@@ -109,6 +111,7 @@ def truth(design):
                 "signed": (1, coefficient + 1, fraction),
                 "counts": (1, 26, 8),
                 "integer": (0, 31, 0),
+                "angle": (0, 32, 32),
             }[kind]
         address = p["slot"] + 32 * scenes[p["scene"]] if "scene" in p else p["slot"]
         words[name] = (address, True, True, [], form, p["unit"])
@@ -212,12 +215,14 @@ class RegisterFiles(Scratch):
             for c in register_map()[kind]:
                 number = 1 << c[key] if kind == "limit" else c[key]
                 row(f"FELTGATE_{prefix}{c['name'].upper()}", number)
+        # FELTGATE_PARAMETERS lists the words that every design has.
+        of_all = len(given) - sum("option" in p and p["name"] in given for p in register_map()["parameter"])
         source = Path(folder, "try.c")
         lines = "".join(f'  printf("%lu\\n", (unsigned long)({r}));\n' for r in rows)
         source.write_text(
             '#include <stdio.h>\n#include "feltgate.h"\nstatic volatile double zero;\n'
             "#define ONE(name, NAME) +1\nint main(void) {\n"
-            f"{lines}  return (0 FELTGATE_PARAMETERS(ONE)) - {len(given)};\n}}\n"
+            f"{lines}  return (0 FELTGATE_PARAMETERS(ONE)) - {of_all};\n}}\n"
         )
         strict = ["-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror", "-I", folder]
         program = Path(folder, "try")

@@ -39,6 +39,7 @@ BAD = (
     ("checks", "SCENE_DISTANCE_W", 36, "every_operand_but_a_difference_must_fit_32_bits"),
     ("checks", "P_TENSION_STIFFNESS_F", 25, "both_springs_must_have_one_format"),
     ("checks", "SCENE_GUARD_BITS", 0, "a_scenes_torque_must_hold_its_terms_and_fit_the_limiter"),
+    ("checks", "PHASES", 4, "PHASES_must_be_2_or_3"),
     ("checks", "CURRENT_ESTIMATE_W", 19, "CURRENT_ESTIMATE_must_fit_the_multiplier"),
     ("checks", "P_VELOCITY_A1_F", 0, "a_filters_product_must_have_the_bits_that_are_dropped"),
     ("checks", "P_DUTY_GAIN_F", -14, "a_product_of_torque_control_must_have_the_bits_that_are"),

@@ -17,6 +17,8 @@
 #include "feltgate/generated/lever_current.hpp"
 #elif defined(ABSOLUTE)
 #include "feltgate/generated/lever_absolute.hpp"
+#elif defined(GIMBAL_MOTOR)
+#include "feltgate/generated/gimbal_motor.hpp"
 #else
 #include "feltgate/generated/lever.hpp"
 #endif
@@ -29,6 +31,8 @@ using D = LeverLaw;
 using D = LeverCurrent;
 #elif defined(ABSOLUTE)
 using D = LeverAbsolute;
+#elif defined(GIMBAL_MOTOR)
+using D = GimbalMotor;
 #else
 using D = Lever;
 #endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_linked of a design with a current loop, or with an absolute encoder: RTL against twin on
-// every clock with a modulator and a winding, or a sensor, at its pins. What happens is judged in
-// plain numbers. Documentation: docs/blocks/feltgate_linked.md
+// feltgate_linked of a design with a current loop, with an absolute encoder, or with that and three
+// phases: RTL against twin on every clock with a modulator and a winding, or a sensor, at its pins.
+// What happens is judged in plain numbers. Documentation: docs/blocks/feltgate_linked.md
 #include <cmath>
 
 #include "catch.hpp"
@@ -29,7 +29,7 @@ struct When {
 struct Seen {
   When enabled, fault, current_clock, beat, select, serial, command;
   unsigned first_fault = 0;
-  std::int64_t modulator_clocks = 0, beats = 0;
+  std::int64_t modulator_clocks = 0, beats = 0, third_leg = 0;
   std::int32_t position = 0;
   double current_a = 0;  ///< measured, at the end; of 32 A
 };
@@ -37,6 +37,7 @@ struct Seen {
 struct Watch {
   Seen* seen;
   bool clock_was = false, beat_was = false, serial_was = false;
+  int third_was = 0;
   std::int64_t cycle = 0;
 
   const char* operator()(const LinkedIn&, const Vfeltgate_linked&, const Twin& twin, bool) {
@@ -52,6 +53,8 @@ struct Watch {
     clock_was = out.current_clock;
     beat_was = out.heartbeat;
     serial_was = (out.serial >> 1 & 1U) != 0;
+    if (out.gates >> 4 != third_was) ++seen->third_leg;
+    third_was = out.gates >> 4;
     seen->position = out.position;
     ++cycle;
     return nullptr;
@@ -200,7 +203,11 @@ TEST_CASE("sensors: the sensor's angle is the position") {
   CHECK(seen.position > counts - 1 - 5.0 * 0.2e-3 * 16384 / 6.2832);
   CHECK(kEnd - seen.select.last <= kPeriod);
   CHECK(kEnd - seen.serial.last <= kPeriod);
-  CHECK(kEnd - seen.command.last <= kPeriod);
+  if (D::absolute_framing == 0) CHECK(kEnd - seen.command.last <= kPeriod);
+  // Four changes in each period of the PWM, once armed; without such a leg none.
+  const double changes = 4.0 * static_cast<double>(kEnd - seen.enabled.first) / D::pwm_period;
+  CHECK(static_cast<double>(seen.third_leg) <= (D::phases == 3 ? changes + 8 : 0));
+  CHECK(static_cast<double>(seen.third_leg) >= (D::phases == 3 ? changes - 8 : 0));
 }
 
 TEST_CASE("sensors: a cable that is cut or grounded is a fault, and cannot be armed") {

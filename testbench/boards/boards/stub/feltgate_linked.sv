@@ -23,6 +23,8 @@ module feltgate_linked #(
   output logic        gate_a_lo_o,
   output logic        gate_b_hi_o,
   output logic        gate_b_lo_o,
+  output logic        gate_c_hi_o,
+  output logic        gate_c_lo_o,
   input  logic        encoder_data_i,
   output logic        encoder_select_no,
   output logic        encoder_clock_o,
@@ -68,6 +70,8 @@ module feltgate_linked #(
   assign gate_a_lo_o = enc_b_i;
   assign gate_b_hi_o = enc_z_i;
   assign gate_b_lo_o = scene_i == 4'd14;
+  assign gate_c_hi_o = enc_a_i && enc_z_i;
+  assign gate_c_lo_o = enc_b_i && enc_z_i;
   // Each output of the options shows an input of theirs, and no two the same of all three.
   assign encoder_select_no = !encoder_data_i;
   assign encoder_clock_o   = encoder_data_i;

@@ -28,8 +28,8 @@
   (* hierconn *) wire [31:0] \u_core.u_wave.u_multipliers.param_i ;
   (* hierconn *) wire [1:0] \u_core.u_actuation.u_torque_control.mode_i ;
   (* hierconn *) wire \u_core.u_safety.u_self_test.direct_i ;
-  (* hierconn *) wire \u_core.u_actuation.u_pwm.mode_i ;
-  (* hierconn *) wire \u_core.u_actuation.u_pwm.polarity_i ;
+  (* hierconn *) wire \u_core.u_actuation.g_two_legs.u_pwm.mode_i ;
+  (* hierconn *) wire \u_core.u_actuation.g_two_legs.u_pwm.polarity_i ;
   (* hierconn *) wire [3:0] \u_core.u_encoder.u_quad_decoder.filter_i ;
   (* hierconn *) wire \u_core.u_encoder.u_quad_decoder.polarity_i ;
   (* hierconn *) wire \u_core.u_encoder.u_quad_decoder.clear_error_i ;

@@ -312,9 +312,7 @@ Run add_calibrate(CLI::App& sub) {
       "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
       "do not say it, 3 the link broke down.");
-  sub.add_option("what", a->what,
-                 "encoder: the table of an absolute encoder, from a turn; align: pole pairs and "
-                 "offset of a motor with three phases")
+  sub.add_option("what", a->what, "encoder: an absolute encoder's table; align: three phases")
       ->type_name("encoder|align")
       ->check(CLI::IsMember({"encoder", "align"}));
   sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")

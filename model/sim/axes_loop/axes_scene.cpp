@@ -93,8 +93,8 @@ AxesScene read_axes_scene(const std::string& path,
   });
   for (const Event& e : scene.scenario.events) {
     if (!e.step_nm && !e.open_phase) continue;
-    throw config::ConfigError(fmt::format("{}:{}: {} is for scenes of one lever; leave it out", path,
-                                          e.line, e.step_nm ? "step_nm" : "open_phase"));
+    throw config::ConfigError(fmt::format("{}:{}: {} is for scenes of one lever; leave it out",
+                                          path, e.line, e.step_nm ? "step_nm" : "open_phase"));
   }
   const Scenario& s = scene.scenario;
   const int line = s.tracker ? s.tracker->line : s.rest_line > 0 ? s.rest_line : s.drag_line;

@@ -35,9 +35,7 @@ class DrivenPlant {
     return std::visit([](const auto& p) { return p.evaluations(); }, plant_);
   }
   /// Of a motor with three phases.
-  void open_phase(std::size_t phase) {
-    std::get<plant::ThreePhasePlant>(plant_).open_phase(phase);
-  }
+  void open_phase(std::size_t phase) { std::get<plant::ThreePhasePlant>(plant_).open_phase(phase); }
 
   /// Advances by `clocks`; the core's gates are those of its last `last` clocks.
   void advance(const Backend& core, Clock last, Clock clocks) {
@@ -66,9 +64,8 @@ class DrivenPlant {
     if (switched_) {
       const GateClocks g = core.gates();
       const double n = steps(last);
-      return plant::Bridge::gates(
-          static_cast<double>(g.a_hi) / n, static_cast<double>(g.a_lo) / n,
-          static_cast<double>(g.b_hi) / n, static_cast<double>(g.b_lo) / n);
+      return plant::Bridge::gates(static_cast<double>(g.a_hi) / n, static_cast<double>(g.a_lo) / n,
+                                  static_cast<double>(g.b_hi) / n, static_cast<double>(g.b_lo) / n);
     }
     if (core.duty() != duty_clocks_) {
       duty_clocks_ = core.duty();

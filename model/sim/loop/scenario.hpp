@@ -59,11 +59,11 @@ struct EffectSetting {
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
-  std::string plant;        ///< name of the plant file
+  std::string plant;         ///< name of the plant file
   bool plant_given = false;  ///< else a design may have another: choose_plant()
-  int step_clocks = 25;     ///< plant step in clocks
-  bool step_given = false;  ///< steps without events are not made longer
-  bool switched = false;    ///< gates drive the plant, instead of the mean duty
+  int step_clocks = 25;      ///< plant step in clocks
+  bool step_given = false;   ///< steps without events are not made longer
+  bool switched = false;     ///< gates drive the plant, instead of the mean duty
   std::string scene = "free";
   int scene_line = 0;  ///< line in the file; 0: not from a file
   std::string law;     ///< for the scene "law": a name in rtl/laws or a path; else empty

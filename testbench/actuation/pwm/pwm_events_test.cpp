@@ -34,7 +34,7 @@ std::uint8_t bits_of(const Pwm::Out& g) {
 /// Runs clock by clock and collects the same data as CoreGates.
 struct Clocked {
   Pwm pwm;
-  std::array<std::int64_t, 4> on{};
+  GateCounts on{};  ///< those of a third leg stay 0
 
   Clocked(int period, int dead) : pwm(period, dead) {}
   void clock(const Pwm::In& in) {
@@ -106,7 +106,7 @@ TEST_CASE("gates of the core: nothing is said to be quiet before the first clock
   CHECK(gates.quiet_for(0, false));
   CHECK(gates.clocks_to_duty() == Pwm(1000, 25).clocks_to_duty());
   CHECK(gates.bits() == 0);
-  CHECK(gates.on_clocks() == std::array<std::int64_t, 4>{});
+  CHECK(gates.on_clocks() == GateCounts{});
 }
 
 TEST_CASE("pwm: a skip is as many clocks, and no output changes on the way") {

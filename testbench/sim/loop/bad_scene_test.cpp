@@ -122,7 +122,7 @@ TEST_CASE("events that never come", "[bad_scene]") {
     return kHead + "[[event]]\nat_s = " + at + "\narm = true\n";
   };
   expect(told(kHead + "[[event]]\nat_s = 0.01\nset = {}\n"), "7: the event does nothing",
-         "give it set, scene, mode, arm, stop, encoder or step_nm");
+         "give it set, scene, mode, arm, stop, encoder, open_phase or step_nm");
   for (const char* late : {"1e12", "1e300", "0.02", "0.03"}) {
     expect(told(event(late)), "7: the event at ", "move the event, or raise duration_s");
   }

@@ -318,9 +318,9 @@ Run add_calibrate(CLI::App& sub) {
       "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
       "do not say it, 3 the link broke down.");
-  sub.add_option("what", a->what,
-                 "encoder: a table, from a turn; cogging: a law, from a slow turn; align: pole "
-                 "pairs and offset of three phases")
+  sub.add_option(
+         "what", a->what,
+         "encoder: a table, from a turn; cogging: a law, from a slow turn; align: three phases")
       ->type_name("encoder|cogging|align")
       ->check(CLI::IsMember({"encoder", "cogging", "align"}));
   sub.add_option("--slow-turn", a->slow_turn, "of cogging: write the law that turns the lever")

@@ -152,7 +152,10 @@ Clock PlaneHost::next() const {
 }
 
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, Vec3 pen_m) {
-  const Plane plane = nearest_plane(world, pen_m);
+  return plane_words(world, nearest_plane(world, pen_m), pen_m);
+}
+std::map<std::string, double> plane_words(const PlaneHostSettings& world, const Plane& plane,
+                                          Vec3 pen_m) {
   std::map<std::string, double> words;
   if (world.sends_force) {
     add_words(words, "force", spring_force(world, plane, pen_m), world.axes);
@@ -171,8 +174,8 @@ std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
     const double late = settings_.latency_s + settings_.jitter_s * random_.uniform();
     // The first update is never lost: before it there is no world.
     const bool lost = random_.uniform() < settings_.lost && samples_ > 0;
-    Update u{now, now + std::llround(late * clock_hz_), nearest_plane(settings_, counted_m),
-             counted_m};
+    last_ = settings_.search ? settings_.search(counted_m) : nearest_plane(settings_, counted_m);
+    Update u{now, now + std::llround(late * clock_hz_), last_, counted_m};
     // An update that would arrive before older ones replaces them.
     while (!lost && !under_way_.empty() && under_way_.back().at >= u.at) under_way_.pop_back();
     lost_ += lost ? 1 : 0;
@@ -184,7 +187,7 @@ std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
     if (!before_) before_ = now_;
     now_ = under_way_.front();
     ++arrived_;
-    arriving = plane_words(settings_, now_->pen_m);
+    arriving = plane_words(settings_, now_->plane, now_->pen_m);
   }
   return arriving;
 }
@@ -201,7 +204,8 @@ void PlaneHost::add(Clock now, Vec3 pen_m, std::vector<double>& row) {
     row.insert(row.end(), names(settings_.axes).size(), 0.0);
     return;
   }
-  const Vec3 is = now_->plane.normal, should = nearest_plane(settings_, pen_m).normal;
+  const Vec3 is = now_->plane.normal;
+  const Vec3 should = (settings_.search ? last_ : nearest_plane(settings_, pen_m)).normal;
   double step_n = 0;
   if (before_) {
     const auto force = [&](const Update& u) {

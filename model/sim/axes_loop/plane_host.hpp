@@ -8,6 +8,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -21,6 +22,11 @@
 #include "sim/plant/rotation.hpp"
 
 namespace feltgate {
+
+/// A plane: one of its points, and its normal of length 1, which points out of the material.
+struct Plane {
+  plant::Vec3 point_m, normal;
+};
 
 /// [plane] of a scene file. With two axes z is always 0.
 struct PlaneHostSettings {
@@ -42,20 +48,21 @@ struct PlaneHostSettings {
   double lost = 0;       ///< share of the planes that are lost
   std::uint64_t seed = 1;
   int line = 0;  ///< line in the file
+  /// A world of its own in place of `world`, no part of a file: called once for each pose that the
+  /// host takes, in order.
+  std::function<Plane(plant::Vec3 pen_m)> search;
 };
 
 /// Reads [plane] for a device with `axes` axes. Errors: config::ConfigError.
 PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
 
-/// A plane: one of its points, and its normal of length 1, which points out of the material.
-struct Plane {
-  plant::Vec3 point_m, normal;
-};
-
 /// The plane that touches the world at the point nearest to the pen.
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// What the host sends of a pose, by the names of the law's mailboxes.
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, plant::Vec3 pen_m);
+/// The same for a plane that is already found.
+std::map<std::string, double> plane_words(const PlaneHostSettings& world, const Plane& plane,
+                                          plant::Vec3 pen_m);
 /// Force of the spring behind a plane, N.
 plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
 
@@ -81,7 +88,8 @@ class PlaneHost {
 
   static std::vector<std::string> names(int axes);
   /// Appends the values of names(): the normal in force; its angle from the world's normal at the
-  /// pen (signed as a turn about z if there are two axes); the age of the pose behind it; the
+  /// pen, or from that of the last search (signed as a turn about z if there are two axes); the age
+  /// of the pose behind it; the
   /// change of the spring's force by an update, in the first row after it, else 0.
   void add(Clock now, plant::Vec3 pen_m, std::vector<double>& row);
   void add_figures(std::map<std::string, double>& figures) const;
@@ -101,6 +109,7 @@ class PlaneHost {
   Clock next_sample_ = 0;
   std::deque<Update> under_way_;  ///< in order of arrival
   std::optional<Update> now_, before_;
+  Plane last_;  ///< of the last pose, arrived or not
 };
 
 }  // namespace feltgate

@@ -51,8 +51,8 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
                       double scale) {
   constexpr std::size_t most_shown = 8;
   const touch::MeshReport& r = mesh.report;
-  std::string s = fmt::format("{}: {} primitives, {} triangles, {} vertices; ", a.glb,
-                              soup.primitives, r.triangles_read, r.vertices_read);
+  std::string s = fmt::format("{}: {} triangles of {} primitives, {} vertices; ", a.glb,
+                              r.triangles_read, soup.primitives, r.vertices_read);
   s += a.as_is ? "as in the file\n"
                : fmt::format("scaled by {:.4g} to {:.1f} mm\n", scale, 1e3 * a.size_m);
   if (soup.not_triangles > 0)
@@ -291,6 +291,7 @@ void add_options(CLI::App& sub, TouchArguments& a) {
   CLI::Option* centre =
       sub.add_option("--centre", a.centre_m, "its middle, m; x to the right, y away, z up")
           ->type_name("X Y Z")
+          ->transform(checks::number(-touch::reach_m, touch::reach_m, "m"))
           ->capture_default_str();
   sub.add_flag("--as-is", a.as_is, "size and place as in the file, in metres")
       ->excludes(size)

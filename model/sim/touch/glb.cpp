@@ -338,7 +338,7 @@ double place(Soup& soup, const Placing& placing) {
   const Vec3 from = moves ? placing.centre_m - 0.5 * scale * side : low;
   const Vec3 to = moves ? placing.centre_m + 0.5 * scale * side : high;
   const double farthest_m = std::max({-from.x, -from.y, -from.z, to.x, to.y, to.z});
-  if (farthest_m > reach_m) {
+  if (!(farthest_m <= reach_m)) {
     refuse(
         fmt::format("the mesh reaches {:.3g} m from the middle and the pen {} m; make it smaller "
                     "with --size, or move it with --centre",

@@ -4,6 +4,7 @@
 // feltgate touch, a program of its own: nobody else waits for what reads meshes. Documentation:
 // docs/touch.md
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,7 @@ using plant::Vec3;
 
 struct TouchArguments {
   std::string glb, stroke, engine = "twin,double", json, csv;
+  std::vector<std::string> materials;
   double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0;
   std::array<double, 3> centre_m{};
   double stiffness = 300, damping = 0, drag = 0;
@@ -65,6 +67,8 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
   s += fmt::format(
       "  edges: {} at a border, {} of more than two faces, {} between inverted faces ({} turned)\n",
       r.border_edges, r.nonmanifold_edges, r.inverted_edges, r.turned);
+  if (mesh.materials.size() > 1)
+    s += fmt::format("  materials: {}\n", fmt::join(mesh.materials, ", "));
   for (std::size_t n = 0; n < r.components.size() && n < most_shown; ++n) {
     const touch::Component& c = r.components[n];
     s += fmt::format("  component {}: V - E + F = {} - {} + {} = {}, {}\n", n, c.vertices, c.edges,
@@ -207,6 +211,31 @@ void write_rows(std::FILE* to, const touch::TouchRun& run) {
   }
 }
 
+/// NAME=STIFFNESS,DAMPING,DRAG of a material of the mesh. Errors: std::invalid_argument.
+std::pair<std::string, PlaneMaterial> material_of(const std::string& text,
+                                                  const touch::Mesh& mesh) {
+  const std::size_t equals = text.rfind('=');
+  const std::string name = text.substr(0, equals);
+  if (std::find(mesh.materials.begin(), mesh.materials.end(), name) == mesh.materials.end()) {
+    throw std::invalid_argument(fmt::format("--material: the mesh has no material {}; it has {}",
+                                            name, fmt::join(mesh.materials, ", ")));
+  }
+  const std::vector<std::string> words =
+      CLI::detail::split(equals == std::string::npos ? "" : text.substr(equals + 1), ',');
+  constexpr double most[] = {1000, 2, 2};
+  double value[3] = {};
+  for (std::size_t n = 0; n < 3; ++n) {
+    if (words.size() != 3 || !CLI::detail::lexical_cast(words[n], value[n]) ||
+        !(value[n] >= 0 && value[n] <= most[n])) {
+      throw std::invalid_argument(
+          fmt::format("--material {}: not NAME=STIFFNESS,DAMPING,DRAG up to 1000 N/m, 2 N s/m and "
+                      "2; write {}=300,0,0",
+                      text, name));
+    }
+  }
+  return {name, {value[0], value[1], value[2]}};
+}
+
 touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh) {
   touch::TouchRequest r;
   r.proxy.friction = a.friction;
@@ -218,6 +247,7 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   r.host.latency_s = a.latency_s;
   r.host.jitter_s = a.jitter_s;
   r.host.lost = a.lost;
+  for (const std::string& text : a.materials) r.materials.insert(material_of(text, mesh));
   r.stroke = a.stroke.empty()
                  ? touch::stroke_over(mesh, touch::TriangleTree(mesh), a.depth_m, a.speed_m_s)
                  : touch::read_stroke(a.stroke);
@@ -311,6 +341,9 @@ void add_options(CLI::App& sub, TouchArguments& a) {
   amount("--damping", a.damping, "of the push", checks::number(0, 2, "N s/m"), "NS/M");
   amount("--drag", a.drag, "friction of the law: against the speed, at 100 kHz",
          checks::number(0, 2, ""), "MU");
+  sub.add_option("--material", a.materials,
+                 "stiffness, damping and drag of the parts of one material; repeat it")
+      ->type_name("NAME=N/M,NS/M,MU");
   amount("--friction", a.friction, "friction of the proxy: it stays within the cone, by the host",
          checks::number(0, 2, ""), "MU");
   sub.add_flag("--shading", a.shading, "normals between the corners', so that facets feel round");

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "feltgate/encoder_source.hpp"
@@ -28,8 +29,13 @@ struct Plane {
   plant::Vec3 point_m, normal;
 };
 
+/// What a plane is made of.
+struct PlaneMaterial {
+  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;
+};
+
 /// [plane] of a scene file. With two axes z is always 0.
-struct PlaneHostSettings {
+struct PlaneHostSettings : PlaneMaterial {
   enum class World {
     kFloor,  ///< through `centre_m`; normal +y for two axes, +z for three
     kDisc,   ///< felt from outside, like all that follow
@@ -40,8 +46,7 @@ struct PlaneHostSettings {
   bool sends_force = false;  ///< sends the force instead of the plane: one word per axis
   World world = World::kFloor;
   plant::Vec3 centre_m;
-  double radius_m = 0;                                       ///< for a cube: half its edge
-  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;  ///< of the material
+  double radius_m = 0;  ///< for a cube: half its edge
   double rate_hz = 1000;
   double latency_s = 0;  ///< shortest time from a pose to its plane in the mailbox
   double jitter_s = 0;   ///< largest additional time, uniformly distributed
@@ -50,7 +55,7 @@ struct PlaneHostSettings {
   int line = 0;  ///< line in the file
   /// A world of its own in place of `world`, no part of a file: called once for each pose that the
   /// host takes, in order.
-  std::function<Plane(plant::Vec3 pen_m)> search;
+  std::function<std::pair<Plane, PlaneMaterial>(plant::Vec3 pen_m)> search;
 };
 
 /// Reads [plane] for a device with `axes` axes. Errors: config::ConfigError.
@@ -60,11 +65,8 @@ PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// What the host sends of a pose, by the names of the law's mailboxes.
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, plant::Vec3 pen_m);
-/// The same for a plane that is already found.
-std::map<std::string, double> plane_words(const PlaneHostSettings& world, const Plane& plane,
-                                          plant::Vec3 pen_m);
 /// Force of the spring behind a plane, N.
-plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
+plant::Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, plant::Vec3 pen_m);
 
 /// The host in a run: takes poses, sends updates late, counts the lost ones.
 class PlaneHost {
@@ -98,6 +100,7 @@ class PlaneHost {
   struct Update {
     Clock sampled = 0, at = 0;
     Plane plane;
+    PlaneMaterial material;
     plant::Vec3 pen_m;
   };
   Clock clock_of(std::int64_t sample) const;

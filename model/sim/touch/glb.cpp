@@ -228,6 +228,20 @@ class Reader {
       if (n >= places.count()) refuse(fmt::format("index {} of {} vertices", n, places.count()));
     }
     connect(p.mode, order, static_cast<std::uint32_t>(first), here.mirrors());
+    soup_.parts.resize(soup_.triangles.size(), part_of(p.material));
+  }
+
+  /// The place of a material by its name; materials of one name are one.
+  std::uint32_t part_of(int material) {
+    std::string name = "none";
+    if (material >= 0 && static_cast<std::size_t>(material) < model_.materials.size()) {
+      name = model_.materials[static_cast<std::size_t>(material)].name;
+      if (name.empty()) name = fmt::format("material{}", material);
+    }
+    auto& all = soup_.materials;
+    const auto at = std::find(all.begin(), all.end(), name);
+    if (at == all.end()) all.push_back(name);
+    return static_cast<std::uint32_t>(std::find(all.begin(), all.end(), name) - all.begin());
   }
 
   void connect(int mode, const std::vector<std::uint32_t>& order, std::uint32_t first,

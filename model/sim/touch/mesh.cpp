@@ -132,7 +132,8 @@ void drop_degenerate(Mesh& mesh, const Soup& soup, double within) {
   std::vector<std::uint32_t> now(soup.at.size(), std::numeric_limits<std::uint32_t>::max());
   std::set<Triangle> known;
   std::int64_t used = 0;
-  for (const Triangle& read : soup.triangles) {
+  for (std::size_t k = 0; k < soup.triangles.size(); ++k) {
+    const Triangle& read = soup.triangles[k];
     Triangle t{};
     for (std::size_t n = 0; n < 3; ++n) {
       std::uint32_t& to = now[read[n]];
@@ -152,6 +153,7 @@ void drop_degenerate(Mesh& mesh, const Soup& soup, double within) {
       ++mesh.report.duplicates;
     } else {
       mesh.triangles.push_back(t);
+      mesh.parts.push_back(k < soup.parts.size() ? soup.parts[k] : 0);
     }
   }
   mesh.at = std::move(welder.at);
@@ -312,6 +314,7 @@ Mesh clean(const Soup& soup, double crease_rad) {
   }
   if (!(largest > 0)) throw std::invalid_argument("the mesh has no extent");
   Mesh mesh;
+  mesh.materials = soup.materials;
   drop_degenerate(mesh, soup, 1e-6 * largest);
   if (mesh.triangles.empty()) throw std::invalid_argument("the mesh has no triangle with an area");
   const Edges edges(mesh.triangles);

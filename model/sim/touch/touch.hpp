@@ -24,6 +24,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct Soup {
   std::vector<Vec3> at;
   std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> parts;  ///< of each triangle: its place in `materials`
+  std::vector<std::string> materials;
   std::int64_t primitives = 0, not_triangles = 0;  ///< primitives read; points and lines left out
   std::int64_t skins = 0;                          ///< nodes whose skin is left out: rest pose
 };
@@ -71,7 +73,9 @@ struct MeshReport {
 /// A mesh to touch.
 struct Mesh {
   std::vector<Vec3> at;
-  std::vector<Triangle> triangles;  ///< of one side in each component, where that is possible
+  std::vector<Triangle> triangles;   ///< of one side in each component, where that is possible
+  std::vector<std::uint32_t> parts;  ///< of each triangle: its place in `materials`
+  std::vector<std::string> materials;
   std::vector<std::array<Vec3, 3>> normals;  ///< at the corners, smooth below the crease
   MeshReport report;
 };

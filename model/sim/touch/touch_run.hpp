@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -124,6 +126,7 @@ inline Stroke read_stroke(const std::string& path) {
 struct TouchRequest {
   ProxySettings proxy;
   PlaneHostSettings host;
+  std::map<std::string, PlaneMaterial> materials;  ///< of parts that have one of their own, by name
   Stroke stroke;
 };
 
@@ -171,13 +174,18 @@ inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesSce
   proxy.begin(request.stroke.front().at_m);
   PlaneHostSettings host = request.host;
   host.axes = 3;
+  std::vector<PlaneMaterial> materials(std::max<std::size_t>(1, mesh.materials.size()), host);
+  for (std::size_t n = 0; n < mesh.materials.size(); ++n) {
+    const auto own = request.materials.find(mesh.materials[n]);
+    if (own != request.materials.end()) materials[n] = own->second;
+  }
   host.search = [&](Vec3 pen_m) {
     const auto from = std::chrono::steady_clock::now();
     const Touched t = proxy.move(pen_m);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
     run.updates.push_back(
         {static_cast<double>(run.updates.size()) / host.rate_hz, pen_m, t, took.count()});
-    return Plane{t.point_m, t.normal};
+    return std::pair{Plane{t.point_m, t.normal}, materials[mesh.parts[t.triangle]]};
   };
   auto& setup = std::get<StylusSetup>(scene.device);
   const double capstan_m = setup.parameters.lever.lever.radius_m;

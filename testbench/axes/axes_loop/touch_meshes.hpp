@@ -21,6 +21,10 @@ namespace feltgate::test {
 using plant::Vec3;
 using touch::Soup;
 
+inline double angle_rad(Vec3 a, Vec3 b) {
+  return std::atan2(plant::length(plant::cross(a, b)), plant::dot(a, b));
+}
+
 /// An icosahedron, each face split into four, `times` times; 20 * 4^times faces, corners on the
 /// sphere.
 inline Soup icosphere(double radius_m, int times) {

@@ -2,18 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The proxy on meshes: queries against a look at all triangles, strokes at thin sheets, closed
-// forms of cube, friction and ball; and the ball under the stylus in closed loop, RTL and twin.
+// forms of cube, friction and ball.
 // Documentation: docs/touch.md
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
-#include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "feltgate/random.hpp"
-#include "sim/touch/touch_run.hpp"
 #include "touch_meshes.hpp"
 
 using namespace feltgate;
@@ -37,7 +33,6 @@ Vec3 direction(SplitMix64& random) {
     if (length(v) > 0.1 && length(v) < 1) return 1 / length(v) * v;
   }
 }
-double angle_rad(Vec3 a, Vec3 b) { return std::atan2(length(plant::cross(a, b)), dot(a, b)); }
 
 /// The nearest point of a segment and of a triangle by search, not by cases: thirds of intervals.
 double to_segment_m(Vec3 p, Vec3 a, Vec3 b) {
@@ -289,110 +284,4 @@ TEST_CASE("touch: on a ball of 1280 faces the normals are within a facet's angle
   CHECK(off_rad[0] <= facet_rad + 1e-6);
   CHECK(off_rad[0] > 0.5 * facet_rad);
   CHECK(off_rad[1] < 0.2 * facet_rad);
-}
-
-namespace {
-
-/// From above onto a ball of 30 mm, then 0.2 m/s on a great circle that leans by 30 degrees, 2 mm
-/// below the sphere; 7.14 rad/s.
-touch::Stroke around_ball(double until_s) {
-  touch::Stroke stroke;
-  const auto at = [](double radius_m, double turn_rad) {
-    const double out = radius_m * std::cos(turn_rad);
-    return Vec3{std::cos(0.5236) * out, std::sin(0.5236) * out, radius_m * std::sin(turn_rad)};
-  };
-  stroke.push_back({0, at(0.033, 0.7)});
-  for (int n = 0; 0.015 + n * 1e-3 <= until_s; ++n) {
-    stroke.push_back({0.015 + n * 1e-3, at(0.028, 0.7 + 7.142857e-3 * n)});
-  }
-  return stroke;
-}
-
-touch::TouchRun run_ball(const Mesh& mesh, const std::string& engine, double until_s,
-                         bool shading) {
-  touch::TouchRequest request;
-  request.proxy.shading = shading;
-  request.host.stiffness_n_m = 300;
-  request.host.latency_s = request.host.jitter_s = 1e-3;
-  request.stroke = around_ball(until_s);
-  const AxesScene scene = scene_named("stylus_cube");
-  const AxesDesignMakers* made = find_axes_design("stylus_law");
-  REQUIRE(made != nullptr);
-  const auto law =
-      make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/local_space.law", made->info(), 3);
-  AxesRunOptions options;
-  options.design = "stylus_law";
-  options.engine = engine;
-  options.law = law.get();
-  return touch::run_touch(mesh, request, scene, options, made->info().tick_hz);
-}
-
-}  // namespace
-
-TEST_CASE("touch: the stylus feels the ball of facets as the sphere says, in closed loop") {
-  const Mesh ball = touch::clean(icosphere(0.03, 3));
-  constexpr double facet_rad = 0.0953, flat_m = 0.137e-3;  // 30 mm (1 - cos) of a facet
-  for (const bool shading : {false, true}) {
-    const touch::TouchRun run = run_ball(ball, "twin,double", 0.1, shading);
-    CHECK(run.result.broken.empty());
-    CHECK(run.result.figures.at("faults") == 0);
-    CHECK(run.result.figures.at("plane_age_s.max") < 3.1e-3);
-    double least_n = 1, most_n = 0, off_rad = 0;
-    for (const touch::TouchRow& row : run.rows) {
-      if (row.time_s < 0.025) continue;
-      least_n = std::min(least_n, length(row.force_n));
-      most_n = std::max(most_n, length(row.force_n));
-      off_rad = std::max(off_rad, angle_rad(row.force_n, row.pen_m));
-    }
-    INFO(least_n << " " << most_n << " " << off_rad);
-    // A plane turns from the pen by 7.14 rad/s for 3.1 ms; the pen is counted to 15 um along each
-    // axis, which is 0.9 mrad of the way out.
-    const double old_rad = 7.143 * 3.1e-3 + 1e-3;
-    CHECK(off_rad < (shading ? 0.2 : 1) * facet_rad + old_rad);
-    CHECK(off_rad > 0.01);
-    const double counts_m = 27e-6, old_m = 28e-3 * old_rad * old_rad / 2;
-    // A facet that the pen has left is higher beyond its edge.
-    const double beyond_m = 28e-3 * old_rad * 2 * facet_rad;
-    CHECK(least_n > 300 * (2e-3 - flat_m - counts_m));
-    CHECK(most_n < 300 * (2e-3 + old_m + counts_m + beyond_m));
-  }
-}
-
-TEST_CASE("touch: the ball in closed loop, RTL and twin in every clock", "[lockstep]") {
-  const touch::TouchRun run = run_ball(touch::clean(icosphere(0.03, 3)), "all", 0.04, true);
-  CHECK(run.result.lock_step);
-  CHECK(run.result.mismatches == 0);
-  CHECK(run.result.clocks > 1'900'000);
-  CHECK(run.result.broken.empty());
-  CHECK(run.result.figures.at("tau_ref_nm.0.max") > 1e-3);
-}
-
-TEST_CASE("touch: a stroke over a mesh goes over its top; one of a file is refused with its line") {
-  const Mesh ring = touch::clean(torus(0.02, 0.008, 24));
-  const touch::Stroke over = touch::stroke_over(ring, touch::TriangleTree(ring), 2e-3, 0.1);
-  for (std::size_t n = 2; n + 1 < over.size(); ++n) {
-    // 2 mm below the circle of the tube, less a facet; over the hole not lower than its equator.
-    const Vec3 at = over[n].at_m;
-    const double out = std::abs(at.x) - 0.02;
-    const double top_m = std::abs(out) < 0.008 ? std::sqrt(0.008 * 0.008 - out * out) : 0;
-    if (at.x * at.x > 0.013 * 0.013) CHECK(at.z == Approx(top_m - 2e-3).margin(3e-4));
-    CHECK(plant::length(at - over[n - 1].at_m) / (over[n].time_s - over[n - 1].time_s) ==
-          Approx(0.1));
-  }
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "feltgate_stroke.csv").string();
-  const auto told = [&](const std::string& rows) {
-    std::ofstream(path) << "time_s,x_m,y_m,z_m\n" << rows;
-    try {
-      return std::to_string(touch::read_stroke(path).size());
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what()).substr(path.size());
-    }
-  };
-  CHECK(told("1,0,0,0.1\n1.5,0.01,0,0.1\r\n") == "2");
-  CHECK(told("1,0,0,0.1\n1.5,0.01,0,nan\n").find(":3: not four numbers") == 0);
-  CHECK(told("1,0,0,0.1\n1.5,0.01,0\n").find(":3: not four numbers") == 0);
-  CHECK(told("1,0,0,0.1\n1,0.01,0,0\n").find(":3: time does not go on") == 0);
-  CHECK(told("1,0,0,0.3\n").find(":2: beyond the pen's") == 0);
-  CHECK(told("1,0,0,0.1\n").find(":2: fewer than two rows") == 0);
 }

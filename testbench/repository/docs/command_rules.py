@@ -81,6 +81,7 @@ RULES = (
         r"feltgate (?:explore|synth|prove|product|page|mutate|faults|coverage|demo|figures)",
         "PARSED",
     ),
+    Rule(r"feltgate touch", "BY", "touch_test"),
     Rule(r"feltgate board", "BY", "board.host"),
     Rule(r"feltgate host .*(?:calibrate|identify)", "BY", "calibrate.verbs"),
     Rule(r"feltgate host .*(?: law|/tmp/knob|events)", "BY", "host.laws"),

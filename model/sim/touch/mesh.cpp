@@ -259,6 +259,9 @@ void count_components(Mesh& mesh, const Edges& edges, const std::vector<bool>& t
   for (const auto& [vertex, part] : borders) {
     if (loops.of(vertex) == vertex) ++found[part].border_loops;
   }
+  for (std::size_t t = 0; t < faces; ++t) {
+    mesh.closed.push_back(found[parts.of(t)].border_loops == 0);
+  }
   for (auto& [part, c] : found) {
     if (c.border_loops > 0) c.volume_m3 = 0;
     mesh.report.components.push_back(c);
@@ -333,7 +336,9 @@ Mesh clean(const Soup& soup, double crease_rad) {
 
 double winding(const Mesh& mesh, Vec3 at) {
   double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
+  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+    if (!mesh.closed[n]) continue;
+    const Triangle& t = mesh.triangles[n];
     const Vec3 a = mesh.at[t[0]] - at, b = mesh.at[t[1]] - at, c = mesh.at[t[2]] - at;
     const double la = length(a), lb = length(b), lc = length(c);
     // Half the solid angle: van Oosterom and Strackee, 1983.

@@ -76,6 +76,7 @@ struct Mesh {
   std::vector<Triangle> triangles;   ///< of one side in each component, where that is possible
   std::vector<std::uint32_t> parts;  ///< of each triangle: its place in `materials`
   std::vector<std::string> materials;
+  std::vector<bool> closed;                  ///< whether each triangle's component is
   std::vector<std::array<Vec3, 3>> normals;  ///< at the corners, smooth below the crease
   MeshReport report;
 };
@@ -85,8 +86,8 @@ struct Mesh {
 /// where nothing is left.
 Mesh clean(const Soup& soup, double crease_rad = 0.7);
 
-/// How often the mesh winds around a point: 1 inside of a closed one that looks outwards, -1 where
-/// it looks inwards, 0 outside.
+/// How often the closed components wind around a point: 1 inside of one that looks outwards, -1
+/// where it looks inwards, 0 outside.
 double winding(const Mesh& mesh, Vec3 at);
 
 /// The point of a triangle that is nearest to another point.

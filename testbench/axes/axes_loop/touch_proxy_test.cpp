@@ -83,6 +83,10 @@ TEST_CASE("touch: the tree finds what a look at all triangles finds") {
       for (int k = 0; k <= 20; ++k)
         CHECK(to_mesh_m(mesh, p + k / 20.0 * share * way) > 0.998 * radius_m);
       if (share < 1) CHECK(to_mesh_m(mesh, p + share * way) < 1.002 * radius_m);
+      // Straight to the nearest place, not all the way: it stops where it touches.
+      const Vec3 at_it = (1 - 0.5 * radius_m / near.distance_m) * (near.point_m - p);
+      const double straight = tree.free_way(p, at_it, radius_m);
+      CHECK(straight * length(at_it) == Approx(near.distance_m - radius_m).margin(2e-3 * radius_m));
     }
   }
 }
@@ -213,6 +217,34 @@ TEST_CASE("touch: on a cube the proxy is where faces, edges and corners say") {
   CHECK(angle_rad(corner.normal, {1, 2, 3}) < 1e-9);
   CHECK_THROWS_WITH(proxy.begin({0.001, 0, 0}), Catch::Contains("inside"));
   CHECK_THROWS_WITH(proxy.begin({0, 0, half}), Catch::Contains("on the mesh"));
+}
+
+TEST_CASE("touch: in a groove of 60 degrees the proxy is nearest to the pen, not stuck to a wall") {
+  // Above z = sqrt(3) |x| all is free: of a convex room the proxy is the nearest point.
+  const double steep = std::sqrt(3.0);
+  const Mesh groove = touch::clean(grid(2, 4, [&](double u, double v) {
+    const double x = 0.06 * (u - 0.5);
+    return Vec3{x, 0.2 * (v - 0.5), steep * std::abs(x)};
+  }));
+  Proxy proxy(groove, {});
+  proxy.begin({0, 0, 0.03});
+  SplitMix64 random(17);
+  int at_bottom = 0, at_wall = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const Vec3 pen{random.between(-0.02, 0.02), random.between(-0.02, 0.02),
+                   random.between(-0.02, 0.03)};
+    const Touched t = proxy.move(pen);
+    // Along the wall on the pen's side, (1, sqrt(3)) / 2; below 0 the bottom is nearest.
+    const double along_m = std::max(0.0, 0.5 * (std::abs(pen.x) + steep * pen.z));
+    const bool free = pen.z >= steep * std::abs(pen.x);
+    const double side = pen.x < 0 ? -0.5 : 0.5;
+    const Vec3 should = free ? pen : Vec3{side * along_m, pen.y, 0.5 * steep * along_m};
+    at_bottom += !free && along_m == 0 ? 1 : 0;
+    at_wall += !free && along_m > 0 ? 1 : 0;
+    // The ball's middle is up to two radii off the bottom.
+    CHECK(length(t.proxy_m - should) < 21e-6);
+  }
+  CHECK((at_bottom > 500 && at_wall > 500));
 }
 
 TEST_CASE("touch: the friction cone holds the proxy, and lets it follow at its edge") {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Meshes of GLB files: import, what is refused, edges, components and genus; and meshes under the
-// stylus in closed loop, RTL and twin.
-// Documentation: docs/touch.md
+// Meshes of GLB files: import, what is refused, edges, components, genus; and under the stylus in
+// closed loop, RTL and twin. Documentation: docs/touch.md
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -83,6 +82,40 @@ TEST_CASE("touch: a GLB file comes into the device's frame by its nodes' transfo
   CHECK(placed.at[7].z - 0.03 == Approx(0.5 * cube.at[7].z));
   placing.size_m = 0.6;
   CHECK_THROWS_WITH(touch::place(placed, placing), Catch::Contains("--size"));
+}
+
+TEST_CASE(
+    "touch: strips, fans, lists without indices, small indices and interleaved data are read") {
+  // A square of glTF's z = 0 that looks at the one who sees it, corners with 12 bytes between them;
+  // then indices of 16 bits for a strip and of 8 bits for a fan.
+  std::string binary;
+  for (const auto& [x, y] : {std::pair{0.F, 0.F}, {1.F, 0.F}, {0.F, 1.F}, {1.F, 1.F}}) {
+    for (const float v : {x, y, 0.F, 9.F, 9.F, 9.F}) append(binary, v);
+  }
+  for (const int n : {0, 1, 2, 3}) append(binary, static_cast<std::uint16_t>(n));
+  binary += std::string("\0\1\3\2", 4);
+  const auto told_of = [&](const std::string& primitive) {
+    const std::string path = temporary("feltgate_touch_kinds.glb");
+    write_file(
+        path,
+        glb_of(
+            R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},)" +
+                primitive +
+                R"(}]}],"buffers":[{"byteLength":108}],"bufferViews":[{"buffer":0,"byteLength":96,"byteStride":24},)"
+                R"({"buffer":0,"byteOffset":96,"byteLength":8},{"buffer":0,"byteOffset":104,"byteLength":4}],"accessors":[)"
+                R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":4},{"bufferView":1,"componentType":5123,"type":"SCALAR","count":4},)"
+                R"({"bufferView":2,"componentType":5121,"type":"SCALAR","count":4}]})",
+            binary));
+    const Soup s = touch::read_glb(path);
+    Vec3 area{};
+    for (const auto& f : s.triangles)
+      area = area + 0.5 * plant::cross(s.at[f[1]] - s.at[f[0]], s.at[f[2]] - s.at[f[0]]);
+    return std::pair{s.triangles.size(), area.y};
+  };
+  // glTF's z is the device's -y; the whole square is seen from there.
+  CHECK(told_of(R"("indices":1,"mode":5)") == std::pair<std::size_t, double>{2, -1});
+  CHECK(told_of(R"("indices":2,"mode":6)") == std::pair<std::size_t, double>{2, -1});
+  CHECK(told_of(R"("mode":4)") == std::pair<std::size_t, double>{1, -0.5});
 }
 
 TEST_CASE("touch: a file that is broken, empty, huge or not alone is refused in one line") {

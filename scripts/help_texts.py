@@ -4,7 +4,7 @@
 """docs/commands.md: what --help prints, so that ./feltgate can print it before anything is built.
 
   ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes \\
-    feltgate_host feltgate_board && scripts/help_texts.py --write
+    feltgate_host feltgate_board feltgate_touch && scripts/help_texts.py --write
 """
 
 import argparse
@@ -56,6 +56,7 @@ def commands(build):
     own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
     programs = ("bench", "extremes", "host", "board")
     own |= {name: [build / f"feltgate_{name}"] for name in programs}
+    own["touch"] = [build / "feltgate_touch", "touch"]
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
     found["mutate --twin"] = [*own["mutate"], "--twin"]
     for verb in host_verbs():

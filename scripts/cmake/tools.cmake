@@ -137,6 +137,12 @@ target_compile_options(feltgate_shape PRIVATE -O1)
 find_package(PNG REQUIRED)
 feltgate_library(feltgate_texture studies/texture feltgate_shape PNG::PNG)
 
+# Meshes under the pen: docs/touch.md. Linked by name, as SystemC is: only who builds them needs TinyGLTF.
+feltgate_library(feltgate_mesh sim/touch EXCEPT "/touch_run" feltgate_model)
+target_link_libraries(feltgate_mesh PRIVATE tinygltf)
+# The whole work of a run is in the proxy.
+target_compile_options(feltgate_mesh PRIVATE -O2)
+
 # What papers claim: docs/claims.md
 feltgate_library(feltgate_claims studies/claims feltgate_texture feltgate_stability feltgate_loop feltgate_files
   feltgate_plant_files)
@@ -196,6 +202,27 @@ file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/c
 feltgate_program(feltgate_host
   "host_main.cpp;${host_sources}"
   feltgate_command_line feltgate_files feltgate_backends feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json)
+
+# Meshes under the pen; feltgate_touch_rtl also has the Verilated cores, a minute more.
+foreach(kind twin rtl)
+  set(name feltgate_touch)
+  set(objects $<TARGET_OBJECTS:twin_stylus_law>)
+  set(cores "")
+  if(kind STREQUAL "rtl")
+    set(name feltgate_touch_rtl)
+    set(objects $<TARGET_OBJECTS:preset_stylus_law>)
+    set(cores core_stylus_law)
+  endif()
+  feltgate_program(${name} touch_main.cpp feltgate_command_line feltgate_files feltgate_mesh feltgate_axes_loop
+    ${cores} nlohmann_json::nlohmann_json)
+  target_sources(${name} PRIVATE ${objects})
+  if(kind STREQUAL "rtl" OR NOT FELTGATE_TESTS)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
+endforeach()
+if(NOT FELTGATE_TESTS)
+  set_target_properties(feltgate_mesh PROPERTIES EXCLUDE_FROM_ALL ON)
+endif()
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace feltgate {
 
@@ -22,6 +23,23 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 void add_words(std::map<std::string, double>& words, const std::string& name, Vec3 v, int axes) {
   const double parts[] = {v.x, v.y, v.z};
   for (int n = 0; n < axes; ++n) words[name + "_" + kAxes[n]] = parts[n];
+}
+
+/// What the host sends of a pose and the plane that it found.
+std::map<std::string, double> words_of(const PlaneHostSettings& world,
+                                       const PlaneMaterial& material, const Plane& plane,
+                                       Vec3 pen_m) {
+  std::map<std::string, double> words;
+  if (world.sends_force) {
+    add_words(words, "force", spring_force(material, plane, pen_m), world.axes);
+    return words;
+  }
+  words = {{"stiffness", material.stiffness_n_m},
+           {"damping", material.damping_ns_m},
+           {"friction", material.friction}};
+  add_words(words, "point", plane.point_m, world.axes);
+  add_words(words, "normal", plane.normal, world.axes);
+  return words;
 }
 
 struct WorldKey {
@@ -122,9 +140,13 @@ Plane nearest_plane(const PlaneHostSettings& world, Vec3 pen_m) {
   return {world.centre_m + world.radius_m * normal, normal};
 }
 
-Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, Vec3 pen_m) {
+std::map<std::string, double> plane_words(const PlaneHostSettings& world, Vec3 pen_m) {
+  return words_of(world, world, nearest_plane(world, pen_m), pen_m);
+}
+
+Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, Vec3 pen_m) {
   const double depth = std::max(0.0, plant::dot(plane.normal, plane.point_m - pen_m));
-  return world.stiffness_n_m * depth * plane.normal;
+  return material.stiffness_n_m * depth * plane.normal;
 }
 
 PlaneHost::PlaneHost(const PlaneHostSettings& settings, std::int64_t clock_hz)
@@ -151,28 +173,18 @@ Clock PlaneHost::next() const {
   return under_way_.empty() ? next_sample_ : std::min(next_sample_, under_way_.front().at);
 }
 
-std::map<std::string, double> plane_words(const PlaneHostSettings& world, Vec3 pen_m) {
-  const Plane plane = nearest_plane(world, pen_m);
-  std::map<std::string, double> words;
-  if (world.sends_force) {
-    add_words(words, "force", spring_force(world, plane, pen_m), world.axes);
-    return words;
-  }
-  words = {{"stiffness", world.stiffness_n_m},
-           {"damping", world.damping_ns_m},
-           {"friction", world.friction}};
-  add_words(words, "point", plane.point_m, world.axes);
-  add_words(words, "normal", plane.normal, world.axes);
-  return words;
-}
-
 std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
   if (now >= next_sample_) {
     const double late = settings_.latency_s + settings_.jitter_s * random_.uniform();
     // The first update is never lost: before it there is no world.
     const bool lost = random_.uniform() < settings_.lost && samples_ > 0;
-    Update u{now, now + std::llround(late * clock_hz_), nearest_plane(settings_, counted_m),
-             counted_m};
+    Update u{now, now + std::llround(late * clock_hz_), {}, settings_, counted_m};
+    if (settings_.search) {
+      std::tie(u.plane, u.material) = settings_.search(counted_m);
+    } else {
+      u.plane = nearest_plane(settings_, counted_m);
+    }
+    last_ = u.plane;
     // An update that would arrive before older ones replaces them.
     while (!lost && !under_way_.empty() && under_way_.back().at >= u.at) under_way_.pop_back();
     lost_ += lost ? 1 : 0;
@@ -184,7 +196,7 @@ std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
     if (!before_) before_ = now_;
     now_ = under_way_.front();
     ++arrived_;
-    arriving = plane_words(settings_, now_->pen_m);
+    arriving = words_of(settings_, now_->material, now_->plane, now_->pen_m);
   }
   return arriving;
 }
@@ -201,11 +213,12 @@ void PlaneHost::add(Clock now, Vec3 pen_m, std::vector<double>& row) {
     row.insert(row.end(), names(settings_.axes).size(), 0.0);
     return;
   }
-  const Vec3 is = now_->plane.normal, should = nearest_plane(settings_, pen_m).normal;
+  const Vec3 is = now_->plane.normal;
+  const Vec3 should = (settings_.search ? last_ : nearest_plane(settings_, pen_m)).normal;
   double step_n = 0;
   if (before_) {
     const auto force = [&](const Update& u) {
-      return spring_force(settings_, u.plane, settings_.sends_force ? u.pen_m : pen_m);
+      return spring_force(u.material, u.plane, settings_.sends_force ? u.pen_m : pen_m);
     };
     step_n = plant::length(force(*now_) - force(*before_));
     before_.reset();

@@ -8,10 +8,12 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "feltgate/encoder_source.hpp"
@@ -22,8 +24,18 @@
 
 namespace feltgate {
 
+/// A plane: one of its points, and its normal of length 1, which points out of the material.
+struct Plane {
+  plant::Vec3 point_m, normal;
+};
+
+/// What a plane is made of.
+struct PlaneMaterial {
+  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;
+};
+
 /// [plane] of a scene file. With two axes z is always 0.
-struct PlaneHostSettings {
+struct PlaneHostSettings : PlaneMaterial {
   enum class World {
     kFloor,  ///< through `centre_m`; normal +y for two axes, +z for three
     kDisc,   ///< felt from outside, like all that follow
@@ -34,30 +46,27 @@ struct PlaneHostSettings {
   bool sends_force = false;  ///< sends the force instead of the plane: one word per axis
   World world = World::kFloor;
   plant::Vec3 centre_m;
-  double radius_m = 0;                                       ///< for a cube: half its edge
-  double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;  ///< of the material
+  double radius_m = 0;  ///< for a cube: half its edge
   double rate_hz = 1000;
   double latency_s = 0;  ///< shortest time from a pose to its plane in the mailbox
   double jitter_s = 0;   ///< largest additional time, uniformly distributed
   double lost = 0;       ///< share of the planes that are lost
   std::uint64_t seed = 1;
   int line = 0;  ///< line in the file
+  /// A world of its own in place of `world`, no part of a file: called once for each pose that the
+  /// host takes, in order.
+  std::function<std::pair<Plane, PlaneMaterial>(plant::Vec3 pen_m)> search;
 };
 
 /// Reads [plane] for a device with `axes` axes. Errors: config::ConfigError.
 PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
-
-/// A plane: one of its points, and its normal of length 1, which points out of the material.
-struct Plane {
-  plant::Vec3 point_m, normal;
-};
 
 /// The plane that touches the world at the point nearest to the pen.
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// What the host sends of a pose, by the names of the law's mailboxes.
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// Force of the spring behind a plane, N.
-plant::Vec3 spring_force(const PlaneHostSettings& world, const Plane& plane, plant::Vec3 pen_m);
+plant::Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, plant::Vec3 pen_m);
 
 /// The host in a run: takes poses, sends updates late, counts the lost ones.
 class PlaneHost {
@@ -81,7 +90,8 @@ class PlaneHost {
 
   static std::vector<std::string> names(int axes);
   /// Appends the values of names(): the normal in force; its angle from the world's normal at the
-  /// pen (signed as a turn about z if there are two axes); the age of the pose behind it; the
+  /// pen, or from that of the last search (signed as a turn about z if there are two axes); the age
+  /// of the pose behind it; the
   /// change of the spring's force by an update, in the first row after it, else 0.
   void add(Clock now, plant::Vec3 pen_m, std::vector<double>& row);
   void add_figures(std::map<std::string, double>& figures) const;
@@ -90,6 +100,7 @@ class PlaneHost {
   struct Update {
     Clock sampled = 0, at = 0;
     Plane plane;
+    PlaneMaterial material;
     plant::Vec3 pen_m;
   };
   Clock clock_of(std::int64_t sample) const;
@@ -101,6 +112,7 @@ class PlaneHost {
   Clock next_sample_ = 0;
   std::deque<Update> under_way_;  ///< in order of arrival
   std::optional<Update> now_, before_;
+  Plane last_;  ///< of the last pose, arrived or not
 };
 
 }  // namespace feltgate

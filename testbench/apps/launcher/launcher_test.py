@@ -226,6 +226,9 @@ class Presets(Machine):
                 self.assertEqual(self.built("run", "membrane", "--engine", engine), [[f"feltgate_{program}"]])
                 self.assertEqual(self.built("replay", f"--engine={engine}", "a.csv"), [[f"feltgate_{program}"]])
         self.assertEqual(self.built("import", "a.sr"), [["feltgate_twin"]])
+        self.installed(*BUILD_PACKAGES, "libtinygltf-dev")
+        self.assertEqual(self.built("touch", "a.glb"), [["feltgate_touch"]])
+        self.assertEqual(self.built("touch", "a.glb", "--engine", "all"), [["feltgate_touch_rtl"]])
 
     def test_a_scene_with_a_law_takes_the_design_with_an_engine(self):
         self.installed(*BUILD_PACKAGES)

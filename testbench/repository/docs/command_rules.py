@@ -83,6 +83,7 @@ RULES = (
         r"feltgate (?:explore|synth|prove|product|page|mutate|faults|coverage|demo|figures)",
         "PARSED",
     ),
+    Rule(r"feltgate touch", "BY", "touch_test"),
     Rule(r"feltgate board", "BY", "board.host"),
     Rule(r"feltgate host .*\bcalibrate cogging", "BY", "calibrate.cogging"),
     Rule(r"feltgate host .*\b(?:calibrate|identify)", "BY", "calibrate.verbs"),

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A stroke of the stylus over a mesh: a hand leads the pen, the proxy finds the plane of each pose,
+// and the engine renders it, in the closed loop of a scene. Documentation: docs/touch.md
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/axes_loop/axes_run.hpp"
+#include "sim/touch/touch.hpp"
+
+namespace feltgate::touch {
+
+struct StrokePoint {
+  double time_s = 0;
+  Vec3 at_m;
+};
+using Stroke = std::vector<StrokePoint>;
+
+/// The highest place of a mesh below a point; nothing where there is none.
+inline std::optional<double> height_m(const TriangleTree& tree, Vec3 from_m, double down_m) {
+  constexpr double ball_m = 1e-6;
+  const double share = tree.free_way(from_m, {0, 0, -down_m}, ball_m);
+  if (share >= 1) return std::nullopt;
+  return from_m.z - share * down_m - ball_m;
+}
+
+/// A stroke over a mesh from left to right, `depth_m` below what is there as seen from above. It
+/// waits above, goes down, over, and up again. Errors: std::invalid_argument where nothing is
+/// there.
+inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double depth_m,
+                          double speed_m_s) {
+  constexpr int places = 200;
+  constexpr double wait_s = 0.02, above_m = 3e-3;
+  Vec3 low = mesh.at.front(), high = low;
+  for (const Vec3& v : mesh.at) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  const Vec3 middle = 0.5 * (low + high), wide = 0.45 * (high - low);
+  const double down_m = high.z - low.z + 2 * above_m;
+  std::vector<Vec3> way;
+  std::size_t last = 0;
+  for (int n = 0; n <= places; ++n) {
+    const double x = middle.x + wide.x * (2.0 * n / places - 1);
+    const auto z = height_m(tree, {x, middle.y, high.z + above_m}, down_m);
+    if (!z && way.empty()) continue;
+    // Over a hole it stays as high as it was.
+    way.push_back({x, middle.y, z ? *z - depth_m : way.back().z});
+    if (z) last = way.size();
+  }
+  if (way.empty()) {
+    throw std::invalid_argument("nothing is under the middle of the mesh; give a stroke: --stroke");
+  }
+  way.resize(last);
+  const auto over = [&](Vec3 at) { return Vec3{at.x, at.y, high.z + above_m}; };
+  way.insert(way.begin(), over(way.front()));
+  way.push_back(over(way.back()));
+  Stroke stroke{{0, way.front()}, {wait_s, way.front()}};
+  for (std::size_t n = 1; n < way.size(); ++n) {
+    const double far_m = plant::length(way[n] - way[n - 1]);
+    if (far_m > 0) stroke.push_back({stroke.back().time_s + far_m / speed_m_s, way[n]});
+  }
+  return stroke;
+}
+
+/// A stroke of a CSV file with the columns time_s,x_m,y_m,z_m and a line of their names. Errors:
+/// std::invalid_argument "path:line: what; mend".
+inline Stroke read_stroke(const std::string& path) {
+  constexpr std::size_t most_rows = 100'000;
+  constexpr double longest_s = 60;
+  std::ifstream file(path);
+  std::string text;
+  int line = 1;
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument(fmt::format("{}:{}: {}", path, line, what));
+  };
+  if (!std::getline(file, text)) fail("no stroke; write rows of time_s,x_m,y_m,z_m");
+  if (!text.empty() && text.back() == '\r') text.pop_back();
+  if (text != "time_s,x_m,y_m,z_m") fail("not the columns time_s,x_m,y_m,z_m; name them so");
+  Stroke stroke;
+  while (std::getline(file, text)) {
+    ++line;
+    double value[4] = {};
+    const char* at = text.c_str();
+    for (int n = 0; n < 4; ++n) {
+      char* end = nullptr;
+      value[n] = std::strtod(at, &end);
+      const char follows = n < 3 ? ',' : '\0';
+      if (end == at || !std::isfinite(value[n]) || (*end != follows && !(n == 3 && *end == '\r'))) {
+        fail("not four numbers; write time_s,x_m,y_m,z_m");
+      }
+      at = end + 1;
+    }
+    const Vec3 to{value[1], value[2], value[3]};
+    if (std::max({std::abs(to.x), std::abs(to.y), std::abs(to.z)}) > reach_m) {
+      fail(fmt::format("beyond the pen's {} m; stay within", reach_m));
+    }
+    if (!stroke.empty() && value[0] <= stroke.back().time_s)
+      fail("time does not go on; sort the rows");
+    stroke.push_back({value[0], to});
+    if (stroke.back().time_s - stroke.front().time_s > longest_s || stroke.size() > most_rows) {
+      fail(fmt::format("longer than {} s or {} rows; make it shorter", longest_s, most_rows));
+    }
+  }
+  if (stroke.size() < 2) fail("fewer than two rows; a stroke has a beginning and an end");
+  const double from_s = stroke.front().time_s;
+  for (StrokePoint& p : stroke) p.time_s -= from_s;
+  return stroke;
+}
+
+/// What a stroke is run with; `host` has material, rate and delay of the planes.
+struct TouchRequest {
+  ProxySettings proxy;
+  PlaneHostSettings host;
+  std::map<std::string, PlaneMaterial> materials;  ///< of parts that have one of their own, by name
+  Stroke stroke;
+};
+
+/// One pose that the host took, and what it found of it.
+struct TouchUpdate {
+  double time_s = 0;
+  Vec3 pen_m;  ///< by the cores' counts
+  Touched touched;
+  double took_s = 0;  ///< of the real clock
+};
+/// What is felt at one time.
+struct TouchRow {
+  double time_s = 0;
+  Vec3 pen_m, normal, force_n;  ///< normal in force; the force that the engine asks for
+};
+struct TouchRun {
+  AxesResult result;
+  std::vector<TouchUpdate> updates;
+  std::vector<TouchRow> rows;  ///< as many a second as planes
+};
+
+/// The hand along one axis, in turns of the capstan.
+inline plant::Hand hand_of(const Stroke& stroke, double Vec3::*axis, double capstan_m) {
+  plant::Hand hand;
+  hand.start_rad = stroke.front().at_m.*axis / capstan_m;
+  plant::HandPhase& lead = hand.phases.emplace_back();
+  lead.kind = plant::HandPhase::Kind::kPrescribed;
+  for (std::size_t n = 1; n < stroke.size(); ++n) {
+    plant::Segment s;
+    s.kind = plant::Segment::Kind::kRamp;
+    s.duration_s = stroke[n].time_s - stroke[n - 1].time_s;
+    s.to = stroke[n].at_m.*axis / capstan_m;
+    lead.profile.push_back(s);
+  }
+  return hand;
+}
+
+/// Runs the stroke in `scene`, one of the stylus with planes; its hand, world, length and
+/// expectations are replaced. Errors: std::invalid_argument where the stroke begins in the mesh,
+/// and those of run_axes().
+inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesScene scene,
+                          AxesRunOptions options, std::int64_t tick_hz) {
+  TouchRun run;
+  Proxy proxy(mesh, request.proxy);
+  proxy.begin(request.stroke.front().at_m);
+  PlaneHostSettings host = request.host;
+  host.axes = 3;
+  std::vector<PlaneMaterial> materials(std::max<std::size_t>(1, mesh.materials.size()), host);
+  for (std::size_t n = 0; n < mesh.materials.size(); ++n) {
+    const auto own = request.materials.find(mesh.materials[n]);
+    if (own != request.materials.end()) materials[n] = own->second;
+  }
+  host.search = [&](Vec3 pen_m) {
+    const auto from = std::chrono::steady_clock::now();
+    const Touched t = proxy.move(pen_m);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
+    run.updates.push_back(
+        {static_cast<double>(run.updates.size()) / host.rate_hz, pen_m, t, took.count()});
+    return std::pair{Plane{t.point_m, t.normal}, materials[mesh.parts[t.triangle]]};
+  };
+  auto& setup = std::get<StylusSetup>(scene.device);
+  const double capstan_m = setup.parameters.lever.lever.radius_m;
+  setup.hand = {hand_of(request.stroke, &Vec3::x, capstan_m),
+                hand_of(request.stroke, &Vec3::y, capstan_m),
+                hand_of(request.stroke, &Vec3::z, capstan_m)};
+  scene.plane = host;
+  scene.scenario.duration_s = request.stroke.back().time_s;
+  scene.scenario.expectations.clear();
+  const std::vector<std::string> names = axes_columns(scene);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const auto columns = [&](const char* x, const char* y, const char* z) {
+    return std::array<std::size_t, 3>{column(x), column(y), column(z)};
+  };
+  const auto pen = columns("pen_x_m", "pen_y_m", "pen_z_m");
+  const auto normal = columns("plane_normal_x", "plane_normal_y", "plane_normal_z");
+  const auto torque = columns("tau_ref_nm.0", "tau_ref_nm.1", "tau_ref_nm.2");
+  options.row_every = std::max(1, static_cast<int>(static_cast<double>(tick_hz) / host.rate_hz));
+  options.row = [&](const std::vector<double>& row) {
+    const auto of = [&](const std::array<std::size_t, 3>& c) {
+      return Vec3{row.at(c[0]), row.at(c[1]), row.at(c[2])};
+    };
+    run.rows.push_back({row[0], of(pen), of(normal), 1 / capstan_m * of(torque)});
+  };
+  run.result = run_axes(scene, options);
+  return run;
+}
+
+/// The value below which `share` of the sorted values are.
+inline double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  const auto at = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::clamp<std::size_t>(at, 1, sorted.size()) - 1];
+}
+
+}  // namespace feltgate::touch

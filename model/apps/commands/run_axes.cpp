@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate run of a scene whose device has several axes. Documentation: docs/devices.md
-#include "apps/commands/run_axes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/run_axes.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/json_text.hpp"
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/axes_loop/axes_run.hpp"
 #include "sim/loop/loop.hpp"
 #include "studies/stability/constants.hpp"
 
@@ -65,5 +66,9 @@ void apply_settings(const std::vector<std::string>& set, const DesignInfo& desig
                     const SceneLaw* law, Scenario& scenario);
 /// The path of the law that a scene names; a relative path starts at the scene's folder.
 std::string law_file(const Scenario& scenario);
+
+/// The same for a scene whose device has several axes (docs/devices.md).
+std::string axes_text(const AxesResult& result);
+std::string axes_json(const AxesResult& result);
 
 }  // namespace feltgate

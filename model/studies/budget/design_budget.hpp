@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -138,9 +139,12 @@ class DesignBudget : public Budget {
     const unsigned limits = whole_.raw()->limits;
     t.velocity_saturated = (limits & 32u) != 0;
     t.tau_hat_saturated = (limits & 64u) != 0;
-    t.ramping = (limits & 2u) != 0 || exact_.ramping();
+    t.ramping = (limits & 2u) != 0 || exact_.ramping() || quantised_.ramping();
+    // Each step of a ramp adds the error of its word, so no row's bound holds meanwhile.
     t.tau_ref_error_nm =
-        static_cast<double>(static_cast<Quad>(whole_.out().tau_ref_nm) - exact_.tau_ref());
+        t.ramping
+            ? std::numeric_limits<double>::infinity()
+            : static_cast<double>(static_cast<Quad>(whole_.out().tau_ref_nm) - exact_.tau_ref());
     coverage_.tick(t);
   }
 

@@ -30,7 +30,7 @@ using plant::Vec3;
 struct TouchArguments {
   std::string glb, stroke, engine = "twin,double", json, csv;
   std::vector<std::string> materials;
-  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0;
+  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0, press_n = 0;
   std::array<double, 3> centre_m{};
   double stiffness = 300, damping = 0, drag = 0;
   double rate_hz = 1000, latency_s = 1e-3, jitter_s = 1e-3, lost = 0;
@@ -238,6 +238,7 @@ std::pair<std::string, PlaneMaterial> material_of(const std::string& text,
 
 touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh) {
   touch::TouchRequest r;
+  r.press_n = a.press_n;
   r.proxy.friction = a.friction;
   r.proxy.shading = a.shading;
   r.host.stiffness_n_m = a.stiffness;
@@ -248,9 +249,9 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   r.host.jitter_s = a.jitter_s;
   r.host.lost = a.lost;
   for (const std::string& text : a.materials) r.materials.insert(material_of(text, mesh));
-  r.stroke = a.stroke.empty()
-                 ? touch::stroke_over(mesh, touch::TriangleTree(mesh), a.depth_m, a.speed_m_s)
-                 : touch::read_stroke(a.stroke);
+  r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
+                                                   a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s)
+                              : touch::read_stroke(a.stroke);
   return r;
 }
 
@@ -336,6 +337,9 @@ void add_options(CLI::App& sub, TouchArguments& a) {
          checks::number(0, 0.02, "m"), "M")
       ->excludes(stroke);
   amount("--speed", a.speed_m_s, "of the stroke", checks::number(0.01, 1, "m/s"), "M/S")
+      ->excludes(stroke);
+  amount("--press", a.press_n, "the hand presses down with it, in place of a depth",
+         checks::number(0, 3.3, "N"), "N")
       ->excludes(stroke);
   amount("--stiffness", a.stiffness, "of the surface", checks::number(0, 1000, "N/m"), "N/M");
   amount("--damping", a.damping, "of the push", checks::number(0, 2, "N s/m"), "NS/M");

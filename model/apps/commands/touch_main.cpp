@@ -250,24 +250,24 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   r.host.lost = a.lost;
   for (const std::string& text : a.materials) r.materials.insert(material_of(text, mesh));
   r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
-                                                   a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s)
+                                                   a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
+                                                   a.press_n > 0 ? 0.5 : 0.9)
                               : touch::read_stroke(a.stroke);
   return r;
 }
 
 touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh) {
-  const std::string design = "stylus_law";
   AxesScene scene =
       read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
                       [](const std::string& name) { return find_file(name, "vectors/devices"); });
   scene.scenario.name = std::filesystem::path(a.glb).stem().string();
-  const DesignInfo info = find_axes_design(design)->info();
+  const DesignInfo info = find_axes_design(own_design(scene))->info();
   const auto law = make_axes_law(find_law(scene.scenario.law), info, axes_of(scene));
   AxesRunOptions options;
-  options.design = design;
+  options.design = own_design(scene);
   options.engine = a.engine;
   options.law = law.get();
-  Progress progress(scene.scenario.name + " on " + design, a.quiet);
+  Progress progress(scene.scenario.name + " on " + options.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
   return touch::run_touch(mesh, request_of(a, mesh), scene, options, info.tick_hz);
 }

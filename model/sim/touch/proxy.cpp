@@ -18,7 +18,6 @@ namespace {
 using plant::cross;
 using plant::dot;
 using plant::length;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t most_in_leaf = 4;
 /// A gap of this share of a ball's radius is a contact.
@@ -266,9 +265,8 @@ void Proxy::find_walls() {
             [](const Near& a, const Near& b) { return a.distance_m < b.distance_m; });
   walls_.clear();
   for (const Near& near : near_) {
-    // Who is a radius above a face's plane may go along it, also beyond its edges: the faces beside
-    // each other of a flat wall are one. Beside a face, its edge or corner counts from the contact
-    // on.
+    // A radius above a face's plane it may go along, also beyond its edges: a flat wall has no
+    // seams. Beside a face, its edge or corner counts from the contact on.
     const Triangle& t = mesh_.triangles[near.triangle];
     const Vec3 across = cross(mesh_.at[t[1]] - mesh_.at[t[0]], mesh_.at[t[2]] - mesh_.at[t[0]]);
     const double above_m = dot(across, at_ - mesh_.at[t[0]]) / length(across);

@@ -30,7 +30,7 @@ using plant::Vec3;
 struct TouchArguments {
   std::string glb, stroke, engine = "twin,double", json, csv;
   std::vector<std::string> materials;
-  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0;
+  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0, press_n = 0;
   std::array<double, 3> centre_m{};
   double stiffness = 300, damping = 0, drag = 0;
   double rate_hz = 1000, latency_s = 1e-3, jitter_s = 1e-3, lost = 0;
@@ -238,6 +238,7 @@ std::pair<std::string, PlaneMaterial> material_of(const std::string& text,
 
 touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh) {
   touch::TouchRequest r;
+  r.press_n = a.press_n;
   r.proxy.friction = a.friction;
   r.proxy.shading = a.shading;
   r.host.stiffness_n_m = a.stiffness;
@@ -248,25 +249,25 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   r.host.jitter_s = a.jitter_s;
   r.host.lost = a.lost;
   for (const std::string& text : a.materials) r.materials.insert(material_of(text, mesh));
-  r.stroke = a.stroke.empty()
-                 ? touch::stroke_over(mesh, touch::TriangleTree(mesh), a.depth_m, a.speed_m_s)
-                 : touch::read_stroke(a.stroke);
+  r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
+                                                   a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
+                                                   a.press_n > 0 ? 0.5 : 0.9)
+                              : touch::read_stroke(a.stroke);
   return r;
 }
 
 touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh) {
-  const std::string design = "stylus_law";
   AxesScene scene =
       read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
                       [](const std::string& name) { return find_file(name, "vectors/devices"); });
   scene.scenario.name = std::filesystem::path(a.glb).stem().string();
-  const DesignInfo info = find_axes_design(design)->info();
+  const DesignInfo info = find_axes_design(own_design(scene))->info();
   const auto law = make_axes_law(find_law(scene.scenario.law), info, axes_of(scene));
   AxesRunOptions options;
-  options.design = design;
+  options.design = own_design(scene);
   options.engine = a.engine;
   options.law = law.get();
-  Progress progress(scene.scenario.name + " on " + design, a.quiet);
+  Progress progress(scene.scenario.name + " on " + options.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
   return touch::run_touch(mesh, request_of(a, mesh), scene, options, info.tick_hz);
 }
@@ -336,6 +337,9 @@ void add_options(CLI::App& sub, TouchArguments& a) {
          checks::number(0, 0.02, "m"), "M")
       ->excludes(stroke);
   amount("--speed", a.speed_m_s, "of the stroke", checks::number(0.01, 1, "m/s"), "M/S")
+      ->excludes(stroke);
+  amount("--press", a.press_n, "the hand presses down with it, in place of a depth",
+         checks::number(0, 3.3, "N"), "N")
       ->excludes(stroke);
   amount("--stiffness", a.stiffness, "of the surface", checks::number(0, 1000, "N/m"), "N/M");
   amount("--damping", a.damping, "of the push", checks::number(0, 2, "N s/m"), "NS/M");

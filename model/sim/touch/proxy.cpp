@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Queries of a mesh by a tree of boxes, in doubles: a ball of 10 um needs more than floats. And the
-// proxy: it goes towards the pen, along up to three walls at once. Documentation: docs/touch.md
+// Queries of a mesh by a tree of boxes, in doubles (a ball of 10 um needs more than floats); and
+// the proxy: it goes towards the pen, along up to three walls at once. Documentation: docs/touch.md
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,9 +18,10 @@ namespace {
 using plant::cross;
 using plant::dot;
 using plant::length;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t most_in_leaf = 4;
+/// A gap of this share of a ball's radius is a contact.
+constexpr double contact_share = 1e-6;
 
 double part(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3 lower(Vec3 a, Vec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
@@ -54,7 +55,7 @@ Vec3 nearest_point(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
 /// never goes beyond it.
 double contact_on_way(const Mesh& mesh, std::size_t triangle, Vec3 from, Vec3 way, double radius_m,
                       double most) {
-  const double rounding_m = 1e-3 * radius_m;
+  const double rounding_m = contact_share * radius_m;
   double share = 0;
   for (int step = 0; step < 100; ++step) {
     const Vec3 at = from + share * way;
@@ -64,7 +65,17 @@ double contact_on_way(const Mesh& mesh, std::size_t triangle, Vec3 from, Vec3 wa
     const double rate = dot(at - near.point_m, way) / near.distance_m;
     // On the rest of the way the gap is at least that of the tangent.
     if (gap_m + std::min(0.0, rate) * (most - share) >= -rounding_m) return infinity;
-    if (gap_m <= rounding_m) return share;
+    if (gap_m <= rounding_m) {
+      // Over the edge of a flat or convex wall it only grazes: look at the least gap of the rest.
+      double low = share, high = most, least_m = gap_m;
+      for (int half = 0; half < 50 && least_m >= -rounding_m; ++half) {
+        const double middle = 0.5 * (low + high);
+        const Near there = nearest_of_triangle(mesh, triangle, from + middle * way);
+        least_m = there.distance_m - radius_m;
+        (dot(from + middle * way - there.point_m, way) < 0 ? low : high) = middle;
+      }
+      return least_m >= -rounding_m ? infinity : share;
+    }
     share -= gap_m / rate;
   }
   return share;
@@ -254,12 +265,20 @@ void Proxy::find_walls() {
             [](const Near& a, const Near& b) { return a.distance_m < b.distance_m; });
   walls_.clear();
   for (const Near& near : near_) {
-    const Vec3 normal = 1 / near.distance_m * (at_ - near.point_m);
-    // The triangles around an edge or a corner have one nearest point.
-    const bool known = std::any_of(walls_.begin(), walls_.end(), [&](const Wall& w) {
-      return dot(w.normal, normal) > 1 - 1e-10;
-    });
-    if (!known) walls_.push_back({normal, settings_.radius_m - near.distance_m});
+    // A radius above a face's plane it may go along, also beyond its edges: a flat wall has no
+    // seams. Beside a face, its edge or corner counts from the contact on.
+    const Triangle& t = mesh_.triangles[near.triangle];
+    const Vec3 across = cross(mesh_.at[t[1]] - mesh_.at[t[0]], mesh_.at[t[2]] - mesh_.at[t[0]]);
+    const double above_m = dot(across, at_ - mesh_.at[t[0]]) / length(across);
+    const bool face = std::abs(above_m) >= (1 - 2 * contact_share) * settings_.radius_m;
+    if (!face && near.distance_m > (1 + 2 * contact_share) * settings_.radius_m) continue;
+    const Vec3 normal = face ? (above_m < 0 ? -1 : 1) / length(across) * across
+                             : 1 / near.distance_m * (at_ - near.point_m);
+    const double same = 1 - (face ? 1e-10 : 4 * contact_share);
+    const bool known = std::any_of(walls_.begin(), walls_.end(),
+                                   [&](const Wall& w) { return dot(w.normal, normal) > same; });
+    if (!known)
+      walls_.push_back({normal, settings_.radius_m - (face ? std::abs(above_m) : near.distance_m)});
     if (walls_.size() == most_walls) break;
   }
 }

@@ -108,7 +108,7 @@ class TriangleTree {
   void within(Vec3 to, double distance_m, std::vector<Near>& found) const;
   /// The share of `way` that a ball can go from `from` until it touches a triangle; 1: all of it.
   /// A ball that touches one may go along it or away. It may come nearer than its radius by a
-  /// thousandth of this, by rounding.
+  /// millionth of this, by rounding.
   double free_way(Vec3 from, Vec3 way, double radius_m) const;
 
  private:

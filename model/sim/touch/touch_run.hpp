@@ -38,11 +38,11 @@ inline std::optional<double> height_m(const TriangleTree& tree, Vec3 from_m, dou
   return from_m.z - share * down_m - ball_m;
 }
 
-/// A stroke over a mesh from left to right, `depth_m` below what is there as seen from above. It
-/// waits above, goes down, over, and up again. Errors: std::invalid_argument where nothing is
-/// there.
+/// A stroke over the middle `share` of a mesh from left to right, `depth_m` below what is there as
+/// seen from above. It waits above, goes down, over, and up again. Errors: std::invalid_argument
+/// where nothing is there.
 inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double depth_m,
-                          double speed_m_s) {
+                          double speed_m_s, double share = 0.9) {
   constexpr int places = 200;
   constexpr double wait_s = 0.02, above_m = 3e-3;
   Vec3 low = mesh.at.front(), high = low;
@@ -50,7 +50,7 @@ inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double dep
     low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
     high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
   }
-  const Vec3 middle = 0.5 * (low + high), wide = 0.45 * (high - low);
+  const Vec3 middle = 0.5 * (low + high), wide = 0.5 * share * (high - low);
   const double down_m = high.z - low.z + 2 * above_m;
   std::vector<Vec3> way;
   std::size_t last = 0;
@@ -128,6 +128,9 @@ struct TouchRequest {
   PlaneHostSettings host;
   std::map<std::string, PlaneMaterial> materials;  ///< of parts that have one of their own, by name
   Stroke stroke;
+  /// Above 0: from the third point of the stroke on, nothing leads the pen up and down; the hand
+  /// presses it with this force.
+  double press_n = 0;
 };
 
 /// One pose that the host took, and what it found of it.
@@ -164,6 +167,18 @@ inline plant::Hand hand_of(const Stroke& stroke, double Vec3::*axis, double caps
   return hand;
 }
 
+/// Lets go of an axis at `from_s` and pulls it with `force_n`.
+inline void let_go(plant::Hand& hand, double from_s, double force_n, double capstan_m) {
+  hand.phases.back().duration_s = from_s;
+  plant::HandPhase& press = hand.phases.emplace_back();
+  press.kind = plant::HandPhase::Kind::kTorque;
+  plant::Segment s;
+  s.kind = plant::Segment::Kind::kMinimumJerk;
+  s.duration_s = 0.02;
+  s.to = force_n * capstan_m;
+  press.profile.push_back(s);
+}
+
 /// Runs the stroke in `scene`, one of the stylus with planes; its hand, world, length and
 /// expectations are replaced. Errors: std::invalid_argument where the stroke begins in the mesh,
 /// and those of run_axes().
@@ -192,6 +207,9 @@ inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesSce
   setup.hand = {hand_of(request.stroke, &Vec3::x, capstan_m),
                 hand_of(request.stroke, &Vec3::y, capstan_m),
                 hand_of(request.stroke, &Vec3::z, capstan_m)};
+  if (request.press_n > 0) {
+    let_go(setup.hand[2], request.stroke.at(2).time_s, -request.press_n, capstan_m);
+  }
   scene.plane = host;
   scene.scenario.duration_s = request.stroke.back().time_s;
   scene.scenario.expectations.clear();

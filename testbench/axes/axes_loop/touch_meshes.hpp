@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Meshes that tests of touch make, and a writer of GLB files. docs/touch.md
+// Meshes that tests of touch make, a writer of GLB files, and a run under the stylus. docs/touch.md
 #pragma once
 
 #include <array>
@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim/touch/touch.hpp"
+#include "axes_fixture.hpp"
+#include "catch.hpp"
+#include "sim/touch/touch_run.hpp"
 
 namespace feltgate::test {
 
@@ -186,6 +188,22 @@ inline void write_file(const std::string& path, const std::string& bytes) {
 }
 inline void write_glb(const std::string& path, const Soup& s) {
   write_file(path, glb_of(json_of(s, R"({"mesh":0})"), binary_of(s)));
+}
+
+/// With planes that are 1 to 2 ms late.
+inline touch::TouchRun run_on(const touch::Mesh& mesh, const std::string& engine,
+                              touch::TouchRequest request) {
+  request.host.latency_s = request.host.jitter_s = 1e-3;
+  const AxesScene scene = scene_named("stylus_cube");
+  const AxesDesignMakers* made = find_axes_design("stylus_law");
+  REQUIRE(made != nullptr);
+  const auto law =
+      make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/local_space.law", made->info(), 3);
+  AxesRunOptions options;
+  options.design = "stylus_law";
+  options.engine = engine;
+  options.law = law.get();
+  return touch::run_touch(mesh, request, scene, options, made->info().tick_hz);
 }
 
 }  // namespace feltgate::test

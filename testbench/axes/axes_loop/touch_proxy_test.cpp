@@ -317,3 +317,39 @@ TEST_CASE("touch: on a ball of 1280 faces the normals are within a facet's angle
   CHECK(off_rad[0] > 0.5 * facet_rad);
   CHECK(off_rad[1] < 0.2 * facet_rad);
 }
+
+TEST_CASE("touch: a hand that presses and gives way is as deep as its force says, in closed loop") {
+  constexpr double press_n = 0.5, stiffness = 300, capstan_m = 0.01;
+  for (const bool is_ball : {false, true}) {
+    const Mesh mesh = touch::clean(is_ball ? icosphere(0.03, 3) : sheet(0.06, 4));
+    touch::TouchRequest request;
+    request.proxy.shading = true;
+    request.host.stiffness_n_m = stiffness;
+    request.host.damping_ns_m = 0.5;
+    request.press_n = press_n;
+    const double top_m = is_ball ? 0.03 : 0;
+    request.stroke = {{0, {-0.01, 0.001, top_m + 3e-3}},
+                      {0.02, {-0.01, 0.001, top_m + 3e-3}},
+                      {0.04, {-0.01, 0.001, top_m}},
+                      {0.2, {-0.01, 0.001, top_m}},
+                      {0.6, {0.01, 0.001, top_m}}};
+    const touch::TouchRun run = run_on(mesh, "twin,double", request);
+    CHECK(run.result.broken.empty());
+    CHECK(run.result.figures.at("faults") == 0);
+    double least_n = 10, most_n = 0;
+    for (const touch::TouchRow& row : run.rows) {
+      if (row.time_s < 0.25) continue;
+      least_n = std::min(least_n, row.force_n.z);
+      most_n = std::max(most_n, row.force_n.z);
+    }
+    INFO(is_ball << " " << least_n << " " << most_n);
+    // The slide's own friction, 0.26 N at most and of either sign, and what the mass takes over a
+    // bend: 45 g (0.05 m/s)^2 / 30 mm, and at facets some of it at once.
+    constexpr double dry_n = 2.6e-3 / capstan_m;
+    CHECK(least_n > press_n - dry_n - 0.05);
+    CHECK(most_n < press_n + dry_n + 0.05);
+    if (!is_ball)
+      CHECK(run.updates.back().touched.depth_m ==
+            Approx(run.rows.back().force_n.z / stiffness).margin(30e-6));
+  }
+}

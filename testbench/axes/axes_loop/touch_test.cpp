@@ -13,10 +13,8 @@
 #include <limits>
 #include <string>
 
-#include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "feltgate/random.hpp"
-#include "sim/touch/touch_run.hpp"
 #include "touch_meshes.hpp"
 
 using namespace feltgate;
@@ -235,19 +233,6 @@ touch::Stroke around_ball(double until_s) {
   return stroke;
 }
 
-touch::TouchRun run_on(const Mesh& mesh, const std::string& engine, touch::TouchRequest request) {
-  request.host.latency_s = request.host.jitter_s = 1e-3;
-  const AxesScene scene = scene_named("stylus_cube");
-  const AxesDesignMakers* made = find_axes_design("stylus_law");
-  REQUIRE(made != nullptr);
-  const auto law =
-      make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/local_space.law", made->info(), 3);
-  AxesRunOptions options;
-  options.design = "stylus_law";
-  options.engine = engine;
-  options.law = law.get();
-  return touch::run_touch(mesh, request, scene, options, made->info().tick_hz);
-}
 touch::TouchRun run_ball(const Mesh& mesh, const std::string& engine, double until_s,
                          bool shading) {
   touch::TouchRequest request;

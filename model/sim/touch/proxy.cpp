@@ -14,7 +14,6 @@
 namespace feltgate::touch {
 
 namespace {
-
 using plant::cross;
 using plant::dot;
 using plant::length;
@@ -82,7 +81,7 @@ double contact_on_way(const Mesh& mesh, std::size_t triangle, Vec3 from, Vec3 wa
 }
 
 constexpr int most_steps = 40;
-constexpr std::size_t most_walls = 12;
+constexpr std::size_t most_walls = 48;
 /// Walls nearer than this beyond the radius, of the radius, hold the proxy.
 constexpr double near_share = 0.05;
 
@@ -265,8 +264,8 @@ void Proxy::find_walls() {
             [](const Near& a, const Near& b) { return a.distance_m < b.distance_m; });
   walls_.clear();
   for (const Near& near : near_) {
-    // A radius above a face's plane it may go along, also beyond its edges: a flat wall has no
-    // seams. Beside a face, its edge or corner counts from the contact on.
+    // A radius above a face's plane it may go along, also beyond its edges: no seams. Beside a
+    // face, its edge or corner counts from the contact on.
     const Triangle& t = mesh_.triangles[near.triangle];
     const Vec3 across = cross(mesh_.at[t[1]] - mesh_.at[t[0]], mesh_.at[t[2]] - mesh_.at[t[0]]);
     const double above_m = dot(across, at_ - mesh_.at[t[0]]) / length(across);
@@ -274,9 +273,10 @@ void Proxy::find_walls() {
     if (!face && near.distance_m > (1 + 2 * contact_share) * settings_.radius_m) continue;
     const Vec3 normal = face ? (above_m < 0 ? -1 : 1) / length(across) * across
                              : 1 / near.distance_m * (at_ - near.point_m);
-    const double same = 1 - (face ? 1e-10 : 4 * contact_share);
+    // Faces of a flat wall in floats differ by 1e-7: one of them may stand in the other's way.
+    const double same = face ? 1e-11 : 3e-3;
     const bool known = std::any_of(walls_.begin(), walls_.end(),
-                                   [&](const Wall& w) { return dot(w.normal, normal) > same; });
+                                   [&](const Wall& w) { return length(w.normal - normal) < same; });
     if (!known)
       walls_.push_back({normal, settings_.radius_m - (face ? std::abs(above_m) : near.distance_m)});
     if (walls_.size() == most_walls) break;

@@ -353,3 +353,34 @@ TEST_CASE("touch: a hand that presses and gives way is as deep as its force says
             Approx(run.rows.back().force_n.z / stiffness).margin(30e-6));
   }
 }
+
+TEST_CASE("touch: a flat wall in floats has no seams either") {
+  // Its triangles differ by 1e-7 in direction, and a corner has six of them.
+  touch::Soup soup = sheet(0.06, 24);
+  const Vec3 u{0.8, 0.36, 0.48}, v{-0.6, 0.48, 0.64}, up{0, -0.8, 0.6};
+  const auto turned = [&](Vec3 at) { return at.x * u + at.y * v + at.z * up; };
+  const auto in_floats = [](Vec3 at) {
+    return Vec3{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+  };
+  for (Vec3& at : soup.at) at = in_floats(turned(at));
+  const Mesh mesh = touch::clean(soup);
+  SplitMix64 random(3);
+  double farthest_m = 0;
+  for (int stroke = 0; stroke < 40; ++stroke) {
+    Proxy proxy(mesh, ProxySettings{});
+    Vec3 at = any(random, 0.025), to = any(random, 0.025);
+    at.z = 1e-3;
+    proxy.begin(turned(at));
+    for (int step = 0; step <= 100; ++step) {
+      Vec3 pen = at + 0.01 * step * (to - at);
+      pen.z = step < 5 ? 1e-3 * (1 - step) : -2e-3;
+      const Touched t = proxy.move(turned(pen));
+      if (step < 5) continue;
+      REQUIRE(t.touching);
+      pen.z = 10e-6;
+      farthest_m = std::max(farthest_m, length(proxy.at() - turned(pen)));
+    }
+  }
+  INFO(farthest_m << " m from the point over the pen");
+  CHECK(farthest_m < 1e-6);
+}

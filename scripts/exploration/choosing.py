@@ -148,7 +148,7 @@ class Choosing:
         self.path, self.scene = q.path, made_scene.moved(q.scene, q.path.parent)
         trimmed = self.programs.folder / f"{q.name}_trimmed.toml"
         share = f"{self.wishes['torque_error']:.6g}"
-        limits = ("--tolerance", share, "--seconds", str(TRIM_S))
+        limits = ("--tolerance", share, "--search-limit", str(TRIM_S))
         self.trim = ask("trim", q.path, *limits, "-o", trimmed, "--quiet")
         if trimmed.is_file():
             effects = tomllib.loads(trimmed.read_text(encoding="utf-8"))

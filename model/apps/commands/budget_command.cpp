@@ -136,6 +136,10 @@ std::string table(const SceneBudget& b) {
     s << ", of which " << b.ticks_out_of_bounds
       << " in no row: a ramp or saturation and what follows";
   }
+  if (b.ticks_out_of_coefficients > b.ticks_out_of_bounds) {
+    s << "; the row coefficients leaves out " << b.ticks_out_of_coefficients
+      << ", for the steps of a ramp add up the error of their word";
+  }
   s << fmt::format(
       "\nbounds are for any motion up to this one's {:.4g} rad/s before the low-pass\n",
       b.largest_velocity_rad_s);
@@ -176,6 +180,7 @@ Json line_json(const BudgetLine& l) {
 void add_axis(Json& j, const SceneBudget& b) {
   j["ticks"] = b.ticks;
   j["ticks_out_of_bounds"] = b.ticks_out_of_bounds;
+  j["ticks_out_of_coefficients"] = b.ticks_out_of_coefficients;
   j["largest_velocity_rad_s"] = b.largest_velocity_rad_s;
   for (const BudgetLine& l : b.sources) j["sources"][l.max.name] = line_json(l);
   j["sum"] = {{"max_error", signals(b.sum.max)}, {"bound", signals(b.sum.bound)}};

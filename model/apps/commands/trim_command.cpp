@@ -151,7 +151,7 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
     s << (run == &r.full_run ? "full model" : "trimmed") << ": a fault opens the gates, "
       << run->fault << "\n";
   }
-  if (r.out_of_time) s << "the search took longer than --seconds: everything stays on\n";
+  if (r.out_of_time) s << "the search took longer than --search-limit: everything stays on\n";
   if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
   s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
@@ -383,7 +383,7 @@ void add_trim(CLI::App& app, int* exit_code) {
       ->capture_default_str()
       ->check(checks::whole(1, 64));
   old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
-  sub->add_option("--seconds", a->options.longest_s,
+  sub->add_option("--search-limit", a->options.longest_s,
                   "ends the search: everything stays on; default: no end")
       ->type_name("SECONDS")
       ->transform(checks::seconds());

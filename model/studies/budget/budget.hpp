@@ -42,6 +42,9 @@ class Budget : public RealChain {
   /// rules out.
   virtual void cover(const Coverage& coverage) = 0;
   virtual const Coverage& coverage() const = 0;
+  /// Ticks that the row `coefficients` leaves out: it alone also those in which a ramp parts its
+  /// two chains by more than its bound.
+  virtual std::int64_t outside_coefficients() const = 0;
   virtual const std::vector<BudgetRow>& rows() const = 0;
   /// Largest |N-method velocity| so far, before its low-pass, rad/s.
   virtual double largest_velocity_rad_s() const = 0;

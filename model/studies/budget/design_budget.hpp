@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -63,7 +62,8 @@ class DesignBudget : public Budget {
 
     std::size_t row = 0;
     std::apply([&](const auto&... chain) { (add(row++, chain, quantised_), ...); }, alone_);
-    add(row++, quantised_, exact_);
+    if (coefficients_.torque()) add(row, quantised_, exact_);
+    ++row;
     const ChainOut& w = whole_.out();
     add(row++, {w.velocity_rad_s, w.tau_hat_nm, w.tau_ref_nm, w.current_a}, signals(exact_));
     add(row++, exact_, exact_gain_);
@@ -87,12 +87,14 @@ class DesignBudget : public Budget {
   }
   void cover(const Coverage& coverage) override {
     coverage_ = coverage;
+    coefficients_ = coverage.of_coefficients();
     rows_ = {{"velocity_n", {}, {}, {}, {}},   {"dob", {}, {}, {}, {}},
              {"scenes", {}, {}, {}, {}},       {"torque_control", {}, {}, {}, {}},
              {"coefficients", {}, {}, {}, {}}, {"whole", {}, {}, {}, {}},
              {"gain", {}, {}, {}, {}}};
   }
   const Coverage& coverage() const override { return coverage_; }
+  std::int64_t outside_coefficients() const override { return coefficients_.outside(); }
   const std::vector<BudgetRow>& rows() const override { return rows_; }
   double largest_velocity_rad_s() const override {
     return largest_counts_ *
@@ -139,13 +141,13 @@ class DesignBudget : public Budget {
     const unsigned limits = whole_.raw()->limits;
     t.velocity_saturated = (limits & 32u) != 0;
     t.tau_hat_saturated = (limits & 64u) != 0;
-    t.ramping = (limits & 2u) != 0 || exact_.ramping() || quantised_.ramping();
-    // Each step of a ramp adds the error of its word, so no row's bound holds meanwhile.
+    t.ramping = (limits & 2u) != 0 || exact_.ramping();
     t.tau_ref_error_nm =
-        t.ramping
-            ? std::numeric_limits<double>::infinity()
-            : static_cast<double>(static_cast<Quad>(whole_.out().tau_ref_nm) - exact_.tau_ref());
+        static_cast<double>(static_cast<Quad>(whole_.out().tau_ref_nm) - exact_.tau_ref());
     coverage_.tick(t);
+    t.ramping = t.ramping || quantised_.ramping();
+    t.tau_ref_error_nm = static_cast<double>(quantised_.tau_ref() - exact_.tau_ref());
+    coefficients_.tick(t);
   }
 
   Exactly quantised_{Coefficients::quantised}, exact_{Coefficients::exact},
@@ -157,7 +159,7 @@ class DesignBudget : public Budget {
   Chain<D, Fixed> whole_{"fixed"};
   DelayLine<D::m1> line_;
   int largest_counts_ = 0;
-  Coverage coverage_;
+  Coverage coverage_, coefficients_;
   std::vector<BudgetRow> rows_;
 };
 

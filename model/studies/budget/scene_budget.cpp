@@ -136,6 +136,7 @@ SceneBudget BudgetRun::budget(std::size_t axis) const {
   out.ticks_apart = apart_;
   out.ticks = budget.coverage().ticks();
   out.ticks_out_of_bounds = budget.coverage().outside();
+  out.ticks_out_of_coefficients = budget.outside_coefficients();
   out.largest_velocity_rad_s = budget.largest_velocity_rad_s();
   const double velocity_rad_s = std::max(out.largest_velocity_rad_s, hardly_any_rad_s);
   const RunBounds run = scenario_bounds(e_, scenario_, velocity_rad_s, law_, axis);

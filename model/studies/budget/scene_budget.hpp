@@ -31,8 +31,9 @@ struct SceneBudget {
   BudgetLine whole;  ///< core against reference, with the theorem's bound
   BudgetLine gain;   ///< 2^n against the exact factor; not in the whole
   std::int64_t ticks = 0;
-  std::int64_t ticks_out_of_bounds = 0;  ///< in no row: ramps, saturation and what follows
-  double largest_velocity_rad_s = 0;     ///< before the low-pass: the bounds' region
+  std::int64_t ticks_out_of_bounds = 0;        ///< in no row: ramps, saturation and what follows
+  std::int64_t ticks_out_of_coefficients = 0;  ///< not in the row `coefficients`
+  double largest_velocity_rad_s = 0;           ///< before the low-pass: the bounds' region
   std::int64_t ticks_apart = 0;  ///< of all axes: the core's own chain was not the core; an error
 
   /// Whether no measured error exceeds its bound.

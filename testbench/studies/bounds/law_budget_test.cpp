@@ -5,6 +5,8 @@
 // error of a closed form; the whole is what a run measures. Documentation: docs/error-bounds.md
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "catch.hpp"
 #include "feltgate/generated/lever_law.hpp"
@@ -229,6 +231,38 @@ TEST_CASE("budget of a scene with a law: the whole is what a run measures, the c
     CHECK(b.whole.max.current_a * info.torque_constant_nm_a ==
           Approx(twin.covered_torque_nm.max()).epsilon(1e-9));
   }
+}
+
+TEST_CASE("budget of a scene with a ramp: its row of coefficients leaves out where it parts them") {
+  const auto e = elaborated("lever", shipped("lever"));
+  // A charge that the host moves, with a slow ramp, whose word is wrong by 5 %: it takes 30 ms, and
+  // its two chains differ by more than their bound long before core and reference do.
+  const std::string path = std::filesystem::temp_directory_path() / "feltgate_ramp.toml";
+  std::ofstream(path) << R"(title = "Ramp"
+about = "A charge that the host moves."
+duration_s = 0.1
+[core]
+scene = "charge_attract"
+arm_s = 0.01
+[parameters]
+ramp_step = 5e-7
+[hand]
+[[hand.phase]]
+kind = "prescribed"
+motion = [{ kind = "hold", duration_s = 0.02 }, { kind = "minimum_jerk", duration_s = 0.02, to_rad = 0.2 }]
+[[event]]
+at_s = 0.05
+set = { attract_centre = 200 }
+)";
+  Scenario scene = read_scenario(path);
+  std::filesystem::remove(path);
+  const plant::Parameters plant = plant::read_plant_file(kRoot + "/vectors/plants/p24.toml");
+  resolve_effects(scene, plant.effects);
+  const SceneBudget b = scene_budget(e, scene, plant, {});
+  CHECK(b.ticks_apart == 0);
+  CHECK(b.within_bounds());
+  CHECK(b.ticks_out_of_coefficients > b.ticks_out_of_bounds);
+  CHECK(b.ticks_out_of_coefficients < b.ticks_out_of_bounds + 1000);
 }
 
 TEST_CASE("budget of a device: the chains of each axis are its core, homing and arming included") {

@@ -151,8 +151,10 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
     s << (run == &r.full_run ? "full model" : "trimmed") << ": a fault opens the gates, "
       << run->fault << "\n";
   }
-  if (r.out_of_time) s << "the search took longer than --search-limit: everything stays on\n";
-  if (!r.smaller()) s << "nothing can be left out within the tolerance\n";
+  if (!r.smaller()) {
+    s << (r.out_of_time ? "the search took longer than --search-limit: everything stays on\n"
+                        : "nothing can be left out within the tolerance\n");
+  }
   s << fmt::format("search: {} runs, {:.3g} s of CPU time\n", r.runs, r.cpu_s);
   return s.str();
 }

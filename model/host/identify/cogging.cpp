@@ -30,7 +30,8 @@ constexpr double kSlow = 0.5;         ///< of the median: slower at an end is st
 constexpr double kFarthestStep = kRevolution_rad / 64;
 constexpr std::size_t kRowsPerHarmonic = 8, kFewestPerTurn = 256, kMeansPerTurn = 2048;
 constexpr int kMostHarmonics = 128, kNeighbours = 16;
-constexpr double kStandsOut = 5;  ///< standard deviations: one of four million without cogging
+constexpr double kStandsOut =
+    5;  ///< standard deviations of a cosine: exp(-25/2), one of 270 000, without
 constexpr double kShareOfLargest = 0.01, kShareOfNominal = 1e-3;
 constexpr std::size_t kMostTerms = 8;
 /// Phase by which the observer may be late: for the largest harmonic, and for one that is looked

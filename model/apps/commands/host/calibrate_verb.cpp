@@ -215,8 +215,8 @@ int calibrate_align(Session& session, const CalibrateArguments& a) {
   if (a.from != "-") outputs.reads(a.from);
   files::OutputFile* json = outputs.open("--json", a.json);
   files::OutputFile* write = outputs.open("--write", a.write);
-  const Alignment found = fit_alignment(align_readings(ColumnTable::of_file(a.from)),
-                                        6.283185307179586 / d.count_rad(), a.confidence);
+  const Alignment found =
+      fit_alignment(align_readings(ColumnTable::of_file(a.from)), 4.0 * d.lines, a.confidence);
   const std::vector<Change> changes = changes_of(found, known.design());
   auto result = report_json(found);
   result["changes"] = report_json(changes);

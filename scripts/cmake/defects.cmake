@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # Seeded defects: patches in testbench/<room>/<block>/defects.diff. All defects of a block are in one model,
-# all defects of a test's headers in one program. FILE is that of the folder where none is named,
-# without DEFECTS all defects of the file are taken.
+# all defects of a test's headers in one program. FILE is relative to the room, without DEFECTS all defects of the
+# file are taken.
 # docs/testing.md
 include_guard(GLOBAL)
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
@@ -62,11 +62,9 @@ function(feltgate_patched_files variable file)
   set(${variable} "${all}" PARENT_SCOPE)
 endfunction()
 
-# arg_FILE and arg_DEFECTS where they are not given.
+# arg_FILE absolute, and arg_DEFECTS where they are not given.
 macro(feltgate_default_defects)
-  if(NOT arg_FILE)
-    set(arg_FILE "${CMAKE_CURRENT_SOURCE_DIR}/defects.diff")
-  endif()
+  get_filename_component(arg_FILE "${arg_FILE}" ABSOLUTE)
   if(NOT arg_DEFECTS)
     feltgate_defect_names(arg_DEFECTS "${arg_FILE}")
   endif()
@@ -136,7 +134,7 @@ function(feltgate_seeded_sources variable)
   set(${variable} "${seeded}" PARENT_SCOPE)
 endfunction()
 
-# feltgate_defect_program(<target> [FILE f] [DEFECTS names...] SOURCES s... [LIBRARIES l...]): a Catch2 program of
+# feltgate_defect_program(<target> FILE f [DEFECTS names...] SOURCES s... [LIBRARIES l...]): a Catch2 program of
 # these sources on headers that hold the statements of all defects; FELTGATE_DEFECT says which are executed.
 function(feltgate_defect_program target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FILE" "DEFECTS;SOURCES;LIBRARIES")
@@ -151,6 +149,7 @@ function(feltgate_defect_program target)
     DEPENDS "${arg_FILE}" ${changed} ${FELTGATE_SEEDING}
     COMMENT "Seeding defects for ${target}" VERBATIM)
   add_executable(${target} ${arg_SOURCES} "${copies}/seeded_choice.hpp")
+  set_target_properties(${target} PROPERTIES FELTGATE_DEFECT_FILE "${arg_FILE}")
   target_include_directories(${target} BEFORE PRIVATE "${copies}/model/include" "${copies}/model")
   # As quick to compile as -O0, nearly, and several times as quick to run.
   target_compile_options(${target} PRIVATE -w -O1)
@@ -163,9 +162,13 @@ endfunction()
 # feltgate_defect_tests(<test> <program> [FILE f] [DEFECTS names...] [CASES tag]): <test>.<defect> passes when an
 # assertion fails, <test>.none when the same program finds nothing in the copy without a defect. A defect with a line
 # "Caught by: CASE[,CASE]" is tried with these cases alone. If all defects have that line, a usual run tries the copy
-# without a defect with the cases that they name, else with all cases not tagged [endurance].
+# without a defect with the cases that they name, else with all cases not tagged [endurance]. FILE is the program's where
+# none is named.
 function(feltgate_defect_tests test program)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILE;CASES" "DEFECTS")
+  if(NOT arg_FILE)
+    get_target_property(arg_FILE ${program} FELTGATE_DEFECT_FILE)
+  endif()
   feltgate_default_defects()
   set(command "-DTEST=${CMAKE_CROSSCOMPILING_EMULATOR};$<TARGET_FILE:${program}>;${arg_CASES}")
   set(cases "")

@@ -6,7 +6,7 @@
   block_clocks.py VCD            writes the drawings
   block_clocks.py VCD --check    status 1 if a drawing is stale
 
-The test icarus.block_clocks makes the VCD: build/testbench/flow/icarus/clocks.vcd. For each block the tick in which most of its
+The test icarus.block_clocks makes the VCD: build/testbench/flow/clocks.vcd. For each block the tick in which most of its
 ports change is drawn; for blocks with a time of their own, the clocks around an edge of one port.
 """
 

@@ -158,13 +158,19 @@ def check_defects(root):
         if not rules.exists() and room.exists():
             rules = room
         text = rules.read_text(encoding="utf-8") if rules.exists() else ""
-        if rules == room:  # the calls for this block
+        built = "WITH_DEFECTS|feltgate_defect_"
+        if rules == room:  # it names the file, or a module does; or its calls for the block say so; or it names the defect
+            modules = "".join(module.read_text(encoding="utf-8") for module in file.parent.glob("*.cmake"))
             own = rf"feltgate_block_test\((?:{file.parent.name}|\$\{{block\}})\s[^)]*"
-            text = "".join(re.findall(own, text))
+            calls = "".join(re.findall(own, text))
+            if f"{file.parent.name}/{file.name}" in text or f"/{file.name}" in modules:
+                built = ""
+            else:
+                text, built = (calls, built) if calls else (text, "(?!)")
         try:
             for patch in patches.chosen(file):
                 patches.touched(patch)
-                if not re.search(rf"WITH_DEFECTS|feltgate_defect_|\b{patch.name}\b", text):
+                if not re.search(rf"{built}|\b{patch.name}\b", text):
                     where = rules.relative_to(root)
                     yield f"{patch.relative_to(root)}: no test is built with it; name it in {where}"
         except patches.DefectError as error:

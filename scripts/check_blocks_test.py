@@ -236,6 +236,11 @@ class CheckBlocks(unittest.TestCase):
         (self.root / "testbench/wave/alpha/CMakeLists.txt").unlink()
         self.put("testbench/wave/CMakeLists.txt", "feltgate_block_test(other WITH_DEFECTS)\n")
         self.expect("testbench/wave/alpha/defects.diff/inverted: no test is built with it")
+        for line in ("feltgate_defect_program(twin FILE alpha/defects.diff)", "feltgate_test(twin DEFECTS inverted)"):
+            self.put("testbench/wave/CMakeLists.txt", f"feltgate_block_test(other WITH_DEFECTS)\n{line}\n")
+            self.assertFalse([said for said in check_blocks.check(self.root) if "no test is built" in said and "proofs" not in said])
+        self.put("testbench/wave/CMakeLists.txt", "feltgate_defect_program(twin FILE other/defects.diff)\n")
+        self.expect("testbench/wave/alpha/defects.diff/inverted: no test is built with it")
         (self.root / "testbench/wave/alpha/defects.diff").unlink()
         self.put("rtl/core/wave/alpha.sv", RTL.format("alpha", ""))
         self.expect("testbench/wave/alpha/defects.diff: no seeded defect of rtl/core/wave/alpha.sv")

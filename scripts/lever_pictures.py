@@ -115,7 +115,7 @@ def free_lever(free, lever, paper, table):
       ./feltgate run free_lever --engine twin --every 500 --csv free.csv
       ./feltgate run damped_lever --engine twin --every 500 --csv lever.csv
       ./feltgate run damped_lever --design paper --engine twin --every 500 --csv paper.csv
-      FELTGATE_SHOW=1 build/testbench/sim/loop/free_lever_test > table.md
+      FELTGATE_SHOW=1 build/testbench/sim/free_lever_test > table.md
       scripts/lever_pictures.py free_lever free.csv lever.csv paper.csv table.md
     """
     figure, (left, right) = plt.subplots(1, 2, figsize=(8.6, 3.4), layout="constrained")
@@ -263,7 +263,7 @@ def bowed_string(fast, slow, points):
       sed 's/^rate = 40 kHz/rate = 1 kHz/' rtl/laws/bowed_string.law > slow.law
       sed 's/"bowed_string"/"slow.law"/; /^.\[expect/,$d' vectors/scenes/bowed_string.toml > slow.toml
       ./feltgate run slow.toml --engine twin --csv slow.csv --every 25 --states slow_states.csv
-      build/testbench/sim/bowed_string/bowed_string_test "[.diagram]" | grep , > diagram.csv
+      build/testbench/sim/bowed_string_test "[.diagram]" | grep , > diagram.csv
       scripts/lever_pictures.py bowed_string fast slow diagram.csv
     """
     figure = plt.figure(figsize=(9.5, 4.2))

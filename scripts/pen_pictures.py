@@ -94,7 +94,7 @@ def pantograph(table):
     """Where the pen of the default pantograph can be and what its motors can push there, and a drop of
     its cranks against a stop, from the table that the test prints.
 
-      build/testbench/axes/pantograph/linkage_test "[.drop]" > drop.csv
+      build/testbench/axes/linkage_test "[.drop]" > drop.csv
       scripts/pen_pictures.py pantograph drop.csv
     """
     plant = vectors("devices/pantograph")

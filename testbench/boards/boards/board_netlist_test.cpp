@@ -3,7 +3,7 @@
 //
 // A board's netlist beside its RTL, every pin in both halves of every clock: keys, switches, a
 // lever that is turned, stops, an encoder that is pulled out, and a host. The PLL is a wire in
-// both. Panel times are short ones: testbench/boards/boards/CMakeLists.txt. The board is the ULX3S,
+// both. Panel times are short ones: testbench/boards/CMakeLists.txt. The board is the ULX3S,
 // or with FELTGATE_TANG_NANO_9K that. Documentation: docs/boards/ulx3s.md,
 // docs/boards/tang_nano_9k.md
 #include <Vpair.h>

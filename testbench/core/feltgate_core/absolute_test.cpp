@@ -31,7 +31,7 @@ static_assert(D::absolute_encoder != 0);
 constexpr std::int64_t kPeriod = D::absolute_period * std::int64_t{D::clocks_per_tick};
 constexpr std::int64_t kArm = 6 * kPeriod, kReady = 20 * kPeriod;
 constexpr double kClock_s = 1.0 / D::clock_hz;
-/// With a table the sensor has the error of testbench/core/feltgate_core/CMakeLists.txt, half a
+/// With a table the sensor has the error of testbench/core/CMakeLists.txt, half a
 /// degree, and what is left of it is rounding to a count more.
 const std::vector<double> kError_rad = D::absolute_table != 0
                                            ? std::vector<double>{7.5e-3, 4.5e-3, -1.2e-3, 0.9e-3}

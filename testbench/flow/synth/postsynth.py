@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Makes what a post-synthesis lock-step needs: netlist.v, the netlist of a block or board as Yosys maps
 it, with the cells' models flattened in (neither Verilator nor Icarus reads Yosys' cells_sim.v), and
-pair.sv, which drives netlist and RTL alike. Called by testbench/flow/synth/CMakeLists.txt.
+pair.sv, which drives netlist and RTL alike. Called by testbench/flow/CMakeLists.txt.
 
   postsynth.py --root R --design lever --block dob --output DIR [--defect PATCH] [--parameter N=V]
   postsynth.py --root R --design lever --board ulx3s --output DIR  the whole of a board, with pins

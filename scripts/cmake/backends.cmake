@@ -16,10 +16,23 @@ foreach(preset IN LISTS FELTGATE_PRESETS)
   list(REMOVE_ITEM designs "${FELTGATE_ROOT}/rtl/designs/${preset}.toml")
 endforeach()
 
-# feltgate_for_design(<template> <output>): the template filled for ${design} of C++ type ${type}.
-macro(feltgate_for_design template output)
-  configure_file("${FELTGATE_ROOT}/scripts/cmake/${template}" "${output}" @ONLY)
-endmacro()
+# feltgate_for_design(<part> <output>): that part of design.cpp.in, filled for ${design} of C++ type ${type}.
+function(feltgate_for_design part output)
+  set(template "${FELTGATE_ROOT}/scripts/cmake/design.cpp.in")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${template}")
+  file(READ "${template}" text)
+  set(head "//== ${part}\n")
+  string(FIND "${text}" "${head}" begin)
+  if(begin EQUAL -1)
+    message(FATAL_ERROR "${template}: no part ${part}")
+  endif()
+  string(LENGTH "${head}" length)
+  math(EXPR begin "${begin} + ${length}")
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  string(FIND "${text}" "//== " end)
+  string(SUBSTRING "${text}" 0 ${end} text)
+  file(CONFIGURE OUTPUT "${output}" CONTENT "${text}" @ONLY)
+endfunction()
 
 # feltgate_type_of(<design> <variable>): its C++ type, the name in UpperCamelCase, as the generator
 # writes it.
@@ -56,7 +69,7 @@ foreach(path IN LISTS designs)
   feltgate_type_of(${design} type)
   set(FELTGATE_TYPE_${design} ${type})
   list(APPEND FELTGATE_DESIGNS ${design})
-  feltgate_for_design(design_backends.cpp.in "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
+  feltgate_for_design(backends "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
   # Objects, so that a program may take one design alone.
   add_library(design_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_backends.cpp")
   target_compile_options(design_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})

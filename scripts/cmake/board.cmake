@@ -11,7 +11,7 @@ foreach(design IN LISTS board_designs)
   feltgate_type_of(${design} type)
   string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
   set(generated "${PROJECT_BINARY_DIR}/backends/${design}_board")
-  feltgate_for_design(design_board.cpp.in "${generated}.cpp")
+  feltgate_for_design(board "${generated}.cpp")
   target_sources(feltgate_board_parts PRIVATE "${generated}.cpp")
 endforeach()
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/board_designs.inc" CONTENT "${registrations}")
@@ -25,7 +25,7 @@ feltgate_verilate(board_lever board_pins
   CLASS Vboard_lever FASTEST)
 set(rtl_sources "${FELTGATE_ROOT}/model/host/board/rtl_cores.cpp"
   "${PROJECT_BINARY_DIR}/backends/lever_board_rtl.cpp")
-feltgate_for_design(design_board_rtl.cpp.in "${PROJECT_BINARY_DIR}/backends/lever_board_rtl.cpp")
+feltgate_for_design(board_rtl "${PROJECT_BINARY_DIR}/backends/lever_board_rtl.cpp")
 
 target_include_directories(feltgate_board_parts PRIVATE "${PROJECT_BINARY_DIR}/backends")
 target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_BACKEND_OPTIONS})

@@ -32,7 +32,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS)
   feltgate_verilate(core_${design} ${top}
     "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv;${sources}"
     CLASS Vcore_${design} FASTEST)
-  feltgate_for_design(design_rtl.cpp.in "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
+  feltgate_for_design(rtl "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
   add_library(rtl_${design} OBJECT "${PROJECT_BINARY_DIR}/backends/${design}_rtl.cpp")
   target_compile_options(rtl_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(rtl_${design} PRIVATE feltgate_model core_${design} fmt::fmt)

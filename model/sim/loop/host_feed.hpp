@@ -6,16 +6,44 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 
-#include "feed_clock.hpp"
+#include "../backends/backend.hpp"
 #include "run_host.hpp"
 #include "scenario.hpp"
 #include "tracker.hpp"
 
 namespace feltgate {
+
+/// When the host sends the mailbox of its law again: at a constant rate from clock 0.
+class FeedClock {
+ public:
+  /// `rate_hz`: sends per second; 0: never.
+  FeedClock(double rate_hz, std::int64_t clock_hz)
+      : rate_hz_(rate_hz),
+        clock_hz_(static_cast<double>(clock_hz)),
+        next_(rate_hz > 0 ? 0 : never) {}
+
+  Clock next() const { return next_; }
+  /// Whether a send is due at `now`; true only once for each send.
+  bool due(Clock now) {
+    if (now < next_) return false;
+    next_ = std::llround(static_cast<double>(++sent_) * clock_hz_ / rate_hz_);
+    return true;
+  }
+
+ private:
+  static constexpr Clock never = std::numeric_limits<Clock>::max();
+
+  double rate_hz_, clock_hz_;
+  Clock next_;
+  std::int64_t sent_ = 0;
+};
 
 /// Regular sends of the mailbox, and the tracker if the scene has one.
 class HostFeed {

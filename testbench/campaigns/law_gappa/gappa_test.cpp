@@ -156,11 +156,10 @@ TEST_CASE("a bound that is too small is not proven", "[defects]") {
 TEST_CASE("Gappa proves what the language brings along") {
   const Prover gappa;
   for (const char* name : {"cogging", "counts", "equal", "latch", "rough"}) {
-    require_all(
-        gappa,
-        compile_file(fmt::format("{}/testbench/law/law_cpp/laws/{}.law", FELTGATE_ROOT, name),
-                     Target{}),
-        2);
+    require_all(gappa,
+                compile_file(fmt::format("{}/testbench/law/laws/{}.law", FELTGATE_BUILD_DIR, name),
+                             Target{}),
+                2);
   }
 }
 

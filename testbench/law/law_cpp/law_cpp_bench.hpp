@@ -31,7 +31,8 @@ inline const law::Compiled& compiled_law(const std::string& name) {
   if (found != known.end()) return found->second;
   const std::string root = FELTGATE_ROOT;
   std::string path = root + "/rtl/laws/" + name + ".law";
-  if (!std::filesystem::exists(path)) path = root + "/testbench/law/law_cpp/laws/" + name + ".law";
+  if (!std::filesystem::exists(path))
+    path = FELTGATE_BUILD_DIR "/testbench/law/laws/" + name + ".law";
   return known.emplace(name, law::compile_file(path, law::Target{})).first->second;
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The forces from the laws of a shape: closed forms, one motion under three laws, a thin tail.
-// Documentation: docs/devices/shapes.md
+// The forces from the laws of a shape: closed forms, one motion under three laws, a thin tail; and
+// the exit code of commands that make a law. Documentation: docs/devices/shapes.md
 #include <algorithm>
 #include <cmath>
 
+#include "apps/commands/made_law.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "shape_case.hpp"
@@ -323,4 +324,10 @@ TEST_CASE("the seven shapes as the page has them: felt all around, without a jum
     CHECK(felt.jumps == 0);
     CHECK(felt.rms_error < 0.153);  // of 1 mm: less than a count moves the pen
   }
+}
+
+TEST_CASE("a law whose proof failed ends its command with 1, a warning does not") {
+  CHECK(end_of({}) == exit_ok);
+  CHECK(end_of({{}, {"the bound is 2 % of its range"}}) == exit_ok);
+  CHECK(end_of({{"1 Nm was measured, the bound is 0.1 Nm"}, {}}) == exit_failed);
 }

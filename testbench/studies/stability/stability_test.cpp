@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Stability of walls: published numbers, eigenvalues two ways, borders in the chain's own bits, and
-// what counts and noise do. Documentation: docs/stability.md
+// what counts and noise do; and what a study refuses: not a number would never end. Documentation:
+// docs/stability.md
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -209,4 +210,21 @@ TEST_CASE("stability: a study as text and JSON") {
   const std::string text = study_text(s);
   CHECK(text.find("none: the loop grows at any stiffness") != std::string::npos);
   CHECK(study_json(s).find("\"bits_nm_rad\": null") != std::string::npos);
+}
+
+TEST_CASE("rates and dampings of a study are numbers of their range") {
+  const auto design = lever();
+  const auto plant = plant_named("linear");
+  StudyOptions options;
+  options.bits = options.experiments = false;
+  options.rates_hz = {1000};
+  for (const double damping : {std::nan(""), HUGE_VAL, -0.1, 1.1}) {
+    options.damping_nm_s_rad = {0.001, damping};
+    CHECK_THROWS_AS(run_study(design, plant, plant, options), std::invalid_argument);
+  }
+  options.damping_nm_s_rad = {0.001};
+  for (const double rate : {std::nan(""), HUGE_VAL, 0.0, 2e6}) {
+    options.rates_hz = {rate};
+    CHECK_THROWS_AS(run_study(design, plant, plant, options), std::invalid_argument);
+  }
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The suggestion for a misspelt name, and the cases without a suggestion. Documentation:
-// docs/designs.md
-#include "feltgate/nearest.hpp"
-
+// The suggestion for a misspelt name, and the cases without a suggestion; letters beyond ASCII in a
+// TOML file: welcome in strings and comments, refused elsewhere. Documentation: docs/designs.md,
+// docs/testing.md
 #include <set>
 
 #include "catch.hpp"
+#include "feltgate/nearest.hpp"
+#include "files/toml/toml_text.hpp"
 
 using namespace feltgate::config;
 
@@ -53,4 +54,23 @@ TEST_CASE("what resembles nothing suggests nothing") {
   CHECK(nearest(std::string(100000, 'm'), scenes).empty());
   CHECK(nearest("wall", std::vector<std::string>{}).empty());
   CHECK(did_you_mean("gravity", scenes).empty());
+}
+
+TEST_CASE("letters beyond ASCII may stand in strings and comments", "[toml]") {
+  CHECK(stray_line("") == 0);
+  CHECK(stray_line("# ω\na = \"ω²\" # τ̂\nb = 'ω'\n") == 0);
+  CHECK(stray_line("\xef\xbb\xbf"
+                   "a = 1\n") == 0);
+  CHECK(stray_line("a = \"\\\"ω\"\nb = \"\"\"ω\n\"ω\"\n\\\"\"\"ω\"\"\"\n") == 0);
+  CHECK(stray_line("a = '''ω\nω'''\n") == 0);
+}
+
+TEST_CASE("and nowhere else", "[toml]") {
+  CHECK(stray_line("ω = 1\n") == 1);
+  CHECK(stray_line("a = 1\nω = 1\n") == 2);
+  CHECK(stray_line("a = \"x\"ω\n") == 1);
+  CHECK(stray_line("a = 'x\\'ω\n") == 1);
+  CHECK(stray_line("a = \"x\nω = 1\n") == 2);
+  CHECK(stray_line("a = \"\"\"x\"\"\"\nb = ω") == 2);
+  CHECK(stray_line("# c\n\n  ω") == 3);
 }

@@ -17,6 +17,9 @@ FILE is testbench/ROOM/BLOCK/defects.diff, NAME a defect of it; without a NAME: 
       writes FILE when Verilator gave both classes the same members in the same order, so that what
       was compiled with the one may be linked with the other
 
+  defects.py check
+      every diff of every defect file below testbench, and how many there are
+
 A defect is refused that does not apply, changes no code or does not say first what it breaks.
 """
 
@@ -44,13 +47,21 @@ def main():
     cpp.add_argument("name", nargs="*")
     same = verbs.add_parser("same-class", help="are two Verilated classes laid out alike?")
     same.add_argument("headers", type=Path, nargs=2)
+    every = verbs.add_parser("check", help="do all diffs of the tests apply?")
     for verb in (copy, one, cpp, same):
         verb.add_argument("--output", type=Path, required=True)
+    for verb in (copy, one, cpp, same, every):
         verb.add_argument("--root", type=Path, default=patches.ROOT)
     options = parser.parse_args()
     try:
         root = options.root.resolve()
-        if options.verb == "copy":
+        if options.verb == "check":
+            files = sorted((root / "testbench").glob("**/*.diff"))
+            chosen = [patch for file in files for patch in patches.chosen(file)]
+            for patch in chosen:
+                patches.patched(patch, root)
+            print(f"{len(chosen)} defects in {len(files)} files apply")
+        elif options.verb == "copy":
             patches.write_copies(options.file / options.name, options.output, root)
         elif options.verb == "headers":
             chosen = patches.chosen(options.file, options.name)

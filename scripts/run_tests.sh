@@ -12,7 +12,8 @@ Usage: ./feltgate test [NAME] [--whole | --long] [--list]
           only what they need is built
   --list  only lists the tests with their labels; builds nothing
   --whole also what a usual run tries a share of: recordings and scenes through the RTL to their end
-          on every design, the defects of the proofs, all mutants; more than twice as long
+          on every design, both halves of the seeded defects, the defects of the proofs, all mutants;
+          more than twice as long
   --long  the whole, the long runs (1e9 lock-step clocks of the core and more), and every random run
           ten times as long, or as many times as FELTGATE_LONG says
 
@@ -32,7 +33,7 @@ tests_say() {
 }
 
 run_tests() {
-  local groups=$1 argument name='' list='' found chosen=() options=() targets=(all) status=0
+  local groups=$1 argument name='' configuration='' list='' found chosen=() options=() targets=(all) status=0
   local results=$BUILD/test-results.xml
   shift
   for argument in "$@"; do
@@ -46,7 +47,7 @@ run_tests() {
         export FELTGATE_WHOLE=1
         chosen+=(--whole)
         targets=(all whole)
-        options+=(-C Whole)
+        configuration=Whole
         ;;
       --long)
         export FELTGATE_WHOLE=1
@@ -54,7 +55,7 @@ run_tests() {
         export FELTGATE_LONG=${FELTGATE_LONG:-10}
         chosen+=(--long)
         groups+=" long"
-        options+=(-C Long)
+        configuration=Long
         ;;
       -*) die "test: unknown option '$argument'; './feltgate test --help'" ;;
       *)
@@ -65,6 +66,9 @@ run_tests() {
         ;;
     esac
   done
+  # Who names tests gets the seeded defects of both halves.
+  if [[ $name && ! $configuration ]]; then configuration=Named; fi
+  if [[ $configuration ]]; then options+=(-C "$configuration"); fi
   need_packages "$groups"
   look_up_programs
   # What needs no packages of the tests is built while these are installed: the longest of what a
@@ -105,6 +109,10 @@ run_tests() {
     children_cpu_s all_s
     printf '\nCPU minutes: %d of packages and build, %d of tests; %d minutes by the clock\n' \
       $((built_s / 60)) $(((all_s - built_s) / 60)) $((SECONDS / 60))
+    if [[ ! $configuration ]]; then
+      printf 'seeded defects: half %s of 0 and 1, that of this week; --whole tries both\n' \
+        "$(sed -n 's/^FELTGATE_HALF_NOW:INTERNAL=//p' "$BUILD/CMakeCache.txt")"
+    fi
   fi
   report_tests "$status" "$results" "$name"
 }

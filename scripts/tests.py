@@ -166,7 +166,8 @@ def main():
     options = parser.parse_args()
     build = options.build.resolve()
     try:
-        chosen = list(tests(build, options.name, options.of))
+        # Who names tests gets the seeded defects of both halves.
+        chosen = list(tests(build, options.name, options.of or ("Named" if options.name else "")))
         if options.verb == "minutes":
             return print_minutes(chosen, options.results)
         if options.verb == "list":

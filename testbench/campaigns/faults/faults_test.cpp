@@ -71,7 +71,7 @@ TEST_CASE("faults: a share of the flips ends safely") {
   campaign.acts = 3;
   std::vector<StateFault> share;
   const auto all = plan(campaign);
-  const std::size_t every = feltgate::test::whole_run() ? 23 : 46;
+  const std::size_t every = feltgate::test::whole_run() ? 23 : 92;
   for (std::size_t n = 5; n < all.size(); n += every) share.push_back(all[n]);
   const auto bits = state_bits();
   int unsafe = 0, silent = 0, detected = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_fuzz READER ROOT RUNS SEED CORPUS...: replays the corpus, then reads RUNS changed inputs
-// under the sanitizers. An input that reaches code that none before it reached joins the corpus of
-// this run, so that changes go on from it. The same seed gives the same inputs.
-// Documentation: docs/testing.md
+// feltgate_fuzz READER ROOT RUNS SEED CORPUS...: replays the corpus, then reads RUNS changed
+// inputs. feltgate_fuzz_sanitized does so under the sanitizers, and there an input that reaches
+// code that none before it reached joins the corpus of this run. The same seed gives the same
+// inputs. Documentation: docs/testing.md
 #include <fcntl.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -42,11 +42,13 @@ extern "C" void __sanitizer_cov_trace_pc() {
   place = 1;
 }
 
+#ifdef __SANITIZE_ADDRESS__
 extern "C" void __sanitizer_set_death_callback(void (*callback)());
 extern "C" const char* __asan_default_options() {
   return "max_allocation_size_mb=512:handle_abort=1:detect_stack_use_after_return=0";
 }
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
+#endif
 
 namespace {
 
@@ -71,6 +73,15 @@ void on_hang(int) {
   keep_input();
   std::abort();
 }
+
+#ifndef __SANITIZE_ADDRESS__
+void on_crash(int signal) {
+  std::fprintf(stderr, "CRASH: signal %d\n", signal);
+  keep_input();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+#endif
 
 void arm_timer(int seconds) {
   itimerval timer{};
@@ -233,7 +244,11 @@ int main(int argc, char** argv) {
   folder += "/feltgate-fuzz-XXXXXX";
   if (mkdtemp(folder.data()) == nullptr) return 2;
   finding = (fs::current_path() / (std::string("fuzz-") + argv[1] + ".finding")).string();
+#ifdef __SANITIZE_ADDRESS__
   __sanitizer_set_death_callback(keep_input);
+#else
+  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(crash, on_crash);
+#endif
   std::signal(SIGPROF, on_hang);
   int code = 2;
   try {

@@ -64,6 +64,7 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
                                                    a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
                                                    a.press_n > 0 ? 0.5 : 0.9)
                               : touch::read_stroke(a.stroke);
+  if (!a.motion.empty()) r.mesh_way = touch::read_stroke(a.motion, true);
   return r;
 }
 
@@ -90,9 +91,9 @@ Decimation decimate(const TouchArguments& a, touch::Mesh& mesh) {
   d.faces = static_cast<std::int64_t>(few.triangles.size());
   d.faces_before = static_cast<std::int64_t>(mesh.triangles.size());
   d.hausdorff_m = touch::hausdorff_m(few, mesh);
-  d.jump_rad = touch::largest_jump_rad(few);
-  d.jump_before_rad = touch::largest_jump_rad(mesh);
-  d.force_step_n = a.stiffness * a.depth_m * 2 * std::sin(d.jump_rad / 2);
+  d.jumps = touch::jumps_of(few);
+  d.before = touch::jumps_of(mesh);
+  d.force_step_n = a.stiffness * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
   few.report = mesh.report;  // of the file
   mesh = std::move(few);
   return d;
@@ -102,7 +103,9 @@ int run(const TouchArguments& a) {
   (void)choose_axes_backends(a.engine);
   files::Outputs outputs;
   outputs.reads(a.glb);
-  if (!a.stroke.empty()) outputs.reads(a.stroke);
+  for (const std::string& path : {a.stroke, a.motion}) {
+    if (!path.empty()) outputs.reads(path);
+  }
   files::OutputFile* json = outputs.open("--json", a.json);
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   touch::Soup soup = touch::read_glb(a.glb);
@@ -120,8 +123,10 @@ int run(const TouchArguments& a) {
       fewer = decimate(a, mesh);
     if (!a.mesh_only) told = touched(a, mesh);
   } catch (const std::invalid_argument& error) {
-    // Of the stroke's file it already says where.
-    if (!a.stroke.empty() && std::string(error.what()).find(a.stroke) == 0) throw;
+    // Of the files of stroke and motion it already says where.
+    for (const std::string& path : {a.stroke, a.motion}) {
+      if (!path.empty() && std::string(error.what()).find(path) == 0) throw;
+    }
     throw std::invalid_argument(a.glb + ": " + error.what());
   }
   nlohmann::ordered_json j = mesh_json(a, mesh, scale, fewer);
@@ -166,6 +171,11 @@ void add_options(CLI::App& sub, TouchArguments& a) {
                      "a hand's way: CSV with time_s,x_m,y_m,z_m; default: over it, left to right")
           ->type_name("FILE")
           ->check(checks::no_folder());
+  sub.add_option(
+         "--motion", a.motion,
+         "the mesh moves and turns: CSV with time_s,x_m,y_m,z_m,turn_rad; default: it stands")
+      ->type_name("FILE")
+      ->check(checks::no_folder());
   amount("--depth", a.depth_m, "of the stroke below what is seen from above",
          checks::number(0, 0.02, "m"), "M")
       ->excludes(stroke);

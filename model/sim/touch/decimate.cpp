@@ -80,19 +80,31 @@ double hausdorff_m(const Mesh& a, const Mesh& b) {
   return std::max(farthest_m(a, TriangleTree(b)), farthest_m(b, TriangleTree(a)));
 }
 
-double largest_jump_rad(const Mesh& mesh) {
+Jumps jumps_of(const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> seen;
-  double largest = 0;
+  std::vector<std::pair<double, double>> edges;  // angle and length
+  double all_m = 0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 normal = unit_normal(mesh, t);
     for (std::size_t side = 0; side < 3; ++side) {
-      const auto [other, fresh] = seen.try_emplace(std::minmax(t[side], t[(side + 1) % 3]), normal);
+      const std::uint32_t a = t[side], b = t[(side + 1) % 3];
+      const auto [other, fresh] = seen.try_emplace(std::minmax(a, b), normal);
       if (fresh) continue;
       const Vec3 before = other->second;
-      largest = std::max(largest, std::atan2(length(cross(before, normal)), dot(before, normal)));
+      edges.emplace_back(std::atan2(length(cross(before, normal)), dot(before, normal)),
+                         length(mesh.at[b] - mesh.at[a]));
+      all_m += edges.back().second;
     }
   }
-  return largest;
+  std::sort(edges.begin(), edges.end());
+  Jumps jumps;
+  double length_m = 0;
+  for (const auto& [angle_rad, edge_m] : edges) {
+    if (length_m < 0.95 * all_m) jumps.most_rad = angle_rad;
+    length_m += edge_m;
+    jumps.largest_rad = angle_rad;
+  }
+  return jumps;
 }
 
 }  // namespace feltgate::touch

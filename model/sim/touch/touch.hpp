@@ -93,9 +93,13 @@ Mesh clean(const Soup& soup, double crease_rad = 0.7);
 Soup decimate(const Mesh& mesh, std::size_t most_faces);
 /// The farthest that a corner or the middle of a face of one mesh is away from the other mesh, m.
 double hausdorff_m(const Mesh& a, const Mesh& b);
-/// The largest angle between the normals of two faces with one edge, rad. At a depth d below it the
-/// force of a spring K turns by this angle phi in one step: K d 2 sin(phi / 2), N.
-double largest_jump_rad(const Mesh& mesh);
+/// Angles between the normals of two faces with one edge, rad. At a depth d below such an edge the
+/// force of a spring K turns by the angle phi in one step: K d 2 sin(phi / 2), N.
+struct Jumps {
+  double largest_rad = 0;
+  double most_rad = 0;  ///< no more than this on 95 % of the length of all edges
+};
+Jumps jumps_of(const Mesh& mesh);
 
 /// How often the closed components wind around a point: 1 inside of one that looks outwards, -1
 /// where it looks inwards, 0 outside.

@@ -48,7 +48,10 @@ TEST_CASE("touch: fewer faces of a torus are a torus, near by as the closed form
   CHECK(apart_m > off_m(few) - off_m(all));
   CHECK(apart_m < 2 * off_m(few));
   CHECK(apart_m < 0.5e-3);
-  CHECK(touch::largest_jump_rad(few) > touch::largest_jump_rad(all));
+  // Around the tube a face turns by 6 degrees; of a tenth of the faces by three times that.
+  CHECK(touch::jumps_of(all).largest_rad == Approx(full_turn / 60).epsilon(0.01));
+  CHECK(touch::jumps_of(few).most_rad > 2 * full_turn / 60);
+  CHECK(touch::jumps_of(few).most_rad < 6 * full_turn / 60);
 }
 
 TEST_CASE("touch: the distance of two meshes is that of a corner that moved, from both sides") {
@@ -61,6 +64,14 @@ TEST_CASE("touch: the distance of two meshes is that of a corner that moved, fro
   CHECK(touch::hausdorff_m(flat, flat) < 1e-15);
   // A part that one of them lacks counts too.
   CHECK(touch::hausdorff_m(clean(sheet(0.04, 4)), flat) > 0.013);
+}
+
+TEST_CASE("touch: a dent of few edges is told as the largest turn, not as that of most") {
+  Soup dented = sheet(0.06, 40);
+  dented.at[41 * 20 + 20].z -= 1e-3;
+  const touch::Jumps jumps = touch::jumps_of(clean(dented));
+  CHECK(jumps.largest_rad > 0.5);
+  CHECK(jumps.most_rad < 1e-9);
 }
 
 TEST_CASE("touch: a flat sheet of two materials needs few faces, and no gap opens between them") {
@@ -87,7 +98,8 @@ TEST_CASE("touch: a flat sheet of two materials needs few faces, and no gap open
 TEST_CASE("touch: over an edge the force steps by K d 2 sin(phi / 2)") {
   for (const double turn_rad : {5 * degree, 15 * degree, 30 * degree}) {
     const Mesh mesh = clean(roof(turn_rad));
-    CHECK(std::abs(touch::largest_jump_rad(mesh) - turn_rad) < 1e-9);
+    CHECK(std::abs(touch::jumps_of(mesh).largest_rad - turn_rad) < 1e-9);
+    CHECK(std::abs(touch::jumps_of(mesh).most_rad - turn_rad) < 1e-9);
     touch::Proxy proxy(mesh, {});
     constexpr double depth_m = 2e-3;
     const auto pen = [&](double x) {

@@ -88,11 +88,16 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
   if (r.components.size() > most_shown)
     s += fmt::format("  and {} smaller ones\n", r.components.size() - most_shown);
   if (fewer) {
+    s += fmt::format("  {} of {} faces: {:.3g} mm away at most\n", fewer->faces,
+                     fewer->faces_before, 1e3 * fewer->hausdorff_m);
     s += fmt::format(
-        "  {} of {} faces: {:.3g} mm away at most; neighbours turn by up to {:.1f} degrees, before "
-        "{:.1f}: a step of {:.3g} N at {:g} mm and {:g} N/m\n",
-        fewer->faces, fewer->faces_before, 1e3 * fewer->hausdorff_m, degrees(fewer->jump_rad),
-        degrees(fewer->jump_before_rad), fewer->force_step_n, 1e3 * a.depth_m, a.stiffness);
+        "  faces turn by up to {:.1f} degrees on 95 % of their edges, {:.1f} at most; before "
+        "{:.1f} "
+        "and {:.1f}\n  so the force steps by up to {:.3g} N on 95 % of the edges, {:g} mm deep at "
+        "{:g} N/m\n",
+        degrees(fewer->jumps.most_rad), degrees(fewer->jumps.largest_rad),
+        degrees(fewer->before.most_rad), degrees(fewer->before.largest_rad), fewer->force_step_n,
+        1e3 * a.depth_m, a.stiffness);
   }
   return s;
 }
@@ -166,12 +171,16 @@ nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mes
     j["components"].push_back(part);
   }
   if (fewer) {
-    j["decimated"] = {{"faces", fewer->faces},
-                      {"faces_before", fewer->faces_before},
-                      {"hausdorff_m", fewer->hausdorff_m},
-                      {"jump_rad", fewer->jump_rad},
-                      {"jump_before_rad", fewer->jump_before_rad},
-                      {"force_step_n", fewer->force_step_n}};
+    const auto turn = [](const touch::Jumps& jumps) {
+      return nlohmann::ordered_json{{"most", jumps.most_rad}, {"largest", jumps.largest_rad}};
+    };
+    nlohmann::ordered_json& d = j["decimated"];
+    d["faces"] = fewer->faces;
+    d["faces_before"] = fewer->faces_before;
+    d["hausdorff_m"] = fewer->hausdorff_m;
+    d["turn_rad"] = turn(fewer->jumps);
+    d["turn_before_rad"] = turn(fewer->before);
+    d["force_step_n"] = fewer->force_step_n;
   }
   return j;
 }

@@ -137,9 +137,10 @@ target_compile_options(feltgate_shape PRIVATE -O1)
 find_package(PNG REQUIRED)
 feltgate_library(feltgate_texture studies/texture feltgate_shape PNG::PNG)
 
-# Meshes under the pen: docs/touch.md. Linked by name, as SystemC is: only who builds them needs TinyGLTF.
+# Meshes under the pen: docs/touch.md. Linked by name, as SystemC is: only who builds them needs TinyGLTF and
+# meshoptimizer.
 feltgate_library(feltgate_mesh sim/touch EXCEPT "/touch_run" feltgate_model)
-target_link_libraries(feltgate_mesh PRIVATE tinygltf)
+target_link_libraries(feltgate_mesh PRIVATE tinygltf meshoptimizer)
 # The whole work of a run is in the proxy.
 target_compile_options(feltgate_mesh PRIVATE -O2)
 
@@ -213,7 +214,7 @@ foreach(kind twin rtl)
     set(objects $<TARGET_OBJECTS:preset_stylus_law>)
     set(cores core_stylus_law)
   endif()
-  feltgate_program(${name} touch_main.cpp feltgate_command_line feltgate_files feltgate_mesh feltgate_axes_loop
+  feltgate_program(${name} "touch_main.cpp;touch/touch_report.cpp" feltgate_command_line feltgate_files feltgate_mesh feltgate_axes_loop
     ${cores} nlohmann_json::nlohmann_json)
   target_sources(${name} PRIVATE ${objects})
   if(kind STREQUAL "rtl" OR NOT FELTGATE_TESTS)

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A triangle mesh under a pen: read from a GLB file, placed into the pen's reach, cleaned, and told
-// what it is; the tree by which its triangles are found; and the god-object of C. Zilles and K.
-// Salisbury, 1995, a point that follows the pen and stays on its side. Documentation: docs/touch.md
+// what it is; fewer faces of it; the tree by which its triangles are found; the god-object of C.
+// Zilles and K. Salisbury, 1995, a point that follows the pen and stays on its side. Documentation:
+// docs/touch.md
 #pragma once
 
 #include <array>
@@ -85,6 +86,20 @@ struct Mesh {
 /// are smooth where neighbours differ by less than `crease_rad`. Errors: std::invalid_argument
 /// where nothing is left.
 Mesh clean(const Soup& soup, double crease_rad = 0.7);
+
+/// At most `most_faces` faces of the same surface, with its materials; more where its topology or
+/// the borders between materials need them. Corners are some of the mesh's. Errors:
+/// std::invalid_argument where none is left.
+Soup decimate(const Mesh& mesh, std::size_t most_faces);
+/// The farthest that a corner or the middle of a face of one mesh is away from the other mesh, m.
+double hausdorff_m(const Mesh& a, const Mesh& b);
+/// Angles between the normals of two faces with one edge, rad. At a depth d below such an edge the
+/// force of a spring K turns by the angle phi in one step: K d 2 sin(phi / 2), N.
+struct Jumps {
+  double largest_rad = 0;
+  double most_rad = 0;  ///< no more than this on 95 % of the length of all edges
+};
+Jumps jumps_of(const Mesh& mesh);
 
 /// How often the closed components wind around a point: 1 inside of one that looks outwards, -1
 /// where it looks inwards, 0 outside.

@@ -27,8 +27,64 @@ namespace feltgate::touch {
 struct StrokePoint {
   double time_s = 0;
   Vec3 at_m;
+  double turn_rad =
+      0;  ///< of a mesh about the vertical through the middle of its box; a pen has none
 };
 using Stroke = std::vector<StrokePoint>;
+
+/// Where a way is at a time: straight between its points, still before and after.
+inline StrokePoint at_time(const Stroke& way, double time_s) {
+  const auto next = std::upper_bound(way.begin(), way.end(), time_s,
+                                     [](double t, const StrokePoint& p) { return t < p.time_s; });
+  if (next == way.begin()) return way.front();
+  if (next == way.end()) return way.back();
+  const StrokePoint& last = *(next - 1);
+  const double share = (time_s - last.time_s) / (next->time_s - last.time_s);
+  return {time_s, last.at_m + share * (next->at_m - last.at_m),
+          last.turn_rad + share * (next->turn_rad - last.turn_rad)};
+}
+
+/// The two corners of a mesh's box.
+inline std::pair<Vec3, Vec3> box_of(const Mesh& mesh) {
+  Vec3 low = mesh.at.front(), high = low;
+  for (const Vec3& v : mesh.at) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  return {low, high};
+}
+
+/// A mesh that moves: T_world = T_actor T_mesh. The proxy stays in the frame of the mesh, so a
+/// surface that comes to the pen pushes it as one that the pen goes to.
+class Actor {
+ public:
+  Actor(const Mesh& mesh, Stroke way) : way_(std::move(way)) {
+    const auto [low, high] = box_of(mesh);
+    middle_m_ = 0.5 * (low + high);
+  }
+  /// A point of the device in the frame of the mesh, at a time.
+  Vec3 in_mesh(Vec3 at_m, double time_s) const {
+    if (way_.empty()) return at_m;
+    const StrokePoint pose = at_time(way_, time_s);
+    return middle_m_ + turned(at_m - pose.at_m - middle_m_, -pose.turn_rad);
+  }
+  /// What the proxy knows, in the frame of the device.
+  Touched in_device(Touched t, double time_s) const {
+    if (way_.empty()) return t;
+    const StrokePoint pose = at_time(way_, time_s);
+    for (Vec3* at : {&t.proxy_m, &t.point_m})
+      *at = middle_m_ + pose.at_m + turned(*at - middle_m_, pose.turn_rad);
+    t.normal = turned(t.normal, pose.turn_rad);
+    return t;
+  }
+
+ private:
+  static Vec3 turned(Vec3 v, double rad) {
+    return plant::Quaternion::about({0, 0, 1}, rad).turn(v);
+  }
+  Stroke way_;
+  Vec3 middle_m_;
+};
 
 /// The highest place of a mesh below a point; nothing where there is none.
 inline std::optional<double> height_m(const TriangleTree& tree, Vec3 from_m, double down_m) {
@@ -45,11 +101,7 @@ inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double dep
                           double speed_m_s, double share = 0.9) {
   constexpr int places = 200;
   constexpr double wait_s = 0.02, above_m = 3e-3;
-  Vec3 low = mesh.at.front(), high = low;
-  for (const Vec3& v : mesh.at) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
+  const auto [low, high] = box_of(mesh);
   const Vec3 middle = 0.5 * (low + high), wide = 0.5 * share * (high - low);
   const double down_m = high.z - low.z + 2 * above_m;
   std::vector<Vec3> way;
@@ -77,9 +129,12 @@ inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double dep
   return stroke;
 }
 
-/// A stroke of a CSV file with the columns time_s,x_m,y_m,z_m and a line of their names. Errors:
-/// std::invalid_argument "path:line: what; mend".
-inline Stroke read_stroke(const std::string& path) {
+/// A stroke of a CSV file with the columns time_s,x_m,y_m,z_m and a line of their names; with
+/// `turns` the way of a mesh, which has a column turn_rad too. Errors: std::invalid_argument
+/// "path:line: what; mend".
+inline Stroke read_stroke(const std::string& path, bool turns = false) {
+  const std::string columns = turns ? "time_s,x_m,y_m,z_m,turn_rad" : "time_s,x_m,y_m,z_m";
+  const int count = turns ? 5 : 4;
   constexpr std::size_t most_rows = 100'000;
   constexpr double longest_s = 60;
   std::ifstream file(path);
@@ -88,20 +143,21 @@ inline Stroke read_stroke(const std::string& path) {
   const auto fail = [&](const std::string& what) {
     throw std::invalid_argument(fmt::format("{}:{}: {}", path, line, what));
   };
-  if (!std::getline(file, text)) fail("no stroke; write rows of time_s,x_m,y_m,z_m");
+  if (!std::getline(file, text)) fail("no row; write rows of " + columns);
   if (!text.empty() && text.back() == '\r') text.pop_back();
-  if (text != "time_s,x_m,y_m,z_m") fail("not the columns time_s,x_m,y_m,z_m; name them so");
+  if (text != columns) fail(fmt::format("not the columns {}; name them so", columns));
   Stroke stroke;
   while (std::getline(file, text)) {
     ++line;
-    double value[4] = {};
+    double value[5] = {};
     const char* at = text.c_str();
-    for (int n = 0; n < 4; ++n) {
+    for (int n = 0; n < count; ++n) {
       char* end = nullptr;
       value[n] = std::strtod(at, &end);
-      const char follows = n < 3 ? ',' : '\0';
-      if (end == at || !std::isfinite(value[n]) || (*end != follows && !(n == 3 && *end == '\r'))) {
-        fail("not four numbers; write time_s,x_m,y_m,z_m");
+      const bool last = n + 1 == count;
+      const char follows = last ? '\0' : ',';
+      if (end == at || !std::isfinite(value[n]) || (*end != follows && !(last && *end == '\r'))) {
+        fail(fmt::format("not {} numbers; write {}", turns ? "five" : "four", columns));
       }
       at = end + 1;
     }
@@ -111,7 +167,7 @@ inline Stroke read_stroke(const std::string& path) {
     }
     if (!stroke.empty() && value[0] <= stroke.back().time_s)
       fail("time does not go on; sort the rows");
-    stroke.push_back({value[0], to});
+    stroke.push_back({value[0], to, value[4]});
     if (stroke.back().time_s - stroke.front().time_s > longest_s || stroke.size() > most_rows) {
       fail(fmt::format("longer than {} s or {} rows; make it shorter", longest_s, most_rows));
     }
@@ -128,6 +184,7 @@ struct TouchRequest {
   PlaneHostSettings host;
   std::map<std::string, PlaneMaterial> materials;  ///< of parts that have one of their own, by name
   Stroke stroke;
+  Stroke mesh_way;  ///< of the mesh, by how much it is moved and turned; empty: it stands
   /// Above 0: from the third point of the stroke on, nothing leads the pen up and down; the hand
   /// presses it with this force.
   double press_n = 0;
@@ -186,7 +243,8 @@ inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesSce
                           AxesRunOptions options, std::int64_t tick_hz) {
   TouchRun run;
   Proxy proxy(mesh, request.proxy);
-  proxy.begin(request.stroke.front().at_m);
+  const Actor actor(mesh, request.mesh_way);
+  proxy.begin(actor.in_mesh(request.stroke.front().at_m, 0));
   PlaneHostSettings host = request.host;
   host.axes = 3;
   std::vector<PlaneMaterial> materials(std::max<std::size_t>(1, mesh.materials.size()), host);
@@ -196,10 +254,10 @@ inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesSce
   }
   host.search = [&](Vec3 pen_m) {
     const auto from = std::chrono::steady_clock::now();
-    const Touched t = proxy.move(pen_m);
+    const double time_s = static_cast<double>(run.updates.size()) / host.rate_hz;
+    const Touched t = actor.in_device(proxy.move(actor.in_mesh(pen_m, time_s)), time_s);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
-    run.updates.push_back(
-        {static_cast<double>(run.updates.size()) / host.rate_hz, pen_m, t, took.count()});
+    run.updates.push_back({time_s, pen_m, t, took.count()});
     return std::pair{Plane{t.point_m, t.normal}, materials[mesh.parts[t.triangle]]};
   };
   auto& setup = std::get<StylusSetup>(scene.device);

@@ -226,7 +226,7 @@ class Presets(Machine):
                 self.assertEqual(self.built("run", "membrane", "--engine", engine), [[f"feltgate_{program}"]])
                 self.assertEqual(self.built("replay", f"--engine={engine}", "a.csv"), [[f"feltgate_{program}"]])
         self.assertEqual(self.built("import", "a.sr"), [["feltgate_twin"]])
-        self.installed(*BUILD_PACKAGES, "libtinygltf-dev")
+        self.installed(*BUILD_PACKAGES, "libtinygltf-dev", "libmeshoptimizer-dev")
         self.assertEqual(self.built("touch", "a.glb"), [["feltgate_touch"]])
         self.assertEqual(self.built("touch", "a.glb", "--engine", "all"), [["feltgate_touch_rtl"]])
 

@@ -370,12 +370,14 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   CHECK(run(ball + " --mesh-only --json " + json) == 0);
   CHECK(text.find("V - E + F = 162 - 480 + 320 = 2, closed, genus 0") != std::string::npos);
   CHECK(std::filesystem::exists(json));
+  CHECK(run(ball + " --mesh-only --faces 100") == 0);
+  CHECK(text.find("of 320 faces: ") != std::string::npos);
   CHECK(run(ball + " --size 20mm --speed 1m/s --json " + json) == 0);
   CHECK(text.find("engine off the law") != std::string::npos);
   for (const std::string& words :
        {cut, said + ".none", ball + " --centre nan 0 0", ball + " --size 0.5m --centre 0.1 0 0",
         ball + " --stroke " + ball, ball + " --material moss=1,2,3", ball + " --material none=1,2",
-        ball + " --mesh-only --csv x", ball + " --engine fast"}) {
+        ball + " --mesh-only --csv x", ball + " --engine fast", ball + " --faces -1"}) {
     INFO(words);
     CHECK(run(words + " --json " + json) == 2);
     CHECK(std::count(text.begin(), text.end(), '\n') == 1);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// What `feltgate touch` was asked and what it tells: text, JSON, rows of a CSV file. Documentation:
+// docs/touch.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/touch/touch_run.hpp"
+
+namespace feltgate {
+
+struct TouchArguments {
+  std::string glb, stroke, motion, engine = "twin,double", json, csv;
+  std::vector<std::string> materials;
+  std::int64_t faces = 0;  ///< at most so many; 0: all of the file
+  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0, press_n = 0;
+  std::array<double, 3> centre_m{};
+  double stiffness = 300, damping = 0, drag = 0;
+  double rate_hz = 1000, latency_s = 1e-3, jitter_s = 1e-3, lost = 0;
+  bool as_is = false, shading = false, mesh_only = false, quiet = false;
+};
+
+/// What fewer faces cost.
+struct Decimation {
+  std::int64_t faces = 0, faces_before = 0;
+  double hausdorff_m = 0;
+  touch::Jumps jumps, before;  ///< of the normals at its edges
+  double force_step_n = 0;     ///< at 95 % of the edges, at the stroke's depth and stiffness
+};
+
+/// The mesh in words.
+std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const touch::Mesh& mesh,
+                      double scale, const std::optional<Decimation>& fewer);
+/// The stroke in words and a table.
+std::string run_text(const TouchArguments& a, const touch::TouchRun& run);
+nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mesh, double scale,
+                                 const std::optional<Decimation>& fewer);
+void add_run(nlohmann::ordered_json& j, const touch::TouchRun& run);
+/// A row for each plane, after a line of names.
+void write_rows(std::FILE* to, const touch::TouchRun& run);
+
+}  // namespace feltgate

@@ -57,7 +57,7 @@ package feltgate_pkg;
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'hfb290b2a;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h11b538dd;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -193,7 +193,7 @@ package feltgate_pkg;
       9'd51: parameter_reset = 32'd2097;  // self_test_torque
       9'd37: parameter_reset = 32'd157;  // self_test_quiet
       9'd38: parameter_reset = 32'd39;  // self_test_pulse
-      9'd41: parameter_reset = 32'd3;  // self_test_arms
+      9'd41: parameter_reset = 32'd2;  // self_test_arms
       9'd26: parameter_reset = 32'd2883584;  // commutation_gain
       9'd13: parameter_reset = 32'd0;  // commutation_offset
       9'd74: parameter_reset = 32'd0;  // setpoint_torque

@@ -71,7 +71,7 @@ struct GimbalMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xfb290b2a;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x11b538dd;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -231,7 +231,7 @@ struct GimbalMotor {
       {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse,
        39.0, 39},
       {"self_test_arms", "1", A::self_test_arms, P::self_test_arms,
-       3.0, 3},
+       2.0, 2},
       {"commutation_gain", "turn/count", A::commutation_gain, P::commutation_gain,
        0.00067138671875, 2883584},
       {"commutation_offset", "turn", A::commutation_offset, P::commutation_offset,

@@ -57,7 +57,7 @@ package feltgate_pkg;
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h55877905;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h402d31f3;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -148,7 +148,7 @@ package feltgate_pkg;
   localparam int P_DUTY_GAIN_F = 8;
   localparam int P_COMPRESSION_STIFFNESS_F = 31;
   localparam int P_TENSION_STIFFNESS_F = 31;
-  localparam int P_DAMPER_DAMPING_F = 26;
+  localparam int P_DAMPER_DAMPING_F = 25;
   localparam int P_ATTRACT_CORE_SLOPE_F = 30;
   localparam int P_REPEL_CORE_SLOPE_F = 30;
   localparam int P_WALL_STIFFNESS_F = 26;
@@ -204,7 +204,7 @@ package feltgate_pkg;
       9'd130: parameter_reset = 32'd82355;  // compression_stiffness
       9'd161: parameter_reset = 32'd0;  // tension_rest
       9'd162: parameter_reset = 32'd41177;  // tension_stiffness
-      9'd202: parameter_reset = 32'd67109;  // damper_damping
+      9'd202: parameter_reset = 32'd100663;  // damper_damping
       9'd225: parameter_reset = 32'd0;  // attract_centre
       9'd226: parameter_reset = 32'd891230556;  // attract_strength
       9'd230: parameter_reset = 32'd521;  // attract_core

@@ -45,7 +45,7 @@ double aligning_volts(const design::Design& d, double asked_v) {
 
 /// Turns the rotor of the board's motor with the voltage, and back.
 std::vector<AlignReading> turned(Session& session, double volts) {
-  constexpr double rests_s = 0.25;
+  constexpr double rests_s = 0.2;
   BenchMotor motor(session.device(), Mode::direct_voltage);
   const KeptWords kept(motor, {"commutation_gain", "commutation_offset", "voltage_setpoint"});
   for (const char* word : {"commutation_gain", "commutation_offset", "voltage_setpoint"}) {

@@ -71,7 +71,7 @@ struct GimbalMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x55877905;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x402d31f3;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -122,7 +122,7 @@ struct GimbalMotor {
     static constexpr Format compression_stiffness{0, -14, 31};
     static constexpr Format tension_rest{1, 17, 8};
     static constexpr Format tension_stiffness{0, -14, 31};
-    static constexpr Format damper_damping{0, -9, 26};
+    static constexpr Format damper_damping{0, -8, 25};
     static constexpr Format attract_centre{1, 17, 8};
     static constexpr Format attract_strength{0, 16, 16};
     static constexpr Format attract_core{0, 31, 0};
@@ -253,7 +253,7 @@ struct GimbalMotor {
       {"tension_stiffness", "Nm/count", A::tension_stiffness, P::tension_stiffness,
        1.9174759848570515e-05, 41177},
       {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping,
-       0.001, 67109},
+       0.0030000000000000001, 100663},
       {"attract_centre", "count", A::attract_centre, P::attract_centre,
        0.0, 0},
       {"attract_strength", "Nm count^2", A::attract_strength, P::attract_strength,

@@ -178,7 +178,7 @@ class ThreePhases(BoardTest):
         found = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
         self.assertEqual(found["whole_pole_pairs"], 11)
         self.assertAlmostEqual(found["changes"][1]["value"], offset_rad, delta=0.02)
-        self.assertIn("pole_pairs = 11 ", (self.folder / "mine.toml").read_text(encoding="utf-8"))
+        self.assertIn("offset_rad = 1.2", (self.folder / "mine.toml").read_text(encoding="utf-8"))
         again = self.host("-", "--design", "gimbal_motor", "calibrate", "align", "--from", "a.csv")
         self.assertIn(again.splitlines()[0], said)
 

@@ -5,7 +5,7 @@
 include_guard(GLOBAL)
 
 feltgate_library(feltgate_board_parts host/board EXCEPT "/rtl_cores" feltgate_backends feltgate_loop)
-set(board_designs ${FELTGATE_DESIGNS} lever_law)  # also the preset with an engine
+set(board_designs ${FELTGATE_DESIGNS} lever_law gimbal_motor)  # also presets: an engine, three phases
 set(registrations "")
 foreach(design IN LISTS board_designs)
   feltgate_type_of(${design} type)

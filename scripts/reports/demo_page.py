@@ -15,7 +15,7 @@ from pathlib import Path
 from reports import axes_card, card, demo_tables, headline, page, recordings, run_pictures
 from reports import run_section, stability_section
 from reports.progress import clock_text
-from reports.runs import ENGINE_DESIGN
+from reports.runs import presets
 
 
 # What every reader has felt before.
@@ -38,7 +38,7 @@ def draw(run):
     if run.of_axes:
         return Drawn([], axes_card.html(f"card-{name}", summary, run.csv))
     drawn = Drawn(run_pictures.pictures(name, summary, run.csv))
-    if name in CARDS or run.design == ENGINE_DESIGN:
+    if name in CARDS or run.design in presets():
         drawn.card = card.html(f"card-{name}", summary, run.csv)
     if run.job.recording is not None and run_section.room(summary) != "line":
         drawn.strip = run_pictures.strip(run.csv)

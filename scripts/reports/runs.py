@@ -25,7 +25,13 @@ ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2])
 SCENES = ROOT / "vectors" / "scenes"
 FIRST_PROGRAM = "feltgate_run"  # has the design lever alone, and is built before the others
 ENGINE_DESIGN = "lever_law"  # has an engine for laws, and a program of its own
-PHASES_DESIGN = "gimbal_motor"  # for the plant of that name, whose motor has three phases
+
+
+@lru_cache
+def presets():
+    """Designs whose core is in a program of its own."""
+    lines = (ROOT / "rtl/designs/presets.txt").read_text(encoding="utf-8").splitlines()
+    return {line for line in lines if line and not line.startswith("#")}
 
 
 def build_folder():
@@ -36,7 +42,7 @@ def program_path(design=""):
     """Where the program of a design lies once it is built; of none, the program with every
     command."""
     path = Path(os.environ.get("FELTGATE_PROGRAM") or build_folder() / "feltgate")
-    if path.name == "feltgate" and (design.endswith("_law") or design == PHASES_DESIGN):
+    if path.name == "feltgate" and design in presets():
         return path.with_name(f"feltgate_{design}")
     if path.name == "feltgate" and design == "lever":
         small = path.with_name(FIRST_PROGRAM)
@@ -67,13 +73,13 @@ def scene_file(name):
 
 
 def design_of(scene):
-    """The design that a scene runs on: its device's, that of its motor with three phases, or one with
-    an engine where it has a law."""
+    """The design that a scene runs on: the one that it names, its device's, or one with an engine where
+    it has a law."""
     file = scene_file(scene)
     if "device" in file:
         return f"{file['device']}_law"
-    if file.get("plant") == PHASES_DESIGN:
-        return PHASES_DESIGN
+    if "design" in file:
+        return file["design"]
     return ENGINE_DESIGN if "law" in file["core"] else "lever"
 
 

@@ -29,9 +29,9 @@ class ProgramTest(Scratch):
     def environment(self):
         return os.environ | {"FELTGATE_ROOT": str(ROOT)}
 
-    def run_program(self, program, *words, status=0, typed=""):
+    def run_program(self, program, *words, status=0, typed="", timeout=120):
         """What it says, stdout first, when it ends with this status."""
-        options = {"env": self.environment(), "cwd": self.folder, "timeout": 120}
+        options = {"env": self.environment(), "cwd": self.folder, "timeout": timeout}
         done = ran(BUILD / program, *words, input=typed, **options)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr

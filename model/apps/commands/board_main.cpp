@@ -20,6 +20,7 @@
 #include "files/output_file.hpp"
 #include "host/board/serve.hpp"
 #include "sim/backends/backend.hpp"
+#include "sim/loop/scenario.hpp"
 #include "sim/plant/plant_file.hpp"
 
 namespace {
@@ -38,10 +39,12 @@ struct Arguments {
   double for_s = 0;
 };
 
-std::unique_ptr<Board> make_board(const Setup& setup, const std::string& kind) {
+/// Sets the plant where none is given.
+std::unique_ptr<Board> make_board(Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
   auto core = make_core(setup.design, kind, options);
+  if (setup.plant.empty()) setup.plant = default_plant(core->design());
   return std::make_unique<Board>(std::move(core),
                                  plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
                                  hand_named(setup.hand, repository() + "/vectors/scenes"), setup);
@@ -65,7 +68,7 @@ void say(const std::string& text) {
 }
 
 int run_replay(const Arguments& a, const std::string& kind) {
-  const Recording recording = read_recording(a.replay);
+  Recording recording = read_recording(a.replay);
   auto board = make_board(recording.setup, kind);
   Progress progress("replay " + a.replay, false);
   const Pace pace = board::replay(
@@ -83,7 +86,7 @@ int run_replay(const Arguments& a, const std::string& kind) {
   return exit_failed;
 }
 
-int run_board(const Arguments& a, const std::string& kind) {
+int run_board(Arguments& a, const std::string& kind) {
   auto board = make_board(a.setup, kind);
   files::Outputs outputs;
   files::OutputFile* record = outputs.open("--record", a.record);
@@ -118,7 +121,7 @@ int run_board(const Arguments& a, const std::string& kind) {
   return exit_ok;
 }
 
-int run(const Arguments& a) {
+int run(Arguments& a) {
   if (a.rtl && a.twin) throw std::invalid_argument("--rtl and --twin: give one of them");
   if (!a.replay.empty() && !(a.record.empty() && a.link.empty())) {
     throw std::invalid_argument(
@@ -170,8 +173,9 @@ int main(int argc, char** argv) {
   app.add_option("--design", a.setup.design, "design that was built in, by its name in rtl/designs")
       ->capture_default_str()
       ->type_name("DESIGN");
-  app.add_option("--plant", a.setup.plant, "motor and lever: a name in vectors/plants or a path")
-      ->capture_default_str()
+  app.add_option("--plant", a.setup.plant,
+                 "motor and lever: a name in vectors/plants or a path; default: p24, for three "
+                 "phases gimbal_motor")
       ->type_name("PLANT");
   app.add_option(
          "--hand", a.setup.hand,

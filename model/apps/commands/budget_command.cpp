@@ -57,7 +57,7 @@ struct Subject {
 
 Subject lever_subject(const std::string& path, const BudgetArguments& a, files::Outputs& outputs) {
   Subject s{read_scenario(path), a.design, nullptr, {}};
-  if (s.design.empty()) s.design = s.scene.law.empty() ? "lever" : "lever_law";
+  if (s.design.empty()) s.design = own_design(s.scene);
   if (!s.scene.law.empty()) {
     s.law = make_scene_law(law_file(s.scene), design_named(s.design));
     outputs.reads(law_file(s.scene));

@@ -108,6 +108,11 @@ void write_states(files::OutputFile& to, const SceneLaw& law, RunOptions& option
   };
 }
 
+/// The design of --design, else that for which the scene is made.
+std::string design_of(const RunArguments& a, const Scenario& s) {
+  return built_design(!a.design.empty() ? a.design : s.law.empty() ? own_design(s) : "lever");
+}
+
 /// What a reader of the scene may expect otherwise.
 std::vector<std::string> scene_notes(const Scenario& s, double count_rad) {
   std::vector<std::string> notes;
@@ -143,7 +148,7 @@ std::vector<std::string> scene_notes(const Scenario& s, double count_rad) {
   return notes;
 }
 
-int run(const RunArguments& a) {
+int run(RunArguments a) {
   if (a.columns && a.scene.empty()) {
     fmt::print("{}", columns_markdown());
     return exit_ok;
@@ -160,7 +165,11 @@ int run(const RunArguments& a) {
       throw std::invalid_argument(fmt::format(
           "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
     }
+    if (a.torque_scale > 0) {
+      throw std::invalid_argument("--torque-scale is for scenes of one lever; leave it out");
+    }
     if (law_scenes().axes == nullptr) refuse_laws(scene_path + ": ");
+    a.design = a.design.empty() ? "lever" : built_design(a.design);
     return law_scenes().axes(scene_path, a);
   }
   if (a.columns) {
@@ -168,6 +177,7 @@ int run(const RunArguments& a) {
     return exit_ok;
   }
   Scenario scenario = read_scenario(scene_path);
+  a.design = design_of(a, scenario);
   const DesignInfo& design = design_named(a.design);
   choose_plant(scenario, design);
   if (!a.plant.empty()) scenario.plant = a.plant;
@@ -175,6 +185,9 @@ int run(const RunArguments& a) {
   const plant::Parameters plant = plant::read_plant_file(plant_path);
   resolve_effects(scenario, plant.effects);
   const std::unique_ptr<SceneLaw> law = law_of(scenario, design);
+  if (a.torque_scale > 0) {
+    scale_torques(scenario, a.torque_scale, elaborated_design(own_design(scenario)), design);
+  }
   resolve_amounts(scenario, design, law.get());
   apply_settings(a.set, design, law.get(), scenario);
   check_scenario(scenario, plant, design, law.get());
@@ -261,6 +274,10 @@ int run(const RunArguments& a) {
                     elaborated.design.absolute_period_ticks());
   }
   labels.notes = scene_notes(scenario, elaborated.design.count_rad());
+  if (a.torque_scale > 0) {
+    labels.notes.push_back(fmt::format("torques are {:g} of those of design {}", a.torque_scale,
+                                       own_design(scenario)));
+  }
   for (files::OutputFile* file : {json, report_json}) {
     if (file != nullptr) file->write(run_json(result, labels));
   }
@@ -311,11 +328,16 @@ void add_run(CLI::App& app, int* exit_code) {
       "its\n"
       "proven bound, 1 otherwise, 2 unusable input.");
   sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
-  sub->add_option("--design", a->design, "design point in rtl/designs")
-      ->type_name("DESIGN")
-      ->capture_default_str();
+  sub->add_option("--design", a->design,
+                  "design point in rtl/designs; default: the scene's, else lever")
+      ->type_name("DESIGN");
   sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
       ->type_name("PLANT");
+  sub->add_option(
+         "--torque-scale", a->torque_scale,
+         "of a scene made for another design: multiply its torques by this (docs/scenes.md)")
+      ->type_name("FACTOR")
+      ->check(checks::number(1e-3, 1e3, ""));
   sub->add_option("--engine", a->engine, backend_help)->type_name("ENGINES")->capture_default_str();
   sub->add_option(
          "--set", a->set,
@@ -346,10 +368,7 @@ void add_run(CLI::App& app, int* exit_code) {
                   "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)")
       ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
-  sub->callback([a, exit_code] {
-    a->design = built_design(a->design);
-    *exit_code = run(*a);
-  });
+  sub->callback([a, exit_code] { *exit_code = run(*a); });
 }
 
 }  // namespace feltgate

@@ -16,11 +16,11 @@ namespace feltgate {
 
 /// Options of `feltgate run`.
 struct RunArguments {
-  std::string scene, design = "lever", plant, engine = "all", report, json, csv, fst, record,
-                     events, states;
+  std::string scene, design, plant, engine = "all", report, json, csv, fst, record, events, states;
   std::vector<std::string> set;
   std::uint64_t seed = 1;
-  int every = 0;  ///< 0: sane_every()
+  int every = 0;            ///< 0: sane_every()
+  double torque_scale = 0;  ///< 0: the scene as it is
   bool quiet = false;
   bool columns = false;  ///< only print the names of the columns
 };

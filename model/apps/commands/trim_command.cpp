@@ -260,7 +260,7 @@ trim::LawMaker law_of(const Scenario& scene, const DesignInfo& design, int axes)
 
 Trimmed trimmed_lever(const std::string& path, TrimArguments& a, files::Outputs& outputs) {
   Scenario scene = read_scenario(path);
-  if (a.design.empty()) a.options.design = scene.law.empty() ? "lever" : "lever_law";
+  if (a.design.empty()) a.options.design = own_design(scene);
   const DesignInfo& design = design_named(a.options.design);
   const trim::LawMaker law = law_of(scene, design, 1);
   const std::unique_ptr<SceneLaw> own = law ? law() : nullptr;

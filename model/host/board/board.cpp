@@ -12,9 +12,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sim/backends/absolute_sensor.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/loop/scenario_check.hpp"
-#include "sim/plant/drive.hpp"
 
 namespace feltgate::board {
 
@@ -89,19 +89,26 @@ plant::Hand hand_named(const std::string& name, const std::string& scenes_folder
 Board::Board(std::unique_ptr<Core> core, const plant::Parameters& parameters,
              const plant::Hand& hand, const Setup& setup)
     : core_(std::move(core)),
-      plant_(parameters, parameters.effects, plant::drive_of(core_->design()), hand),
+      plant_(parameters, parameters.effects, hand, core_->design(), false),
       plan_(plan(parameters, hand, core_->design())),
       to_board_(setup.bad_line, setup.seed),
       from_board_(setup.bad_line, setup.seed + 1),
       arm_at_(std::llround(kArmAfter_s * static_cast<double>(core_->design().clock_hz))),
       arm_(setup.arm) {
-  in_.encoder = plant_.encoder().pins();
+  if (parameters.effects.encoder_imperfect) {
+    for (const double mrad : parameters.encoder.absolute_error_mrad) {
+      error_rad_.push_back(1e-3 * mrad);
+    }
+  }
+  shown_rad_ = shown_angle(plant().theta_rad, error_rad_);
+  in_.encoder = plant_.shaft().encoder().pins();
   in_.scene = static_cast<std::uint8_t>(scene_number(core_->design(), setup.scene));
 }
 
 StepPlan Board::plan(const plant::Parameters& parameters, const plant::Hand& hand,
                      const DesignInfo& design) {
   const Scenario s = scene_of(parameters, hand);
+  check_phases(s, parameters, design);
   check_step(s, parameters, static_cast<double>(design.clock_hz));
   return {s, parameters, design};
 }
@@ -113,7 +120,7 @@ void Board::receive(const std::vector<std::uint8_t>& bytes) {
 void Board::run_to(Clock clock) {
   while (now_ < clock) {
     if (arm_ && now_ >= arm_at_) in_.arm = true;
-    Clock corner = plant_.next_corner();
+    Clock corner = plant_.shaft().next_corner();
     if (arm_ && now_ < arm_at_) corner = std::min(corner, arm_at_);
     step(plan_.end_of_step(now_, corner, std::numeric_limits<Clock>::max()) - now_);
   }
@@ -122,13 +129,12 @@ void Board::run_to(Clock clock) {
 // As in the loop of scenes: the core's last bridge state drives the motor in this step, and the
 // core gets each edge in its clock.
 void Board::step(Clock clocks) {
-  if (core_->duty() != duty_clocks_) {
-    duty_clocks_ = core_->duty();
-    duty_ = static_cast<double>(duty_clocks_) / core_->design().pwm_period;
-  }
-  plant_.advance(plant::Bridge::averaged(duty_, core_->gates_enabled()), clocks);
+  plant_.advance(*core_, clocks);
+  const double shown_rad = shown_angle(plant().theta_rad, error_rad_);
+  core_->turn_encoder(shown_rad_, shown_rad, clocks);
+  shown_rad_ = shown_rad;
   const Clock end = now_ + clocks;
-  for (const EncoderEvent& e : plant_.events()) {
+  for (const EncoderEvent& e : plant_.shaft().events()) {
     const Clock at = std::clamp(e.clock, now_, end);
     if (at > now_) core_->run(in_, at - now_);
     now_ = at;

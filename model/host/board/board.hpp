@@ -12,8 +12,8 @@
 #include "host/board/core.hpp"
 #include "host/board/recording.hpp"
 #include "sim/backends/fnv1a.hpp"
+#include "sim/loop/driven_plant.hpp"
 #include "sim/loop/step_plan.hpp"
-#include "sim/plant/plant.hpp"
 
 namespace feltgate::board {
 
@@ -37,7 +37,8 @@ plant::Hand hand_named(const std::string& name, const std::string& scenes_folder
 /// The simulated board; clock by clock for the core, step by step for the plant.
 class Board {
  public:
-  /// Power-up at clock 0. Errors: those of check_step() if the plant is too stiff.
+  /// Power-up at clock 0. Errors: those of check_step() if the plant is too stiff, and
+  /// config::ConfigError for a motor that the core's bridge does not drive.
   Board(std::unique_ptr<Core> core, const plant::Parameters& plant, const plant::Hand& hand,
         const Setup& setup);
 
@@ -50,7 +51,7 @@ class Board {
   std::vector<std::uint8_t> take_sent();
 
   const Core& core() const { return *core_; }
-  const plant::Observables& plant() const { return plant_.observables(); }
+  const plant::Observables& plant() const { return plant_.shaft().observables(); }
   Outcome outcome() const;
 
  private:
@@ -59,14 +60,14 @@ class Board {
   void step(Clock clocks);
 
   std::unique_ptr<Core> core_;
-  plant::Plant plant_;
+  DrivenPlant plant_;
+  std::vector<double> error_rad_;  ///< of an absolute encoder
+  double shown_rad_ = 0;           ///< by it
   StepPlan plan_;
   BoardIn in_;
   BadLine to_board_, from_board_;
   Clock now_ = 0, arm_at_ = 0;
   bool arm_ = false;
-  int duty_clocks_ = 0;
-  double duty_ = 0;
   std::int64_t bytes_ = 0;
   Fnv1a byte_sum_;
 };

@@ -68,6 +68,8 @@ class Core {
   virtual const DesignInfo& design() const = 0;
   /// The kind of core, for messages.
   virtual const char* kind() const = 0;
+  /// The shaft of an absolute encoder turns between these angles in the next `clocks`.
+  virtual void turn_encoder(double from_rad, double to_rad, Clock clocks) = 0;
   /// Runs `clocks` clocks with these pins held.
   virtual void run(const BoardIn& in, Clock clocks) = 0;
   /// Queues a byte for the board's rx pin.
@@ -77,6 +79,8 @@ class Core {
   virtual std::vector<std::uint8_t> take_received() = 0;
   /// Duty in force, in clocks of the PWM period, and whether the gates are enabled.
   virtual int duty() const = 0;
+  /// Of a bridge with three legs: clocks of a leg's high gate in a period, in force.
+  virtual int on_time(std::size_t leg) const = 0;
   virtual bool gates_enabled() const = 0;
   virtual const TickHash& ticks() const = 0;
 };

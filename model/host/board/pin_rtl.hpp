@@ -35,6 +35,7 @@ class PinRtl : public Core {
 
   const DesignInfo& design() const override { return info_; }
   const char* kind() const override { return "rtl"; }
+  void turn_encoder(double, double, Clock) override {}  // board_pins has no such pins
   void run(const BoardIn& in, Clock clocks) override {
     drive(in);
     for (; clocks > 0; --clocks) {
@@ -54,6 +55,7 @@ class PinRtl : public Core {
   std::size_t unsent() const override { return line_.unsent(); }
   std::vector<std::uint8_t> take_received() override { return line_.take_received(); }
   int duty() const override { return out_.duty_active; }
+  int on_time(std::size_t) const override { return 0; }
   bool gates_enabled() const override { return out_.gates_enable; }
   const TickHash& ticks() const override { return hash_; }
 

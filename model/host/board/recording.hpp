@@ -16,8 +16,8 @@ namespace feltgate::board {
 
 /// How a board was started.
 struct Setup {
-  std::string design = "lever", plant = "p24", hand = "free", scene = "free";
-  bool arm = false;  ///< the panel's switch
+  std::string design = "lever", plant, hand = "free", scene = "free";  ///< plant: default_plant()
+  bool arm = false;                                                    ///< the panel's switch
   std::int64_t baud = 1'000'000;
   double bad_line = 0;     ///< share of bytes that the line damages, in each direction
   std::uint64_t seed = 1;  ///< seed of the damage

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "host/calibrate/report.hpp"
@@ -24,6 +25,26 @@ constexpr double kQuarter = 0.25;
 double unwrapped(double turns, double before) { return turns - std::round(turns - before); }
 
 }  // namespace
+
+std::vector<AlignReading> take_readings(const std::function<bool(double turns)>& turn,
+                                        const std::function<double()>& position_counts) {
+  constexpr int steps = 8;  // of a turn
+  std::vector<AlignReading> readings;
+  for (int k = -steps; k <= steps; ++k) {
+    const double turns = static_cast<double>((steps - std::abs(k)) % steps) / steps;
+    if (!turn(turns)) break;
+    readings.push_back({turns, position_counts()});
+  }
+  return readings;
+}
+
+std::string readings_csv(const std::vector<AlignReading>& readings) {
+  std::string text = "commutation_offset,position\n";
+  for (const AlignReading& r : readings) {
+    text += fmt::format("{},{}\n", r.offset_turns, r.position_counts);
+  }
+  return text;
+}
 
 std::vector<AlignReading> align_readings(const ColumnTable& table) {
   const std::size_t angle = table.need({"commutation_offset"}, "the angle of the voltage, turn");

@@ -5,6 +5,7 @@
 // where the rotor came to rest. Documentation: docs/calibration.md
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -33,6 +34,14 @@ struct Alignment {
   std::vector<std::string> warnings;
   bool against() const { return pole_pairs.value < 0; }
 };
+
+/// Takes readings over an electrical turn and back, in steps of an eighth: `turn` moves the voltage
+/// to an angle in [0, 1) and waits until the rotor rests; false ends it. `position_counts` says
+/// where the rotor is.
+std::vector<AlignReading> take_readings(const std::function<bool(double turns)>& turn,
+                                        const std::function<double()>& position_counts);
+/// The readings as the CSV that align_readings() takes.
+std::string readings_csv(const std::vector<AlignReading>& readings);
 
 /// Reads the columns commutation_offset (turn) and position (counts), in the order in which they
 /// were taken. Errors: MeasurementError.

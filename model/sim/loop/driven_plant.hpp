@@ -25,6 +25,9 @@ class DrivenPlant {
         period_(design.pwm_period),
         plant_(made(parameters, effects, plant::drive_of(design), hand)) {}
 
+  const plant::ShaftPlant& shaft() const {
+    return std::visit([](const auto& p) -> const plant::ShaftPlant& { return p; }, plant_);
+  }
   plant::ShaftPlant& shaft() {
     return std::visit([](auto& p) -> plant::ShaftPlant& { return p; }, plant_);
   }
@@ -39,11 +42,33 @@ class DrivenPlant {
 
   /// Advances by `clocks`; the core's gates are those of its last `last` clocks.
   void advance(const Backend& core, Clock last, Clock clocks) {
+    if (!switched_) return advance(core, clocks);
+    const GateClocks g = core.gates();
+    const double n = static_cast<double>(std::max<Clock>(last, 1));  // 0 before the first step
+    const auto share = [n](std::int64_t on) { return static_cast<double>(on) / n; };
+    const double a_hi = share(g.a_hi), a_lo = share(g.a_lo), b_hi = share(g.b_hi),
+                 b_lo = share(g.b_lo);
     if (auto* brushed = std::get_if<plant::Plant>(&plant_)) {
-      brushed->advance(bridge(core, last), clocks);
+      brushed->advance(plant::Bridge::gates(a_hi, a_lo, b_hi, b_lo), clocks);
     } else {
-      std::get<plant::ThreePhasePlant>(plant_).advance(legs(core, last), clocks);
+      std::get<plant::ThreePhasePlant>(plant_).advance(
+          plant::Legs::gates(a_hi, a_lo, b_hi, b_lo, share(g.c_hi), share(g.c_lo)), clocks);
     }
+  }
+  /// The same by the duty in force: of a Backend, or of the core of a simulated board.
+  template <class Core>
+  void advance(const Core& core, Clock clocks) {
+    if (auto* brushed = std::get_if<plant::Plant>(&plant_)) {
+      if (core.duty() != duty_clocks_) {
+        duty_clocks_ = core.duty();
+        duty_ = static_cast<double>(duty_clocks_) / period_;
+      }
+      return brushed->advance(plant::Bridge::averaged(duty_, core.gates_enabled()), clocks);
+    }
+    plant::Phases duty;
+    for (std::size_t k = 0; k < duty.size(); ++k) duty[k] = core.on_time(k) / period_;
+    std::get<plant::ThreePhasePlant>(plant_).advance(
+        plant::Legs::averaged(duty, core.gates_enabled()), clocks);
   }
   /// The same for a duty, in clocks, that is none of the core's; only behind an H-bridge.
   void advance(double duty_clocks, bool enabled, Clock clocks) {
@@ -59,36 +84,6 @@ class DrivenPlant {
     if (!p.phases) return Either(std::in_place_index<0>, p, effects, drive, hand);
     return Either(std::in_place_index<1>, p, *p.phases, effects, drive, hand);
   }
-
-  plant::Bridge bridge(const Backend& core, Clock last) {
-    if (switched_) {
-      const GateClocks g = core.gates();
-      const double n = steps(last);
-      return plant::Bridge::gates(static_cast<double>(g.a_hi) / n, static_cast<double>(g.a_lo) / n,
-                                  static_cast<double>(g.b_hi) / n, static_cast<double>(g.b_lo) / n);
-    }
-    if (core.duty() != duty_clocks_) {
-      duty_clocks_ = core.duty();
-      duty_ = static_cast<double>(duty_clocks_) / period_;
-    }
-    return plant::Bridge::averaged(duty_, core.gates_enabled());
-  }
-
-  plant::Legs legs(const Backend& core, Clock last) const {
-    if (switched_) {
-      const GateClocks g = core.gates();
-      const double n = steps(last);
-      return plant::Legs::gates(static_cast<double>(g.a_hi) / n, static_cast<double>(g.a_lo) / n,
-                                static_cast<double>(g.b_hi) / n, static_cast<double>(g.b_lo) / n,
-                                static_cast<double>(g.c_hi) / n, static_cast<double>(g.c_lo) / n);
-    }
-    plant::Phases duty;
-    for (std::size_t k = 0; k < duty.size(); ++k) duty[k] = core.on_time(k) / period_;
-    return plant::Legs::averaged(duty, core.gates_enabled());
-  }
-
-  /// 0 before the first step.
-  static double steps(Clock last) { return static_cast<double>(std::max<Clock>(last, 1)); }
 
   bool switched_;
   double period_;  ///< of the PWM, clocks

@@ -189,6 +189,7 @@ Scenario read_scenario(const std::string& path) {
       top.fail("device", "a device of several axes",
                "take a scene of one lever, or `feltgate run`");
     }
+    if (top.has("design")) s.design = top.text("design");
     s.plant_given = top.has("plant");
     s.plant = s.plant_given ? top.text("plant") : "p24";
     s.step_given = top.has("step_clocks");
@@ -233,8 +234,17 @@ std::set<std::string> scenes_used(const Scenario& scenario) {
   return used;
 }
 
+std::string own_design(const Scenario& scenario) {
+  if (!scenario.design.empty()) return scenario.design;
+  return scenario.law.empty() ? "lever" : "lever_law";
+}
+
+std::string default_plant(const DesignInfo& design) {
+  return design.phases == 3 ? "gimbal_motor" : "p24";
+}
+
 void choose_plant(Scenario& scenario, const DesignInfo& design) {
-  if (!scenario.plant_given && design.phases == 3) scenario.plant = "gimbal_motor";
+  if (!scenario.plant_given) scenario.plant = default_plant(design);
 }
 
 void resolve_effects(Scenario& scenario, const plant::Effects& of_plant) {

@@ -59,6 +59,7 @@ struct EffectSetting {
 struct Scenario {
   std::string name, path, title, about;
   double duration_s = 0;
+  std::string design;        ///< the design for which it is made; empty: own_design()
   std::string plant;         ///< name of the plant file
   bool plant_given = false;  ///< else a design may have another: choose_plant()
   int step_clocks = 25;      ///< plant step in clocks
@@ -106,6 +107,12 @@ std::vector<std::string> effects_off(const Scenario& scenario);
 /// The torque laws that a scene renders: its own and those that its events select.
 std::set<std::string> scenes_used(const Scenario& scenario);
 
+/// The design on which a scene runs where none is given: that for which it is made, lever_law for a
+/// law, else lever.
+std::string own_design(const Scenario& scenario);
+
+/// The plant of a design where none is given.
+std::string default_plant(const DesignInfo& design);
 /// Sets the plant of a scene that names none to one that fits the design.
 void choose_plant(Scenario& scenario, const DesignInfo& design);
 

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <map>
 #include <stdexcept>
 #include <vector>
 
+#include "design/design.hpp"
 #include "feltgate/while_armed.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "law/amount.hpp"
@@ -138,23 +140,6 @@ void check_encoder(const Scenario& s, const DesignInfo& design) {
   }
 }
 
-/// Motor and bridge have the same number of legs, and only a motor with phases loses one.
-void check_phases(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {
-  const bool three = plant.phases.has_value();
-  for (const Event& e : s.events) {
-    if (!e.open_phase || three) continue;
-    throw config::ConfigError(fmt::format(
-        "{}:{}: the motor of plant {} has no phase that could be open; choose a plant that has, "
-        "gimbal_motor say",
-        s.path, e.line, plant.name));
-  }
-  if (three == (design.phases == 3)) return;
-  throw config::ConfigError(fmt::format(
-      "plant {} has a motor {}, and design {} drives one {}; choose another plant or design",
-      plant.name, three ? "with three phases" : "with brushes", design.name,
-      three ? "with brushes" : "with three phases"));
-}
-
 /// Finds writes that an armed core would drop silently because the torque could jump.
 void check_held(const Scenario& s, const DesignInfo& design) {
   bool armed = false, asked = false;
@@ -179,6 +164,26 @@ void check_held(const Scenario& s, const DesignInfo& design) {
   }
 }
 
+/// A value of one board in the counts of another.
+double in_counts(double value, const std::string& unit, const law::BoardUnits& from,
+                 const law::BoardUnits& to) {
+  const std::size_t at = unit.find("count");
+  if (at == std::string::npos) return value;
+  const auto text = [](double x, const std::string& of) { return fmt::format("{} {}", x, of); };
+  const std::string si = std::string(unit).replace(at, std::strlen("count"), "rad");
+  return law::amount_in(text(law::amount_in(text(value, unit), si, from), si), unit, to);
+}
+
+/// Whether a figure grows with the scene's torques: in Nm, Nm s/rad or J.
+bool is_torque(const std::string& figure) {
+  const std::string name = figure.substr(0, figure.find('.'));
+  const auto ends = [&](const std::string& with) {
+    return name.size() > with.size() &&
+           name.compare(name.size() - with.size(), with.size(), with) == 0;
+  };
+  return ends("_nm") || ends("_nm_s_rad") || ends("_j");
+}
+
 }  // namespace
 
 int scene_number(const DesignInfo& design, const std::string& name) {
@@ -194,6 +199,52 @@ std::optional<double> parameter_in(const std::string& name, const std::string& t
   if (!of_law && of_core == nullptr) return {};
   return law::amount_in(text, of_law ? law->unit(name) : of_core->unit,
                         {design.count_rad, 1 / static_cast<double>(design.tick_hz)});
+}
+
+void scale_torques(Scenario& s, double scale, const design::Elaborated& made_for,
+                   const DesignInfo& design) {
+  if (!s.law.empty()) {
+    throw std::invalid_argument(s.path + ": the torque is a law's; scale it in the law");
+  }
+  const law::BoardUnits from{made_for.design.count_rad(), made_for.design.tick_s()};
+  const law::BoardUnits to{design.count_rad, 1 / static_cast<double>(design.tick_hz)};
+  const auto factor = [scale](const std::string& unit) {
+    return unit.rfind("Nm", 0) == 0 ? scale : 1.0;
+  };
+  const auto set = [&](std::map<std::string, double>& values, const std::string& name,
+                       double value) {
+    const ParameterInfo* info = design.find(name);
+    if (info == nullptr) return;  // check_asked() names it
+    values[name] = factor(info->unit) * in_counts(value, info->unit, from, to);
+  };
+  const auto set_all = [&](std::map<std::string, double>& values,
+                           std::map<std::string, std::string>& amounts) {
+    for (const auto& [name, value] : std::map(values)) set(values, name, value);
+    for (const auto& [name, text] : amounts) {
+      const ParameterInfo* info = design.find(name);
+      if (info != nullptr) values[name] = factor(info->unit) * law::amount_in(text, info->unit, to);
+    }
+    amounts.clear();
+  };
+  const auto used = scenes_used(s);
+  std::map<std::string, double> left;  // to the design
+  for (const design::Word& w : made_for.words) {
+    const std::string& name = w.parameter.name;
+    if (used.count(w.parameter.scene) == 0 || s.parameters.count(name) != 0) continue;
+    if (s.amounts.count(name) == 0) left[name] = w.si;
+  }
+  set_all(s.parameters, s.amounts);
+  for (const auto& [name, value] : left) set(s.parameters, name, value);
+  for (Event& e : s.events) {
+    set_all(e.set, e.amounts);
+    if (e.step_nm) *e.step_nm *= scale;
+  }
+  for (Expectation& x : s.expectations) {
+    if (x.design == made_for.design.name) x.design.reset();
+    if (!is_torque(x.figure)) continue;
+    x.low *= scale;
+    x.high *= scale;
+  }
 }
 
 void resolve_amounts(Scenario& s, const DesignInfo& design, const SceneLaw* law) {
@@ -248,6 +299,22 @@ void check_asked(const Scenario& s, const DesignInfo& design, const SceneLaw* la
   check_mailbox(s, law);
   check_encoder(s, design);
   check_held(s, design);
+}
+
+void check_phases(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design) {
+  const bool three = plant.phases.has_value();
+  for (const Event& e : s.events) {
+    if (!e.open_phase || three) continue;
+    throw config::ConfigError(fmt::format(
+        "{}:{}: the motor of plant {} has no phase that could be open; choose a plant that has, "
+        "gimbal_motor say",
+        s.path, e.line, plant.name));
+  }
+  if (three == (design.phases == 3)) return;
+  throw config::ConfigError(fmt::format(
+      "plant {} has a motor {}, and design {} drives one {}; choose another plant or design",
+      plant.name, three ? "with three phases" : "with brushes", design.name,
+      three ? "with brushes" : "with three phases"));
 }
 
 void check_scenario(const Scenario& s, const plant::Parameters& plant, const DesignInfo& design,

@@ -13,6 +13,10 @@
 
 namespace feltgate {
 
+namespace design {
+struct Elaborated;
+}
+
 /// Number of a torque law. Errors: config::ConfigError that names the design's laws.
 int scene_number(const DesignInfo& design, const std::string& name);
 
@@ -27,6 +31,14 @@ void resolve_amounts(Scenario& scenario, const DesignInfo& design, const SceneLa
 /// Whether values with units are left to convert.
 bool has_amounts(const Scenario& scenario);
 
+/// Turns a scene that is made for a lever into one for a smaller motor: torques are `scale` times
+/// those of `made_for`, the scene's own design, which also gives the parameters that the file does
+/// not set. Places become counts of `design`, bounds on torques and energies are scaled, and what
+/// is expected of `made_for` alone is expected. Call it before resolve_amounts(). Hand and plant
+/// stay. Errors: std::invalid_argument for a scene with a law.
+void scale_torques(Scenario& scenario, double scale, const design::Elaborated& made_for,
+                   const DesignInfo& design);
+
 /// Checks that the design has every scene that is named, that every parameter that is set exists in
 /// the law or the design and fits its word, and that the plant's step is short enough for each
 /// phase of the hand (docs/plant.md). Errors: config::ConfigError "file:line: what; mend"; no file
@@ -36,6 +48,10 @@ void check_scenario(const Scenario& scenario, const plant::Parameters& plant,
 
 /// The same without the plant's step; for devices of several axes.
 void check_asked(const Scenario& scenario, const DesignInfo& design, const SceneLaw* law);
+
+/// Checks that motor and bridge have as many phases, and that only a motor with phases loses one.
+void check_phases(const Scenario& scenario, const plant::Parameters& plant,
+                  const DesignInfo& design);
 
 /// Checks only the plant's step, for a clock of `clock_hz`.
 void check_step(const Scenario& scenario, const plant::Parameters& plant, double clock_hz);

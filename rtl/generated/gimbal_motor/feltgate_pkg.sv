@@ -51,13 +51,13 @@ package feltgate_pkg;
   localparam int ABSOLUTE_BITS = 14;  // of a turn
   localparam int ABSOLUTE_HALF_CLOCKS = 5;  // clocks: half a serial clock
   localparam int ABSOLUTE_GAP_CLOCKS = 20;  // clocks before the serial clock and between readings
-  localparam int ABSOLUTE_PERIOD = 16;  // ticks from reading to reading
+  localparam int ABSOLUTE_PERIOD = 96;  // ticks from reading to reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
   localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'hfb290b2a;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h402d31f3;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -148,7 +148,7 @@ package feltgate_pkg;
   localparam int P_DUTY_GAIN_F = 8;
   localparam int P_COMPRESSION_STIFFNESS_F = 31;
   localparam int P_TENSION_STIFFNESS_F = 31;
-  localparam int P_DAMPER_DAMPING_F = 26;
+  localparam int P_DAMPER_DAMPING_F = 25;
   localparam int P_ATTRACT_CORE_SLOPE_F = 30;
   localparam int P_REPEL_CORE_SLOPE_F = 30;
   localparam int P_WALL_STIFFNESS_F = 26;
@@ -193,7 +193,7 @@ package feltgate_pkg;
       9'd51: parameter_reset = 32'd2097;  // self_test_torque
       9'd37: parameter_reset = 32'd157;  // self_test_quiet
       9'd38: parameter_reset = 32'd39;  // self_test_pulse
-      9'd41: parameter_reset = 32'd3;  // self_test_arms
+      9'd41: parameter_reset = 32'd2;  // self_test_arms
       9'd26: parameter_reset = 32'd2883584;  // commutation_gain
       9'd13: parameter_reset = 32'd0;  // commutation_offset
       9'd74: parameter_reset = 32'd0;  // setpoint_torque
@@ -204,7 +204,7 @@ package feltgate_pkg;
       9'd130: parameter_reset = 32'd82355;  // compression_stiffness
       9'd161: parameter_reset = 32'd0;  // tension_rest
       9'd162: parameter_reset = 32'd41177;  // tension_stiffness
-      9'd202: parameter_reset = 32'd67109;  // damper_damping
+      9'd202: parameter_reset = 32'd100663;  // damper_damping
       9'd225: parameter_reset = 32'd0;  // attract_centre
       9'd226: parameter_reset = 32'd891230556;  // attract_strength
       9'd230: parameter_reset = 32'd521;  // attract_core

@@ -179,14 +179,17 @@ TEST_CASE("three: a new offset acts while armed") {
 
 TEST_CASE("three: how old the angle is that the voltages have") {
   // From the start of a reading to the middle of the PWM period that has its angle: 300 clocks of
-  // reading, up to 800 to the sample, 85 to the on-times, 3 to the gates, and half a period.
+  // reading, up to the time between two to the sample, 85 to the on-times, 3 to the gates, and half
+  // a period.
+  constexpr int kReadings = D::absolute_period * D::clocks_per_tick;
   std::string table =
       "| speed, rad/s | the angle is old by, us | electrical degrees |\n|---|---|---|\n";
   for (const double rad_s : {60.0, -60.0}) {
     Rig rig;
     rig.volt = rad_s > 0 ? 2.4 : -2.4;
     rig.rad_s = rad_s;
-    constexpr int kPeriods = 60;
+    constexpr int kPeriods = 48;
+    static_assert(kPeriods * kPeriod % kReadings == 0);
     Period p;
     double sum = 0;
     int n = 0;
@@ -207,7 +210,7 @@ TEST_CASE("three: how old the angle is that the voltages have") {
     const double count_clocks = D::count_rad / std::abs(rad_s) / kClock_s;
     const double truncation = rad_s > 0 ? 0.5 * count_clocks : -0.5 * count_clocks;
     CHECK(age_clocks - truncation > 300 + 85 + 3 + kPeriod / 2);
-    CHECK(age_clocks - truncation < 300 + 800 + 85 + 3 + kPeriod / 2 + 30);
+    CHECK(age_clocks - truncation < 300 + kReadings + 85 + 3 + kPeriod / 2 + 30);
     table += fmt::format(
         "| {:g} | {:.1f} | {:.2f} |\n", rad_s, 1e6 * (age_clocks - truncation) * kClock_s,
         (age_clocks - truncation) * kClock_s * std::abs(rad_s) * kPairs * 180 / kPi);

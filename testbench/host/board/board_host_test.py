@@ -44,9 +44,8 @@ class Board:
 
 
 class BoardTest(ProgramTest):
-    def host(self, port, *words, status=0, typed=""):
-        words = ("--patience", 20, port, *words)
-        return self.run_program("feltgate_host", *words, status=status, typed=typed)
+    def host(self, port, *words, **how):
+        return self.run_program("feltgate_host", "--patience", 20, port, *words, **how)
 
     def patient(self, port):
         """A watchdog of 1 s: what is no test of it must not fail on a busy machine."""
@@ -153,6 +152,41 @@ class Verbs(BoardTest):
                 self.assertAlmostEqual(found["constants"][name]["value"] / truth, 1, delta=0.02)
         files = ("--from", "lever.drive.csv", "--coast", "lever.coast.csv")
         self.assertIn("F/J", self.host("-", "identify", *files))
+
+
+class ThreePhases(BoardTest):
+    def test_align_finds_pole_pairs_and_offset(self):
+        offset_rad = 1.2
+        plant = (ROOT / "vectors/plants/gimbal_motor.toml").read_text(encoding="utf-8")
+        plant, found = re.subn(r"(?m)^offset_rad = 0\.0 ", f"offset_rad = {offset_rad} ", plant)
+        self.assertEqual(found, 1)
+        (self.folder / "turned.toml").write_text(plant, encoding="utf-8")
+        with Board(self, "--design", "gimbal_motor", "--plant", "turned.toml") as board:
+            self.patient(board.port)
+            words = ("calibrate", "align", "--json", "a.json", "--save", "a.csv", "--write", "mine.toml")
+            said = self.host(board.port, *words, "--voltage", 2, status=2)
+            self.assertIn("is more than the 1.74 V with which the nominal current flows", said)
+            # The board is a tenth as fast as the time.
+            said = self.host(board.port, *words, timeout=600)
+            self.assertIn("SIMULATED", said)
+            self.assertIn("0.87 V turn the rotor", said)
+            # The board has its words back, and its motor is off.
+            self.assertAlmostEqual(self.value(board.port, "commutation_gain"), 11 / 16384, places=7)
+            self.assertEqual(self.value(board.port, "voltage_setpoint"), 0)
+            self.assertEqual(self.value(board.port, "status.armed"), 0)
+            self.assertEqual(self.value(board.port, "control.mode"), 0)
+        found = json.loads((self.folder / "a.json").read_text(encoding="utf-8"))
+        self.assertEqual(found["whole_pole_pairs"], 11)
+        self.assertAlmostEqual(found["changes"][1]["value"], offset_rad, delta=0.02)
+        self.assertIn("offset_rad = 1.2", (self.folder / "mine.toml").read_text(encoding="utf-8"))
+        again = self.host("-", "--design", "gimbal_motor", "calibrate", "align", "--from", "a.csv")
+        self.assertIn(again.splitlines()[0], said)
+
+    def test_a_motor_of_another_kind_is_refused(self):
+        said = self.run_program("feltgate_board", "--design", "gimbal_motor", "--plant", "p24", status=2)
+        self.assertIn("plant p24 has a motor with brushes", said)
+        said = self.run_program("feltgate_board", "--plant", "gimbal_motor", status=2)
+        self.assertIn("design lever drives one with brushes", said)
 
 
 class Lines(BoardTest):

@@ -39,17 +39,17 @@ RunOptions by_twin() {
 /// host reads the position before each step.
 std::vector<AlignReading> taken(const plant::Parameters& p, int open_phase = -1) {
   constexpr double step_s = 0.2;
+  std::vector<double> angles;
+  take_readings([&](double turns) { return angles.push_back(turns), true; }, [] { return 0.0; });
+  CHECK(angles.size() == 17);
   Scenario s;
   s.effects = p.effects;
   s.mode = 2;
   s.parameters = {{"commutation_gain", 0}, {"commutation_offset", 0}, {"voltage_setpoint", 1}};
-  std::vector<double> angles;
-  for (int k = 0; k <= 8; ++k) angles.push_back(k / 8.0);
-  for (int k = 7; k >= 0; --k) angles.push_back(k / 8.0);
   for (std::size_t k = 0; k < angles.size(); ++k) {
     Event e;
     e.at_s = static_cast<double>(k) * step_s;
-    e.set["commutation_offset"] = std::fmod(angles[k], 1.0);  // the word is modulo a turn
+    e.set["commutation_offset"] = angles[k];
     if (k == 0 && open_phase >= 0) e.open_phase = open_phase;
     s.events.push_back(e);
   }
@@ -58,8 +58,8 @@ std::vector<AlignReading> taken(const plant::Parameters& p, int open_phase = -1)
   RunOptions options = by_twin();
   options.row = [&](const Row& r) {
     const auto k = static_cast<std::size_t>(r.time_s / step_s);
-    readings[std::min(k, angles.size() - 1)] = {std::fmod(angles[k], 1.0),
-                                                r.position_rad / kTurn * kCounts};
+    const std::size_t at = std::min(k, angles.size() - 1);
+    readings[at] = {angles[at], r.position_rad / kTurn * kCounts};
   };
   const RunResult run = run_scenario(s, p, options);
   CHECK(run.figures.at("faults") == 0);

@@ -168,7 +168,9 @@ class Calibrate(VerbTest):
         self.assertIn("pole_pairs = 7 ", (self.folder / "mine.toml").read_text(encoding="utf-8"))
         for words, needle in (
             (("calibrate", "align", "--from", "angles.csv"), "lever drives no motor with three phases"),
-            (("calibrate", "align"), "needs readings: --from FILE"),
+            (("calibrate", "align"), "has no board; give the port, or the readings with --from FILE"),
+            (("calibrate", "align", "--from", "angles.csv", "--voltage", "1"), "leave out --from"),
+            (("calibrate", "--from", "angles.csv", "--voltage", "1"), "belongs to calibrate align"),
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.host("-", *words, status=2))

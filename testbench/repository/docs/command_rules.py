@@ -38,6 +38,7 @@ RULES = (
     ),
     Rule(r"feltgate run slow_turn\.toml", "BY", "calibrate.cogging"),
     Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
+    Rule(r"feltgate run (\w+) --design gimbal_motor --torque-scale 0\.1", "BY", r"scene.\1.gimbal_motor"),
     Rule(r"feltgate run knob_detents", "BY", "scene.knob_detents.gimbal_motor"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),

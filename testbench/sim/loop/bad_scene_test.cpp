@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Scenes that cannot run: each is refused or stopped with a message that has file, line and the
-// change to make. Documentation: docs/scenes.md, docs/plant.md
+// change to make. And a scene that is made for another design. Documentation: docs/scenes.md,
+// docs/plant.md
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "catch.hpp"
+#include "design/design.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/loop/loop.hpp"
 #include "sim/loop/scenario_check.hpp"
@@ -193,4 +195,46 @@ TEST_CASE("misspelt names are named, and the nearest one", "[bad_scene]") {
          "");
   expect(told("title = \"t\"\nabout = \"a\"\ndutation_s = 1\n[core]\nscene = \"free\"\n"),
          "1: key \"duration_s\" is missing in the scene", "rename \"dutation_s\" in line 3");
+}
+
+TEST_CASE("a scene of the lever at a tenth of its torques", "[scaled]") {
+  const std::string root = FELTGATE_ROOT;
+  const auto lever = design::elaborate(design::read_design(root + "/rtl/designs/lever.toml"),
+                                       design::read_registers(root + "/rtl/registers.toml"));
+  DesignInfo fine = design_named("lever");
+  fine.name = "fine";
+  fine.count_rad = 6.283185307179586 / 16384;  // a quarter of the lever's
+  const auto near = [](double value) { return Approx(value).epsilon(1e-9); };
+
+  Scenario wall = read_scenario(root + "/vectors/scenes/wall.toml");
+  CHECK(own_design(wall) == "lever");
+  scale_torques(wall, 0.1, lever, fine);
+  CHECK(wall.parameters.size() == 3);  // of the scene that is rendered, and no other
+  CHECK(wall.parameters.at("wall_contact") == near(0.5 / fine.count_rad));
+  CHECK(wall.parameters.at("wall_stiffness") == near(0.4 * fine.count_rad));
+  CHECK(wall.parameters.at("wall_damping") == near(0.0005));
+  for (const Expectation& x : wall.expectations) {
+    if (x.figure == "tau_ref_min_nm") CHECK(x.low == near(-0.0407));
+    if (x.figure == "energy_absorbed_j") CHECK(x.low == near(0.00005));
+  }
+
+  Scenario step = read_scenario(root + "/vectors/scenes/torque_step.toml");
+  step.amounts["attract_strength"] = "0.02 Nm rad^2";
+  scale_torques(step, 0.1, lever, fine);
+  CHECK_FALSE(has_amounts(step));
+  CHECK(step.parameters.at("attract_strength") == near(0.002 / std::pow(fine.count_rad, 2)));
+  CHECK(step.events[0].set.at("setpoint_torque") == near(0.01));
+  CHECK(*step.events[0].step_nm == near(0.01));
+  int of_lever = 0;
+  for (const Expectation& x : step.expectations) {
+    if (x.figure.rfind("torque_settling_ms", 0) != 0) continue;
+    CHECK_FALSE(x.design.has_value());
+    CHECK(x.high == 1.0);  // no torque
+    ++of_lever;
+  }
+  CHECK(of_lever == 3);
+  Scenario detent = read_scenario(root + "/vectors/scenes/detent.toml");
+  CHECK(own_design(detent) == "lever_law");
+  CHECK_THROWS_AS(scale_torques(detent, 0.1, lever, fine), std::invalid_argument);
+  CHECK(own_design(read_scenario(root + "/vectors/scenes/knob_detents.toml")) == "gimbal_motor");
 }

@@ -53,11 +53,34 @@ void BenchMotor::wait(double seconds) {
   }
 }
 
+void BenchMotor::wait_on_board(double seconds) {
+  const Quantity& tick = device_.quantities().find("tick");
+  const std::uint32_t begin = device_.tick().word(tick);
+  const double ticks = seconds * device_.board().tick_hz();
+  while (device_.tick().word(tick) - begin < ticks && !Interruptible::interrupted()) wait(0.002);
+}
+
 void BenchMotor::set(const std::string& name, double value) {
   const SetResult r = device_.set(name, value);
   if (r.refused || !r.kept) {
     throw Refused(
         fmt::format("the board did not take {} = {:g}; is the motor armed?", name, value));
+  }
+}
+
+KeptWords::KeptWords(BenchMotor& motor, std::vector<std::string> names) : motor_(motor) {
+  for (std::string& name : names) {
+    const double value = motor.device().get(name);
+    values_.emplace_back(std::move(name), value);
+  }
+}
+
+KeptWords::~KeptWords() {
+  try {
+    motor_.disarm();
+    for (const auto& [name, value] : values_) motor_.set(name, value);
+  } catch (const std::exception&) {
+    // The link is lost; Hold reports the consequence.
   }
 }
 

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/commands/host/session.hpp"
 
@@ -30,6 +32,8 @@ class BenchMotor {
   void poll();
   /// Calls poll() for `seconds`.
   void wait(double seconds);
+  /// The same for `seconds` of the board's own time: a simulated one may be slower.
+  void wait_on_board(double seconds);
   /// Sets a parameter. Throws Refused when the board did not keep the value.
   void set(const std::string& name, double value);
   Device& device() { return device_; }
@@ -38,6 +42,19 @@ class BenchMotor {
   void set_mode(Mode mode);
   Device& device_;
   Hold hold_;
+};
+
+/// Parameters that get their values back, once the motor is off.
+class KeptWords {
+ public:
+  KeptWords(BenchMotor& motor, std::vector<std::string> names);
+  ~KeptWords();
+  KeptWords(const KeptWords&) = delete;
+  KeptWords& operator=(const KeptWords&) = delete;
+
+ private:
+  BenchMotor& motor_;
+  std::vector<std::pair<std::string, double>> values_;
 };
 
 }  // namespace feltgate::host

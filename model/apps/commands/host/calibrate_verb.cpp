@@ -18,7 +18,6 @@
 #include "apps/commands/host/verbs.hpp"
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
-#include "host/calibrate/align.hpp"
 #include "host/calibrate/report.hpp"
 #include "host/identify/report.hpp"
 #include "law/amount.hpp"
@@ -31,7 +30,7 @@ struct CalibrateArguments {
   std::string what, from, write, json, save, slow_turn, into;
   bool closed = false;
   std::vector<double> points;
-  double arm_m = 0, torque_constant = 0, gain = 1, confidence = 0.95, hold_s = 3;
+  double arm_m = 0, torque_constant = 0, gain = 1, confidence = 0.95, hold_s = 3, voltage_v = 0;
   int harmonics = 4;
 };
 
@@ -196,36 +195,6 @@ int calibrate_encoder(Session& session, const CalibrateArguments& a) {
   return exit_ok;
 }
 
-/// calibrate align: pole pairs and offset of a motor with three phases, from readings.
-int calibrate_align(Session& session, const CalibrateArguments& a) {
-  if (a.from.empty()) {
-    throw std::invalid_argument(
-        "calibrate align needs readings: --from FILE with commutation_offset and position, as "
-        "docs/calibration.md takes them");
-  }
-  const BenchDesign known(session, "");
-  const design::Design& d = known.design().design;
-  if (d.phases != 3) {
-    throw std::invalid_argument(
-        fmt::format("design {} drives no motor with three phases; give one that does with "
-                    "--design",
-                    d.name));
-  }
-  files::Outputs outputs;
-  if (a.from != "-") outputs.reads(a.from);
-  files::OutputFile* json = outputs.open("--json", a.json);
-  files::OutputFile* write = outputs.open("--write", a.write);
-  const Alignment found =
-      fit_alignment(align_readings(ColumnTable::of_file(a.from)), 4.0 * d.lines, a.confidence);
-  const std::vector<Change> changes = changes_of(found, known.design());
-  auto result = report_json(found);
-  result["changes"] = report_json(changes);
-  outputs.say(report_text(found) + known.write(changes, write, a.write));
-  if (json != nullptr) json->write(files::json_text(result));
-  outputs.commit();
-  return exit_ok;
-}
-
 int calibrate(Session& session, CalibrateArguments a) {
   if (a.what == "cogging") {
     return calibrate_cogging(session, {a.from, a.write, a.json, a.slow_turn, a.into, a.confidence});
@@ -233,7 +202,10 @@ int calibrate(Session& session, CalibrateArguments a) {
   if (!a.slow_turn.empty() || !a.into.empty()) {
     throw std::invalid_argument("--slow-turn and --into belong to calibrate cogging");
   }
-  if (a.what == "align") return calibrate_align(session, a);
+  if (a.what == "align") {
+    return calibrate_align(session, {a.from, a.write, a.json, a.save, a.voltage_v, a.confidence});
+  }
+  if (a.voltage_v > 0) throw std::invalid_argument("--voltage belongs to calibrate align");
   if (!a.what.empty()) return calibrate_encoder(session, a);
   if (!a.from.empty() && !a.save.empty()) {
     throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
@@ -311,7 +283,7 @@ Run add_calibrate(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv\n"
       "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
       "  feltgate host - --design mine calibrate encoder --from turn.csv --write mine.toml\n"
-      "  feltgate host - --design mine calibrate align --from angles.csv --write mine.toml\n"
+      "  feltgate host /dev/ttyUSB0 calibrate align --write mine.toml        the motor turns\n"
       "  feltgate host - --design lever_law calibrate cogging --from turn.csv --write mine.law\n"
       "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
       "and\n"
@@ -327,6 +299,10 @@ Run add_calibrate(CLI::App& sub) {
       ->type_name("FILE");
   sub.add_option("--into", a->into, "of cogging: the law to which --write adds the compensation")
       ->type_name("LAW");
+  sub.add_option("--voltage", a->voltage_v,
+                 "of align: that turns the rotor; default: half of the nominal current's")
+      ->type_name("V")
+      ->transform(checks::positive(100, "V"));
   sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")
       ->type_name("N")
       ->capture_default_str()

@@ -39,6 +39,15 @@ struct CoggingArguments {
 /// Writes the law that turns the lever slowly, or from its recording the one that compensates.
 int calibrate_cogging(Session& session, const CoggingArguments& a);
 
+/// The options of calibrate align.
+struct AlignArguments {
+  std::string from, write, json, save;
+  double voltage_v = 0;  ///< 0: half of the nominal current's
+  double confidence = 0;
+};
+/// Pole pairs and offset of a motor with three phases, from a file or from the board's motor.
+int calibrate_align(Session& session, const AlignArguments& a);
+
 /// Reads a line that a user types while a motor is held armed; calls `meanwhile` about twenty times
 /// a second while it waits. Returns nothing when `go_on` returns false. Throws
 /// std::invalid_argument at the end of the input; the message names `what` was expected.

@@ -65,13 +65,13 @@ struct GimbalMotor {
   static constexpr int absolute_bits = 14;  // of a turn
   static constexpr int absolute_half_clocks = 5;  // clocks: half a serial clock
   static constexpr int absolute_gap_clocks = 20;  // clocks before the serial clock and between readings
-  static constexpr int absolute_period = 16;  // ticks from reading to reading
+  static constexpr int absolute_period = 96;  // ticks from reading to reading
   static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
   static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xfb290b2a;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x402d31f3;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -122,7 +122,7 @@ struct GimbalMotor {
     static constexpr Format compression_stiffness{0, -14, 31};
     static constexpr Format tension_rest{1, 17, 8};
     static constexpr Format tension_stiffness{0, -14, 31};
-    static constexpr Format damper_damping{0, -9, 26};
+    static constexpr Format damper_damping{0, -8, 25};
     static constexpr Format attract_centre{1, 17, 8};
     static constexpr Format attract_strength{0, 16, 16};
     static constexpr Format attract_core{0, 31, 0};
@@ -231,7 +231,7 @@ struct GimbalMotor {
       {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse,
        39.0, 39},
       {"self_test_arms", "1", A::self_test_arms, P::self_test_arms,
-       3.0, 3},
+       2.0, 2},
       {"commutation_gain", "turn/count", A::commutation_gain, P::commutation_gain,
        0.00067138671875, 2883584},
       {"commutation_offset", "turn", A::commutation_offset, P::commutation_offset,
@@ -253,7 +253,7 @@ struct GimbalMotor {
       {"tension_stiffness", "Nm/count", A::tension_stiffness, P::tension_stiffness,
        1.9174759848570515e-05, 41177},
       {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping,
-       0.001, 67109},
+       0.0030000000000000001, 100663},
       {"attract_centre", "count", A::attract_centre, P::attract_centre,
        0.0, 0},
       {"attract_strength", "Nm count^2", A::attract_strength, P::attract_strength,

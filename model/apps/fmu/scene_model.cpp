@@ -204,6 +204,7 @@ void SceneModel::run_to(double time_s) {
   if (own_hand_ && torque_nm_ != acting_nm_) {
     plant::Segment step;
     step.kind = plant::Segment::Kind::kStep;
+    step.duration_s = longest_s;
     step.to = acting_nm_ = torque_nm_;
     plant::HandPhase push;
     push.kind = plant::HandPhase::Kind::kTorque;

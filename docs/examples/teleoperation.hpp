@@ -90,15 +90,27 @@ class Lever {
     device_.set("setpoint_torque", 0.0);
     device_.set("self_test_pulse", 0.0);  // nobody is in its way
     device_.arm("setpoint", false);
+    const unsigned mask = 1u << angle_.word | 1u << velocity_.word | 1u << torque_.word;
+    device_.stream(static_cast<std::uint16_t>(mask), period_ticks);
   }
-  /// Waits until the board has reached this time, and asks it.
+  /// Lets the board run to this time; what it has streamed last.
   Packet measured(double time_s) {
     wire_.run_to(clock_of(time_s));
-    const host::Tick tick = device_.tick();
-    return {tick.value(angle_), tick.value(velocity_), tick.value(torque_), 0};
+    while (const auto tick = device_.streamed(host::HostClock::now())) {
+      last_ = {tick->value(angle_), tick->value(velocity_), tick->value(torque_), 0};
+    }
+    return last_;
   }
   void push(double torque_nm) {
     link_.write(setpoint_.address, device_.quantities().setting(setpoint_, torque_nm).word);
+  }
+  /// What the coupling has taken from the lever since the last call, from the plant.
+  double taken_j() {
+    const plant::Observables& o = plant();
+    const double j = -0.5 * (motor_nm_ + o.motor_torque_mean_nm) * (o.theta_rad - theta_rad_);
+    motor_nm_ = o.motor_torque_mean_nm;
+    theta_rad_ = o.theta_rad;
+    return j;
   }
   double now_s() const {
     return static_cast<double>(wire_.board().now()) / static_cast<double>(board_.clock_hz);
@@ -107,6 +119,7 @@ class Lever {
   bool armed() { return device_.armed(device_.tick()); }
 
  private:
+  static constexpr std::uint32_t period_ticks = 1000;
   static board::BoardOptions options() {
     board::BoardOptions o;
     o.baud = 3'000'000;
@@ -124,31 +137,36 @@ class Lever {
   const host::Quantity& velocity_ = device_.quantities().find("velocity");
   const host::Quantity& torque_ = device_.quantities().find("tau_hat");
   const host::Quantity& setpoint_ = device_.quantities().find("setpoint_torque");
+  Packet last_;
+  double motor_nm_ = 0, theta_rad_ = 0;
 };
 
 /// What came of a session.
 struct Teleoperated {
-  double least_energy_j = 0;  ///< least of what the coupling has taken in and not given out
-  double fastest_rad_s = 0;   ///< of both levers in the last third
-  double apart_rad = 0;       ///< largest distance of the levers in the last third
-  double follower_rad = 0;    ///< where the follower ended
-  bool armed = false;         ///< both at the end
+  double least_energy_j = 0;    ///< least of what the coupling has taken in and not given out
+  double least_of_plant_j = 0;  ///< the same from the motors' torques and the levers' angles
+  double fastest_rad_s = 0;     ///< of both levers in the last third
+  double apart_rad = 0;         ///< largest distance of the levers in the last third
+  double follower_rad = 0;      ///< where the follower ended
+  bool armed = false;           ///< both at the end
 };
 
-/// The leader's hand goes to 0.6 rad and stays there; the follower carries a soft load.
+/// The leader's hand carries its lever to 0.6 rad and lets go: then nothing but the coupling and
+/// friction acts on both.
 inline Teleoperated teleoperate(const std::string& root, double delay_s, const Coupling& coupling,
-                                double run_s = 2.0) {
+                                double run_s = 1.2) {
   constexpr double dt_s = 1e-3, to_rad = 0.6;
   plant::Segment wait, go;
-  wait.duration_s = 0.3;
+  wait.duration_s = 0.05;
   go.kind = plant::Segment::Kind::kMinimumJerk;
-  go.duration_s = 0.4;
+  go.duration_s = 0.25;
   go.to = to_rad;
   plant::HandPhase arm;
   arm.kind = plant::HandPhase::Kind::kImpedance;
   arm.profile = {wait, go};
+  arm.duration_s = wait.duration_s + go.duration_s;
   plant::Hand hand;
-  hand.phases = {arm};
+  hand.phases = {arm, {}};
   Lever leader(root, "leader", hand), follower(root, "follower", {});
   Side at_leader(coupling), at_follower(coupling);
 
@@ -156,6 +174,7 @@ inline Teleoperated teleoperate(const std::string& root, double delay_s, const C
   std::deque<Packet> to_follower(late + 1), to_leader(late + 1);
   const double start_s = std::max(leader.now_s(), follower.now_s());
   Teleoperated out;
+  double of_plant_j = 0;
   for (int n = 1; n * dt_s < run_s; ++n) {
     const double at_s = start_s + n * dt_s;
     Packet l = leader.measured(at_s), f = follower.measured(at_s);
@@ -170,6 +189,8 @@ inline Teleoperated teleoperate(const std::string& root, double delay_s, const C
     const double kept_j =
         at_leader.in_j() + at_follower.in_j() - at_leader.out_j() - at_follower.out_j();
     out.least_energy_j = std::min(out.least_energy_j, kept_j);
+    of_plant_j += leader.taken_j() + follower.taken_j();
+    out.least_of_plant_j = std::min(out.least_of_plant_j, of_plant_j);
     if (n * dt_s < run_s * 2 / 3) continue;
     const plant::Observables &a = leader.plant(), &b = follower.plant();
     out.fastest_rad_s =

@@ -27,12 +27,20 @@ class BoardWire : public host::Transport {
 
   void write(const std::uint8_t* data, std::size_t size) override {
     board_.receive({data, data + size});
+    asked_ = true;
     while (board_.core().unsent() > most_unsent) run(slice);
   }
-  /// Waits for at most 5 ms of the board's time, whatever the deadline on the wall.
-  std::size_t read(std::uint8_t* data, std::size_t size, host::Deadline) override {
-    const Clock end = board_.now() + longest;
-    while (received_.empty() && board_.now() < end) run(slice);
+  /// After a request: what comes until the line is quiet, or nothing within 5 ms of the board's
+  /// time, whatever the deadline on the wall. A deadline that is over: what has come.
+  std::size_t read(std::uint8_t* data, std::size_t size, host::Deadline deadline) override {
+    if (asked_ || deadline > host::HostClock::now()) {
+      const Clock end = board_.now() + longest;
+      while (received_.empty() && board_.now() < end) run(slice);
+      for (std::size_t before = 0; before != received_.size() && board_.now() < end; run(slice)) {
+        before = received_.size();
+      }
+    }
+    asked_ = false;
     const std::size_t got = std::min(size, received_.size());
     const auto last = received_.begin() + static_cast<std::ptrdiff_t>(got);
     std::copy(received_.begin(), last, data);
@@ -49,13 +57,14 @@ class BoardWire : public host::Transport {
   const Board& board() const { return board_; }
 
  private:
-  static constexpr Clock slice = 500, longest = 250'000;
+  static constexpr Clock slice = 1000, longest = 250'000;
   static constexpr std::size_t most_unsent = 64;
   void run(Clock clocks) { run_to(board_.now() + clocks); }
 
   Board board_;
   std::string name_;
   std::deque<std::uint8_t> received_;
+  bool asked_ = false;  ///< since the last read
 };
 
 }  // namespace feltgate::board

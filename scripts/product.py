@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The core of a design as one file of Verilog-2005, or a board's Quartus project of a design.
+"""The core of a design as one Verilog-2005 file, a board's Quartus project, or a scene as an FMU.
 
 Documentation: docs/product.md, docs/boards/de0_nano.md
 """
@@ -14,6 +14,7 @@ from pathlib import Path
 import command_line
 import outputs
 import product_board
+import product_fmu
 import rtl_sources
 import synth_measure
 from synth_tools import Tools, package_of, version
@@ -23,6 +24,7 @@ EPILOG = """examples:
   feltgate product verilog --design paper -o paper.v
   feltgate product verilog --design my.toml --no-read-back -o my.v
   feltgate product board --design my.toml                 folder de0_nano_my: the DE0-Nano's project
+  feltgate product fmu --scene wall                       wall.fmu: twin and plant for FMI 3.0
 
 Exit code: 0 written, 2 a design, tool or option cannot be used."""
 NOTICE = """// SPDX-License-Identifier: Apache-2.0
@@ -40,18 +42,27 @@ ATTRIBUTES = (
 
 def arguments_of(argv):
     parser = command_line.parser("product", __doc__.splitlines()[0], EPILOG)
-    parser.add_argument("kind", choices=("verilog", "board"), help="what to write")
+    parser.add_argument("kind", choices=("verilog", "board", "fmu"), help="what to write")
     what = "a name in rtl/designs, or a file; default lever"
     parser.add_argument("--design", default="lever", help=what)
     command_line.add_flags(
         parser, no_read_back="leave out what a host reads: snapshot RAM and read path"
     )
-    what = "default feltgate.v; of a board a folder, default de0_nano_DESIGN"
+    what = "of an fmu: a name in vectors/scenes, or a file; default membrane"
+    parser.add_argument("--scene", metavar="SCENE", help=what)
+    what = "default feltgate.v; of a board a folder, default de0_nano_DESIGN; of an fmu SCENE.fmu"
     command_line.add_path(parser, "-o", "--output", what=what)
     options = parser.parse_args(argv)
+    if options.no_read_back and options.kind != "verilog":
+        parser.error("--no-read-back is of verilog; leave it out")
+    if options.scene and options.kind != "fmu":
+        parser.error("--scene is of an fmu; leave it out")
     if options.kind == "board":
-        if options.no_read_back:
-            parser.error("--no-read-back is of verilog; what a board leaves out is in its top level")
+        return options
+    if options.kind == "fmu":
+        options.scene = options.scene or "membrane"
+        options.output = options.output or Path(f"{Path(options.scene).stem}.fmu")
+        outputs.check(parser, [options.scene], output=options.output)
         return options
     options.output = options.output or Path("feltgate.v")
     outputs.check(parser, [options.design], output=options.output)
@@ -125,6 +136,10 @@ def run(options):
         if options.kind == "board":
             made = product_board.write(root, options.design, options.output, Path(folder))
             print(f"wrote {made}: cd {made}; quartus_sh -t build.tcl", file=sys.stderr)
+            return 0
+        if options.kind == "fmu":
+            outputs.write_whole(options.output, product_fmu.fmu(root, options.design, options.scene))
+            print(f"wrote {options.output}", file=sys.stderr)
             return 0
         outputs.write_whole(options.output, verilog(root, options, Path(folder)))
     print(f"wrote {options.output}", file=sys.stderr)

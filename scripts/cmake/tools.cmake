@@ -225,6 +225,26 @@ if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_mesh PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()
 
+# feltgate_fmu_DESIGN.so, the library in what `feltgate product fmu` writes; with tests that of lever is
+# built, the others when asked for. Nothing but its functions is seen from outside: an importer may load two.
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/fmu.map" CONTENT "{ global: fmi3*; feltgate_fmu_*; local: *; };\n")
+foreach(design IN LISTS FELTGATE_DESIGNS)
+  set(name feltgate_fmu_${design})
+  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" "${FELTGATE_ROOT}/model/apps/fmu/scene_model.cpp"
+    "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp" $<TARGET_OBJECTS:design_${design}>)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/${design}_alone/designs.inc"
+    CONTENT "FELTGATE_DESIGN(${design})\n")
+  set_target_properties(${name} PROPERTIES PREFIX "" POSITION_INDEPENDENT_CODE ON EXCLUDE_FROM_ALL ON)
+  if(FELTGATE_TESTS AND design STREQUAL "lever")
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL OFF)
+  endif()
+  target_include_directories(${name} PRIVATE "${PROJECT_BINARY_DIR}/backends/${design}_alone")
+  target_compile_definitions(${name} PRIVATE FELTGATE_FMU_DESIGN="${design}")
+  target_compile_options(${name} PRIVATE ${FELTGATE_WARNINGS} -O1)
+  target_link_libraries(${name} PRIVATE feltgate_loop feltgate_plant_files feltgate_plant fmt::fmt)
+  target_link_options(${name} PRIVATE "LINKER:--as-needed,--version-script=${PROJECT_BINARY_DIR}/fmu.map")
+endforeach()
+
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
 feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")

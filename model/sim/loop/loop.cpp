@@ -36,7 +36,7 @@ struct StepRecord {
   StepSamples tau_hat, torque;
 };
 
-class ScenarioRun {
+class ScenarioRun : public SteppedRun {
  public:
   ScenarioRun(const Scenario& scenario, const plant::Parameters& plant, const RunOptions& options)
       : s_(scenario),
@@ -69,7 +69,7 @@ class ScenarioRun {
     if (scenario.drag_from_s) drag_.from_clock = session_.clock_of(*scenario.drag_from_s);
   }
 
-  RunResult run() {
+  void begin() {
     const DesignInfo& d = core_.design();
     const Clock end = session_.end();
     if (options_.record != nullptr) {
@@ -89,7 +89,12 @@ class ScenarioRun {
     session_.begin();
     if (options_.passenger != nullptr) options_.passenger->begin();
     core_.lead().keep_gate_times(s_.switched);
-    while (core_.lead().now() < end) {
+  }
+
+  void run_to(Clock clock) override {
+    const DesignInfo& d = core_.design();
+    const Clock end = session_.end(), to = std::min(clock, end);
+    while (core_.lead().now() < to) {
       const Clock now = core_.lead().now();
       session_.act(now, plant_.observables().theta_rad, position_ * d.count_rad,
                    [&](const Event& e) { applied(e); });
@@ -98,9 +103,16 @@ class ScenarioRun {
       step(plan_.end_of_step(now, std::min(session_.next(), plant_.next_corner()), end) - now);
       session_.report_progress(now);
     }
-    if (recorder_) recorder_->finish(end + 1);
+  }
+
+  RunResult run() {
+    begin();
+    run_to(session_.end());
+    if (recorder_) recorder_->finish(session_.end() + 1);
     return result();
   }
+
+  void take(const plant::HandPhase& phase) override { plant_.take(phase); }
 
  private:
   /// Gates and chains in real arithmetic can change within a PWM period; they need equal steps.
@@ -355,6 +367,14 @@ RunResult run_scenario(const Scenario& given, const plant::Parameters& plant,
     throw config::ConfigError(scenario.path.empty() ? error.what()
                                                     : scenario.path + ": " + error.what());
   }
+}
+
+std::unique_ptr<SteppedRun> stepped_run(const Scenario& scenario, const plant::Parameters& plant,
+                                        const RunOptions& options) {
+  check_scenario(scenario, plant, design_named(options.design), options.law);
+  auto run = std::make_unique<ScenarioRun>(scenario, plant, options);
+  run->begin();
+  return run;
 }
 
 }  // namespace feltgate

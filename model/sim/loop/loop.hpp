@@ -9,6 +9,7 @@
 #include <functional>
 #include <iosfwd>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,21 @@ Scenario as_run(Scenario scenario, const DesignInfo& design);
 /// does not have.
 RunResult run_scenario(const Scenario& scenario, const plant::Parameters& plant,
                        const RunOptions& options);
+
+/// A scene whose caller says how far it runs: the steps and rows of run_scenario(), no results.
+class SteppedRun {
+ public:
+  virtual ~SteppedRun() = default;
+  /// Runs to the end of the first step that reaches this clock, at most to the scene's end. Errors:
+  /// plant::MotionError.
+  virtual void run_to(Clock clock) = 0;
+  /// Replaces the hand by this phase, from the next step on.
+  virtual void take(const plant::HandPhase& phase) = 0;
+};
+
+/// All must outlive it; `scenario` is one of as_run(). Errors: those of run_scenario().
+std::unique_ptr<SteppedRun> stepped_run(const Scenario& scenario, const plant::Parameters& plant,
+                                        const RunOptions& options);
 
 /// One line of FUDI per hit: "MS NAME NUMBER VALUES;", where MS is the time since the line before;
 /// Pure Data's qlist plays it (docs/devices/drums.md). Events within `run_s` whose names end in the

@@ -81,6 +81,33 @@ class Device(unittest.TestCase):
                 device.capture(trigger="velocity>900", wait_s=0.2)
             self.assertEqual(device.link()["damaged"], 0)
 
+    def test_the_leader_of_a_robot_arm(self):
+        sys.path.insert(0, str(ROOT / "docs/examples"))
+        self.addCleanup(sys.path.pop, 0)
+        from lever_leader import LeverLeader
+
+        with BoardProcess() as board:
+            leader = LeverLeader(board.port)
+            self.assertFalse(leader.is_connected)
+            leader.connect(calibrate=True)
+            self.assertTrue(leader.is_connected)
+            self.assertEqual(board.order("armed?"), "1")
+            action = leader.get_action()
+            self.assertEqual(set(action), set(leader.action_features))
+            self.assertTrue(all(type(value) is kind for value, kind in zip(
+                action.values(), leader.action_features.values())))  # fmt: skip
+            self.assertAlmostEqual(leader.send_feedback({"lever.torque_nm": 0.1})["lever.torque_nm"], 0.1, 4)
+            self.assertAlmostEqual(leader.send_feedback({"lever.torque_nm": -9.0})["lever.torque_nm"], -0.2, 4)
+            leader.calibrate()
+            self.assertEqual(board.order("armed?"), "1")
+            leader.disconnect()
+            self.assertFalse(leader.is_connected)
+            self.assertEqual(board.order("armed?"), "0")
+            with feltgate.Device(board.port):
+                with self.assertRaisesRegex(ValueError, "is in use by"):
+                    leader.connect()
+            self.assertFalse(leader.is_connected)
+
     def test_a_board_without_engine(self):
         with BoardProcess() as board, feltgate.Device(board.port) as device:
             with self.assertRaisesRegex(feltgate.Refused, "has no engine"):

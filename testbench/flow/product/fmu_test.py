@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""feltgate product fmu: FMPy finds its description valid and runs it, and every word is that of
+`feltgate run`; what it refuses. docs/product.md
+
+fmu_test.py VENV: where scripts/build.sh has fetched FMPy. It needs no network.
+"""
+
+import csv
+import os
+import random
+import re
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+# First, so that the arrays are those of its numpy, which is newer than Debian's.
+sys.path[:0] = map(str, Path(sys.argv.pop(1)).glob("lib/python3*/site-packages"))
+try:
+    import fmpy
+    from fmpy import fmi3, validation
+except ImportError:
+    if os.environ.get("CI"):
+        raise
+    fmpy = None
+import unittest
+
+from testing import BUILD, ROOT, Scratch, ran, script, text_of
+
+EVERY = 250  # ticks between two rows
+TICK_S = 1e-6
+NINE_DIGITS = ("theta_rad", "omega_rad_s", "motor_torque_nm", "hand_torque_nm", "hand_felt_nm")
+
+
+@unittest.skipUnless(fmpy, "no FMPy; ./feltgate test fetches it")
+class Fmu(Scratch):
+    def product(self, *words):
+        env = os.environ | {"FELTGATE_BUILD": str(BUILD)}
+        return script("product.py", "fmu", *words, cwd=self.folder, env=env)
+
+    def made(self, scene):
+        path = self.folder / "it.fmu"
+        self.ended(self.product("--scene", scene, "-o", path))
+        return path
+
+    def rows(self, scene):
+        """Those of the program: what is written in nine digits as text, the rest as it is."""
+        done = ran(BUILD / "feltgate_twin", "run", scene, "--engine", "twin", "--quiet", "--csv",
+                   "it.csv", "--every", EVERY, cwd=self.folder)  # fmt: skip
+        self.ended(done)
+        with open(self.folder / "it.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def instance(self, path, said=None):
+        """The FMU, and its variables by name."""
+        description = fmpy.read_model_description(path)
+        # Each into a folder of its own: a library that is loaded must not be written.
+        folder = fmpy.extract(str(path), tempfile.mkdtemp(dir=self.folder))
+        model = fmi3.FMU3Slave(
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )
+        self.log = fmi3.fmi3LogMessageCallback(
+            lambda _, status, category, message: said.append(message.decode()) if said is not None else None
+        )
+        self.addCleanup(lambda: model.component and model.freeInstance())
+        return model, {v.name: v for v in description.modelVariables}
+
+    def started(self, model, **first):
+        model.instantiate(logMessage=self.log)
+        model.enterInitializationMode()
+        for set_value, (reference, value) in first.items():
+            getattr(model, set_value)([reference], [value])
+        model.exitInitializationMode()
+
+    def compare(self, model, names, rows, steps):
+        """Rows of the program beside the model, which goes from row to row in these steps."""
+        reals = {n: v.valueReference for n, v in names.items() if n in rows[0] and v.type == "Float64"}
+        bits = {n: v.valueReference for n, v in names.items() if n in rows[0] and v.type == "Int32"}
+        self.assertEqual(len(reals) + len(bits), len([n for n in rows[0] if not n.startswith("twin_")]))
+        now = 0.0
+        for number, row in enumerate(rows):
+            end = (number * EVERY + 1) * TICK_S  # when this tick is over
+            for point in steps(now, end):
+                model.doStep(now, point - now)
+                now = point
+            real = dict(zip(reals, model.getFloat64(list(reals.values()))))
+            bit = dict(zip(bits, model.getInt32(list(bits.values()))))
+            for name, text in row.items():
+                if name in bit:
+                    same = bit[name] == int(text)
+                elif name in NINE_DIGITS:
+                    same = f"{real[name]:.9g}" == text
+                elif name in real:
+                    same = real[name] == float(text)
+                else:
+                    continue
+                self.assertTrue(same, f"row {number}, {name}: {text} here {real.get(name, bit.get(name))!r}")
+
+    def test_valid_and_reproducible(self):
+        path = self.made("membrane")
+        self.assertEqual(validation.validate_fmu(str(path)), [])
+        first = path.read_bytes()
+        self.made("membrane")
+        self.assertEqual(path.read_bytes(), first)
+        # A judge that finds nothing wrong must be able to.
+        with zipfile.ZipFile(path) as archive:
+            text = archive.read("modelDescription.xml").decode()
+        with zipfile.ZipFile(self.folder / "bad.fmu", "w") as archive:
+            archive.writestr("modelDescription.xml", text.replace('causality="output"', 'causality="out"'))
+        self.assertNotEqual(validation.validate_fmu(str(self.folder / "bad.fmu")), [])
+
+    def test_every_word_is_that_of_the_program(self):
+        for scene in ("wall", "damper"):
+            rows = self.rows(scene)
+            self.assertGreater(max(abs(float(row["tau_ref_nm"])) for row in rows), 0.05)
+            model, names = self.instance(self.made(scene))
+            self.started(model)
+            self.compare(model, names, rows, lambda now, end: [end])
+
+    def test_steps_of_any_length(self):
+        rows = self.rows("wall")[:800]
+        model, names = self.instance(self.made("wall"))
+        draw = random.Random(1)
+        self.started(model)
+        self.compare(model, names, rows, lambda now, end: [now + draw.random() * (end - now), end])
+        model.reset()
+        model.enterInitializationMode()
+        model.exitInitializationMode()
+        self.compare(model, names, rows[:100], lambda now, end: [end])
+
+    def test_simulate(self):
+        result = fmpy.simulate_fmu(str(self.made("wall")), stop_time=0.4, output_interval=1e-3)
+        self.assertEqual(len(result), 401)
+        self.assertAlmostEqual(result["theta_rad"][-1], result["position_rad"][-1], delta=2e-3)
+
+    def test_a_hand_of_the_importers_own(self):
+        # The same push in a scene's file: its hand must give the same bits.
+        text = re.sub(r"\[hand\].*?(?=\[\[expect)", "", text_of("vectors/scenes/wall.toml"), flags=re.S)
+        push = '[[hand.phase]]\nkind = "torque"\ntorque = [{ kind = "step", duration_s = 9, to_nm = 0.15 }]\n'
+        text = text.partition("[[expect")[0] + "[hand]\n" + push
+        rows = self.rows(self.put("push.toml", text))
+        self.assertGreater(max(float(row["theta_rad"]) for row in rows), 0.45)  # met the wall
+        model, names = self.instance(self.made("wall"))
+        self.started(
+            model,
+            setBoolean=(names["own_hand"].valueReference, True),
+            setFloat64=(names["push_nm"].valueReference, 0.15),
+        )
+        self.compare(model, names, rows, lambda now, end: [end])
+        model.setFloat64([names["push_nm"].valueReference], [-0.15])
+        model.doStep((len(rows) - 1) * EVERY * TICK_S + TICK_S, 1e-3)
+        self.assertEqual(model.getFloat64([names["hand_torque_nm"].valueReference]), [-0.15])
+
+    def test_refusals_of_the_model(self):
+        said = []
+        model, names = self.instance(self.made("wall"), said)
+        self.started(model)
+        for act in (
+            lambda: model.setFloat64([names["theta_rad"].valueReference], [0.0]),
+            lambda: model.setFloat64([names["push_nm"].valueReference], [float("nan")]),
+            lambda: model.setBoolean([names["own_hand"].valueReference], [True]),
+            lambda: model.getFloat64([names["faults"].valueReference]),
+            lambda: model.getFloat64([99]),
+            lambda: model.doStep(0.0, -1.0),
+        ):
+            before = len(said)
+            with self.assertRaises(Exception):
+                act()
+            self.assertEqual(len(said), before + 1)
+        # Another plant than that of the token.
+        plant = Path(model.unzipDirectory, "resources/plant.toml")
+        plant.write_text(plant.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+        other = fmi3.FMU3Slave(
+            guid=model.guid, unzipDirectory=model.unzipDirectory, modelIdentifier=model.modelIdentifier
+        )
+        with self.assertRaises(Exception):
+            other.instantiate(logMessage=self.log)
+        self.assertIn("instantiationToken", said[-1])
+
+    def test_refusals_of_the_command(self):
+        for words, said in (
+            (("--scene", "wal"), '"wal" is not in vectors/scenes'),
+            (("--scene", "no/scene.toml"), "no/scene.toml: there is no such file"),
+            (("--scene", "detent"), "has no engine; choose a scene without law"),
+            (("--scene", "plane_circle"), "names a device of several axes"),
+            (("--design", "nothing"), "choose lever"),
+        ):
+            self.ended(self.product(*words, "-o", "it.fmu"), 2, said)
+            self.assertFalse((self.folder / "it.fmu").exists())
+        text = text_of("vectors/scenes/wall.toml")
+        own = self.put("own.toml", text.replace('title = ', 'plant = "p25"\ntitle = ', 1))
+        self.ended(self.product("--scene", own), 2, "p25.toml: there is no such file")
+        self.put("own.toml", text.replace("duration_s", "duration"))
+        self.ended(self.product("--scene", own), 2, "own.toml:")
+        self.ended(self.product("--no-read-back"), 2, "--no-read-back is of verilog")
+
+
+if __name__ == "__main__":
+    unittest.main()

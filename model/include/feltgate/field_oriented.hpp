@@ -20,8 +20,8 @@ class FieldOriented {
  public:
   /// LSB of full-scale current, and of a voltage of supply/root 3.
   static constexpr std::int64_t kFullScale = 1 << kCurrentControlBits;
-  static constexpr int kLatencyClocks = 213;  ///< from valid to out().valid
-  static constexpr int kBusyClocks = 285;     ///< fewest from a taken valid to the next one
+  static constexpr int kLatencyClocks = 261;  ///< from valid to out().valid
+  static constexpr int kBusyClocks = 349;     ///< fewest from a taken valid to the next one
   struct In {
     bool armed = false;              ///< false: voltage and integrators are 0
     bool valid = false;              ///< one clock: takes all but the last three
@@ -32,7 +32,7 @@ class FieldOriented {
     std::int32_t emf = 0;            ///< [1,0,17] of supply/root 3: peak of a phase, fed forward
     std::int32_t position = 0;       ///< counts; wraps
     std::uint32_t gain = 0;          ///< 2^-32 electrical turn per count
-    std::uint32_t offset = 0;        ///< 2^-32 electrical turn
+    std::uint32_t offset = 0;        ///< 2^-32 electrical turn; the low 12 bits do not count
     bool polarity = false;           ///< true: phases B and C change places
     std::uint32_t proportional = 0;  ///< [0,4,13], taken with each product
     std::uint32_t integral = 0;      ///< [0,0,17], the same
@@ -63,15 +63,19 @@ class FieldOriented {
       return;
     }
     out_.valid = false;
-    if (clock_ == 0) {
+    if (operation_ == 0 && step_ == 0) {
       if (!in.valid) return;
       take(in);
     }
-    const int operation = clock_ / kOperation, step = clock_ % kOperation;
-    if (step == 0) load(in, operation);
-    if (step == kOperation - 1) store(in, operation);
-    if (clock_ == kLatencyClocks - 1) legs();
-    clock_ = clock_ == kBusyClocks - 1 ? 0 : clock_ + 1;
+    if (step_ == 0) load(in);
+    if (step_ == last_step()) store(in);
+    if (operation_ == kAgain && step_ == 3) legs();
+    if (step_ < last_step()) {
+      ++step_;
+    } else {
+      step_ = 0;
+      operation_ = operation_ == kAlongI ? 0 : operation_ + 1;
+    }
   }
 
   const Out& out() const { return out_; }
@@ -83,8 +87,8 @@ class FieldOriented {
   struct Blank {};
   FieldOriented(int period, Blank) : period_(period) {}
 
-  // Operations of 19 clocks: operands, 17 clocks, result.
-  static constexpr int kOperation = 19;
+  // An operation takes operands, computes, and gives a result: a product in 19 clocks, a turn
+  // in 35.
   enum Operation : int {
     kPark = 2,
     kAcrossP = 3,
@@ -92,6 +96,7 @@ class FieldOriented {
     kPolar = 5,
     kLength = 6,
     kTurned = 8,
+    kAgain = 11,
     kApplied = 12,
     kAcrossI = 13,
     kAlongI = 14
@@ -129,6 +134,12 @@ class FieldOriented {
     return v;
   }
 
+  int last_step() const {
+    const bool turns = operation_ == kPark || operation_ == kPolar || operation_ == kTurned ||
+                       operation_ == kApplied;
+    return turns ? 34 : 18;
+  }
+
   void take(const In& in) {
     direct_ = in.direct;
     mirror_ = in.polarity;
@@ -137,8 +148,8 @@ class FieldOriented {
     const std::int64_t both = std::int64_t{in.current_a} + in.current_b;
     const std::int64_t beta = both + in.current_b;
     at_ = {(in.current_a * kShrink) >> 14, ((mirror_ ? -beta : beta) * kShrinkBeta) >> 14};
-    const std::uint32_t turn = in.gain * static_cast<std::uint32_t>(in.position) + in.offset;
-    theta_ = wrapped(turn >> 12);
+    const std::uint32_t angle = in.gain * static_cast<std::uint32_t>(in.position);
+    theta_ = wrapped(std::int64_t{angle >> 12} + (in.offset >> 12));
     high_ = false;
     low_ = 0;
     const std::array<std::int64_t, 3> phases = {in.current_a, in.current_b, both};
@@ -171,11 +182,11 @@ class FieldOriented {
     return (error * static_cast<std::int64_t>(gain) + half) >> kCurrentProportionalBits;
   }
 
-  void load(const In& in, int operation) {
+  void load(const In& in) {
     const std::uint32_t proportional = direct_ ? 0 : in.proportional;
     const std::uint32_t integral = direct_ ? 0 : in.integral;
     std::int64_t angle = theta_;
-    switch (operation) {
+    switch (operation_) {
       case kPark:
         at_ = turned(at_, &angle, true, false);
         watch();
@@ -209,15 +220,15 @@ class FieldOriented {
     }
   }
 
-  void store(const In& in, int operation) {
-    switch (operation) {
+  void store(const In& in) {
+    switch (operation_) {
       case kPark:
         out_.current_q = static_cast<std::int32_t>(at_.x >> kGuard);
         break;
       case kAcrossP:
       case kAlongP: {
         constexpr std::int64_t end = std::int64_t{16} << kCurrentControlBits;
-        const std::size_t along = operation == kAlongP ? 1 : 0;
+        const std::size_t along = operation_ == kAlongP ? 1 : 0;
         wanted_[along] = std::clamp(part_ + base(along), -end, end - 1);
         break;
       }
@@ -229,7 +240,7 @@ class FieldOriented {
       }
       case kAcrossI:
       case kAlongI:
-        integrator_[operation == kAlongI ? 1 : 0] += part_;
+        integrator_[operation_ == kAlongI ? 1 : 0] += part_;
         break;
       default:
         break;
@@ -261,7 +272,7 @@ class FieldOriented {
 
   int period_;
   Out out_;
-  int clock_ = 0;  // since a current was taken, 0: none
+  int operation_ = 0, step_ = 0;
   bool direct_ = false, mirror_ = false, saturated_ = false, high_ = false;
   std::uint32_t low_ = 0, quiet_ = 0, start_ = 0;  // phases, phases, 2^-8 turn
   std::int64_t reference_ = 0, emf_ = 0, theta_ = 0, angle_ = 0;

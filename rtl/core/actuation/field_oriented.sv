@@ -3,7 +3,7 @@
 //
 // Current control of a motor with three phases: two measured currents into the rotor's frame, a PI law along and one
 // across the axis of torque, their voltage limited as a vector, and the on-times of three legs by space vectors. One
-// CORDIC, one serial multiplier. Latency: valid_i to valid_o 213 clocks; a valid_i within 284 of a taken one is ignored.
+// CORDIC, one serial multiplier. Latency: valid_i to valid_o 261 clocks; a valid_i within 348 of a taken one is ignored.
 // Formats: current [1,1,17] of full scale, voltage [1,0,17] of the supply over root 3, gains [0,4,13] and [0,0,17],
 // angle 2^-32 electrical turn, on-times [0,12,0] clocks of the PWM. docs/blocks/field_oriented.md
 
@@ -23,7 +23,7 @@ module field_oriented #(
     input  logic signed [17:0] emf_i,           // peak of a phase's back-EMF
     input  logic signed [31:0] position_i,      // counts; wraps
     input  logic        [31:0] gain_i,          // 2^-32 electrical turn per count
-    input  logic        [31:0] offset_i,        // 2^-32 electrical turn
+    input  logic        [31:0] offset_i,        // 2^-32 electrical turn; the low 12 bits do not count
     input  logic               polarity_i,      // 1: the motor's phases B and C change places
     input  logic        [16:0] proportional_i,
     input  logic        [16:0] integral_i,      // part of its way that an integrator goes
@@ -55,34 +55,33 @@ module field_oriented #(
   localparam int PF = 13;      // of the proportional gain
   localparam int LegF = 4;     // of the legs
 
-  // Operations of one length. A product takes a bit of its gain in each clock; the CORDIC a half turn or none, then 16
-  // angles. Load takes the operands, Store the result.
-  typedef enum logic [3:0] {
-    Alpha    = 4'd0,
-    Beta     = 4'd1,
-    Park     = 4'd2,
-    AcrossP  = 4'd3,
-    AlongP   = 4'd4,
-    Polar    = 4'd5,
-    Length   = 4'd6,
-    Radius   = 4'd7,
-    Turned   = 4'd8,
-    LegsX    = 4'd9,
-    LegsY    = 4'd10,
-    Again    = 4'd11,  // the limited voltage once more, in the rotor's frame
-    Applied  = 4'd12,
-    AcrossI  = 4'd13,
-    AlongI   = 4'd14
-  } operation_e;
-  localparam logic [4:0] Load = 5'd0;
-  localparam logic [4:0] HalfTurn = 5'd1;
-  localparam logic [4:0] Store = 5'd18;
-  operation_e op_q;
-  logic [4:0] step_q;
+  // Operations: Load takes the operands, Store the result. A product takes a bit of its gain in each of 17 clocks; the
+  // CORDIC a half turn or none, then 16 angles with two clocks each, so that one shifter does.
+  localparam logic [3:0] Alpha    = 4'd0;
+  localparam logic [3:0] Beta     = 4'd1;
+  localparam logic [3:0] Park     = 4'd2;
+  localparam logic [3:0] AcrossP  = 4'd3;
+  localparam logic [3:0] AlongP   = 4'd4;
+  localparam logic [3:0] Polar    = 4'd5;
+  localparam logic [3:0] Length   = 4'd6;
+  localparam logic [3:0] Radius   = 4'd7;
+  localparam logic [3:0] Turned   = 4'd8;
+  localparam logic [3:0] LegsX    = 4'd9;
+  localparam logic [3:0] LegsY    = 4'd10;
+  localparam logic [3:0] Again    = 4'd11;  // the limited voltage once more, in the rotor's frame
+  localparam logic [3:0] Applied  = 4'd12;
+  localparam logic [3:0] AcrossI  = 4'd13;
+  localparam logic [3:0] AlongI   = 4'd14;
+  localparam logic [5:0] Load = 6'd0;
+  localparam logic [5:0] HalfTurn = 6'd1;
+  localparam logic [5:0] Store = 6'd18;
+  localparam logic [5:0] CordicStore = 6'd34;
+  logic [3:0] op_q;
+  logic [5:0] step_q;
   logic       take, loads, stores, cordic, along, integrates;
   assign take       = op_q == Alpha && step_q == Load && valid_i && armed_i;
   assign loads      = step_q == Load;
-  assign stores     = step_q == Store;
+  assign stores     = step_q == (cordic ? CordicStore : Store);
   assign cordic     = op_q == Park || op_q == Polar || op_q == Turned || op_q == Applied;
   assign integrates = op_q == AcrossI || op_q == AlongI;
   assign along      = op_q == AlongP || op_q == AlongI;
@@ -94,10 +93,10 @@ module field_oriented #(
       op_q   <= Alpha;
       step_q <= Load;
     end else if (stores) begin
-      op_q   <= op_q == AlongI ? Alpha : operation_e'(op_q + 4'd1);
+      op_q   <= op_q == AlongI ? Alpha : op_q + 4'd1;
       step_q <= Load;
     end else if (take || op_q != Alpha || step_q != Load) begin
-      step_q <= step_q + 5'd1;
+      step_q <= step_q + 6'd1;
     end
   end
 
@@ -119,25 +118,24 @@ module field_oriented #(
   end
 
   // The angle, from the position's highest bit on: modulo a turn.
-  logic [31:0] position_q, gain_q, offset_q, added_q, angle_q, turn;
-  logic [19:0] theta_q;
-  logic        unused_turn;
-  assign turn        = angle_q + offset_q;
-  assign unused_turn = ^{turn[11:0], moved[3:0]};
+  logic [31:0] position_q, gain_q, added_q, angle_q;
+  logic [19:0] theta_q, offset_q;
+  logic        unused_angle;
+  assign unused_angle = ^{offset_i[11:0], moved[3:0]};
   always_ff @(posedge clk_i) begin
     if (take) begin
       gain_q   <= gain_i;
-      offset_q <= offset_i;
+      offset_q <= offset_i[31:12];
     end
     position_q <= take ? position_i : position_q << 1;
     if (take) begin
       added_q <= '0;
       angle_q <= '0;
-    end else if (op_q == Alpha || (op_q == Beta && step_q <= 5'd14)) begin
+    end else if (op_q == Alpha || (op_q == Beta && step_q <= 6'd14)) begin
       added_q <= position_q[31] ? gain_q : '0;
       angle_q <= (angle_q << 1) + added_q;
     end
-    if (op_q == Beta && stores) theta_q <= turn[31:12];
+    if (op_q == Beta && stores) theta_q <= angle_q[31:12] + offset_q;
   end
 
   // An open phase: its current stays below 2^-7 of full scale while the angle moves by a sixteenth of a turn, and all
@@ -288,13 +286,15 @@ module field_oriented #(
       default: arc = 18'd5;
     endcase
   endfunction
-  logic signed [W-1:0] x_part, y_part;
+  logic signed [W-1:0] x_old_q, from, part, next;
   logic         [ 3:0] place;
   logic         [19:0] z_q, z_part, angle_of_q;
-  logic                half_turn, clockwise, z_falls;
-  assign place     = 4'(step_q - 5'd2);
-  assign x_part    = x_q >>> place;
-  assign y_part    = y_q >>> place;
+  logic                half_turn, clockwise, z_falls, second;
+  assign second    = step_q[0];
+  assign place     = 4'((step_q - 6'd2) >> 1);
+  assign from      = second ? y_q : x_q;
+  assign part      = (second ? x_old_q : y_q) >>> place;
+  assign next      = clockwise != second ? from + part : from - part;
   assign z_part    = loads ? theta_q : {2'd0, arc(place)};
   assign half_turn = op_q == Polar ? x_q[W-1] : z_q[19] != z_q[18];
   assign z_falls   = op_q == Polar ? y_q[W-1] : !z_q[19];
@@ -312,9 +312,13 @@ module field_oriented #(
         z_q[19] <= !z_q[19];
       end
     end else if (cordic && !stores) begin
-      x_q <= clockwise ? x_q + y_part : x_q - y_part;
-      y_q <= clockwise ? y_q - x_part : y_q + x_part;
-      z_q <= z_falls ? z_q - z_part : z_q + z_part;
+      if (second) begin
+        y_q <= next;
+        z_q <= z_falls ? z_q - z_part : z_q + z_part;
+      end else begin
+        x_q     <= next;
+        x_old_q <= x_q;
+      end
     end else if (stores) begin
       if (op_q == Alpha || op_q == Radius || op_q == Again) x_q <= product[37:14];
       if (op_q == Beta) y_q <= product[37:14];
@@ -331,9 +335,9 @@ module field_oriented #(
   logic          [11:0] high_leg_q, upper_leg, lower_leg, between_leg, leg_b, leg_c;
   assign u_and_v  = u_q + v_q;
   assign u_less_v = u_q - v_q;
-  assign start    = step_q == 5'd3 && !a_between_q ? leg_q : Middle;
-  assign way      = step_q != 5'd3 ? outer_q : a_between_q ? u_q <<< 1 : v_q <<< 2;
-  assign down     = step_q == 5'd2 || (step_q == 5'd3 && !a_between_q && !b_between_q);
+  assign start    = step_q == 6'd3 && !a_between_q ? leg_q : Middle;
+  assign way      = step_q != 6'd3 ? outer_q : a_between_q ? u_q <<< 1 : v_q <<< 2;
+  assign down     = step_q == 6'd2 || (step_q == 6'd3 && !a_between_q && !b_between_q);
   assign {leg, unused_leg} = {start, 1'b1} + {way ^ {LW{down}}, down};
   always_ff @(posedge clk_i) begin
     if (op_q == LegsX && stores) u_q <= LW'(product >>> (F + Guard + 6 - LegF));
@@ -365,8 +369,8 @@ module field_oriented #(
       saturated_o <= 1'b0;
       valid_o     <= 1'b0;
     end else begin
-      valid_o <= op_q == Again && step_q == 5'd3;
-      if (op_q == Again && step_q == 5'd3) begin
+      valid_o <= op_q == Again && step_q == 6'd3;
+      if (op_q == Again && step_q == 6'd3) begin
         on_a_o      <= a_between_q ? between_leg : upper_leg;
         on_b_o      <= mirror_q ? leg_c : leg_b;
         on_c_o      <= mirror_q ? leg_b : leg_c;

@@ -24,7 +24,8 @@ namespace {
 
 constexpr int kPeriod = FIELD_PERIOD;
 constexpr std::int32_t kMost = 131071;  // of limit and gains
-constexpr double kOne = 131072;         // LSB of full scale and of supply/root 3
+constexpr int kLatency = 261, kBusy = 349;
+constexpr double kOne = 131072;  // LSB of full scale and of supply/root 3
 constexpr double kThird = 2 * M_PI / 3;
 
 struct Adapter {
@@ -66,7 +67,7 @@ struct RandomInputs {
   Random random;
   FieldOriented::In in{};
   enum Kind { anything, ends, small, winding, kinds } kind = anything;
-  int every = 285, open = 3;
+  int every = kBusy, open = 3;
   double speed = 0, angle = 0;  // counts per clock, counts
   Vector current{};             // of the stator
 
@@ -109,7 +110,9 @@ struct RandomInputs {
  private:
   void begin() {
     kind = static_cast<Kind>(random.below(kinds));
-    every = random.one_in(4) ? 285 : random.one_in(4) ? 1 : static_cast<int>(random.between(200, 999));
+    every = random.one_in(4)   ? kBusy
+            : random.one_in(4) ? 1
+                               : static_cast<int>(random.between(200, 999));
     in.proportional = random.coin() ? 30'000 : word(kMost);
     in.integral = random.coin() ? 7400 : word(kMost);
     in.limit = word(kMost);
@@ -158,32 +161,33 @@ class Reference {
     ++clock_;
     const double a = rtl.on_a_o, b = rtl.on_b_o, c = rtl.on_c_o;
     if (in_reset || !in.armed) {
-      tally_->cut += clock_ < taken_ + 284;
+      tally_->cut += clock_ < taken_ + kBusy - 1;
       *this = Reference(tally_);
       const bool none = 2 * a == kPeriod && a == b && a == c && !rtl.open_o && !rtl.saturated_o;
       return none && rtl.current_q_o == 0 && !rtl.valid_o ? nullptr : "disarmed there is nothing";
     }
     if (in.valid) take(in);
     const std::int64_t at = clock_ - taken_;
-    if (at == 57) proportional_across_ = in.proportional;
-    if (at == 76) proportional_ = in.proportional;
-    if (at == 132) limit(in);
-    if (at == 247) integral_across_ = in.integral;
-    if (at == 266) integrate(in);
-    if ((rtl.valid_o != 0) != (at == 212)) return "a result 213 clocks after a current";
-    if (at < 56 || taken_ < 0) return nullptr;
-    if (std::fabs(static_cast<double>(sign_extend<21>(rtl.current_q_o)) - current_.x) > off_current_)
+    if (at == 73) proportional_across_ = in.proportional;
+    if (at == 92) proportional_ = in.proportional;
+    if (at == 164) limit(in);
+    if (at == 311) integral_across_ = in.integral;
+    if (at == 330) integrate(in);
+    if ((rtl.valid_o != 0) != (at == kLatency - 1)) return "a result 261 clocks after a current";
+    if (at < 72 || taken_ < 0) return nullptr;
+    if (std::fabs(static_cast<double>(sign_extend<21>(rtl.current_q_o)) - current_.x) >
+        off_current_)
       return "the current along the axis of torque";
-    return at == 212 ? judge(a, b, c, rtl.saturated_o != 0) : nullptr;
+    return at == kLatency - 1 ? judge(a, b, c, rtl.saturated_o != 0) : nullptr;
   }
 
  private:
   void take(const FieldOriented::In& in) {
-    if (clock_ < taken_ + 285) {
+    if (clock_ < taken_ + kBusy) {
       ++tally_->ignored;
       return;
     }
-    tally_->in_a_row += clock_ == taken_ + 285;
+    tally_->in_a_row += clock_ == taken_ + kBusy;
     tally_->direct += in.direct;
     tally_->mirrored += in.polarity;
     taken_ = clock_;

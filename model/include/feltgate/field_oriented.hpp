@@ -154,13 +154,13 @@ class FieldOriented {
     low_ = 0;
     const std::array<std::int64_t, 3> phases = {in.current_a, in.current_b, both};
     for (std::size_t n = 0; n < phases.size(); ++n) {
-      if (phases[n] >> 10 == 0 || phases[n] >> 10 == -1) low_ |= 1U << n;
-      high_ = high_ || (phases[n] >> 13 != 0 && phases[n] >> 13 != -1);
+      if (phases[n] >> 8 == 0 || phases[n] >> 8 == -1) low_ |= 1U << n;
+      high_ = high_ || (phases[n] >> 12 != 0 && phases[n] >> 12 != -1);
     }
     if (direct_) integrator_ = {};
   }
 
-  /// Whether a phase has been low since `start_`, while the angle moved by a sixteenth of a turn.
+  /// Whether a phase has been low since `start_`, while the angle moved by a 32nd of a turn.
   void watch() {
     const auto now = static_cast<std::uint32_t>(theta_ >> 12) & 0xffU;
     quiet_ &= low_;
@@ -169,8 +169,8 @@ class FieldOriented {
       start_ = now;
       return;
     }
-    const std::uint32_t moved = ((now - start_) & 0xffU) >> 4;
-    out_.open = out_.open || (moved != 0 && moved != 15);
+    const std::uint32_t moved = ((now - start_) & 0xffU) >> 3;
+    out_.open = out_.open || (moved != 0 && moved != 31);
   }
 
   /// Whole part of an integrator and what is fed forward: along 1, across 0.

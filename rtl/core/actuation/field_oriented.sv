@@ -121,7 +121,7 @@ module field_oriented #(
   logic [31:0] position_q, gain_q, added_q, angle_q;
   logic [19:0] theta_q, offset_q;
   logic        unused_angle;
-  assign unused_angle = ^{offset_i[11:0], moved[3:0]};
+  assign unused_angle = ^{offset_i[11:0], moved[2:0]};
   always_ff @(posedge clk_i) begin
     if (take) begin
       gain_q   <= gain_i;
@@ -138,8 +138,10 @@ module field_oriented #(
     if (op_q == Beta && stores) theta_q <= angle_q[31:12] + offset_q;
   end
 
-  // An open phase: its current stays below 2^-7 of full scale while the angle moves by a sixteenth of a turn, and all
-  // the while another has 2^-4 or more.
+  // An open phase: its current stays below 2^-9 of full scale while the angle moves by a 32nd of a turn, and all the
+  // while another has 2^-5 or more. A current of that amplitude is as low only for 7.2 degrees.
+  localparam int Low = 8;  // bits of an LSB
+  localparam int High = 12;
   logic [2:0] quiet, quiet_q, low_q;  // phases whose current is low: since start_q; of this sample
   logic       high_q;
   logic [7:0] start_q, moved;
@@ -150,8 +152,8 @@ module field_oriented #(
   endfunction
   always_ff @(posedge clk_i) begin
     if (take) begin
-      low_q  <= {!beyond(both, 10), !beyond(20'(current_b_i), 10), !beyond(20'(current_a_i), 10)};
-      high_q <= beyond(both, 13) || beyond(20'(current_b_i), 13) || beyond(20'(current_a_i), 13);
+      low_q  <= {!beyond(both, Low), !beyond(20'(current_b_i), Low), !beyond(20'(current_a_i), Low)};
+      high_q <= beyond(both, High) || beyond(20'(current_b_i), High) || beyond(20'(current_a_i), High);
     end
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -168,7 +170,7 @@ module field_oriented #(
         start_q <= theta_q[19:12];
       end else begin
         quiet_q <= quiet;
-        if (moved[7:4] != 4'd0 && moved[7:4] != 4'd15) open_o <= 1'b1;
+        if (moved[7:3] != 5'd0 && moved[7:3] != 5'd31) open_o <= 1'b1;
       end
     end
   end

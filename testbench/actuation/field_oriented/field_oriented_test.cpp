@@ -26,7 +26,7 @@ constexpr int kPeriod = FIELD_PERIOD;
 constexpr std::int32_t kMost = 131071;  // of limit and gains
 constexpr int kLatency = 261, kBusy = 349;
 constexpr double kOne = 131072;  // LSB of full scale and of supply/root 3
-constexpr double kThird = 2 * M_PI / 3;
+constexpr double kThirdOfTurn = 2 * M_PI / 3;
 
 struct Adapter {
   static void drive(Vfield_oriented& rtl, const FieldOriented::In& in) {
@@ -129,7 +129,7 @@ struct RandomInputs {
                       scale * (out.on_b - out.on_c) / std::sqrt(3)};
     current = {0.94 * current.x + v.x, 0.94 * current.y + v.y};
     double phases[3];
-    for (int n = 0; n < 3; ++n) phases[n] = current.turned(-n * kThird).x;
+    for (int n = 0; n < 3; ++n) phases[n] = current.turned(-n * kThirdOfTurn).x;
     if (open < 3) {
       const double rest = (phases[(open + 1) % 3] - phases[(open + 2) % 3]) / 2;
       phases[open] = static_cast<double>(random.between(-99, 99));

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // field_oriented: RTL against twin in every clock, and each voltage against the law in double with
-// cosines of its own, within a bound; arming, direct voltage, the watch on an open phase; every
-// length and angle of a voltage for several periods. Documentation: docs/blocks/field_oriented.md
+// cosines of its own, within a bound; arming, direct voltage, the watch on an open phase; the
+// longest voltage in several periods. Documentation: docs/blocks/field_oriented.md
 #include "feltgate/field_oriented.hpp"
 
 #include <Vfield_oriented.h>
@@ -168,6 +168,8 @@ class Reference {
     }
     if (in.valid) take(in);
     const std::int64_t at = clock_ - taken_;
+    tally_->open += rtl.open_o != 0 && !open_;
+    open_ = rtl.open_o != 0;
     if (at == 73) proportional_across_ = in.proportional;
     if (at == 92) proportional_ = in.proportional;
     if (at == 164) limit(in);
@@ -257,7 +259,7 @@ class Reference {
   double angle_ = 0, off_ = 0, off_current_ = 0, off_integral_ = 0, off_applied_ = 0;
   std::uint32_t proportional_ = 0, proportional_across_ = 0, integral_across_ = 0;
   Vector current_{}, wanted_{}, applied_{}, integral_{};
-  bool limited_ = false, near_ = false;
+  bool limited_ = false, near_ = false, open_ = false;
 };
 
 }  // namespace
@@ -269,10 +271,43 @@ TEST_CASE("field_oriented: all inputs, limits, arming and resets") {
   INFO("results " << tally.results << ", limited " << tally.limited << ", near the limit "
                   << tally.near << ", ignored " << tally.ignored << ", in a row " << tally.in_a_row
                   << ", cut " << tally.cut << ", direct " << tally.direct << ", mirrored "
-                  << tally.mirrored << ", beyond " << tally.beyond << ", between "
-                  << tally.between[0] << " " << tally.between[1] << " " << tally.between[2]);
+                  << tally.mirrored << ", beyond " << tally.beyond << ", open " << tally.open
+                  << ", between " << tally.between[0] << " " << tally.between[1] << " "
+                  << tally.between[2]);
   CHECK(tally.results > 9000);
   CHECK(tally.limited > 3000);
   CHECK(tally.results - tally.limited > 1000);
   CHECK(tally.near < tally.results / 4);
+  CHECK(tally.ignored > 1000);
+  CHECK(tally.in_a_row > 1000);
+  CHECK(tally.cut > 20);
+  CHECK(tally.direct > 1000);
+  CHECK(tally.mirrored > 1000);
+  CHECK(tally.beyond > 100);
+  CHECK(tally.open > 10);
+  for (const std::int64_t leg : tally.between) CHECK(leg > 1000);
+}
+
+TEST_CASE("field_oriented: the longest voltage at every angle stays within any period") {
+  std::int64_t outside = 0, short_ones = 0;
+  for (const int period : {4, 6, 24, 1000, 2500, 4094}) {
+    FieldOriented twin(period);
+    for (std::uint32_t turn = 0; turn < 3000; ++turn) {
+      FieldOriented::In in;
+      in.armed = in.direct = true;
+      in.emf = turn % 2 == 0 ? kMost : -kMost;
+      in.limit = static_cast<std::uint32_t>(kMost);
+      in.offset = turn * 1431656U;
+      for (int clock = 0; clock < kBusy; ++clock) {
+        in.valid = clock == 0;
+        twin.clock(in);
+      }
+      const double a = twin.out().on_a, b = twin.out().on_b, c = twin.out().on_c;
+      outside += smaller(a, smaller(b, c)) < 0 || larger(a, larger(b, c)) > period;
+      const double length = std::hypot((2 * a - b - c) / 3, (b - c) / std::sqrt(3));
+      short_ones += length < period / std::sqrt(3) * (1 - 1e-4) - 0.75;
+    }
+  }
+  CHECK(outside == 0);
+  CHECK(short_ones == 0);
 }

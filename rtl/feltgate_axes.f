@@ -42,6 +42,7 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/field_oriented.sv
 generated/feltgate_engine_pkg.sv
 engine/engine_alu.sv
 engine/engine_memory.sv

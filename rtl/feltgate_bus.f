@@ -42,5 +42,6 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/field_oriented.sv
 bus/axi_lite_port.sv
 bus/wishbone_port.sv

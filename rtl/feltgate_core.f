@@ -42,3 +42,4 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
+core/actuation/field_oriented.sv

@@ -18,7 +18,8 @@ WIRED_ROOMS = tuple(room for room in ROOMS if room != "scenes")
 # Without a twin and a test of their own: one is elaborated, never clocked; a room is tested by the core's test.
 NO_BLOCKS = ("feltgate_checks", *WIRED_ROOMS)
 # Blocks for a core of one's own, which the core does not instantiate: not wired yet.
-DROP_INS = ("absolute_encoder", "current_sense", "current_control", "commutation", "pwm_three_phase")
+DROP_INS = ("absolute_encoder", "current_sense", "current_control", "commutation", "pwm_three_phase",
+            "field_oriented")
 
 
 def code_only(text):

@@ -43,7 +43,7 @@ WITHOUT = {"PHASES": 2}  # what a design without the option says, if not 0
 BLOCK_PARAMETERS = {
     **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
         "ShortestClocks": "feltgate_pkg::SHORTEST_CLOCKS"}),
-    "commutation": {"Period": "feltgate_pkg::PWM_PERIOD"},
+    **dict.fromkeys(("commutation", "field_oriented"), {"Period": "feltgate_pkg::PWM_PERIOD"}),
     "sequencer": {"ClocksPerTick": "feltgate_pkg::CLOCKS_PER_TICK"},
 }
 

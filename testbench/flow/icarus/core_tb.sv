@@ -169,6 +169,31 @@ module core_tb;
       .gate_c_lo_o(),
       .period_start_o()
   );
+  field_oriented u_field_oriented (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .armed_i(1'b1),
+      .valid_i(sense_valid),
+      .direct_i(1'b0),
+      .reference_i({1'b0, sense_bits, 11'd0}),
+      .current_a_i(sense_current),
+      .current_b_i(19'sd1000),
+      .emf_i(18'sd1000),
+      .position_i({25'd0, sense_bits}),
+      .gain_i(32'h01234567),
+      .offset_i(32'd0),
+      .polarity_i(1'b0),
+      .proportional_i(17'd11842),
+      .integral_i(17'd12762),
+      .limit_i(17'd124518),
+      .current_q_o(),
+      .open_o(),
+      .saturated_o(),
+      .on_a_o(),
+      .on_b_o(),
+      .on_c_o(),
+      .valid_o()
+  );
   always @(posedge sense_clock) sense_bits <= {sense_bits[5:0], sense_bits[6] ^ sense_bits[5]};
 
   // Read data are left out until the host has read: a RAM that was never written holds X.
@@ -203,7 +228,7 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
-      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control, u_commutation, u_pwm_three_phase);
+      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control, u_commutation, u_pwm_three_phase, u_field_oriented);
       if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;

@@ -176,7 +176,6 @@ void Quantities::add_axes() {
   }
 }
 
-/// What is wrong with a name whose axis is not there; empty for another name.
 std::string Quantities::missing_axis(const std::string& name) const {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos || dot + 1 == name.size()) return "";

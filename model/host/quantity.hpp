@@ -59,6 +59,8 @@ class Quantities {
   const std::vector<Quantity>& all() const { return all_; }
   /// Errors: std::invalid_argument with the nearest name, for an unknown one.
   const Quantity& find(const std::string& name) const;
+  /// What is wrong with a name whose axis the board does not have; empty for any other name.
+  std::string missing_axis(const std::string& name) const;
   /// The same; nullptr for an unknown name.
   const Quantity* look(const std::string& name) const;
   /// A quantity of a stream or capture: a word of the snapshot. Errors: std::invalid_argument for
@@ -85,7 +87,6 @@ class Quantities {
   void add_snapshot(const design::Elaborated& design);
   void add_fields(const design::Elaborated& design);
   void add_axes();
-  std::string missing_axis(const std::string& name) const;
   void add_link(const design::Elaborated& design);
 
   std::vector<Quantity> all_;

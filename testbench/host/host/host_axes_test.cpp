@@ -40,12 +40,19 @@ struct Pantograph {
 
   const CoreOut& out(std::size_t n) const { return wire->board.out().axis[n]; }
   void settle() { wire->run(std::int64_t{60} * D::clocks_per_tick); }
+  /// Meanwhile the board's time goes on.
+  void ask() {
+    device.arm("law", false, [this] {
+      wire->run(100'000);
+      return true;
+    });
+  }
   void arm() {
     for (const char* name : {"self_test_pulse", "self_test_pulse.1"}) device.set(name, 0);
     for (const char* name : {"ramp_step", "ramp_step.1"}) {
       device.set(name, device.quantities().find(name).high());
     }
-    device.arm("law", false);
+    ask();
     settle();
   }
 };
@@ -94,7 +101,7 @@ TEST_CASE("host axes: a law is loaded, armed and felt at both axes; streamed and
   b.settle();
   const auto& q = b.device.quantities();
   const auto mask = host::mask_of(q, {"angle", "tau_ref.1", "angle.1", "tau_ref"});
-  b.device.stream(mask, 1000);
+  b.device.stream(mask, 10'000);  // longer than a read waits
   const auto frame = b.device.streamed(host::within(5));
   b.device.stream(0, 0);
   REQUIRE(frame);
@@ -157,7 +164,7 @@ TEST_CASE("host axes: a fault of either axis stops both, is told with its axis, 
     b.wire->run(std::int64_t{50'000} * D::clocks_per_tick);
     b.device.clear_faults();
     CHECK(b.device.fault_names(b.device.tick()).empty());
-    b.device.arm("law", false);
+    b.ask();
     CHECK(b.out(axis == 0 ? 1 : 0).armed);
   }
 }
@@ -180,7 +187,7 @@ TEST_CASE("host axes: mailbox updates of 64 bytes at 3 Mbaud; lost and late ones
     return all;
   };
   host::MailboxBurst burst(b.device, b.engine);
-  constexpr int updates = 300;
+  constexpr int updates = 100;
   const std::int64_t from = b.wire->now;
   for (int k = 0; k <= updates; ++k) REQUIRE(burst.send(values(0.005 * k / updates)));
   while (b.wire->board.unsent() > 0) b.wire->run(100);
@@ -210,8 +217,8 @@ TEST_CASE("host axes: mailbox updates of 64 bytes at 3 Mbaud; lost and late ones
   b.wire->lost = 0;
   const auto lost = burst.check().lost_frames;
   std::printf("%llu of %d frames lost\n", static_cast<unsigned long long>(lost), 17 * updates);
-  CHECK(lost > 20);
-  CHECK(lost < 200);
+  CHECK(lost > 8);
+  CHECK(lost < 80);
   // Without updates the torque ends with the age of the words.
   CHECK(std::abs(nm(0)) > 0.01);
   b.wire->run(D::clock_hz / 5);

@@ -97,9 +97,7 @@ Run add_watch(CLI::App& sub) {
       "broke down.");
   add_stream_options(sub, *a);
   sub.add_flag("--teleplot", a->teleplot, "lines '>name:milliseconds:value§unit' for Teleplot");
-  sub.add_flag(
-      "--pen", a->pen,
-      "of a pantograph: position of the pen and force on it, x, y, Fx, Fy, in place of NAME");
+  sub.add_flag("--pen", a->pen, "x, y, Fx, Fy at the pen of a pantograph, in place of NAME");
   return [a](Session& session) { return watch(session, *a); };
 }
 

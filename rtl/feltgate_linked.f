@@ -61,6 +61,7 @@ generated/feltgate_link_pkg.sv
 link/uart_rx.sv
 link/link_receiver.sv
 link/link_port.sv
+link/link_view.sv
 link/link_stream.sv
 link/link_capture.sv
 link/link_transmitter.sv

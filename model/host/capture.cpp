@@ -135,10 +135,10 @@ Trigger parse_trigger(const Device& device, const LawEngine* laws, const std::st
 
 bool means_event(const std::string& text) { return text.substr(0, text.find(':')) == "event"; }
 
-std::uint16_t mask_of(const Quantities& quantities, const std::vector<std::string>& names) {
-  unsigned mask = 0;
-  for (const std::string& name : names) mask |= 1u << quantities.streamed(name).word;
-  return static_cast<std::uint16_t>(mask);
+WordMask mask_of(const Quantities& quantities, const std::vector<std::string>& names) {
+  WordMask mask = 0;
+  for (const std::string& name : names) mask |= Quantities::bit(quantities.streamed(name));
+  return mask;
 }
 
 void start_capture(Device& device, const CaptureSetup& setup) {
@@ -146,7 +146,7 @@ void start_capture(Device& device, const CaptureSetup& setup) {
   if (!board.has_capture) {
     throw Refused("this board's link is built without a capture; only get, set and watch work");
   }
-  const std::uint16_t mask = mask_of(device.quantities(), setup.quantities);
+  const WordMask mask = mask_of(device.quantities(), setup.quantities);
   if (words_in(mask) > board.capture_columns || mask == 0) {
     throw std::invalid_argument(
         fmt::format("{} words are asked for, a row of this board has {}; "
@@ -157,10 +157,14 @@ void start_capture(Device& device, const CaptureSetup& setup) {
   check_range("ticks from row to row", setup.period, 1, 0xffffffff);
   Link& link = device.link();
   link.write(M::A::capture_control, 1u << M::B::capture_control_abort);
-  link.write(M::A::capture_words, mask);
+  const int trigger = setup.trigger.word;
+  const unsigned shown = device.show(mask | WordMask{1} << trigger);
+  const bool only_trigger = (mask >> trigger & 1) == 0;
+  const unsigned kept = only_trigger ? shown & ~(1u << device.slot_of(trigger)) : shown;
+  link.write(M::A::capture_words, kept);
   link.write(M::A::capture_pre, static_cast<std::uint32_t>(setup.rows_before));
   link.write(M::A::capture_period, setup.period);
-  link.write(M::A::trigger_word, static_cast<std::uint32_t>(setup.trigger.word));
+  link.write(M::A::trigger_word, static_cast<std::uint32_t>(device.slot_of(trigger)));
   link.write(M::A::trigger_mode, static_cast<std::uint32_t>(setup.trigger.mode));
   link.write(M::A::trigger_level, setup.trigger.level);
   link.write(M::A::capture_control, 1u << M::B::capture_control_start);
@@ -222,7 +226,7 @@ Captured read_capture(Device& device, const CaptureSetup& setup,
   c.row_s = setup.period / device.board().tick_hz();
   const int state = at(M::A::capture_state);
   c.trigger_row = state == 4 ? std::min(setup.rows_before, rows - 1) : -1;
-  const std::uint16_t mask = mask_of(device.quantities(), setup.quantities);
+  const auto mask = static_cast<std::uint16_t>(device.link().read(M::A::capture_words));
   for (const std::string& name : setup.quantities) {
     c.columns.push_back(&device.quantities().streamed(name));
   }
@@ -235,10 +239,8 @@ Captured read_capture(Device& device, const CaptureSetup& setup,
     const std::vector<std::uint32_t> got =
         device.link().read(static_cast<int>(M::memory) + memory_row * place, memory_row * now);
     for (int n = 0; n < now; ++n, ++row) {
-      Tick t;
-      t.mask = mask;
       const auto from = got.begin() + memory_row * n;
-      t.words.assign(from, from + static_cast<std::ptrdiff_t>(used));
+      Tick t = device.shown(mask, {from, from + static_cast<std::ptrdiff_t>(used)});
       t.time_s = (row - std::max(c.trigger_row, 0)) * c.row_s;
       c.rows.push_back(std::move(t));
     }

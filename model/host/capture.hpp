@@ -27,7 +27,7 @@ struct Trigger {
     event = LinkMap::trigger_event
   };
   Mode mode = Mode::by_hand;
-  int word = 0;             ///< number of the word in a mask
+  int word = 0;             ///< number of the word in a WordMask
   std::uint32_t level = 0;  ///< in steps of the word; or a mask of bits; or the event's number
   std::string text;         ///< as the user wrote it
 };
@@ -61,7 +61,7 @@ struct Captured {
 
 /// Mask of the words that contain these quantities. Errors: std::invalid_argument for a quantity
 /// that is not in a tick.
-std::uint16_t mask_of(const Quantities& quantities, const std::vector<std::string>& names);
+WordMask mask_of(const Quantities& quantities, const std::vector<std::string>& names);
 
 /// Writes the setup and starts the capture. Errors: std::invalid_argument for more words than
 /// columns, or rows or period out of range; Refused if the link has no capture.

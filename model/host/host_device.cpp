@@ -13,9 +13,11 @@
 #include <thread>
 #include <utility>
 
+#include "feltgate/axes_ports.hpp"
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
+#include "feltgate/link_view.hpp"
 #include "feltgate/nearest.hpp"
 
 namespace feltgate::host {
@@ -27,10 +29,14 @@ using M = LinkMap;
 
 constexpr double arm_patience_s = 0.5;   ///< without a self-test
 constexpr double test_patience_s = 3.0;  ///< with one
-constexpr int wire_bits_per_byte = 10;
-constexpr double most_of_wire = 0.8;
 
 void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+/// Axes of the board: of the design, if its link serves them.
+int axes_of(Link& link, const design::Elaborated& design) {
+  if (design.design.axes == 1) return 1;
+  return std::max(1, static_cast<int>(link.read(LinkViewMap::axes)));
+}
 
 }  // namespace
 
@@ -38,27 +44,37 @@ bool Tick::has(const Quantity& q) const { return q.word >= 0 && (mask >> q.word 
 
 std::uint32_t Tick::word(const Quantity& q) const {
   if (!has(q)) return 0;
-  const unsigned below = mask & ((1u << q.word) - 1u);
+  const WordMask below = mask & (Quantities::bit(q) - 1);
   return words[static_cast<std::size_t>(words_in(below))];
 }
 
 Device::Device(Link& link, const BoardInfo& board, design::Elaborated design)
-    : link_(link), board_(board), design_(std::move(design)), quantities_(design_) {
+    : link_(link),
+      board_(board),
+      design_(std::move(design)),
+      quantities_(design_, axes_of(link, design_)) {
+  for (int k = 0; axes() > 1 && k < quantities_.words(); ++k) view_.push_back(k);
   command("thaw");  // a host that ended between freeze and thaw left the snapshot frozen
 }
 
 Tick Device::tick() {
-  command("freeze");
-  const int words = M::read_words;
-  const std::vector<std::uint32_t> port = link_.read(design::snapshot_base, words);
-  command("thaw");
+  std::vector<std::uint32_t> port;
+  for (int axis = 0; axis < axes(); ++axis) {
+    command("freeze", axis);
+    const auto of_axis = link_.read(design::snapshot_base + axis * axes_stride, M::read_words);
+    command("thaw", axis);
+    port.insert(port.end(), of_axis.begin(), of_axis.end());
+  }
   Tick t;
-  t.mask = static_cast<std::uint16_t>((1u << quantities_.words()) - 1);
-  t.words.resize(static_cast<std::size_t>(quantities_.words()));
+  const int words = quantities_.words() * axes();
+  t.mask = (WordMask{1} << words) - 1;
+  t.words.resize(static_cast<std::size_t>(words));
   for (const Quantity& q : quantities_.all()) {
     if (q.kind != Quantity::Kind::snapshot) continue;
+    const int axis = q.word / quantities_.words(),
+              slot = q.address % axes_stride - design::snapshot_base;
     t.words[static_cast<std::size_t>(q.word)] =
-        port.at(static_cast<std::size_t>(q.address - design::snapshot_base));
+        port.at(static_cast<std::size_t>(axis * static_cast<int>(M::read_words) + slot));
   }
   t.time_s = t.value(quantities_.find("time"));
   return t;
@@ -67,7 +83,7 @@ Tick Device::tick() {
 SetResult Device::set(const Setting& setting) {
   const Quantity& q = *setting.of;
   const std::uint32_t status = link_.write(q.address, setting.word);
-  if (q.name == "watchdog_ticks") watchdog_s_ = 0;
+  if (q.name.rfind("watchdog_ticks", 0) == 0) watchdog_s_ = 0;
   SetResult r;
   r.setting = setting;
   r.refused = quantities_.find("status.refused").raw_of(status) != 0;
@@ -80,7 +96,17 @@ std::uint32_t Device::bit_of(const std::string& control, const std::string& fiel
 }
 
 void Device::command(const std::string& field) {
-  link_.write(C::command, bit_of("command", field));
+  for (int axis = 0; axis < axes(); ++axis) command(field, axis);
+}
+
+void Device::command(const std::string& field, int axis) {
+  link_.write(C::command + axis * axes_stride, bit_of("command", field));
+}
+
+std::uint32_t Device::control(int axis) { return link_.read(C::control + axis * axes_stride); }
+
+void Device::control(int axis, std::uint32_t word) {
+  link_.write(C::control + axis * axes_stride, word);
 }
 
 int Device::scene_number(const std::string& scene) const {
@@ -115,18 +141,29 @@ std::string Device::cause(const std::vector<design::Cause>& causes, int number) 
 }
 
 std::string Device::fault_names(const Tick& tick) const {
-  const auto seen = static_cast<unsigned>(tick.value(quantities_.find("faults.seen")));
   std::string text;
-  for (int n = 1; n < 16; ++n) {
-    if ((seen >> n & 1u) == 0) continue;
-    text += (text.empty() ? "" : ", ") + cause(design_.registers.faults, n);
+  for (int axis = 0; axis < axes(); ++axis) {
+    const Quantity& of = quantities_.find("faults.seen" + Quantities::suffix(axis));
+    const auto seen = static_cast<unsigned>(tick.value(of));
+    for (int n = 1; n < 16; ++n) {
+      if ((seen >> n & 1u) == 0) continue;
+      text += (text.empty() ? "" : ", ") + cause(design_.registers.faults, n);
+      if (axes() > 1) text += fmt::format(" of axis {}", axis);
+    }
   }
   return text;
 }
 
 std::string Device::first_fault(const Tick& tick) const {
-  const auto first = static_cast<int>(tick.value(quantities_.find("faults.first")));
-  return first == 0 ? "" : cause(design_.registers.faults, first);
+  std::string text;
+  for (int axis = 0; axis < axes(); ++axis) {
+    const auto first =
+        static_cast<int>(tick.value(quantities_.find("faults.first" + Quantities::suffix(axis))));
+    if (first == 0) continue;
+    text = cause(design_.registers.faults, first);
+    if (text != "axis") break;  // else another axis is the culprit
+  }
+  return text;
 }
 
 std::string Device::limit_names(const Tick& tick) const {
@@ -139,8 +176,18 @@ std::string Device::limit_names(const Tick& tick) const {
 }
 
 std::vector<std::string> Device::in_words(const Tick& tick) const {
+  std::vector<std::string> lines;
+  for (int axis = 0; axis < axes(); ++axis) {
+    for (const std::string& line : words_of_axis(tick, axis)) {
+      lines.push_back(axes() == 1 ? line : fmt::format("{} (axis {})", line, axis));
+    }
+  }
+  return lines;
+}
+
+std::vector<std::string> Device::words_of_axis(const Tick& tick, int axis) const {
   const auto value = [&](const char* name) {
-    return static_cast<unsigned>(tick.value(quantities_.find(name)));
+    return static_cast<unsigned>(tick.value(quantities_.find(name + Quantities::suffix(axis))));
   };
   std::vector<std::string> lines;
   const unsigned seen = value("faults.seen"), limits = value("status.limits");
@@ -159,8 +206,7 @@ std::vector<std::string> Device::in_words(const Tick& tick) const {
   }
   if (value("status.encoder_error") != 0) {
     lines.push_back(fmt::format("encoder: {} illegal transitions, {} pulses rejected",
-                                tick.word(quantities_.find("encoder")) & 0xffff,
-                                tick.word(quantities_.find("encoder")) >> 16));
+                                value("encoder") & 0xffff, value("encoder") >> 16));
   }
   const char* const answers[] = {"", "the lever answered the right way", "the lever was held",
                                  "the lever was moving"};
@@ -195,14 +241,18 @@ void Device::arm(const std::string& scene, bool watched, const std::function<boo
         fmt::format("cannot arm: fault {} is latched; see info, mend its cause, then clear",
                     fault_names(before)));
   }
-  const std::uint32_t control = link_.read(C::control);
-  const std::uint32_t others =
-      control & ~((1u << C::control_arm) | (0xfu << C::control_scene)) & 0x7fffu;
-  const std::uint32_t request =
-      others | 1u << C::control_host | static_cast<std::uint32_t>(number) << C::control_scene;
-  link_.write(C::control, request);  // the request must rise
+  std::vector<std::uint32_t> requests;
+  for (int axis = 0; axis < axes(); ++axis) {
+    const std::uint32_t others =
+        control(axis) & ~((1u << C::control_arm) | (0xfu << C::control_scene)) & 0x7fffu;
+    requests.push_back(others | 1u << C::control_host |
+                       static_cast<std::uint32_t>(number) << C::control_scene);
+    control(axis, requests.back());  // the request must rise
+  }
   if (watched) kick();
-  link_.write(C::control, request | 1u << C::control_arm);
+  for (int axis = 0; axis < axes(); ++axis) {
+    control(axis, requests[static_cast<std::size_t>(axis)] | 1u << C::control_arm);
+  }
   const double kick_every_s = watchdog_s() / 4;
   Deadline next_kick = within(kick_every_s);
   const Deadline ordinary = within(arm_patience_s), last = within(test_patience_s);
@@ -228,8 +278,9 @@ void Device::arm(const std::string& scene, bool watched, const std::function<boo
 }
 
 void Device::disarm() {
-  const std::uint32_t control = link_.read(C::control);
-  link_.write(C::control, (control | 1u << C::control_host) & ~(1u << C::control_arm));
+  for (int axis = 0; axis < axes(); ++axis) {
+    control(axis, (control(axis) | 1u << C::control_host) & ~(1u << C::control_arm));
+  }
 }
 
 void Device::stop() { command("stop"); }
@@ -253,59 +304,27 @@ void Device::kick() { command("kick"); }
 
 void Device::select(const std::string& scene) {
   const int number = scene_number(scene);
-  const std::uint32_t control = link_.read(C::control);
-  const bool host = (control >> C::control_host & 1u) != 0;
+  const bool host = host_has_the_say();
   if (!host && armed(tick())) {
     throw Refused(
         "the panel has armed the motor and chooses the scene; disarm it there first, then the host "
         "can take the say");
   }
-  const std::uint32_t kept = host ? control : control & ~(1u << C::control_arm);
-  link_.write(C::control, (kept & ~(0xfu << C::control_scene)) | 1u << C::control_host |
-                              static_cast<std::uint32_t>(number) << C::control_scene);
+  for (int axis = 0; axis < axes(); ++axis) {
+    const std::uint32_t now = control(axis), kept = host ? now : now & ~(1u << C::control_arm);
+    control(axis, (kept & ~(0xfu << C::control_scene)) | 1u << C::control_host |
+                      static_cast<std::uint32_t>(number) << C::control_scene);
+  }
 }
 
 double Device::watchdog_s() {
-  if (watchdog_s_ == 0) watchdog_s_ = get("watchdog_ticks") / board_.tick_hz();
+  double least = 0;
+  for (int axis = 0; watchdog_s_ == 0 && axis < axes(); ++axis) {
+    const double ticks = get("watchdog_ticks" + Quantities::suffix(axis));
+    least = axis == 0 ? ticks : std::min(least, ticks);
+    if (axis + 1 == axes()) watchdog_s_ = least / board_.tick_hz();
+  }
   return watchdog_s_;
-}
-
-void Device::stream(std::uint16_t mask, std::uint32_t period) {
-  if (!board_.has_stream) {
-    throw Refused("this board's link is built without a stream; only get, set and capture work");
-  }
-  link_.write(M::A::stream_period, 0);
-  if (period == 0) return;
-  while (link_.stream(HostClock::now())) {
-  }
-  stream_tick_.reset();
-  stream_time_s_ = 0;
-  link_.write(M::A::stream_words, mask);
-  link_.write(M::A::stream_period, period);
-}
-
-std::optional<Tick> Device::streamed(Deadline deadline) {
-  auto frame = link_.stream(deadline);
-  if (!frame) return {};
-  Tick t;
-  t.mask = frame->mask;
-  t.words = std::move(frame->words);
-  t.lost = frame->lost;
-  const std::uint32_t now = t.word(quantities_.find("tick"));
-  // The counter wraps, its difference does not.
-  if (stream_tick_) stream_time_s_ += (now - *stream_tick_) / board_.tick_hz();
-  stream_tick_ = now;
-  t.time_s = stream_time_s_;
-  return t;
-}
-
-std::uint32_t Device::stream_dropped() { return link_.read(M::A::stream_dropped); }
-
-std::uint32_t Device::shortest_period(std::uint16_t mask, int baud) const {
-  const unsigned with_tick = mask | 1u << quantities_.find("tick").word;
-  const int bytes = 4 + 4 * words_in(with_tick) + 4 + 2;
-  const double seconds = bytes * wire_bits_per_byte / (most_of_wire * baud);
-  return static_cast<std::uint32_t>(std::ceil(seconds * board_.tick_hz()));
 }
 
 }  // namespace feltgate::host

@@ -20,7 +20,7 @@
 namespace feltgate::host {
 
 /// Number of words in a capture with this mask: its set bits.
-inline int words_in(unsigned mask) { return static_cast<int>(std::bitset<32>(mask).count()); }
+inline int words_in(WordMask mask) { return static_cast<int>(std::bitset<64>(mask).count()); }
 
 /// The board refused: a fault is latched, the motor is armed, or arming failed. The text says why
 /// and what to do.
@@ -30,7 +30,7 @@ struct Refused : std::runtime_error {
 
 /// Words of one tick: those in `mask`.
 struct Tick {
-  std::uint16_t mask = 0;
+  WordMask mask = 0;
   std::vector<std::uint32_t> words;  ///< lowest bit of the mask first
   double time_s = 0;                 ///< of a stream: time since its first tick
   unsigned lost = 0;                 ///< of a stream: frames missing before this one
@@ -65,7 +65,7 @@ class Device {
   double get(const Quantity& q) { return q.value_of(word(q)); }
   /// The whole word at the quantity's address.
   std::uint32_t word(const Quantity& q) { return link_.read(q.address); }
-  /// All words of the snapshot, from one tick.
+  /// All words of the snapshot, from one tick. Of several axes, each from one tick of its own.
   Tick tick();
   /// Writes a parameter and reads it back. quantities().setting() refuses values that do not fit.
   SetResult set(const Setting& setting);
@@ -73,7 +73,9 @@ class Device {
     return set(quantities_.setting(quantities_.find(name), value));
   }
 
-  // ---- what the motor does ------------------------------------------------------------------
+  int axes() const { return quantities_.axes(); }
+
+  // ---- what the motors do ------------------------------------------------------------------
   /// Takes control from the panel and arms. With `watched` the watchdog is kicked first, and from
   /// then on kick() must follow within watchdog_s(). `scene` empty: the selected one. Waits for the
   /// self-test as long as it takes, and kicks meanwhile; `go_on` = false ends the wait and disarms.
@@ -113,21 +115,34 @@ class Device {
   std::vector<std::string> in_words(const Tick& tick) const;
 
   // ---- stream -------------------------------------------------------------------------------
+  /// Shows these words of any axes to stream and capture. Returns them as their mask of words; the
+  /// bit of each is slot_of() it. Errors: std::invalid_argument for more than the view has room
+  /// for.
+  std::uint16_t show(WordMask words);
+  int slot_of(int word) const;
+  /// A tick from the words of a mask that show() returned.
+  Tick shown(std::uint16_t mask, const std::vector<std::uint32_t>& words) const;
+
   /// Streams the words of `mask` and the tick counter every `period` ticks from now on; 0 ends the
   /// stream.
-  void stream(std::uint16_t mask, std::uint32_t period);
+  void stream(WordMask mask, std::uint32_t period);
   /// The oldest tick of the stream that was not taken yet; waits for one until `deadline`.
   std::optional<Tick> streamed(Deadline deadline);
   /// Number of frames that the board could not send in time.
   std::uint32_t stream_dropped();
   /// Shortest period, in ticks, at which all frames of `mask` fit on a line of `baud`; a fifth of
   /// the line is left for escapes and requests.
-  std::uint32_t shortest_period(std::uint16_t mask, int baud) const;
+  std::uint32_t shortest_period(WordMask mask, int baud) const;
 
  private:
   std::uint32_t bit_of(const std::string& control, const std::string& field) const;
   void command(const std::string& field);
+  void command(const std::string& field, int axis);
+  /// Each axis has a control word of its own; the host writes all of them.
+  std::uint32_t control(int axis);
+  void control(int axis, std::uint32_t word);
   int scene_number(const std::string& scene) const;
+  std::vector<std::string> words_of_axis(const Tick& tick, int axis) const;
   std::string cause(const std::vector<design::Cause>& causes, int number) const;
   [[noreturn]] void refuse_to_arm(const Tick& tick, const std::string& what);
 
@@ -135,6 +150,7 @@ class Device {
   BoardInfo board_;
   design::Elaborated design_;
   Quantities quantities_;
+  std::vector<int> view_;  ///< word in each slot of the view; empty with one axis
   std::optional<std::uint32_t> stream_tick_;
   double stream_time_s_ = 0;
   double watchdog_s_ = 0;

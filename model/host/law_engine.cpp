@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "feltgate/axes_ports.hpp"
 #include "feltgate/generated/engine.hpp"
 #include "feltgate/generated/link.hpp"
 #include "feltgate/generated/map.hpp"
@@ -29,14 +30,14 @@ constexpr double commit_patience_s = 1.0;
 /// four.
 constexpr int most_rounds = 12;
 
-/// Checks that the image drives one axis, as a board has one lever.
-void require_one_axis(const law::Image& image) {
+/// Checks that the image drives no axis that the board does not have.
+void require_axes(const law::Image& image, int axes) {
   for (const law::ImageOutput& o : image.outputs) {
-    if (o.axis == 0) continue;
-    throw std::invalid_argument(
-        fmt::format("law {}: a torque for axis {}, and a board has one axis; `feltgate law` "
-                    "measures laws of several axes, `feltgate run` runs their scenes",
-                    image.name, o.axis));
+    if (o.axis < axes) continue;
+    throw std::invalid_argument(fmt::format(
+        "law {}: a torque for axis {}, and this board has {}; choose a law of fewer "
+        "axes, or a board of a design with more",
+        image.name, o.axis, axes == 1 ? "one axis" : fmt::format("the axes 0 to {}", axes - 1)));
   }
 }
 
@@ -89,10 +90,12 @@ void LawEngine::refuse_while_armed() {
   if (device_.armed(device_.tick())) {
     throw Refused("the motor is armed, and its law is locked: disarm first");
   }
-  const std::uint32_t control = device_.link().read(Map::C::control);
-  if (bit(control, Map::C::control_host) && bit(control, Map::C::control_arm)) {
-    throw Refused("the motor is asked to arm, and its law is locked: disarm first");
+  bool all_ask = true;
+  for (int axis = 0; axis < device_.axes(); ++axis) {
+    const std::uint32_t control = device_.link().read(Map::C::control + axis * axes_stride);
+    all_ask = all_ask && bit(control, Map::C::control_host) && bit(control, Map::C::control_arm);
   }
+  if (all_ask) throw Refused("the motor is asked to arm, and its law is locked: disarm first");
 }
 
 int LawEngine::bring(const law::Image& image, LoadReport* report,
@@ -139,7 +142,7 @@ LoadReport LawEngine::load(const law::Image& image, const std::function<void(dou
                     "`feltgate law {2} --design {1} -o {2}.img`",
                     image.design, device_.design().design.name, image.name));
   }
-  require_one_axis(image);
+  require_axes(image, device_.axes());
   refuse_while_armed();
   image_.reset();
   parameters_.reset();
@@ -268,6 +271,17 @@ std::vector<double> LawEngine::set(const std::vector<std::pair<std::string, doub
   std::vector<double> rounded;
   for (const auto& [name, value] : values) rounded.push_back(parameters_->value(bare(name)));
   return rounded;
+}
+
+std::vector<HostWrite> LawEngine::update(const std::map<std::string, double>& values) {
+  if (image_ == nullptr) throw std::invalid_argument("no law of this host is on the board");
+  std::map<std::string, double> all;
+  for (const auto& [name, value] : values) all[bare(name)] = value;
+  std::vector<HostWrite> writes;
+  for (const law::HostWord& w : parameters_->set(all)) {
+    writes.push_back({EngineMap::port_first + w.address, w.data});
+  }
+  return writes;
 }
 
 void LawEngine::commit(const std::vector<law::HostWord>& writes) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,10 @@ class LawEngine {
   /// their words. Errors: std::invalid_argument, with nothing written, for an unknown name or a
   /// value out of range; Refused if the board refuses the set.
   std::vector<double> set(const std::vector<std::pair<std::string, double>>& values);
+
+  /// The writes that set these values with one commit, for Link::post(). Errors:
+  /// std::invalid_argument for an unknown name or a value out of range.
+  std::vector<HostWrite> update(const std::map<std::string, double>& values);
 
   /// Takes the oldest waiting event, if any.
   std::optional<LawEvent> event();

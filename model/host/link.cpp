@@ -76,7 +76,7 @@ std::optional<Bytes> Link::listen(Deadline deadline, const Bytes* expected, std:
       if (expected != nullptr && answers(*frame, *expected, words)) return frame;
       if ((*frame)[0] == M::kind_stream) {
         take_stream(*frame);
-      } else {
+      } else if (!posted_ || (*frame)[0] != (M::kind_write | M::kind_reply)) {
         ++counts_.stray;
       }
     }
@@ -130,6 +130,7 @@ Bytes Link::ask(const Bytes& asked, std::size_t words) {
     if (again) ++counts_.retries;
     const Deadline sent = HostClock::now();
     transport_.write(wire.data(), wire.size());
+    ++frames_sent_;
     if (auto frame = listen(std::min(within(wait_s), give_up), &asked, words)) {
       const std::chrono::duration<double> taken = HostClock::now() - sent;
       if (!again) time_taken(taken.count());
@@ -185,7 +186,36 @@ void Link::write_all(const std::vector<HostWrite>& writes,
     ++counts_.requests;
     const Bytes wire = framed(request(M::kind_write, ++write_sequence_, w.address, w.value));
     transport_.write(wire.data(), wire.size());
+    ++frames_sent_;
   }
+}
+
+void Link::post(const std::vector<HostWrite>& writes) {
+  if (!in_step_) begin();
+  Bytes all;
+  for (const HostWrite& w : writes) {
+    const Bytes wire = framed(request(M::kind_write, ++write_sequence_, w.address, w.value));
+    // Two frames share the byte between them.
+    all.insert(all.end(), wire.begin() + (all.empty() ? 0 : 1), wire.end());
+  }
+  posted_ = true;
+  counts_.requests += writes.size();
+  frames_sent_ += writes.size();
+  transport_.write(all.data(), all.size());
+}
+
+Link::Taken Link::taken() {
+  const std::uint64_t before = frames_sent_;
+  const std::uint32_t good = read(M::A::frames_good);
+  Taken t;
+  if (sent_then_) {
+    // The read before was counted after its word was read, and so is this one.
+    t.sent = static_cast<std::uint32_t>(before - *sent_then_);
+    t.taken = (good - good_then_) & 0xffffU;
+  }
+  sent_then_ = before;
+  good_then_ = good;
+  return t;
 }
 
 std::optional<StreamFrame> Link::stream(Deadline deadline) {

@@ -69,6 +69,16 @@ class Link {
   /// arrive, so the caller must read them back. `progress` is called with 0..1. Errors: LinkLost.
   void write_all(const std::vector<HostWrite>& writes, const std::function<void(double)>& progress);
 
+  /// Writes words at the full rate of the line and waits for none of their answers. What does not
+  /// arrive is not repeated; taken() tells how much that was. Errors: LinkLost.
+  void post(const std::vector<HostWrite>& writes);
+  /// Frames that the board has taken since the last call, modulo 2^16, and how many this host has
+  /// sent since then; the first call gives {0, 0}. Neither counts what this call itself sends.
+  struct Taken {
+    std::uint32_t sent = 0, taken = 0;
+  };
+  Taken taken();
+
   /// The oldest frame of the stream that was not taken yet; waits for one until `deadline`.
   std::optional<StreamFrame> stream(Deadline deadline);
 
@@ -92,7 +102,11 @@ class Link {
   double mean_s_ = 0.05, deviation_s_ = 0.05;  ///< of the time until an answer
   /// Words per request; fewer while long frames are lost.
   int most_words_ = 64;
-  int undamaged_ = 0;  ///< reads since the last repetition
+  std::uint64_t frames_sent_ = 0;           ///< requests, also repeated ones
+  std::optional<std::uint64_t> sent_then_;  ///< at the last call of taken()
+  std::uint32_t good_then_ = 0;
+  bool posted_ = false;  ///< answers to posted writes may come
+  int undamaged_ = 0;    ///< reads since the last repetition
   bool in_step_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "feltgate/axes_ports.hpp"
 #include "feltgate/nearest.hpp"
 #include "law/amount.hpp"
 
@@ -62,11 +63,14 @@ std::string Quantity::text_of(std::uint32_t word_there) const {
                      unit == "1" ? "" : unit);
 }
 
-Quantities::Quantities(const design::Elaborated& design)
-    : count_rad_(design.design.count_rad()), tick_hz_(static_cast<double>(design.design.tick_hz)) {
+Quantities::Quantities(const design::Elaborated& design, int axes)
+    : axes_(axes),
+      count_rad_(design.design.count_rad()),
+      tick_hz_(static_cast<double>(design.design.tick_hz)) {
   add_parameters(design);
   add_snapshot(design);
   add_fields(design);
+  add_axes();
   add_link(design);
 }
 
@@ -158,6 +162,30 @@ void Quantities::add_fields(const design::Elaborated& design) {
   }
 }
 
+std::string Quantities::suffix(int axis) { return axis == 0 ? "" : fmt::format(".{}", axis); }
+
+void Quantities::add_axes() {
+  const std::vector<Quantity> one = all_;
+  for (int axis = 1; axis < axes_; ++axis) {
+    for (Quantity q : one) {
+      q.name += suffix(axis);
+      q.address += axis * axes_stride;
+      if (q.word >= 0) q.word += axis * words_;
+      all_.push_back(q);
+    }
+  }
+}
+
+std::string Quantities::missing_axis(const std::string& name) const {
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || dot + 1 == name.size()) return "";
+  const std::string axis = name.substr(dot + 1);
+  if (axis.find_first_not_of("0123456789") != std::string::npos) return "";
+  if (look(name.substr(0, dot)) == nullptr) return "";
+  return fmt::format("\"{}\": there is no axis {}; this board has {}", name, axis,
+                     axes_ == 1 ? "axis 0 alone" : fmt::format("the axes 0 to {}", axes_ - 1));
+}
+
 void Quantities::add_link(const design::Elaborated& design) {
   for (const design::LinkWord& w : design.registers.link_words) {
     Quantity q;
@@ -169,7 +197,9 @@ void Quantities::add_link(const design::Elaborated& design) {
   }
 }
 
-const Quantity* Quantities::look(const std::string& name) const {
+const Quantity* Quantities::look(const std::string& asked) const {
+  const bool first = asked.size() > 2 && asked.compare(asked.size() - 2, 2, ".0") == 0;
+  const std::string name = first ? asked.substr(0, asked.size() - 2) : asked;
   for (const Quantity& q : all_) {
     if (q.name == name) return &q;
   }
@@ -178,6 +208,9 @@ const Quantity* Quantities::look(const std::string& name) const {
 
 const Quantity& Quantities::find(const std::string& name) const {
   if (const Quantity* q = look(name)) return *q;
+  if (const std::string wrong = missing_axis(name); !wrong.empty()) {
+    throw std::invalid_argument(wrong);
+  }
   std::vector<std::string> names;
   for (const Quantity& q : all_) names.push_back(q.name);
   throw std::invalid_argument(
@@ -188,6 +221,9 @@ const Quantity& Quantities::find(const std::string& name) const {
 const Quantity& Quantities::streamed(const std::string& name) const {
   const Quantity* q = look(name);
   if (q != nullptr && q->word >= 0) return *q;
+  if (const std::string wrong = missing_axis(name); q == nullptr && !wrong.empty()) {
+    throw std::invalid_argument(wrong);
+  }
   std::vector<std::string> names;
   std::string list;
   for (const Quantity& each : all_) {

@@ -24,7 +24,7 @@ struct Quantity {
   int bit = 0, width = 32;  ///< the bits of the word
   bool is_signed = false;
   double scale = 1;  ///< unit per step: value = integer * scale
-  int word = -1;     ///< snapshot: number of its bit in a mask of words; else -1
+  int word = -1;     ///< snapshot: number of its bit in a WordMask; else -1
   bool writable = false;
   Format format{};          ///< of a parameter
   std::string while_armed;  ///< parameter: effect of a write while the motor is armed
@@ -47,21 +47,31 @@ struct Setting {
   double value() const { return of->value_of(word); }
 };
 
-/// All quantities of a board with a given design.
+/// Words of the snapshots of all axes: those of axis n begin at bit n * Quantities::words().
+using WordMask = std::uint64_t;
+
+/// All quantities of a board with a given design. Those of axis 1 and above have its number behind
+/// their name: position, position.1, status.armed.1. The name position.0 means position.
 class Quantities {
  public:
-  explicit Quantities(const design::Elaborated& design);
+  explicit Quantities(const design::Elaborated& design, int axes = 1);
 
   const std::vector<Quantity>& all() const { return all_; }
   /// Errors: std::invalid_argument with the nearest name, for an unknown one.
   const Quantity& find(const std::string& name) const;
+  /// What is wrong with a name whose axis the board does not have; empty for any other name.
+  std::string missing_axis(const std::string& name) const;
   /// The same; nullptr for an unknown name.
   const Quantity* look(const std::string& name) const;
   /// A quantity of a stream or capture: a word of the snapshot. Errors: std::invalid_argument for
   /// another quantity.
   const Quantity& streamed(const std::string& name) const;
-  /// Number of words in a snapshot.
+  /// Number of words in the snapshot of an axis.
   int words() const { return words_; }
+  int axes() const { return axes_; }
+  static WordMask bit(const Quantity& q) { return WordMask{1} << q.word; }
+  /// "" for axis 0, ".1" for axis 1.
+  static std::string suffix(int axis);
 
   /// Parses "NAME=VALUE" with an optional unit after the value (law/amount.hpp). Errors:
   /// std::invalid_argument with advice: no '=', unknown name, not writable, no number, a wrong
@@ -76,10 +86,11 @@ class Quantities {
   void add_parameters(const design::Elaborated& design);
   void add_snapshot(const design::Elaborated& design);
   void add_fields(const design::Elaborated& design);
+  void add_axes();
   void add_link(const design::Elaborated& design);
 
   std::vector<Quantity> all_;
-  int words_ = 0;
+  int words_ = 0, axes_ = 1;
   double count_rad_ = 0, tick_hz_ = 0;
 };
 

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core with the link to its host: encoder and UART in, gates and UART out. A board's top level
-// instantiates it. It contains feltgate_core, or feltgate_axes with one axis if the design has an
-// engine. Documentation: docs/blocks/feltgate_linked.md, docs/link.md
+// instantiates it. It contains feltgate_core, or feltgate_axes if the design has an engine or more
+// than one axis. In each vector, axis n is bit n, or the n-th part from below.
+// Documentation: docs/blocks/feltgate_linked.md, docs/link.md
 `default_nettype none
 
 module feltgate_linked #(
+    parameter int AxisCount = feltgate_pkg::AXES,
     parameter int ClockHz = feltgate_pkg::CLOCK_HZ,
     parameter int Baud = feltgate_link_pkg::BAUD,
     parameter int Simulated = 0,
@@ -24,13 +26,13 @@ module feltgate_linked #(
     input  logic rst_ni,
 
     // Encoder, motor
-    input  logic enc_a_i,
-    input  logic enc_b_i,
-    input  logic enc_z_i,
-    output logic gate_a_hi_o,
-    output logic gate_a_lo_o,
-    output logic gate_b_hi_o,
-    output logic gate_b_lo_o,
+    input  logic [AxisCount-1:0] enc_a_i,
+    input  logic [AxisCount-1:0] enc_b_i,
+    input  logic [AxisCount-1:0] enc_z_i,
+    output logic [AxisCount-1:0] gate_a_hi_o,
+    output logic [AxisCount-1:0] gate_a_lo_o,
+    output logic [AxisCount-1:0] gate_b_hi_o,
+    output logic [AxisCount-1:0] gate_b_lo_o,
     output logic gate_c_hi_o,  // of a bridge with three phases; else 0
     output logic gate_c_lo_o,
 
@@ -47,9 +49,9 @@ module feltgate_linked #(
     // Panel
     input  logic       arm_i,
     input  logic       stop_i,
-    input  logic       set_zero_i,      // one clock
-    input  logic       clear_faults_i,  // one clock
-    input  logic [3:0] scene_i,
+    input  logic [AxisCount-1:0] set_zero_i,  // one clock
+    input  logic       clear_faults_i,  // one clock; of all axes
+    input  logic [4*AxisCount-1:0] scene_i,
 
     // Host
     input  logic       uart_rx_i,
@@ -57,14 +59,14 @@ module feltgate_linked #(
     input  logic [7:0] inputs_i,  // state of the board for the host; synchronous
 
     // State, for lamps
-    output logic signed [31:0]                                  position_o,
-    output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
-    output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
-    output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0]  first_fault_o,
-    output logic        [ 3:0]                                  scene_o,
-    output logic                                                armed_o,
-    output logic                                                gates_enable_o,
-    output logic                                                snapshot_valid_o
+    output logic [AxisCount*32-1:0]                                position_o,
+    output logic [AxisCount*feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,
+    output logic [AxisCount*feltgate_map_pkg::W_FAULTS_SEEN-1:0]   faults_o,
+    output logic [AxisCount*feltgate_map_pkg::W_FAULTS_FIRST-1:0]  first_fault_o,
+    output logic [AxisCount*4-1:0]                                 scene_o,
+    output logic [AxisCount-1:0]                                   armed_o,
+    output logic [AxisCount-1:0]                                   gates_enable_o,
+    output logic                                                   snapshot_valid_o
 );
   localparam int FEATURES = (1 << feltgate_link_pkg::B_FEATURES_CAPTURE) |
                             (1 << feltgate_link_pkg::B_FEATURES_STREAM) |
@@ -77,16 +79,16 @@ module feltgate_linked #(
   logic        reg_write, reg_busy;
   logic        word_valid;
   logic [ 5:0] word_slot;
-  logic [31:0] word_data;
+  logic [AxisCount*32-1:0] word_data;
   logic        event_valid;
   logic [ 8:0] event_number;
 
   /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
   generate
-  if (feltgate_pkg::ENGINE != 0) begin : g_law
+  if (feltgate_pkg::ENGINE != 0 || AxisCount > 1) begin : g_law
     // A repeated read must change nothing, so a write to the event's last word removes the event.
     feltgate_axes #(
-        .AxisCount(1), .Engine(1), .ReadBack(1), .ParameterFile(ParameterFile),
+        .AxisCount(AxisCount), .Engine(feltgate_pkg::ENGINE), .ReadBack(1), .ParameterFile(ParameterFile),
         .ProgramContent(ProgramContent), .DataContent(DataContent), .TableContent(TableContent), .Reset(Reset)
     ) u_axes (
         .clk_i(clk_i), .rst_ni(rst_ni),
@@ -94,7 +96,7 @@ module feltgate_linked #(
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o),
         .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
-        .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
+        .law_torque_i({(AxisCount*feltgate_pkg::TORQUE_W){1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
         .measured_o(), .zeroed_o(),
         .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
         .reg_read_i(reg_write && !reg_busy),
@@ -176,7 +178,7 @@ module feltgate_linked #(
   logic        link_write;
   logic [ 7:0] reply_byte;
   logic        reply_valid, reply_last, reply_ready;
-  link_port #(.Simulated(Simulated), .Board(Board), .Features(FEATURES)) u_link_port (
+  link_port #(.Simulated(Simulated), .Board(Board), .Features(FEATURES), .Axes(AxisCount)) u_link_port (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .valid_i(request_valid), .write_i(request_write), .sequence_i(request_sequence),
       .address_i(request_address), .data_i(request_data), .good_i(good), .bad_i(bad),
@@ -187,20 +189,46 @@ module feltgate_linked #(
       .addr_o(link_addr), .wdata_o(link_wdata), .write_o(link_write), .rdata_i(link_rdata),
       .valid_o(reply_valid), .byte_o(reply_byte), .last_o(reply_last), .ready_i(reply_ready)
   );
+
+  // Stream and capture take the words of one axis as they come, those of several from the view.
+  logic        view_valid, view_event_valid;
+  logic [ 5:0] view_slot;
+  logic [31:0] view_data, view_rdata;
+  logic [ 8:0] view_event_number;
+  generate
+  if (AxisCount > 1) begin : g_view
+    link_view #(.AxisCount(AxisCount)) u_link_view (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .word_valid_i(word_valid), .word_slot_i(word_slot), .word_data_i(word_data),
+        .event_valid_i(event_valid), .event_number_i(event_number),
+        .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(view_rdata),
+        .word_valid_o(view_valid), .word_slot_o(view_slot), .word_data_o(view_data),
+        .event_valid_o(view_event_valid), .event_number_o(view_event_number)
+    );
+  end else begin : g_no_view
+    assign view_valid        = word_valid;
+    assign view_slot         = word_slot;
+    assign view_data         = word_data;
+    assign view_event_valid  = event_valid;
+    assign view_event_number = event_number;
+    assign view_rdata        = 32'd0;
+  end
+  endgenerate
+
   logic [31:0] stream_rdata, capture_rdata;
-  assign link_rdata = stream_rdata | capture_rdata;
+  assign link_rdata = stream_rdata | capture_rdata | view_rdata;
   logic [7:0] stream_byte;
   logic       stream_valid, stream_last, stream_ready;
   link_stream u_link_stream (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .word_valid_i(word_valid), .word_slot_i(word_slot), .word_data_i(word_data),
+      .word_valid_i(view_valid), .word_slot_i(view_slot), .word_data_i(view_data),
       .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(stream_rdata),
       .valid_o(stream_valid), .byte_o(stream_byte), .last_o(stream_last), .ready_i(stream_ready)
   );
   link_capture u_link_capture (
       .clk_i(clk_i), .rst_ni(rst_ni),
-      .word_valid_i(word_valid), .word_slot_i(word_slot), .word_data_i(word_data),
-      .event_valid_i(event_valid), .event_number_i(event_number),
+      .word_valid_i(view_valid), .word_slot_i(view_slot), .word_data_i(view_data),
+      .event_valid_i(view_event_valid), .event_number_i(view_event_number),
       .addr_i(link_addr), .wdata_i(link_wdata), .write_i(link_write), .rdata_o(capture_rdata)
   );
 

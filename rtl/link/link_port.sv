@@ -10,7 +10,8 @@ module link_port #(
     parameter int Simulated = 0,
     parameter int Board = 0,
     parameter int Features = 0,  // more bits of the word FEATURES
-    parameter int Engine = feltgate_pkg::ENGINE  // 1: the port also has the engine's words
+    parameter int Engine = feltgate_pkg::ENGINE,  // 1: the port also has the engine's words
+    parameter int Axes = 1       // at the register port, axis n at n * 0x400
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -58,6 +59,7 @@ module link_port #(
   logic [8:0] sequence_q;  // of the last write; 0x100: none
   logic       done_q;      // the current write is executed, now or earlier
   logic       clear_q;
+  logic [1:0] clear_axis_q;  // the panel's clear goes to each axis in turn
   logic       fresh, to_core, repeats, writes;
   assign fresh   = valid_i && write_i && !done_q;
   assign to_core = address_i[13:12] == 2'd0;
@@ -86,18 +88,20 @@ module link_port #(
   logic [ 1:0] state_q, ticks_q, byte_q;
   logic [ClocksW-1:0] clocks_q, last_clock;
   logic        status_q;  // the reply answers a write
+  logic [ 1:0] status_axis;  // axis of the write; 0 for a write to something else
   logic [AddressW-1:0] address_q;
   logic [ 6:0] left_q;    // words still to read
   logic [31:0] word_q;
 
   logic [AddressW-1:0] read_address;
   logic of_engine;  // the word being read is the engine's
-  assign read_address = status_q ? STATUS : address_q;
+  assign status_axis  = (Axes > 1 && address_q[AddressW-1:12] == '0 && 32'(address_q[11:10]) < Axes) ? address_q[11:10] : 2'd0;
+  assign read_address = status_q ? STATUS | AddressW'({status_axis, 10'd0}) : address_q;
   assign of_engine    = Engine != 0 && read_address[AddressW-1] && read_address[13:12] == 2'd0;
   assign last_clock   = of_engine ? ClocksW'(ENGINE_CLOCKS) : ClocksW'(3);
   assign addr_o       = write_o ? 16'(address_i) : 16'(read_address);
   assign reg_addr_o   = OF_PORT & (host_write ? 16'(address_i)
-                      : panel_write ? 16'(feltgate_map_pkg::A_COMMAND) : 16'(read_address));
+                      : panel_write ? 16'(feltgate_map_pkg::A_COMMAND) | 16'({clear_axis_q, 10'd0}) : 16'(read_address));
 
   // The link's own words.
   logic [15:0] good_q, bad_q;
@@ -135,6 +139,7 @@ module link_port #(
       sequence_q <= 9'(feltgate_link_pkg::NO_SEQUENCE);
       done_q     <= 1'b0;
       clear_q    <= 1'b0;
+      clear_axis_q <= 2'd0;
       good_q     <= 16'd0;
       bad_q      <= 16'd0;
       state_q    <= IDLE;
@@ -150,7 +155,9 @@ module link_port #(
       if (bad_i) bad_q <= bad_q + 16'd1;
       done_q <= valid_i && !taken_o && (done_q || (fresh && (repeats || !to_core || !reg_busy_i)));
       if (writes && (!to_core || !reg_busy_i)) sequence_q <= {1'b0, sequence_i};
-      clear_q <= clear_faults_i || (clear_q && (!panel_write || reg_busy_i));
+      clear_q <= clear_faults_i || (clear_q && (!panel_write || reg_busy_i || 32'(clear_axis_q) != Axes - 1));
+      if (clear_faults_i || Axes == 1) clear_axis_q <= 2'd0;
+      else if (panel_write && !reg_busy_i) clear_axis_q <= clear_axis_q + 2'd1;
 
       case (state_q)
         IDLE: begin

@@ -4,11 +4,18 @@
 # feltgate_board: a simulated board with the twin; feltgate_board_rtl also has the Verilated RTL. docs/board.md
 include_guard(GLOBAL)
 
-feltgate_library(feltgate_board_parts host/board EXCEPT "/rtl_cores" feltgate_backends feltgate_loop)
-set(board_designs ${FELTGATE_DESIGNS} lever_law gimbal_motor)  # also presets: an engine, three phases
+feltgate_library(feltgate_board_parts host/board EXCEPT "/rtl_cores" feltgate_backends feltgate_loop feltgate_axes_loop)
+# Also presets: an engine, three phases, and of devices with several axes those with a pen.
+set(board_designs ${FELTGATE_DESIGNS} lever_law gimbal_motor pantograph_law stylus_law)
+set(axes_of_pantograph_law 2)
+set(axes_of_stylus_law 3)
 set(registrations "")
 foreach(design IN LISTS board_designs)
   feltgate_type_of(${design} type)
+  set(axes 1)
+  if(DEFINED axes_of_${design})
+    set(axes ${axes_of_${design}})
+  endif()
   string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
   set(generated "${PROJECT_BINARY_DIR}/backends/${design}_board")
   feltgate_for_design(board "${generated}.cpp")

@@ -202,7 +202,7 @@ file(GLOB host_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/c
   "${FELTGATE_ROOT}/model/apps/commands/host/*.cpp")
 feltgate_program(feltgate_host
   "host_main.cpp;${host_sources}"
-  feltgate_command_line feltgate_files feltgate_backends feltgate_hostlink feltgate_identify feltgate_traces nlohmann_json::nlohmann_json)
+  feltgate_command_line feltgate_files feltgate_backends feltgate_hostlink feltgate_identify feltgate_linkage_files feltgate_traces nlohmann_json::nlohmann_json)
 
 # Meshes under the pen; feltgate_touch_rtl also has the Verilated cores, a minute more.
 foreach(kind twin rtl)

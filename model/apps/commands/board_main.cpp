@@ -18,6 +18,7 @@
 #include "apps/commands/commands.hpp"
 #include "design/design.hpp"
 #include "files/output_file.hpp"
+#include "host/board/axes_board.hpp"
 #include "host/board/serve.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/loop/scenario.hpp"
@@ -44,10 +45,11 @@ std::unique_ptr<Board> make_board(Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
   auto core = make_core(setup.design, kind, options);
+  if (core->axes() > 1) return make_axes_board(std::move(core), setup, find_file);
   if (setup.plant.empty()) setup.plant = default_plant(core->design());
-  return std::make_unique<Board>(std::move(core),
-                                 plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
-                                 hand_named(setup.hand, repository() + "/vectors/scenes"), setup);
+  return std::make_unique<LeverBoard>(
+      std::move(core), plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
+      hand_named(setup.hand, repository() + "/vectors/scenes"), setup);
 }
 
 std::string pace_text(const Board& board, const Pace& p) {
@@ -135,16 +137,16 @@ int run(Arguments& a) {
   return a.replay.empty() ? run_board(a, kind) : run_replay(a, kind);
 }
 
-/// A board is a core with a link: of a device with several axes there is none.
-void require_one_axis(const std::string& design) {
+/// Refuses a device with several axes whose board was not built.
+void require_built_axes(const std::string& design) {
   const std::filesystem::path file =
       std::filesystem::path(repository()) / "rtl/designs" / (design + ".toml");
   if (!std::filesystem::exists(file)) return;
   const int axes = design::read_design(file.string()).axes;
   if (axes == 1) return;
   throw std::invalid_argument(
-      fmt::format("--design {}: has {} axes, and a board has one; choose "
-                  "one of {}",
+      fmt::format("--design {}: no board of this device with {} axes is in this program; choose "
+                  "pantograph_law, stylus_law, or one of {}",
                   design, axes, fmt::join(design_names(), ", ")));
 }
 
@@ -213,7 +215,7 @@ int main(int argc, char** argv) {
   int exit_code = exit_ok;
   app.callback([&] {
     if (a.replay.empty() && !has_design(a.setup.design)) {
-      require_one_axis(a.setup.design);
+      require_built_axes(a.setup.design);
       a.setup.design = built_design(a.setup.design);
     }
     exit_code = run(a);

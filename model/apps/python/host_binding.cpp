@@ -198,7 +198,7 @@ class PyDevice {
   }
 
   py::dict stream(const Names& names, double every_s, double seconds) {
-    const std::uint16_t mask = host::mask_of(device().quantities(), names) | status_words();
+    const host::WordMask mask = host::mask_of(device().quantities(), names) | status_words();
     const std::uint32_t fastest = device().shortest_period(mask, baud_);
     const double asked = std::round(every_s * device().board().tick_hz());
     const auto period = static_cast<std::uint32_t>(every_s > 0 ? std::clamp(asked, 1.0, 4e9)
@@ -305,7 +305,7 @@ class PyDevice {
     host::LawEngine* engine = unlocked([&] { return laws(); });
     return engine != nullptr && engine->find(name) != nullptr ? engine : nullptr;
   }
-  std::uint16_t status_words() {
+  host::WordMask status_words() {
     return host::mask_of(device().quantities(), {"status", "faults"});
   }
   /// What this has armed is still armed.

@@ -86,31 +86,13 @@ plant::Hand hand_named(const std::string& name, const std::string& scenes_folder
   return read_scenario(file.string()).hand;
 }
 
-Board::Board(std::unique_ptr<Core> core, const plant::Parameters& parameters,
-             const plant::Hand& hand, const Setup& setup)
+Board::Board(std::unique_ptr<Core> core, const Setup& setup)
     : core_(std::move(core)),
-      plant_(parameters, parameters.effects, hand, core_->design(), false),
-      plan_(plan(parameters, hand, core_->design())),
       to_board_(setup.bad_line, setup.seed),
       from_board_(setup.bad_line, setup.seed + 1),
       arm_at_(std::llround(kArmAfter_s * static_cast<double>(core_->design().clock_hz))),
       arm_(setup.arm) {
-  if (parameters.effects.encoder_imperfect) {
-    for (const double mrad : parameters.encoder.absolute_error_mrad) {
-      error_rad_.push_back(1e-3 * mrad);
-    }
-  }
-  shown_rad_ = shown_angle(plant().theta_rad, error_rad_);
-  in_.encoder = plant_.shaft().encoder().pins();
   in_.scene = static_cast<std::uint8_t>(scene_number(core_->design(), setup.scene));
-}
-
-StepPlan Board::plan(const plant::Parameters& parameters, const plant::Hand& hand,
-                     const DesignInfo& design) {
-  const Scenario s = scene_of(parameters, hand);
-  check_phases(s, parameters, design);
-  check_step(s, parameters, static_cast<double>(design.clock_hz));
-  return {s, parameters, design};
 }
 
 void Board::receive(const std::vector<std::uint8_t>& bytes) {
@@ -120,28 +102,52 @@ void Board::receive(const std::vector<std::uint8_t>& bytes) {
 void Board::run_to(Clock clock) {
   while (now_ < clock) {
     if (arm_ && now_ >= arm_at_) in_.arm = true;
-    Clock corner = plant_.shaft().next_corner();
-    if (arm_ && now_ < arm_at_) corner = std::min(corner, arm_at_);
-    step(plan_.end_of_step(now_, corner, std::numeric_limits<Clock>::max()) - now_);
+    step(arm_ && now_ < arm_at_ ? arm_at_ : std::numeric_limits<Clock>::max());
   }
+}
+
+void Board::run_core(Clock clocks) {
+  if (clocks <= 0) return;
+  core_->run(in_, clocks);
+  now_ += clocks;
+}
+
+LeverBoard::LeverBoard(std::unique_ptr<Core> core, const plant::Parameters& parameters,
+                       const plant::Hand& hand, const Setup& setup)
+    : Board(std::move(core), setup),
+      plant_(parameters, parameters.effects, hand, core_->design(), false),
+      plan_(plan(parameters, hand, core_->design())) {
+  if (parameters.effects.encoder_imperfect) {
+    for (const double mrad : parameters.encoder.absolute_error_mrad) {
+      error_rad_.push_back(1e-3 * mrad);
+    }
+  }
+  shown_rad_ = shown_angle(plant().theta_rad, error_rad_);
+  in_.encoder[0] = plant_.shaft().encoder().pins();
+}
+
+StepPlan LeverBoard::plan(const plant::Parameters& parameters, const plant::Hand& hand,
+                          const DesignInfo& design) {
+  const Scenario s = scene_of(parameters, hand);
+  check_phases(s, parameters, design);
+  check_step(s, parameters, static_cast<double>(design.clock_hz));
+  return {s, parameters, design};
 }
 
 // As in the loop of scenes: the core's last bridge state drives the motor in this step, and the
 // core gets each edge in its clock.
-void Board::step(Clock clocks) {
-  plant_.advance(*core_, clocks);
+void LeverBoard::step(Clock corner) {
+  const Clock end = plan_.end_of_step(now_, std::min(corner, plant_.shaft().next_corner()),
+                                      std::numeric_limits<Clock>::max());
+  plant_.advance(*core_, end - now_);
   const double shown_rad = shown_angle(plant().theta_rad, error_rad_);
-  core_->turn_encoder(shown_rad_, shown_rad, clocks);
+  core_->turn_encoder(shown_rad_, shown_rad, end - now_);
   shown_rad_ = shown_rad;
-  const Clock end = now_ + clocks;
   for (const EncoderEvent& e : plant_.shaft().events()) {
-    const Clock at = std::clamp(e.clock, now_, end);
-    if (at > now_) core_->run(in_, at - now_);
-    now_ = at;
-    in_.encoder = e.pins;
+    run_core(std::clamp(e.clock, now_, end) - now_);
+    in_.encoder[0] = e.pins;
   }
-  if (end > now_) core_->run(in_, end - now_);
-  now_ = end;
+  run_core(end - now_);
 }
 
 std::vector<std::uint8_t> Board::take_sent() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A board without hardware: core and link, bridge, motor, lever and hand in closed loop. Its
-// interface is bytes in and bytes out. Documentation: docs/board.md
+// A board without hardware: core and link, bridges, motors, lever or device, and hand in closed
+// loop. Its interface is bytes in and bytes out. Documentation: docs/board.md
 #pragma once
 
 #include <memory>
@@ -37,10 +37,9 @@ plant::Hand hand_named(const std::string& name, const std::string& scenes_folder
 /// The simulated board; clock by clock for the core, step by step for the plant.
 class Board {
  public:
-  /// Power-up at clock 0. Errors: those of check_step() if the plant is too stiff, and
-  /// config::ConfigError for a motor that the core's bridge does not drive.
-  Board(std::unique_ptr<Core> core, const plant::Parameters& plant, const plant::Hand& hand,
-        const Setup& setup);
+  /// Power-up at clock 0.
+  Board(std::unique_ptr<Core> core, const Setup& setup);
+  virtual ~Board() = default;
 
   /// Bytes for the rx pin, from the present clock on.
   void receive(const std::vector<std::uint8_t>& bytes);
@@ -51,25 +50,44 @@ class Board {
   std::vector<std::uint8_t> take_sent();
 
   const Core& core() const { return *core_; }
-  const plant::Observables& plant() const { return plant_.shaft().observables(); }
   Outcome outcome() const;
+
+ protected:
+  /// Runs core and plant to the end of the plant's next step, which is at `corner` at the latest.
+  virtual void step(Clock corner) = 0;
+  /// Runs the core with the pins as they are.
+  void run_core(Clock clocks);
+
+  std::unique_ptr<Core> core_;
+  BoardIn in_;
+  Clock now_ = 0;
+
+ private:
+  BadLine to_board_, from_board_;
+  Clock arm_at_ = 0;
+  bool arm_ = false;
+  std::int64_t bytes_ = 0;
+  Fnv1a byte_sum_;
+};
+
+/// A board with a lever, or with the knob of a motor with three phases.
+class LeverBoard : public Board {
+ public:
+  /// Errors: those of check_step() if the plant is too stiff, and config::ConfigError for a motor
+  /// that the core's bridge does not drive.
+  LeverBoard(std::unique_ptr<Core> core, const plant::Parameters& plant, const plant::Hand& hand,
+             const Setup& setup);
+  const plant::Observables& plant() const { return plant_.shaft().observables(); }
 
  private:
   static StepPlan plan(const plant::Parameters& plant, const plant::Hand& hand,
                        const DesignInfo& design);
-  void step(Clock clocks);
+  void step(Clock corner) override;
 
-  std::unique_ptr<Core> core_;
   DrivenPlant plant_;
   std::vector<double> error_rad_;  ///< of an absolute encoder
   double shown_rad_ = 0;           ///< by it
   StepPlan plan_;
-  BoardIn in_;
-  BadLine to_board_, from_board_;
-  Clock now_ = 0, arm_at_ = 0;
-  bool arm_ = false;
-  std::int64_t bytes_ = 0;
-  Fnv1a byte_sum_;
 };
 
 }  // namespace feltgate::board

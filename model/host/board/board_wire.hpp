@@ -54,14 +54,14 @@ class BoardWire : public host::Transport {
     board_.run_to(clock);
     for (const std::uint8_t byte : board_.take_sent()) received_.push_back(byte);
   }
-  const Board& board() const { return board_; }
+  const LeverBoard& board() const { return board_; }
 
  private:
   static constexpr Clock slice = 1000, longest = 250'000;
   static constexpr std::size_t most_unsent = 64;
   void run(Clock clocks) { run_to(board_.now() + clocks); }
 
-  Board board_;
+  LeverBoard board_;
   std::string name_;
   std::deque<std::uint8_t> received_;
   bool asked_ = false;  ///< since the last read

@@ -5,6 +5,8 @@
 // Documentation: docs/board.md
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,14 +14,15 @@
 
 #include "feltgate/core_ports.hpp"
 #include "feltgate/design_info.hpp"
+#include "sim/backends/backend.hpp"
 
 namespace feltgate::board {
 
 /// Pins of the board, which hold for a number of clocks.
 struct BoardIn {
-  EncoderPins encoder;
-  bool arm = false, stop = false, set_zero = false;
-  std::uint8_t scene = 0;
+  std::array<EncoderPins, most_axes> encoder;  ///< of each axis that the board has
+  bool arm = false, stop = false;
+  std::uint8_t scene = 0;  ///< of all axes
 };
 
 /// Properties of the simulated board.
@@ -61,7 +64,7 @@ class TickHash {
   std::int64_t ticks_ = 0;
 };
 
-/// Core and link of one design behind a serial line.
+/// Core, or axes, and link of one design behind a serial line.
 class Core {
  public:
   virtual ~Core() = default;
@@ -77,11 +80,12 @@ class Core {
   virtual std::size_t unsent() const = 0;
   /// Bytes from the tx pin whose stop bits have ended; empties the list.
   virtual std::vector<std::uint8_t> take_received() = 0;
-  /// Duty in force, in clocks of the PWM period, and whether the gates are enabled.
-  virtual int duty() const = 0;
+  virtual std::size_t axes() const { return 1; }
+  /// Duty of an axis in force, in clocks of the PWM period, and whether the gates are enabled.
+  virtual int duty(std::size_t axis = 0) const = 0;
   /// Of a bridge with three legs: clocks of a leg's high gate in a period, in force.
   virtual int on_time(std::size_t leg) const = 0;
-  virtual bool gates_enabled() const = 0;
+  virtual bool gates_enabled(std::size_t axis = 0) const = 0;
   virtual const TickHash& ticks() const = 0;
 };
 

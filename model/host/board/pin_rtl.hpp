@@ -54,18 +54,18 @@ class PinRtl : public Core {
   void send(std::uint8_t byte) override { line_.send(byte); }
   std::size_t unsent() const override { return line_.unsent(); }
   std::vector<std::uint8_t> take_received() override { return line_.take_received(); }
-  int duty() const override { return out_.duty_active; }
+  int duty(std::size_t) const override { return out_.duty_active; }
   int on_time(std::size_t) const override { return 0; }
-  bool gates_enabled() const override { return out_.gates_enable; }
+  bool gates_enabled(std::size_t) const override { return out_.gates_enable; }
   const TickHash& ticks() const override { return hash_; }
 
  private:
   void drive(const BoardIn& in) {
-    rtl_->enc_a_i = in.encoder.a;
-    rtl_->enc_b_i = in.encoder.b;
-    rtl_->enc_z_i = in.encoder.z;
+    rtl_->enc_a_i = in.encoder[0].a;
+    rtl_->enc_b_i = in.encoder[0].b;
+    rtl_->enc_z_i = in.encoder[0].z;
     rtl_->arm_i = in.arm;
-    rtl_->set_zero_i = in.set_zero;
+    rtl_->set_zero_i = false;
     rtl_->scene_i = in.scene;
     rtl_->inputs_i = inputs_;
   }

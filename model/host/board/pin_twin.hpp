@@ -13,51 +13,67 @@
 
 namespace feltgate::board {
 
-template <class D>
+template <class D, int N = 1>
 class PinTwin : public Core {
  public:
   explicit PinTwin(const BoardOptions& o)
       : info_(design_info<D>()),
-        core_(std::make_unique<LinkedCore<D>>(LinkedOptions{o.baud, o.simulated, o.board})),
+        core_(std::make_unique<Linked>(LinkedOptions{o.baud, o.simulated, o.board})),
         inputs_(static_cast<std::uint8_t>(o.inputs)) {
     if (info_.absolute) sensor_.emplace(*info_.absolute);
   }
 
   const DesignInfo& design() const override { return info_; }
   const char* kind() const override { return "twin"; }
+  std::size_t axes() const override { return N; }
   void turn_encoder(double from_rad, double to_rad, Clock clocks) override {
     if (sensor_) sensor_->turn(from_rad, to_rad, now_, clocks);
   }
   void run(const BoardIn& in, Clock clocks) override {
-    LinkedIn pins;
-    pins.encoder = in.encoder;
+    typename Linked::In pins;
+    if constexpr (N == 1) {
+      pins.encoder = in.encoder[0];
+      pins.scene = in.scene;
+    } else {
+      for (std::size_t n = 0; n < N; ++n) {
+        pins.axis[n].encoder = in.encoder[n];
+        pins.axis[n].scene = in.scene;
+      }
+    }
     pins.arm = in.arm;
     pins.stop = in.stop;
-    pins.set_zero = in.set_zero;
-    pins.scene = in.scene;
     pins.inputs = inputs_;
-    const auto tell = [this] { hash_.add(core_->out().core); };
+    const auto tell = [this] {
+      for (std::size_t n = 0; n < N; ++n) hash_.add(of_axis(n));
+    };
     const Clock end = now_ + clocks;
-    // The sensor's data may change in any clock.
-    for (; sensor_ && now_ < end; ++now_) {
-      pins.encoder_data = sensor_->pin(now_, core_->out().core.serial);
-      core_->run(pins, 1, tell);
-      pins.set_zero = false;
+    if constexpr (N == 1) {
+      // The sensor's data may change in any clock.
+      for (; sensor_ && now_ < end; ++now_) {
+        pins.encoder_data = sensor_->pin(now_, of_axis(0).serial);
+        core_->run(pins, 1, tell);
+      }
     }
-    if (now_ < end) core_->run(pins, clocks, tell);
+    if (now_ < end) core_->run(pins, end - now_, tell);
     now_ = end;
   }
   void send(std::uint8_t byte) override { core_->send(byte); }
   std::size_t unsent() const override { return core_->unsent(); }
   std::vector<std::uint8_t> take_received() override { return core_->take_received(); }
-  int duty() const override { return core_->out().core.duty_active; }
-  int on_time(std::size_t leg) const override { return core_->core().on_time(leg); }
-  bool gates_enabled() const override { return core_->out().core.gates_enable; }
+  int duty(std::size_t axis) const override { return of_axis(axis).duty_active; }
+  int on_time(std::size_t leg) const override {
+    if constexpr (N == 1) return core_->core().on_time(leg);
+    return 0;
+  }
+  bool gates_enabled(std::size_t axis) const override { return of_axis(axis).gates_enable; }
   const TickHash& ticks() const override { return hash_; }
 
  private:
+  using Linked = LinkedCore<D, N>;
+  const CoreOut& of_axis(std::size_t n) const { return linked::axis(core_->out(), n); }
+
   DesignInfo info_;
-  std::unique_ptr<LinkedCore<D>> core_;
+  std::unique_ptr<Linked> core_;
   std::uint8_t inputs_;
   std::optional<AbsoluteSensor> sensor_;
   Clock now_ = 0;

@@ -21,8 +21,8 @@ struct LinkBuilt {
   std::uint32_t features = 0;  ///< further bits of the word `features`
 };
 
-/// The link's port for design D.
-template <class D>
+/// The link's port for design D with N axes at its register port.
+template <class D, int N = 1>
 class LinkPort {
  public:
   struct In {
@@ -55,10 +55,11 @@ class LinkPort {
     Out o;
     o.taken = state_ == State::idle && in.request.valid && (!in.request.write || done_);
     const std::uint16_t reading = read_address();
-    o.reg_addr = (d.host_write    ? in.request.address
-                  : d.panel_write ? static_cast<std::uint16_t>(D::C::command)
-                                  : reading) &
-                 kPort;
+    o.reg_addr =
+        (d.host_write    ? in.request.address
+         : d.panel_write ? static_cast<std::uint16_t>(D::C::command | clear_axis_ << kAxisBit)
+                         : reading) &
+        kPort;
     o.reg_write = d.host_write || d.panel_write;
     constexpr std::uint32_t bits = (1U << D::C::command_width) - 1;
     o.reg_wdata = d.host_write ? in.request.data
@@ -84,7 +85,13 @@ class LinkPort {
     const bool acts = d.link_write || (d.host_write && !in.reg_busy);
     done_ = r.valid && !taken && (done_ || (r.write && (d.repeats || acts)));
     if (acts) sequence_ = r.sequence;
-    clear_ = in.clear_faults || (clear_ && (!d.panel_write || in.reg_busy));
+    const bool clears = d.panel_write && !in.reg_busy;
+    clear_ = in.clear_faults || (clear_ && !(clears && clear_axis_ == N - 1));
+    if (in.clear_faults || N == 1) {
+      clear_axis_ = 0;
+    } else if (clears) {
+      clear_axis_ = (clear_axis_ + 1) & 3;
+    }
 
     switch (state_) {
       case State::idle:
@@ -141,6 +148,7 @@ class LinkPort {
   /// Bits of an address that reach the register port: the engine's words have the addresses of the
   /// core's words with one more bit in front.
   static constexpr std::uint16_t kPort = kEngine << LinkMap::map_bits | (LinkMap::words - 1);
+  static constexpr int kAxisBit = 10;       ///< of an address; the number of the axis is above
   static constexpr int kEngineClocks = 40;  ///< clocks to read a word of the engine
   static bool of_port(std::uint16_t address) { return address % window < LinkMap::words; }
   static bool of_engine(std::uint16_t address) { return address >= window && of_port(address); }
@@ -155,8 +163,13 @@ class LinkPort {
     return d;
   }
   std::uint16_t read_address() const {
-    return status_ ? static_cast<std::uint16_t>(D::C::read_status)
-                   : static_cast<std::uint16_t>(address_);
+    return static_cast<std::uint16_t>(status_ ? D::C::read_status | status_axis() << kAxisBit
+                                              : address_);
+  }
+  /// Axis of the write that the reply answers; 0 for a write to something else.
+  std::uint32_t status_axis() const {
+    const std::uint32_t axis = address_ >> kAxisBit;
+    return axis < N ? axis : 0;
   }
   std::uint32_t read_word(const In& in) const {
     const std::uint16_t address = read_address();
@@ -197,6 +210,7 @@ class LinkPort {
   std::uint32_t sequence_ = LinkMap::no_sequence;
   bool done_ = false, clear_ = false, status_ = false;
   State state_ = State::idle;
+  int clear_axis_ = 0;  ///< whose faults the panel clears next
   int ticks_ = 0, clocks_ = 0, byte_ = 0, left_ = 0;
   std::uint32_t address_ = 0, word_ = 0, good_ = 0, bad_ = 0;
 };

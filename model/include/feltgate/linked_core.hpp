@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/link/feltgate_linked.sv: the core, or an axis with its engine, together with the host
+// Twin of rtl/link/feltgate_linked.sv: the core, or axes with their engine, together with the host
 // link. It advances clock by clock, or with the host's bytes from event to event.
 // Documentation: docs/blocks/feltgate_linked.md
 #pragma once
@@ -18,41 +18,22 @@
 #include "feltgate/link_receiver.hpp"
 #include "feltgate/link_stream.hpp"
 #include "feltgate/link_transmitter.hpp"
-#include "feltgate/linked_axis.hpp"
+#include "feltgate/link_view.hpp"
+#include "feltgate/linked_axes.hpp"
+#include "feltgate/linked_ports.hpp"
 #include "feltgate/uart_line.hpp"
 #include "feltgate/uart_rx.hpp"
 #include "feltgate/uart_tx.hpp"
 
 namespace feltgate {
 
-/// Inputs in one clock.
-struct LinkedIn {
-  EncoderPins encoder;
-  /// Of a design with these options, as in CoreIn; in others they are not used.
-  bool encoder_data = false, current_data = false, driver_fault = false;
-  bool arm = false, stop = false, set_zero = false;
-  bool clear_faults = false;  ///< one clock, like set_zero
-  std::uint8_t scene = 0;
-  std::uint8_t inputs = 0;
-  bool uart_rx = true;
-};
-/// Outputs after one clock.
-struct LinkedOut {
-  CoreOut core;
-  bool uart_tx = true;
-};
-/// Parameters of the RTL, and the simulated line's baud rate.
-struct LinkedOptions {
-  std::int64_t baud = LinkMap::baud;
-  bool simulated = false;
-  int board = 0;
-};
-
-/// Core and link of design D.
-template <class D>
+/// Core and link of design D, or N axes and their link.
+template <class D, int N = 1>
 class LinkedCore {
  public:
-  using Device = std::conditional_t<D::engine != 0, LinkedAxis<D>, FeltgateCore<D>>;
+  using Device = std::conditional_t<D::engine != 0 || N != 1, LinkedAxes<D, N>, FeltgateCore<D>>;
+  using In = std::conditional_t<N == 1, LinkedIn, LinkedAxesIn<N>>;
+  using Out = std::conditional_t<N == 1, LinkedOut, LinkedAxesOut<N>>;
 
   explicit LinkedCore(LinkedOptions o = {})
       : rx_(uart_step(D::clock_hz, o.baud)),
@@ -70,28 +51,26 @@ class LinkedCore {
     port_.reset();
     stream_.reset();
     capture_.reset();
+    view_.reset();
     transmitter_.reset();
     tx_.reset();
     show();
   }
 
   /// Advances one clock with these pins.
-  void clock(const LinkedIn& in) {
-    const typename LinkPort<D>::In port = port_in(in);
-    const typename LinkPort<D>::Out does = port_.peek(port);
+  void clock(const In& in) {
+    const typename Port::In port = port_in(in);
+    const typename Port::Out does = port_.peek(port);
     const UartRx::Out byte = rx_.out();
     const LinkTransmitter::Out sent = transmitter_.out();
     const FrameByte offered = offer();
-    const CoreOut& tap = core_.out();
-    stream_.clock({tap.word_valid, tap.word_slot, tap.word_data, does.addr, does.wdata, does.write,
+    const Words words = words_out();
+    const Shown shown = shown_words(words);
+    stream_.clock({shown.valid, shown.slot, shown.data[0], does.addr, does.wdata, does.write,
                    sent.stream_ready});
-    typename Capture::In captures{tap.word_valid, tap.word_slot, tap.word_data, does.addr,
-                                  does.wdata,     does.write,    false,         0};
-    if constexpr (D::engine != 0) {
-      captures.event_valid = core_.event_valid();
-      captures.event_number = core_.event_number();
-    }
-    capture_.clock(captures);
+    capture_.clock({shown.valid, shown.slot, shown.data[0], does.addr, does.wdata, does.write,
+                    shown.event_valid, shown.event_number});
+    view_clock(words, does.addr, does.wdata, does.write);
     rx_.clock({in.uart_rx});
     receiver_.clock({byte.byte, byte.valid, byte.error, does.taken});
     port_.clock(port);
@@ -101,7 +80,7 @@ class LinkedCore {
     show();
   }
 
-  const LinkedOut& out() const { return out_; }
+  const Out& out() const { return out_; }
   const FeltgateCore<D>& core() const { return core_of(core_); }
   FeltgateCore<D>& core() { return core_of(core_); }
   /// The block at the register port: the core, or an axis with its engine.
@@ -117,15 +96,15 @@ class LinkedCore {
   /// send(). It is fast while nothing happens. `on_snapshot()` is called whenever out() holds a
   /// valid snapshot.
   template <class OnSnapshot>
-  void run(LinkedIn in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
+  void run(In in, std::int64_t clocks, OnSnapshot&& on_snapshot) {
     while (clocks > 0) {
       in.uart_rx = line_.level();
       const std::int64_t quiet = stretch(std::min(quiet_clocks(in), clocks));
       if (quiet <= 1) {
         line_.clock(out_.uart_tx);
         clock(in);
-        if (out_.core.snapshot_valid) on_snapshot();
-        in.set_zero = in.clear_faults = false;
+        if (linked::axis(out_, 0).snapshot_valid) on_snapshot();
+        linked::end_pulses(in);
         --clocks;
         continue;
       }
@@ -139,53 +118,107 @@ class LinkedCore {
   }
 
  private:
+  static constexpr bool kAxes = N > 1;
+  static constexpr bool kCore = std::is_same_v<Device, FeltgateCore<D>>;
+  using Port = LinkPort<D, N>;
   using Capture = LinkCapture<1 << LinkMap::rows_log2, D::engine != 0>;
+  struct NoView {
+    void reset() {}
+  };
+  using View = std::conditional_t<kAxes, LinkView<N>, NoView>;
+  using DeviceIn = std::conditional_t<kCore, CoreIn, AxesIn<N>>;
   struct Event {
     int clock, number;  ///< clock of the tick
   };
+  /// A word of each of M axes in a clock, and an event.
+  template <int M>
+  struct WordsOf {
+    bool valid = false;
+    std::uint8_t slot = 0;
+    std::array<std::uint32_t, M> data{};
+    bool event_valid = false;
+    int event_number = 0;
+  };
+  using Words = WordsOf<N>;  ///< what the device gives
+  using Shown = WordsOf<1>;  ///< what stream and capture see
   static constexpr std::uint32_t kFeatures =
       1U << LinkMap::B::features_capture | 1U << LinkMap::B::features_stream |
       (D::engine != 0 ? 1U : 0U) << LinkMap::B::features_engine |
       LinkMap::rows_log2 << LinkMap::B::features_rows_log2 |
       LinkMap::columns << LinkMap::B::features_columns;
 
-  typename LinkPort<D>::In port_in(const LinkedIn& in) const {
-    typename LinkPort<D>::In p;
+  typename Port::In port_in(const In& in) const {
+    typename Port::In p;
     p.request = receiver_.out().request;
     p.good = receiver_.out().good;
     p.bad = receiver_.out().bad;
     p.clear_faults = in.clear_faults;
     p.inputs = in.inputs;
-    p.tick = core_.out().snapshot_valid;
+    p.tick = device_out(0).snapshot_valid;
     p.reg_rdata = core_.out().reg_rdata;
     p.rdata = stream_.out().rdata | capture_.out().rdata;
+    if constexpr (kAxes) p.rdata |= view_.out().rdata;
     p.ready = transmitter_.out().reply_ready;
-    if constexpr (D::engine != 0) {
-      p.reg_busy = core_.busy(port_.peek(p).reg_addr);
-    } else {
+    if constexpr (kCore) {
       p.reg_busy = core_.out().reg_busy;
+    } else {
+      p.reg_busy = core_.busy(port_.peek(p).reg_addr);
     }
     return p;
   }
-  static CoreIn core_in(const LinkedIn& in, const typename LinkPort<D>::Out& does) {
-    CoreIn c;
-    c.encoder = in.encoder;
-    c.encoder_data = in.encoder_data;
-    c.current_data = in.current_data;
-    c.driver_fault = in.driver_fault;
-    c.arm = in.arm;
-    c.stop = in.stop;
-    c.set_zero = in.set_zero;
-    c.scene = in.scene;
+  static DeviceIn core_in(const In& in, const typename Port::Out& does) {
+    DeviceIn c;
+    linked::to_device(in, c);
     c.reg_addr = does.reg_addr;
     c.reg_wdata = does.reg_wdata;
     c.reg_write = does.reg_write;
     return c;
   }
 
+  const CoreOut& device_out(std::size_t n) const {
+    if constexpr (kCore) {
+      return core_.out();
+    } else {
+      return core_.out().axis[n];
+    }
+  }
+  std::uint32_t device_word(std::size_t n, int slot) const {
+    if constexpr (kCore) {
+      return core_.word(slot);
+    } else {
+      return core_.word(static_cast<int>(n), slot);
+    }
+  }
+  Words words_out() const {
+    Words w;
+    w.valid = device_out(0).word_valid;
+    w.slot = device_out(0).word_slot;
+    for (std::size_t n = 0; n < N; ++n) w.data[n] = device_out(n).word_data;
+    if constexpr (D::engine != 0) {
+      w.event_valid = core_.event_valid();
+      w.event_number = core_.event_number();
+    }
+    return w;
+  }
+  /// One axis is seen as it is, several through the view.
+  Shown shown_words(const Words& words) const {
+    if constexpr (kAxes) {
+      const auto& o = view_.out();
+      return {o.word_valid, o.word_slot, {o.word_data}, o.event_valid, o.event_number};
+    } else {
+      return {words.valid, words.slot, {words.data[0]}, words.event_valid, words.event_number};
+    }
+  }
+  void view_clock(const Words& words, std::uint16_t addr, std::uint32_t wdata, bool write) {
+    if constexpr (kAxes) {
+      view_.clock({words.valid, words.slot, words.data, words.event_valid, words.event_number, addr,
+                   wdata, write});
+    }
+  }
+
   /// Number of clocks in which the link only counts the phases of its bits.
-  std::int64_t quiet_clocks(const LinkedIn& in) const {
-    if (in.set_zero || in.clear_faults || !receiver_.idle() || !transmitter_.waits()) return 0;
+  std::int64_t quiet_clocks(const In& in) const {
+    if (linked::pulses(in) || !receiver_.idle() || !transmitter_.waits()) return 0;
     if (!port_.waits(port_in(in)) || !stream_.waits()) return 0;
     const bool offers = transmitter_.out().valid;
     if (transmitter_.idle() ? port_.reply().valid || stream_.out().valid
@@ -200,12 +233,18 @@ class LinkedCore {
   static constexpr int seen_at(int k) { return LinkMap::slots[k] + Map::first_wave_clock + 1; }
   static constexpr int kTick = D::clocks_per_tick;
   static constexpr int kLastWord = seen_at(LinkMap::snapshot_words - 1);
+  /// Clock in which they see the last word of a tick through the view.
+  static constexpr int kLastShown = (kLastWord + LinkView<N>::delay) % kTick;
   static_assert(kLastWord < kTick, "the words of a tick come within it");
 
   /// How many of `quiet` clocks can be passed at once: the rest of a tick, or whole ticks of which
   /// stream and capture need only the last; never past the last word of a frame.
   std::int64_t stretch(std::int64_t quiet) const {
     const int at = core_.clock_of_tick();
+    if constexpr (kAxes) {
+      if (stream_.keeps()) quiet = std::min<std::int64_t>(quiet, (kLastShown - at + kTick) % kTick);
+      return std::min<std::int64_t>(quiet, kTick - at);
+    }
     if (at == 0 && quiet >= kTick && !stream_.on() && !capture_.runs()) {
       return quiet / kTick * kTick;
     }
@@ -215,15 +254,16 @@ class LinkedCore {
 
   /// Passes a stretch of quiet clocks.
   template <class OnSnapshot>
-  void pass(const LinkedIn& in, const typename LinkPort<D>::Out& port, std::int64_t clocks,
+  void pass(const In& in, const typename Port::Out& port, std::int64_t clocks,
             OnSnapshot&& on_snapshot) {
+    if constexpr (kAxes) return pass_axes(in, port, static_cast<int>(clocks), on_snapshot);
     const int from = core_.clock_of_tick();
     const int to = static_cast<int>(from + std::min<std::int64_t>(clocks, kTick));
-    const CoreOut before = core_.out();
+    const CoreOut before = device_out(0);
     std::int64_t ticks = clocks / kTick;  // ticks before the one whose words count
     std::array<std::uint32_t, LinkMap::snapshot_words> words{};
     const auto take = [&] {
-      for (std::size_t k = 0; k < words.size(); ++k) words[k] = core_.word(LinkMap::slots[k]);
+      for (std::size_t k = 0; k < words.size(); ++k) words[k] = device_word(0, LinkMap::slots[k]);
     };
     bool all = false;
     const auto at_snapshot = [&] {
@@ -232,7 +272,7 @@ class LinkedCore {
       on_snapshot();
     };
     events_.clear();
-    if constexpr (D::engine != 0) {
+    if constexpr (!kCore) {
       // Without a capture the stretch may hold many ticks, and no event is needed.
       core_.run(core_in(in, port), clocks, at_snapshot, [&](std::int64_t clock, int number) {
         if (capture_.runs()) events_.push_back({from + static_cast<int>(clock), number});
@@ -242,6 +282,52 @@ class LinkedCore {
     }
     if (!all && to < kTick) take();
     feed(from, to, words, before, port.addr);
+  }
+
+  /// The same of several axes, within a tick: the view takes the words in their clocks.
+  template <class OnSnapshot>
+  void pass_axes(const In& in, const typename Port::Out& port, int clocks,
+                 OnSnapshot&& on_snapshot) {
+    const int from = core_.clock_of_tick(), to = from + clocks;
+    const Words before = words_out();
+    events_.clear();
+    core_.run(
+        core_in(in, port), clocks,
+        [&] {
+          show();
+          on_snapshot();
+        },
+        [&](std::int64_t clock, int number) {
+          events_.push_back({from + static_cast<int>(clock), number});
+        });
+    std::size_t told = 0;
+    int next = 0;  // number of the next word
+    while (next < LinkMap::snapshot_words && seen_at(next) < from) ++next;
+    bool showed = true;
+    for (int at = from; at < to; ++at) {
+      Words words;
+      if (next < LinkMap::snapshot_words && seen_at(next) == at) {
+        words = at == from ? before : words;
+        words.valid = true;
+        words.slot = static_cast<std::uint8_t>(LinkMap::slots[next]);
+        for (std::size_t n = 0; n < N && at != from; ++n)
+          words.data[n] = device_word(n, LinkMap::slots[next]);
+        ++next;
+      }
+      words.event_valid = false;
+      if (told < events_.size() && events_[told].clock == at) {
+        words.event_valid = true;
+        words.event_number = events_[told++].number;
+      }
+      const Shown shown = shown_words(words);
+      if (shown.valid || shown.event_valid || showed || at < from + 3 || at >= to - 3) {
+        stream_.clock({shown.valid, shown.slot, shown.data[0], port.addr, 0, false, false});
+        capture_.clock({shown.valid, shown.slot, shown.data[0], port.addr, 0, false,
+                        shown.event_valid, shown.event_number});
+      }
+      showed = shown.valid;
+      view_clock(words, port.addr, 0, false);
+    }
   }
 
   /// Gives stream and capture the words and the events_ of the clocks [from, to) of a tick.
@@ -285,20 +371,26 @@ class LinkedCore {
   }
 
   void show() {
-    out_.core = core_.out();
+    if constexpr (kAxes) {
+      out_.axis = core_.out().axis;
+    } else {
+      out_.core = device_out(0);
+      out_.core.reg_rdata = core_.out().reg_rdata;
+    }
     out_.uart_tx = tx_.out().tx;
   }
 
   Device core_;
   UartRx rx_;
   LinkReceiver receiver_;
-  LinkPort<D> port_;
+  Port port_;
   LinkStream stream_;
   Capture capture_;
+  View view_;  ///< of several axes
   LinkTransmitter transmitter_;
   UartTx tx_;
   UartLine line_;
-  LinkedOut out_;
+  Out out_;
   std::vector<Event> events_;  ///< of a stretch, while a capture runs
 };
 

@@ -33,8 +33,9 @@ std::array<plant::Encoder, Plant::axes> zeroed(const Plant& device,
 /// Resets the cores and lets them count from the joints' zeros: with the motors off, each joint
 /// moves from its angle 0 to the device's position and rests there. Returns the clocks that this
 /// took, a whole number of periods.
-template <class Plant>
-Clock home(AxesCores& cores, const Plant& device, std::uint64_t seed, Clock period_clocks) {
+/// Cores: AxesCores, or anything with its reset(), edge(), advance() and design().
+template <class Cores, class Plant>
+Clock home(Cores& cores, const Plant& device, std::uint64_t seed, Clock period_clocks) {
   constexpr std::size_t axes = Plant::axes;
   AxesCores::Pins pins{};
   auto encoders = zeroed(device, std::make_index_sequence<axes>{});

@@ -294,7 +294,7 @@ class Recordings(BoardTest):
             (("--replay", "none.board"), "cannot be read"),
             (("--replay", "x", "--link", "y"), "leave --record and --link out"),
             (("--bad-line", "2"), "--bad-line"),
-            (("--design", "pantograph_law"), "has 2 axes, and a board has one"),
+            (("--design", "gimbal_law"), "no board of this device with 3 axes"),
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))

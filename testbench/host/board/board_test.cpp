@@ -78,10 +78,10 @@ class Bench {
  public:
   explicit Bench(const std::string& hand = "free", Setup setup = {}) {
     setup.hand = hand;
-    board_ =
-        std::make_unique<Board>(make_core(setup.design, "twin", {}),
-                                plant::read_plant_file(FELTGATE_ROOT "/vectors/plants/p24.toml"),
-                                hand_named(hand, FELTGATE_ROOT "/vectors/scenes"), setup);
+    board_ = std::make_unique<LeverBoard>(
+        make_core(setup.design, "twin", {}),
+        plant::read_plant_file(FELTGATE_ROOT "/vectors/plants/p24.toml"),
+        hand_named(hand, FELTGATE_ROOT "/vectors/scenes"), setup);
   }
   void send(const Bytes& bytes) { board_->receive(bytes); }
   void run(double seconds) { board_->run_to(board_->now() + std::llround(seconds * 50e6)); }
@@ -106,10 +106,10 @@ class Bench {
   }
   std::uint32_t read(std::uint32_t address) { return word_of(ask(1, address, 1), 4); }
   void write(std::uint32_t address, std::uint32_t value) { (void)ask(2, address, value); }
-  Board& board() { return *board_; }
+  LeverBoard& board() { return *board_; }
 
  private:
-  std::unique_ptr<Board> board_;
+  std::unique_ptr<LeverBoard> board_;
   std::uint8_t sequence_ = 0;
   Bytes kept_;
 };

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -17,7 +18,8 @@
 
 namespace feltgate::test {
 
-template <class D>
+/// N axes of design D; with more than one, each lever has its own pins.
+template <class D, int N = 1>
 class BoardInProcess : public host::Transport {
  public:
   void write(const std::uint8_t* data, std::size_t size) override {
@@ -43,16 +45,24 @@ class BoardInProcess : public host::Transport {
 
   void run(std::int64_t clocks) {
     board.run(in, clocks, [] {});
+    now += clocks;
     for (const std::uint8_t byte : board.take_received()) received_.push_back(byte);
   }
-  void step(bool up) {
-    phase_ += up ? 1U : 3U;
-    in.encoder = {(phase_ & 2U) != 0, ((phase_ >> 1 ^ phase_) & 1U) != 0, false};
+  void step(bool up, std::size_t axis = 0) {
+    unsigned& at = phase_[axis];
+    at += up ? 1U : 3U;
+    const EncoderPins pins{(at & 2U) != 0, ((at >> 1 ^ at) & 1U) != 0, false};
+    if constexpr (N == 1) {
+      in.encoder = pins;
+    } else {
+      in.axis[axis].encoder = pins;
+    }
     run(std::int64_t{4} * D::clocks_per_tick);
   }
 
-  LinkedCore<D> board{LinkedOptions{3'000'000, true, 0}};
-  LinkedIn in;
+  LinkedCore<D, N> board{LinkedOptions{3'000'000, true, 0}};
+  typename LinkedCore<D, N>::In in;
+  std::int64_t now = 0;    ///< clocks since power-up
   std::int64_t left = -1;  ///< bytes until the wire is cut; -1: not cut
   double lost = 0;         ///< share of bytes to the board that are lost
   std::function<void(const std::vector<std::uint8_t>&)> before_write;
@@ -61,7 +71,7 @@ class BoardInProcess : public host::Transport {
   std::vector<std::uint8_t> received_;
   SplitMix64 random_{5};
   std::string name_ = "wire";
-  unsigned phase_ = 0;
+  std::array<unsigned, N> phase_{};
 };
 
 }  // namespace feltgate::test

@@ -332,6 +332,6 @@ TEST_CASE("host law: a board without engine, an image of another design") {
   CHECK_THROWS_AS(b.engine.load(other), std::invalid_argument);
   law::Image two = spring();
   two.outputs.push_back({"other", 1});
-  CHECK(told([&] { b.engine.load(two); }).find("a torque for axis 1, and a board has one axis") !=
+  CHECK(told([&] { b.engine.load(two); }).find("a torque for axis 1, and this board has one axis") !=
         std::string::npos);
 }

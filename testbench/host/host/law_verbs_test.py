@@ -62,6 +62,35 @@ class Laws(ProgramTest):
                 said = self.host(*words[3:], status=2 if refused else 0)
                 self.assertEqual(patterns_of(said.replace(str(ROOT) + "/", "")), patterns_of(shown))
 
+    def test_two_axes_and_their_pen(self):
+        self.board("--design", "pantograph_law", "--hand", "swing")
+        self.assertIn("there is no axis 2; this board has the axes 0 to 1", self.host("get", "angle.2", status=2))
+        self.assertIn("at.1", self.host("info"))
+        self.assertIn("--pen: is for a board with two axes", self.lever_refuses_a_pen())
+        self.host("law", "pantograph")
+        self.host("set", "floor=0.09m", "torque_limit.1=0.2Nm")
+        said = self.host("watch", "--pen", "--arm", "law", "--for", "2", "--every", "0.002")
+        shown = re.findall(r"  x (\S+) m  y (\S+) m  Fx (\S+) N  Fy (\S+) N  (\w+)", said)
+        self.assertGreater(len(shown), 10)
+        x, y, fx, fy = ([float(row[k]) for row in shown] for k in range(4))
+        # The hand moves the pen 40 mm to the side and back, at a height of 0.1 m; the drag is 1 Ns/m.
+        self.assertGreater(min(x), -0.005)
+        self.assertLess(max(x), 0.045)
+        self.assertLess(max(abs(each - 0.1) for each in y), 0.02)
+        # The force is the drag times the speed that the positions have, over ten rows.
+        every_s = 0.002
+        for k in range(10, len(x)):
+            speed = (x[k] - x[k - 10]) / (10 * every_s)
+            self.assertAlmostEqual(sum(fx[k - 10 : k]) / 10, -speed, delta=0.05)
+        self.assertIn("ARMED", {row[4] for row in shown})
+
+    def lever_refuses_a_pen(self):
+        pantograph = self.port
+        self.board("--design", "lever_law", "--hand", "free")
+        said = self.host("watch", "--pen", "--for", "1", status=2)
+        self.port = pantograph
+        return said
+
     def test_load_set_and_get(self):
         self.board("--design", "lever_law", "--hand", "swing")
         self.assertIn("law none, or one that is not known here", self.host("law"))

@@ -86,7 +86,7 @@ class Drives {
  private:
   void start(const std::string& name, int baud) {
     Device& device = motor_.device();
-    const auto mask = static_cast<std::uint16_t>(1u << position_.word | 1u << voltage_.word);
+    const auto mask = Quantities::bit(position_) | Quantities::bit(voltage_);
     const auto every_ms = static_cast<std::uint32_t>(1e-3 * device.board().tick_hz());
     recording_ = {};
     recording_.name = name;

@@ -89,9 +89,15 @@ int info(Session& session, const std::string& json_path) {
       text += line("law", law_state(*laws));
       j["law"] = laws->image() != nullptr ? nlohmann::ordered_json(laws->image()->name) : nullptr;
     }
-    text += line("at", fmt::format("{:.4f} rad, {:.4g} rad/s, {:.1f} s since the reset",
-                                   tick.value(device.quantities().find("angle")),
-                                   tick.value(device.quantities().find("velocity")), tick.time_s));
+    for (int axis = 0; axis < device.axes(); ++axis) {
+      const auto of = [&](const char* name) {
+        return tick.value(device.quantities().find(name + Quantities::suffix(axis)));
+      };
+      text += line(("at" + Quantities::suffix(axis)).c_str(),
+                   fmt::format("{:.4f} rad, {:.4g} rad/s, {:.1f} s since the reset", of("angle"),
+                               of("velocity"), tick.time_s));
+    }
+    if (device.axes() > 1) j["axes"] = device.axes();
     text += line("faults", faults.empty() ? "none" : faults);
     text += line("limits", limits.empty() ? "none" : limits);
     for (const std::string& words : device.in_words(tick)) text += "  " + words + "\n";

@@ -59,7 +59,16 @@ std::string sparkline(const std::deque<double>& values) {
   return text;
 }
 
-Live::Live(Device& device, std::vector<const Quantity*> columns, Form form)
+std::vector<LiveColumn> live_columns(const std::vector<const Quantity*>& quantities) {
+  std::vector<LiveColumn> columns;
+  for (const Quantity* q : quantities) {
+    columns.push_back(
+        {q->name, q->unit == "1" ? "" : q->unit, [q](const Tick& tick) { return tick.value(*q); }});
+  }
+  return columns;
+}
+
+Live::Live(Device& device, std::vector<LiveColumn> columns, Form form)
     : device_(device), columns_(std::move(columns)), form_(form), history_(columns_.size()) {}
 
 std::string Live::status(const Tick& tick) const {
@@ -89,16 +98,16 @@ void Live::on_terminal(const Tick& tick) {
   const std::string badge = device_.board().simulated ? "  *** SIMULATED ***" : "";
   text += fmt::format("\r\x1b[K{:10.2f} s{}\n", tick.time_s, badge);
   for (std::size_t n = 0; n < columns_.size(); ++n) {
-    const Quantity& q = *columns_[n];
+    const LiveColumn& q = columns_[n];
     std::deque<double>& h = history_[n];
-    h.push_back(tick.value(q));
+    h.push_back(q.value(tick));
     if (h.size() > most_history) h.pop_front();
     const std::size_t room = width > before_bars ? width - before_bars : 0;
     const std::deque<double> seen(
         h.size() > room ? h.end() - static_cast<std::ptrdiff_t>(room) : h.begin(), h.end());
     const auto [low, high] = std::minmax_element(h.begin(), h.end());
     text += fmt::format("\r\x1b[K{:>14} {:>11.5g} {:<7}{:>9.3g} to {:<9.3g} {}\n", q.name, h.back(),
-                        q.unit == "1" ? "" : q.unit, *low, *high, sparkline(seen));
+                        q.unit, *low, *high, sparkline(seen));
   }
   text += fmt::format("\r\x1b[K{}\n", status(tick).substr(0, width - 1));
   lines_ = static_cast<int>(columns_.size()) + 2;
@@ -108,9 +117,9 @@ void Live::on_terminal(const Tick& tick) {
 
 void Live::as_line(const Tick& tick) {
   std::string text = fmt::format("{:.3f} s", tick.time_s);
-  for (const Quantity* q : columns_) {
-    text +=
-        fmt::format("  {} {:.5g}{}", q->name, tick.value(*q), q->unit == "1" ? "" : " " + q->unit);
+  for (const LiveColumn& q : columns_) {
+    text += fmt::format("  {} {:.5g} {}", q.name, q.value(tick), q.unit);
+    if (q.unit.empty()) text.pop_back();
   }
   text += "  " + status(tick);
   if (device_.board().simulated) text += "  (simulated)";
@@ -120,9 +129,9 @@ void Live::as_line(const Tick& tick) {
 
 void Live::as_teleplot(const Tick& tick) {
   std::string text;
-  for (const Quantity* q : columns_) {
-    text += fmt::format(">{}:{:.3f}:{:.9g}{}\n", q->name, 1e3 * tick.time_s, tick.value(*q),
-                        q->unit.empty() || q->unit == "1" ? "" : "§" + q->unit);
+  for (const LiveColumn& q : columns_) {
+    text += fmt::format(">{}:{:.3f}:{:.9g}{}\n", q.name, 1e3 * tick.time_s, q.value(tick),
+                        q.unit.empty() ? "" : "§" + q.unit);
   }
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,18 @@ std::string csv_row(const std::vector<const Quantity*>& columns, const Tick& tic
 /// A value from lowest to highest in eighths of a line: "▁▂▅█".
 std::string sparkline(const std::deque<double>& values);
 
+/// What is shown of a tick.
+struct LiveColumn {
+  std::string name, unit;
+  std::function<double(const Tick&)> value;
+};
+std::vector<LiveColumn> live_columns(const std::vector<const Quantity*>& quantities);
+
 /// The display of the verb watch.
 class Live {
  public:
   enum class Form { terminal, lines, teleplot };
-  Live(Device& device, std::vector<const Quantity*> columns, Form form);
+  Live(Device& device, std::vector<LiveColumn> columns, Form form);
   void show(const Tick& tick);
   /// Moves the cursor below the display.
   void finish();
@@ -40,7 +48,7 @@ class Live {
   std::string status(const Tick& tick) const;
 
   Device& device_;
-  std::vector<const Quantity*> columns_;
+  std::vector<LiveColumn> columns_;
   Form form_;
   std::vector<std::deque<double>> history_;
   int lines_ = 0;

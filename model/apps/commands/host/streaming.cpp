@@ -53,13 +53,13 @@ std::vector<const Quantity*> stream_columns(Device& device, const StreamArgument
   return columns;
 }
 
-std::uint16_t stream_mask(Device& device, const StreamArguments& a) {
-  unsigned mask = 0;
-  for (const Quantity* q : stream_columns(device, a)) mask |= 1u << q->word;
+WordMask stream_mask(Device& device, const StreamArguments& a) {
+  WordMask mask = 0;
+  for (const Quantity* q : stream_columns(device, a)) mask |= Quantities::bit(*q);
   for (const char* always : {"status", "faults", "tick"}) {
-    mask |= 1u << device.quantities().find(always).word;
+    mask |= Quantities::bit(device.quantities().find(always));
   }
-  return static_cast<std::uint16_t>(mask);
+  return mask;
 }
 
 void follow_stream(Device& device, const StreamArguments& a, std::uint32_t period,
@@ -71,7 +71,7 @@ void follow_stream(Device& device, const StreamArguments& a, std::uint32_t perio
   } else {
     hold.arm(a.arm);
   }
-  const std::uint16_t mask = stream_mask(device, a);
+  const WordMask mask = stream_mask(device, a);
   device.stream(mask, period);
   const StreamOff off(device);
   const double silent_s = 1.0 + 2 * period / device.board().tick_hz();

@@ -23,7 +23,7 @@ struct StreamArguments {
 void add_stream_options(CLI::App& sub, StreamArguments& a);
 
 /// Mask of the words to stream: those of the quantities, plus status and faults for every display.
-std::uint16_t stream_mask(Device& device, const StreamArguments& a);
+WordMask stream_mask(Device& device, const StreamArguments& a);
 std::vector<const Quantity*> stream_columns(Device& device, const StreamArguments& a);
 
 /// Streams until the time ends or Ctrl-C. If the host armed the motor, it feeds the watchdog and

@@ -41,6 +41,8 @@ bool is_of_law(Session& session, const std::string& name) {
   const LawEngine* laws = session.laws_if_any();
   if (laws == nullptr) return false;
   if (laws->find(name) != nullptr) return true;
+  const std::string wrong = session.device().quantities().missing_axis(name);
+  if (!wrong.empty()) throw std::invalid_argument(wrong);
   std::vector<std::string> names;
   for (const Quantity& q : session.device().quantities().all()) names.push_back(q.name);
   for (const law::ImageWord* w : laws->parameters()) names.push_back(w->name);

@@ -14,17 +14,49 @@
 #include "apps/commands/host/live.hpp"
 #include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
+#include "sim/plant/pantograph/linkage.hpp"
+#include "sim/plant/pantograph/pantograph_file.hpp"
 
 namespace feltgate::host {
 
 namespace {
 
 struct WatchArguments : StreamArguments {
-  bool teleplot = false;
+  bool teleplot = false, pen = false;
 };
 
-int watch(Session& session, const WatchArguments& a) {
+/// Position of the pen and force of the motors on it, from the joints of a pantograph: x, y in m,
+/// Fx, Fy in N.
+std::vector<LiveColumn> pen_columns(Device& device) {
+  if (device.axes() != 2) {
+    throw std::invalid_argument(fmt::format(
+        "--pen: is for a board with two axes, a pantograph; this one has {}", device.axes()));
+  }
+  const auto parameters = plant::read_pantograph_file(find_file("pantograph", "vectors/devices"));
+  const plant::Linkage linkage(parameters.linkage);
+  const auto joints = [&device](const char* name) {
+    const Quantities& all = device.quantities();
+    const Quantity *one = &all.find(name), *five = &all.find(name + Quantities::suffix(1));
+    return [one, five](const Tick& t) { return plant::Joints{t.value(*one), t.value(*five)}; };
+  };
+  const auto theta = joints("angle"), torque = joints("tau_ref");
+  const auto pen = [=](const Tick& t) { return linkage.pose(theta(t)).pen; };
+  const auto force = [=](const Tick& t) { return linkage.pose(theta(t)).force(torque(t)); };
+  return {{"x", "m", [=](const Tick& t) { return pen(t).x; }},
+          {"y", "m", [=](const Tick& t) { return pen(t).y; }},
+          {"Fx", "N", [=](const Tick& t) { return force(t).x; }},
+          {"Fy", "N", [=](const Tick& t) { return force(t).y; }}};
+}
+
+int watch(Session& session, WatchArguments a) {
   Device& device = session.device();
+  std::vector<LiveColumn> columns;
+  if (a.pen) {
+    columns = pen_columns(device);
+    a.names = {"angle", "angle.1", "tau_ref", "tau_ref.1"};
+  } else {
+    columns = live_columns(stream_columns(device, a));
+  }
   const std::uint32_t fastest =
       device.shortest_period(stream_mask(device, a), session.options.baud);
   const double asked = std::round(a.every_s * device.board().tick_hz());
@@ -40,7 +72,7 @@ int watch(Session& session, const WatchArguments& a) {
                           : terminal ? Live::Form::terminal
                                      : Live::Form::lines;
   std::fputs(simulated_banner(device.board()).c_str(), a.teleplot ? stderr : stdout);
-  Live live(device, stream_columns(device, a), form);
+  Live live(device, columns, form);
   follow_stream(device, a, period, [&live](const Tick& tick) { live.show(tick); });
   live.finish();
   std::fputs(link_troubles(session.link().counts()).c_str(), stderr);
@@ -65,6 +97,7 @@ Run add_watch(CLI::App& sub) {
       "broke down.");
   add_stream_options(sub, *a);
   sub.add_flag("--teleplot", a->teleplot, "lines '>name:milliseconds:value§unit' for Teleplot");
+  sub.add_flag("--pen", a->pen, "x, y, Fx, Fy at the pen of a pantograph, in place of NAME");
   return [a](Session& session) { return watch(session, *a); };
 }
 

@@ -125,7 +125,7 @@ function ask_verdict() {
   const box = $("verdict");
   box.className = "";
   box.textContent = "";
-  if (page.scene !== "wall") return;
+  if (page.scene !== "wall" || !$("object").open) return;
   const stiffness = page.values.wall_stiffness;
   page.asking = setTimeout(async () => {
     const lines = [];
@@ -145,6 +145,7 @@ function ask_verdict() {
 
 function build_controls() {
   page.inside = new Inside();
+  $("object").ontoggle = ask_verdict;
   for (const scene of Object.keys(SCENES)) {
     const label = document.createElement("label"), radio = document.createElement("input");
     Object.assign(radio, { type: "radio", name: "scene", value: scene, checked: scene === page.scene });

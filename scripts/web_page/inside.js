@@ -21,6 +21,7 @@ function vcd_of(scope, words, rows, tick_hz) {
   };
   const lines = [`$version feltgate ${page.numbers.version}, ${scope}, simulated $end`, "$timescale 1 ps $end", `$scope module ${scope} $end`];
   words.forEach(({ name, bits: wide }, n) => lines.push(`$var wire ${wide} ${ids[n]} ${name}${wide > 1 ? ` [${wide - 1}:0]` : ""} $end`));
+  for (const { name, unit, fraction } of words) if (SCALED.has(unit)) lines.push(`$comment ${name}: signed, of 2^-${fraction} ${unit} $end`);
   lines.push("$upscope $end", "$enddefinitions $end");
   const tick = words.findIndex(({ name }) => name === "tick"), time_ps = (row) => (BigInt(rows[row + tick]) * 1_000_000_000_000n) / BigInt(tick_hz);
   for (let row = 0; row < rows.length; row += words.length) {

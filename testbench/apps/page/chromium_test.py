@@ -58,7 +58,7 @@ class Lever(PageTest):
         self.assertNotIn("differs", table)
 
     def test_drag_into_the_wall(self):
-        self.drag((0, -120), (60, 10), (60, 20), (60, 30))
+        self.drag((0, -120), (90, 10), (90, 20), (90, 30))
         self.until("return feltgate.devices[0].lead > 0.55")
         self.passed(1.5)
         state = self.now()

@@ -36,6 +36,9 @@ class Device {
       <figcaption><details><summary><span class="name"></span>, <span class="state" role="status"></span></summary><div class="equation"></div></details></figcaption>`;
     this.figure.querySelector(".name").textContent = `Design ${this.name}`;
     this.svg = this.figure.querySelector("svg");
+    const fold = this.figure.querySelector("details");
+    fold.open = page.told; // as with the lever before
+    fold.ontoggle = () => (page.told = fold.open);
     this.alarm = this.figure.querySelector(".alarm");
     this.alarm.querySelector("button").onclick = recover;
     this.parts = Object.fromEntries(["objects", "over"].map((n) => [n, this.figure.querySelector("." + n)]));

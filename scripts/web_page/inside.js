@@ -34,7 +34,7 @@ function vcd_of(scope, words, rows, tick_hz) {
 /** Pause, step, table and download of the lever's tab. */
 class Inside {
   constructor() {
-    $("pause").onclick = () => this.pause(!page.paused);
+    $("pause").onclick = () => { this.pause(!page.paused); this.show(); };
     $("step").onclick = () => { this.pause(true); devices((d) => say(d.step())); this.show(); };
     $("vcd").onclick = () => this.download();
     $("inside").ontoggle = () => this.show();

@@ -2,7 +2,7 @@
 "use strict";
 
 const $ = (id) => document.getElementById(id);
-const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], paused: false, shows: false, shown_s: 0, count: 0 };
+const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], paused: false, told: false, shows: false, shown_s: 0, count: 0 };
 window.feltgate = page; // for whoever wants to look inside
 
 const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });

@@ -20,8 +20,8 @@ class Lever(PageTest):
     def setUp(self):
         """Unfolded, the lever at rest at 0, and nobody's hand there that shows how."""
         super().setUp()
-        self.unfold()
         self.js("feltgate.devices[0].take(false); place_devices()")
+        self.unfold()
         self.until("return feltgate.devices[0].now.time > 0.02")
 
     def stage(self, n=0):

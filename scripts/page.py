@@ -31,9 +31,9 @@ EPILOG = """examples:
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""
 DESIGNS = ("lever", "paper", "fast", "lever_law")
-LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "curves.js", "law.js")
+LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "inside.js", "law.js")
 TABS = ("pen.js", "game.js", "drums.js", "materials.js", "coupled.js", "string.js", "stylus.js")
-SCRIPTS = (*LEVER_SCRIPTS, *TABS, "page.js")
+SCRIPTS = (*LEVER_SCRIPTS, *TABS, "address.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
 

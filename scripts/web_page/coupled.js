@@ -55,7 +55,7 @@ class CoupledLever {
   draw(s) {
     const theta = s.theta[this.number], newton = s.torque[this.number] / RADIUS_M, [hx, hy] = at(theta, LENGTH);
     let text = this.number ? this.met(theta) : "";
-    text += `<path class="lever" d="${ray(theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
+    text += motor_and_bar(theta);
     if (s.held === this.number) {
       const [gx, gy] = at(s.hand, LENGTH);
       text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
@@ -91,7 +91,7 @@ class CoupledTab {
 
   slider({ name, label, unit, low, high, step, value }) {
     const line = document.createElement("label"), shown = document.createElement("output");
-    const range = Object.assign(document.createElement("input"), { type: "range", min: low, max: high, step, value });
+    const range = Object.assign(document.createElement("input"), { id: `coupled-law-${name}`, type: "range", min: low, max: high, step, value });
     line.className = "slider";
     range.oninput = () => { this.set(name, Number(range.value)); shown.textContent = `${range.value} ${unit}`; };
     range.oninput();

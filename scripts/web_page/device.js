@@ -3,6 +3,8 @@
 
 const SAMPLE = ["time", "theta", "hand", "tau_ref", "tau_hat", "torque", "hand_nm", "omega", "float_hat", "position"];
 const RADIUS_M = 0.1; // where the hand holds the lever: radius_m of the plants
+const VIEW = "-40 -72 580 472"; // of the picture, around CENTRE
+const SHOW_S = 4; // of a press that shows how
 const KEPT = 20000; // samples of the curves: 4 s at 5 kHz
 
 class Device {
@@ -28,21 +30,18 @@ class Device {
 
   build(place) {
     this.figure = document.createElement("figure");
-    this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="Lever of design ${this.name}: the hand's angle in rad"
-      aria-valuemin="-1.5" aria-valuemax="1.5" aria-valuenow="0"><g class="under"></g><g class="objects"></g><g class="over"></g></svg>
+    this.figure.innerHTML = `<svg viewBox="${VIEW}" tabindex="0" role="slider" aria-label="Lever of design ${this.name}: the hand's angle in rad"
+      aria-valuemin="-1.5" aria-valuemax="1.5" aria-valuenow="0"><rect class="board" x="-14" y="44" width="528" height="346" rx="20"/><g class="objects"></g><g class="over"></g></svg>
       <div class="alarm" role="alert" hidden><span></span> <button type="button">Recover</button></div>
-      <figcaption><span class="name"></span> <span class="state" role="status"></span><div class="equation"></div></figcaption>`;
+      <figcaption><details><summary><span class="name"></span>, <span class="state" role="status"></span></summary><div class="equation"></div></details></figcaption>`;
     this.figure.querySelector(".name").textContent = `Design ${this.name}`;
     this.svg = this.figure.querySelector("svg");
+    const fold = this.figure.querySelector("details");
+    fold.open = page.told; // as with the lever before
+    fold.ontoggle = () => (page.told = fold.open);
     this.alarm = this.figure.querySelector(".alarm");
     this.alarm.querySelector("button").onclick = recover;
-    this.parts = Object.fromEntries(["under", "objects", "over"].map((n) => [n, this.figure.querySelector("." + n)]));
-    let scale = `<path class="scale" d="${path(arc(-1.55, 1.55, LENGTH + 16))}"/>`;
-    for (let mark = -1.5; mark <= 1.51; mark += 0.5) {
-      const [x, y] = at(mark, LENGTH + 34);
-      scale += `<path class="scale" d="${ray(mark, LENGTH + 11, LENGTH + 21)}"/><text x="${x - 12}" y="${y + 4}">${fixed(mark, 1)}</text>`;
-    }
-    this.parts.under.innerHTML = scale;
+    this.parts = Object.fromEntries(["objects", "over"].map((n) => [n, this.figure.querySelector("." + n)]));
     place.append(this.figure);
     this.svg.addEventListener("pointerdown", (event) => {
       this.svg.setPointerCapture(event.pointerId);
@@ -62,11 +61,21 @@ class Device {
     });
   }
 
+  /** Somebody takes the lever, or lets go; the hand that showed how is gone for good. */
   take(held) {
-    if (held && !this.held) this.lead = this.now.theta;
+    if (held && (!this.held || page.shows)) this.lead = this.now.theta;
+    page.shows = false;
     this.held = held;
     this.loop.hold(held ? page.grip : 0);
     this.svg.classList.toggle("held", held);
+  }
+
+  /** Nobody's hand, which shows how: it presses for a while and lets go. */
+  show(seconds) {
+    if (!this.held) this.loop.hold(1);
+    this.held = true;
+    const part = seconds % SHOW_S, way = (from, to) => { const x = Math.max(0, Math.min(1, (part - from) / (to - from))); return x * x * (3 - 2 * x); };
+    this.aim(this.scene === "wall" ? 0.05 + 0.95 * (way(0, 1) - way(2.4, 3.4)) : 0.9 * Math.sin((2 * Math.PI * seconds) / SHOW_S));
   }
 
   /** Forgets its faults now, and arms with the next frame: the core is to see the request low first. */
@@ -97,10 +106,15 @@ class Device {
     return this.loop.select(scene);
   }
 
+  /** One tick, in which the hand stands still. */
+  step() {
+    return this.advance(1, 1, this.status.hand_rad);
+  }
+
   /** Runs for so many ticks; returns an error or nothing. */
-  advance(ticks) {
-    this.loop.lead(this.lead);
-    const said = this.loop.advance(ticks, 200);
+  advance(ticks, every = 200, lead = this.lead) {
+    this.loop.lead(lead);
+    const said = this.loop.advance(ticks, every);
     const samples = this.loop.samples(), h = this.history;
     for (let i = 0; i < samples.length; i += SAMPLE.length) {
       for (let n = 0; n < SAMPLE.length; ++n) h[SAMPLE[n]][h.next] = samples[i + n];
@@ -121,15 +135,14 @@ class Device {
   draw(values) {
     const s = { ...this.now, tau: this.now.tau_ref, held: this.held }, g = this.geometry || {};
     this.parts.objects.innerHTML = drawing(this.scene, g, s);
-    const [hx, hy] = at(s.theta, LENGTH), newton = s.torque / RADIUS_M;
-    let over = `<path class="lever" d="${ray(s.theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
+    const ball = at(s.theta, LENGTH), newton = s.torque / RADIUS_M;
+    let over = motor_and_bar(s.theta);
     if (this.held) {
-      const [gx, gy] = at(s.hand, LENGTH);
-      over += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
+      if (!page.shows) over += `<path class="handline" d="${path([ball, at(s.hand, LENGTH)])}"/>${circle("handring", at(s.hand, LENGTH), 26)}`;
+      over += hand_at(s.theta, s.hand - s.theta);
     }
-    over += force_at([hx, hy], s.theta, newton, 18, 90);
-    if (!this.status.armed) over += `<text class="off" x="${hx}" y="${hy - 26}">motor off</text>`;
-    over += `<text x="12" y="24">${fixed(newton, 2)} N at the handle</text><text x="12" y="42">${fixed(s.theta)} rad</text>`;
+    over += force_at(ball, s.theta, newton, 70, 100) + this.newton_text(s.theta, newton);
+    if (!this.status.armed) over += `<text class="off" x="${CENTRE[0]}" y="${CENTRE[1] - 78}">motor off</text>`;
     this.parts.over.innerHTML = over;
     const state = this.figure.querySelector(".state"), st = this.status;
     const warm = st.torque_limit_nm < this.words.torque_limit - 0.001 ? `; the motor is warm and gives up to ${fixed(st.torque_limit_nm / RADIUS_M, 1)} N` : "";
@@ -147,6 +160,14 @@ class Device {
       `${law}\nasked ${fixed(s.tau_ref)} Nm, motor ${fixed(s.torque)} Nm, observed ${fixed(s.tau_hat)} Nm\nF = τ/r = ${fixed(s.torque)} / ${RADIUS_M} = ${fixed(newton, 2)} N`;
     this.svg.setAttribute("aria-valuenow", this.lead.toFixed(2));
     this.svg.setAttribute("aria-valuetext", `lever at ${s.theta.toFixed(2)} rad, ${newton.toFixed(1)} newton`);
+  }
+
+  /** The force on the fingertip, at the head of its arrow. */
+  newton_text(theta, newton) {
+    if (Math.abs(newton) > 0.05) this.side = Math.sign(newton);
+    const side = this.side ||= -1, reach = side * (34 + Math.min(100, 70 * Math.abs(newton))), [hx, hy] = at(theta, LENGTH);
+    const x = Math.max(side < 0 ? 110 : 0, Math.min(side < 0 ? 500 : 378, hx + reach * Math.cos(theta))), y = Math.max(-30, Math.min(380, hy + reach * Math.sin(theta)));
+    return `<text class="newton" text-anchor="${side < 0 ? "end" : "start"}" x="${x.toFixed(1)}" y="${(y + 8).toFixed(1)}">${fixed(Math.abs(newton), 2)} N</text>`;
   }
 
   remove() {

@@ -52,7 +52,7 @@ class DrumsTab {
     });
     DRUMS.forEach((drum, n) => {
       const label = document.createElement("label"), shown = document.createElement("output");
-      const range = Object.assign(document.createElement("input"), { type: "range", min: 0, max: 2000, step: 10, value: drum.skin });
+      const range = Object.assign(document.createElement("input"), { id: `drums-skin${n + 1}`, type: "range", min: 0, max: 2000, step: 10, value: drum.skin });
       label.className = "slider";
       range.oninput = () => { say(this.stick.set(`skin${n + 1}`, Number(range.value))); shown.textContent = `${range.value} N/m`; };
       shown.textContent = `${drum.skin} N/m`;

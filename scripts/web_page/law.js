@@ -5,13 +5,13 @@ const LAW_DESIGN = "lever_law"; // which has an engine
 const PAUSE_MS = 400; // of typing, before the law is compiled
 const TURN_POINTS = 1441;
 
-SCENES.law = { title: "a law of yours", sliders: [], law: (v, s) => `τ = f(θ, ω), your law: ${fixed(s.tau_ref)} Nm at ${fixed(s.theta)} rad, ${fixed(s.omega, 2)} rad/s` };
+SCENES.law = { title: "a law of yours", begin: "Write how the force goes, take the ball and feel it.", sliders: [], law: (v, s) => `τ = f(θ, ω), your law: ${fixed(s.tau_ref)} Nm at ${fixed(s.theta)} rad, ${fixed(s.omega, 2)} rad/s` };
 
 const law_sliders = (parameters) => parameters.map((p) => ({ ...p, name: `law:${p.name}`, law: p.name, label: p.name }));
 
 class LawEditor {
   /** `changed(text)` is called with a law that compiles. */
-  constructor(laws, worker, changed) {
+  constructor(laws, text, worker, changed) {
     this.laws = laws;
     this.worker = worker;
     this.changed = changed;
@@ -27,8 +27,8 @@ class LawEditor {
       this.waiting = setTimeout(() => this.check(), PAUSE_MS);
     };
     this.text.onscroll = () => this.point();
-    $("shipped").value = "detent";
-    this.text.value = laws.detent;
+    $("shipped").value = Object.keys(laws).find((name) => laws[name] === text) || "";
+    this.text.value = text;
   }
 
   show(text) {

@@ -60,7 +60,7 @@ class MaterialStage {
   draw() {
     const s = this.seen, [hx, hy] = at(s.theta, LENGTH), [gx, gy] = at(s.hand, LENGTH), newton = s.torque / RADIUS_M;
     let text = `<path class="solid" d="${sector(Math.max(FACE_RAD, s.theta), 1.2, 60, 225)}"/><path class="object" d="${ray(FACE_RAD, 60, 225)}"/>`;
-    text += `<path class="lever" d="${ray(s.theta, 0, LENGTH)}"/><circle class="hub" cx="${CENTRE[0]}" cy="${CENTRE[1]}" r="16"/><circle class="knob" cx="${hx}" cy="${hy}" r="12"/>`;
+    text += motor_and_bar(s.theta);
     text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
     text += force_at([hx, hy], s.theta, newton, 18, 90);
     this.svg.innerHTML = text;

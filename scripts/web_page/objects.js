@@ -2,45 +2,53 @@
 "use strict";
 
 const SCENES = {
-  free: { title: "free", sliders: [], law: () => "τ = 0" },
+  free: { title: "free", begin: "Take the ball and swing the lever: the motor does nothing, you feel bearing and gears.", sliders: [], law: () => "τ = 0" },
   setpoint: {
     title: "constant torque",
+    begin: "Take the ball and hold it: the motor pushes with the same force everywhere.",
     sliders: [{ name: "setpoint_torque", label: "torque", unit: "Nm", low: -0.4, high: 0.4, value: 0.07 }],
     law: (v, s) => (s.held ? `τ = τ₀ = ${fixed(v.setpoint_torque)} Nm` : `τ = 0: nobody holds the lever
 τ₀ = ${fixed(v.setpoint_torque)} Nm would only make it faster`),
   },
   membrane: {
     title: "membrane",
+    begin: "Take the ball and press it through the membrane.",
     sliders: [{ name: "membrane_torque", label: "torque", unit: "Nm", low: 0, high: 0.5, value: 0.07 }],
     law: (v, s) => `τ = ∓τₘ between the faces ${fixed(v.lower)} and ${fixed(v.upper)} rad\nτₘ = ${fixed(v.membrane_torque)} Nm, θ = ${fixed(s.theta)} rad`,
   },
   spring_compression: {
     title: "spring, pressed",
+    begin: "Take the ball and press it to the left, into the spring.",
     sliders: [{ name: "compression_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0, high: 1.9, value: 0.3 }],
     law: (v, s) => `τ = K (θc − θ) below θc\n  = ${fixed(v.compression_stiffness)} · (${fixed(v.contact)} − ${fixed(s.theta)})`,
   },
   spring_tension: {
     title: "spring, stretched",
+    begin: "Take the ball and pull at the spring.",
     sliders: [{ name: "tension_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0, high: 1.9, value: 0.15 }],
     law: (v, s) => `τ = −K (θ − θ₀)\n  = −${fixed(v.tension_stiffness)} · (${fixed(s.theta)} − ${fixed(v.rest)})`,
   },
   damper: {
     title: "damper",
+    begin: "Take the ball and stir quickly: it is like oil.",
     sliders: [{ name: "damper_damping", label: "damping", unit: "Nm s/rad", low: 0, high: 0.05, value: 0.03 }],
     law: (v, s) => `τ = −B ω\n  = −${fixed(v.damper_damping)} · ${fixed(s.omega, 2)} rad/s`,
   },
   charge_attract: {
     title: "charge, attracts",
+    begin: "Take the ball past the charge: it is pulled in.",
     sliders: [{ name: "attract_strength", label: "strength", unit: "Nm rad²", per_count2: true, slope: "attract_core_slope", low: 0, high: 0.04, value: 0.003 }],
     law: (v, s) => `τ = −C d/|d|³, linear within ${fixed(v.core)} rad\n  C = ${fixed(v.attract_strength, 4)} Nm rad², d = ${fixed(s.theta - v.centre)} rad`,
   },
   charge_repel: {
     title: "charge, repels",
+    begin: "Take the ball past the charge: it is pushed away.",
     sliders: [{ name: "repel_strength", label: "strength", unit: "Nm rad²", per_count2: true, slope: "repel_core_slope", low: 0, high: 0.04, value: 0.003 }],
     law: (v, s) => `τ = C d/|d|³, linear within ${fixed(v.core)} rad\n  C = ${fixed(v.repel_strength, 4)} Nm rad², d = ${fixed(s.theta - v.centre)} rad`,
   },
   wall: {
     title: "wall",
+    begin: "Take the ball and press it into the bricks.",
     sliders: [
       { name: "wall_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0.5, high: 60, value: 4, log: true },
       { name: "wall_damping", label: "damping", unit: "Nm s/rad", low: 0, high: 0.05, value: 0.005 },
@@ -97,13 +105,40 @@ function coil(from, to, r, turns) {
 }
 const sector = (from, to, inner, outer) => path([...arc(from, to, inner), ...arc(to, from, outer)]) + "Z";
 
+const degrees = (rad) => ((rad * 180) / Math.PI).toFixed(2);
+const BAR = 8; // half of its width
+const circle = (kind, [x, y], r) => `<circle class="${kind}" cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${r}"/>`;
+
+/** A wall whose face the bar meets at `contact`; what is pressed in glows. */
+function brick_wall(contact, theta) {
+  const [x, y] = [CENTRE[0] + BAR, CENTRE[1] - 205], pressed = Math.max(contact, theta);
+  const box = (kind, wide) => `<rect class="${kind}" x="${x}" y="${y}" width="${wide}" height="140"/>`;
+  return `<g transform="rotate(${degrees(contact)} ${CENTRE})"><rect class="shadow" x="${x + 6}" y="${y + 8}" width="128" height="140"/>${box("bricks", 128)}${box("mortar", 128)}</g>
+    <path class="pressed" d="${sector(contact, pressed, 65, 205)}"/>`;
+}
+
+/** A motor seen along its shaft, and the bar with a ball that sits on it. */
+function motor_and_bar(theta) {
+  const [x, y] = CENTRE, ball = at(theta, LENGTH), bar = ray(theta, -24, LENGTH - 8);
+  const screws = [0.8, 2.35, 3.95, 5.5].map((a) => circle("screw", [x + 47 * Math.cos(a), y + 47 * Math.sin(a)], 4.5));
+  return `<path class="cable" d="M${x} ${y + 50}q4 30 40 34t60 46"/>${circle("shadow", [x + 4, y + 7], 60)}${circle("can", [x, y], 60)}${circle("flange", [x, y], 40)}${screws.join("")}<text class="engraved" x="${x}" y="${y + 54}">motor</text>
+    <path class="edge" d="${bar}"/><path class="lever" d="${bar}"/>${circle("hub", [x, y], 17)}${circle("screw", [x, y], 7)}${circle("knob", ball, 19)}${circle("gloss", ball, 19)}`;
+}
+
+/** A hand around the ball of a lever at theta, leaning to where it wants to be. */
+function hand_at(theta, lean) {
+  const [x, y] = at(theta, LENGTH), tilt = Math.max(-14, Math.min(14, 40 * lean));
+  const finger = "M-21 3C-33 -22 -30 -56 -6 -84", thumb = "M21 5C33 -20 30 -48 14 -80", palm = "M6 -92L22 -150", sleeve = "M24 -158L46 -240";
+  const part = (kind, d) => `<path class="skin edge ${kind}" d="${d}"/>`, over = (kind, d) => `<path class="skin ${kind}" d="${d}"/>`;
+  return `<g class="hand" transform="translate(${x.toFixed(1)} ${y.toFixed(1)}) rotate(${(Number(degrees(theta)) + tilt).toFixed(2)})">
+    ${part("sleeve", sleeve)}${over("sleeve", sleeve)}${part("palm", palm)}${part("finger", finger)}${part("finger", thumb)}${over("palm", palm)}${over("finger", finger)}${over("finger", thumb)}
+    <ellipse class="nail" cx="-24" cy="-3" rx="3.5" ry="6" transform="rotate(-12 -24 -3)"/><ellipse class="nail" cx="24" cy="-1" rx="3.5" ry="6" transform="rotate(12 24 -1)"/></g>`;
+}
+
 /** SVG of the object around a lever at theta; it bends and moves as the lever acts on it. */
 function drawing(scene, g, s) {
   const shape = (kind, d) => `<path class="${kind}" d="${d}"/>`;
-  if (scene === "wall") {
-    const face = Math.max(g.contact, s.theta);
-    return shape("solid", sector(face, g.contact + 0.9, 60, 225)) + shape("object", path([...arc(g.contact, face, 60), at(face, 62), at(face, 225)]));
-  }
+  if (scene === "wall") return brick_wall(g.contact, s.theta);
   if (scene === "membrane") {
     const inside = s.theta > g.lower && s.theta < g.upper;
     const bulge = (face) => {

@@ -2,7 +2,7 @@
 "use strict";
 
 const $ = (id) => document.getElementById(id);
-const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [] };
+const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], paused: false, told: false, shows: false, shown_s: 0, count: 0 };
 window.feltgate = page; // for whoever wants to look inside
 
 const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
@@ -36,6 +36,7 @@ function place_devices() {
 
 /** A law that compiles is felt at once, with the values that it says. */
 function take_law(text) {
+  if (text === page.law) return;
   page.law = text;
   for (const name of Object.keys(page.values)) if (name.startsWith("law:")) delete page.values[name];
   if (page.scene !== "law") return;
@@ -72,13 +73,14 @@ function say(text) {
 }
 
 function select_scene(scene) {
-  const other_design = (page.scene === "law") !== (scene === "law");
+  const other_design = !page.devices.length || (page.scene === "law") !== (scene === "law");
   page.scene = scene;
   $("law").hidden = scene !== "law";
   if (other_design) place_devices();
   build_sliders();
   devices((d) => { apply_values(d); say(d.select(scene)); });
   if (scene === "law" && !$("law-table").textContent) page.editor.check();
+  $("begin").textContent = SCENES[scene].begin;
   ask_verdict();
 }
 
@@ -123,7 +125,7 @@ function ask_verdict() {
   const box = $("verdict");
   box.className = "";
   box.textContent = "";
-  if (page.scene !== "wall") return;
+  if (page.scene !== "wall" || !$("object").open) return;
   const stiffness = page.values.wall_stiffness;
   page.asking = setTimeout(async () => {
     const lines = [];
@@ -142,6 +144,8 @@ function ask_verdict() {
 }
 
 function build_controls() {
+  page.inside = new Inside();
+  $("object").ontoggle = ask_verdict;
   for (const scene of Object.keys(SCENES)) {
     const label = document.createElement("label"), radio = document.createElement("input");
     Object.assign(radio, { type: "radio", name: "scene", value: scene, checked: scene === page.scene });
@@ -167,7 +171,7 @@ function build_controls() {
   };
   document.addEventListener("keydown", (event) => {
     if (page.tab !== "lever" || event.ctrlKey || event.altKey || event.metaKey || /INPUT|SELECT|TEXTAREA/.test(event.target.tagName)) return;
-    const button = { a: "arm", s: "stop", c: "clear" }[event.key.toLowerCase()];
+    const button = { a: "arm", s: "stop", c: "clear", p: "pause", n: "step" }[event.key.toLowerCase()];
     if (button) $(button).click();
   });
   $("own").onchange = async () => { const file = $("own").files[0]; if (file) drop(file.name, await file.text()); };
@@ -187,18 +191,24 @@ function build_controls() {
   $("check").onclick = compare_bits;
 }
 
-function drop(name, text) {
+/** A design file of the user, to be chosen as "own design"; says whether it can be. */
+function take_design(name, text) {
   const own = page.core.ownDesign(text);
   if (own.error) {
     $("own-said").textContent = own.error.replace(/^own\.toml/, name);
-    return;
+    return false;
   }
   page.own = { name: name.replace(/\.toml$/, ""), text, base: own.base, values: own.values };
   for (const id of ["first", "second"]) {
     if (![...$(id).options].some((o) => o.value === "own")) $(id).append(option("own", "own design"));
   }
-  $("second").value = "own";
   $("own-said").textContent = `${name}: on the core of ${own.base}, with its own parameters.`;
+  return true;
+}
+
+function drop(name, text) {
+  if (!take_design(name, text)) return;
+  $("second").value = "own";
   place_devices();
   ask_verdict();
 }
@@ -251,12 +261,12 @@ function select_tab(name) {
     tab.tabIndex = chosen ? 0 : -1;
     $(tab.getAttribute("aria-controls")).hidden = !chosen;
   }
-  if (name === "pantograph") page.pantograph ??= new PenTab(page.core, page.numbers);
-  if (name === "drums") page.drums ??= new DrumsTab(page.core, page.numbers);
-  if (name === "materials") page.materials ??= new MaterialsTab(page.core, page.numbers);
-  if (name === "coupled") page.coupled ??= new CoupledTab(page.core, page.numbers);
-  if (name === "string") page.string ??= new StringTab(page.core, page.numbers);
-  if (name === "stylus") page.stylus ??= new StylusTab(page.core, page.numbers);
+  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab }[name];
+  if (make && !page[name]) {
+    page[name] = new make(page.core, page.numbers);
+    page.address.opened(name, true);
+  }
+  $("devices-name").textContent = $(`tab-${name}`).textContent;
   page.speed = 0;
 }
 
@@ -264,7 +274,10 @@ function build_tabs() {
   const tabs = [...document.querySelectorAll("[role=tab]")];
   tabs.forEach((tab, n) => {
     const name = tab.getAttribute("aria-controls");
-    tab.onclick = () => select_tab(name);
+    tab.onclick = (event) => {
+      select_tab(name);
+      if (event.detail) $("devices").open = false; // by the arrow keys the next one is near
+    };
     tab.onkeydown = (event) => {
       const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
       if (!step) return;
@@ -273,7 +286,8 @@ function build_tabs() {
       next.click();
     };
   });
-  select_tab("lever");
+  const wanted = page.address.wanted.get("tab");
+  select_tab(tabs.some((tab) => tab.id === `tab-${wanted}`) ? wanted : "lever");
 }
 
 function frame(time) {
@@ -283,28 +297,41 @@ function frame(time) {
   if (passed <= 0) return;
   page.frames.push(time);
   if (page.frames.length > 600) page.frames.shift();
-  if (page.tab === "lever") {
+  if (page.tab === "lever") lever_frame(passed);
+  else page[page.tab].frame(passed);
+  if (page.frames.length === 1) page.first_frame_ms = performance.now();
+  if (++page.count % 15) return;
+  $("speed").textContent = `${fixed(page.speed, 1)}× real time`;
+  if (page.tab === "lever") page.inside.show();
+  page.address.write();
+}
+
+function lever_frame(passed) {
+  if (!page.paused) {
+    if (page.shows) devices((d) => d.show(page.shown_s));
+    page.shown_s += passed;
     run_timed(passed, () => devices((d) => {
       const error = d.advance(Math.round(passed * d.info.tick_hz));
       if (error) { say(error); d.loop.arm(false); }
     }));
-    devices((d) => d.draw(page.values));
-    draw_curves(page.devices);
-    if (page.scene === "law") draw_turn(page.devices[0]);
-  } else page[page.tab].frame(passed);
-  if (page.frames.length % 15 === 0) $("speed").textContent = `${fixed(page.speed, 1)}× real time`;
+  }
+  devices((d) => d.draw(page.values));
+  draw_curves(page.devices);
+  if (page.scene === "law") draw_turn(page.devices[0]);
 }
 
 (async () => {
   Object.assign(page, await load_core());
   $("version").textContent = page.numbers.version;
   page.law = page.numbers.laws.detent;
-  page.editor = new LawEditor(page.numbers.laws, page.worker, take_law);
-  build_tabs();
+  page.shows = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  page.address = new Address();
   build_controls();
-  build_sliders();
-  place_devices();
-  ask_verdict();
+  page.address.restore_lever();
+  page.editor = new LawEditor(page.numbers.laws, page.law, page.worker, take_law);
+  document.querySelector(`#scenes input[value=${page.scene}]`).checked = true;
+  select_scene(page.scene);
+  build_tabs();
   requestAnimationFrame(frame);
   page.ready = true;
 })();

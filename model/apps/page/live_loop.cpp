@@ -32,17 +32,37 @@ StepPlan plan_for(const plant::Parameters& plant, const DesignInfo& d) {
   return {scene_of(plant, hand), plant, d};
 }
 
-/// Every word of a snapshot, in the order of the struct.
-void add(Fnv1a& hash, const Snapshot& s) {
-  for (const std::int64_t word :
-       {std::int64_t{s.tick}, std::int64_t{s.position}, s.velocity, s.tau_hat, s.tau_ref,
-        s.current_ref, s.voltage, s.duty, std::int64_t{s.scene}, std::int64_t{s.limits},
-        std::int64_t{s.faults}, std::int64_t{s.first_fault}, std::int64_t{s.armed ? 1 : 0}}) {
-    hash.add(word);
-  }
+template <auto Member>
+std::int64_t number(const Snapshot& s) {
+  return static_cast<std::int64_t>(s.*Member);
+}
+template <auto Member>
+Format format(const DesignInfo& d) {
+  return d.*Member;
+}
+template <int sign, int integer, int fraction = 0>
+Format fixed(const DesignInfo& /*any*/) {
+  return {sign, integer, fraction};
 }
 
 }  // namespace
+
+const std::array<Word, 14> snapshot_words{{
+    {"tick", "", number<&Snapshot::tick>, fixed<0, 32>},
+    {"position", "counts", number<&Snapshot::position>, fixed<1, 31>},
+    {"velocity", "rad/s", number<&Snapshot::velocity>, format<&DesignInfo::velocity>},
+    {"tau_hat", "Nm", number<&Snapshot::tau_hat>, format<&DesignInfo::torque>},
+    {"tau_ref", "Nm", number<&Snapshot::tau_ref>, format<&DesignInfo::torque>},
+    {"current_ref", "A", number<&Snapshot::current_ref>, format<&DesignInfo::current>},
+    {"voltage", "V", number<&Snapshot::voltage>, format<&DesignInfo::voltage>},
+    {"duty", "clocks", number<&Snapshot::duty>, fixed<1, 15>},
+    {"current", "of full scale", number<&Snapshot::current>, fixed<1, 1, 17>},
+    {"scene", "", number<&Snapshot::scene>, fixed<0, 4>},
+    {"limits", "", number<&Snapshot::limits>, fixed<0, 12>},
+    {"faults", "", number<&Snapshot::faults>, fixed<0, 16>},
+    {"first_fault", "", number<&Snapshot::first_fault>, fixed<0, 5>},
+    {"armed", "", number<&Snapshot::armed>, fixed<0, 1>},
+}};
 
 LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
     : plant_(plant, plant.effects, plant::drive_of(design_named(design)), plant::Hand{}),
@@ -201,6 +221,12 @@ void LiveLoop::host(const Snapshot& s) {
 
 void LiveLoop::tick(const Snapshot& s) {
   last_ = s;
+  const std::size_t place = static_cast<std::size_t>(ticks_) % most_ticks_kept;
+  if (place == kept_.size()) {
+    kept_.push_back(s);
+  } else {
+    kept_[place] = s;
+  }
   motor_.pass(s.voltage, s.velocity);
   if (s.faults != 0 && armed_) arm(false);  // as a panel does: nothing arms again by itself
   if (host_ticks_ > 1 && scene_ == "wall" && ticks_ % host_ticks_ == 0) host(s);
@@ -212,6 +238,14 @@ void LiveLoop::tick(const Snapshot& s) {
                       o.theta_rad, held() ? hand_rad_ : o.theta_rad, core_.torque_nm(s.tau_ref),
                       core_.torque_nm(s.tau_hat), mean_.mean(), o.hand_torque_nm,
                       core_.velocity_rad_s(s), float_nm, s.position * design().count_rad});
+}
+
+std::vector<Snapshot> LiveLoop::last_ticks() const {
+  const std::size_t oldest =
+      kept_.size() < most_ticks_kept ? 0 : static_cast<std::size_t>(ticks_) % most_ticks_kept;
+  std::vector<Snapshot> list(kept_.begin() + static_cast<std::ptrdiff_t>(oldest), kept_.end());
+  list.insert(list.end(), kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(oldest));
+  return list;
 }
 
 double LiveLoop::take_difference() { return std::exchange(difference_nm_, 0.0); }
@@ -241,7 +275,9 @@ std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
   Fnv1a hash;
   std::size_t edge = 0, write = 0;
   const auto note = [&] {
-    for (const Snapshot& s : backend->snapshots()) add(hash, s);
+    for (const Snapshot& s : backend->snapshots()) {
+      for (const Word& word : snapshot_words) hash.add(word.value(s));
+    }
   };
   while (backend->now() < inputs.clocks) {
     const Clock now = backend->now();

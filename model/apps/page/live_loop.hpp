@@ -6,6 +6,7 @@
 // docs/page.md
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -42,6 +43,18 @@ struct Sample {
 };
 
 constexpr std::size_t sample_values = 10;  ///< numbers of a Sample
+
+/// A word of the snapshot: its number, and the format that gives it its unit.
+struct Word {
+  const char* name;
+  const char* unit;
+  std::int64_t (*value)(const Snapshot&);
+  Format (*format)(const DesignInfo&);
+};
+
+/// Every word of a snapshot, in the order of the struct.
+extern const std::array<Word, 14> snapshot_words;
+constexpr std::size_t most_ticks_kept = 1000;
 
 class LiveLoop {
  public:
@@ -80,6 +93,11 @@ class LiveLoop {
   const std::vector<Sample>& samples() const { return samples_; }
   /// The snapshot of the last tick.
   const Snapshot& snapshot() const { return last_; }
+  /// The snapshots of the last most_ticks_kept ticks, or of all where there were fewer; oldest
+  /// first.
+  std::vector<Snapshot> last_ticks() const;
+  /// The hand's target of the lever's angle at the end of the last advance().
+  double hand_rad() const { return held() ? hand_rad_ : plant_.observables().theta_rad; }
   const plant::Observables& observables() const { return plant_.observables(); }
   /// Limit of the motor's torque, Nm; the host lowers it while the motor is warm.
   double torque_limit_nm() const { return limit_nm_; }
@@ -121,6 +139,7 @@ class LiveLoop {
   int every_ = 1;
   double difference_nm_ = 0;
   Snapshot last_;
+  std::vector<Snapshot> kept_;  ///< a ring; tick n since the start is at n % most_ticks_kept
   std::vector<Sample> samples_;
 };
 

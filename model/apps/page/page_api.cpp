@@ -97,6 +97,31 @@ class Loop {
     return val(emscripten::typed_memory_view(list.size() * page::sample_values,
                                              reinterpret_cast<const double*>(list.data())));
   }
+  /// Names, units and formats of the words of a snapshot.
+  val words() const {
+    val list = val::array();
+    for (const page::Word& word : page::snapshot_words) {
+      const feltgate::Format format = word.format(loop_.design());
+      val one = val::object();
+      one.set("name", std::string(word.name));
+      one.set("unit", std::string(word.unit));
+      one.set("bits", format.width());
+      one.set("fraction", format.fraction);
+      list.call<void>("push", one);
+    }
+    return list;
+  }
+  /// The words of the last ticks as one array of doubles, oldest tick first; valid until the next
+  /// call.
+  val last_ticks() {
+    words_.clear();
+    for (const feltgate::Snapshot& s : loop_.last_ticks()) {
+      for (const page::Word& word : page::snapshot_words) {
+        words_.push_back(static_cast<double>(word.value(s)));
+      }
+    }
+    return val(emscripten::typed_memory_view(words_.size(), words_.data()));
+  }
   val status() {
     const feltgate::Snapshot& s = loop_.snapshot();
     feltgate::Reading names;
@@ -109,6 +134,7 @@ class Loop {
     out.set("faults", names.fault_names());
     out.set("position", s.position);
     out.set("theta_rad", loop_.observables().theta_rad);
+    out.set("hand_rad", loop_.hand_rad());
     out.set("difference_nm", loop_.take_difference());
     out.set("torque_limit_nm", loop_.torque_limit_nm());
     out.set("gentle_nm", loop_.gentle_nm());
@@ -146,6 +172,7 @@ class Loop {
  private:
   page::LiveLoop loop_;
   std::unique_ptr<page::UserLaw> law_;
+  std::vector<double> words_;
 };
 
 /// What is wrong with a law, by line; or the table of `feltgate law`.
@@ -252,6 +279,8 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("lead", &Loop::lead)
       .function("advance", &Loop::advance)
       .function("samples", &Loop::samples)
+      .function("words", &Loop::words)
+      .function("lastTicks", &Loop::last_ticks)
       .function("status", &Loop::status)
       .function("parameters", &Loop::parameters)
       .function("design", &Loop::design);

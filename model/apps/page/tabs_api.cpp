@@ -12,10 +12,13 @@
 #include "apps/page/pen_loop.hpp"
 #include "apps/page/said.hpp"
 #include "apps/page/stick_loop.hpp"
+#include "apps/page/string_loop.hpp"
+#include "apps/page/stylus_loop.hpp"
 
 namespace {
 
 using emscripten::val;
+using feltgate::plant::Vec3;
 namespace page = feltgate::page;
 using page::said;
 
@@ -128,6 +131,116 @@ class Coupled {
   page::CoupledLoop loop_;
 };
 
+/// A lever that bows a string.
+class BowString {
+ public:
+  /// An image, and where it keeps what comes to the bridge.
+  BowString(const std::string& image, int heard_address, double heard_scale)
+      : loop_(image, {heard_address, heard_scale}) {}
+  std::string set(const std::string& name, double value) {
+    return said([&] { loop_.set(name, value); });
+  }
+  void lead(double theta_rad) { loop_.lead(theta_rad); }
+  void draw(double bow_m_s) { loop_.draw(bow_m_s); }
+  std::string advance(double seconds) {
+    return said([&] { loop_.advance(seconds); });
+  }
+  /// Angles, rad; speed, rad/s; torque of the law, Nm, now and in the
+  /// mean of the last advance(); slips of the last advance(), s.
+  val state() const {
+    val out = val::object(), slips = val::array();
+    out.set("theta", loop_.theta_rad());
+    out.set("hand", loop_.hand_rad());
+    out.set("speed", loop_.speed_rad_s());
+    out.set("torque", loop_.torque_nm());
+    out.set("mean_torque", loop_.mean_nm());
+    out.set("time", loop_.time_s());
+    out.set("rate_hz", 1 / loop_.law().period_s());
+    for (const page::StringSlip& s : loop_.slips()) {
+      val one = val::object();
+      one.set("time", s.time_s);
+      one.set("since", s.since_s);
+      slips.call<void>("push", one);
+    }
+    out.set("slips", slips);
+    return out;
+  }
+  /// What came to the bridge in the last advance(), m/s, a value each run: a Float32Array that is
+  /// valid until the next call.
+  val heard() const {
+    return val(emscripten::typed_memory_view(loop_.heard_m_s().size(), loop_.heard_m_s().data()));
+  }
+
+ private:
+  page::StringLoop loop_;
+};
+
+val array_of(Vec3 v) {
+  val list = val::array();
+  for (const double part : {v.x, v.y, v.z}) list.call<void>("push", part);
+  return list;
+}
+
+Vec3 vector_of(const val& list) {
+  return {list[0].as<double>(), list[1].as<double>(), list[2].as<double>()};
+}
+
+double number(const val& of, const char* key) { return of[key].as<double>(); }
+
+/// A pen on three slides in a hand, and a host with a world.
+class Stylus {
+ public:
+  /// `slides`: mass_kg, friction_ns_m, capstan_m.
+  Stylus(const std::string& image, const val& slides)
+      : loop_(image, {number(slides, "mass_kg"), number(slides, "friction_ns_m"),
+                      number(slides, "capstan_m")}) {}
+  std::string set(const std::string& name, double value) {
+    return said([&] { loop_.set(name, value); });
+  }
+  /// `w`: kind, a number of PlaneHostSettings::World; centre, m; radius_m; stiffness_n_m,
+  /// damping_ns_m, friction; rate_hz and age_s of its planes.
+  void touch(const val& w) {
+    feltgate::PlaneHostSettings world;
+    world.axes = 3;
+    world.world = static_cast<feltgate::PlaneHostSettings::World>(w["kind"].as<int>());
+    world.centre_m = vector_of(w["centre"]);
+    world.radius_m = number(w, "radius_m");
+    world.stiffness_n_m = number(w, "stiffness_n_m");
+    world.damping_ns_m = number(w, "damping_ns_m");
+    world.friction = number(w, "friction");
+    world.rate_hz = number(w, "rate_hz");
+    world.latency_s = number(w, "age_s");
+    loop_.touch(world);
+  }
+  void place(double x_m, double y_m, double z_m) { loop_.place({x_m, y_m, z_m}); }
+  void lead(double x_m, double y_m, double z_m) { loop_.lead({x_m, y_m, z_m}); }
+  std::string advance(double seconds) {
+    return said([&] { loop_.advance(seconds); });
+  }
+  /// Places, m, speed, m/s, and force, N, as arrays; of the plane that came last its point and
+  /// normal, or null; depth, m; tilt, rad; age and time, s.
+  val state() const {
+    val out = val::object();
+    out.set("pen", array_of(loop_.pen_m()));
+    out.set("speed", array_of(loop_.velocity_m_s()));
+    out.set("hand", array_of(loop_.hand_m()));
+    out.set("force", array_of(loop_.force_n()));
+    out.set("limited", loop_.limited());
+    out.set("depth", loop_.depth_m());
+    const auto plane = loop_.plane();
+    out.set("point", plane ? array_of(plane->point_m) : val::null());
+    out.set("normal", plane ? array_of(plane->normal) : val::null());
+    out.set("tilt", loop_.tilt_rad());
+    out.set("age", loop_.age_s());
+    out.set("time", loop_.time_s());
+    out.set("rate_hz", 1 / loop_.law().period_s());
+    return out;
+  }
+
+ private:
+  page::StylusLoop loop_;
+};
+
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(feltgate_tabs) {
@@ -155,4 +268,22 @@ EMSCRIPTEN_BINDINGS(feltgate_tabs) {
       .function("lead", &Coupled::lead)
       .function("advance", &Coupled::advance)
       .function("state", &Coupled::state);
+  emscripten::class_<BowString>("BowString")
+      .constructor<std::string, int, double>()
+      .function("set", &BowString::set)
+      .function("lead", &BowString::lead)
+      .function("draw", &BowString::draw)
+      .function("advance", &BowString::advance)
+      .function("state", &BowString::state)
+      .function("heard", &BowString::heard);
+  emscripten::constant("STYLUS_MOST_N", page::StylusLoop::most_n);
+  emscripten::constant("STYLUS_REACH_M", page::StylusLoop::reach_m);
+  emscripten::class_<Stylus>("Stylus")
+      .constructor<std::string, val>()
+      .function("set", &Stylus::set)
+      .function("touch", &Stylus::touch)
+      .function("place", &Stylus::place)
+      .function("lead", &Stylus::lead)
+      .function("advance", &Stylus::advance)
+      .function("state", &Stylus::state);
 }

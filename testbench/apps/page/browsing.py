@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[3]))
-PAGE = ROOT / "docs/page.html"
+PAGE = Path(os.environ.get("FELTGATE_PAGE", ROOT / "docs/page.html"))  # a trial's, by hand
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.options import Options
@@ -22,15 +22,17 @@ except ImportError:
     webdriver = ActionChains = By = Keys = None
 DRIVER = shutil.which("chromedriver")
 ARGUMENTS = "--headless=new --no-sandbox --disable-dev-shm-usage --window-size=1400,1300".split()
+UNFOLD = "for (const fold of document.querySelectorAll('details')) fold.open = true"
 PATIENCE_S = 120  # of whole minutes on a machine that does other things too
 
 
 def opened():
-    """A browser with the page in it, ready; for pictures and measurements."""
+    """A browser with the page in it, ready and unfolded; for pictures and measurements."""
     driver = browser()
     driver.get(PAGE.as_uri())
     while not driver.execute_script("return !!(window.feltgate && feltgate.ready)"):
         time.sleep(0.1)
+    driver.execute_script(UNFOLD)
     return driver
 
 
@@ -83,6 +85,14 @@ class PageTest(unittest.TestCase):
         errors = [entry["message"] for entry in self.driver.get_log("browser")]
         self.assertEqual(errors, [])
         self.assertEqual(self.js("return feltgate.errors"), [])
+
+    def unfold(self):
+        """Everything that the first screen hides."""
+        self.js(UNFOLD)
+
+    def open_tab(self, name):
+        self.js("document.getElementById('devices').open = true")
+        self.driver.find_element(By.ID, f"tab-{name}").click()
 
     def js(self, script, *words):
         return self.driver.execute_script(script, *words)

@@ -99,6 +99,35 @@ TEST_CASE("a hand gives way where the motor would get too hot, and a warm motor 
   CHECK(std::abs(strong.torque_nm) < 0.2);
 }
 
+TEST_CASE("the last thousand ticks are kept, in order") {
+  LiveLoop loop = armed_wall();
+  const auto ticks_of = [&] {
+    std::vector<std::uint32_t> ticks;
+    for (const Snapshot& s : loop.last_ticks()) ticks.push_back(s.tick);
+    return ticks;
+  };
+  CHECK(ticks_of().empty());
+  std::size_t passed = 0;
+  for (const int more : {1, 998, 1, 1, 1, 2500}) {
+    loop.advance(more, 1);
+    passed += static_cast<std::size_t>(more);
+    const std::vector<std::uint32_t> ticks = ticks_of();
+    REQUIRE(ticks.size() == std::min<std::size_t>(passed, most_ticks_kept));
+    CHECK(loop.last_ticks().back() == loop.snapshot());
+    for (std::size_t n = 1; n < ticks.size(); ++n) REQUIRE(ticks[n] == ticks[n - 1] + 1);
+  }
+}
+
+TEST_CASE("while a hand stands still, a tick moves nothing by leaps") {
+  LiveLoop loop = armed_wall();
+  lead_to(loop, 0.8, 0.3, 0.0);
+  loop.lead(loop.hand_rad());
+  const double before = loop.observables().theta_rad;
+  loop.advance(1, 1);
+  CHECK(loop.hand_rad() == Approx(0.8).margin(1e-12));
+  CHECK(std::abs(loop.observables().theta_rad - before) < 20e-6);  // 20 rad/s
+}
+
 TEST_CASE("a constant torque acts while the lever is held") {
   LiveLoop loop("lever", plant_named("p24"));
   loop.select("setpoint");

@@ -39,8 +39,9 @@ def first_harmonic(values, times):
 class BowedString(PageTest):
     def setUp(self):
         super().setUp()
-        self.driver.find_element(By.ID, "tab-string").click()
+        self.open_tab("string")
         self.until("return !!feltgate.string")
+        self.unfold()
 
     def passes(self, seconds):
         begin = self.js("return feltgate.string.seen.time")

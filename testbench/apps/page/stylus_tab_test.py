@@ -33,8 +33,9 @@ tab.stroked = false;
 
 class Stylus(PageTest):
     def open(self, **controls):
-        self.driver.find_element(By.ID, "tab-stylus").click()
+        self.open_tab("stylus")
         self.until("return !!feltgate.stylus")
+        self.unfold()
         for name, value in controls.items():
             self.turn(name, value)
 
@@ -173,7 +174,7 @@ class Stylus(PageTest):
 def pictures(folder):
     """The sphere stroked at 50 Hz, the edge of the cube, and the plane pressed with 3.3 N."""
     driver = opened()
-    driver.find_element(By.ID, "tab-stylus").click()
+    driver.execute_script("document.getElementById('tab-stylus').click()")
     set_to = (
         "for (const [name, value] of Object.entries(arguments[0])) {"
         "const e = document.getElementById(`stylus-${name}`); e.value = value; e.oninput(); }"

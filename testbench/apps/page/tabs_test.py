@@ -17,8 +17,9 @@ from browsing import ActionChains, By, Keys, PageTest, main, taking
 
 class Pantograph(PageTest):
     def open_pantograph(self, mode="try"):
-        self.driver.find_element(By.ID, "tab-pantograph").click()
+        self.open_tab("pantograph")
         self.until("return !!feltgate.pantograph")
+        self.unfold()
         self.driver.find_element(By.CSS_SELECTOR, f"#pen-modes input[value={mode}]").click()
 
     def pen(self):
@@ -78,7 +79,7 @@ class Pantograph(PageTest):
         self.assertAlmostEqual(after[0] - before[0], -0.003)
         self.assertAlmostEqual(after[1] - before[1], 0.001)
         # The lever goes on where it was.
-        self.driver.find_element(By.ID, "tab-lever").click()
+        self.open_tab("lever")
         begin = self.js("return feltgate.devices[0].now.time")
         self.until("return feltgate.devices[0].now.time > arguments[0]", begin + 0.1)
 
@@ -167,8 +168,9 @@ class Pantograph(PageTest):
 
 class Materials(PageTest):
     def test_a_hand_rests_in_two_materials(self):
-        self.driver.find_element(By.ID, "tab-materials").click()
+        self.open_tab("materials")
         self.until("return !!feltgate.materials")
+        self.unfold()
         stage = self.driver.find_element(By.CSS_SELECTOR, "#materials-stages svg")
         stage.send_keys(Keys.ARROW_RIGHT)
         self.assertAlmostEqual(self.js("return feltgate.materials.lead"), 0.02)
@@ -221,8 +223,9 @@ class Coupled(PageTest):
         )
 
     def test_a_spring_is_felt_through_the_law(self):
-        self.driver.find_element(By.ID, "tab-coupled").click()
+        self.open_tab("coupled")
         self.until("return !!feltgate.coupled")
+        self.unfold()
         self.assertEqual(self.js("return feltgate.coupled.met"), "spring")
         count, hand, k, coupling = 2 * math.pi / 4096, 1.35, 1, 4
         for n, share in enumerate((0, 1)):
@@ -263,8 +266,9 @@ def fastest_m_s():
 
 class Drums(PageTest):
     def test_drums_are_hit_and_heard(self):
-        self.driver.find_element(By.ID, "tab-drums").click()
+        self.open_tab("drums")
         self.until("return !!feltgate.drums")
+        self.unfold()
         self.driver.find_element(By.ID, "drums-sound").click()
         self.until("return feltgate.drums.audio.state === 'running'")
         stage = self.driver.find_element(By.CSS_SELECTOR, "#drums-stage svg")

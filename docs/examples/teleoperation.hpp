@@ -25,7 +25,7 @@ namespace feltgate::examples {
 
 /// Gains of the coupling, and the limits of the controller.
 struct Coupling {
-  double stiffness_nm_rad = 0.8, damping_nm_s_rad = 0.002;
+  double stiffness_nm_rad = 0.8, damping_nm_s_rad = 0.005;
   double torque_share = 0.2;            ///< of the other side's observed torque that is added here
   double most_nm = 0.4;                 ///< largest torque of a side
   bool passivity = true;                ///< whether the controller acts
@@ -93,13 +93,12 @@ class Lever {
     const unsigned mask = 1u << angle_.word | 1u << velocity_.word | 1u << torque_.word;
     device_.stream(static_cast<std::uint16_t>(mask), period_ticks);
   }
-  /// Lets the board run to this time; what it has streamed last.
-  Packet measured(double time_s) {
-    wire_.run_to(clock_of(time_s));
-    while (const auto tick = device_.streamed(host::HostClock::now())) {
-      last_ = {tick->value(angle_), tick->value(velocity_), tick->value(torque_), 0};
-    }
-    return last_;
+  /// Waits for the next tick of the stream: a torque that is pushed at once then acts from this
+  /// tick to the next one, but for the time on the wire.
+  Packet measured() {
+    const auto tick = device_.streamed(host::within(1));
+    if (!tick) throw host::LinkLost(link_.name() + ": the stream has ended");
+    return {tick->value(angle_), tick->value(velocity_), tick->value(torque_), 0};
   }
   void push(double torque_nm) {
     link_.write(setpoint_.address, device_.quantities().setting(setpoint_, torque_nm).word);
@@ -112,9 +111,6 @@ class Lever {
     theta_rad_ = o.theta_rad;
     return j;
   }
-  double now_s() const {
-    return static_cast<double>(wire_.board().now()) / static_cast<double>(board_.clock_hz);
-  }
   const plant::Observables& plant() const { return wire_.board().plant(); }
   bool armed() { return device_.armed(device_.tick()); }
 
@@ -125,10 +121,6 @@ class Lever {
     o.baud = 3'000'000;
     return o;
   }
-  Clock clock_of(double time_s) const {
-    return std::llround(time_s * static_cast<double>(board_.clock_hz));
-  }
-
   board::BoardWire wire_;
   host::Link link_;
   host::BoardInfo board_;
@@ -137,7 +129,6 @@ class Lever {
   const host::Quantity& velocity_ = device_.quantities().find("velocity");
   const host::Quantity& torque_ = device_.quantities().find("tau_hat");
   const host::Quantity& setpoint_ = device_.quantities().find("setpoint_torque");
-  Packet last_;
   double motor_nm_ = 0, theta_rad_ = 0;
 };
 
@@ -172,12 +163,10 @@ inline Teleoperated teleoperate(const std::string& root, double delay_s, const C
 
   const auto late = static_cast<std::size_t>(std::llround(delay_s / dt_s));
   std::deque<Packet> to_follower(late + 1), to_leader(late + 1);
-  const double start_s = std::max(leader.now_s(), follower.now_s());
   Teleoperated out;
   double of_plant_j = 0;
   for (int n = 1; n * dt_s < run_s; ++n) {
-    const double at_s = start_s + n * dt_s;
-    Packet l = leader.measured(at_s), f = follower.measured(at_s);
+    Packet l = leader.measured(), f = follower.measured();
     l.energy_in_j = at_leader.in_j();
     f.energy_in_j = at_follower.in_j();
     to_follower.push_back(l);

@@ -3,12 +3,15 @@
 //
 // FMI 3.0 co-simulation: the functions that an importer calls, and two for `feltgate product fmu`,
 // which writes the FMU. FELTGATE_FMU_DESIGN is the design. Documentation: docs/product.md
+#include <fmt/format.h>
+
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "apps/fmu/fmi3.hpp"
 #include "apps/fmu/scene_model.hpp"
@@ -58,7 +61,7 @@ fmi3Status done(fmi3Instance instance, const Work& work) {
 }
 
 [[noreturn]] void refuse(fmi3ValueReference reference, const char* what) {
-  throw std::invalid_argument("value reference " + std::to_string(reference) + " is no " + what);
+  throw std::invalid_argument(fmt::format("value reference {} is no {}", reference, what));
 }
 
 const Variable& variable(fmi3ValueReference reference) {

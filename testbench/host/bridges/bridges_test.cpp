@@ -282,8 +282,8 @@ TEST_CASE("teleoperation: passive and stable with the controller, and not withou
       CHECK(t.fastest_rad_s > 50);
     }
   };
-  run(0, on, 0.8);
-  run(0.1, on, 1.2);
-  run(0.1, off, 0.7);
+  run(0.02, on, 0.8);  // nearest to the swing of the coupled levers
+  run(0.1, on, 1.0);
+  run(0.1, off, 0.8);
   run(0.2, on, 1.2);
 }

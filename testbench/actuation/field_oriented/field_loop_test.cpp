@@ -6,7 +6,8 @@
 // opens. Figures of docs/blocks/field_oriented.md
 #include <fmt/format.h>
 
-#include <optional>
+#include <cmath>
+#include <type_traits>
 
 #include "../../sim/plant/three_phase_fixture.hpp"
 #include "feltgate/commutation.hpp"
@@ -228,7 +229,7 @@ TEST_CASE("field_oriented: steps and a turn of the gimbal motor") {
   row("as it is", Rig(), 0.005, 50);
   // Sines of the current meet the harmonics: 2 (6 + 2) % less the loop's own answer.
   row("5th 6 %, 7th 2 % in the back-EMF", with_harmonics(), 0.03, kTwoPi);
-  check_page_figures("field_oriented", figures);
+  check_page_figures("field_oriented", figures, "field_loop");
 }
 
 TEST_CASE(

@@ -7,7 +7,6 @@
 #include "feltgate/field_oriented.hpp"
 
 #include <Vfield_oriented.h>
-#include <fmt/format.h>
 
 #include <cmath>
 

@@ -58,13 +58,14 @@ BAD = (
     ("current_sense", "CLOCK_HZ", 39_000_000, "an_over_current_must_be_latched_within_5_us_and"),
     ("absolute_encoder", "HalfClocks", 3, "a_parameter_is_out_of_its_range"),
     ("commutation", "Period", 999, "PERIOD_must_be_even_and_4_to_4094_and_MODULATION_0_or_1"),
+    ("field_oriented", "Period", 999, "PERIOD_must_be_even_and_4_to_4094"),
     ("pwm_three_phase", "DeadClocks", 0, "a_parameter_of_pwm_three_phase_is_out_of_its_range"),
 )
 WHOLE = "FELTGATE_WHOLE" in os.environ  # not a share of them
 TOPS = {"core": "feltgate_core", "checks": "feltgate_checks", "sequencer": "sequencer",
         "velocity_mt": "velocity_mt", "current_sense": "current_sense",
         "absolute_encoder": "absolute_encoder", "commutation": "commutation",
-        "pwm_three_phase": "pwm_three_phase"}
+        "field_oriented": "field_oriented", "pwm_three_phase": "pwm_three_phase"}
 
 
 def rtl_of(top):
@@ -105,7 +106,7 @@ class Elaboration(Scratch):
         texts, changed = [], 0
         for path in (PACKAGE, MAP, *RTL.glob(f"core/**/{TOPS[top]}.sv")):
             text, count = re.subn(
-                rf"((?:localparam|parameter) [^=;]*\b{constant} *= )[^;,]+([;,])", rf"\g<1>{value}\2",
+                rf"((?:localparam|parameter) [^=;]*\b{constant} *= )[^;,\n]+?( *(?:[;,]|//))", rf"\g<1>{value}\2",
                 path.read_text(encoding="utf-8"),
             )
             texts.append(text)

@@ -389,14 +389,12 @@ class CoreStimulus {
   Random random_, outside_;
   CoreIn in_;
   bool first_ = false;  ///< the next clock is the first of a tick
-  std::int64_t left_ = 0;
-  std::int64_t spacing_ = 0, wait_ = 0;
+  std::int64_t left_ = 0, spacing_ = 0, wait_ = 0;
   bool up_ = true, bad_cable_ = false, ramp_written_ = false;
   bool test_written_ = design_info<D>().find("self_test_pulse")->raw == 0;
   bool chatters_ = false, many_indices_ = false, gathers_ = false;
   std::deque<Write> plan_;
-  std::uint32_t rest_ = 0, zeros_ = 0;
-  std::uint32_t phase_ = 0, dead_ = 0, stop_left_ = 0;
+  std::uint32_t rest_ = 0, zeros_ = 0, phase_ = 0, dead_ = 0, stop_left_ = 0;
 };
 
 }  // namespace feltgate::test

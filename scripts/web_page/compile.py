@@ -60,7 +60,7 @@ def type_of(design):
 def engines(root, designs, folder):
     """Writes what CMake writes for a native build: an engine a design, and their list."""
     parts = (root / "scripts/cmake/design.cpp.in").read_text(encoding="utf-8")
-    template = parts.partition("== backends\n")[2].partition("== ")[0]
+    template = re.search(r"^== backends\n(.*?)^== ", parts, re.M | re.S).group(1)
     written = []
     for design in designs:
         path = folder / f"{design}_backends.cpp"

@@ -310,7 +310,7 @@ class Tests(Machine):
         log = self.log()
         built = [c.split(maxsplit=3)[3] for c in log if c.startswith("ninja") and " -t " not in c]
         self.assertEqual(built, ["build.ninja", "a_test"])
-        self.assertTrue([c for c in log if c.startswith("ctest") and c.endswith("-R a")])
+        self.assertTrue([c for c in log if c.startswith("ctest") and c.endswith("-R a -C Named")])
 
     def test_the_list_builds_nothing(self):
         done = self.ended(self.start("test", "--list", FELTGATE_SKIP_PACKAGES="1"))

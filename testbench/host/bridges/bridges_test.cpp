@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "../../../docs/examples/teleoperation.hpp"
+#include "../../../docs/examples/teleoperation/teleoperation.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/link.hpp"
 #include "host/chai3d/feltgate_device.hpp"

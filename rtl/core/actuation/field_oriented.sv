@@ -121,7 +121,7 @@ module field_oriented #(
   logic [31:0] position_q, gain_q, added_q, angle_q;
   logic [19:0] theta_q, offset_q;
   logic        unused_angle;
-  assign unused_angle = ^{offset_i[11:0], moved[2:0]};
+  assign unused_angle = ^offset_i[11:0];
   always_ff @(posedge clk_i) begin
     if (take) begin
       gain_q   <= gain_i;
@@ -147,6 +147,8 @@ module field_oriented #(
   logic [7:0] start_q, moved;
   assign quiet = quiet_q & low_q;
   assign moved = theta_q[19:12] - start_q;
+  logic       unused_moved;
+  assign unused_moved = ^moved[2:0];
   function automatic logic beyond(input logic signed [19:0] value, input int bits);
     beyond = (value >>> bits) != 20'sd0 && (value >>> bits) != -20'sd1;
   endfunction
@@ -181,6 +183,7 @@ module field_oriented #(
   logic signed [   W:0] sum;
   logic        [  16:0] word, word_q;
   logic signed [W+16:0] product;
+  logic                 saturated_q;
   logic        [  16:0] length_q;
   logic signed [ W-1:0] x_q, y_q;
   logic signed [  21:0] wanted_q, wanted_q2, applied;
@@ -242,7 +245,6 @@ module field_oriented #(
     end
     if (stores && op_q == Length) length_q <= length;
   end
-  logic saturated_q;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       own_q       <= '0;

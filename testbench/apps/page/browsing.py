@@ -23,7 +23,7 @@ except ImportError:
 DRIVER = shutil.which("chromedriver")
 ARGUMENTS = "--headless=new --no-sandbox --disable-dev-shm-usage --window-size=1400,1300".split()
 UNFOLD = "for (const fold of document.querySelectorAll('details')) fold.open = true"
-PATIENCE_S = 120  # of whole minutes on a machine that does other things too
+PATIENCE_S = 400  # of whole minutes on a machine that does other things too
 
 
 def opened():

@@ -270,8 +270,8 @@ module field_oriented #(
   end
 
   // The CORDIC. It turns {x, y} back by z, forward by z, or, to get their angle as z, until y is 0.
-  function automatic logic [17:0] arc(input logic [3:0] place);  // atan 2^-place, 2^-20 turn
-    case (place)
+  function automatic logic [17:0] arc(input logic [3:0] power);  // atan 2^-power, 2^-20 turn
+    case (power)
       4'd0:    arc = 18'd131072;
       4'd1:    arc = 18'd77376;
       4'd2:    arc = 18'd40884;

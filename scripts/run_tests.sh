@@ -12,7 +12,7 @@ Usage: ./feltgate test [NAME] [--whole | --long] [--list]
           only what they need is built
   --list  only lists the tests with their labels; builds nothing
   --whole also what a usual run tries a share of: recordings and scenes through the RTL to their end
-          on every design, both halves of the seeded defects, the defects of the proofs, all mutants;
+          on every design, all seeded defects, the defects of the proofs, all mutants;
           more than twice as long
   --long  the whole, the long runs (1e9 lock-step clocks of the core and more), and every random run
           ten times as long, or as many times as FELTGATE_LONG says
@@ -111,8 +111,9 @@ run_tests() {
     printf '\nCPU minutes: %d of packages and build, %d of tests; %d minutes by the clock\n' \
       $((built_s / 60)) $(((all_s - built_s) / 60)) $((SECONDS / 60))
     if [[ ! $configuration ]]; then
-      printf 'seeded defects: half %s of 0 and 1, that of this week; --whole tries both\n' \
-        "$(sed -n 's/^FELTGATE_HALF_NOW:INTERNAL=//p' "$BUILD/CMakeCache.txt")"
+      local week
+      week=$(sed -n 's/^FELTGATE_WEEK_NOW:INTERNAL=//p' "$BUILD/CMakeCache.txt")
+      printf 'parts of week %s; FELTGATE_WEEK=%s chooses them again, --whole tries all\n' "$week" "$week"
     fi
   fi
   report_tests "$status" "$results" "$name"

@@ -163,19 +163,15 @@ endfunction()
 # assertion fails, <test>.none when the same program finds nothing in the copy without a defect. A defect with a line
 # "Caught by: CASE[,CASE]" is tried with these cases alone. If all defects have that line, a usual run tries the copy
 # without a defect with the cases of the first, else with all cases not tagged [endurance]. FILE is the program's where
-# none is named. A usual run has half of the programs, by the first digit of a hash of their names.
+# none is named. A usual run has a quarter of the programs, another one each week.
 function(feltgate_defect_tests test program)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "FILE;CASES" "DEFECTS")
   if(NOT arg_FILE)
     get_target_property(arg_FILE ${program} FELTGATE_DEFECT_FILE)
   endif()
   feltgate_default_defects()
-  set(when "")
-  string(MD5 half ${program})
-  string(SUBSTRING ${half} 0 1 half)
-  math(EXPR half "0x${half} % 2")
-  if(NOT half EQUAL FELTGATE_HALF_NOW)
-    set(when ${FELTGATE_WHOLE} Named)
+  feltgate_weekly(when ${program} 4)
+  if(when)
     feltgate_only_whole(${program})
     if(TARGET ${program}_rtl)
       set_target_properties(${program}_rtl PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -5,6 +5,7 @@
 #include "mismatch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -64,5 +65,17 @@ std::uint64_t seeds_of(std::uint64_t n) {
 }
 
 bool whole_run() { return std::getenv("FELTGATE_WHOLE") != nullptr; }
+
+std::uint64_t share_of_week(std::uint64_t shares) {
+  constexpr std::chrono::hours kWeek(24 * 7);
+  const char* week = std::getenv("FELTGATE_WEEK");
+  if (week != nullptr) return std::stoull(week) % shares;
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(since_1970 / kWeek) % shares;
+}
+
+bool tried(std::uint64_t k, std::uint64_t shares) {
+  return whole_run() || k % shares == share_of_week(shares);
+}
 
 }  // namespace feltgate::test

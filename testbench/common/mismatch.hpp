@@ -89,4 +89,11 @@ bool defects_run();
 /// True if $FELTGATE_WHOLE asks for all cases; a usual run tries only a part of them.
 bool whole_run();
 
+/// Which of `shares` equal parts of its cases a usual run tries, 0 to shares - 1: another one each
+/// week. $FELTGATE_WEEK, a number of weeks since 1970, chooses it again.
+std::uint64_t share_of_week(std::uint64_t shares);
+
+/// Whether case `k` of a list is tried: of a usual run one in `shares`, of a whole run each.
+bool tried(std::uint64_t k, std::uint64_t shares);
+
 }  // namespace feltgate::test

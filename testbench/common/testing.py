@@ -5,6 +5,8 @@ called here, and a folder of a test's own. It puts scripts/ on the path.
 """
 
 import contextlib
+import functools
+import hashlib
 import io
 import os
 import subprocess
@@ -52,6 +54,28 @@ def environment(*prefixes, **more):
     """Ours without the variables of the project and those of these prefixes, and with more."""
     without = ("FELTGATE_", *prefixes)
     return {k: v for k, v in os.environ.items() if not k.startswith(without)} | more
+
+
+def week():
+    """Since 1970: each week a usual run tries another part of what takes long. FELTGATE_WEEK chooses it again."""
+    return int(os.environ.get("FELTGATE_WEEK") or time.time() // (7 * 24 * 3600))
+
+
+def weekly(parts):
+    """Of a test that takes long: a usual run has it in one week of so many, --whole always."""
+
+    def decorated(test):
+        part = int(hashlib.md5(test.__qualname__.encode()).hexdigest()[:4], 16)
+        if "FELTGATE_WHOLE" in os.environ or (part + week()) % parts == 0:
+            return test
+
+        @functools.wraps(test)
+        def left_out(self):
+            print(f"{test.__qualname__}: in another week, or with --whole", file=sys.stderr)
+
+        return left_out
+
+    return decorated
 
 
 class Scratch(unittest.TestCase):

@@ -16,7 +16,7 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from testing import ROOT, ran
+from testing import ROOT, ran, weekly
 
 at = sys.argv.index("--configured")
 BUILD = Path(sys.argv[at + 1]).resolve()
@@ -116,6 +116,7 @@ class Package(unittest.TestCase):
         seen = run("g++", "-std=c++17", "-I", include, "-M", source)
         self.assertEqual(FOREIGN.findall(seen), [])
 
+    @weekly(3)
     def test_examples_run_against_the_installed_package(self):
         build = self.folder / "examples"
         run("cmake", "-S", EXAMPLES, "-B", build, "-G", "Ninja", *SOON,
@@ -140,6 +141,7 @@ class Package(unittest.TestCase):
             self.assertIn(f"```cpp\n{text}```\n", readme, f"{path.name}: the page is stale")
         self.assertIn(without_header(EXAMPLES / "tick_loop.cpp"), (ROOT / "README.md").read_text())
 
+    @weekly(3)
     def test_core_alone_needs_nothing_and_says_what_is_not_there(self):
         prefix = self.folder / "core"
         install(prefix, "core")
@@ -159,6 +161,7 @@ class Package(unittest.TestCase):
         told = configure(project(self.folder / "newer", text), found, ok=False)
         self.assertIn("compatible with requested version", told)
 
+    @weekly(3)
     def test_inside_another_project_only_what_is_linked_is_built(self):
         text = "include(FetchContent)\nFetchContent_Declare(feltgate URL nowhere)\n"
         text += "FetchContent_MakeAvailable(feltgate)\nadd_executable(main main.cpp)\n"

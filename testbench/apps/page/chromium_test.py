@@ -12,6 +12,7 @@ import os
 import time
 
 from browsing import ROOT, ActionChains, By, Keys, PageTest, main, opened
+from testing import weekly
 
 WHOLE = "FELTGATE_WHOLE" in os.environ  # every scene and law, not a share of them
 
@@ -93,6 +94,7 @@ class Lever(PageTest):
         self.moved(18 // part, "0.75 + 0.75 * Math.sin(k / 10)")
         self.moved(18 // part, "1.4 * Math.sin(k / 13) * Math.sin(k / 47)", "k % 90 < 60")
 
+    @weekly(4)
     def test_a_minute_at_the_mouse_brings_no_fault(self):
         radios = self.driver.find_elements(By.CSS_SELECTOR, "#scenes input:not([value=law])")
         for radio in radios if WHOLE else radios[-1:]:
@@ -103,6 +105,7 @@ class Lever(PageTest):
                 self.recover()
                 self.a_minute()
 
+    @weekly(4)
     def test_a_minute_in_a_shipped_law_brings_no_fault(self):
         self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=law]").click()
         names = self.js("return Object.keys(feltgate.numbers.laws)")

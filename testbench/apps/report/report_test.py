@@ -20,6 +20,7 @@ import numpy as np
 from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
 import demo
 from markup import Markup, width_px
+from testing import weekly
 from reports import glossary, plots, run_pictures
 
 
@@ -97,6 +98,7 @@ class Report(Bench):
 
 
 class Figures(Bench):
+    @weekly(3)
     def test_all_figures(self):
         out = self.folder / "out"
         done = self.ended(self.script("figures.py", "--output", out))
@@ -169,6 +171,7 @@ class Demo(Bench):
         summary = json.loads((out / "demo.json").read_text())
         return done, summary, (out / "demo.html").read_text()
 
+    @weekly(3)
     def test_scenes_recordings_and_what_cannot_be_read(self):
         traces = self.folder / "traces"
         traces.mkdir()
@@ -202,6 +205,7 @@ class Demo(Bench):
         for table in found.tables:
             self.assertLess(width_px(table), 1200 - 60, table[0])
 
+    @weekly(3)
     def test_a_card_for_each_device_and_all_on_demand(self):
         self.root(("detent", "end_stops", "end_stops_thrown", "pantograph_floor"))
         _, summary, page = self.demo("--no-figures")
@@ -221,6 +225,7 @@ class Demo(Bench):
         for name in demo.ALL_ONLY:
             self.assertTrue((ROOT / "vectors" / "scenes" / f"{name}.toml").is_file(), name)
 
+    @weekly(3)
     def test_mismatches_end_with_1_and_a_list(self):
         done, summary, page = self.demo("--no-figures", FAKE_MISMATCHES="2")
         self.assertEqual(done.returncode, 1)

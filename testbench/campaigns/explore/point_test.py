@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from testing import ROOT
+from testing import ROOT, weekly
 
 from exploration import point
 from exploration.design_text import design_text
@@ -42,6 +42,7 @@ class Evaluation(unittest.TestCase):
     def structures(self):
         return len(list((Path(self.folder.name) / "structures").iterdir()))
 
+    @weekly(3)
     def test_floor_narrow_slow_and_parallel_matches_and_is_measured(self):
         result = self.evaluate(COARSE)
         self.assertEqual(result["status"], "ok")
@@ -70,6 +71,7 @@ class Evaluation(unittest.TestCase):
         # And a point does not depend on who built its structure.
         self.assertEqual(self.evaluate(COARSE), result)
 
+    @weekly(3)
     def test_a_defect_of_the_rtl_fails_the_point(self):
         # The second is of the supervisor's own multiplier, and seen by the heat alone.
         for name, changes in (

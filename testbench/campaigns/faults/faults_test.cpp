@@ -155,11 +155,12 @@ TEST_CASE("faults: what is broken is seen") {
 
 TEST_CASE("faults: each kind at the pins ends as it must") {
   const auto& kinds = pin_kinds();
+  const int seeds = feltgate::test::whole_run() ? 6 : 2;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const std::string name = kinds[k].name;
     int detected = 0;
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-      const PinResult r = run_pin_fault(root, k, seed);
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const PinResult r = run_pin_fault(root, k, static_cast<std::uint64_t>(seed));
       INFO(kinds[k].name << ", seed " << seed << ": " << r.what);
       if (kinds[k].promise == Promise::unseen) {
         CHECK(r.outcome.flagged == 0);
@@ -171,21 +172,24 @@ TEST_CASE("faults: each kind at the pins ends as it must") {
     }
     INFO(name);
     // Shorted channels can make every edge illegal. With few edges the count stands still and no
-    // fault is flagged: one of the six seeds may end so.
+    // fault is flagged: one of the seeds may end so.
     if (kinds[k].promise == Promise::flagged) {
-      CHECK(detected >= (name == "channels shorted" ? 5 : 6));
+      CHECK(detected >= (name == "channels shorted" ? seeds - 1 : seeds));
     }
   }
 }
 
 TEST_CASE("faults: the listed cases end as listed") {
+  constexpr std::uint64_t kShares = 6;
   std::ifstream list(root + "/vectors/faults/cases.jsonl");
   REQUIRE(list);
   std::vector<StateFault> states;
   std::vector<std::string> wanted;
+  std::uint64_t lines = 0;
   int cases = 0;
   for (std::string line; std::getline(list, line);) {
     if (line.empty() || line[0] == '#') continue;
+    if (!feltgate::test::tried(lines++, kShares)) continue;
     ++cases;
     const CaseLine c = read_case(line);
     if (c.pins) {
@@ -212,14 +216,15 @@ TEST_CASE("faults: the listed cases end as listed") {
   });
   CHECK(mismatches == 0);
   CHECK(compared == states.size());
-  CHECK(states.size() >= 10);
-  CHECK(cases >= 40);
+  CHECK(lines >= 40);
+  CHECK(cases >= (feltgate::test::whole_run() ? 40 : 8));
 }
 
 TEST_CASE("faults: no alarm without a fault") {
-  const CleanResult r = run_clean(root, 30, 5, [](double) {});
+  const double seconds = feltgate::test::whole_run() ? 30 : 8;
+  const CleanResult r = run_clean(root, seconds, 5, [](double) {});
   CHECK(r.alarms == 0);
-  CHECK(r.scenes_s > 2);
-  CHECK(r.recordings_s > 2);
-  CHECK(r.dither_s > 2);
+  CHECK(r.scenes_s > seconds / 15);
+  CHECK(r.recordings_s > seconds / 15);
+  CHECK(r.dither_s > seconds / 15);
 }

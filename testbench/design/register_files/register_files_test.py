@@ -17,7 +17,7 @@ import unittest
 from fractions import Fraction
 from pathlib import Path
 
-from testing import BUILD, ROOT, Scratch, ran, text_of
+from testing import BUILD, ROOT, Scratch, ran, text_of, weekly
 
 VENV = Path(sys.argv.pop(1))
 GENERATED = ROOT / "rtl/generated"
@@ -292,6 +292,7 @@ class RegisterFiles(Scratch):
         self.assertEqual(self.compare("lever", self.csv_rows(moved)[0]), {"command"})
 
     @need_venv("litex")
+    @weekly(3)
     def test_litex_reads_the_csv(self):
         for design in ("lever", "paper"):
             values(design, self.folder)
@@ -304,6 +305,7 @@ class RegisterFiles(Scratch):
             self.assertEqual(constants["feltgate_tick_hz"], 1000000)
 
     @need_venv("systemrdl")
+    @weekly(3)
     def test_systemrdl(self):
         for design in DESIGNS:
             with self.subTest(design):

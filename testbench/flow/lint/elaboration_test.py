@@ -14,7 +14,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch, ran
+from testing import ROOT, Scratch, ran, week
 
 RTL = ROOT / "rtl"
 VERILATOR, VENV = sys.argv.pop(1), Path(sys.argv.pop(1))
@@ -122,7 +122,7 @@ class Elaboration(Scratch):
             self.run_all(top, self.texts(top), fine)
 
     def test_bad(self):
-        for top, constant, value, wanted in BAD if WHOLE else BAD[::6]:
+        for top, constant, value, wanted in BAD if WHOLE else BAD[week() % 12 :: 12]:
             def refused(status, words, wanted=wanted):
                 self.assertNotEqual(status, 0)
                 self.assertIn(wanted, words)

@@ -15,7 +15,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from testing import ROOT, Scratch, ran, script
+from testing import ROOT, Scratch, ran, script, weekly
 
 VENV = Path(sys.argv.pop(1))
 SLANG = """
@@ -66,12 +66,14 @@ class Product(Scratch):
         mult = text.partition("module feltgate_mult(")[2].partition("endmodule")[0]
         self.assertEqual(mult.count(" * "), 2)
 
+    @weekly(3)
     def test_without_read_back(self):
         text = self.written("--no-read-back", "--design", "paper")
         self.assertIn("design paper, without read-back", text)
         self.assertNotIn("snapshot_ram", text)
         self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 1)
 
+    @weekly(3)
     def test_a_design_of_ones_own(self):
         own = (ROOT / "rtl/designs/lever.toml").read_text()
         own = re.sub(r"^lines = .*", "lines = 2048", own, flags=re.M)
@@ -82,6 +84,7 @@ class Product(Scratch):
         done = self.ended(self.product("board", *words))
         return done
 
+    @weekly(3)
     def test_board_of_a_design_of_ones_own(self):
         own = (ROOT / "rtl/designs/lever.toml").read_text()
         own = own.replace("torque_limit_nm = 0.5", "torque_limit_nm = 0.25")

@@ -15,7 +15,7 @@ import unittest
 
 from board_process import need_terminals
 from host_program import BUILD, ROOT, ProgramTest
-from testing import ran
+from testing import ran, weekly
 
 SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 
@@ -82,6 +82,7 @@ class Verbs(BoardTest):
             self.assertEqual(board.end()[0], 0)
             self.assertFalse(port.is_symlink())
 
+    @weekly(3)
     def test_the_example_in_python(self):
         # The tests' own folder of programs lies within the build.
         places = [place / "venv-neighbours/bin/python3" for place in (BUILD, *BUILD.parents)]
@@ -94,6 +95,7 @@ class Verbs(BoardTest):
             self.assertIn(f"design {crc}, 1000000 ticks/s", done.stdout)
             self.assertIn("status after set_zero: 0x", done.stdout)
 
+    @weekly(3)
     def test_calibrate_finds_dead_zone_and_slope(self):
         noise = random.Random(5)
         volts = (1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5)
@@ -123,6 +125,7 @@ class Verbs(BoardTest):
             self.assertEqual(self.value(board.port, "status.armed"), 0)
             self.assertEqual(self.value(board.port, "control.mode"), 0)
 
+    @weekly(3)
     def test_identify_finds_the_motor(self):
         with Board(self) as board:
             said = self.host(board.port, "identify", status=2)
@@ -155,6 +158,7 @@ class Verbs(BoardTest):
 
 
 class ThreePhases(BoardTest):
+    @weekly(3)
     def test_align_finds_pole_pairs_and_offset(self):
         offset_rad = 1.2
         plant = (ROOT / "vectors/plants/gimbal_motor.toml").read_text(encoding="utf-8")
@@ -240,6 +244,7 @@ class Lines(BoardTest):
             self.assertEqual(self.value(board.port, "status.armed"), 0)
             self.assertIn("fault watchdog", self.host(board.port, "info", status=1))
 
+    @weekly(3)
     def test_two_hosts_at_once(self):
         with Board(self) as board:
             self.patient(board.port)
@@ -265,6 +270,7 @@ class Recordings(BoardTest):
             self.assertEqual(status, 0, said)
             return said
 
+    @weekly(3)
     def test_the_same_ticks_again_on_twin_and_rtl(self):
         said = self.record("--hand", "swing", "--bad-line", 0.001)
         again = self.run_program("feltgate_board", "--replay", "day.board")
@@ -275,6 +281,7 @@ class Recordings(BoardTest):
         again = self.run_program("feltgate_board", "--replay", "rtl.board")
         self.assertIn("identical to the recording", again)
 
+    @weekly(3)
     def test_other_bytes_are_other_ticks(self):
         self.record()
         text = (self.folder / "day.board").read_text(encoding="utf-8")

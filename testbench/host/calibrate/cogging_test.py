@@ -15,7 +15,7 @@ import shlex
 import unittest
 
 from host_program import ROOT, ProgramTest
-from testing import text_of
+from testing import text_of, weekly
 
 WHOLE = "FELTGATE_WHOLE" in os.environ  # all plants, not one
 PAGE = text_of("docs/calibration.md")
@@ -132,6 +132,7 @@ class Cogging(CoggingTest):
         told(", ".join(f"{k} = {v}" for k, v in changed.items()) or " and ".join(str(n) for n, _, _ in cogging), after)
         return after, json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
 
+    @weekly(3)
     def test_5_percent_fall_to_half_a_percent(self):
         after, found = self.judged(PLAIN)
         before = self.felt("other.toml", "--set", "cogging_share=0")

@@ -15,6 +15,7 @@ import unittest
 
 from board_process import need_terminals
 from host_program import ROOT, ProgramTest, patterns_of
+from testing import weekly
 
 PAGE = ROOT / "docs/laws.md"
 PORT = "/tmp/knob"  # on the page
@@ -62,6 +63,7 @@ class Laws(ProgramTest):
                 said = self.host(*words[3:], status=2 if refused else 0)
                 self.assertEqual(patterns_of(said.replace(str(ROOT) + "/", "")), patterns_of(shown))
 
+    @weekly(3)
     def test_two_axes_and_their_pen(self):
         self.board("--design", "pantograph_law", "--hand", "swing")
         self.assertIn("there is no axis 2; this board has the axes 0 to 1", self.host("get", "angle.2", status=2))
@@ -129,6 +131,7 @@ class Laws(ProgramTest):
         refused = self.host("get", "stiffness", "--law", "spring", status=1)
         self.assertIn("does not run the law spring", refused)
 
+    @weekly(3)
     def test_what_cannot_be_loaded(self):
         self.board("--design", "lever_law")
         bad = self.law("param a = 1 Nm in 0 .. 2 Nm\nout torque = -a * sin(12 * positio)\n")
@@ -163,6 +166,7 @@ class Laws(ProgramTest):
         self.assertIn("no engine", self.host("capture", "--trigger", "event:a", status=1))
         self.assertIn("did you mean", self.host("set", "torque_limt=3", status=2))
 
+    @weekly(3)
     def test_events(self):
         self.board("--design", "lever_law", "--hand", "swing")
         self.host("law", self.law(SPRING))
@@ -188,6 +192,7 @@ class Laws(ProgramTest):
         self.assertTrue(shown.endswith(over_wire))
         self.assertIn("disarmed", self.host("info"))
 
+    @weekly(3)
     def test_a_capture_by_an_event(self):
         self.board("--design", "lever_law", "--hand", "swing")
         self.assertIn("means no event", self.host("capture", "--trigger", "event:left", status=1))
@@ -214,6 +219,7 @@ class Laws(ProgramTest):
         words = ("tick", "angle", "--arm", "law", "--trigger", trigger, *words)
         return self.host("capture", *words, status=status)
 
+    @weekly(3)
     def test_a_load_that_is_killed(self):
         self.board("--design", "lever_law")
         process = self.start("law", "detent")

@@ -77,7 +77,7 @@ RULES = (
     Rule(r"feltgate claims", "MORE", "recognition"),
     Rule(r"feltgate choose", "BY", "choose.command"),
     Rule(r"feltgate extremes", "MORE", "--list"),
-    Rule(r"feltgate bench(?: --quick)?$", "BY", "bench.command"),
+    Rule(r"feltgate bench(?: --quick| --engine rtl.*)?$", "BY", "bench.command"),
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),
     Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),
     Rule(

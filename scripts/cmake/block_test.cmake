@@ -121,7 +121,15 @@ function(feltgate_block_test block)
   add_executable(${arg_NAME}_test $<TARGET_OBJECTS:${arg_NAME}_object>)
   target_link_libraries(${arg_NAME}_test PRIVATE
     feltgate_catch_main ${arg_LIBRARIES} ${arg_NAME}_rtl)
-  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME}_test)
+  # What is instantiated otherwise, and not the core or more: a usual run has one in 3.
+  set(when "")
+  if(NOT arg_NAME STREQUAL block AND NOT block MATCHES "^feltgate_")
+    feltgate_weekly(when ${arg_NAME} 3)
+  endif()
+  if(when)
+    feltgate_only_whole(${arg_NAME}_test ${arg_NAME}_rtl ${arg_NAME}_object)
+  endif()
+  add_test(NAME ${arg_NAME} COMMAND ${arg_NAME}_test ${when})
   set_tests_properties(${arg_NAME} PROPERTIES LABELS "unit;lockstep" TIMEOUT 3600)
 
   feltgate_cover_program(${arg_NAME} ${block} "${package};${sources}"

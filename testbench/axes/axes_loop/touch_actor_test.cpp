@@ -5,6 +5,9 @@
 // against closed forms. docs/touch.md
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <utility>
 
 #include "touch_meshes.hpp"
@@ -149,6 +152,23 @@ TEST_CASE("touch: over a cube's edge, RTL and twin in every clock", "[lockstep]"
   CHECK(run.result.broken.empty());
   CHECK(run.result.figures.at("tau_ref_nm.0.max") > 2e-3);
   CHECK(run.result.figures.at("tau_ref_nm.2.max") > 3e-3);
+}
+
+TEST_CASE("touch: materials by name have the shares of their scenes") {
+  for (const touch::MaterialPreset& preset : touch::material_presets) {
+    std::ifstream file(FELTGATE_ROOT + ("/vectors/scenes/material_" + std::string(preset.name)) +
+                       ".toml");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const auto value = [&](const std::string& key) {
+      const auto at = text.find("\n" + key + " = ");
+      return at == std::string::npos ? 0 : std::stod(text.substr(at + key.size() + 4));
+    };
+    INFO(preset.name);
+    CHECK(preset.hardness == value("hardness"));
+    CHECK(preset.damping == Approx(value("damping") / 50));  // of 50 mNm s/rad
+    CHECK(preset.friction == value("dynamic"));
+    CHECK(touch::material_of(preset, 400).stiffness_n_m == Approx(400 * value("hardness")));
+  }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 // The plane under a pen, and a sent force, against vectors. Documentation:
 // docs/devices/local_plane.md
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -115,7 +114,11 @@ TEST_CASE("local_space: spring, damping and friction of a plane under three slid
 
 namespace {
 
-using Vec3 = std::array<double, 3>;
+struct Vec3 {
+  double v[3];
+  double operator[](int i) const { return v[i]; }
+  double& operator[](int i) { return v[i]; }
+};
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Half the square of the shorter way out of both planes, `a` and `b` deep; where they differ by
@@ -158,7 +161,7 @@ TEST_CASE(
       Vec3 v{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
       const double far = std::sqrt(dot(v, v));
       if (far < 0.1 || far > 1) continue;
-      for (double& part : v) part /= far;
+      for (double& part : v.v) part /= far;
       return v;
     }
   };

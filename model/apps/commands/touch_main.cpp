@@ -22,9 +22,10 @@ namespace feltgate {
 
 namespace {
 
-/// NAME=STIFFNESS,DAMPING,DRAG of a material of the mesh. Errors: std::invalid_argument.
-std::pair<std::string, PlaneMaterial> material_of(const std::string& text,
-                                                  const touch::Mesh& mesh) {
+/// NAME=STIFFNESS,DAMPING,DRAG of a material of the mesh, or NAME=PRESET. Errors:
+/// std::invalid_argument.
+std::pair<std::string, PlaneMaterial> material_of(const std::string& text, const touch::Mesh& mesh,
+                                                  double stiffness_n_m) {
   const std::size_t equals = text.rfind('=');
   const std::string name = text.substr(0, equals);
   if (std::find(mesh.materials.begin(), mesh.materials.end(), name) == mesh.materials.end()) {
@@ -33,15 +34,19 @@ std::pair<std::string, PlaneMaterial> material_of(const std::string& text,
   }
   const std::vector<std::string> words =
       CLI::detail::split(equals == std::string::npos ? "" : text.substr(equals + 1), ',');
-  constexpr double most[] = {1000, 2, 2};
+  for (const touch::MaterialPreset& preset : touch::material_presets) {
+    if (words.size() == 1 && words[0] == preset.name)
+      return {name, touch::material_of(preset, stiffness_n_m)};
+  }
+  constexpr double most[] = {1000, touch::most_damping_ns_m, 2};
   double value[3] = {};
   for (std::size_t n = 0; n < 3; ++n) {
     if (words.size() != 3 || !CLI::detail::lexical_cast(words[n], value[n]) ||
         !(value[n] >= 0 && value[n] <= most[n])) {
       throw std::invalid_argument(
           fmt::format("--material {}: not NAME=STIFFNESS,DAMPING,DRAG up to 1000 N/m, 2 N s/m and "
-                      "2; write {}=300,0,0",
-                      text, name));
+                      "2, and no preset; write {}=300,0,0 or {}=stone",
+                      text, name, name));
     }
   }
   return {name, {value[0], value[1], value[2]}};
@@ -52,6 +57,8 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   r.press_n = a.press_n;
   r.proxy.friction = a.friction;
   r.proxy.shading = a.shading;
+  r.proxy.edges = a.edges;
+  r.distance = a.distance;
   r.host.stiffness_n_m = a.stiffness;
   r.host.damping_ns_m = a.damping;
   r.host.friction = a.drag;
@@ -59,7 +66,13 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   r.host.latency_s = a.latency_s;
   r.host.jitter_s = a.jitter_s;
   r.host.lost = a.lost;
-  for (const std::string& text : a.materials) r.materials.insert(material_of(text, mesh));
+  for (const std::string& text : a.materials)
+    r.materials.insert(material_of(text, mesh, a.stiffness));
+  double most_drag = a.drag;
+  for (const auto& [name, material] : r.materials)
+    most_drag = std::max(most_drag, material.friction);
+  if (a.edges && most_drag > 1)
+    throw std::invalid_argument("--edges takes a drag of at most 1, as the law local_edge");
   r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
                                                    a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
                                                    a.press_n > 0 ? 0.5 : 0.9)
@@ -73,6 +86,7 @@ touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh) {
       read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
                       [](const std::string& name) { return find_file(name, "vectors/devices"); });
   scene.scenario.name = std::filesystem::path(a.glb).stem().string();
+  if (a.edges) scene.scenario.law = "local_edge";
   const DesignInfo info = find_axes_design(own_design(scene))->info();
   const auto law = make_axes_law(find_law(scene.scenario.law), info, axes_of(scene));
   AxesRunOptions options;
@@ -188,12 +202,26 @@ void add_options(CLI::App& sub, TouchArguments& a) {
   amount("--damping", a.damping, "of the push", checks::number(0, 2, "N s/m"), "NS/M");
   amount("--drag", a.drag, "friction of the law: against the speed, at 100 kHz",
          checks::number(0, 2, ""), "MU");
-  sub.add_option("--material", a.materials,
-                 "stiffness, damping and drag of the parts of one material; repeat it")
+  sub.add_option(
+         "--material", a.materials,
+         "stiffness, damping and drag of the parts of one material, or stone, fabric, water, "
+         "object; repeat it")
       ->type_name("NAME=N/M,NS/M,MU");
-  amount("--friction", a.friction, "friction of the proxy: it stays within the cone, by the host",
-         checks::number(0, 2, ""), "MU");
-  sub.add_flag("--shading", a.shading, "normals between the corners', so that facets feel round");
+  CLI::Option* friction = amount("--friction", a.friction,
+                                 "friction of the proxy: it stays within the cone, by the host",
+                                 checks::number(0, 2, ""), "MU");
+  CLI::Option* shading = sub.add_flag("--shading", a.shading,
+                                      "normals between the corners', so that facets feel round");
+  CLI::Option* edges =
+      sub.add_flag(
+             "--edges", a.edges,
+             "both planes of an edge, by the law local_edge at 50 kHz: no step at a cube's edge")
+          ->excludes(friction);
+  sub.add_flag("--distance", a.distance,
+               "the nearest surface of a closed mesh, by a signed distance, in place of the proxy")
+      ->excludes(friction)
+      ->excludes(shading)
+      ->excludes(edges);
   amount("--rate", a.rate_hz, "of the planes", checks::number(10, 10e3, "Hz"), "HZ");
   amount("--latency", a.latency_s, "shortest time from a pose to its plane",
          checks::number(0, 0.1, "s"), "S");

@@ -37,7 +37,17 @@ std::map<std::string, double> words_of(const PlaneHostSettings& world,
   words = {{"stiffness", material.stiffness_n_m},
            {"damping", material.damping_ns_m},
            {"friction", material.friction}};
-  add_words(words, "point", plane.point_m, world.axes);
+  if (world.edges) {
+    const double lean = plant::dot(plane.normal, plane.second);
+    add_words(words, "second", plane.second, world.axes);
+    words["height"] = plant::dot(plane.normal, plane.point_m);
+    words["second_height"] = plant::dot(plane.second, plane.second_point_m);
+    words["convex"] = plane.convex ? 1 : 0;
+    words["lean"] = lean;
+    words["spread"] = 1 / (1 - lean * lean);
+  } else {
+    add_words(words, "point", plane.point_m, world.axes);
+  }
   add_words(words, "normal", plane.normal, world.axes);
   return words;
 }
@@ -76,6 +86,17 @@ void read_world(config::TomlReader& r, PlaneHostSettings& s) {
   }
   s.centre_m = {at[0], at[1], s.axes == 2 ? 0 : at[2]};
   s.radius_m = at.back();
+}
+
+/// The two outermost faces of a cube, as one of its edges.
+Plane edge_of_cube(Vec3 from, double half_m) {
+  const double at[] = {from.x, from.y, from.z};
+  Vec3 out[] = {{at[0] < 0 ? -1.0 : 1.0, 0, 0},
+                {0, at[1] < 0 ? -1.0 : 1.0, 0},
+                {0, 0, at[2] < 0 ? -1.0 : 1.0}};
+  std::sort(out, out + 3,
+            [&](Vec3 a, Vec3 b) { return plant::dot(a, from) > plant::dot(b, from); });
+  return {half_m * out[0], out[0], half_m * out[1], out[1], true};
 }
 
 /// The nearest face of a cube or, from outside, its nearest edge or corner; `from` is relative to
@@ -121,6 +142,11 @@ PlaneHostSettings read_plane_host(config::TomlReader r, int axes) {
   s.latency_s = r.number_or("latency_s", 0, {0, 0.1});
   s.jitter_s = r.number_or("jitter_s", 0, {0, 0.1});
   s.lost = r.number_or("lost", 0, {0, 0.9});
+  if (r.flag_or("edges", false)) {
+    s.edges = true;
+    if (s.world != World::kCube)
+      r.fail("edges", "only a cube has edges", "write cube_m, or leave it out");
+  }
   if (r.has("seed")) s.seed = static_cast<std::uint64_t>(r.integer("seed", 0, 1'000'000'000));
   r.finish();
   return s;
@@ -131,8 +157,10 @@ Plane nearest_plane(const PlaneHostSettings& world, Vec3 pen_m) {
   if (world.world == World::kFloor) return {world.centre_m, up};
   const Vec3 out = pen_m - world.centre_m;
   if (world.world == World::kCube) {
-    const Plane plane = nearest_of_cube(out, world.radius_m);
-    return {world.centre_m + plane.point_m, plane.normal};
+    Plane plane =
+        world.edges ? edge_of_cube(out, world.radius_m) : nearest_of_cube(out, world.radius_m);
+    for (Vec3* at : {&plane.point_m, &plane.second_point_m}) *at = *at + world.centre_m;
+    return plane;
   }
   const double far = plant::length(out);
   // At the centre every direction is equally near.
@@ -145,8 +173,30 @@ std::map<std::string, double> plane_words(const PlaneHostSettings& world, Vec3 p
 }
 
 Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, Vec3 pen_m) {
-  const double depth = std::max(0.0, plant::dot(plane.normal, plane.point_m - pen_m));
-  return material.stiffness_n_m * depth * plane.normal;
+  const double deep = plant::dot(plane.normal, plane.point_m - pen_m);
+  if (!plane.edge()) return material.stiffness_n_m * std::max(0.0, deep) * plane.normal;
+  const double other = plant::dot(plane.second, plane.second_point_m - pen_m);
+  double by = 0, by_other = 0;
+  if (plane.convex) {
+    // The shorter way out, rounded where both are as long.
+    const double nearer = std::clamp((other - deep) / edge_round_m, -1.0, 1.0);
+    const double rounding = 1 - std::abs(nearer);
+    const double way =
+        std::max(0.0, std::min(deep, other) - edge_round_m / 4 * rounding * rounding);
+    by = (1 + nearer) / 2 * way;
+    by_other = way - by;
+  } else {
+    // To the nearest point of the free room: on one of the planes, or where they meet.
+    const double lean = plant::dot(plane.normal, plane.second), spread = 1 / (1 - lean * lean);
+    by = spread * (deep - lean * other);
+    by_other = spread * (other - lean * deep);
+    if (by <= 0 || by_other <= 0) {
+      const bool first = by_other <= 0;
+      by = first ? std::max(0.0, deep) : 0;
+      by_other = first ? 0 : std::max(0.0, other);
+    }
+  }
+  return material.stiffness_n_m * (by * plane.normal + by_other * plane.second);
 }
 
 PlaneHost::PlaneHost(const PlaneHostSettings& settings, std::int64_t clock_hz)
@@ -160,6 +210,7 @@ void PlaneHost::check(const PlaneHostSettings& settings, const std::string& path
         fmt::format("{}:{}: law {} has no mailbox \"{}\", which [plane] sends; take the law {}",
                     path, settings.line, law.name(), name,
                     settings.sends_force ? "sent_force"
+                    : settings.edges     ? "local_edge"
                     : settings.axes == 2 ? "local_plane"
                                          : "local_space"));
   }

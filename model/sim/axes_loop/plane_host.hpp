@@ -24,10 +24,16 @@
 
 namespace feltgate {
 
-/// A plane: one of its points, and its normal of length 1, which points out of the material.
+/// A plane: one of its points, and its normal of length 1, which points out of the material. At an
+/// edge a second one; its normal is 0 where there is none.
 struct Plane {
   plant::Vec3 point_m, normal;
+  plant::Vec3 second_point_m{}, second{};
+  bool convex = false;  ///< material is where both planes have it, else where either has
+  bool edge() const { return plant::length(second) > 0; }
 };
+/// Within this the force of local_edge turns from one side of a convex edge to the other.
+constexpr double edge_round_m = 1e-3;
 
 /// What a plane is made of.
 struct PlaneMaterial {
@@ -44,6 +50,7 @@ struct PlaneHostSettings : PlaneMaterial {
   };
   int axes = 2;
   bool sends_force = false;  ///< sends the force instead of the plane: one word per axis
+  bool edges = false;        ///< sends two planes at an edge, to the law local_edge
   World world = World::kFloor;
   plant::Vec3 centre_m;
   double radius_m = 0;  ///< for a cube: half its edge
@@ -65,7 +72,7 @@ PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// What the host sends of a pose, by the names of the law's mailboxes.
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, plant::Vec3 pen_m);
-/// Force of the spring behind a plane, N.
+/// Force of the spring behind a plane, or behind the two of an edge, N.
 plant::Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, plant::Vec3 pen_m);
 
 /// The host in a run: takes poses, sends updates late, counts the lost ones.

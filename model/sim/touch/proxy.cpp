@@ -246,7 +246,9 @@ double TriangleTree::free_way(Vec3 from, Vec3 way, double radius_m) const {
 }
 
 Proxy::Proxy(const Mesh& mesh, const ProxySettings& settings)
-    : mesh_(mesh), tree_(mesh), settings_(settings) {}
+    : mesh_(mesh), tree_(mesh), settings_(settings) {
+  if (settings.edges) edges_.emplace(mesh);
+}
 
 void Proxy::begin(Vec3 pen_m) {
   if (tree_.nearest(pen_m).distance_m < (1 + near_share) * settings_.radius_m) {
@@ -375,25 +377,8 @@ Touched Proxy::told(Vec3 pen_m, const Goal& goal) const {
     t.depth_m = 0;
     t.proxy_m = pen_m;
   }
-  return settings_.shading && t.constraints <= 1 ? shaded(t, pen_m, near) : t;
-}
-
-Touched Proxy::shaded(Touched t, Vec3 pen_m, const Near& near) const {
-  const Triangle& corners = mesh_.triangles[near.triangle];
-  const Vec3 a = mesh_.at[corners[0]], ab = mesh_.at[corners[1]] - a, ac = mesh_.at[corners[2]] - a;
-  const Vec3 across = cross(ab, ac), to = near.point_m - a;
-  const double whole = dot(across, across);
-  const double wb = dot(cross(to, ac), across) / whole, wc = dot(cross(ab, to), across) / whole;
-  const auto& n = mesh_.normals[near.triangle];
-  Vec3 smooth = (1 - wb - wc) * n[0] + wb * n[1] + wc * n[2];
-  // Of two sides the proxy is on one. The nearest way to an edge is not across a face.
-  const double side = dot(across, at_ - near.point_m) / (std::sqrt(whole) * near.distance_m);
-  if (std::abs(side) < 0.5 || !(length(smooth) > 0)) return t;
-  smooth = (side < 0 ? -1 : 1) / length(smooth) * smooth;
-  // The same height over it.
-  const double above_m = dot(t.normal, pen_m - t.point_m);
-  t.normal = smooth;
-  t.point_m = pen_m - above_m * smooth;
+  if (settings_.shading && t.constraints <= 1) t = shaded(t, pen_m, near);
+  if (edges_) edges_->add(t, at_, near.distance_m);
   return t;
 }
 

@@ -152,6 +152,9 @@ struct ProxySettings {
   double radius_m = 10e-6;
   double friction = 0;   ///< the proxy stays until the pen has left this cone
   bool shading = false;  ///< normals of corners, interpolated
+  /// Tells a second plane where two faces meet in an edge, at an angle of 40 to 140 degrees between
+  /// their normals.
+  bool edges = false;
 };
 
 /// What the proxy knows after a step.
@@ -162,6 +165,55 @@ struct Touched {
   double depth_m = 0;    ///< of the pen below the plane
   Vec3 point_m, normal;  ///< the plane to render; of the nearest surface while nothing is touched
   std::size_t triangle = 0;  ///< that the plane is of
+  /// The plane beyond the nearest edge; its normal is 0 where there is none.
+  Vec3 second_point_m, second;
+  bool convex = false;  ///< material is where both planes have it, else where either has
+};
+
+/// The law local_edge takes two normals whose product is at most this either way: edges at which
+/// faces turn by 40 to 140 degrees.
+constexpr double edge_lean_most = 0.766;
+
+/// The edges of a mesh that this law takes. The mesh must outlive it.
+class SharpEdges {
+ public:
+  explicit SharpEdges(const Mesh& mesh);
+  SharpEdges(const SharpEdges&) = delete;
+  SharpEdges& operator=(const SharpEdges&) = delete;
+  /// Adds the second plane to what a proxy at `at` found, `distance_m` from the nearest surface;
+  /// the first becomes a face where the proxy is at the edge itself. Nothing changes where the
+  /// plane is no face of the nearest edge.
+  void add(Touched& t, Vec3 at, double distance_m) const;
+
+ private:
+  const Mesh& mesh_;
+  Mesh lines_;  ///< a triangle (a, b, b) for each edge
+  std::vector<std::array<std::size_t, 2>> faces_;
+  std::vector<bool> convex_;          ///< as seen from where the faces look to
+  std::optional<TriangleTree> tree_;  ///< none where there is no such edge
+};
+
+/// What there is without a proxy: the nearest surface, and on which side of it the pen is. It
+/// remembers no way, so the pen gets through what is thinner than twice its depth. The mesh must
+/// outlive it.
+class SignedDistance {
+ public:
+  /// Errors: std::invalid_argument where the mesh is not closed, or looks inwards.
+  explicit SignedDistance(const Mesh& mesh);
+
+  struct Place {
+    double distance_m = 0;   ///< negative inside
+    Vec3 point_m, gradient;  ///< nearest point of the surface; unit vector outwards
+    std::size_t triangle = 0;
+  };
+  Place at(Vec3 point_m);
+  /// The tangent plane at the nearest point.
+  Touched touched(Vec3 pen_m);
+
+ private:
+  const Mesh& mesh_;
+  TriangleTree tree_;
+  std::vector<Near> near_;
 };
 
 /// A proxy on its way. The mesh must outlive it.
@@ -196,6 +248,7 @@ class Proxy {
 
   const Mesh& mesh_;
   TriangleTree tree_;
+  std::optional<SharpEdges> edges_;
   ProxySettings settings_;
   Vec3 at_;
   std::vector<Near> near_;

@@ -72,9 +72,9 @@ class Actor {
   Touched in_device(Touched t, double time_s) const {
     if (way_.empty()) return t;
     const StrokePoint pose = at_time(way_, time_s);
-    for (Vec3* at : {&t.proxy_m, &t.point_m})
+    for (Vec3* at : {&t.proxy_m, &t.point_m, &t.second_point_m})
       *at = middle_m_ + pose.at_m + turned(*at - middle_m_, pose.turn_rad);
-    t.normal = turned(t.normal, pose.turn_rad);
+    for (Vec3* normal : {&t.normal, &t.second}) *normal = turned(*normal, pose.turn_rad);
     return t;
   }
 
@@ -178,9 +178,28 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
   return stroke;
 }
 
+/// A material by its name, as the scenes material_NAME have it: shares of the stiffness that is
+/// asked for and of the law's most damping, and the dynamic friction.
+struct MaterialPreset {
+  const char* name;
+  double hardness, damping, friction;
+};
+constexpr MaterialPreset material_presets[] = {
+    {"stone", 1, 0.08, 0.2},
+    {"fabric", 0.3, 0.16, 0.5},
+    {"water", 0.02, 0, 0},
+    {"object", 0.8, 0.1, 0.3},  // what TouchWorld gives each generated one
+};
+constexpr double most_damping_ns_m = 2;  ///< of the law
+
+inline PlaneMaterial material_of(const MaterialPreset& preset, double stiffness_n_m) {
+  return {preset.hardness * stiffness_n_m, preset.damping * most_damping_ns_m, preset.friction};
+}
+
 /// What a stroke is run with; `host` has material, rate and delay of the planes.
 struct TouchRequest {
   ProxySettings proxy;
+  bool distance = false;  ///< planes of a signed distance in place of the proxy
   PlaneHostSettings host;
   std::map<std::string, PlaneMaterial> materials;  ///< of parts that have one of their own, by name
   Stroke stroke;
@@ -237,16 +256,20 @@ inline void let_go(plant::Hand& hand, double from_s, double force_n, double caps
 }
 
 /// Runs the stroke in `scene`, one of the stylus with planes; its hand, world, length and
-/// expectations are replaced. Errors: std::invalid_argument where the stroke begins in the mesh,
+/// expectations are replaced. The law of `options` is local_edge where the proxy tells edges, else
+/// local_space. Errors: std::invalid_argument where the stroke begins in the mesh,
 /// and those of run_axes().
 inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesScene scene,
                           AxesRunOptions options, std::int64_t tick_hz) {
   TouchRun run;
   Proxy proxy(mesh, request.proxy);
+  std::optional<SignedDistance> distance;
+  if (request.distance) distance.emplace(mesh);
   const Actor actor(mesh, request.mesh_way);
   proxy.begin(actor.in_mesh(request.stroke.front().at_m, 0));
   PlaneHostSettings host = request.host;
   host.axes = 3;
+  host.edges = request.proxy.edges;
   std::vector<PlaneMaterial> materials(std::max<std::size_t>(1, mesh.materials.size()), host);
   for (std::size_t n = 0; n < mesh.materials.size(); ++n) {
     const auto own = request.materials.find(mesh.materials[n]);
@@ -255,10 +278,13 @@ inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesSce
   host.search = [&](Vec3 pen_m) {
     const auto from = std::chrono::steady_clock::now();
     const double time_s = static_cast<double>(run.updates.size()) / host.rate_hz;
-    const Touched t = actor.in_device(proxy.move(actor.in_mesh(pen_m, time_s)), time_s);
+    const Vec3 in_mesh = actor.in_mesh(pen_m, time_s);
+    const Touched t =
+        actor.in_device(distance ? distance->touched(in_mesh) : proxy.move(in_mesh), time_s);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
     run.updates.push_back({time_s, pen_m, t, took.count()});
-    return std::pair{Plane{t.point_m, t.normal}, materials[mesh.parts[t.triangle]]};
+    return std::pair{Plane{t.point_m, t.normal, t.second_point_m, t.second, t.convex},
+                     materials[mesh.parts[t.triangle]]};
   };
   auto& setup = std::get<StylusSetup>(scene.device);
   const double capstan_m = setup.parameters.lever.lever.radius_m;

@@ -129,13 +129,17 @@ TEST_CASE(
   CHECK(bad_tilts == 0);
 }
 
-TEST_CASE("stylus: law, fields of heights and device have one capstan") {
+TEST_CASE(
+    "stylus: laws, fields of heights and device have one capstan, law and host one rounding") {
   const auto text = [](const std::string& path) {
     std::ifstream file(FELTGATE_ROOT + ("/" + path));
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   CHECK(texture::capstan_m == 10e-3);
-  CHECK(text("rtl/laws/local_space.law").find("\nlet R = 0.01 m\n") != std::string::npos);
+  for (const std::string law : {"local_space", "local_edge"})
+    CHECK(text("rtl/laws/" + law + ".law").find("\nlet R = 0.01 m\n") != std::string::npos);
+  CHECK(text("rtl/laws/local_edge.law").find("\nlet round = 1 mm ") != std::string::npos);
+  CHECK(edge_round_m == 1e-3);
   CHECK(text("vectors/devices/stylus.toml").find("\nradius_m = 0.01 ") != std::string::npos);
 }
 
@@ -144,6 +148,7 @@ TEST_CASE("stylus: a force of 3.3 N is 16.0 mm deep in 206 N/m, and the edge of 
   CHECK(floor.broken.empty());
   CHECK(floor.figures.at("pen_z_m.end") == Approx(-0.0160).margin(2e-4));
   CHECK(run_scene(scene_named("stylus_cube"), "twin,double").broken.empty());
+  CHECK(run_scene(scene_named("stylus_edge"), "twin,double").broken.empty());
 }
 
 TEST_CASE("stylus: a valley of a field of heights throws it with facets, not with shading") {
@@ -214,6 +219,8 @@ TEST_CASE("stylus: a world or a hand that cannot be is refused with its line") {
   const std::string rest = "rate_hz = 50\nstiffness_n_m = 100\n";
   CHECK(told("[plane]\nsphere_m = [0, 0, 0, 0.01]\n" + rest) == "read");
   CHECK(told("[plane]\ncube_m = [0, 0, 0, 0]\n" + rest).find(":9: not what a world") == 0);
+  CHECK(told("[plane]\nsphere_m = [0, 0, 0, 0.01]\nedges = true\n" + rest)
+            .find(":10: only a cube has edges") == 0);
   CHECK(told("[plane]\ncircle_m = [0, 0.1, 0.01]\n" + rest).find("sphere_m = [x, y, z, radius]") !=
         std::string::npos);
   CHECK(

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Meshes that move under a pen that is held, in closed loop, against closed forms. docs/touch.md
+// Meshes that move under a pen that is held, and edges by both of their planes, in closed loop,
+// against closed forms. docs/touch.md
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
 
 #include "touch_meshes.hpp"
 
@@ -55,6 +60,115 @@ TEST_CASE("touch: a wall that turns about the vertical turns the force with it")
     CHECK(length(row.force_n) == Approx(300 * deep_m).margin(300 * 40e-6));
   }
   CHECK(felt > 150);
+}
+
+/// The most that the force changes from one row to the next, 1 ms later.
+double most_change_n(const touch::TouchRun& run, double from_s) {
+  double most = 0;
+  for (std::size_t n = 1; n < run.rows.size(); ++n) {
+    if (run.rows[n - 1].time_s < from_s) continue;
+    most = std::max(most, length(run.rows[n].force_n - run.rows[n - 1].force_n));
+  }
+  return most;
+}
+
+touch::TouchRequest edge_stroke(touch::Stroke stroke, bool edges) {
+  touch::TouchRequest request;
+  request.proxy.edges = edges;
+  request.host.stiffness_n_m = 300;
+  request.stroke = std::move(stroke);
+  return request;
+}
+
+TEST_CASE(
+    "touch: off a cube and into it again, one plane steps by all of the force, two by nothing") {
+  // 2 mm deep over the upper face and off it at 0.1 m/s, then back in from the side, 1.5 mm deep.
+  const Mesh cube = touch::clean(box({0.02, 0.02, 0.02}));
+  const touch::Stroke over = {{0, {0.012, 0.003, 0.023}},
+                              {0.03, {0.012, 0.003, 0.018}},
+                              {0.14, {0.023, 0.003, 0.018}},
+                              {0.185, {0.0185, 0.003, 0.018}},
+                              {0.2, {0.0185, 0.003, 0.018}}};
+  const touch::TouchRun one = run_on(cube, "twin,double", edge_stroke(over, false));
+  const touch::TouchRun two = run_on(cube, "twin,double", edge_stroke(over, true));
+  CHECK((one.result.broken.empty() && two.result.broken.empty()));
+  INFO(one.result.figures.at("plane_step_n.max")
+       << " N, " << most_change_n(one, 0.04) << " N; " << two.result.figures.at("plane_step_n.max")
+       << " N, " << most_change_n(two, 0.04) << " N");
+  // The pen is counted to 15 um.
+  CHECK(one.result.figures.at("plane_step_n.max") == Approx(0.6).margin(5e-3));
+  CHECK(most_change_n(one, 0.04) > 0.55);
+  CHECK(two.result.figures.at("plane_step_n.max") < 1e-3);
+  // A way of 0.1 mm and two counts of an energy whose force changes by at most K (1 + d / (1.4
+  // mm)).
+  CHECK(most_change_n(two, 0.04) < 300 * 0.13e-3 * (1 + 2 / 1.414));
+  for (const touch::TouchRow& row : two.rows) {
+    if (row.time_s > 0.04 && row.pen_m.x < 0.0169)
+      CHECK(length(row.force_n - Vec3{0, 0, 0.6}) < 300 * 30e-6);
+    if (row.time_s > 0.12 && row.pen_m.x > 0.02001) CHECK(length(row.force_n) < 300 * 20e-6);
+  }
+  // In again from the side, the side holds it, but for what the rounded edge takes: 0.0625 mm.
+  const Vec3 end = two.rows.back().force_n;
+  CHECK(end.x > 0.29);
+  CHECK(length(end) < 0.46);
+}
+
+TEST_CASE("touch: both walls of a groove push at once, and do not wait for a plane") {
+  // Two slopes of 45 degrees; the pen is led across, 2 mm below the bottom.
+  const Mesh groove = touch::clean(grid(2, 2, [](double u, double v) {
+    return Vec3{0.04 * (u - 0.5), 0.04 * (v - 0.5), std::abs(0.04 * (u - 0.5))};
+  }));
+  const touch::Stroke across = {
+      {0, {-0.004, 0.003, 0.008}}, {0.04, {-0.004, 0.003, -0.002}}, {0.12, {0.004, 0.003, -0.002}}};
+  double off_n[2] = {};
+  for (const bool edges : {false, true}) {
+    const touch::TouchRun run = run_on(groove, "twin,double", edge_stroke(across, edges));
+    CHECK(run.result.broken.empty());
+    for (const touch::TouchRow& row : run.rows) {
+      if (row.time_s < 0.05) continue;
+      // To the nearest free point: the bottom, or a slope.
+      const Vec3 at = row.pen_m;
+      const double aside = std::abs(at.x) <= -at.z ? 0 : (std::abs(at.x) + at.z) / 2;
+      const Vec3 to{at.x < 0 ? -aside : aside, at.y, aside};
+      off_n[edges] = std::max(off_n[edges], length(row.force_n - 300 * (to - at)));
+    }
+  }
+  INFO(off_n[0] << " N with one plane, " << off_n[1] << " N with two");
+  // 0.1 m/s for 1 to 3 ms with one, counts and a run of the engine with two.
+  CHECK((off_n[0] > 0.03 && off_n[0] < 300 * 0.1 * 3.1e-3 * 1.1));
+  CHECK(off_n[1] < 300 * 30e-6);
+}
+
+TEST_CASE("touch: over a cube's edge, RTL and twin in every clock", "[lockstep]") {
+  const touch::TouchRun run = run_on(touch::clean(box({0.02, 0.02, 0.02})), "all",
+                                     edge_stroke({{0, {0.016, 0.003, 0.022}},
+                                                  {0.01, {0.016, 0.003, 0.018}},
+                                                  {0.022, {0.0165, 0.003, 0.018}},
+                                                  {0.039, {0.0202, 0.003, 0.018}}},
+                                                 true));
+  CHECK(run.result.lock_step);
+  CHECK(run.result.mismatches == 0);
+  CHECK(run.result.clocks > 1'800'000);
+  CHECK(run.result.broken.empty());
+  CHECK(run.result.figures.at("tau_ref_nm.0.max") > 2e-3);
+  CHECK(run.result.figures.at("tau_ref_nm.2.max") > 3e-3);
+}
+
+TEST_CASE("touch: materials by name have the shares of their scenes") {
+  for (const touch::MaterialPreset& preset : touch::material_presets) {
+    std::ifstream file(FELTGATE_ROOT + ("/vectors/scenes/material_" + std::string(preset.name)) +
+                       ".toml");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const auto value = [&](const std::string& key) {
+      const auto at = text.find("\n" + key + " = ");
+      return at == std::string::npos ? 0 : std::stod(text.substr(at + key.size() + 4));
+    };
+    INFO(preset.name);
+    CHECK(preset.hardness == value("hardness"));
+    CHECK(preset.damping == Approx(value("damping") / 50));  // of 50 mNm s/rad
+    CHECK(preset.friction == value("dynamic"));
+    CHECK(touch::material_of(preset, 400).stiffness_n_m == Approx(400 * value("hardness")));
+  }
 }
 
 }  // namespace

@@ -2,15 +2,20 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Fewer faces of a mesh: what they keep, how far they are off, and the step of the force at an
-// edge, each against closed forms. docs/touch.md
+// edge; a signed distance from a mesh beside the proxy; each against closed forms. docs/touch.md
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "feltgate/random.hpp"
 #include "touch_meshes.hpp"
 
 namespace feltgate::test {
 namespace {
 
+using plant::length;
 using touch::clean;
 using touch::Mesh;
 
@@ -120,6 +125,168 @@ TEST_CASE("touch: over an edge the force steps by K d 2 sin(phi / 2)") {
     }
     INFO(turn_rad / degree << " degrees: " << step << " N, at a depth of " << deep_m << " m");
     CHECK(std::abs(step / (deep_m * 2 * std::sin(turn_rad / 2)) - 1) < 0.05);
+  }
+}
+
+/// Signed distance from a box in closed form.
+double box_distance_m(Vec3 half_m, Vec3 at) {
+  const double q[] = {std::abs(at.x) - half_m.x, std::abs(at.y) - half_m.y,
+                      std::abs(at.z) - half_m.z};
+  double out = 0;
+  for (const double part : q) out += std::max(0.0, part) * std::max(0.0, part);
+  return std::sqrt(out) + std::min(0.0, std::max({q[0], q[1], q[2]}));
+}
+
+TEST_CASE(
+    "touch: the signed distance of a box is its closed form, of a torus its side is by winding") {
+  const Vec3 half_m{0.01, 0.02, 0.03};
+  const Mesh cuboid = clean(box(half_m)), ring = clean(torus(0.02, 0.008, 24));
+  touch::SignedDistance distance(cuboid), of_ring(ring);
+  SplitMix64 random(11);
+  int inside = 0, corners = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3 at{random.between(-0.04, 0.04), random.between(-0.04, 0.04),
+                  random.between(-0.04, 0.04)};
+    const auto place = distance.at(at);
+    const double is_m = box_distance_m(half_m, at);
+    CHECK(place.distance_m == Approx(is_m).margin(1e-12));
+    CHECK(length(at - place.point_m - is_m * place.gradient) < 1e-9);
+    CHECK(length(place.gradient) == Approx(1));
+    inside += is_m < 0 ? 1 : 0;
+    corners += std::abs(at.x) > half_m.x && std::abs(at.y) > half_m.y ? 1 : 0;
+    if (n < 400) CHECK((of_ring.at(at).distance_m < 0) == (touch::winding(ring, at) > 0.5));
+  }
+  CHECK((inside > 100 && corners > 500));
+  const auto on_it = distance.at({0.01, 0.003, 0.004});
+  CHECK(on_it.distance_m == Approx(0).margin(1e-15));
+  CHECK(on_it.gradient.x == Approx(1));
+  Soup inwards = icosphere(0.01, 1);
+  for (auto& t : inwards.triangles) std::swap(t[0], t[1]);
+  const Mesh open = clean(open_plate(0.04, 1e-4, 2)), inner = clean(inwards);
+  CHECK_THROWS_WITH(touch::SignedDistance(open), Catch::Contains("not closed"));
+  CHECK_THROWS_WITH(touch::SignedDistance(inner), Catch::Contains("inwards"));
+}
+
+/// Where a pen is that is led 2 mm deep, and the force of both; 300 N/m.
+struct Both {
+  double worst_n[2] = {}, sum_n2[2] = {}, most_step_n[2] = {};  ///< of the proxy, of the distance
+  double rms_n(int k, int poses) const { return std::sqrt(sum_n2[k] / poses); }
+};
+
+template <class Way, class Should>
+Both felt_by_both(const Mesh& mesh, int poses, Vec3 start, Way&& way, Should&& should) {
+  touch::Proxy proxy(mesh, {});
+  touch::SignedDistance distance(mesh);
+  proxy.begin(start);
+  Both b;
+  Vec3 before[2];
+  for (int n = 0; n < poses; ++n) {
+    const Vec3 pen = way(1.0 * n / poses);
+    const touch::Touched told[] = {proxy.move(pen), distance.touched(pen)};
+    for (int k = 0; k < 2; ++k) {
+      const Vec3 force = 300 * told[k].depth_m * told[k].normal;
+      const double off_n = length(force - should(pen));
+      b.worst_n[k] = std::max(b.worst_n[k], off_n);
+      b.sum_n2[k] += off_n * off_n;
+      if (n > 0) b.most_step_n[k] = std::max(b.most_step_n[k], length(force - before[k]));
+      before[k] = force;
+    }
+  }
+  return b;
+}
+
+TEST_CASE(
+    "touch: a signed distance is as exact on a ball, turns before an edge and crosses a plate") {
+  constexpr int poses = 4000;
+  const Mesh ball = clean(icosphere(0.03, 3));
+  const Both round = felt_by_both(
+      ball, poses, {0, 0, 0.031},
+      [](double u) {
+        const double turn = 6 * u;
+        return 0.028 * Vec3{std::sin(turn), 0.3 * std::cos(turn) * std::sin(turn),
+                            std::cos(turn) * std::sqrt(1 - 0.09 * std::sin(turn) * std::sin(turn))};
+      },
+      [](Vec3 at) { return 300 * (0.03 - length(at)) / length(at) * at; });
+  // Over a cube, off its edge; the truth of a body that remembers its side.
+  const Mesh cube = clean(box({0.02, 0.02, 0.02}));
+  const Both edge = felt_by_both(
+      cube, poses, {0.01, 0.003, 0.021},
+      [](double u) {
+        return Vec3{0.01 + 0.013 * u, 0.003, 0.018};
+      },
+      [](Vec3 at) {
+        return Vec3{0, 0, at.x < 0.02 ? 0.6 : 0.0};
+      });
+  // 2 mm deep in a plate of 1 mm: the pen is through.
+  const Mesh plate = clean(box({0.02, 0.02, 0.0005}));
+  const Both thin = felt_by_both(
+      plate, poses, {0.001, 0.003, 0.001},
+      [](double u) {
+        return Vec3{0.001, 0.003, 0.0006 - 0.0021 * u};
+      },
+      [](Vec3 at) {
+        return Vec3{0, 0, 300 * std::max(0.0, 0.0005 - at.z)};
+      });
+  for (const auto& [name, b] : {std::pair{"ball", round}, {"cube", edge}, {"plate", thin}}) {
+    for (int k = 0; k < 2; ++k) {
+      UNSCOPED_INFO(name << (k == 0 ? ", proxy: " : ", distance: ") << b.worst_n[k] << " N worst, "
+                         << b.rms_n(k, poses) << " N rms, step " << b.most_step_n[k] << " N");
+    }
+  }
+  // 2 mm at 300 N/m with normals within 5.5 degrees, and facets that are 0.137 mm lower.
+  for (int k = 0; k < 2; ++k) CHECK(round.worst_n[k] < 0.6 * 0.0953 + 300 * 0.137e-3);
+  CHECK(round.rms_n(1, poses) == Approx(round.rms_n(0, poses)).epsilon(0.2));
+  // The proxy is a ball of 10 um, which is three poses.
+  CHECK(edge.rms_n(0, poses) < 0.6 * std::sqrt(4.0 / poses));
+  CHECK(edge.most_step_n[0] == Approx(0.6).margin(1e-3));
+  CHECK(edge.most_step_n[1] == Approx(0.6 * std::sqrt(2.0)).margin(2e-3));
+  CHECK(thin.worst_n[0] < 1e-6);
+  CHECK(thin.most_step_n[1] == Approx(2 * 300 * 0.5e-3).margin(2e-3));
+  CHECK(thin.worst_n[1] > 0.44);
+}
+
+/// What the middle one of many poses takes, us.
+template <class Step>
+double median_us(Step&& step) {
+  std::vector<double> took;
+  for (int n = 0; n < 3000; ++n) {
+    const auto from = std::chrono::steady_clock::now();
+    const double deep_m = step(n / 3000.0);
+    const std::chrono::duration<double> one = std::chrono::steady_clock::now() - from;
+    took.push_back(1e6 * one.count());
+    CHECK(deep_m > 0);
+  }
+  std::sort(took.begin(), took.end());
+  return touch::quantile(took, 0.5);
+}
+
+TEST_CASE("touch: what an update of proxy, edges and distance takes", "[.table]") {
+  const auto on_ball = [](double u) { return 0.028 * Vec3{std::sin(6 * u), 0, std::cos(6 * u)}; };
+  for (const int times : {3, 7}) {
+    const Mesh ball = clean(icosphere(0.03, times));
+    touch::Proxy proxy(ball, {});
+    touch::SignedDistance distance(ball);
+    proxy.begin({0, 0, 0.031});
+    const double one_us = median_us([&](double u) { return proxy.move(on_ball(u)).depth_m; });
+    const double other_us =
+        median_us([&](double u) { return distance.touched(on_ball(u)).depth_m; });
+    WARN(ball.triangles.size() << " faces: proxy " << one_us << " us, distance " << other_us);
+  }
+  // Teeth of 90 degrees, 0.6 mm high.
+  const Mesh teeth = clean(grid(200, 200, [](double u, double v) {
+    const double tooth = std::abs(2 * (50 * u - std::floor(50 * u)) - 1);
+    return Vec3{0.06 * (u - 0.5), 0.06 * (v - 0.5), 0.6e-3 * tooth};
+  }));
+  for (const bool edges : {false, true}) {
+    touch::ProxySettings settings;
+    settings.edges = edges;
+    touch::Proxy proxy(teeth, settings);
+    proxy.begin({-0.028, 0.001, 0.005});
+    const double us = median_us([&](double u) {
+      return proxy.move({-0.028 + 0.056 * u, 0.001 + 1e-3 * u, -1e-3}).depth_m;
+    });
+    WARN(teeth.triangles.size() << " faces with teeth: " << (edges ? "two planes " : "one plane ")
+                                << us << " us");
   }
 }
 

@@ -190,15 +190,16 @@ inline void write_glb(const std::string& path, const Soup& s) {
   write_file(path, glb_of(json_of(s, R"({"mesh":0})"), binary_of(s)));
 }
 
-/// With planes that are 1 to 2 ms late.
+/// With planes that are 1 to 2 ms late, by the law of one plane or of two.
 inline touch::TouchRun run_on(const touch::Mesh& mesh, const std::string& engine,
                               touch::TouchRequest request) {
   request.host.latency_s = request.host.jitter_s = 1e-3;
   const AxesScene scene = scene_named("stylus_cube");
   const AxesDesignMakers* made = find_axes_design("stylus_law");
   REQUIRE(made != nullptr);
-  const auto law =
-      make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/local_space.law", made->info(), 3);
+  const auto law = make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/" +
+                                     (request.proxy.edges ? "local_edge.law" : "local_space.law"),
+                                 made->info(), 3);
   AxesRunOptions options;
   options.design = "stylus_law";
   options.engine = engine;

@@ -357,6 +357,8 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   const std::string whole = glb_of(json_of(sphere, R"({"mesh":0})"), binary_of(sphere));
   write_file(ball, whole);
   write_file(cut, whole.substr(0, 2000));
+  const std::string open = temporary("feltgate_touch_open.glb");
+  write_glb(open, sheet(0.06, 2));
   std::string text;
   const auto run = [&](const std::string& words) {
     std::filesystem::remove(json);
@@ -374,10 +376,13 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   CHECK(text.find("of 320 faces: ") != std::string::npos);
   CHECK(run(ball + " --size 20mm --speed 1m/s --json " + json) == 0);
   CHECK(text.find("engine off the law") != std::string::npos);
+  CHECK(run(ball + " --size 20mm --speed 1m/s --distance --material none=stone") == 0);
   for (const std::string& words :
        {cut, said + ".none", ball + " --centre nan 0 0", ball + " --size 0.5m --centre 0.1 0 0",
         ball + " --stroke " + ball, ball + " --material moss=1,2,3", ball + " --material none=1,2",
-        ball + " --mesh-only --csv x", ball + " --engine fast", ball + " --faces -1"}) {
+        ball + " --mesh-only --csv x", open + " --distance", ball + " --edges --drag 1.5",
+        ball + " --edges --distance", ball + " --material none=steel", ball + " --engine fast",
+        ball + " --faces -1"}) {
     INFO(words);
     CHECK(run(words + " --json " + json) == 2);
     CHECK(std::count(text.begin(), text.end(), '\n') == 1);

@@ -211,3 +211,23 @@ TEST_CASE("lump: stiff at first, softer after a while, and stiff again where the
   CHECK(at(0.45) == Approx(-0.5 * 0.25 - 0.4 * 0.15 - 2 * 0.05).epsilon(1e-3));
   CHECK(at(0.25) == Approx(-0.025));  // it is left faster than it comes back
 }
+
+TEST_CASE(
+    "attraction: draws near, lets go before the edge, pushes back inside; all of it an energy") {
+  Running<> law(shipped("attraction"));
+  const auto at = [&](double x) { return law.torque({{"position", x}}); };
+  CHECK(at(0.19) == 0);
+  CHECK(at(0.275) == Approx(0.025));
+  CHECK(at(0.35) == Approx(0.05));
+  CHECK(at(0.425) == Approx(0.025));
+  CHECK(at(0.55) == 0);  // here a hand sits
+  CHECK(at(0.7) == Approx(-0.2));
+  CHECK(at(1.7) == Approx(-1));  // from half a radian on no more
+  CHECK(taken_j(law, 0, 0.55) == Approx(-0.05 * 0.3 / 2).epsilon(1e-3));
+  CHECK(taken_j(law, 0.55, 0.7) == Approx(2 * 0.1 * 0.1 / 2).epsilon(1e-3));
+  law.set("sits", 0.2);
+  law.set("reach", 0.1);
+  CHECK(at(0.35) == Approx(0.05));
+  CHECK(at(0.41) == 0);
+  CHECK(taken_j(law, 0.55, 0) == Approx(0.05 * 0.1 / 2).epsilon(1e-3));
+}

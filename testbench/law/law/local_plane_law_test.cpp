@@ -5,6 +5,8 @@
 // docs/devices/local_plane.md
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "catch.hpp"
 #include "feltgate/random.hpp"
@@ -108,6 +110,122 @@ TEST_CASE("local_space: spring, damping and friction of a plane under three slid
   }
   CHECK(pressed > 1000);
   CHECK(slipping > 500);
+}
+
+namespace {
+
+struct Vec3 {
+  double v[3];
+  double operator[](int i) const { return v[i]; }
+  double& operator[](int i) { return v[i]; }
+};
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Half the square of the shorter way out of both planes, `a` and `b` deep; where they differ by
+/// less than a millimetre, a parabola joins them.
+double energy_over(double a, double b) {
+  constexpr double w = 1e-3;
+  const double way =
+      std::abs(a - b) < w ? (a + b) / 2 - (w * w + (a - b) * (a - b)) / (4 * w) : std::min(a, b);
+  return way > 0 ? way * way / 2 : 0;
+}
+
+/// From a point `a` and `b` behind two planes through 0 to the nearest point in front of both, by
+/// Dykstra's projections.
+Vec3 way_out(const Vec3& n, const Vec3& m, Vec3 at) {
+  const Vec3 from = at;
+  Vec3 owed[2] = {};
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3& normal = k % 2 == 0 ? n : m;
+    Vec3& owes = owed[k % 2];
+    for (int i = 0; i < 3; ++i) at[i] += owes[i];
+    const double behind = std::min(0.0, dot(normal, at));
+    for (int i = 0; i < 3; ++i) {
+      owes[i] = behind * normal[i];
+      at[i] -= owes[i];
+    }
+  }
+  return {at[0] - from[0], at[1] - from[1], at[2] - from[2]};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "local_edge: in a groove the nearest free point, over an edge an energy; else local_space") {
+  constexpr double capstan_m = 0.01, k = 200;
+  Running<> law(shipped("local_edge")), one(shipped("local_space"));
+  feltgate::SplitMix64 random(8);
+  const char* const axes[] = {"x", "y", "z"};
+  const auto unit = [&] {
+    while (true) {
+      Vec3 v{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+      const double far = std::sqrt(dot(v, v));
+      if (far < 0.1 || far > 1) continue;
+      for (double& part : v.v) part /= far;
+      return v;
+    }
+  };
+  int both[2] = {}, single = 0;
+  for (int run = 0; run < 900; ++run) {
+    const Vec3 n = unit(), m = unit();
+    const double lean = dot(n, m);
+    if (std::abs(lean) > 0.766) continue;
+    const bool convex = run % 3 == 0, alone = run % 3 == 1;
+    Vec3 point, at;
+    std::map<std::string, double> inputs;
+    for (int i = 0; i < 3; ++i) {
+      point[i] = random.between(-0.2, 0.2);
+      at[i] = random.between(-4e-3, 4e-3);
+      const std::string of = i == 0 ? "" : "[" + std::to_string(i) + "]";
+      inputs["position" + of] = (point[i] + at[i]) / capstan_m;
+      inputs["velocity" + of] = alone ? random.between(-50, 50) : 0;
+      law.set(std::string("normal_") + axes[i], n[i]);
+      law.set(std::string("second_") + axes[i], alone ? 0 : m[i]);
+      one.set(std::string("normal_") + axes[i], n[i]);
+      one.set(std::string("point_") + axes[i], point[i]);
+    }
+    law.set("height", dot(n, point));
+    law.set("second_height", alone ? 0 : dot(m, point));
+    law.set("lean", alone ? 0 : lean);
+    law.set("spread", alone ? 1 : 1 / (1 - lean * lean));
+    law.set("convex", convex ? 1 : 0);
+    for (Running<>* l : {&law, &one}) {
+      l->set("stiffness", k);
+      l->set("damping", 1);
+      l->set("friction", alone ? 0.5 : 0);
+      l->torque(inputs);
+    }
+    const Vec3 out = way_out(n, m, at);
+    double pushed = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (alone) {
+        CHECK(law.output(i) == Approx(one.output(i)).margin(1e-12));
+        pushed += std::abs(one.output(i));
+        continue;
+      }
+      double force = k * out[i];
+      if (convex) {
+        constexpr double by = 1e-8;
+        const auto energy = [&](double step) {
+          Vec3 there = at;
+          there[i] += step;
+          return energy_over(-dot(n, there), -dot(m, there));
+        };
+        force = -k * (energy(by) - energy(-by)) / (2 * by);
+      }
+      CHECK(law.output(i) == Approx(capstan_m * force).margin(convex ? 2e-8 : 1e-10));
+      pushed += std::abs(force);
+    }
+    if (alone) {
+      single += pushed > 0 ? 1 : 0;
+    } else {
+      const double a = -dot(n, at), b = -dot(m, at);
+      const bool edge = convex ? std::min(a, b) > 0 && std::abs(a - b) < 1e-3
+                               : a - lean * b > 0 && b - lean * a > 0;
+      both[convex ? 1 : 0] += edge ? 1 : 0;
+    }
+  }
+  CHECK((both[0] > 40 && both[1] > 8 && single > 80));
 }
 
 TEST_CASE("sent_force: as it is sent") {

@@ -25,11 +25,11 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       "pantograph", "pantograph_filtered", "coupled_levers", "wall",
       // lever_devices_test.cpp
       "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents", "cut_string",
-      "throttle", "lump",
+      "throttle", "lump", "attraction",
       // virtual_objects_test.cpp
-      "flywheel", "pendulum", "collision",
+      "flywheel", "pendulum", "collision", "rigid_body",
       // local_plane_law_test.cpp
-      "local_plane", "sent_force", "local_space",
+      "local_plane", "sent_force", "local_space", "local_edge",
       // material_test.cpp
       "material",
       // testbench/studies/shape

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Flywheel and pendulum behind a spring and a damper: momentum, energy, and where they are stable.
-// Documentation: docs/devices/flywheel.md
+// Flywheel, pendulum and a body in space behind a spring and a damper: momentum, energy, and where
+// they are stable. Documentation: docs/devices/flywheel.md
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
 
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
@@ -204,4 +208,193 @@ TEST_CASE("collision: both momenta and energies are those of an elastic blow") {
     CHECK(state("speed") == Approx(10 * (first - second) / (first + second)).margin(0.01));
     CHECK(state("speed2") == Approx(20 * first / (first + second)).margin(0.01));
   }
+}
+
+namespace {
+
+template <int N>
+struct Numbers {
+  double v[N];
+  double operator[](int i) const { return v[i]; }
+  double& operator[](int i) { return v[i]; }
+};
+using Three = Numbers<3>;
+using Four = Numbers<4>;
+
+/// A turn by `angle` about an axis, as w, x, y, z.
+Four turn_about(Three axis, double angle) {
+  const double far = std::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+  const double s = std::sin(angle / 2) / far;
+  return {std::cos(angle / 2), s * axis[0], s * axis[1], s * axis[2]};
+}
+/// First b, then a.
+Four product(const Four& a, const Four& b) {
+  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+          a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+          a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
+}
+
+/// The law with words of its text replaced.
+Law rigid_body(double rate_hz = 0, const std::map<std::string, std::string>& instead = {}) {
+  std::ifstream file(FELTGATE_ROOT "/rtl/laws/rigid_body.law");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  for (const auto& [from, to] : instead) {
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  }
+  return law_of(text, rate_hz);
+}
+
+/// A body in space whose hand is where and as fast as one says.
+class Body {
+ public:
+  explicit Body(Law law, double damping = 0) : run_(std::move(law)) {
+    run_.set("damping", damping);
+    run_.torque({});
+  }
+  void set(const std::string& parameter, double si) { run_.set(parameter, si); }
+  void hand(const Four& o) {
+    o_ = o;
+    for (int i = 0; i < 4; ++i) set(std::string("o") + "wxyz"[i], o[i]);
+  }
+  Three run(const Three& velocity = {}) {
+    run_.torque(
+        {{"velocity", velocity[0]}, {"velocity[1]", velocity[1]}, {"velocity[2]", velocity[2]}});
+    return {run_.output(0), run_.output(1), run_.output(2)};
+  }
+  void put(const Four& d, const Three& speed) {
+    for (int i = 0; i < 4; ++i) state(std::string("d") + "wxyz"[i], d[i]);
+    for (int i = 0; i < 3; ++i) state(std::string("s") + "xyz"[i], speed[i]);
+  }
+  double of(const std::string& name) { return run_.evaluation().state(state_of(run_.law(), name)); }
+  Three speed() { return {of("sx"), of("sy"), of("sz")}; }
+  /// Half of the angle between body and hand has this cosine.
+  double near() {
+    return std::abs(of("dw") * o_[0] + of("dx") * o_[1] + of("dy") * o_[2] + of("dz") * o_[3]);
+  }
+  double dt() const { return 1 / run_.law().rate_hz; }
+
+ private:
+  void state(const std::string& name, double to) {
+    run_.evaluation().set_state(state_of(run_.law(), name), to);
+  }
+  Running<> run_;
+  Four o_{1, 0, 0, 0};
+};
+
+/// What it has at most and at least in so many runs, beginning with `speed` beside a held hand.
+struct Energies {
+  double begin = 0, most = 0, least = 0, end = 0;
+};
+Energies energies(Body& body, const Four& hand, const Three& speed, int runs) {
+  constexpr double inertia = 0.1e-3, stiffness = 0.1;
+  const auto energy = [&] {
+    const Three s = body.speed();
+    return inertia * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / 2 +
+           4 * stiffness * (1 - body.near());
+  };
+  body.hand(hand);
+  body.put(hand, speed);
+  Energies e{energy(), 0, 1e9, 0};
+  for (int n = 0; n < runs; ++n) {
+    (void)body.run();
+    e.most = feltgate::larger(e.most, energy());
+    e.least = std::min(e.least, energy());
+  }
+  e.end = energy();
+  return e;
+}
+
+/// Speeds of before in place of the new ones.
+const std::map<std::string, std::string> speed_after = {
+    {"(fx*dx + fy*dy + fz*dz)", "(sx*dx + sy*dy + sz*dz)"},
+    {"(fx*dw + fy*dz - fz*dy)", "(sx*dw + sy*dz - sz*dy)"},
+    {"(fy*dw + fz*dx - fx*dz)", "(sy*dw + sz*dx - sx*dz)"},
+    {"(fz*dw + fx*dy - fy*dx)", "(sz*dw + sx*dy - sy*dx)"}};
+/// The inverse of o times d in place of d times the inverse of o.
+const std::map<std::string, std::string> factors_exchanged = {
+    {"dx*ow - dw*ox + dz*oy - dy*oz", "dx*ow - dw*ox - dz*oy + dy*oz"},
+    {"dy*ow - dw*oy + dx*oz - dz*ox", "dy*ow - dw*oy - dx*oz + dz*ox"},
+    {"dz*ow - dw*oz + dy*ox - dx*oy", "dz*ow - dw*oz - dy*ox + dx*oy"}};
+
+}  // namespace
+
+TEST_CASE("rigid body: torque times time is its momentum, and its quaternion keeps its length") {
+  Body body(rigid_body(), 0.5e-3);
+  Three given{};
+  for (int n = 0; n < 40000; ++n) {
+    const double t = n * body.dt();
+    body.hand(product(turn_about({0, 0, 1}, 0.7 * std::sin(9 * t)),
+                      turn_about({1, 1, 0}, 2.5 * std::sin(7 * t))));
+    const Three torque = body.run({std::sin(3 * t), 2 * std::cos(20 * t), 1});
+    for (int i = 0; i < 3; ++i) given[i] -= body.dt() * torque[i];
+  }
+  const Three speed = body.speed();
+  double fast = 0, length2 = 0;
+  for (int i = 0; i < 3; ++i) {
+    CHECK(0.1e-3 * speed[i] == Approx(given[i]).epsilon(1e-9));
+    fast += std::abs(speed[i]);
+  }
+  for (const char* part : {"dw", "dx", "dy", "dz"}) length2 += body.of(part) * body.of(part);
+  CHECK(fast > 1);
+  CHECK(length2 == Approx(1).margin(1e-4));
+}
+
+TEST_CASE("rigid body: without damping no energy comes or goes; in reversed order it comes") {
+  constexpr int runs = 200000;  // 10 s
+  const Four hand = turn_about({1, 1, 1}, 2.0944);
+  const Three speed{6, -4, 3};
+  Body body{rigid_body()}, reversed{rigid_body(0, speed_after)};
+  const double angle = std::sqrt(0.1 / 0.1e-3) * body.dt();
+  const Energies e = energies(body, hand, speed, runs);
+  INFO(e.begin << " " << e.least << " " << e.most);
+  CHECK(e.most - e.begin < 2 * angle * e.begin);
+  CHECK(e.begin - e.least < 2 * angle * e.begin);
+  // Of a swing a run makes 1 + k dt^2 / J.
+  const Energies r = energies(reversed, hand, speed, runs);
+  CHECK(r.end / r.begin == Approx(std::exp(angle * angle * runs)).epsilon(0.05));
+  // With the factors exchanged the spring turns about another axis: hand and body a third of a turn
+  // away from 0, a milliradian between them grows until it slips, as exp(27 t).
+  Body exchanged{rigid_body(0, factors_exchanged)}, right{rigid_body()};
+  for (Body* b : {&exchanged, &right}) {
+    b->hand(hand);
+    b->put(product(turn_about({1, -1, 0}, 1e-3), hand), {});
+    for (int n = 0; n < 8000; ++n) (void)b->run();
+  }
+  CHECK(right.near() > std::cos(0.6e-3));
+  CHECK(exchanged.near() < std::cos(0.2));
+}
+
+TEST_CASE("rigid body: stable where k dt^2 + 2 b dt < 4 J, by its runs") {
+  feltgate::SplitMix64 random(2);
+  int stable = 0, unstable = 0;
+  for (const double rate_hz : {5.0, 10.0, 20.0, 50.0, 1000.0}) {
+    for (int i = 0; i < 60; ++i) {
+      const double k = random.between(0.01, 0.25), b = random.between(1e-4, 2e-3),
+                   inertia = 0.05e-3 * std::pow(20, random.uniform());
+      const double dt = 1 / rate_hz, share = (k * dt * dt + 2 * b * dt) / (4 * inertia);
+      if (std::abs(share - 1) < 0.1) continue;
+      Body body(rigid_body(rate_hz), b);
+      body.set("stiffness", k);
+      body.set("inertia", inertia);
+      INFO(rate_hz << " Hz, k " << k << ", b " << b << ", J " << inertia << ": " << share);
+      const Four hand = turn_about({1, 2, -1}, 1);
+      body.hand(hand);
+      body.put(product(turn_about({0, 1, 1}, 1e-6), hand), {});
+      for (int n = 0; n < 400; ++n) (void)body.run();
+      double largest = 0;
+      for (int n = 0; n < 20; ++n) {
+        for (const double torque : body.run().v)
+          largest = feltgate::larger(largest, std::abs(torque));
+      }
+      CHECK((largest < 1e-5 * k) == (share < 1));
+      ++(share < 1 ? stable : unstable);
+    }
+  }
+  CHECK((stable > 60 && unstable > 60));
+  // At its own rate nothing that a host can set is unstable.
+  const double dt = 1 / shipped("rigid_body").rate_hz;
+  CHECK(0.25 * dt * dt + 2 * 2e-3 * dt < 4 * 0.05e-3);
 }

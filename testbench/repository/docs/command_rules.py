@@ -42,7 +42,7 @@ RULES = (
     Rule(r"feltgate run knob_detents", "BY", "scene.knob_detents.gimbal_motor"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
-    Rule(r"feltgate run stylus_(?:floor|sphere|cube)", "BY", "stylus_test"),
+    Rule(r"feltgate run stylus_(?:floor|sphere|cube|edge)", "BY", "stylus_test"),
     Rule(r"feltgate run gimbal", "BY", "gimbal_run_test"),
     Rule(r"feltgate run plane_circle.*", "BY", "local_plane_test"),
     Rule(r"feltgate run (?:pantograph_floor|hidden_shapes).*", "BY", "axes_run_test"),
@@ -54,7 +54,7 @@ RULES = (
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
     # Scenes of a law, which the launcher gives a design with an engine.
     Rule(
-        r"feltgate run (bowed_string|ceiling|collision|cut_string|drums|end_stops|end_stops_thrown|flywheel"
+        r"feltgate run (attraction|bowed_string|ceiling|collision|cut_string|drums|end_stops|end_stops_thrown|flywheel"
         r"|graded_membrane|lump|material_(?:fields|object|stick_slip|stone)|moved_detents|pendulum"
         r"|scroll_wheel|throttle|turn_switch)",
         "BY",

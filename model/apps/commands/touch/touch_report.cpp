@@ -37,6 +37,7 @@ struct Summary {
   double touching = 0;  ///< share of the poses
   int constraints = 0;
   double depth_m = 0, force_n = 0, median_s = 0, rare_s = 0, tilt_rad = 0, age_s = 0;
+  double step_n = 0;  ///< of the spring's force, at a new plane
 };
 
 Summary summary_of(const touch::TouchRun& run) {
@@ -55,6 +56,7 @@ Summary summary_of(const touch::TouchRun& run) {
   s.rare_s = touch::quantile(took, 0.999);
   s.tilt_rad = run.result.figures.at("plane_tilt_rad.max");
   s.age_s = run.result.figures.at("plane_age_s.max");
+  s.step_n = run.result.figures.at("plane_step_n.max");
   return s;
 }
 
@@ -127,8 +129,10 @@ std::string run_text(const TouchArguments& a, const touch::TouchRun& run) {
       u.size(), a.rate_hz, 100 * m.touching, m.constraints, o.figures.at("planes_arrived"),
       o.figures.at("planes_lost"));
   s += fmt::format("depth up to {:.3f} mm, force up to {:.3f} N\n", 1e3 * m.depth_m, m.force_n);
-  s += fmt::format("a plane in force is up to {:.1f} ms old and {:.1f} degrees off the newest\n",
-                   1e3 * m.age_s, degrees(m.tilt_rad));
+  s += fmt::format(
+      "a plane in force is up to {:.1f} ms old and {:.1f} degrees off the newest; at a new one the "
+      "force steps by up to {:.3f} N\n",
+      1e3 * m.age_s, degrees(m.tilt_rad), m.step_n);
   s += fmt::format(
       "an update of the proxy took {:.1f} us in the median, {:.1f} us in all but one of a "
       "thousand, here\n",
@@ -195,6 +199,7 @@ void add_run(nlohmann::ordered_json& j, const touch::TouchRun& run) {
   j["force_n"] = m.force_n;
   j["plane_age_s"] = m.age_s;
   j["plane_tilt_rad"] = m.tilt_rad;
+  j["plane_step_n"] = m.step_n;
   j["update_s"] = {{"median", m.median_s}, {"q999", m.rare_s}};
   for (const AxisFigures& axis : o.axes) {
     if (!o.reference.empty())

@@ -25,7 +25,8 @@ struct TouchArguments {
   std::array<double, 3> centre_m{};
   double stiffness = 300, damping = 0, drag = 0;
   double rate_hz = 1000, latency_s = 1e-3, jitter_s = 1e-3, lost = 0;
-  bool as_is = false, shading = false, mesh_only = false, quiet = false;
+  bool as_is = false, shading = false, edges = false, distance = false, mesh_only = false,
+       quiet = false;
 };
 
 /// What fewer faces cost.

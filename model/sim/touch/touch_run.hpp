@@ -118,7 +118,8 @@ inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double dep
     throw std::invalid_argument("nothing is under the middle of the mesh; give a stroke: --stroke");
   }
   way.resize(last);
-  const auto over = [&](Vec3 at) { return Vec3{at.x, at.y, high.z + above_m}; };
+  const double top_m = high.z + above_m;
+  const auto over = [top_m](Vec3 at) { return Vec3{at.x, at.y, top_m}; };
   way.insert(way.begin(), over(way.front()));
   way.push_back(over(way.back()));
   Stroke stroke{{0, way.front()}, {wait_s, way.front()}};

@@ -110,7 +110,7 @@ def laws_of(root):
 
 
 def registers_of(root):
-    """What the page needs of the map to talk to a board: addresses of words, and numbers of bits."""
+    """What the page needs of the map to talk to a board: addresses of words, numbers of bits."""
     table = tomllib.loads((root / "rtl/registers.toml").read_text(encoding="utf-8"))
     rows = (root / "rtl/generated/lever/csr.csv").read_text(encoding="utf-8")
     bytes_of = re.findall(r"^csr_register,feltgate_(?:link_)?(\w+),(\w+)", rows, re.M)

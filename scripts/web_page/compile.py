@@ -100,7 +100,8 @@ def compile_core(root, designs, folder, progress=None):
         if not (include / name).exists():
             (include / name).symlink_to(place)
     gltf = folder / "tiny_gltf.cpp"
-    gltf.write_text("#include <fstream>\n#define TINYGLTF_IMPLEMENTATION\n#include <tiny_gltf.h>\n", encoding="utf-8")
+    lines = "#include <fstream>", "#define TINYGLTF_IMPLEMENTATION", "#include <tiny_gltf.h>", ""
+    gltf.write_text("\n".join(lines), encoding="utf-8")
     jobs = [gltf, *engines(root, designs, folder), *sources(root)]
     paths = ["-I", root, "-I", root / "model", "-I", root / "model/include", "-I", folder]
     paths += ["-isystem", include]

@@ -4,9 +4,7 @@
 // Writes the reference data of the page: recorded pins and register writes of scenes, with the hash
 // of the native twin over them; the result of a closed loop; and the compiled laws that the page
 // runs without a core. Documentation: docs/page.md
-#include <fmt/format.h>
 #include <cmath>
-
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -14,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/page/felt_mesh.hpp"
 #include "apps/page/image_law.hpp"
 #include "apps/page/live_loop.hpp"
 #include "apps/page/recorded_inputs.hpp"
@@ -186,17 +183,11 @@ int main(int count, char** argv) {
     return 2;
   }
   try {
-    json out = {{"recorded", json::array()},
-                {"closed", json::array()},
-                {"shapes", hidden_shapes()},
-                {"training", training_squares()},
-                {"drums", image_of("drums")},
-                {"material", image_of("material")},
-                {"materials", materials()},
-                {"coupled", coupled()},
-                {"strings", strings()},
-                {"stylus", stylus()},
-                {"knob", fmt::format("{:016x}", page::knob_hash())}};
+    json out = {{"recorded", json::array()},  {"closed", json::array()},
+                {"shapes", hidden_shapes()},  {"training", training_squares()},
+                {"drums", image_of("drums")}, {"material", image_of("material")},
+                {"materials", materials()},   {"coupled", coupled()},
+                {"strings", strings()},       {"stylus", stylus()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).scene_number("law") >= 0) {

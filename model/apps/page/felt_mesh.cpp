@@ -4,10 +4,7 @@
 // A mesh under the page's stylus. Documentation: docs/page.md
 #include "apps/page/felt_mesh.hpp"
 
-#include <cstring>
 #include <utility>
-
-#include "sim/backends/fnv1a.hpp"
 
 namespace feltgate::page {
 
@@ -57,27 +54,6 @@ void FeltMesh::begin(Vec3 pen_m) {
 Plane FeltMesh::move(Vec3 pen_m) {
   touched_ = proxy_.move(pen_m);
   return {touched_.point_m, touched_.normal};
-}
-
-std::uint64_t knob_hash() {
-  Fnv1a hash;
-  FeltMesh knob(touch::clean(knob_mesh()));
-  knob.begin({-0.04, 0, 0.04});
-  for (int n = 0; n <= 2000; ++n) {
-    const double share = n / 2000.0;
-    // Down into the knob and over it, across its bumps and hollows.
-    const double down = n < 400 ? n / 400.0 : 1;
-    const Plane plane =
-        knob.move({0.08 * share - 0.04, 0.03 * share * share - 0.01, 0.04 - 0.032 * down});
-    for (const Vec3 v : {knob.touched().proxy_m, plane.point_m, plane.normal}) {
-      for (const double part : {v.x, v.y, v.z}) {
-        std::int64_t bits = 0;
-        std::memcpy(&bits, &part, sizeof(bits));
-        hash.add(bits);
-      }
-    }
-  }
-  return hash.value();
 }
 
 }  // namespace feltgate::page

@@ -5,15 +5,12 @@
 // Documentation: docs/page.md
 #pragma once
 
-#include <cstdint>
-
 #include "sim/axes_loop/plane_host.hpp"
 #include "sim/touch/touch.hpp"
 
 namespace feltgate::page {
 
-/// A knob with six bumps, 60 mm wide: 3072 triangles by sums, products and roots alone, so that it
-/// has the same bits everywhere.
+/// A knob with six bumps, 60 mm wide: 3072 triangles.
 touch::Soup knob_mesh();
 
 /// A mesh and the proxy on it. It stays where it is: the proxy points to the mesh.
@@ -40,9 +37,5 @@ class FeltMesh {
   touch::Proxy proxy_;
   touch::Touched touched_;
 };
-
-/// Hash (64-bit FNV-1a) of proxy, point and normal of 2001 poses over the knob, of its facets:
-/// the weights of the corners' normals are of a libm.
-std::uint64_t knob_hash();
 
 }  // namespace feltgate::page

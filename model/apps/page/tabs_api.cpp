@@ -5,7 +5,6 @@
 // core. Only Emscripten compiles it. Documentation: docs/page.md
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
-#include <fmt/format.h>
 
 #include <cstdio>
 #include <fstream>
@@ -342,8 +341,6 @@ EMSCRIPTEN_BINDINGS(feltgate_tabs) {
       .function("advance", &BowString::advance)
       .function("state", &BowString::state)
       .function("heard", &BowString::heard);
-  emscripten::function(
-      "knobHash", +[] { return fmt::format("{:016x}", page::knob_hash()); });
   emscripten::constant("STYLUS_MOST_N", page::StylusLoop::most_n);
   emscripten::constant("STYLUS_REACH_M", page::StylusLoop::reach_m);
   emscripten::class_<Stylus>("Stylus")

@@ -9,11 +9,13 @@ Documentation: docs/page.md
 import base64
 import gzip
 import hashlib
+import http.server
 import json
 import os
 import re
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 import command_line
@@ -27,12 +29,14 @@ EPILOG = """examples:
   feltgate page --design mine -o my.html  the page with rtl/designs/mine.toml first
   feltgate page --update                  docs/page.html anew, after a change of twin or page
   feltgate page --check                   is docs/page.html of this tree?
+  feltgate page --serve                   docs/page.html at http://localhost:8000, for Web Serial
 
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""
 DESIGNS = ("lever", "paper", "fast", "lever_law")
 LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "inside.js", "law.js")
-TABS = ("pen.js", "game.js", "drums.js", "materials.js", "coupled.js", "string.js", "stylus.js")
+PENS = ("pen.js", "game.js", "stylus.js", "mesh.js")
+TABS = (*PENS, "drums.js", "materials.js", "coupled.js", "string.js", "board.js")
 SCRIPTS = (*LEVER_SCRIPTS, *TABS, "address.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')
@@ -53,6 +57,9 @@ def arguments_of(argv):
         update=f"write {COMMITTED}",
         check=f"compare {COMMITTED} with this tree; compiles nothing",
     )
+    what = f"serve {COMMITTED} on localhost at this port until Ctrl-C; 0: a free one; default: 8000"
+    add = {"type": command_line.whole(0), "nargs": "?", "const": 8000, "metavar": "PORT"}
+    parser.add_argument("--serve", help=what, **add)
     options = parser.parse_args(argv)
     outputs.check(parser, output=options.output)
     return options
@@ -92,13 +99,57 @@ def numbers_of(root, designs):
     done = interrupts.run([program, *designs], **interrupts.CAPTURED)
     if done.returncode:
         raise PageError(done.stderr.strip())
-    return dict(json.loads(done.stdout), version=version_of(root), laws=laws_of(root))
+    ours = {"laws": laws_of(root), "registers": registers_of(root), "version": version_of(root)}
+    return {**json.loads(done.stdout), **ours}
 
 
 def laws_of(root):
     """The shipped laws that a lever can render: name to text."""
     texts = {path.stem: path.read_text(encoding="utf-8") for path in root.glob("rtl/laws/*.law")}
     return {name: text for name, text in sorted(texts.items()) if "[1]" not in text}
+
+
+def registers_of(root):
+    """What the page needs of the map to talk to a board: addresses of words, numbers of bits."""
+    table = tomllib.loads((root / "rtl/registers.toml").read_text(encoding="utf-8"))
+    rows = (root / "rtl/generated/lever/csr.csv").read_text(encoding="utf-8")
+    bytes_of = re.findall(r"^csr_register,feltgate_(?:link_)?(\w+),(\w+)", rows, re.M)
+    words = {name: int(address, 16) // 4 for name, address in bytes_of}
+    every = table["control"] + table["snapshot"] + table["link_word"]
+    constants = {constant["name"]: constant["value"] for constant in table["link_constant"]}
+    return {
+        "words": words,
+        "bits": {f"{w['name']}.{f['name']}": f["bit"] for w in every for f in w.get("fields", ())},
+        "snapshot": sorted((word["name"] for word in table["snapshot"]), key=words.get),
+        "scenes": {scene["name"]: scene["number"] for scene in table["scene"]},
+        "identity": constants["identity"],
+        "version": constants["version"],
+    }
+
+
+def served(page, port):
+    """Serves one page, and nothing else, to this computer. Web Serial needs more than file://."""
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_GET(self):  # noqa: N802
+            known = self.path.partition("?")[0] in ("/", "/page.html")
+            self.send_response(200 if known else 404)
+            self.send_header("Content-Type", "text/html; charset=utf-8")
+            self.send_header("Content-Length", str(len(page) if known else 0))
+            self.end_headers()
+            if known:
+                self.wfile.write(page)
+
+        def log_message(self, *_):
+            """Says nothing of each request."""
+
+    try:
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
+    except (OSError, OverflowError) as error:
+        raise PageError(f"port {port} of localhost: {error}; name another: --serve 8001") from None
+    with server:
+        print(f"http://localhost:{server.server_port}/ until Ctrl-C", file=sys.stderr, flush=True)
+        server.serve_forever()
 
 
 def assembled(root, numbers, script, wasm):
@@ -160,6 +211,12 @@ def page_of(root, designs):
 def run(options):
     """The exit code."""
     root = command_line.root()
+    if options.serve is not None:
+        path = root / COMMITTED
+        if not path.is_file():
+            raise PageError(f"{COMMITTED} is not there; write it with feltgate page --update")
+        served(path.read_bytes(), options.serve)
+        return 0
     if options.check:
         why = stale(root)
         if why:

@@ -89,7 +89,7 @@ target_compile_options(feltgate_calibrate PRIVATE -O1)
 target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
 feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_backends feltgate_loop feltgate_design feltgate_law_loop
-  feltgate_axes_loop feltgate_shape)
+  feltgate_axes_loop feltgate_shape feltgate_proxy)
 # Presets of several axes, for `feltgate rates` of all scenes.
 set(FELTGATE_AXES_PRESETS "")
 foreach(design IN LISTS FELTGATE_PRESETS)
@@ -139,10 +139,13 @@ feltgate_library(feltgate_texture studies/texture feltgate_shape PNG::PNG)
 
 # Meshes under the pen: docs/touch.md. Linked by name, as SystemC is: only who builds them needs TinyGLTF and
 # meshoptimizer.
-feltgate_library(feltgate_mesh sim/touch EXCEPT "/touch_run" feltgate_model)
+feltgate_library(feltgate_mesh sim/touch ONLY "/(glb|decimate)" feltgate_proxy)
 target_link_libraries(feltgate_mesh PRIVATE tinygltf meshoptimizer)
-# The whole work of a run is in the proxy.
-target_compile_options(feltgate_mesh PRIVATE -O2)
+# The proxy needs neither. It is the whole work of a run.
+feltgate_library(feltgate_proxy sim/touch ONLY "/(mesh|proxy)\\.")
+foreach(name feltgate_mesh feltgate_proxy)
+  target_compile_options(${name} PRIVATE -O2)
+endforeach()
 
 # What papers claim: docs/claims.md
 feltgate_library(feltgate_claims studies/claims feltgate_texture feltgate_stability feltgate_loop feltgate_files

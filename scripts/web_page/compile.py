@@ -11,6 +11,8 @@ import interrupts
 
 # Boost.Interval wants to know how to set a rounding mode; ours (bounds::Outward) never does.
 FLAGS = "-std=c++17 -O3 -fexceptions -DFMT_HEADER_ONLY -D__USE_ISOC99=1".split()
+# TinyGLTF reads the bytes that it is given: no file, no picture.
+FLAGS += [f"-DTINYGLTF_NO_{name}" for name in ("FS", "STB_IMAGE", "STB_IMAGE_WRITE")]
 LINK = (
     "-O3 -fexceptions --bind -sALLOW_MEMORY_GROWTH=1 -sMODULARIZE=1 -sEXPORT_NAME=Feltgate "
     "-sENVIRONMENT=web,worker"
@@ -21,6 +23,8 @@ HEADERS = {
     "fmt": "/usr/include/fmt",
     "boost": "/usr/include/boost",
     "Eigen": "/usr/include/eigen3/Eigen",
+    "nlohmann": "/usr/include/nlohmann",
+    "tiny_gltf.h": "/usr/include/tiny_gltf.h",
 }
 FOLDERS = ("apps/page", "sim/plant", "files/toml", "design", "law", "sim/law_loop")
 FILES = (
@@ -31,6 +35,9 @@ FILES = (
     "sim/loop/backend_choice.cpp",
     "sim/loop/run_host.cpp",
     "sim/loop/step_plan.cpp",
+    "sim/touch/glb.cpp",
+    "sim/touch/mesh.cpp",
+    "sim/touch/proxy.cpp",
     "studies/shape/rhombus.cpp",
     "studies/stability/dominant_poles.cpp",
     "studies/stability/eigenvalues.cpp",
@@ -92,7 +99,10 @@ def compile_core(root, designs, folder, progress=None):
     for name, place in HEADERS.items():
         if not (include / name).exists():
             (include / name).symlink_to(place)
-    jobs = engines(root, designs, folder) + sources(root)
+    gltf = folder / "tiny_gltf.cpp"
+    lines = "#include <fstream>", "#define TINYGLTF_IMPLEMENTATION", "#include <tiny_gltf.h>", ""
+    gltf.write_text("\n".join(lines), encoding="utf-8")
+    jobs = [gltf, *engines(root, designs, folder), *sources(root)]
     paths = ["-I", root, "-I", root / "model", "-I", root / "model/include", "-I", folder]
     paths += ["-isystem", include]
 

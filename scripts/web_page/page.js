@@ -179,7 +179,10 @@ function build_controls() {
   document.addEventListener("drop", async (event) => {
     event.preventDefault();
     const file = event.dataTransfer.files[0];
-    if (file) drop(file.name, await file.text());
+    if (!file) return;
+    if (page.tab !== "stylus" && !/\.glb$/i.test(file.name)) return drop(file.name, await file.text());
+    select_tab("stylus");
+    await page.stylus.open(file);
   });
   const theme = (dark) => {
     document.documentElement.classList.toggle("dark", dark);
@@ -261,7 +264,7 @@ function select_tab(name) {
     tab.tabIndex = chosen ? 0 : -1;
     $(tab.getAttribute("aria-controls")).hidden = !chosen;
   }
-  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab }[name];
+  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab, board: BoardTab }[name];
   if (make && !page[name]) {
     page[name] = new make(page.core, page.numbers);
     page.address.opened(name, true);

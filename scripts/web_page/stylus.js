@@ -27,7 +27,12 @@ class StylusTab {
     for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
     this.svg.addEventListener("keydown", (event) => this.key(event));
     for (const { name } of this.worlds) $("stylus-world").append(option(name, { floor: "plane" }[name] || name));
+    $("stylus-world").append(option("mesh", "mesh: the knob, or a GLB file"));
+    this.view = new MeshView($("stylus-view"));
+    this.mesh = null; // {name, triangles, faces, ...} of the one that is loaded
     $("stylus-world").value = "sphere";
+    $("stylus-file").onchange = () => $("stylus-file").files[0] && this.open($("stylus-file").files[0]);
+    $("stylus-shading").oninput = () => this.shade();
     $("stylus-world").oninput = () => this.choose();
     for (const id of ["stiffness", "damping", "friction", "rate", "age"]) $(`stylus-${id}`).oninput = () => this.touch();
     $("stylus-y").oninput = () => this.aim(this.lead[0], Number($("stylus-y").value) / 1000, this.lead[2]);
@@ -36,12 +41,41 @@ class StylusTab {
 
   /** Another object, with the pen above it. */
   choose() {
-    this.world = this.worlds.find((world) => world.name === $("stylus-world").value);
+    const name = $("stylus-world").value, meshed = name === "mesh";
+    if (meshed && !this.mesh) this.load("the knob", new Uint8Array());
+    if (!meshed) { this.pen.unload(); this.mesh = null; }
+    this.world = meshed ? { name, kind: 0, centre: [0, 0, 0], radius_m: 0 } : this.worlds.find((world) => world.name === name);
+    $("stylus-mesh").hidden = $("stylus-view").hidden = !meshed;
+    if (meshed) this.shade();
     this.touch();
     this.pen.place(0, 0, 0.045);
     this.led = [0, 0, 0.045];
     this.aim(...this.led);
     this.seen = this.pen.state();
+  }
+
+  /** A GLB file to feel; where it cannot be, the importer says why, and all stays as it was. */
+  async open(file) {
+    if (!this.load(file.name, new Uint8Array(await file.arrayBuffer()))) return;
+    $("stylus-world").value = "mesh";
+    this.choose();
+  }
+
+  load(name, bytes) {
+    const begin = performance.now(), found = this.pen.load(name, bytes, MESH_SIZE_M);
+    $("stylus-said").textContent = found.error;
+    if (found.error) return false;
+    this.mesh = { name, ...found, triangles: this.pen.triangles(), import_ms: performance.now() - begin };
+    const { faces, read, scale, parts, borders, genus } = this.mesh, closed = borders ? `${borders} edges at a border` : "closed";
+    $("stylus-said").textContent = `${name}: ${faces} of ${read} triangles, scaled by ${Number(scale.toPrecision(3))} to ${1000 * MESH_SIZE_M} mm; ` +
+      `${parts} part${parts === 1 ? "" : "s"}, ${closed}${genus === null ? "" : `, genus ${genus}`}`;
+    return true;
+  }
+
+  shade() {
+    const smooth = $("stylus-shading").checked;
+    this.pen.shade(smooth);
+    if (this.mesh) this.view.show(this.mesh.triangles, smooth);
   }
 
   /** The host begins anew, with what the controls say. */
@@ -96,12 +130,18 @@ class StylusTab {
   frame(passed) {
     run_timed(passed, () => this.advance(passed));
     this.draw();
+    if (this.mesh) this.view.draw(this.seen);
     this.draw_trace();
   }
 
   /** The object cut at the pen's y, and its outline where it is widest. */
   object_in_section() {
     const { name, centre, radius_m } = this.world, [x, y] = in_section(centre), r = STYLUS_CUT.per_m * radius_m;
+    if (name === "mesh") {
+      const cut = Math.round(1e4 * this.seen.pen[1]) / 1e4; // a new one each tenth of a millimetre
+      if (this.mesh.cut !== cut) Object.assign(this.mesh, { cut, section: mesh_section(this.mesh.triangles, cut, in_section) });
+      return `<path class="outline" d="${this.mesh.section}"/>`;
+    }
     if (name === "floor") return `<path class="outline" d="${path([[-600, y], [STYLUS_CUT.right + 5, y], [STYLUS_CUT.right + 5, 500], [-600, 500]])}Z"/>`;
     const off = Math.abs(this.seen.pen[1] - centre[1]), inside = off < radius_m;
     if (name === "cube") {
@@ -129,7 +169,7 @@ class StylusTab {
     const { name, centre, radius_m } = this.world, { pen, hand, force, point, normal } = this.seen;
     const [x, y] = from_above(centre), r = STYLUS_ABOVE.per_m * radius_m, left = STYLUS_ABOVE.x - STYLUS_ABOVE.half, top = STYLUS_ABOVE.y - STYLUS_ABOVE.half, size = 2 * STYLUS_ABOVE.half;
     const box = (kind, half_x, half_y) => `<rect class="${kind}" x="${x - half_x}" y="${y - half_y}" width="${2 * half_x}" height="${2 * half_y}"/>`;
-    const object = name === "floor" ? box("outline", STYLUS_ABOVE.half, STYLUS_ABOVE.half) : name === "cube" ? box("outline", r, r) : `<circle class="outline" cx="${x}" cy="${y}" r="${r}"/>`;
+    const object = name === "mesh" ? "" : name === "floor" ? box("outline", STYLUS_ABOVE.half, STYLUS_ABOVE.half) : name === "cube" ? box("outline", r, r) : `<circle class="outline" cx="${x}" cy="${y}" r="${r}"/>`;
     const at_pen = from_above(pen), at_hand = from_above(hand), scale = STYLUS_NEWTON * 0.4;
     return `<rect class="scale" x="${left}" y="${top}" width="${size}" height="${size}"/><g clip-path="url(#stylus-above)">${object}` +
       `<path class="scale" stroke-dasharray="4 4" d="${path([[left, at_pen[1]], [left + size, at_pen[1]]])}"/>` +
@@ -149,7 +189,7 @@ class StylusTab {
       ([name, text], n) => `<text x="490" y="${288 + 36 * n}">${name}</text><text class="figure" x="628" y="${290 + 36 * n}">${text}</text>`).join("");
     this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect x="-500" width="${STYLUS_CUT.right + 500}" height="${STYLUS_CUT.height}"/></clipPath>
       <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>
-      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.plane_in_section()}<path class="handline" d="${path([tip, hand])}"/>
+      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.plane_in_section()}${s.proxy ? `<circle class="proxy" cx="${in_section(s.proxy)[0]}" cy="${in_section(s.proxy)[1]}" r="5"/>` : ""}<path class="handline" d="${path([tip, hand])}"/>
       <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>
       <path class="scale" d="${path([[STYLUS_CUT.right, 0], [STYLUS_CUT.right, STYLUS_CUT.height]])}"/><text x="8" y="18">cut at y = ${fixed(1000 * s.pen[1], 1)} mm, z up</text>${this.view_from_above()}${key}${large}`;
     const list = (v, digits, k = 1) => `(${v.map((part) => fixed(k * part, digits)).join(", ")})`;

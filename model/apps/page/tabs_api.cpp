@@ -6,9 +6,15 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
+#include <cstdio>
+#include <fstream>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/page/coupled_loop.hpp"
+#include "apps/page/felt_mesh.hpp"
 #include "apps/page/pen_loop.hpp"
 #include "apps/page/said.hpp"
 #include "apps/page/stick_loop.hpp"
@@ -20,6 +26,7 @@ namespace {
 using emscripten::val;
 using feltgate::plant::Vec3;
 namespace page = feltgate::page;
+namespace touch = feltgate::touch;
 using page::said;
 
 /// The pen of the pantograph in a hand, and a law's image that pushes it.
@@ -210,9 +217,57 @@ class Stylus {
     world.friction = number(w, "friction");
     world.rate_hz = number(w, "rate_hz");
     world.latency_s = number(w, "age_s");
+    if (felt_) {
+      world.search = [felt = felt_, material = feltgate::PlaneMaterial(world)](Vec3 pen_m) {
+        return std::pair{felt->move(pen_m), material};
+      };
+    }
     loop_.touch(world);
   }
-  void place(double x_m, double y_m, double z_m) { loop_.place({x_m, y_m, z_m}); }
+  /// From the next touch() on a mesh is felt: the bytes of a GLB file, its largest side `size_m`;
+  /// of no bytes, the knob. Returns what it is, or {error}, which changes nothing. The next call
+  /// is place().
+  val load(const std::string& name, const std::string& bytes, double size_m) {
+    val out = val::object();
+    out.set("error", said([&] {
+              touch::Soup soup = bytes.empty() ? page::knob_mesh() : read(name, bytes);
+              out.set("scale", touch::place(soup, {size_m, {}}));
+              felt_ = std::make_shared<page::FeltMesh>(touch::clean(soup));
+            }));
+    if (!out["error"].as<std::string>().empty()) return out;
+    const touch::MeshReport& r = felt_->mesh().report;
+    out.set("faces", static_cast<double>(felt_->mesh().triangles.size()));
+    out.set("read", static_cast<double>(r.triangles_read));
+    out.set("parts", static_cast<double>(r.components.size()));
+    out.set("borders", static_cast<double>(r.border_edges));
+    const bool one = r.components.size() == 1 && r.components[0].genus();
+    out.set("genus", one ? val(static_cast<double>(*r.components[0].genus())) : val::null());
+    return out;
+  }
+  /// No mesh is felt from the next touch() on.
+  void unload() { felt_.reset(); }
+  void shade(bool on) {
+    if (felt_) felt_->shade(on);
+  }
+  /// Of each triangle its corners, m, then their normals: a Float32Array of 18 each.
+  val triangles() const {
+    std::vector<float> all;
+    for (std::size_t n = 0; felt_ && n < felt_->mesh().triangles.size(); ++n) {
+      const auto add = [&](Vec3 v) {
+        for (const double part : {v.x, v.y, v.z}) all.push_back(static_cast<float>(part));
+      };
+      for (const std::uint32_t corner : felt_->mesh().triangles[n]) add(felt_->mesh().at[corner]);
+      for (const Vec3& normal : felt_->mesh().normals[n]) add(normal);
+    }
+    return val::global("Float32Array").new_(emscripten::typed_memory_view(all.size(), all.data()));
+  }
+  /// Returns an error where a mesh is felt and the place is in it; the pen then stays.
+  std::string place(double x_m, double y_m, double z_m) {
+    return said([&] {
+      if (felt_) felt_->begin({x_m, y_m, z_m});
+      loop_.place({x_m, y_m, z_m});
+    });
+  }
   void lead(double x_m, double y_m, double z_m) { loop_.lead({x_m, y_m, z_m}); }
   std::string advance(double seconds) {
     return said([&] { loop_.advance(seconds); });
@@ -226,7 +281,9 @@ class Stylus {
     out.set("hand", array_of(loop_.hand_m()));
     out.set("force", array_of(loop_.force_n()));
     out.set("limited", loop_.limited());
-    out.set("depth", loop_.depth_m());
+    out.set("depth", felt_ ? felt_->touched().depth_m : loop_.depth_m());
+    out.set("proxy",
+            felt_ && felt_->touched().touching ? array_of(felt_->touched().proxy_m) : val::null());
     const auto plane = loop_.plane();
     out.set("point", plane ? array_of(plane->point_m) : val::null());
     out.set("normal", plane ? array_of(plane->normal) : val::null());
@@ -238,7 +295,15 @@ class Stylus {
   }
 
  private:
+  /// The importer reads files, here one in the memory, under the name that it will say.
+  static touch::Soup read(const std::string& name, const std::string& bytes) {
+    std::ofstream(name, std::ios::binary) << bytes;
+    const std::unique_ptr<const char, int (*)(const char*)> removed(name.c_str(), &std::remove);
+    return touch::read_glb(name);
+  }
+
   page::StylusLoop loop_;
+  std::shared_ptr<page::FeltMesh> felt_;
 };
 
 }  // namespace
@@ -282,6 +347,10 @@ EMSCRIPTEN_BINDINGS(feltgate_tabs) {
       .constructor<std::string, val>()
       .function("set", &Stylus::set)
       .function("touch", &Stylus::touch)
+      .function("load", &Stylus::load)
+      .function("unload", &Stylus::unload)
+      .function("shade", &Stylus::shade)
+      .function("triangles", &Stylus::triangles)
       .function("place", &Stylus::place)
       .function("lead", &Stylus::lead)
       .function("advance", &Stylus::advance)

@@ -226,6 +226,8 @@ class Proxy {
   void begin(Vec3 pen_m);
   /// The pen is here now.
   Touched move(Vec3 pen_m);
+  /// From the next move on, with shading or without.
+  void shade(bool on) { settings_.shading = on; }
 
   /// Middle of its ball.
   Vec3 at() const { return at_; }

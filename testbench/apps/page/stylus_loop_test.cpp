@@ -7,7 +7,9 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
 
+#include "apps/page/felt_mesh.hpp"
 #include "apps/page/stylus_loop.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
@@ -251,6 +253,36 @@ TEST_CASE("page: a world that changes is felt from its first plane on; reach and
   CHECK_THROWS_AS(loop.set("grip", 11), std::invalid_argument);
   CHECK_THROWS_AS(loop.set("hardness", 1), std::invalid_argument);
   CHECK_THROWS_AS(StylusLoop("nonsense", slides()), std::invalid_argument);
+}
+
+TEST_CASE("page stylus: a mesh holds the pen as a plane does, and shading turns its normals") {
+  // A roof of two faces that rises by 1 in 4 on both sides of x = 0.
+  touch::Soup roof;
+  roof.at = {{-0.04, -0.04, 0}, {0, -0.04, 0.01}, {0, 0.04, 0.01},
+             {-0.04, 0.04, 0},  {0.04, -0.04, 0}, {0.04, 0.04, 0}};
+  roof.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  roof.parts = {0, 0, 0, 0};
+  roof.materials = {"none"};
+  FeltMesh felt(touch::clean(roof));
+  PlaneHostSettings world = world_of("stylus_floor", 1000, 0);
+  world.stiffness_n_m = 300;
+  world.search = [&](Vec3 pen_m) { return std::pair{felt.move(pen_m), PlaneMaterial(world)}; };
+  StylusLoop loop(image(), slides());
+  loop.place({-0.02, 0, 0.03});
+  felt.begin(loop.pen_m());
+  loop.touch(world);
+  rest(loop, {-0.02, 0, 0});
+  // Perpendicular to the face, the springs of hand and mesh are equal; along it the hand leads.
+  const Vec3 normal = 1 / std::sqrt(17.0) * Vec3{-1, 0, 4};
+  const double below_m = 0.005 * 4 / std::sqrt(17.0);
+  const double depth_m = below_m * hand.stiffness_n_m / (hand.stiffness_n_m + 300);
+  CHECK(felt.touched().touching);
+  CHECK(felt.touched().depth_m == Approx(depth_m).margin(2 * count_m));
+  CHECK(plant::length(loop.force_n() - 300 * depth_m * normal) < 300 * 3 * count_m);
+  felt.shade(true);
+  loop.advance(0.1);
+  // Halfway to the roof's edge, whose normal is upright.
+  CHECK(felt.touched().normal.z > normal.z + 0.001);
 }
 
 }  // namespace feltgate::page

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,8 @@ constexpr double kClockS = 1.0 / D::clock_hz;
 constexpr int kPeriod = D::pwm_period;
 /// Armed after the calibration, whose two averages take 512 periods.
 constexpr std::int64_t kArm = 520'000, kSettled = kArm + 40'000;
+/// Until then the plant waits: its gates are off.
+constexpr std::int64_t kMoves = kArm - 5'000;
 
 Parameters motor(double resistance) {
   Parameters p = shipped("gimbal_motor");
@@ -47,8 +50,7 @@ Parameters motor(double resistance) {
 
 /// A host that arms the set-point or direct voltage; the motor, its sensor, and two modulators.
 struct Rig {
-  double torque_nm = 0.03, direct_v = 0, resistance = 1;
-  Hand hand = held_at(0.3);
+  double torque_nm = 0.03, direct_v = 0;
   bool reversed = false;                             ///< B and C change places
   std::vector<std::pair<int, std::uint32_t>> words;  ///< further ones, before arming
   std::int64_t event_at = 1LL << 60;
@@ -61,11 +63,8 @@ struct Rig {
   CoreIn in;
   bool clock_was = false;
 
-  explicit Rig(const Hand& h = held_at(0.3), double r = 1)
-      : resistance(r),
-        hand(h),
-        p(motor(r)),
-        plant(p, *p.phases, p.effects, drive_50khz(0.5e-6), h) {}
+  explicit Rig(const Hand& hand, double resistance = 1)
+      : p(motor(resistance)), plant(p, *p.phases, p.effects, drive_50khz(0.5e-6), hand) {}
 
   double shaft_rad() const { return plant.observables().theta_rad; }
   double torque() const { return plant.motor().torque_nm(shaft_rad()); }
@@ -74,7 +73,9 @@ struct Rig {
     const auto gate = [&out](int n) { return static_cast<double>(out.gates >> n & 1); };
     const int b = reversed ? 4 : 2, c = reversed ? 2 : 4;
     const double before_rad = shaft_rad();
-    plant.advance(Legs::gates(gate(0), gate(1), gate(b), gate(b + 1), gate(c), gate(c + 1)), 1);
+    if (cycle >= kMoves) {
+      plant.advance(Legs::gates(gate(0), gate(1), gate(b), gate(b + 1), gate(c), gate(c + 1)), 1);
+    }
     sensor.turn(before_rad, shaft_rad(), cycle, 1);
     in.encoder_data = sensor.pin(cycle, out.serial);
     const bool rises = out.current_clock && !clock_was;
@@ -103,7 +104,7 @@ struct Rig {
       return low(std::llround(std::ldexp(v, fraction)));
     };
     write(1'000, A::self_test_pulse, 0);
-    write(2'000, A::ramp_step, 0x7ffffff);
+    write(2'000, A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1);
     write(3'000, A::setpoint_torque, fixed(torque_nm, D::f.torque.fraction));
     write(4'000, A::voltage_step, (1u << (D::f.voltage.width() - 1)) - 1);
     write(5'000, A::voltage_setpoint, fixed(direct_v, D::f.voltage.fraction));
@@ -118,7 +119,7 @@ struct Rig {
 struct Seen {
   std::vector<double> torque_nm, shaft_rad;  ///< means over periods; at their ends
   std::int64_t began = -1, off = -1;  ///< clocks of the first reference, and of the gates off
-  double off_rad = 0, current_a = 0, reference_a = 0;
+  double event_rad = 0, off_rad = 0, current_a = 0, reference_a = 0;
   CoreOut last;
 };
 
@@ -147,6 +148,7 @@ Seen run(const Rig& given, std::int64_t clocks) {
         sum = n = 0;
       }
     }
+    if (cycle == given.event_at) seen.event_rad = rad;
     if (seen.began >= 0 && seen.off < 0 && !out.gates_enable) seen.off = cycle, seen.off_rad = rad;
     seen.current_a = out.current * kLsb;
     seen.reference_a = std::ldexp(out.current_ref, -D::f.current.fraction);
@@ -169,40 +171,37 @@ TEST_CASE("field: a step of the torque at rest") {
   std::string table =
       "| step at stall, through the core | 2 %, ms | overshoot, % | settled at, % |\n"
       "|---|---|---|---|\n";
-  for (const auto& [name, resistance] : {std::pair("R as the gains have it", 1.0),
-                                         std::pair("R +20 %", 1.2), std::pair("R -20 %", 0.8)}) {
-    for (const double nm : {0.005, 0.015, -0.03}) {
-      double slowest_ms = 0, over = 0, error = 0;
-      for (const double rad : {0.05, 0.41}) {
-        Rig rig(held_at(rad), resistance);
-        rig.torque_nm = nm;
-        const Seen seen = run(rig, kSettled + 20'000);
-        REQUIRE(seen.last.armed);
-        REQUIRE(seen.torque_nm.size() > 40);
-        const double end_nm = mean_of_last(seen.torque_nm, 10);
-        for (std::size_t k = 0; k < seen.torque_nm.size(); ++k) {
-          const double part = seen.torque_nm[k] / nm;
-          over = std::max(over, part - 1);
-          if (std::abs(part - 1) > 0.02) {
-            slowest_ms = std::max(slowest_ms, 1e3 * kClockS * kPeriod * static_cast<double>(k + 1));
-          }
-        }
-        if (std::abs(end_nm / nm - 1) > std::abs(error)) error = end_nm / nm - 1;
-        CHECK(std::abs(seen.current_a - nm / kNmA) < 0.003);
-        CHECK(std::abs(seen.reference_a - nm / kNmA) < 0.001);
+  for (const auto& [name, nm, resistance, rad] :
+       {std::tuple("R as the gains have it", 0.005, 1.0, 0.05),
+        std::tuple("R as the gains have it", 0.015, 1.0, 0.41),
+        std::tuple("R as the gains have it", -0.03, 1.0, 0.17),
+        std::tuple("R +20 %", 0.015, 1.2, 0.41), std::tuple("R -20 %", 0.015, 0.8, 0.41)}) {
+    Rig rig(held_at(rad), resistance);
+    rig.torque_nm = nm;
+    const Seen seen = run(rig, kSettled + 20'000);
+    CAPTURE(name, nm);
+    REQUIRE(seen.last.armed);
+    REQUIRE(seen.torque_nm.size() > 40);
+    double settled_ms = 0, over = 0;
+    for (std::size_t k = 0; k < seen.torque_nm.size(); ++k) {
+      const double part = seen.torque_nm[k] / nm;
+      over = std::max(over, part - 1);
+      if (std::abs(part - 1) > 0.02) {
+        settled_ms = 1e3 * kClockS * kPeriod * static_cast<double>(k + 1);
       }
-      CAPTURE(name, nm);
-      CHECK(std::abs(error) < 0.02);
-      CHECK(slowest_ms < 1);
-      table += fmt::format("| {}, {:g} mNm | {:.2f} | {:.1f} | {:+.2f} |\n", name, 1e3 * nm,
-                           slowest_ms, 100 * over, 100 * error);
     }
+    const double error = mean_of_last(seen.torque_nm, 10) / nm - 1;
+    CHECK(std::abs(seen.current_a - nm / kNmA) < 0.003);
+    CHECK(std::abs(seen.reference_a - nm / kNmA) < 0.001);
+    CHECK(std::abs(error) < 0.01);
+    CHECK(settled_ms < 0.7);
+    table += fmt::format("| {}, {:g} mNm | {:.2f} | {:.1f} | {:+.2f} |\n", name, 1e3 * nm,
+                         settled_ms, 100 * over, 100 * error);
   }
   table +=
       "\n| an electrical turn, through the core | mean error, % | ripple p-p, % |\n|---|---|---|\n";
   for (const auto& [rad_s, nm, resistance] :
-       {std::array{20.0, 0.03, 1.0}, std::array{-20.0, -0.015, 1.2},
-        std::array{40.0, 0.015, 0.8}}) {
+       {std::array{20.0, 0.03, 1.0}, std::array{-40.0, -0.015, 1.2}}) {
     Rig rig(turning(rad_s), resistance);
     rig.torque_nm = nm;
     const auto turn = static_cast<std::int64_t>(kTwoPi / 11 / std::abs(rad_s) / kClockS);
@@ -260,17 +259,16 @@ TEST_CASE("field: direct voltage is the resistance's, and its current is measure
 TEST_CASE("field: a phase that opens closes the gates within an electrical turn") {
   double most = 0;
   for (const auto& [rad_s, phase] : {std::pair(20.0, 0), std::pair(-30.0, 1), std::pair(40.0, 2)}) {
-    for (const int part : {0, 1, 2}) {
+    for (const int part : {0, 1}) {
       Rig rig(turning(rad_s));
       rig.torque_nm = rad_s > 0 ? 0.02 : -0.02;
       const auto turn = static_cast<std::int64_t>(kTwoPi / 11 / std::abs(rad_s) / kClockS);
-      rig.event_at = kSettled + turn * part / 3;
+      rig.event_at = kSettled + turn * part / 4;
       rig.event = [n = phase](Rig& r) { r.plant.open_phase(static_cast<std::size_t>(n)); };
-      const double cut_rad = rad_s * static_cast<double>(rig.event_at) * kClockS;
       const Seen seen = run(rig, rig.event_at + turn);
       REQUIRE(seen.off > rig.event_at);
       CHECK(seen.last.faults == fault_bit(Fault::current));
-      const double electrical = 11 * std::abs(seen.off_rad - cut_rad) / kTwoPi;
+      const double electrical = 11 * std::abs(seen.off_rad - seen.event_rad) / kTwoPi;
       CAPTURE(rad_s, phase, part, electrical);
       CHECK(electrical < 0.5);
       most = std::max(most, electrical);

@@ -11,6 +11,13 @@
 
 namespace feltgate {
 
+/// The word of commutation that is on the parameter bus in this clock of the wave.
+template <class D, class Registers>
+std::uint32_t commutation_word(const Registers& registers, int wave_clock) {
+  const bool offset = wave_clock == Map::W::commutation_offset;
+  return registers.parameter(offset ? D::A::commutation_offset : D::A::commutation_gain);
+}
+
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* sup) const {
   sup->host = host();
@@ -116,7 +123,7 @@ auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
   if constexpr (D::phases == 3) {
     l.duty = out_.duty;
     l.count = decoder_.count();
-    l.word = commutation_word(l.wave_clock);
+    l.word = commutation_word<D>(registers_, l.wave_clock);
   }
   return l;
 }
@@ -143,7 +150,7 @@ auto FeltgateCore<D, ReadBack>::bridge_inputs(bool enable,
     p.amplitude = duty;
     p.count = decoder_.count();
     p.wave_clock = clock_ - Map::first_wave_clock;
-    p.word = commutation_word(p.wave_clock);
+    p.word = commutation_word<D>(registers_, p.wave_clock);
   } else {
     p.duty = duty;
     p.mode = bit(control, D::C::control_pwm_mode);

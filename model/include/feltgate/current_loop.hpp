@@ -37,8 +37,8 @@ class CurrentLoop {
   void reset() {}
   std::uint32_t state() const { return 0; }
   bool driver_fault() const { return false; }
-  bool open_phase() const { return false; }
   bool ready() const { return true; }
+  bool trips(bool) const { return false; }
   bool waits() const { return false; }
 };
 
@@ -171,7 +171,7 @@ class CurrentLoop<D, 1> : public MeasuredCurrent<D> {
 
   /// For the PWM, clocks.
   std::int16_t duty() const { return duty_; }
-  bool open_phase() const { return false; }
+  bool trips(bool gates_enable) const { return gates_enable && !this->ready(); }
 
  private:
   CurrentControl control_;
@@ -215,8 +215,10 @@ class CurrentLoop<D, 2> : public MeasuredCurrent<D> {
   std::array<std::int16_t, 3> on_times() const {
     return {field_.out().on_a, field_.out().on_b, field_.out().on_c};
   }
-  /// A phase has no current; until the gates are disabled.
-  bool open_phase() const { return field_.out().open; }
+  /// Also where a phase has no current, until the gates are disabled.
+  bool trips(bool gates_enable) const {
+    return (gates_enable && !this->ready()) || field_.out().open;
+  }
 
  private:
   FieldOriented field_{D::pwm_period};

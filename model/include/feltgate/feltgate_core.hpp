@@ -81,7 +81,7 @@ class FeltgateCore {
       if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
       if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
-    if ((!loop_.ready() && open) || loop_.open_phase()) sup.trips |= fault_bit(Fault::current);
+    if (loop_.trips(open)) sup.trips |= fault_bit(Fault::current);
     if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
     auto pwm = bridge_inputs(open, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);
@@ -232,11 +232,6 @@ class FeltgateCore {
   static constexpr bool kLoop = D::current_loop != 0;
   std::int16_t bridge_duty() const;
   auto loop_inputs(const In& in, bool clear) const;
-  /// The word of commutation that is on the parameter bus in this clock of the wave.
-  std::uint32_t commutation_word(int wave_clock) const {
-    const bool offset = wave_clock == Map::W::commutation_offset;
-    return registers_.parameter(offset ? D::A::commutation_offset : D::A::commutation_gain);
-  }
 
   static constexpr bool kLaw = scene_built<D>(Map::S::law);
   bool renders_law() const { return kLaw && out_.scene == Map::S::law; }

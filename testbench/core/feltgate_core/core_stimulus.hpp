@@ -5,101 +5,19 @@
 // panel. Documentation: docs/testing.md
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <iterator>
 #include <type_traits>
 
 #include "core_coverage.hpp"
+#include "current_stimulus.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "random.hpp"
 #include "sim/backends/absolute_sensor.hpp"
-#include "sim/plant/sigma_delta.hpp"
 
 namespace feltgate::test {
-
-/// The modulator at a winding that the duty in force drives; at times its line stands, it has an
-/// offset, or the winding is shorted; or the driver has a fault.
-class CurrentStimulus {
- public:
-  void set(const CoreOut& out, CoreIn* in) {
-    if (left_-- <= 0) {
-      left_ = 1'000 + random_.below(150'000);
-      trouble_ = random_.below(8);
-      if (trouble_ < 3) left_ %= 20'000;
-    }
-    if (out.duty_active == 0) current_a_ = trouble_ == 3 ? 2 : 0;
-    const double ohm = trouble_ == 0 ? 0.05 : 0.42;
-    current_a_ += (out.duty_active * 0.024 - ohm * current_a_) * (20e-9 / 82e-6);
-    const bool rises = out.current_clock && !clock_;
-    clock_ = out.current_clock;
-    if (rises) bit_ = modulator_.next(current_a_ + (trouble_ == 1 ? 40 : 0));
-    in->current_data = trouble_ == 2 || bit_;
-    in->driver_fault = trouble_ == 4 && left_ < 200;
-  }
-
- private:
-  Random random_{77};
-  plant::SigmaDelta modulator_{32};
-  double current_a_ = 0;
-  std::int64_t left_ = 0;
-  std::uint32_t trouble_ = 9;
-  bool clock_ = false, bit_ = false;
-};
-
-/// The modulators at phases A and B of a winding between the six gates; at times a line stands or
-/// has an offset, the winding is shorted, a phase is open, or the driver has a fault.
-class PhasesStimulus {
- public:
-  void set(const CoreOut& out, CoreIn* in) {
-    if (left_-- <= 0) {
-      left_ = 1'000 + random_.below(150'000);
-      trouble_ = random_.below(30);
-      which_ = random_.below(2);
-      if (trouble_ < 3) left_ %= 20'000;
-    }
-    flow(out.gates);
-    const bool rises = out.current_clock && !clock_;
-    clock_ = out.current_clock;
-    for (std::size_t n = 0; rises && n < 2; ++n) {
-      const bool mine = n == which_;
-      const double wrong_a = mine && trouble_ == 1 ? 4 : mine && trouble_ == 3 && idle_ ? 0.3 : 0;
-      bits_[n] = modulators_[n].next(amperes_[n] + wrong_a) || (mine && trouble_ == 2);
-    }
-    in->current_data = static_cast<std::uint8_t>(bits_[0] | bits_[1] << 1);
-    in->driver_fault = trouble_ == 4 && left_ < 200;
-  }
-
- private:
-  void flow(unsigned gates) {
-    std::array<double, 3> volts{};
-    double mean_v = 0;
-    for (std::size_t l = 0; l < 3; ++l) {
-      const bool hi = (gates >> 2 * l & 1u) != 0, lo = (gates >> 2 * l & 2u) != 0;
-      volts[l] = hi || (!lo && amperes_[l] < 0) ? 5.0 : 0.0;
-      mean_v += volts[l] / 3;
-    }
-    idle_ = gates == 0;
-    const double ohm = trouble_ == 0 ? 0.2 : 2.9;
-    for (std::size_t l = 0; l < 2; ++l) {
-      amperes_[l] += (volts[l] - mean_v - ohm * amperes_[l]) * (20e-9 / 1e-3);
-      if (idle_) amperes_[l] = 0;
-    }
-    if (trouble_ == 5) amperes_[which_] = 0;
-    amperes_[2] = -amperes_[0] - amperes_[1];
-  }
-
-  Random random_{77};
-  std::array<plant::SigmaDelta, 2> modulators_{plant::SigmaDelta{2}, plant::SigmaDelta{2}};
-  std::array<double, 3> amperes_{};
-  std::array<bool, 2> bits_{};
-  std::int64_t left_ = 0;
-  std::uint32_t trouble_ = 9, which_ = 0;
-  bool clock_ = false, idle_ = true;
-};
 
 /// Inputs clock by clock; all state inside, so that a copy repeats the run.
 template <class D>
@@ -277,15 +195,14 @@ class CoreStimulus {
       then(D::C::command, 1u << D::C::command_clear_faults | 1u << D::C::command_thaw);
       then(D::C::control, host | 1u << D::C::control_arm | any_scene() << D::C::control_scene);
     };
-    // A loop of three currents takes long to be armed, and its motor gets hot more rarely.
-    const std::uint32_t what = random_.below(14);
-    switch (D::current_loop != 0 && D::phases == 3 && what > 9 ? 0 : what) {
+    switch (random_.below(14)) {
       case 0:  // a cold motor gets too hot
         then(D::A::nominal_current_squared, 0x7fffffff);
         as_designed(D::A::i2t_budget);
         // A test that does not arm a shaft that is held would leave no current.
         if (D::phases == 3 && D::absolute_encoder != 0) then(D::A::self_test_pulse, 0);
         arm();
+        if (kField) heat(then, host | 1u << D::C::control_arm);
         then(D::A::i2t_budget, some(8 + random_.below(12)));
         then(D::A::nominal_current_squared, some(random_.below(10)));
         for (int k = 0; k < 4; ++k) write_something(then);
@@ -356,6 +273,19 @@ class CoreStimulus {
         arm();
         break;
     }
+  }
+  /// Near the greatest torque, until the measured current is too much: a small motor's I2t is
+  /// coarse.
+  template <class Then>
+  void heat(Then&& then, std::uint32_t control) {
+    then(D::A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1);
+    then(D::A::setpoint_torque, static_cast<std::uint32_t>(0.048 * (1 << D::f.torque.fraction)));
+    then(D::C::control, control | static_cast<std::uint32_t>(D::S::setpoint)
+                                      << D::C::control_scene);
+    then(kRest, 4'000);
+    then(D::A::nominal_current_squared, 0);
+    then(D::A::i2t_budget, random_.below(8));
+    then(kRest, 2'000);
   }
   template <class Then>
   void write_something(Then&& then) {
@@ -435,6 +365,7 @@ class CoreStimulus {
     }
   }
 
+  static constexpr bool kField = D::current_loop != 0 && D::phases == 3;
   static constexpr bool kOutside = scene_built<D>(Map::S::law);
   std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
 

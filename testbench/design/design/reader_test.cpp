@@ -318,23 +318,6 @@ TEST_CASE("three phases: the words of the commutation, and what they refuse", "[
                 "an eighth of an electrical turn");
   refused_alone(replaced(good, "[commutation]", "[axes]\ncount = 2\n[commutation]"),
                 "no pins of a third leg");
-  // Two shunts: the window of the currents is around the begin of a period, and P/sqrt(3) is the
-  // supply of the gains.
-  const std::string shunts =
-      replaced(replaced(good, "[commutation]",
-                        "[current_loop]\nfull_scale_a = 2.0\nbandwidth_hz = 2000.0\n"
-                        "inductance_h = 1e-3\novercurrent_a = 1.5\n[commutation]"),
-               "current = [1, 3, 18]", "current = [1, 1, 20]");
-  const std::string loop = systemverilog_package(
-      elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
-  for (const char* line :
-       {"int CURRENT_STROBE = 635;", "int CURRENT_PROPORTIONAL = 73410;", "int FEED_GAIN = 355;"}) {
-    CHECK(contains(loop, line));
-  }
-  refused_alone(replaced(shunts, "\"space_vectors\"", "\"sines\""),
-                "a current loop makes space vectors");
-  CHECK(contains(design_error(replaced(shunts, "frequency_hz = 50_000", "frequency_hz = 80_000")),
-                 "a current is measured and controlled"));
   std::string without = good;
   const auto from = without.find("[commutation]");
   without.erase(from, without.find("[velocity]") - from);

@@ -26,6 +26,7 @@ core/actuation/ramp.sv
 core/actuation/torque_control.sv
 core/actuation/current_sense.sv
 core/actuation/current_control.sv
+core/actuation/field_oriented.sv
 core/actuation/pwm.sv
 core/actuation/commutation.sv
 core/actuation/pwm_three_phase.sv
@@ -42,4 +43,3 @@ core/wave/mult.sv
 core/wave/multipliers.sv
 core/wave/wave.sv
 core/feltgate_core.sv
-core/actuation/field_oriented.sv

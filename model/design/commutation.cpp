@@ -43,9 +43,9 @@ void check_commutation(const Design& d) {
     d.fail("pwm.phases", "a core with an engine or several axes has no pins of a third leg",
            "write phases = 2, or leave [engine] and [axes] out");
   }
-  if (d.current_loop) {
-    d.fail("current_loop", "one shunt does not measure three phases",
-           "leave [current_loop] out, or write phases = 2 in [pwm]");
+  if (d.current_loop && d.modulation != Commutation::kSpaceVectors) {
+    d.fail("commutation.modulation", "a current loop makes space vectors",
+           "write modulation = \"space_vectors\", or leave [current_loop] out");
   }
   if (d.pwm_mode != 0) {
     d.fail("pwm.mode", "three legs have one kind of pulses", "write mode = \"sign_magnitude\"");

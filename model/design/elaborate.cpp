@@ -13,6 +13,7 @@
 #include "design/parameter_values.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"
+#include "feltgate/field_oriented.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
@@ -199,7 +200,7 @@ void check_current_loop(const Design& d) {
            "choose one between them, with room for ripple and noise on both sides");
   }
   if (!current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
-                     1.0 / static_cast<double>(d.pwm_hz), d.current_full_scale_a, d.supply_v)
+                     1.0 / static_cast<double>(d.pwm_hz), d.current_full_scale_a, d.full_duty_v())
            .in_range) {
     d.fail("current_loop.bandwidth_hz", "a gain of the current loop does not fit its word",
            "choose another bandwidth");
@@ -213,10 +214,13 @@ void check_current_loop(const Design& d) {
            "leave [current_loop] out, or [engine] and [axes]");
   }
   constexpr CurrentSense::Parameters sense;
+  const bool field = d.phases == 3;
   const int begin = d.current_strobe_clock();
-  const int end = begin + sense.centre_clocks() + sense.divider + sense.delay_clocks() +
-                  CurrentControl::kLatencyClocks + 2;
-  if (begin < 2 || end > d.pwm_period_clocks() - 2) {
+  const int measured = begin + sense.centre_clocks() + sense.divider + sense.delay_clocks() -
+                       (field ? d.pwm_period_clocks() : 0);  // around the begin of the next period
+  const int end =
+      measured + (field ? FieldOriented::kLatencyClocks : CurrentControl::kLatencyClocks) + 2;
+  if (begin < 2 || begin > d.pwm_period_clocks() - 2 || end > d.pwm_period_clocks() - 2) {
     d.fail("pwm.frequency_hz",
            fmt::format("a PWM period has {} clocks, and a current is measured and controlled from "
                        "clock {} to {}",
@@ -275,8 +279,9 @@ void check(const Elaborated& e) {
 int Design::current_strobe_clock() const {
   constexpr CurrentSense::Parameters sense;
   constexpr int pwm_clocks = 3;  // from the carrier to a gate
-  return pwm_period_clocks() / 2 + pwm_clocks + dead_clocks() / 2 - sense.centre_clocks() -
-         sense.divider / 2;
+  // The middle of the pulses; of three phases the begin of the next period.
+  const int middle = phases == 3 ? pwm_period_clocks() : pwm_period_clocks() / 2;
+  return middle + pwm_clocks + dead_clocks() / 2 - sense.centre_clocks() - sense.divider / 2;
 }
 
 Format coefficient_format(double value, bool is_signed, int bits) {

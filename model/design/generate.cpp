@@ -158,10 +158,10 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
   const double full_a = d.current_loop ? d.current_full_scale_a : 1;
   const CurrentGains gains =
       d.current_loop ? current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
-                                     period_s, full_a, d.supply_v)
+                                     period_s, full_a, d.full_duty_v())
                      : CurrentGains{0, 0, true};
   // Nine bits: within 0.2 %, and the integrator gives the rest.
-  const double per_lsb = std::ldexp(CurrentControl::kSupply / d.supply_v, -d.voltage.fraction);
+  const double per_lsb = std::ldexp(CurrentControl::kSupply / d.full_duty_v(), -d.voltage.fraction);
   const int drop = 8 - std::ilogb(per_lsb);
   const auto given = [&d](auto value) { return d.current_loop ? value : 0; };
   return {

@@ -29,10 +29,11 @@ module feltgate_checks;
   end
 
   if (!(feltgate_pkg::PHASES == 2 ||
-        (feltgate_pkg::PHASES == 3 && feltgate_pkg::CURRENT_LOOP == 0 &&
-         (feltgate_pkg::MODULATION == 1 || feltgate_pkg::MODULATION == 0) &&
-         feltgate_pkg::PWM_PERIOD >= ((feltgate_pkg::MODULATION == 0) ? 110 : 87)))) begin : g_check_phases
-    PHASES_must_be_2_or_3_with_a_PWM_PERIOD_that_is_long_enough_and_no_CURRENT_LOOP missing ();
+        (feltgate_pkg::PHASES == 3 &&
+         (feltgate_pkg::MODULATION == 1 || (feltgate_pkg::MODULATION == 0 && feltgate_pkg::CURRENT_LOOP == 0)) &&
+         feltgate_pkg::PWM_PERIOD >=
+         ((feltgate_pkg::CURRENT_LOOP != 0) ? 772 : (feltgate_pkg::MODULATION == 0) ? 110 : 87)))) begin : g_check_phases
+    PHASES_must_be_2_or_3_with_a_PWM_PERIOD_that_is_long_enough_and_sines_without_a_CURRENT_LOOP missing ();
   end
 
   // Parameters and snapshot are words of 32 bits.

@@ -30,8 +30,8 @@ module feltgate_core #(
     output logic gate_c_hi_o,  // of a bridge with PHASES = 3; else 0
     output logic gate_c_lo_o,
 
-    // Modulator of the motor current, for the option CURRENT_LOOP; else tie the input to 0
-    input  logic               current_data_i,
+    // Modulator of the motor current, for the option CURRENT_LOOP, or with PHASES = 3 two of them; else tie the input to 0
+    input  logic        [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
     output logic               current_clock_o,
     output logic signed [18:0] current_o,   // measured, [1,1,17] of full scale
     input  logic               driver_fault_i,  // fault of the bridge's driver, for the option DRIVER_FAULT; else 0

@@ -11,6 +11,13 @@
 
 namespace feltgate {
 
+/// The word of commutation that is on the parameter bus in this clock of the wave.
+template <class D, class Registers>
+std::uint32_t commutation_word(const Registers& registers, int wave_clock) {
+  const bool offset = wave_clock == Map::W::commutation_offset;
+  return registers.parameter(offset ? D::A::commutation_offset : D::A::commutation_gain);
+}
+
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* sup) const {
   sup->host = host();
@@ -113,30 +120,37 @@ auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
     l.forwarded = wave_.forwarded(mode());
   }
   l.duty_limit = registers_.parameter(D::A::duty_limit);
+  if constexpr (D::phases == 3) {
+    l.duty = out_.duty;
+    l.count = decoder_.count();
+    l.word = commutation_word<D>(registers_, l.wave_clock);
+  }
   return l;
 }
 
 /// The duty that the PWM may take.
 template <class D, bool ReadBack>
 std::int16_t FeltgateCore<D, ReadBack>::bridge_duty() const {
-  if constexpr (kLoop) {
+  if constexpr (kLoop && D::phases == 2) {
     if (mode() != Mode::voltage) return loop_.duty();
   }
   return out_.duty;
 }
 
 template <class D, bool ReadBack>
-auto FeltgateCore<D, ReadBack>::bridge_inputs(bool enable, std::int16_t duty) const {
+auto FeltgateCore<D, ReadBack>::bridge_inputs(bool enable,
+                                              [[maybe_unused]] std::int16_t duty) const {
   const std::uint32_t control = registers_.out().control;
   typename Bridge::In p;
   p.enable = enable;
   p.polarity = bit(control, D::C::control_motor_polarity);
-  if constexpr (D::phases == 3) {
+  if constexpr (kLoop && D::phases == 3) {
+    p.on = loop_.on_times();
+  } else if constexpr (D::phases == 3) {
     p.amplitude = duty;
     p.count = decoder_.count();
     p.wave_clock = clock_ - Map::first_wave_clock;
-    const bool offset = p.wave_clock == Map::W::commutation_offset;
-    p.word = registers_.parameter(offset ? D::A::commutation_offset : D::A::commutation_gain);
+    p.word = commutation_word<D>(registers_, p.wave_clock);
   } else {
     p.duty = duty;
     p.mode = bit(control, D::C::control_pwm_mode);

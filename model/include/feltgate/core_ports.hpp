@@ -18,13 +18,13 @@ constexpr int host_write_clock = 5;
 /// Inputs of the core in one clock.
 struct CoreIn {
   EncoderPins encoder;
-  bool encoder_data = false;  ///< of an absolute encoder
-  bool current_data = false;  ///< of the modulator of a current loop
-  bool driver_fault = false;  ///< of the bridge's driver, in a design with this pin
-  bool arm = false;           ///< the panel's request
-  bool stop = false;          ///< the stop input was active since the last clock, however shortly
-  bool set_zero = false;      ///< one clock: the position becomes 0 at the end of the tick
-  std::uint8_t scene = 0;     ///< the panel's choice
+  bool encoder_data = false;      ///< of an absolute encoder
+  std::uint8_t current_data = 0;  ///< of a current loop; bit n: of modulator n
+  bool driver_fault = false;      ///< of the bridge's driver, in a design with this pin
+  bool arm = false;               ///< the panel's request
+  bool stop = false;       ///< the stop input was active since the last clock, however shortly
+  bool set_zero = false;   ///< one clock: the position becomes 0 at the end of the tick
+  std::uint8_t scene = 0;  ///< the panel's choice
   std::uint16_t reg_addr = 0;
   std::uint32_t reg_wdata = 0;
   bool reg_write = false;  ///< held until a clock in which reg_busy is low

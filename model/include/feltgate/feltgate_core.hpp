@@ -81,7 +81,7 @@ class FeltgateCore {
       if (monitor_.trips()) sup.trips |= fault_bit(Fault::channel);
       if (monitor_.index_trips()) sup.trips |= fault_bit(Fault::index);
     }
-    if (!loop_.ready() && open) sup.trips |= fault_bit(Fault::current);
+    if (loop_.trips(open)) sup.trips |= fault_bit(Fault::current);
     if (absolute_state(decoder_) != 0 && open) sup.trips |= fault_bit(Fault::encoder);
     auto pwm = bridge_inputs(open, bridge_duty());
     pwm.clear = supervisor_.stopped(in.stop);

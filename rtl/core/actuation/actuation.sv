@@ -5,7 +5,8 @@
 // other (docs/blocks/limiter.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
 // the bridge takes it at the next start of a PWM period. With the option CURRENT_LOOP a controller of the measured
 // current gives the bridge its duty, one in each period (docs/blocks/current_control.md). With PHASES = 3 the duty is the
-// amplitude of three legs' voltages, which turn with the motor (docs/blocks/commutation.md). docs/architecture.md
+// amplitude of three legs' voltages, which turn with the motor (docs/blocks/commutation.md); with both, two currents are
+// measured and controlled in the rotor's frame (docs/blocks/field_oriented.md). docs/architecture.md
 
 `default_nettype none
 
@@ -35,7 +36,7 @@ module actuation (
     output logic signed [     feltgate_pkg::VOLTAGE_W-1:0]  voltage_o,      // V
     output logic signed [        feltgate_pkg::DUTY_W-1:0]  duty_o,         // clocks of on-time
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,   // bit n: limit n acted
-    input  logic                                            current_data_i,    // of the modulator of a current loop
+    input  logic        [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,  // of each modulator of a current loop
     input  logic                                            driver_fault_i,    // of the bridge's driver, asynchronous
     output logic                                            current_clock_o,   // to it
     output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale; new after EVENT_AT_SAMPLE
@@ -87,14 +88,12 @@ module actuation (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .armed_i(armed_i && !paused_i),  // after a self-test the ramp begins as after arming
       .scene_i(scene_i), .restart_i(restart_i),
-      .at_ramp_begin_i(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]),
-      .at_ramp_excess_i(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_EXCESS]),
+      .at_ramp_begin_i(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_BEGIN]), .at_ramp_excess_i(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_EXCESS]),
       .at_ramp_change_i(wave_i[feltgate_map_pkg::EVENT_AT_RAMP_CHANGE]),
       .at_tau_ref_i(wave_i[feltgate_map_pkg::EVENT_AT_TAU_REF]),
       .param_i(param_i),
       .limited_i(limited[feltgate_pkg::TORQUE_W-1:0]), .over_limit_i(over_limit_o),
-      .frozen_i(frozen_i), .derated_i(derated_i),
-      .tau_ref_o(tau_ref_o),
+      .frozen_i(frozen_i), .derated_i(derated_i), .tau_ref_o(tau_ref_o),
       .limit_torque_o(limit_torque), .limit_ramp_o(limit_ramp), .limit_hold_o(limit_hold)
   );
 
@@ -103,8 +102,7 @@ module actuation (
       .armed_i(armed_i), .mode_i(mode),
       .product_is_emf_constant_i(wave_i[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]),
       .product_is_observer_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_OBSERVER_GAIN]),
-      .at_border_i(wave_i[feltgate_map_pkg::EVENT_AT_BORDER]),
-      .at_region_i(wave_i[feltgate_map_pkg::EVENT_AT_REGION]),
+      .at_border_i(wave_i[feltgate_map_pkg::EVENT_AT_BORDER]), .at_region_i(wave_i[feltgate_map_pkg::EVENT_AT_REGION]),
       .param_is_voltage_setpoint_i(wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_SETPOINT]),
       .product_is_voltage_to_current_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_TO_CURRENT]),
       .param_is_voltage_step_i(wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_STEP]),
@@ -112,26 +110,25 @@ module actuation (
       .at_direct_voltage_i(wave_i[feltgate_map_pkg::EVENT_AT_DIRECT_VOLTAGE]),
       .param_is_current_limit_i(wave_i[feltgate_map_pkg::PARAM_AT_CURRENT_LIMIT]),
       .product_is_dead_voltage_slope_i(wave_i[feltgate_map_pkg::PRODUCT_AT_DEAD_VOLTAGE_SLOPE]),
-      .at_current_i(wave_i[feltgate_map_pkg::EVENT_AT_CURRENT]),
-      .at_hold_size_i(wave_i[feltgate_map_pkg::EVENT_AT_HOLD_SIZE]),
+      .at_current_i(wave_i[feltgate_map_pkg::EVENT_AT_CURRENT]), .at_hold_size_i(wave_i[feltgate_map_pkg::EVENT_AT_HOLD_SIZE]),
       .param_is_dead_voltage_i(wave_i[feltgate_map_pkg::PARAM_AT_DEAD_VOLTAGE]),
       .at_voltage_offset_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]),
       .product_next_voltage_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN-1]),
       .product_is_voltage_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_VOLTAGE_GAIN]),
-      .param_is_voltage_window_i(wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]),
-      .at_voltage_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]),
+      .param_is_voltage_window_i(wave_i[feltgate_map_pkg::PARAM_AT_VOLTAGE_WINDOW]), .at_voltage_i(wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]),
       .product_is_duty_gain_i(wave_i[feltgate_map_pkg::PRODUCT_AT_DUTY_GAIN]),
       .at_duty_i(wave_i[feltgate_map_pkg::EVENT_AT_DUTY]),
       .param_i(param_i), .product_i(product_i),
-      .tau_ref_i(tau_ref_o),
-      .early_term_o(control_early), .late_term_o(control_late), .late_up_o(late_up),
+      .tau_ref_i(tau_ref_o), .early_term_o(control_early), .late_term_o(control_late), .late_up_o(late_up),
       .addend_o(addend), .limited_i(limited), .over_limit_i(over_limit_o),
-      .region_high_o(region_high_o),
-      .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
+      .region_high_o(region_high_o), .current_ref_o(current_ref_o), .voltage_o(voltage_o), .duty_o(duty_o),
       .limit_current_o(limit_current), .limit_voltage_o(limit_voltage), .limit_duty_o(limit_duty)
   );
 
   logic signed [feltgate_pkg::DUTY_W-1:0] bridge_duty;
+  logic [31:0] gain_q, offset_q;  // of the angle, with PHASES = 3
+  logic [35:0] field_on;           // with a current loop too: the on-times of legs C, B, A
+  logic        open_phase;
   generate
   if (feltgate_pkg::CURRENT_LOOP == 0) begin : g_voltage_law
     assign bridge_duty     = duty_o;
@@ -139,8 +136,9 @@ module actuation (
     assign current_o       = '0;
     assign motor_current_o = current_ref_o;
     assign current_state_o = '0;
+    assign {field_on, open_phase} = '0;
     logic unused_loop;
-    assign unused_loop = ^{current_data_i, driver_fault_i, clear_i};
+    assign unused_loop = ^{current_data_i, driver_fault_i, clear_i, gain_q, offset_q};
   end else begin : g_current_loop
     localparam int Period = feltgate_pkg::PWM_PERIOD;
     localparam int EmfDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_EMF_CONSTANT_F - feltgate_pkg::VOLTAGE_F;
@@ -165,9 +163,6 @@ module actuation (
       end
       times = sum + carry;
     endfunction
-
-    logic drives;
-    assign drives = gates_enable_i && mode != 2'(feltgate_map_pkg::MODE_VOLTAGE);
 
     // From the wave, once per tick: the reference; back-EMF and dead voltage, which are fed forward; the limit.
     logic signed [31:0] emf_q, dead_q;
@@ -196,26 +191,33 @@ module actuation (
     assign feed         = feed_q >>> feltgate_pkg::FEED_DROP;
     assign feed_forward = (feed[43:17] == {27{feed[43]}}) ? feed[17:0] : {feed[43], {17{!feed[43]}}};
 
-    // The middle of a window is that of the pulse at the terminals.
+    // The middle of a window is that of a pulse at the terminals. All sensors have the clock of the first one.
+    localparam int Sensors = feltgate_pkg::PHASES - 1;
     logic [11:0] since_q;  // clocks since a period began
-    logic measured, calibrated;
-    logic signed [18:0] at_shunt, current, mean_q;
+    logic measured, direct;
+    logic [Sensors-1:0] sense_clock, aligned, overcurrent, stuck, saturated, offset, calibrated;
+    logic [19*Sensors-1:0] at_shunt;  // of each
+    logic signed [18:0] current, mean_q;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) since_q <= '0;
       else since_q <= period_start_o ? 12'd1 : since_q + 12'd1;
     end
     /* verilator lint_off PINCONNECTEMPTY */
-    current_sense u_current_sense (
-        .clk_i(clk_i), .rst_ni(rst_ni),
-        .modulator_clock_o(current_clock_o), .data_i(current_data_i),
-        .strobe_i(since_q == 12'(feltgate_pkg::CURRENT_STROBE)),
-        .armed_i(gates_enable_i), .clear_i(clear_i),
-        .threshold_i(8'(feltgate_pkg::CURRENT_OVERCURRENT)),
-        .current_o(at_shunt), .valid_o(), .aligned_o(measured),
-        .overcurrent_o(current_state_o[0]), .calibrated_o(calibrated), .offset_fault_o(current_state_o[3]),
-        .stuck_o(current_state_o[1]), .saturated_o(current_state_o[2])
-    );
-    assign current_state_o[4] = !calibrated;
+    genvar s;
+    for (s = 0; s < Sensors; s = s + 1) begin : g_sense
+      current_sense u_current_sense (
+          .clk_i(clk_i), .rst_ni(rst_ni),
+          .modulator_clock_o(sense_clock[s]), .data_i(current_data_i[s]),
+          .strobe_i(since_q == 12'(feltgate_pkg::CURRENT_STROBE)),
+          .armed_i(gates_enable_i), .clear_i(clear_i),
+          .threshold_i(8'(feltgate_pkg::CURRENT_OVERCURRENT)), .current_o(at_shunt[19*s+:19]), .valid_o(), .aligned_o(aligned[s]),
+          .overcurrent_o(overcurrent[s]), .calibrated_o(calibrated[s]), .offset_fault_o(offset[s]),
+          .stuck_o(stuck[s]), .saturated_o(saturated[s])
+      );
+    end
+    assign current_clock_o      = sense_clock[0];
+    assign current_state_o[4:0] = {calibrated != '1, offset != '0, saturated != '0, stuck != '0, overcurrent != '0};
+    assign direct               = mode == 2'(feltgate_map_pkg::MODE_VOLTAGE);
 
     // With the gates enabled, the driver's fault is kept until the faults are cleared.
     logic driver_q, driver_q2, driver_kept_q;
@@ -232,10 +234,9 @@ module actuation (
     end
     assign current_state_o[5] = driver_q2 || driver_kept_q;
 
-    // The current that makes tau_ref positive: in a motor that is connected the other way round, against that at the
-    // shunt. The observer and the heat take the mean of the last period whose window was whole.
+    // The current that makes tau_ref positive. The observer and the heat take the mean of the last period whose window
+    // was whole.
     logic signed [31:0] in_format;
-    assign current = polarity ? -at_shunt : at_shunt;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         mean_q    <= '0;
@@ -249,28 +250,54 @@ module actuation (
     assign motor_current_o = (in_format[31:CurrentW-1] == {(33 - CurrentW) {in_format[31]}}) ? in_format[CurrentW-1:0]
                              : {in_format[31], {(CurrentW - 1) {!in_format[31]}}};
 
-    logic signed [17:0] voltage;
-    logic signed [43:0] share;
-    logic signed [feltgate_pkg::DUTY_W-1:0] duty_q;
-    current_control u_current_control (
-        .clk_i(clk_i), .rst_ni(rst_ni),
-        .armed_i(drives), .valid_i(measured), .reference_i(reference_q), .current_i(current),
-        .emf_i(feed_forward),
-        .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
-        .limit_i(limit_q),
-        .voltage_o(voltage), .valid_o(), .saturated_o()
-    );
-    /* verilator lint_on PINCONNECTEMPTY */
-    // Rounded in two steps, so that the second adder does not repeat low bits of the first.
-    assign share = times(32'(voltage), 12'(Period)) >>> (SupplyF - 1);
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) duty_q <= '0;
-      else duty_q <= feltgate_pkg::DUTY_W'((share + 44'sd1) >>> 1);
+    if (feltgate_pkg::PHASES == 2) begin : g_one_current
+      logic signed [17:0] voltage;
+      logic signed [43:0] share;
+      logic signed [feltgate_pkg::DUTY_W-1:0] duty_q;
+      assign {field_on, open_phase} = '0;
+      assign measured = aligned[0];
+      // In a motor that is connected the other way round it flows against that at the shunt.
+      assign current = polarity ? -at_shunt : at_shunt;
+      current_control u_current_control (
+          .clk_i(clk_i), .rst_ni(rst_ni),
+          .armed_i(gates_enable_i && !direct), .valid_i(measured), .reference_i(reference_q), .current_i(current),
+          .emf_i(feed_forward), .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
+          .limit_i(limit_q), .voltage_o(voltage), .valid_o(), .saturated_o()
+      );
+      // Rounded in two steps, so that the second adder does not repeat low bits of the first.
+      assign share = times(32'(voltage), 12'(Period)) >>> (SupplyF - 1);
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) duty_q <= '0;
+        else duty_q <= feltgate_pkg::DUTY_W'((share + 44'sd1) >>> 1);
+      end
+      assign bridge_duty = direct ? duty_o : duty_q;
+      logic unused_turn;
+      assign unused_turn = ^{gain_q, offset_q};
+    end else begin : g_three_currents
+      logic signed [20:0] along;
+      logic signed [43:0] amplitude;
+      logic signed [17:0] direct_v;
+      // In direct voltage the duty is the length of the voltage.
+      assign amplitude = times(32'(duty_o), LimitGain);
+      assign direct_v  = (amplitude[43:17] == {27{amplitude[43]}}) ? amplitude[17:0] : {amplitude[43], {17{!amplitude[43]}}};
+      field_oriented #(.Period(Period)) u_field_oriented (
+          .clk_i(clk_i), .rst_ni(rst_ni),
+          .armed_i(gates_enable_i), .valid_i(aligned[0]), .direct_i(direct), .reference_i(reference_q),
+          .current_a_i(at_shunt[18:0]), .current_b_i(at_shunt[37:19]), .emf_i(direct ? direct_v : feed_forward),
+          .position_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .polarity_i(polarity),
+          .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
+          .limit_i(limit_q), .current_q_o(along), .open_o(open_phase), .saturated_o(),
+          .on_a_o(field_on[11:0]), .on_b_o(field_on[23:12]), .on_c_o(field_on[35:24]), .valid_o(measured)
+      );
+      assign current     = (along[20:18] == {3{along[20]}}) ? along[18:0] : {along[20], {18{!along[20]}}};
+      assign bridge_duty = '0;
+      logic unused_sense;
+      assign unused_sense = ^{sense_clock[1], aligned[1]};
     end
-    assign bridge_duty = (mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)) ? duty_o : duty_q;
+    /* verilator lint_on PINCONNECTEMPTY */
   end
   endgenerate
-  assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'(gates_enable_i && current_state_o != '0)
+  assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'((gates_enable_i && current_state_o != '0) || open_phase)
                    << feltgate_map_pkg::FAULT_CURRENT;
 
   generate
@@ -278,62 +305,81 @@ module actuation (
     pwm #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
           .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
         .clk_i(clk_i), .rst_ni(rst_ni),
-        .clear_i(gates_clear_i),
-        .enable_i(gates_enable_i), .mode_i(control_i[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(polarity),
+        .clear_i(gates_clear_i), .enable_i(gates_enable_i), .mode_i(control_i[feltgate_map_pkg::B_CONTROL_PWM_MODE]), .polarity_i(polarity),
         .duty_i(bridge_duty),
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-        .period_start_o(period_start_o),
-        .duty_active_o(duty_active_o)
+        .period_start_o(period_start_o), .duty_active_o(duty_active_o)
     );
     assign gate_c_hi_o = 1'b0;
     assign gate_c_lo_o = 1'b0;
+    assign {gain_q, offset_q} = '0;
     logic unused_count;
-    assign unused_count = ^count_i;
+    assign unused_count = ^{count_i, field_on};
   end else begin : g_three_legs
-    // The commutation samples so early that its on-times are new in the clock in which the PWM takes them. The gates open
-    // with the first sample of an arming, so no on-times of the last one reach them.
-    localparam int Latency = (feltgate_pkg::MODULATION == 0) ? 108 : 85;
-    localparam int WaitW = $clog2(feltgate_pkg::PWM_PERIOD);
-    logic [WaitW-1:0] wait_q;  // 1: the clock of the sample
-    logic [31:0] gain_q, offset_q;
     logic [11:0] on_a, on_b, on_c;
-    logic signed [feltgate_pkg::DUTY_W-1:0] amplitude_q;  // of the sample
-    logic samples, valid, fresh_q, opens;
-    assign samples = wait_q == WaitW'(1);
-    assign opens   = gates_enable_i && fresh_q;
+    logic opens;
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        wait_q        <= '0;
-        fresh_q       <= 1'b0;
-        gain_q        <= '0;
-        offset_q      <= '0;
-        amplitude_q   <= '0;
-        duty_active_o <= '0;
+        gain_q   <= '0;
+        offset_q <= '0;
       end else begin
-        if (period_start_o) wait_q <= WaitW'(feltgate_pkg::PWM_PERIOD - 1 - Latency);
-        else if (wait_q != '0) wait_q <= wait_q - 1'b1;
-        fresh_q <= gates_enable_i && (fresh_q || samples);
         if (wave_i[feltgate_map_pkg::PARAM_AT_COMMUTATION_GAIN]) gain_q <= param_i;
         if (wave_i[feltgate_map_pkg::PARAM_AT_COMMUTATION_OFFSET]) offset_q <= param_i;
-        if (samples) amplitude_q <= bridge_duty;
-        if (!opens) duty_active_o <= '0;
-        else if (valid) duty_active_o <= amplitude_q;
       end
     end
-    commutation #(.Period(feltgate_pkg::PWM_PERIOD), .Modulation(feltgate_pkg::MODULATION)) u_commutation (
-        .clk_i(clk_i), .rst_ni(rst_ni),
-        .sample_i(samples), .position_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .amplitude_i(bridge_duty),
-        .polarity_i(polarity),
-        .on_a_o(on_a), .on_b_o(on_b), .on_c_o(on_c), .valid_o(valid)
-    );
+    if (feltgate_pkg::CURRENT_LOOP == 0) begin : g_commutation
+      // The commutation samples so early that its on-times are new in the clock in which the PWM takes them. The gates open
+      // with the first sample of an arming, so no on-times of the last one reach them.
+      localparam int Latency = (feltgate_pkg::MODULATION == 0) ? 108 : 85;
+      localparam int WaitW = $clog2(feltgate_pkg::PWM_PERIOD);
+      logic [WaitW-1:0] wait_q;  // 1: the clock of the sample
+      logic signed [feltgate_pkg::DUTY_W-1:0] amplitude_q;  // of the sample
+      logic samples, valid, fresh_q;
+      assign samples = wait_q == WaitW'(1);
+      assign opens   = gates_enable_i && fresh_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          wait_q        <= '0;
+          fresh_q       <= 1'b0;
+          amplitude_q   <= '0;
+          duty_active_o <= '0;
+        end else begin
+          if (period_start_o) wait_q <= WaitW'(feltgate_pkg::PWM_PERIOD - 1 - Latency);
+          else if (wait_q != '0) wait_q <= wait_q - 1'b1;
+          fresh_q <= gates_enable_i && (fresh_q || samples);
+          if (samples) amplitude_q <= bridge_duty;
+          if (!opens) duty_active_o <= '0;
+          else if (valid) duty_active_o <= amplitude_q;
+        end
+      end
+      commutation #(.Period(feltgate_pkg::PWM_PERIOD), .Modulation(feltgate_pkg::MODULATION)) u_commutation (
+          .clk_i(clk_i), .rst_ni(rst_ni),
+          .sample_i(samples), .position_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .amplitude_i(bridge_duty),
+          .polarity_i(polarity), .on_a_o(on_a), .on_b_o(on_b), .on_c_o(on_c), .valid_o(valid)
+      );
+      logic unused_field;
+      assign unused_field = ^field_on;
+    end else begin : g_field
+      // Without the enable the on-times are half a period, so no on-times of the last arming reach the gates. The duty in
+      // force is that of leg A, from half a period on.
+      assign opens = gates_enable_i;
+      assign {on_c, on_b, on_a} = field_on;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) duty_active_o <= '0;
+        else if (!opens) duty_active_o <= '0;
+        else if (period_start_o)
+          duty_active_o <= feltgate_pkg::DUTY_W'(on_a) - feltgate_pkg::DUTY_W'(feltgate_pkg::PWM_PERIOD / 2);
+      end
+      logic unused_duty;
+      assign unused_duty = ^bridge_duty;
+    end
     pwm_three_phase #(.Period(feltgate_pkg::PWM_PERIOD), .DeadClocks(feltgate_pkg::DEAD_CLOCKS),
                       .ShortestClocks(feltgate_pkg::SHORTEST_CLOCKS)) u_pwm (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .clear_i(gates_clear_i), .enable_i(opens),
         .on_a_i(on_a), .on_b_i(on_b), .on_c_i(on_c),
         .gate_a_hi_o(gate_a_hi_o), .gate_a_lo_o(gate_a_lo_o), .gate_b_hi_o(gate_b_hi_o), .gate_b_lo_o(gate_b_lo_o),
-        .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
-        .period_start_o(period_start_o)
+        .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o), .period_start_o(period_start_o)
     );
   end
   endgenerate

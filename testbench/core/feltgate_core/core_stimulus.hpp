@@ -8,44 +8,16 @@
 #include <cstdint>
 #include <deque>
 #include <iterator>
+#include <type_traits>
 
 #include "core_coverage.hpp"
+#include "current_stimulus.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "random.hpp"
 #include "sim/backends/absolute_sensor.hpp"
-#include "sim/plant/sigma_delta.hpp"
 
 namespace feltgate::test {
-
-/// The modulator at a winding that the duty in force drives; at times its line stands, it has an
-/// offset, or the winding is shorted; or the driver has a fault.
-class CurrentStimulus {
- public:
-  void set(const CoreOut& out, CoreIn* in) {
-    if (left_-- <= 0) {
-      left_ = 1'000 + random_.below(150'000);
-      trouble_ = random_.below(8);
-      if (trouble_ < 3) left_ %= 20'000;
-    }
-    if (out.duty_active == 0) current_a_ = trouble_ == 3 ? 2 : 0;
-    const double ohm = trouble_ == 0 ? 0.05 : 0.42;
-    current_a_ += (out.duty_active * 0.024 - ohm * current_a_) * (20e-9 / 82e-6);
-    const bool rises = out.current_clock && !clock_;
-    clock_ = out.current_clock;
-    if (rises) bit_ = modulator_.next(current_a_ + (trouble_ == 1 ? 40 : 0));
-    in->current_data = trouble_ == 2 || bit_;
-    in->driver_fault = trouble_ == 4 && left_ < 200;
-  }
-
- private:
-  Random random_{77};
-  plant::SigmaDelta modulator_{32};
-  double current_a_ = 0;
-  std::int64_t left_ = 0;
-  std::uint32_t trouble_ = 9;
-  bool clock_ = false, bit_ = false;
-};
 
 /// Inputs clock by clock; all state inside, so that a copy repeats the run.
 template <class D>
@@ -230,6 +202,7 @@ class CoreStimulus {
         // A test that does not arm a shaft that is held would leave no current.
         if (D::phases == 3 && D::absolute_encoder != 0) then(D::A::self_test_pulse, 0);
         arm();
+        if (kField) heat(then, host | 1u << D::C::control_arm);
         then(D::A::i2t_budget, some(8 + random_.below(12)));
         then(D::A::nominal_current_squared, some(random_.below(10)));
         for (int k = 0; k < 4; ++k) write_something(then);
@@ -300,6 +273,19 @@ class CoreStimulus {
         arm();
         break;
     }
+  }
+  /// Near the greatest torque, until the measured current is too much: a small motor's I2t is
+  /// coarse.
+  template <class Then>
+  void heat(Then&& then, std::uint32_t control) {
+    then(D::A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1);
+    then(D::A::setpoint_torque, static_cast<std::uint32_t>(0.048 * (1 << D::f.torque.fraction)));
+    then(D::C::control, control | static_cast<std::uint32_t>(D::S::setpoint)
+                                      << D::C::control_scene);
+    then(kRest, 4'000);
+    then(D::A::nominal_current_squared, 0);
+    then(D::A::i2t_budget, random_.below(8));
+    then(kRest, 2'000);
   }
   template <class Then>
   void write_something(Then&& then) {
@@ -379,10 +365,11 @@ class CoreStimulus {
     }
   }
 
+  static constexpr bool kField = D::current_loop != 0 && D::phases == 3;
   static constexpr bool kOutside = scene_built<D>(Map::S::law);
   std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
 
-  CurrentStimulus current_;
+  std::conditional_t<D::phases == 3, PhasesStimulus, CurrentStimulus> current_;
   AbsoluteSensor sensor_{absolute_parameters<D>()};
   std::int64_t counted_ = 0;  ///< of an absolute encoder
   Random breaks_{78};

@@ -243,3 +243,26 @@ TEST_CASE("what is generated names what it came from", "[generate]") {
     CHECK(format.width() > 0);
   }
 }
+
+TEST_CASE("three phases with two shunts: the words of the loop, and what it refuses") {
+  const std::string good = file_text(design_path("gimbal_motor"));
+  // Two shunts: the window of the currents is around the begin of a period, and P/sqrt(3) is the
+  // supply of the gains.
+  const std::string shunts =
+      replaced(replaced(good, "[commutation]",
+                        "[current_loop]\nfull_scale_a = 2.0\nbandwidth_hz = 2000.0\n"
+                        "inductance_h = 1e-3\novercurrent_a = 1.5\n[commutation]"),
+               "current = [1, 3, 18]", "current = [1, 1, 20]");
+  const std::string loop = systemverilog_package(
+      elaborate(design_from_text(shunts, "shunts.toml"), shipped_registers()));
+  for (const char* line :
+       {"int CURRENT_STROBE = 635;", "int CURRENT_PROPORTIONAL = 73410;", "int FEED_GAIN = 355;"}) {
+    CHECK_THAT(loop, Catch::Contains(line));
+  }
+  const Design sines =
+      design_from_text(replaced(shunts, "\"space_vectors\"", "\"sines\""), "sines.toml");
+  CHECK_THROWS_WITH(check_commutation(sines),
+                    Catch::Contains("a current loop makes space vectors"));
+  CHECK_THAT(design_error(replaced(shunts, "frequency_hz = 50_000", "frequency_hz = 80_000")),
+             Catch::Contains("a current is measured and controlled"));
+}

@@ -93,7 +93,8 @@ class MeasuredCurrent {
   bool waits() const { return (state() >> 4) != 0; }
 
  protected:
-  static constexpr std::int32_t kLimitGain = CurrentControl::kSupply / D::pwm_period;
+  // A whole period stays below the supply, which 17 bits do not hold.
+  static constexpr std::int32_t kLimitGain = (CurrentControl::kSupply - 1) / D::pwm_period;
 
   std::int32_t at_shunt(std::size_t n) const {
     return static_cast<std::int32_t>(sense_[n].out().current);

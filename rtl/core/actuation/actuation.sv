@@ -145,7 +145,7 @@ module actuation (
     localparam int CurrentDrop = feltgate_pkg::CURRENT_DROP;
     localparam int CurrentW = feltgate_pkg::CURRENT_W;
     localparam int SupplyF = 17;  // voltages of the loop are [1,0,17] of the supply
-    localparam logic [11:0] LimitGain = 12'((1 << SupplyF) / Period);
+    localparam logic [11:0] LimitGain = 12'(((1 << SupplyF) - 1) / Period);  // a whole period is below the supply: 17 bits
 
     // A product with a constant as a sum, so that no multiplier is inferred. Carries are saved, so that one adder is
     // left: of several Yosys lets two carry chains of an ECP5 begin with the same cells, which nextpnr refuses.

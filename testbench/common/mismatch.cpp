@@ -78,4 +78,10 @@ bool tried(std::uint64_t k, std::uint64_t shares) {
   return whole_run() || k % shares == share_of_week(shares);
 }
 
+bool case_tried(std::uint64_t k, std::uint64_t shares) {
+  if (tried(k, shares)) return true;
+  WARN("in another week, or with --whole");
+  return false;
+}
+
 }  // namespace feltgate::test

@@ -96,4 +96,7 @@ std::uint64_t share_of_week(std::uint64_t shares);
 /// Whether case `k` of a list is tried: of a usual run one in `shares`, of a whole run each.
 bool tried(std::uint64_t k, std::uint64_t shares);
 
+/// The same for a whole test case, which says so where it is left out.
+bool case_tried(std::uint64_t k, std::uint64_t shares);
+
 }  // namespace feltgate::test

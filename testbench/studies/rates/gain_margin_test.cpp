@@ -36,7 +36,7 @@ AxesScene scene_of(const std::string& name) {
 }  // namespace
 
 TEST_CASE("a wall on a tracker ends where its samples and their age say, and where bits swing") {
-  if (!test::tried(0, 3)) return;  // half a minute
+  if (!test::case_tried(0, 3)) return;  // half a minute
   // Samples of 1.87 kHz that are 0.5 ms old, in a law of 8 kHz: half of each period and the age
   // late.
   const std::string path = built + "/tracker_margin.toml";

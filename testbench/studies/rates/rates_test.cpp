@@ -118,7 +118,7 @@ TEST_CASE("scenes of the core become laws with the same numbers") {
 }
 
 TEST_CASE("what a tracker sends is in the continuous law") {
-  if (!test::tried(1, 3)) return;  // 16 s
+  if (!test::case_tried(1, 3)) return;  // 16 s
   // Its samples are 20 mNm apart, and the law is the same at its own rate: what is left is the
   // encoder's count and what the wall goes on between two runs.
   const Report r = measured("vectors/scenes/wall_tracked.toml", shipped("wall_tracked"),

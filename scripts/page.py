@@ -122,8 +122,7 @@ def registers_of(root):
         "bits": {f"{w['name']}.{f['name']}": f["bit"] for w in every for f in w.get("fields", ())},
         "snapshot": sorted((word["name"] for word in table["snapshot"]), key=words.get),
         "scenes": {scene["name"]: scene["number"] for scene in table["scene"]},
-        "identity": constants["identity"],
-        "version": constants["version"],
+        "link": constants,
     }
 
 

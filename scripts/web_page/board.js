@@ -1,7 +1,7 @@
 // A board by Web Serial: the frames and requests of docs/link.md, and a tab that reads, writes, streams, arms and stops.
 "use strict";
 
-const LINK = { end: 0xc0, escape: 0xdb, escaped: { 0xdc: 0xc0, 0xdd: 0xdb }, read: 1, write: 2, reply: 0x80, stream: 0x40, wait_ms: 50, patience_ms: 2000 };
+const LINK = { wait_ms: 50, patience_ms: 2000 }; // for a reply, and in all
 
 const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, n) => {
   for (let k = 0; k < 8; ++k) n = n & 1 ? (n >>> 1) ^ 0xedb88320 : n >>> 1;
@@ -13,20 +13,21 @@ const words_from = (bytes, at) => {
   return Array.from({ length: (bytes.length - at) >> 2 }, (_, n) => view.getUint32(at + 4 * n, true));
 };
 
-/** What goes over the wire for a payload. */
-function framed(body) {
-  const sum = crc32(body), wire = [LINK.end];
+/** What goes over the wire for a payload; `link` has the constants of the map. */
+function framed(body, link) {
+  const sum = crc32(body), wire = [link.frame_end];
   for (const byte of [...body, sum & 0xff, (sum >>> 8) & 0xff, (sum >>> 16) & 0xff, sum >>> 24]) {
-    if (byte === LINK.end) wire.push(LINK.escape, 0xdc);
-    else if (byte === LINK.escape) wire.push(LINK.escape, 0xdd);
+    if (byte === link.frame_end) wire.push(link.frame_escape, link.escaped_end);
+    else if (byte === link.frame_escape) wire.push(link.frame_escape, link.escaped_escape);
     else wire.push(byte);
   }
-  return Uint8Array.from([...wire, LINK.end]);
+  return Uint8Array.from([...wire, link.frame_end]);
 }
 
 /** Bytes to payloads; what is no good frame is counted. */
 class FrameReader {
-  constructor() {
+  constructor(link) {
+    this.link = link;
     this.frame = [];
     this.bad = 0;
   }
@@ -35,7 +36,7 @@ class FrameReader {
   take(bytes) {
     const good = [];
     for (const byte of bytes) {
-      if (byte !== LINK.end) { this.frame.push(byte); continue; }
+      if (byte !== this.link.frame_end) { this.frame.push(byte); continue; }
       const body = this.unescaped();
       this.frame = [];
       if (!body || !body.length) { this.bad += body ? 0 : 1; continue; }
@@ -46,11 +47,12 @@ class FrameReader {
   }
 
   unescaped() {
-    const body = [];
+    const { frame_end, frame_escape, escaped_end, escaped_escape } = this.link, body = [];
     for (let n = 0; n < this.frame.length; ++n) {
-      if (this.frame[n] !== LINK.escape) body.push(this.frame[n]);
-      else if (LINK.escaped[this.frame[++n]] === undefined) return null;
-      else body.push(LINK.escaped[this.frame[n]]);
+      if (this.frame[n] !== frame_escape) body.push(this.frame[n]);
+      else if (this.frame[++n] === escaped_end) body.push(frame_end);
+      else if (this.frame[n] === escaped_escape) body.push(frame_escape);
+      else return null;
     }
     return Uint8Array.from(body);
   }
@@ -58,8 +60,8 @@ class FrameReader {
 
 /** One request at a time over an open SerialPort; `told` gets {number, words, values} of each frame of the stream. */
 class BoardLink {
-  constructor(port, told = () => {}) {
-    Object.assign(this, { port, told, frames: new FrameReader(), sequence: 0, last: Promise.resolve(), awaited: null, repeats: 0 });
+  constructor(port, link, told = () => {}) {
+    Object.assign(this, { port, link, told, frames: new FrameReader(link), sequence: 0, last: Promise.resolve(), awaited: null, repeats: 0 });
     this.writer = port.writable.getWriter();
     this.reader = port.readable.getReader();
     this.listening = this.listen();
@@ -77,7 +79,7 @@ class BoardLink {
   }
 
   arrived(body) {
-    if (body[0] === LINK.stream) this.told({ number: body[1], words: body[2] | (body[3] << 8), values: words_from(body, 4) });
+    if (body[0] === this.link.kind_stream) this.told({ number: body[1], words: body[2] | (body[3] << 8), values: words_from(body, 4) });
     else if (this.awaited && this.awaited.head.every((byte, n) => byte === body[n])) this.awaited.take(words_from(body, 4));
   }
 
@@ -90,11 +92,11 @@ class BoardLink {
 
   async send(kind, address, value) {
     this.sequence = (this.sequence + 1) & 0xff;
-    const body = new Uint8Array(8), view = new DataView(body.buffer), wire = () => framed(body);
+    const body = new Uint8Array(8), view = new DataView(body.buffer), wire = () => framed(body, this.link);
     body.set([kind, this.sequence]);
     view.setUint16(2, address, true);
     view.setUint32(4, value, true);
-    const reply = new Promise((take) => (this.awaited = { head: [kind | LINK.reply, ...body.slice(1, 4)], take }));
+    const reply = new Promise((take) => (this.awaited = { head: [kind | this.link.kind_reply, ...body.slice(1, 4)], take }));
     for (let tried = 0; tried * LINK.wait_ms < LINK.patience_ms; ++tried) {
       if (this.ended) throw new Error("the port was closed");
       this.repeats += tried > 0;
@@ -105,9 +107,9 @@ class BoardLink {
     throw new Error(`no answer for ${LINK.patience_ms / 1000} s; is the board on, is this its port, does the rate fit?`);
   }
 
-  read(address, count = 1) { return this.ask(LINK.read, address, count); }
+  read(address, count = 1) { return this.ask(this.link.kind_read, address, count); }
   /** The status of the tick after it. */
-  async write(address, value) { return (await this.ask(LINK.write, address, value >>> 0))[0]; }
+  async write(address, value) { return (await this.ask(this.link.kind_write, address, value >>> 0))[0]; }
 
   /** Begins with another sequence than that of the last write; what the board says of itself. */
   async begin({ words }) {
@@ -150,10 +152,10 @@ class BoardTab {
   async connect() {
     const port = await navigator.serial.requestPort();
     await port.open({ baudRate: Number($("board-baud").value) });
-    this.link = new BoardLink(port, (frame) => this.take(frame));
+    this.link = new BoardLink(port, this.map.link, (frame) => this.take(frame));
     try {
       const board = await this.link.begin(this.map);
-      if (board.identity !== this.map.identity || board.version >>> 16 !== this.map.version >>> 16) throw new Error("what is there is no feltgate board of this page's version");
+      if (board.identity !== this.map.link.identity || board.version >>> 16 !== this.map.link.version >>> 16) throw new Error("what is there is no feltgate board of this page's version");
       const { words, bits } = this.map;
       this.say(`${(board.features >>> bits["features.simulated"]) & 1 ? "SIMULATED" : "a board"}, design ${board.design_crc.toString(16).padStart(8, "0")}, ${board.tick_hz} ticks a second`);
       await this.link.write(words.stream_words, this.streamed.reduce((mask, name) => mask | (1 << this.map.snapshot.indexOf(name)), 0));
@@ -204,7 +206,7 @@ class BoardTab {
   /** A name of the map, or an address. */
   address() {
     const text = $("board-word").value.trim(), address = this.map.words[text] ?? Number(text);
-    if (text && Number.isInteger(address) && address >= 0 && address < 0x8000) return address;
+    if (text && Number.isInteger(address) && address >= 0 && address < 2 ** (this.map.link.map_bits + 1)) return address;
     throw new Error(`${text || "nothing"} is no word of the map; write a name, or an address as 0x300`);
   }
 

@@ -32,11 +32,6 @@ double farthest_m(const Mesh& from, const TriangleTree& to) {
   return farthest;
 }
 
-Vec3 unit_normal(const Mesh& mesh, const Triangle& t) {
-  const Vec3 n = cross(mesh.at[t[1]] - mesh.at[t[0]], mesh.at[t[2]] - mesh.at[t[0]]);
-  return 1 / length(n) * n;
-}
-
 }  // namespace
 
 Soup decimate(const Mesh& mesh, std::size_t most_faces) {
@@ -85,7 +80,7 @@ Jumps jumps_of(const Mesh& mesh) {
   std::vector<std::pair<double, double>> edges;  // angle and length
   double all_m = 0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 normal = unit_normal(mesh, t);
+    const Vec3 normal = mesh.normal(t);
     for (std::size_t side = 0; side < 3; ++side) {
       const std::uint32_t a = t[side], b = t[(side + 1) % 3];
       const auto [other, fresh] = seen.try_emplace(std::minmax(a, b), normal);

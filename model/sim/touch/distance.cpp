@@ -46,7 +46,7 @@ SignedDistance::Place SignedDistance::at(Vec3 point_m) {
       const Vec3 a = mesh_.at[t[(k + 1) % 3]] - corner, b = mesh_.at[t[(k + 2) % 3]] - corner;
       angle_rad = std::atan2(length(cross(a, b)), dot(a, b));
     }
-    const Vec3 across = cross(mesh_.at[t[1]] - mesh_.at[t[0]], mesh_.at[t[2]] - mesh_.at[t[0]]);
+    const Vec3 across = mesh_.across(t);
     sum = sum + angle_rad / length(across) * across;
   }
   const Vec3 way = point_m - near.point_m;

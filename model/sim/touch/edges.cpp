@@ -15,16 +15,6 @@ using plant::cross;
 using plant::dot;
 using plant::length;
 
-namespace {
-
-Vec3 normal_of(const Mesh& mesh, std::size_t triangle) {
-  const Triangle& t = mesh.triangles[triangle];
-  const Vec3 across = cross(mesh.at[t[1]] - mesh.at[t[0]], mesh.at[t[2]] - mesh.at[t[0]]);
-  return 1 / length(across) * across;
-}
-
-}  // namespace
-
 Touched Proxy::shaded(Touched t, Vec3 pen_m, const Near& near) const {
   const Triangle& corners = mesh_.triangles[near.triangle];
   const Vec3 a = mesh_.at[corners[0]], ab = mesh_.at[corners[1]] - a, ac = mesh_.at[corners[2]] - a;
@@ -69,8 +59,8 @@ SharpEdges::SharpEdges(const Mesh& mesh) : mesh_(mesh) {
                       (n + 2 == sides.size() || !sides[n + 2].same_edge(s));
     // Of more than two faces, or of two that look to different sides, there is no other plane.
     if (!only || s.up == o.up) continue;
-    const Vec3 normal = normal_of(mesh, s.triangle);
-    if (std::abs(dot(normal, normal_of(mesh, o.triangle))) > edge_lean_most) continue;
+    const Vec3 normal = mesh.normal(mesh.triangles[s.triangle]);
+    if (std::abs(dot(normal, mesh.normal(mesh.triangles[o.triangle]))) > edge_lean_most) continue;
     double above_m = 0;  // of the corner beyond the edge
     for (const std::uint32_t v : mesh.triangles[o.triangle])
       if (v != s.low && v != s.high) above_m = dot(normal, mesh.at[v] - mesh.at[s.low]);
@@ -87,7 +77,8 @@ void SharpEdges::add(Touched& t, Vec3 at, double distance_m) const {
   if (!tree_ || t.constraints > 2) return;
   const Near near = tree_->nearest(at);
   const auto& faces = faces_[near.triangle];
-  const Vec3 normals[] = {normal_of(mesh_, faces[0]), normal_of(mesh_, faces[1])};
+  const Vec3 normals[] = {mesh_.normal(mesh_.triangles[faces[0]]),
+                          mesh_.normal(mesh_.triangles[faces[1]])};
   const int which =
       std::abs(dot(normals[0], t.normal)) >= std::abs(dot(normals[1], t.normal)) ? 0 : 1;
   const double side = dot(normals[which], t.normal) < 0 ? -1 : 1;

@@ -269,7 +269,7 @@ void Proxy::find_walls() {
     // A radius above a face's plane it may go along, also beyond its edges: no seams. Beside a
     // face, its edge or corner counts from the contact on.
     const Triangle& t = mesh_.triangles[near.triangle];
-    const Vec3 across = cross(mesh_.at[t[1]] - mesh_.at[t[0]], mesh_.at[t[2]] - mesh_.at[t[0]]);
+    const Vec3 across = mesh_.across(t);
     const double above_m = dot(across, at_ - mesh_.at[t[0]]) / length(across);
     const bool face = std::abs(above_m) >= (1 - 2 * contact_share) * settings_.radius_m;
     if (!face && near.distance_m > (1 + 2 * contact_share) * settings_.radius_m) continue;

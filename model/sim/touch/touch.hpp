@@ -80,6 +80,16 @@ struct Mesh {
   std::vector<bool> closed;                  ///< whether each triangle's component is
   std::vector<std::array<Vec3, 3>> normals;  ///< at the corners, smooth below the crease
   MeshReport report;
+
+  /// Out of the face, as long as twice its area; m^2.
+  Vec3 across(const Triangle& t) const {
+    return plant::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
+  }
+  /// That, of length 1.
+  Vec3 normal(const Triangle& t) const {
+    const Vec3 n = across(t);
+    return 1 / plant::length(n) * n;
+  }
 };
 
 /// Welds, drops what is degenerate or double, turns faces to one side, and computes normals that

@@ -93,16 +93,16 @@ class Protocol(BoardTest):
         self.assertGreater(len(lines), 3)
         whole = b"".join(lines).hex()
         bodies = self.node(
-            "const reader = new board.FrameReader();"
+            "const reader = new board.FrameReader(map.link);"
             "const bodies = reader.take(Buffer.from(process.argv[3], 'hex'));"
-            "return [bodies.map((b) => hex(board.framed(b))), reader.bad]",
+            "return [bodies.map((b) => hex(board.framed(b, map.link))), reader.bad]",
             whole,
         )
         self.assertEqual(bodies, [[line.hex() for line in lines], 0])
         # Escapes there and back; a changed byte and a wrong escape are counted, the next is read.
         found = self.node(
-            "const reader = new board.FrameReader(), body = Uint8Array.from([0xc0, 0xdb, 0xdc, 0xdd]);"
-            "const wire = board.framed(body), bad = Uint8Array.from(wire); bad[1] ^= 1;"
+            "const reader = new board.FrameReader(map.link), body = Uint8Array.from([0xc0, 0xdb, 0xdc, 0xdd]);"
+            "const wire = board.framed(body, map.link), bad = Uint8Array.from(wire); bad[1] ^= 1;"
             "const strange = Uint8Array.from([0xc0, 0xdb, 0x01, 0xc0]);"
             "const all = [bad, strange, wire].flatMap((bytes) => reader.take(bytes));"
             "return [hex(wire), all.map(hex), reader.bad]"
@@ -114,7 +114,7 @@ class Protocol(BoardTest):
         found = self.node(
             """
 const streamed = [], port = opened(process.argv[3]), { words, bits, snapshot } = map;
-const link = new board.BoardLink(port, (frame) => streamed.push(frame));
+const link = new board.BoardLink(port, map.link, (frame) => streamed.push(frame));
 const about = await link.begin(map), bit = (name) => 1 << bits[name];
 await link.write(words.watchdog_ticks, 1000000);
 const [watchdog] = await link.read(words.watchdog_ticks);
@@ -151,7 +151,7 @@ return { about, watchdog, streamed: streamed.slice(0, 30), armed: armed.includes
         found = self.node(
             """
 let sent = 0;
-const port = opened(process.argv[3], () => ++sent % 3 === 1), link = new board.BoardLink(port), { words } = map;
+const port = opened(process.argv[3], () => ++sent % 3 === 1), link = new board.BoardLink(port, map.link), { words } = map;
 await link.begin(map);
 const before = await link.read(words.frames_good);
 for (let n = 1; n <= 5; ++n) await link.write(words.watchdog_ticks, 200000 + n);
@@ -161,7 +161,7 @@ return [await link.read(words.watchdog_ticks), link.repeats > 2];
         )
         self.assertEqual(found, [[200_005], True])
         silent = self.node(
-            "const link = new board.BoardLink(opened(process.argv[3], () => true));"
+            "const link = new board.BoardLink(opened(process.argv[3], () => true), map.link);"
             "return link.begin(map).catch((error) => error.message)",
             self.board(),
         )

@@ -134,7 +134,7 @@ class BoardTab {
     this.streamed = ["position", "tick", "tau_hat", "tau_ref"];
     this.trace = [];
     this.shown = {};
-    const acts = { connect: () => (this.link ? this.leave() : this.connect()), arm: () => this.arm(true), disarm: () => this.arm(false), stop: () => this.command("stop"), clear: () => this.command("clear_faults"), read: () => this.peek(), write: () => this.poke() };
+    const acts = { connect: () => (this.link ? this.leave() : this.connect()), arm: () => this.arm(true), disarm: () => this.arm(false), stop: () => this.stop(), clear: () => this.command("clear_faults"), read: () => this.peek(), write: () => this.poke() };
     for (const [name, act] of Object.entries(acts)) {
       $(`board-${name}`).onclick = () => act().catch((error) => this.say(error.message));
       $(`board-${name}`).disabled = name !== "connect";
@@ -175,7 +175,7 @@ class BoardTab {
   /** Disarms, if the board still answers. */
   async leave() {
     const link = this.link;
-    this.link = null;
+    this.link = this.asked = null;
     clearInterval(this.kicks);
     this.enable(false);
     for (const name of ["control", "stream_period"]) await link.write(this.map.words[name], 0).catch(() => {});
@@ -184,15 +184,23 @@ class BoardTab {
 
   bit(name) { return 1 << this.map.bits[name]; }
 
-  /** Kicks the watchdog three times in its usual 0.1 s from the first arming on. */
+  /** Kicks the watchdog three times in its usual 0.1 s from the first arming on. What is asked for last holds: an arming
+   * that still waits for the reply to its kick ends with a later disarming. */
   async arm(on) {
-    const { words, bits } = this.map, scene = Number($("board-scene").value) << bits["control.scene"];
+    const { words, bits } = this.map, scene = Number($("board-scene").value) << bits["control.scene"], asked = {};
+    this.asked = asked;
     clearInterval(this.kicks);
     if (on) {
       await this.command("kick");
+      if (this.asked !== asked) return;
       this.kicks = setInterval(() => this.command("kick").catch((error) => { clearInterval(this.kicks); this.say(error.message); }), 30);
     }
     this.status(await this.link.write(words.control, this.bit("control.host") | (on ? this.bit("control.arm") | scene : 0)));
+  }
+
+  stop() {
+    this.asked = null; // an arming that still waits
+    return this.command("stop");
   }
 
   async command(name) { this.status(await this.link.write(this.map.words.command, this.bit(`command.${name}`))); }

@@ -19,6 +19,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 import tty
 import unittest
 import urllib.error
@@ -242,6 +243,14 @@ class Tab(PageTest, BoardTest):
         )
         self.press("disarm")
         self.until("return !feltgate.board.armed")
+        # A disarming or a stop in the same moment as an arming, whose kick is still on its way.
+        for last in ("disarm", "stop"):
+            self.js(
+                "for (const name of ['arm', arguments[0]]) document.getElementById(`board-${name}`).click()",
+                last,
+            )
+            time.sleep(1)
+            self.assertFalse(self.js("return feltgate.board.armed"), last)
         word.clear()
         word.send_keys("no word")
         self.press("read")

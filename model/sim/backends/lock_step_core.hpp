@@ -104,7 +104,7 @@ class LockStepCore {
   /// Advances the twin by `clocks` clocks, at most room(); calls on_snapshot() after each with a
   /// snapshot.
   template <class OnSnapshot>
-  [[gnu::flatten]] void lead(const CoreIn& in, Clock clocks, OnSnapshot&& on_snapshot) {
+  void lead(const CoreIn& in, Clock clocks, OnSnapshot&& on_snapshot) {
     held_.push_back({in, static_cast<std::size_t>(clocks)});
     for (Clock k = 0; k < clocks; ++k) {
       twin_.clock(in);

@@ -32,7 +32,8 @@ Each fault ends in one class:
 
 Peak and integral are those of the torque's deviation, from the fault to the gates off. Beside a
 zero stands its 95 % bound, about 3/N. With --design, "off us" is the latest time to the gates off
-and "motor Nm" the motor's largest torque, means of a PWM period. Results and what this does not say: docs/verification.md
+and "motor Nm" the motor's largest torque, means of a PWM period. Results and what this does not
+say: docs/verification.md
 
 Exit code: 0 what is promised is kept (none unsafe but where nothing sees the fault, a cut cable
 say; at most 1 % of single flips silent, 99 % flagged of the faults that docs/safety.md
@@ -41,7 +42,7 @@ program, a file or an argument is wrong.
 
   feltgate faults                        the whole campaign, more than 10 000 faults
   feltgate faults --flips 1 --pins 200   a smaller one
-  feltgate faults --design lever_current --pins 20   its own pins, 20 faults of each kind
+  feltgate faults --design lever_current   20 faults of each kind at its own pins
   feltgate faults --only u_pwm           flips of registers with this in their name
   feltgate faults --clean                false alarms: ten minutes of device time without a fault
   feltgate faults --clean --long         24 hours of it
@@ -75,7 +76,7 @@ def arguments(argv):
     add.add_number(parser, "--flips", 2, "flips of each bit")
     add.add_number(parser, "--doubles", 600, "flips of two bits at once")
     add.add_number(parser, "--pins", 2000, "faults at pins and register port")
-    what = "whose pins are broken, --pins of each kind; flips are of lever alone"
+    what = "whose pins are broken; of another than lever a hundredth of --pins is of each kind"
     parser.add_argument("--design", default="lever", choices=DESIGNS, help=what)
     what = "flips of registers with this in their name only"
     parser.add_argument("--only", default="", metavar="NAME", help=what)
@@ -201,8 +202,8 @@ def report(options, root, faults, seconds):
     """Table, promises and files; the exit code."""
     rows = results.rows_of(faults)
     timed = any("design" in fault for fault in faults)
-    lines = results.markdown_table(rows, timed) if options.markdown else [results.text_table(rows, timed)]
-    print("\n".join(lines))
+    as_text = "\n".join(results.markdown_table(rows, timed))
+    print(as_text if options.markdown else results.text_table(rows, timed))
     kept = results.promises(faults)
     print()
     for what, count, of, good in kept:

@@ -84,7 +84,7 @@ def promises(faults):
     for group in dict.fromkeys(f["group"] for f in faults if f.get("unseen")):
         its = [f for f in faults if f["group"] == group]
         unsafe = sum(f["class"] == "unsafe" for f in its)
-        found.append((f"unsafe, of '{group}', which nothing sees", unsafe, len(its), True))
+        found.append((f"unsafe, of '{group}', which nothing need see", unsafe, len(its), True))
     safety = [f for f in faults if is_safety(f)]
     if safety:
         silent = sum(f["class"] in ("silent", "unsafe") for f in safety)

@@ -82,7 +82,7 @@ class Results(unittest.TestCase):
         self.assertEqual(len(text.splitlines()), 3)
 
     def test_of_another_design_the_table_has_times_and_the_motor_s_torque(self):
-        late = pin("detected") | {"design": "gimbal_motor", "off_after_us": 361, "motor_peak_nm": 0.04}
+        late = pin("detected") | {"off_after_us": 361, "motor_peak_nm": 0.04}
         soon = late | {"off_after_us": 20}
         rows = results.rows_of([late, soon, pin("silent", "a phase opens")])
         cells = results.markdown_table(rows, timed=True)

@@ -47,20 +47,20 @@ Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0
 }
 
 const std::vector<PinKind> current_kinds{
-    {"modulator's line stands", "pins", "low, high or as it was", 100, Promise::flagged, 22},
-    {"modulator's line is noise", "pins", "each of its bits drawn", 100, Promise::unseen},
-    {"shunt's wires swapped", "pins", "the current with the other sign", 100, Promise::flagged},
-    {"shunt's wires off", "pins", "the modulator says 0 A", 100, Promise::unseen},
-    {"shunt or modulator off by a factor", "pins", "0.5 to 2 times the current", 100,
+    {"modulator's line stands", "pins", "low, high or as it was", 1, Promise::flagged, 22},
+    {"modulator's line is noise", "pins", "each of its bits drawn", 1, Promise::unseen},
+    {"shunt's wires swapped", "pins", "the current with the other sign", 1, Promise::flagged},
+    {"shunt's wires off", "pins", "the modulator says 0 A", 1, Promise::unseen},
+    {"shunt or modulator off by a factor", "pins", "0.5 to 2 times the current", 1,
      Promise::unseen},
-    {"shunt's offset", "pins", "0.3 to 3 A more, after arming", 100, Promise::unseen},
-    {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 100, Promise::flagged},
-    {"nFAULT", "pins", "a pulse of 4 clocks", 100, Promise::flagged, 1},
-    {"a gate stays off", "pins", "one of four", 100, Promise::none},
-    {"a lead is loose", "pins", "no current for 1 to 10 ms, then again", 100, Promise::none},
-    {"cable cut, moving", "pins", "A, B, Z stand, a hand moves at 3 to 99 rad/s", 100,
+    {"shunt's offset", "pins", "0.3 to 3 A more, after arming", 1, Promise::unseen},
+    {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 1, Promise::flagged},
+    {"nFAULT", "pins", "a pulse of 4 clocks", 1, Promise::flagged, 1},
+    {"a gate stays off", "pins", "one of four", 1, Promise::none},
+    {"a lead is loose", "pins", "no current for 1 to 10 ms, then again", 1, Promise::none},
+    {"cable cut, moving", "pins", "A, B, Z stand, a hand moves at 3 to 99 rad/s", 1,
      Promise::unseen},
-    {"stop", "pins", "a pulse of the stop", 100, Promise::flagged, 1},
+    {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
 };
 
 Case current_case(std::string_view name, Random* r) {
@@ -113,25 +113,24 @@ Case current_case(std::string_view name, Random* r) {
 }
 
 const std::vector<PinKind> gimbal_kinds{
-    {"encoder's wire cut", "pins", "data, clock or select", 100, Promise::flagged, 600},
-    {"encoder's data at ground", "pins", "a shorted cable", 100, Promise::flagged, 2000},
-    {"a bit of each frame wrong", "pins", "its CRC tells", 100, Promise::flagged, 400},
-    {"noise on the encoder's data", "pins", "1e-4 to 1e-2 of its clocks inverted", 100,
+    {"encoder's wire cut", "pins", "data, clock or select", 1, Promise::flagged, 600},
+    {"encoder's data at ground", "pins", "a shorted cable", 1, Promise::flagged, 2000},
+    {"a bit of each frame wrong", "pins", "its CRC tells", 1, Promise::flagged, 400},
+    {"noise on the encoder's data", "pins", "1e-4 to 1e-2 of its clocks inverted", 1,
      Promise::none},
-    {"magnet lost", "pins", "the sensor says so", 100, Promise::flagged, 400},
-    {"angle off by half a turn", "pins", "from one reading to the next", 100, Promise::flagged,
-     400},
-    {"magnet slips", "pins", "1 to 30 degrees, from one reading to the next", 100, Promise::unseen},
-    {"angle freezes", "pins", "a hand turns at 18 to 70 rad/s", 100, Promise::flagged, 2000},
-    {"angle freezes, slower", "pins", "a hand turns at 0.5 to 14 rad/s", 100, Promise::unseen},
-    {"a phase opens", "pins", "one of three", 100, Promise::unseen},
-    {"a gate stays off", "pins", "one of six", 100, Promise::none},
-    {"wrong offset at arming", "pins", "100 to 260 electrical degrees, free, self-test on", 100,
+    {"magnet lost", "pins", "the sensor says so", 1, Promise::flagged, 400},
+    {"angle off by half a turn", "pins", "from one reading to the next", 1, Promise::flagged, 400},
+    {"magnet slips", "pins", "1 to 30 degrees, from one reading to the next", 1, Promise::unseen},
+    {"angle freezes", "pins", "a hand turns at 18 to 70 rad/s", 1, Promise::flagged, 2000},
+    {"angle freezes, slower", "pins", "a hand turns at 0.5 to 14 rad/s", 1, Promise::unseen},
+    {"a phase opens", "pins", "one of three", 1, Promise::unseen},
+    {"a gate stays off", "pins", "one of six", 1, Promise::none},
+    {"wrong offset at arming", "pins", "100 to 260 electrical degrees, free, self-test on", 1,
      Promise::flagged, 30500},
-    {"a lesser wrong offset", "pins", "10 to 80 electrical degrees, free, self-test on", 100,
+    {"a lesser wrong offset", "pins", "10 to 80 electrical degrees, free, self-test on", 1,
      Promise::unseen},
-    {"phases swapped at arming", "pins", "B and C, free, self-test on", 100, Promise::none},
-    {"stop", "pins", "a pulse of the stop", 100, Promise::flagged, 1},
+    {"phases swapped at arming", "pins", "B and C, free, self-test on", 1, Promise::none},
+    {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
 };
 
 Case gimbal_case(std::string_view name, Random* r) {

@@ -66,7 +66,8 @@ CLEAN_S, DAY_S = 600, 86400
 DESIGNS = ("lever", "lever_current", "gimbal_motor")
 # What tells two cases apart.
 CASE = (
-    "point design group seed register bit address register_2 bit_2 address_2 act tick clock reset_clocks"
+    "point design group seed register bit address register_2 bit_2 address_2 "
+    "act tick clock reset_clocks"
 ).split()
 
 
@@ -76,8 +77,9 @@ def arguments(argv):
     add.add_number(parser, "--flips", 2, "flips of each bit")
     add.add_number(parser, "--doubles", 600, "flips of two bits at once")
     add.add_number(parser, "--pins", 2000, "faults at pins and register port")
-    what = "whose pins are broken; of another than lever a hundredth of --pins is of each kind"
-    parser.add_argument("--design", default="lever", choices=DESIGNS, help=what)
+    what = f"{', '.join(DESIGNS)}: whose pins are broken; a hundredth of --pins is of each kind"
+    what += " where it is not lever"
+    parser.add_argument("--design", default="lever", choices=DESIGNS, metavar="DESIGN", help=what)
     what = "flips of registers with this in their name only"
     parser.add_argument("--only", default="", metavar="NAME", help=what)
     add.add_number(parser, "--seed", 1, "of all that is drawn")

@@ -113,8 +113,8 @@ def promises(faults):
 
 
 def table(rows, peak, integral, timed):
-    """Head and cells; how the deviations are written. `timed`: with the latest time to the gates off
-    and the motor's largest torque."""
+    """Head and cells; how the deviations are written. `timed`: with the latest time to the gates
+    off and the motor's largest torque."""
     head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]
     head += ["off us", "motor Nm"] if timed else []
     cells = [

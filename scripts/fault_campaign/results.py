@@ -26,12 +26,15 @@ class Row:
     def __init__(self, point, group):
         self.point, self.group = point, group
         self.count = dict.fromkeys(CLASSES, 0)
-        self.peaks, self.integrals = [], []
+        self.peaks, self.integrals, self.motor_peaks, self.off_us = [], [], [], []
 
     def add(self, fault):
         self.count[fault["class"]] += 1
         self.peaks.append(fault["peak_nm"])
         self.integrals.append(fault["integral_nm_s"])
+        self.motor_peaks.append(fault["motor_peak_nm"])
+        if "off_after_us" in fault:
+            self.off_us.append(fault["off_after_us"])
 
     def total(self):
         return sum(self.count.values())
@@ -45,6 +48,8 @@ class Row:
             **self.count,
             "peak_nm": max(self.peaks),
             "integral_nm_s": max(self.integrals),
+            "motor_peak_nm": max(self.motor_peaks),
+            "off_after_us": max(self.off_us, default=None),
         }
 
 
@@ -79,7 +84,7 @@ def promises(faults):
     for group in dict.fromkeys(f["group"] for f in faults if f.get("unseen")):
         its = [f for f in faults if f["group"] == group]
         unsafe = sum(f["class"] == "unsafe" for f in its)
-        found.append((f"unsafe, of '{group}', which nothing sees", unsafe, len(its), True))
+        found.append((f"unsafe, of '{group}', which nothing need see", unsafe, len(its), True))
     safety = [f for f in faults if is_safety(f)]
     if safety:
         silent = sum(f["class"] in ("silent", "unsafe") for f in safety)
@@ -107,26 +112,29 @@ def promises(faults):
     return found
 
 
-def table(rows, peak, integral):
-    """Head and cells; how the deviations are written."""
+def table(rows, peak, integral, timed):
+    """Head and cells; how the deviations are written. `timed`: with the latest time to the gates
+    off and the motor's largest torque."""
     head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]
+    head += ["off us", "motor Nm"] if timed else []
     cells = [
         [row.point, row.group, row.total(), *(row.count[c] for c in CLASSES)]
         + [format(max(row.peaks), peak), format(1e3 * max(row.integrals), integral)]
+        + ([max(row.off_us, default="-"), format(max(row.motor_peaks), ".3f")] if timed else [])
         for row in rows
     ]
     return head, cells
 
 
-def text_table(rows):
+def text_table(rows, timed=False):
     """For a terminal."""
-    head, cells = table(rows, ".3f", ".3f")
+    head, cells = table(rows, ".3f", ".3f", timed)
     return aligned([head, *cells], left=2)
 
 
-def markdown_table(rows):
+def markdown_table(rows, timed=False):
     """Lines, as in docs/verification.md."""
-    head, cells = table(rows, ".2f", ".2g")
+    head, cells = table(rows, ".3f" if timed else ".2f", ".2g", timed)
     return markdown(["point", "what", *head[2:]], cells, left=2)
 
 

@@ -26,7 +26,7 @@ struct Arguments {
   faults::StateCampaign state;
   int pins = 0, part = 0, parts = 1;
   double clean_s = 0;
-  std::string replay;
+  std::string replay, design = "lever";
   bool kinds = false;
 };
 
@@ -62,7 +62,7 @@ int replay(const Arguments& a) {
     if (line.empty() || line[0] == '#') continue;
     const faults::CaseLine c = faults::read_case(line);
     if (c.pins) {
-      say(faults::line_of(faults::run_pin_fault(a.state.root, c.kind, c.seed)));
+      say(faults::line_of(faults::run_pin_fault(a.state.root, c.kind, c.seed, c.design)));
     } else {
       states.push_back(c.state);
     }
@@ -72,7 +72,7 @@ int replay(const Arguments& a) {
 
 int run(const Arguments& a) {
   if (a.kinds) {
-    for (const auto& k : faults::pin_kinds()) {
+    for (const auto& k : faults::pin_kinds(a.design)) {
       say(Json{{"kind", k.name},
                {"point", k.point},
                {"about", k.about},
@@ -98,13 +98,13 @@ int run(const Arguments& a) {
     return r.alarms == 0 ? exit_ok : exit_failed;
   }
   const std::vector<faults::StateFault> states = faults::plan(a.state);
-  const auto& kinds = faults::pin_kinds();
+  const auto& kinds = faults::pin_kinds(a.design);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const int n = a.pins == 0 ? 0 : std::max(1, a.pins * kinds[k].share / 100);
     for (int i = 0; i < n; ++i) {
       if (i % a.parts != a.part) continue;
       say(faults::line_of(faults::run_pin_fault(
-          a.state.root, k, a.state.seed * 1'000'000 + static_cast<std::uint64_t>(i))));
+          a.state.root, k, a.state.seed * 1'000'000 + static_cast<std::uint64_t>(i), a.design)));
     }
   }
   if (a.state.flips_per_bit == 0 && a.state.doubles == 0 && a.state.resets == 0) return exit_ok;
@@ -129,6 +129,8 @@ int main(int argc, char** argv) {
   app.add_option("--acts", a.state.acts, "scenes that act, so many of them at most");
   app.add_option("--only", a.state.only, "registers with this in their name");
   app.add_option("--pins", a.pins, "faults at pins and register port");
+  app.add_option("--design", a.design, "whose pins are broken; flips are of lever")
+      ->check(CLI::IsMember({"lever", "lever_current", "gimbal_motor"}));
   app.add_option("--parts", a.parts, "of so many parts");
   app.add_option("--part", a.part, "this one, from 0");
   app.add_option("--clean", a.clean_s, "seconds of device time without a fault instead");

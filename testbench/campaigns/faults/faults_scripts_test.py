@@ -81,6 +81,16 @@ class Results(unittest.TestCase):
         self.assertIn("0.250", text)
         self.assertEqual(len(text.splitlines()), 3)
 
+    def test_of_another_design_the_table_has_times_and_the_motor_s_torque(self):
+        late = pin("detected") | {"off_after_us": 361, "motor_peak_nm": 0.04}
+        soon = late | {"off_after_us": 20}
+        rows = results.rows_of([late, soon, pin("silent", "a phase opens")])
+        cells = results.markdown_table(rows, timed=True)
+        self.assertEqual([line.split("|")[-3:-1] for line in cells if "pins" in line],
+                         [[" - ", " 0.000 "], [" 361 ", " 0.040 "]])
+        self.assertEqual(rows[1].as_json()["off_after_us"], 361)
+        self.assertIsNone(rows[0].as_json()["off_after_us"])
+
 
 class Command(Scratch):
     def run_main(self, *words):
@@ -108,6 +118,9 @@ class Command(Scratch):
                             (("--update", "--only", "x"), "all registers"),
                             (("--update", "--flips", "0"), "all registers"),
                             (("--clean", "--save", "x"), "tell of a campaign"),
+                            (("--design", "paper"), "invalid choice"),
+                            (("--design", "lever_current", "--clean"), "are of lever"),
+                            (("--design", "gimbal_motor", "--update"), "of lever"),
                             (("--lines", "x", "--json", "y", "--save", "y"),
                              "is also that of --json"),
                             (("--lines", __file__, "--json", __file__),

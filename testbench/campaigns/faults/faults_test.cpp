@@ -179,6 +179,27 @@ TEST_CASE("faults: each kind at the pins ends as it must") {
   }
 }
 
+TEST_CASE("faults: at the pins of the options each kind ends as it must") {
+  const std::uint64_t seeds = feltgate::test::whole_run() ? 4 : 1;
+  for (const char* design : {"lever_current", "gimbal_motor"}) {
+    const auto& kinds = pin_kinds(design);
+    REQUIRE(kinds.size() > 10);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      if (!feltgate::test::tried(k, 3)) continue;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const PinResult r = run_pin_fault(root, k, seed, design);
+        const Outcome& o = r.outcome;
+        INFO(design << ", " << kinds[k].name << ", seed " << seed << ": " << r.what);
+        if (kinds[k].promise == Promise::unseen) continue;
+        CHECK(o.is != Class::unsafe);
+        if (kinds[k].promise != Promise::flagged) continue;
+        CHECK(o.is == Class::detected);
+        if (kinds[k].within_us > 0) CHECK(o.off_after <= kinds[k].within_us);
+      }
+    }
+  }
+}
+
 TEST_CASE("faults: the listed cases end as listed") {
   constexpr std::uint64_t kShares = 6;
   std::ifstream list(root + "/vectors/faults/cases.jsonl");
@@ -194,7 +215,7 @@ TEST_CASE("faults: the listed cases end as listed") {
     const CaseLine c = read_case(line);
     if (c.pins) {
       INFO(line);
-      CHECK(name_of(run_pin_fault(root, c.kind, c.seed).outcome.is) == c.expected);
+      CHECK(name_of(run_pin_fault(root, c.kind, c.seed, c.design).outcome.is) == c.expected);
     } else {
       states.push_back(c.state);
       wanted.push_back(c.expected);

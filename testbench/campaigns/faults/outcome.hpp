@@ -51,6 +51,28 @@ struct Outcome {
   bool count_changed = false;
 };
 
+/// What a run of a core beside a sound one has shown.
+struct Findings {
+  bool unsafe, off, torque_wrong, position_wrong, differed;
+};
+
+/// The class of a run, from what it has shown and what was flagged.
+inline void settle(const Findings& seen, const Limits& limits, Outcome* o) {
+  if (seen.unsafe) {
+    o->is = Class::unsafe;
+    o->why = o->both_clocks > limits.both_clocks ? "both switches of a leg" : "too much torque";
+  } else if (seen.off) {
+    o->is = o->flagged != 0 ? Class::detected : Class::off;
+  } else if (seen.torque_wrong || seen.position_wrong) {
+    o->is = Class::silent;
+    o->why = !seen.torque_wrong    ? "position"
+             : seen.position_wrong ? "torque and position"
+                                   : "torque";
+  } else {
+    o->is = seen.differed ? Class::transient : Class::masked;
+  }
+}
+
 /// Gates of one tick: clocks for which each gate was on, and the longest run of clocks with both
 /// gates of a leg on.
 struct GateTimes {

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "campaigns/faults/broken_pins.hpp"
+#include "campaigns/faults/option_faults.hpp"
 #include "campaigns/faults/world.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
@@ -245,7 +246,8 @@ Case make(std::size_t kind, Random* r) {
 
 }  // namespace
 
-const std::vector<PinKind>& pin_kinds() {
+const std::vector<PinKind>& pin_kinds(const std::string& design) {
+  if (design != D::name) return option_kinds(design);
   static const std::vector<PinKind> kinds{
       {"glitch within the filter", "pins", "pulses of 1 to F clocks on A, B, Z, filter F = 2 to 15",
        10, Promise::none},
@@ -273,10 +275,12 @@ const std::vector<PinKind>& pin_kinds() {
   return kinds;
 }
 
-PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t seed) {
+PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t seed,
+                        const std::string& design) {
+  if (design != D::name) return run_option_fault(root, design, kind, seed);
   Random random(seed * 64 + kind);
   Case c = make(kind, &random);
-  PinResult result{kind, seed, c.what, {}};
+  PinResult result{kind, seed, c.what, {}, D::name};
   Outcome& o = result.outcome;
   const bool self_test = std::string(pin_kinds()[kind].name) == "swapped, self-test";
   plant::Plant lever = make_plant(root, c.hand);
@@ -347,17 +351,8 @@ PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t
     off_for = closed && !gates.on() ? off_for + 1 : 0;
     if (off_for > 60) break;
   }
-  if (judge.unsafe(o)) {
-    o.is = Class::unsafe;
-    o.why = o.both_clocks > limits.both_clocks ? "both switches of a leg" : "too much torque";
-  } else if (off_for > 0) {
-    o.is = o.flagged != 0 ? Class::detected : Class::off;
-  } else if (judge.torque_wrong() || position_wrong) {
-    o.is = Class::silent;
-    o.why = judge.torque_wrong() ? position_wrong ? "torque and position" : "torque" : "position";
-  } else {
-    o.is = differed ? Class::transient : Class::masked;
-  }
+  settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,
+         &o);
   return result;
 }
 

@@ -28,17 +28,21 @@ struct PinKind {
   const char* about;
   int share;  ///< in hundredths of the number given by --pins
   Promise promise;
+  int within_us = 0;  ///< the gates are off by then, where it is flagged; 0: not promised
 };
-const std::vector<PinKind>& pin_kinds();
+/// Of a design: lever, and those whose options have pins of their own (option_faults.hpp).
+const std::vector<PinKind>& pin_kinds(const std::string& design = "lever");
 
 struct PinResult {
   std::size_t kind = 0;
   std::uint64_t seed = 0;  ///< seed of this fault: kind and seed reproduce it
   std::string what;        ///< scene, speed and so on
   Outcome outcome;
+  std::string design;
 };
 
 /// Runs one fault of a kind.
-PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t seed);
+PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t seed,
+                        const std::string& design = "lever");
 
 }  // namespace feltgate::faults

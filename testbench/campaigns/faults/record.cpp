@@ -12,6 +12,7 @@
 
 #include "campaigns/faults/world.hpp"
 #include "feltgate/generated/causes.hpp"
+#include "feltgate/generated/lever.hpp"
 
 namespace feltgate::faults {
 
@@ -72,7 +73,8 @@ std::string line_of(const StateResult& r, const std::vector<StateBit>& bits,
 
 std::string line_of(const PinResult& r) {
   Json j;
-  const PinKind& kind = pin_kinds()[r.kind];
+  const PinKind& kind = pin_kinds(r.design)[r.kind];
+  if (r.design != Lever::name) j["design"] = r.design;
   j["point"] = kind.point;
   j["group"] = kind.name;
   j["seed"] = r.seed;
@@ -92,7 +94,8 @@ CaseLine read_case(const std::string& line) {
   if (j.contains("seed")) {
     c.pins = true;
     c.seed = j.at("seed");
-    const auto& kinds = pin_kinds();
+    c.design = j.value("design", Lever::name);
+    const auto& kinds = pin_kinds(c.design);
     for (; c.kind < kinds.size() && j.at("group") != kinds[c.kind].name; ++c.kind) {
     }
     if (c.kind == kinds.size())

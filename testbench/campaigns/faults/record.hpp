@@ -22,6 +22,7 @@ struct CaseLine {
   StateFault state;
   std::size_t kind = 0;
   std::uint64_t seed = 0;
+  std::string design;    ///< of a pin fault
   std::string expected;  ///< name of the expected class
 };
 CaseLine read_case(const std::string& line);

@@ -266,20 +266,9 @@ class Branches {
 
   void decide(const TorqueJudge& judge, bool differed, bool position_wrong, int off_for,
               Outcome* o) {
-    if (judge.unsafe(*o)) {
-      o->is = Class::unsafe;
-      o->why = o->both_clocks > limits_.both_clocks ? "both switches of a leg" : "too much torque";
-    } else if (off_for > 0) {
-      o->is = o->flagged != 0 ? Class::detected : Class::off;
-    } else if (judge.torque_wrong() || position_wrong) {
-      o->is = Class::silent;
-      o->why =
-          judge.torque_wrong() ? position_wrong ? "torque and position" : "torque" : "position";
-    } else if (differed) {
-      o->is = Class::transient;
-    } else {
-      o->is = same_ ? Class::masked : Class::latent;
-    }
+    settle({judge.unsafe(*o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits_,
+           o);
+    if (o->is == Class::masked && !same_) o->is = Class::latent;
   }
 
   const Act& act_;

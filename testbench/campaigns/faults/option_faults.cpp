@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Faults at the pins that lever does not have. Documentation: docs/verification.md
+#include "campaigns/faults/option_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "campaigns/faults/option_rig.hpp"
+#include "feltgate/generated/gimbal_motor.hpp"
+#include "feltgate/generated/lever_current.hpp"
+#include "sim/backends/backend.hpp"
+#include "sim/plant/plant_file.hpp"
+
+namespace feltgate::faults {
+
+namespace {
+
+using test::Random;
+using Defect = AbsoluteSensor::Defect;
+
+struct Case {
+  std::string what;
+  Harm harm;
+  double torque_nm = 0, from_rad = 0;
+  double rad_s = 0;        ///< at which a hand moves the shaft
+  bool free = false;       ///< no hand does
+  double seconds = 0.01;   ///< after the fault, or after arming
+  bool at_arming = false;  ///< it is there from the start, and the self-test is on
+  double offset_rad = 0;   ///< of the electrical angle
+};
+
+double share(Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
+double sign(Random* r) { return r->coin() ? 1 : -1; }
+
+/// A torque of 0.3 to 1 of the limit, and a hand that moves up to so fast.
+Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0) {
+  Case c;
+  c.torque_nm = sign(r) * limit_nm * (0.3 + 0.7 * share(r));
+  c.rad_s = sign(r) * (least_rad_s + (most_rad_s - least_rad_s) * share(r));
+  c.from_rad = share(r);
+  return c;
+}
+
+const std::vector<PinKind> current_kinds{
+    {"modulator's line stands", "pins", "low, high or as it was", 1, Promise::flagged, 22},
+    {"modulator's line is noise", "pins", "each of its bits drawn", 1, Promise::unseen},
+    {"shunt's wires swapped", "pins", "the current with the other sign", 1, Promise::flagged},
+    {"shunt's wires off", "pins", "the modulator says 0 A", 1, Promise::unseen},
+    {"shunt or modulator off by a factor", "pins", "0.5 to 2 times the current", 1,
+     Promise::unseen},
+    {"shunt's offset", "pins", "0.3 to 3 A more, after arming", 1, Promise::unseen},
+    {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 1, Promise::flagged},
+    {"nFAULT", "pins", "a pulse of 4 clocks", 1, Promise::flagged, 1},
+    {"a gate stays off", "pins", "one of four", 1, Promise::none},
+    {"a lead is loose", "pins", "no current for 1 to 10 ms, then again", 1, Promise::none},
+    {"cable cut, moving", "pins", "A, B, Z stand, a hand moves at 3 to 99 rad/s", 1,
+     Promise::unseen},
+    {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
+};
+
+Case current_case(std::string_view name, Random* r) {
+  using Line = Harm::Line;
+  Case c = asked(r, 0.5, 30);
+  Harm& h = c.harm;
+  c.seconds = 0.02;
+  if (name == "modulator's line stands") {
+    constexpr std::array lines{Line::low, Line::high, Line::held};
+    const auto n = r->below(lines.size());
+    h.modulator = lines[n];
+    c.what = n == 0 ? "low, " : n == 1 ? "high, " : "held, ";
+  } else if (name == "modulator's line is noise") {
+    h.modulator = Line::noise;
+  } else if (name == "shunt's wires swapped") {
+    h.reads = -1;
+  } else if (name == "shunt's wires off") {
+    h.reads = 0;
+    c.free = r->coin();
+    c.seconds = 0.1;
+  } else if (name == "shunt or modulator off by a factor") {
+    h.reads = std::pow(2.0, 2 * share(r) - 1);
+    c.what = fmt::format("{:.2f}, ", h.reads);
+  } else if (name == "shunt's offset") {
+    h.offset_a = sign(r) * (0.3 + 2.7 * share(r));
+    c.what = fmt::format("{:.2f} A, ", h.offset_a);
+  } else if (name == "motor's terminals shorted") {
+    h.shorted = true;
+    c.seconds = 0.005;
+  } else if (name == "nFAULT") {
+    h.driver_fault = true;
+    c.seconds = 0.001;
+  } else if (name == "a gate stays off") {
+    const auto n = r->below(4);
+    h.dead_gates = 1U << n;
+    c.what = fmt::format("gate {}, ", n);
+  } else if (name == "a lead is loose") {
+    h.dead_gates = 0xf;
+    h.loose_s = 0.001 + 0.009 * share(r);
+    c.what = fmt::format("{:.1f} ms, ", 1e3 * h.loose_s);
+  } else if (name == "cable cut, moving") {
+    c = asked(r, 0.5, 99, 3);
+    c.harm.channels_held = true;
+    c.seconds = 0.06;
+  } else {
+    h.stop = true;
+    c.seconds = 0.001;
+  }
+  return c;
+}
+
+const std::vector<PinKind> gimbal_kinds{
+    {"encoder's wire cut", "pins", "data, clock or select", 1, Promise::flagged, 600},
+    {"encoder's data at ground", "pins", "a shorted cable", 1, Promise::flagged, 2000},
+    {"a bit of each frame wrong", "pins", "its CRC tells", 1, Promise::flagged, 400},
+    {"noise on the encoder's data", "pins", "1e-4 to 1e-2 of its clocks inverted", 1,
+     Promise::none},
+    {"magnet lost", "pins", "the sensor says so", 1, Promise::flagged, 400},
+    {"angle off by half a turn", "pins", "from one reading to the next", 1, Promise::flagged, 400},
+    {"magnet slips", "pins", "1 to 30 degrees, from one reading to the next", 1, Promise::unseen},
+    {"angle freezes", "pins", "a hand turns at 18 to 70 rad/s", 1, Promise::flagged, 2000},
+    {"angle freezes, slower", "pins", "a hand turns at 0.5 to 14 rad/s", 1, Promise::unseen},
+    {"a phase opens", "pins", "one of three", 1, Promise::unseen},
+    {"a gate stays off", "pins", "one of six", 1, Promise::none},
+    {"wrong offset at arming", "pins", "100 to 260 electrical degrees, free, self-test on", 1,
+     Promise::flagged, 30500},
+    {"a lesser wrong offset", "pins", "10 to 80 electrical degrees, free, self-test on", 1,
+     Promise::unseen},
+    {"phases swapped at arming", "pins", "B and C, free, self-test on", 1, Promise::none},
+    {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
+};
+
+Case gimbal_case(std::string_view name, Random* r) {
+  constexpr double degree = 0.017453292519943295;
+  Case c = asked(r, 0.05, 20);
+  Harm& h = c.harm;
+  const auto at_arming = [&](double degrees) {
+    c.at_arming = c.free = true;
+    c.offset_rad = sign(r) * degrees * degree;
+    c.seconds = 0.05;
+    c.what = fmt::format("{:.0f} degrees, ", c.offset_rad / degree);
+  };
+  if (name == "encoder's wire cut") {
+    const auto wire = r->below(3);
+    if (wire == 0) h.sensor = Defect::cut;
+    if (wire > 0) h.cut_lines = wire;
+    c.what = wire == 0 ? "data, " : wire == 1 ? "select, " : "clock, ";
+  } else if (name == "encoder's data at ground") {
+    h.sensor = Defect::grounded;
+  } else if (name == "a bit of each frame wrong") {
+    h.sensor = Defect::wrong_bit;
+  } else if (name == "noise on the encoder's data") {
+    h.flips = std::pow(10.0, -2 - 2 * share(r));
+    c.seconds = 0.05;
+    c.what = fmt::format("{:.1e}, ", h.flips);
+  } else if (name == "magnet lost") {
+    h.sensor = Defect::magnet_lost;
+  } else if (name == "angle off by half a turn") {
+    h.sensor = Defect::half_a_turn_off;
+  } else if (name == "magnet slips") {
+    h.slipped_rad = sign(r) * (1 + 29 * share(r)) * degree;
+    c.free = r->coin();
+    c.seconds = 0.05;
+    c.what = fmt::format("{:.1f} degrees, ", h.slipped_rad / degree);
+  } else if (name == "angle freezes") {
+    c = asked(r, 0.05, 70, 18);
+    c.harm.sensor = Defect::held;
+  } else if (name == "angle freezes, slower") {
+    c = asked(r, 0.05, 14, 0.5);
+    c.harm.sensor = Defect::held;
+    c.seconds = 0.1;
+  } else if (name == "a phase opens") {
+    h.open_phase = r->below(3);
+    c.free = r->coin();
+    c.seconds = 0.05;
+  } else if (name == "a gate stays off") {
+    const auto n = r->below(6);
+    h.dead_gates = 1U << n;
+    c.what = fmt::format("gate {}, ", n);
+    c.seconds = 0.05;
+  } else if (name == "wrong offset at arming") {
+    at_arming(100 + 160 * share(r));
+  } else if (name == "a lesser wrong offset") {
+    at_arming(10 + 70 * share(r));
+  } else if (name == "phases swapped at arming") {
+    at_arming(0);
+    h.swapped_phases = true;
+    c.what.clear();
+  } else {
+    h.stop = true;
+    c.seconds = 0.001;
+  }
+  return c;
+}
+
+/// Deviations of the torque, and how long they last.
+class Judge {
+ public:
+  Judge(const Limits& limits, double clock_hz) : l_(limits), clock_hz_(clock_hz) {}
+
+  template <class R>
+  void step(const R& faulty, const R& sound, bool closed, Outcome* o) {
+    constexpr auto step = R::kStep;
+    const double e = faulty.torque_nm() - sound.torque_nm(), motor = std::abs(faulty.torque_nm());
+    o->both_clocks = std::max(o->both_clocks, faulty.both_clocks());
+    o->motor_peak_nm = larger(o->motor_peak_nm, motor);
+    if (faulty.on() || !closed) {
+      o->peak_nm = larger(o->peak_nm, std::abs(e));
+      o->integral_nm_s += std::abs(e) * static_cast<double>(step) / clock_hz_;
+    }
+    over_ = motor > l_.unsafe_share * l_.torque_nm ? over_ + step : 0;
+    wrong_ = std::abs(e) > l_.silent_share * l_.torque_nm && !closed ? wrong_ + step : 0;
+    too_much_ = too_much_ || lasts(over_);
+    torque_wrong_ = torque_wrong_ || lasts(wrong_);
+  }
+  bool unsafe(const Outcome& o) const { return too_much_ || o.both_clocks > l_.both_clocks; }
+  bool torque_wrong() const { return torque_wrong_; }
+
+ private:
+  bool lasts(Clock clocks) const {
+    return static_cast<double>(clocks) > l_.ticks * 1e-6 * clock_hz_;
+  }
+
+  Limits l_;
+  double clock_hz_;
+  Clock over_ = 0, wrong_ = 0;
+  bool too_much_ = false, torque_wrong_ = false;
+};
+
+/// `arm_s`: when it is armed, for a sensor must have been read, or an offset be known.
+template <class D>
+Outcome run_case(const std::string& root, const Case& c, const char* plant_name, double arm_s,
+                 std::uint64_t seed) {
+  const DesignInfo& info = Rig<D>::info();
+  const auto clocks = [](double s) { return static_cast<Clock>(s * D::clock_hz); };
+  const auto word = [&info](const char* name, double value) {
+    const ParameterInfo* p = info.find(name);
+    return Word{p->address, static_cast<std::uint32_t>(quantise_parameter(*p, value))};
+  };
+  const auto p = plant::read_plant_file(root + "/vectors/plants/" + plant_name + ".toml");
+  plant::Hand hand;
+  if (!c.free) hand = moving_hand(c.from_rad, c.rad_s);
+  hand.start_rad = c.from_rad;
+  Rig<D> sound(p, hand), faulty(p, hand, c.offset_rad);
+  const std::uint32_t control = static_cast<std::uint32_t>(D::control_reset) |
+                                1u << D::C::control_host |
+                                static_cast<std::uint32_t>(D::S::setpoint) << D::C::control_scene;
+  std::vector<Word> setup{word("setpoint_torque", c.torque_nm), {D::C::control, control}};
+  if (!c.at_arming) {  // the torque at once
+    setup.push_back({D::A::self_test_pulse, 0});
+    setup.push_back({D::A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1});
+  }
+  const Word arm{D::C::control, control | 1u << D::C::control_arm};
+  if (c.at_arming) faulty.harm(c.harm, seed);
+  // Both as far as the arming; a fault under way comes 5 to 6 ms later, and until then both are
+  // one.
+  const auto start = [&](Rig<D>* rig) {
+    for (const Word& w : setup) rig->write(w);
+    while (rig->now() < clocks(arm_s)) rig->step();
+    rig->write(arm);
+  };
+  start(&sound);
+  if (c.at_arming) {
+    start(&faulty);
+  } else {
+    Random when(seed + 1);
+    const Clock to = clocks(arm_s + 0.005 + 0.001 * share(&when));
+    while (sound.now() < to) sound.step();
+    faulty = sound;
+    faulty.harm(c.harm, seed);
+  }
+  const Clock from = faulty.now();
+  const double from_rad = faulty.shaft_rad();
+  Limits limits;
+  limits.torque_nm = info.find("torque_limit")->si;
+  Judge judge(limits, D::clock_hz);
+  Outcome o;
+  Clock off_for = 0;
+  bool differed = false, position_wrong = false;
+  while (faulty.now() < from + clocks(c.seconds) && off_for < 60 * D::clocks_per_tick) {
+    faulty.step();
+    sound.step();
+    const CoreOut &f = faulty.out(), &s = sound.out();
+    o.flagged |= f.faults & ~static_cast<unsigned>(s.faults);
+    const bool closed = !f.gates_enable && (s.gates_enable || o.flagged != 0);
+    if (closed && o.off_after < 0) {
+      o.off_after = (faulty.now() - from + D::clocks_per_tick - 1) / D::clocks_per_tick;
+      o.travel_rad = std::abs(faulty.shaft_rad() - from_rad);
+    }
+    if (!closed) o.off_after = -1;
+    judge.step(faulty, sound, closed, &o);
+    position_wrong = !c.free && f.position != s.position;
+    o.count_changed = o.count_changed || position_wrong;
+    differed = differed || f.gates != s.gates || f.position != s.position || f.tau_ref != s.tau_ref;
+    if (judge.unsafe(o)) break;
+    off_for = closed && !faulty.on() ? off_for + Rig<D>::kStep : 0;
+  }
+  settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,
+         &o);
+  return o;
+}
+
+}  // namespace
+
+const std::vector<PinKind>& option_kinds(const std::string& design) {
+  static const std::vector<PinKind> none;
+  return design == LeverCurrent::name  ? current_kinds
+         : design == GimbalMotor::name ? gimbal_kinds
+                                       : none;
+}
+
+PinResult run_option_fault(const std::string& root, const std::string& design, std::size_t kind,
+                           std::uint64_t seed) {
+  Random random(seed * 64 + kind);
+  const bool current = design == LeverCurrent::name;
+  const char* name = option_kinds(design)[kind].name;
+  const Case c = current ? current_case(name, &random) : gimbal_case(name, &random);
+  PinResult result{kind, seed, c.what, {}, design};
+  result.what += c.free ? fmt::format("{:.3f} Nm, free", c.torque_nm)
+                        : fmt::format("{:.3f} Nm, {:.3g} rad/s", c.torque_nm, c.rad_s);
+  // The offset of a current takes 512 PWM periods, the first angle three readings.
+  result.outcome = current ? run_case<LeverCurrent>(root, c, "p24", 0.011, random.bits())
+                           : run_case<GimbalMotor>(root, c, "gimbal_motor", 0.001, random.bits());
+  return result;
+}
+
+}  // namespace feltgate::faults

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A core's twin with what designs with a current loop, an absolute encoder or three phases have at
+// their pins: modulator, driver, sensor, the gates of a bridge, motor and hand; and what breaks of
+// it. Documentation: docs/verification.md
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "campaigns/faults/world.hpp"
+#include "feltgate/current_sense.hpp"
+#include "feltgate/design_info.hpp"
+#include "feltgate/feltgate_core.hpp"
+#include "random.hpp"
+#include "sim/backends/absolute_sensor.hpp"
+#include "sim/plant/drive.hpp"
+#include "sim/plant/period_mean.hpp"
+#include "sim/plant/sigma_delta.hpp"
+#include "sim/plant/three_phase.hpp"
+
+namespace feltgate::faults {
+
+/// What is broken.
+struct Harm {
+  enum class Line { sound, low, high, held, noise };
+  Line modulator = Line::sound;
+  double reads = 1, offset_a = 0;  ///< of the current, what the modulator gets
+  bool driver_fault = false;       ///< a pulse of nFAULT
+  bool shorted = false;            ///< the motor's terminals
+  unsigned dead_gates = 0;         ///< that stay off, by the bits of CoreOut::gates
+  double loose_s = 0;              ///< for so long only; 0: for ever
+  std::optional<std::size_t> open_phase;
+  bool swapped_phases = false;  ///< B and C
+  AbsoluteSensor::Defect sensor = AbsoluteSensor::Defect::none;
+  unsigned cut_lines = 0;      ///< to the sensor, by the bits of CoreOut::serial: it sees them high
+  double flips = 0;            ///< share of the clocks in which the sensor's data pin is inverted
+  double slipped_rad = 0;      ///< of the magnet on its shaft
+  bool channels_held = false;  ///< of an encoder with A and B
+  bool stop = false;
+};
+
+/// One core in its loop. A copy goes on from the same state.
+template <class D>
+class Rig {
+ public:
+  using Motor = std::conditional_t<D::phases == 3, plant::ThreePhasePlant, plant::Plant>;
+
+  /// `offset_rad`: what is added to the electrical angle of the plant.
+  Rig(plant::Parameters p, const plant::Hand& hand, double offset_rad = 0)
+      : motor_(made(turned(std::move(p), offset_rad), hand)),
+        modulator_(D::current_loop != 0 ? info().current_full_scale_a : 1) {
+    if constexpr (D::absolute_encoder != 0) sensor_.emplace(absolute_parameters<D>());
+    in_.encoder = motor_.encoder().pins();
+  }
+
+  static const DesignInfo& info() {
+    static const DesignInfo all = design_info<D>();
+    return all;
+  }
+  void write(Word word) { words_.push_back(word); }
+  /// From now on this is broken.
+  void harm(const Harm& harm, std::uint64_t seed) {
+    harm_ = harm;
+    since_ = 0;
+    random_ = test::Random(seed);
+    if (sensor_) sensor_->set(harm.sensor);
+    if constexpr (D::phases == 3) {
+      if (harm.open_phase) motor_.open_phase(*harm.open_phase);
+    } else {
+      // What is left is the wiring.
+      if (harm.shorted) motor_.short_motor(0.05, 4e-6);
+    }
+  }
+
+  /// The gates of the last step drive the motor in this one, so nothing depends on its own future.
+  void step() {
+    const double before_rad = angle_rad();
+    motor_.advance(bridge(), kStep);
+    torque_.add(kStep, harm_.shorted ? 0 : motor_.observables().motor_torque_mean_nm);
+    if (sensor_) sensor_->turn(before_rad, angle_rad(), now_, kStep);
+    if constexpr (D::current_loop != 0) in_.current_data = modulated();
+    in_.driver_fault = harm_.driver_fault && since_ == 0;
+    in_.stop = harm_.stop && since_ == 0;
+    const GateCounts last = core_.gate_clocks();
+    run_core();
+    for (std::size_t n = 0; n < last.size(); ++n) {
+      gates_[n] = static_cast<double>(core_.gate_clocks()[n] - last[n]) / kStep;
+    }
+    if (since_ >= 0) since_ += kStep;
+  }
+
+  const CoreOut& out() const { return core_.out(); }
+  Clock now() const { return now_; }
+  bool on() const {
+    return std::any_of(gates_.begin(), gates_.end(), [](double share) { return share > 0; });
+  }
+  /// Clocks of the last step with both switches of a leg on.
+  int both_clocks() const {
+    double most = 0;
+    for (std::size_t n = 0; n < gates_.size(); n += 2) {
+      most = std::max(most, gates_[n] + gates_[n + 1] - 1);
+    }
+    return static_cast<int>(std::lround(most * kStep));
+  }
+  /// Of the motor, mean of the last PWM period; a shorted one gives none.
+  double torque_nm() const { return torque_.mean(); }
+  double shaft_rad() const { return motor_.observables().theta_rad; }
+
+  /// A clock of the modulator; of a sensor that is read bit by bit, a fifth of a tick.
+  static constexpr Clock kStep =
+      D::current_loop != 0 ? CurrentSense::Parameters{}.divider : D::clocks_per_tick / 5;
+
+ private:
+  static plant::Parameters turned(plant::Parameters p, double offset_rad) {
+    if (p.phases) p.phases->offset_rad += offset_rad;
+    return p;
+  }
+  static Motor made(const plant::Parameters& p, const plant::Hand& hand) {
+    const plant::Drive drive = plant::drive_of(info());
+    if constexpr (D::phases == 3) {
+      return Motor(p, *p.phases, p.effects, drive, hand);
+    } else {
+      return Motor(p, p.effects, drive, hand);
+    }
+  }
+
+  double angle_rad() const { return shaft_rad() + (since_ >= 0 ? harm_.slipped_rad : 0); }
+  bool loose() const {
+    return harm_.loose_s == 0 || static_cast<double>(since_) < harm_.loose_s * D::clock_hz;
+  }
+  auto bridge() const {
+    std::array<double, 6> g{};
+    std::copy(gates_.begin(), gates_.end(), g.begin());
+    for (unsigned n = 0; n < g.size(); ++n) {
+      if ((harm_.dead_gates >> n & 1u) != 0 && since_ >= 0 && loose()) g[n] = 0;
+    }
+    if (harm_.swapped_phases) std::swap(g[2], g[4]), std::swap(g[3], g[5]);
+    if constexpr (D::phases == 3) {
+      return plant::Legs::gates(g[0], g[1], g[2], g[3], g[4], g[5]);
+    } else {
+      return plant::Bridge::gates(g[0], g[1], g[2], g[3]);
+    }
+  }
+  bool modulated() {
+    using Line = Harm::Line;
+    const double current_a = motor_.observables().motor_current_a;
+    const bool bit = modulator_.next(harm_.reads * current_a + harm_.offset_a);
+    switch (harm_.modulator) {
+      case Line::sound:
+        return bit;
+      case Line::held:
+        return in_.current_data != 0;
+      case Line::noise:
+        return random_.coin();
+      default:
+        return harm_.modulator == Line::high;
+    }
+  }
+  void sense() {
+    in_.encoder_data = sensor_->pin(now_, core_.out().serial | harm_.cut_lines);
+    if (harm_.flips > 0 && random_.below(1'000'000) < harm_.flips * 1e6) {
+      in_.encoder_data = !in_.encoder_data;
+    }
+  }
+  void run_core() {
+    const auto& events = motor_.events();
+    std::size_t next = 0;
+    const auto pins = [&](Clock until) {
+      for (; next < events.size() && events[next].clock <= until; ++next) {
+        if (!harm_.channels_held) in_.encoder = events[next].pins;
+      }
+    };
+    for (const Clock end = now_ + kStep; now_ < end;) {
+      pins(now_);
+      if (sensor_) sense();
+      if (!words_.empty() && core_.clock_of_tick() == host_write_clock && !core_.out().reg_busy) {
+        in_.reg_addr = static_cast<std::uint16_t>(words_.front().address);
+        in_.reg_wdata = words_.front().data;
+        in_.reg_write = true;
+        words_.pop_front();
+        core_.clock(in_);
+        in_.reg_write = false;
+        ++now_;
+        continue;
+      }
+      Clock until = sensor_ || !words_.empty() ? now_ + 1 : end;
+      if (next < events.size()) until = std::min(until, events[next].clock);
+      core_.run(in_, until - now_, [] {});
+      now_ = until;
+    }
+    pins(now_);
+  }
+
+  FeltgateCore<D> core_;
+  CoreIn in_;
+  Motor motor_;
+  plant::SigmaDelta modulator_;
+  std::optional<AbsoluteSensor> sensor_;
+  plant::PeriodMean torque_{D::pwm_period};
+  std::array<double, std::tuple_size_v<GateCounts>> gates_{};  // shares of the last step
+  std::deque<Word> words_;
+  Harm harm_;
+  test::Random random_{0};
+  Clock since_ = -1;  // clocks since something is broken; -1: nothing is
+  Clock now_ = 0;
+};
+
+}  // namespace feltgate::faults

@@ -352,12 +352,12 @@ TEST_CASE("touch: borders in a hollow as a table", "[.table]") {
 TEST_CASE("touch: what facets leave of a swing in a hollow", "[.table]") {
   // At half the border. Over an edge the force to the side changes its sign, an age late: a relay
   // of F sin(turn / 2) behind a mass with friction b swings by 4 / pi of it times age / b.
-  for (const int times : {2, 3, 4, 5}) {
+  for (const int times : {3, 4, 5}) {
     Hollow hollow = hollow_of(1000, 6e-3, 0, 0);
     hollow.times = times;
     hollow.shading = false;
     const double press_n = 0.5 * hollow.border_n();
-    const std::vector<double> swing = hollow.swing_m(press_n, 1.5);
+    const std::vector<double> swing = hollow.swing_m(press_n, 3);
     const auto [low, high] = std::minmax_element(swing.end() - 300, swing.end());
     const double faces = 20 * std::pow(4, times), turn_rad = std::sqrt(9.674 / faces);
     WARN(faces << " faces: swing " << 0.5e3 * (*high - *low) << " mm, relay "

@@ -17,9 +17,9 @@ class Player(Scratch):
         super().setUp()
         self.out = self.folder / "out.wav"
 
-    def samples(self, given, status=0):
+    def samples(self, given, status=0, *more):
         """Full scale 1; what was said where the script ends with another status."""
-        done = script(self.SCRIPT, given, "-o", self.out)
+        done = script(self.SCRIPT, given, "-o", self.out, *more)
         self.assertEqual(done.returncode, status, done.stderr)
         if status != 0:
             self.assertFalse(self.out.exists())

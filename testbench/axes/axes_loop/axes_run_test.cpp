@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A scene of several axes in closed loop: RTL against twin in every clock, the law in real numbers
-// beside it, what a hand feels, and scenes that are refused. docs/devices.md
+// beside it, what a hand feels, also of a free pen, and scenes that are refused. docs/devices.md
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -38,7 +38,84 @@ const std::string kHead =
     "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\ndevice = \"pantograph\"\n"
     "[core]\nscene = \"law\"\nlaw = \"pantograph\"\n";
 
+/// A free pen that a hand leads along an axis, 5 mm to both sides of a place, 30 mm/s.
+struct FreePen {
+  static constexpr double speed_m_s = 0.03, half_m = 5e-3, begin_s = 0.05;
+  plant::Vec2 middle_m;
+  bool along_x = true;
+
+  /// Force against the motion, N, mean from 2 mm after the start; the law has nothing to push with.
+  double drag_n() const {
+    AxesScene scene = scene_named("pantograph_floor");
+    scene.scenario.parameters = {{"floor", 0.0}, {"stiffness", 0.0}, {"drag", 0.0}};
+    scene.scenario.duration_s = begin_s + 2 * half_m / speed_m_s;
+    scene.scenario.expectations.clear();
+    plant::PenHand& hand = std::get<PantographSetup>(scene.device).hand = {};
+    hand.start_m = middle_m - half_m * (along_x ? plant::Vec2{1, 0} : plant::Vec2{0, 1});
+    plant::PenPhase& lead = hand.phases.emplace_back();
+    lead.kind = plant::PenPhase::Kind::kPrescribed;
+    plant::Segment wait, ramp;
+    wait.duration_s = begin_s;
+    ramp.kind = plant::Segment::Kind::kRamp;
+    ramp.duration_s = 2 * half_m / speed_m_s;
+    ramp.to = along_x ? middle_m.x + half_m : middle_m.y + half_m;
+    (along_x ? lead.x : lead.y) = {wait, ramp};
+    const Rows rows(scene, 100);
+    double sum_n = 0;
+    int count = 0;
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      if (rows.of(n, "time_s") < begin_s + 2e-3 / speed_m_s) continue;
+      sum_n += rows.of(n, along_x ? "hand_x_n" : "hand_y_n");
+      ++count;
+    }
+    CHECK(rows.result().figures.at("faults") == 0);
+    return sum_n / count;
+  }
+
+  /// The same of a rhombus in closed form: power of both cranks' friction over the speed, mean of
+  /// the places; a motor turns thrice as fast as its crank.
+  double expected_n() const {
+    const auto p = std::get<PantographSetup>(scene_named("pantograph_floor").device).parameters;
+    constexpr double link_m = 0.1, ratio = 3;
+    constexpr int places = 100;
+    double sum_w = 0;
+    for (int n = 0; n < places; ++n) {
+      const double way_m = -half_m + 2e-3 + (2 * half_m - 2e-3) * (n + 0.5) / places;
+      const double x = middle_m.x + (along_x ? way_m : 0), y = middle_m.y + (along_x ? 0 : way_m);
+      // Cranks at the pen's direction less and plus a, cos a = far / 2 links.
+      const double far_m = std::hypot(x, y), a = std::acos(far_m / (2 * link_m));
+      const double out = speed_m_s * (along_x ? x : y) / far_m;
+      const double turn = speed_m_s * (along_x ? -y : x) / (far_m * far_m);
+      const double opens = -out / (2 * link_m * std::sin(a));
+      for (const double crank : {turn - opens, turn + opens}) {
+        const double motor = ratio * std::abs(crank), slow = motor / p.lugre.stribeck_rad_s;
+        const double dry_nm =
+            p.lugre.coulomb_nm + (p.lugre.static_nm - p.lugre.coulomb_nm) * std::exp(-slow * slow);
+        sum_w += motor * (dry_nm + p.lugre.viscous_nm_s_rad * motor) / places;
+      }
+    }
+    return sum_w / speed_m_s;
+  }
+};
+
 }  // namespace
+
+TEST_CASE("a free pen: its drag is the friction of both motors by the cranks' ways") {
+  for (const FreePen& pen : {FreePen{{0.03, 0.12}, true}, FreePen{{0.03, 0.12}, false}}) {
+    const double should_n = pen.expected_n(), is_n = pen.drag_n();
+    INFO((pen.along_x ? "x " : "y ") << should_n << " N, twin " << is_n << " N");
+    CHECK(is_n == Approx(should_n).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a free pen: the table of the page", "[.table]") {
+  for (const plant::Vec2 at : {plant::Vec2{0, 0.10}, plant::Vec2{0, 0.13}, plant::Vec2{0, 0.16},
+                               plant::Vec2{0.03, 0.12}}) {
+    const FreePen x{at, true}, y{at, false};
+    WARN("(" << 1e3 * at.x << ", " << 1e3 * at.y << ") mm: along x " << x.expected_n()
+             << " N, twin " << x.drag_n() << "; along y " << y.expected_n() << ", " << y.drag_n());
+  }
+}
 
 TEST_CASE("a floor under a pen: what the scene expects, by the twin") {
   const AxesResult r = run_scene(scene_named("pantograph_floor"), "twin,double,quad");

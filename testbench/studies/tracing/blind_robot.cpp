@@ -36,7 +36,8 @@ Point left_of(Point p) { return {-p.y, p.x}; }
 
 }  // namespace
 
-BlindRobot::BlindRobot(const std::vector<std::string>& columns, Point start_m) : end_m_(start_m) {
+BlindRobot::BlindRobot(const std::vector<std::string>& columns, Point start_m, double patience_s)
+    : patience_s_(patience_s), end_m_(start_m) {
   const auto at = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
                                     columns.begin());
@@ -115,7 +116,33 @@ Material felt_material(const Trace& trace) {
   return {found[1], found[2]};
 }
 
+double felt_ripple_n(const Trace& trace, double wave_m) {
+  const std::vector<Touch>& all = trace.touches;
+  const auto half = static_cast<std::size_t>(std::lround(0.5 * wave_m / (kSpeed_m_s * kStep_s)));
+  double sum_n = 0, sum_n2 = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    sum_n += shape::length(all[i].force_n);
+    if (i < 2 * half) continue;
+    const double off_n =
+        shape::length(all[i - half].force_n) - sum_n / static_cast<double>(2 * half + 1);
+    sum_n2 += off_n * off_n;
+    ++count;
+    sum_n -= shape::length(all[i - 2 * half].force_n);
+  }
+  return count > 0 ? std::sqrt(sum_n2 / static_cast<double>(count)) : 0;
+}
+
 Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m) {
+  return traced("hidden_shapes",
+                {{"shape", static_cast<double>(shape)},
+                 {"stiffness", stiffness_n_m},
+                 {"damping", damping_ns_m}},
+                start_m);
+}
+
+Trace traced(const std::string& law, const std::map<std::string, double>& parameters, Point start_m,
+             double patience_s) {
   AxesScene scene = scene_named("hidden_shapes");
   auto& setup = std::get<PantographSetup>(scene.device);
   setup.hand = {};
@@ -126,13 +153,12 @@ Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m
   phase.impedance.damping_ns_m = 8;
   phase.impedance.stiffness_n_m = 300;
   setup.hand.phases = {phase};
-  scene.scenario.duration_s = 10;
+  scene.scenario.duration_s = patience_s + 1;
+  scene.scenario.law = law;
   scene.scenario.events.clear();
   scene.scenario.expectations.clear();
-  scene.scenario.parameters = {{"shape", static_cast<double>(shape)},
-                               {"stiffness", stiffness_n_m},
-                               {"damping", damping_ns_m}};
-  BlindRobot robot(axes_columns(scene), start_m);
+  scene.scenario.parameters = parameters;
+  BlindRobot robot(axes_columns(scene), start_m, patience_s);
   struct Enough {};
   try {
     (void)run_scene(scene, "twin", nullptr, 1000, [&](const std::vector<double>& row) {

@@ -6,6 +6,7 @@
 // Documentation: docs/devices/shapes.md
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,21 +37,25 @@ struct Material {
 };
 Material felt_material(const Trace& trace);
 
+/// Rms of what the force does within `wave_m` of the walk, N: the ripples of a texture of that
+/// length, and what the counts of the encoders add.
+double felt_ripple_n(const Trace& trace, double wave_m);
+
 /// Leads the hand of a scene, one decision a millisecond.
 class BlindRobot {
  public:
-  /// `columns` of the rows that it will be shown; the pen starts here.
-  BlindRobot(const std::vector<std::string>& columns, Point start_m);
+  /// `columns` of the rows that it will be shown; the pen starts here. It gives up after its
+  /// patience.
+  BlindRobot(const std::vector<std::string>& columns, Point start_m, double patience_s);
   PenLead lead(const std::vector<double>& row);
-  bool done() const { return trace_.closed || trace_.seconds >= patience_s; }
+  bool done() const { return trace_.closed || trace_.seconds >= patience_s_; }
   const Trace& trace() const { return trace_; }
 
  private:
-  static constexpr double patience_s = 9;
-
   Point way(const Touch& now);
   void remember(const Touch& now);
 
+  double patience_s_;
   std::size_t position_[2], torque_[2];
   Point end_m_;       ///< of its spring
   Point normal_;      ///< of what it touched last, outward, smoothed
@@ -61,8 +66,13 @@ class BlindRobot {
   Trace trace_;
 };
 
-/// The hidden shape of this number with a material under the robot's pen, the twin from pins to
-/// pins in closed loop with the plant.
+constexpr double most_patience_s = 9;
+
+/// A law of shapes with these parameters under the robot's pen, the twin from pins to pins in
+/// closed loop with the plant. `law` is a name or a path.
+Trace traced(const std::string& law, const std::map<std::string, double>& parameters, Point start_m,
+             double patience_s = most_patience_s);
+/// The hidden shape of this number with a material.
 Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m);
 
 }  // namespace feltgate::test

@@ -10,7 +10,7 @@ const TURN = 2 * Math.PI;
 /** Clockwise from above, as the lever is drawn. */
 const round_at = (x, y, radius, rad) => [x + radius * Math.sin(rad), y - radius * Math.cos(rad)];
 const wrapped = (rad) => rad - TURN * Math.round(rad / TURN);
-const degrees = (turns) => 360 * (turns - Math.floor(turns));
+const turned_degrees = (turns) => 360 * (turns - Math.floor(turns));
 
 class KnobTab {
   constructor(core) {
@@ -138,9 +138,9 @@ class KnobTab {
     const key = [["rotor", "rotor"], ["vector", `voltage, ${fixed(Math.hypot(...sum), 2)} V`], ...(believed ? [["believed", "rotor, as the core has it"]] : [])];
     const keys = key.map(([kind, text], n) => `<path class="${kind}" d="${path([[8 + (n === 1 ? 90 : 0), 222 + (n === 2 ? 18 : 0)], [28 + (n === 1 ? 90 : 0), 222 + (n === 2 ? 18 : 0)]])}"/><text x="${34 + (n === 1 ? 90 : 0)}" y="${226 + (n === 2 ? 18 : 0)}">${text}</text>`).join("");
     $("knob-dial").innerHTML = `<circle class="scale" cx="${x}" cy="${y}" r="${radius}"/>${coils}${believed}${arrow([x, y], ...towards(TURN * s.rotor, radius - 14), "rotor")}${s.gates ? arrow([x, y], shrink * sum[0], shrink * sum[1], "vector") : ""}
-      <text x="6" y="16">electrical</text><text class="figure" x="294" y="18">${fixed(degrees(s.electrical), 0)}°</text>${keys}${bars}${s.gates ? "" : `<text class="off" x="${x}" y="${y + 40}">motor off</text>`}`;
+      <text x="6" y="16">electrical</text><text class="figure" x="294" y="18">${fixed(turned_degrees(s.electrical), 0)}°</text>${keys}${bars}${s.gates ? "" : `<text class="off" x="${x}" y="${y + 40}">motor off</text>`}`;
     const offset = fixed(wrapped(TURN * s.offset) * (360 / TURN), 0);
-    this.caption.textContent = `e = pole pairs · θ + offset = ${s.pole_pairs} · ${fixed((360 / TURN) * s.theta, 1)}° + ${offset}°, modulo a turn ${fixed(degrees(s.electrical), 0)}°\n` +
+    this.caption.textContent = `e = pole pairs · θ + offset = ${s.pole_pairs} · ${fixed((360 / TURN) * s.theta, 1)}° + ${offset}°, modulo a turn ${fixed(turned_degrees(s.electrical), 0)}°\n` +
       `asked ${fixed(1000 * s.asked, 2)} mNm, motor ${fixed(1000 * s.torque, 2)} mNm: amplitude ${s.amplitude} of 1000 clocks`;
   }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The page's knob in Debian's Chromium: detents against closed forms, the legs' voltages against the
-electrical angle, wrong offsets, the mouse, a narrow screen.
+"""The page's knob in Debian's Chromium: detents against closed forms, the legs' voltages against
+the electrical angle, wrong offsets, the mouse, a narrow screen.
 
 knob_tab_test.py --pictures FOLDER keeps screenshots, --speed prints the real-time factor.
 Documentation: docs/page.md
@@ -55,12 +55,14 @@ class Knob(PageTest):
             self.assertAlmostEqual(seen["asked"], -DETENT_NM_RAD * seen["theta"], delta=1e-4)
             self.assertAlmostEqual(seen["torque"], seen["asked"], delta=5e-4)
             # Eleven electrical turns in one of the shaft, to a count of 0.24 degrees.
-            turns = 11 * seen["theta"] / TURN
-            self.assertAlmostEqual(cmath.phase(cmath.exp(1j * TURN * (seen["electrical"] - turns))), 0, delta=5e-3)
+            angle = cmath.exp(1j * TURN * seen["electrical"])
+            off = cmath.phase(angle * cmath.exp(-11j * seen["theta"]))
+            self.assertAlmostEqual(off, 0, delta=5e-3)
             mean = sum(seen["on"]) / 3
-            vector = sum((on - mean) * cmath.exp(1j * TURN * n / 3) for n, on in enumerate(seen["on"]))
+            legs = enumerate(seen["on"])
+            vector = sum((on - mean) * cmath.exp(1j * TURN * n / 3) for n, on in legs)
             sign = -1 if seen["asked"] < 0 else 1
-            off = cmath.phase(sign * vector * cmath.exp(-1j * TURN * seen["electrical"]))
+            off = cmath.phase(sign * vector / angle)
             self.assertAlmostEqual(off, 0, delta=math.radians(2))
             # An amplitude of the whole period is 1/sqrt(3) of the supply.
             length = abs(vector) * 2 / 3 * math.sqrt(3)
@@ -131,6 +133,7 @@ class Knob(PageTest):
             self.assertGreater(self.driver.find_element(By.ID, name).size["width"], 250)
 
 
+RIGHT = "const o = document.getElementById('knob-offset'); o.value = 0; o.oninput();"
 VIEWS = {
     "knob": "feltgate.knob.take(true); feltgate.knob.aim(0.2)",
     "knob_wrong": "const e = document.getElementById('knob-offset'); e.value = 180; e.oninput();"
@@ -139,14 +142,13 @@ VIEWS = {
 
 
 def pictures(folder):
-    """Held beside a detent, and with the offset wrong by half a turn; on two widths, in the dark too."""
+    """Held beside a detent, and with the offset wrong by half a turn; wide, and narrow and dark."""
     driver = opened()
     driver.execute_script("document.getElementById('tab-knob').click()")
     for width, height in ((1280, 1000), (390, 1500)):
         driver.set_window_size(width, height)
         for name, script in VIEWS.items():
-            driver.execute_script("const e = document.getElementById('knob-offset'); e.value = 0; e.oninput()")
-            driver.execute_script(script)
+            driver.execute_script(RIGHT + script)
             time.sleep(3)
             driver.save_screenshot(str(folder / f"{name}_{width}.png"))
         driver.execute_script("document.getElementById('theme').click()")
@@ -163,7 +165,8 @@ def measure():
     frames = driver.execute_script("return feltgate.frames")
     gaps = sorted(b - a for a, b in zip(frames, frames[1:], strict=False))
     speed = driver.execute_script("return feltgate.speed")
-    print(f"knob: median {1000 / gaps[len(gaps) // 2]:.0f} frames a second, {speed:.1f} times real time")
+    rate = 1000 / gaps[len(gaps) // 2]
+    print(f"knob: median {rate:.0f} frames a second, {speed:.1f} times real time")
     driver.quit()
 
 

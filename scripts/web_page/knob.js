@@ -116,7 +116,7 @@ class KnobTab {
     const held = this.held ? `<path class="handline" d="${path([at(KNOB.ring, theta), at(KNOB.ring, hand)])}"/><circle class="handring" cx="${at(KNOB.ring, hand)[0]}" cy="${at(KNOB.ring, hand)[1]}" r="14"/>` : "";
     this.svg.innerHTML = `${marks}<circle class="shadow" cx="${c + 5}" cy="${c + 8}" r="${KNOB.ring}"/><circle class="ring" cx="${c}" cy="${c}" r="${KNOB.ring}"/>${grips}
       <circle class="cap" cx="${c}" cy="${c}" r="${KNOB.cap}"/>${line("notch", 62, KNOB.cap - 10, theta)}${held}${arrow(tip, reach * Math.cos(theta), reach * Math.sin(theta), "force")}
-      <text class="newton" text-anchor="middle" x="${c}" y="${c + 12}">${fixed(Math.abs(newton), 2)} N</text><text text-anchor="middle" x="${c}" y="${c + 32}">at the rim</text>`;
+      <text class="newton" text-anchor="middle" x="${c}" y="${c + 12}">${fixed(Math.abs(newton), 2)} N</text><text class="engraved" x="${c}" y="${c + 32}">at the rim</text>`;
     this.svg.setAttribute("aria-valuenow", (this.held ? hand : theta).toFixed(2));
   }
 
@@ -132,8 +132,8 @@ class KnobTab {
     const off = wrapped(TURN * (s.electrical - s.rotor)), believed = Math.abs(off) > 0.1 ? arrow([x, y], ...towards(TURN * s.electrical, radius - 14), "believed") : "";
     const bars = KNOB_LEGS.map(([name, kind], n) => {
       const top = 270 + 40 * n;
-      return `<rect class="scale" x="34" y="${top}" width="256" height="16"/><rect class="leg ${kind}" x="34" y="${top}" width="${256 * s.on[n]}" height="16"/><path class="ink" d="M162 ${top - 3}v22"/>
-        <text class="label" x="16" y="${top + 13}">${name}</text><text x="34" y="${top - 5}">${fixed(100 * s.on[n], 1)} %   ${fixed(volts[n], 2)} V   ${fixed(s.current[n], 3)} A</text>`;
+      return `<rect class="scale" x="34" y="${top}" width="256" height="16"/><rect class="leg ${kind}" x="34" y="${top}" width="${256 * s.on[n]}" height="16"/><path class="ink" d="M162 ${top}v20"/>
+        <text class="label" x="16" y="${top + 13}">${name}</text><text x="34" y="${top - 5}">on ${fixed(100 * s.on[n], 1)} % · ${fixed(volts[n], 2)} V · ${fixed(s.current[n], 3)} A</text>`;
     }).join("");
     const key = [["rotor", "rotor"], ["vector", `voltage, ${fixed(Math.hypot(...sum), 2)} V`], ...(believed ? [["believed", "rotor, as the core has it"]] : [])];
     const keys = key.map(([kind, text], n) => `<path class="${kind}" d="${path([[8 + (n === 1 ? 90 : 0), 222 + (n === 2 ? 18 : 0)], [28 + (n === 1 ? 90 : 0), 222 + (n === 2 ? 18 : 0)]])}"/><text x="${34 + (n === 1 ? 90 : 0)}" y="${226 + (n === 2 ? 18 : 0)}">${text}</text>`).join("");
@@ -141,7 +141,7 @@ class KnobTab {
       <text x="6" y="16">electrical</text><text class="figure" x="294" y="18">${fixed(turned_degrees(s.electrical), 0)}°</text>${keys}${bars}${s.gates ? "" : `<text class="off" x="${x}" y="${y + 40}">motor off</text>`}`;
     const offset = fixed(wrapped(TURN * s.offset) * (360 / TURN), 0);
     this.caption.textContent = `e = pole pairs · θ + offset = ${s.pole_pairs} · ${fixed((360 / TURN) * s.theta, 1)}° + ${offset}°, modulo a turn ${fixed(turned_degrees(s.electrical), 0)}°\n` +
-      `asked ${fixed(1000 * s.asked, 2)} mNm, motor ${fixed(1000 * s.torque, 2)} mNm: amplitude ${s.amplitude} of 1000 clocks`;
+      `asked ${fixed(1000 * s.asked, 2)} mNm, motor ${fixed(1000 * s.torque, 2)} mNm: amplitude ${fixed(s.amplitude, 0)} of 1000 clocks`;
   }
 
   draw_curves() {

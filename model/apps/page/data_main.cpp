@@ -4,6 +4,7 @@
 // Writes the reference data of the page: recorded pins and register writes of scenes, with the hash
 // of the native twin over them; the result of a closed loop; and the compiled laws that the page
 // runs without a core. Documentation: docs/page.md
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -49,6 +50,10 @@ json recorded(const std::string& design, const std::string& scene) {
   options.engine = "twin";
   options.inputs = &inputs;
   const auto absolute = feltgate::design_named(design).absolute;
+  if (absolute) {  // such a core goes clock by clock: a part is enough, over the knob's first crest
+    scenario.duration_s = std::min(scenario.duration_s, 0.45);
+    scenario.expectations.clear();
+  }
   page::CountRecorder recorder(absolute ? absolute->bits : 0, &inputs);
   if (absolute) {
     options.plant_step = [&](feltgate::Clock clocks, const feltgate::plant::Observables& o) {

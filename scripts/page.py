@@ -33,10 +33,10 @@ EPILOG = """examples:
 
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""
-DESIGNS = ("lever", "paper", "fast", "lever_law")
+DESIGNS = ("lever", "paper", "fast", "lever_law", "gimbal_motor")
 LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "inside.js", "law.js")
 PENS = ("pen.js", "game.js", "stylus.js", "mesh.js")
-TABS = (*PENS, "drums.js", "materials.js", "coupled.js", "string.js", "board.js")
+TABS = (*PENS, "drums.js", "materials.js", "coupled.js", "string.js", "knob.js", "board.js")
 SCRIPTS = (*LEVER_SCRIPTS, *TABS, "address.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')

@@ -122,7 +122,7 @@ foreach(design IN LISTS FELTGATE_AXES_PRESETS)
   target_compile_options(budget_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(budget_${design} PRIVATE feltgate_budget)
 endforeach()
-set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law>)
+set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law> $<TARGET_OBJECTS:twin_gimbal_motor>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
   "${FELTGATE_ROOT}/model/apps/page/data_main.cpp" ${page_twins})
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})

@@ -44,7 +44,7 @@ FILES = (
     "studies/stability/eigenvalues.cpp",
     "studies/stability/linear_loop.cpp",
 )
-PLANTS = ("p24", "p48", "linear")
+PLANTS = ("p24", "p48", "linear", "gimbal_motor")
 # A hand read from a file needs recordings, which the page has none of; nobody asks it for C++ or
 # proofs.
 LEFT_OUT = re.compile(r"hand_file|cpp(_.*)?|gappa(_.*)?|.*_main")

@@ -50,7 +50,7 @@ const SCENES = {
     title: "wall",
     begin: "Take the ball and press it into the bricks.",
     sliders: [
-      { name: "wall_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0.5, high: 60, value: 4, log: true },
+      { name: "wall_stiffness", label: "stiffness", unit: "Nm/rad", per_count: true, low: 0.5, high: 60, value: 4, log: true, border: true },
       { name: "wall_damping", label: "damping", unit: "Nm s/rad", low: 0, high: 0.05, value: 0.005 },
       { name: "rate", label: "rate", choices: [["in the core, 1 MHz", 1], ["host, 10 kHz", 100], ["host, 1 kHz", 1000], ["host, 490 Hz", 2040], ["host, 144 Hz", 6940]] },
     ],

@@ -2,7 +2,7 @@
 "use strict";
 
 const $ = (id) => document.getElementById(id);
-const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], paused: false, told: false, shows: false, shown_s: 0, count: 0 };
+const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], borders: {}, paused: false, told: false, shows: false, shown_s: 0, count: 0 };
 window.feltgate = page; // for whoever wants to look inside
 
 const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
@@ -106,7 +106,11 @@ function build_sliders() {
       range.setAttribute("aria-label", `${s.label} in ${s.unit}`);
       range.oninput = () => turned(s, value_of(Number(range.value)), shown);
       shown.textContent = `${fixed(page.values[s.name])} ${s.unit}`;
-      label.append(s.label, range, shown);
+      const track = document.createElement("span");
+      track.className = "track";
+      track.append(range);
+      if (s.border) page.track = { element: track, share_of: (v) => Math.max(0, Math.min(1, x_of(v) / 1000)) };
+      label.append(s.label, track, shown);
     }
     box.append(label);
   }
@@ -119,28 +123,45 @@ function turned(slider, value, shown) {
   ask_verdict();
 }
 
-/** What `feltgate stability` says of this wall: by eigenvalues, without friction and without a hand. */
-function ask_verdict() {
-  clearTimeout(page.asking);
-  const box = $("verdict");
-  box.className = "";
-  box.textContent = "";
-  if (page.scene !== "wall" || !$("object").open) return;
-  const stiffness = page.values.wall_stiffness;
-  page.asking = setTimeout(async () => {
-    const lines = [];
-    let shakes = false;
-    for (const d of [...page.devices]) {
-      const b = await page.worker.call("border", d.info.name, d.own ? d.own.text : "", $("plant").value, page.values.wall_damping, page.values.rate);
-      if (page.scene !== "wall") return;
-      if (b.error) { lines.push(b.error); continue; }
-      const over = stiffness > b.stiffness_nm_rad;
-      shakes = shakes || over;
-      lines.push(`${d.name}: ${over ? "this wall shakes" : "stable"}; the border is ${fixed(b.stiffness_nm_rad, 1)} Nm/rad, it swings there at ${fixed(b.rad_s / 2 / Math.PI, 0)} Hz.`);
-    }
-    box.textContent = lines.join(" ") + " By eigenvalues, without friction and hand, which both steady it.";
-    box.className = shakes ? "shakes" : "";
-  }, 150);
+/** The border of a device's wall as `feltgate stability` has it: by eigenvalues, without friction and without a hand. */
+async function border_of(device, damping, rate) {
+  const own = device.own ? device.own.text : "", key = JSON.stringify([device.info.name, own, $("plant").value, damping, rate]);
+  return (page.borders[key] ??= await page.worker.call("border", device.info.name, own, $("plant").value, damping, rate));
+}
+
+/** Borders and verdict of the present wall; while they are computed a later wish waits, the newest one alone. */
+async function ask_verdict() {
+  const asks = () => page.scene === "wall" && $("object").open;
+  if (!asks()) show_borders([]);
+  page.ask_again = true;
+  if (page.asking) return;
+  page.asking = true;
+  while (page.ask_again && asks()) {
+    page.ask_again = false;
+    const { wall_damping, rate } = page.values, borders = [];
+    for (const d of [...page.devices]) borders.push({ name: d.name, ...(await border_of(d, wall_damping, rate)) });
+    if (asks()) show_borders(borders);
+  }
+  page.asking = false;
+}
+
+/** A mark of each device's border on the slider of the stiffness, and the verdict in words. */
+function show_borders(borders) {
+  const box = $("verdict"), stiffness = page.values.wall_stiffness, lines = [];
+  let shakes = false;
+  page.shown_borders = borders;
+  document.querySelectorAll(".track i").forEach((mark) => mark.remove());
+  for (const b of borders) {
+    if (b.error) { lines.push(b.error); continue; }
+    const over = stiffness > b.stiffness_nm_rad, said = `the border is ${fixed(b.stiffness_nm_rad, 1)} Nm/rad, it swings there at ${fixed(b.rad_s / 2 / Math.PI, 0)} Hz`;
+    shakes = shakes || over;
+    lines.push(`${b.name}: ${over ? "this wall shakes" : "stable"}; ${said}.`);
+    const mark = Object.assign(document.createElement("i"), { title: `${b.name}: ${said}` });
+    mark.style.setProperty("--at", page.track.share_of(b.stiffness_nm_rad));
+    page.track.element.append(mark);
+  }
+  box.textContent = borders.length ? lines.join(" ") + " By eigenvalues, without friction and hand, which both steady it: the red part of the slider is beyond." : "";
+  box.className = shakes ? "shakes" : "";
 }
 
 function build_controls() {
@@ -264,7 +285,7 @@ function select_tab(name) {
     tab.tabIndex = chosen ? 0 : -1;
     $(tab.getAttribute("aria-controls")).hidden = !chosen;
   }
-  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab, board: BoardTab }[name];
+  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab, knob: KnobTab, board: BoardTab }[name];
   if (make && !page[name]) {
     page[name] = new make(page.core, page.numbers);
     page.address.opened(name, true);

@@ -4,6 +4,7 @@
 // Writes the reference data of the page: recorded pins and register writes of scenes, with the hash
 // of the native twin over them; the result of a closed loop; and the compiled laws that the page
 // runs without a core. Documentation: docs/page.md
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -43,17 +44,29 @@ json recorded(const std::string& design, const std::string& scene) {
   const auto plant =
       feltgate::plant::read_plant_file(vectors + "plants/" + scenario.plant + ".toml");
   feltgate::resolve_effects(scenario, plant.effects);
-  feltgate::RunInputs inputs;
+  page::Recording inputs;
   feltgate::RunOptions options;
   options.design = design;
   options.engine = "twin";
   options.inputs = &inputs;
+  const auto absolute = feltgate::design_named(design).absolute;
+  if (absolute) {  // such a core goes clock by clock: a part is enough, over the knob's first crest
+    scenario.duration_s = std::min(scenario.duration_s, 0.45);
+    scenario.expectations.clear();
+  }
+  page::CountRecorder recorder(absolute ? absolute->bits : 0, &inputs);
+  if (absolute) {
+    options.plant_step = [&](feltgate::Clock clocks, const feltgate::plant::Observables& o) {
+      recorder.turned(o.theta_rad, clocks);
+    };
+  }
   std::unique_ptr<feltgate::SceneLaw> law;
   if (!scenario.law.empty()) {
     law = feltgate::make_scene_law(laws + scenario.law + ".law", feltgate::design_named(design));
     options.law = law.get();
   }
   run_scenario(scenario, plant, options);
+  if (absolute) inputs.edges.clear();  // such a core has no pins for them
   const std::string text = page::text_of(inputs);
   return {{"design", design},
           {"scene", scene},
@@ -190,6 +203,10 @@ int main(int count, char** argv) {
                 {"strings", strings()},       {"stylus", stylus()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
+      if (feltgate::design_named(design).phases == 3) {
+        out["recorded"].push_back(recorded(design, "knob_detents"));
+        continue;
+      }
       if (feltgate::design_named(design).scene_number("law") >= 0) {
         out["recorded"].push_back(recorded(design, "detent"));
         continue;

@@ -268,31 +268,45 @@ std::vector<ScriptRow> follow_script(const std::string& design, const plant::Par
   return rows;
 }
 
-std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
+void replay(const std::string& design, const Recording& inputs,
+            const std::function<void(const Backend&)>& each, Clock most) {
   const auto backend = make_backend(design, "twin");
   backend->reset(1, inputs.pins);
   backend->keep_gate_times(false);
-  Fnv1a hash;
-  std::size_t edge = 0, write = 0;
-  const auto note = [&] {
-    for (const Snapshot& s : backend->snapshots()) {
-      for (const Word& word : snapshot_words) hash.add(word.value(s));
-    }
-  };
+  std::size_t edge = 0, write = 0, count = 0;
   while (backend->now() < inputs.clocks) {
     const Clock now = backend->now();
     while (write < inputs.writes.size() && inputs.writes[write].clock <= now) {
       backend->write(inputs.writes[write].address, inputs.writes[write].data);
       ++write;
     }
-    Clock until = std::min(inputs.clocks, now + backend->design().pwm_period);
+    while (count < inputs.counts.size() && inputs.counts[count].clock <= now) {
+      const double middle = static_cast<double>(inputs.counts[count].count) + 0.5;
+      const double rad = middle * backend->design().count_rad;
+      backend->turn_encoder(rad, rad, inputs.clocks - now);
+      ++count;
+    }
+    Clock until = std::min(inputs.clocks, now + most);
     if (write < inputs.writes.size()) until = std::min(until, inputs.writes[write].clock);
+    if (count < inputs.counts.size()) until = std::min(until, inputs.counts[count].clock);
     std::size_t last = edge;
     while (last < inputs.edges.size() && inputs.edges[last].clock < until) ++last;
     backend->advance(until - now, inputs.edges.data() + edge, inputs.edges.data() + last);
     edge = last;
-    note();
+    each(*backend);
   }
+}
+
+std::uint64_t hash_of(const std::string& design, const Recording& inputs) {
+  Fnv1a hash;
+  const auto note = [&](const Backend& twin) {
+    for (const Snapshot& s : twin.snapshots()) {
+      for (const Word& word : snapshot_words) hash.add(word.value(s));
+    }
+    if (twin.design().phases != 3) return;
+    for (std::size_t leg = 0; leg < 3; ++leg) hash.add(twin.on_time(leg));
+  };
+  replay(design, inputs, note, design_named(design).pwm_period);
   return hash.value();
 }
 

@@ -8,10 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/page/recorded_inputs.hpp"
 #include "apps/page/warm_motor.hpp"
 #include "sim/loop/ensemble.hpp"
 #include "sim/loop/scene_law.hpp"
@@ -152,8 +154,13 @@ struct ScriptRow {
 /// returns, frame by frame.
 std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant);
 
-/// Hash (64-bit FNV-1a) over the words of all snapshots of a design's twin with these inputs. Equal
-/// bits give an equal hash on any machine.
-std::uint64_t hash_of(const std::string& design, const RunInputs& inputs);
+/// Runs a design's twin with recorded inputs, by at most `most` clocks at once, and calls `each`
+/// after each of these stretches.
+void replay(const std::string& design, const Recording& inputs,
+            const std::function<void(const Backend&)>& each, Clock most);
+
+/// Hash (64-bit FNV-1a) over the words of all snapshots of a design's twin with these inputs, and
+/// the on-times of three legs. Equal bits give an equal hash on any machine.
+std::uint64_t hash_of(const std::string& design, const Recording& inputs);
 
 }  // namespace feltgate::page

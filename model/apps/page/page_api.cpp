@@ -7,11 +7,13 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
+#include <cstddef>
 #include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/page/knob_loop.hpp"
 #include "apps/page/live_loop.hpp"
 #include "apps/page/own_design.hpp"
 #include "apps/page/recorded_inputs.hpp"
@@ -175,6 +177,65 @@ class Loop {
   std::vector<double> words_;
 };
 
+/// The knob on a motor of three phases.
+class Knob {
+ public:
+  Knob() : loop_(feltgate::plant::read_plant_file(plant_path(page::KnobCore::design_name))) {}
+
+  std::string detents(double pitch_rad, double peak_nm) {
+    return said([&] { loop_.detents(pitch_rad, peak_nm); });
+  }
+  std::string offset(double turns) {
+    return said([&] { loop_.offset(turns); });
+  }
+  void arm(bool wanted) { loop_.arm(wanted); }
+  void hold(bool held) { loop_.hold(held); }
+  void lead(double theta_rad) { loop_.lead(theta_rad); }
+  std::string advance(double seconds) {
+    return said([&] { loop_.advance(seconds); });
+  }
+  /// The samples of the last advance() as one array of doubles; valid until the next call.
+  val samples() const {
+    static_assert(sizeof(page::KnobSample) == page::knob_sample_values * sizeof(double), "no gaps");
+    const auto& list = loop_.samples();
+    return val(emscripten::typed_memory_view(list.size() * page::knob_sample_values,
+                                             reinterpret_cast<const double*>(list.data())));
+  }
+  /// Angles, rad; of the core and of the rotor the electrical ones, turns; on-times of the legs as
+  /// shares of a period; currents of the phases, A; torques, Nm; time, s.
+  val state() const {
+    const page::KnobCore& core = loop_.core();
+    const auto& seen = loop_.plant().observables();
+    const double rotor_rad = loop_.plant().motor().electrical_rad(seen.theta_rad);
+    val out = val::object(), on = val::array(), current = val::array();
+    for (std::size_t leg = 0; leg < 3; ++leg) {
+      on.call<void>("push", core.on_clocks()[leg] / static_cast<double>(core.design().pwm_period));
+      current.call<void>("push", loop_.plant().motor().phase_a()[leg]);
+    }
+    out.set("theta", seen.theta_rad);
+    out.set("omega", seen.omega_rad_s);
+    out.set("hand", loop_.hand_rad());
+    out.set("detent", loop_.detent_rad());
+    out.set("position", loop_.position());
+    out.set("electrical", core.electrical_turns(loop_.position()));
+    out.set("rotor", rotor_rad / 6.283185307179586);
+    out.set("offset", core.offset_turns());
+    out.set("pole_pairs", loop_.pole_pairs());
+    out.set("amplitude", static_cast<int>(core.raw().duty));
+    out.set("gates", core.gates());
+    out.set("on", on);
+    out.set("current", current);
+    out.set("asked", core.out().tau_ref_nm);
+    out.set("torque", seen.motor_torque_nm);
+    out.set("bus", seen.bus_v);
+    out.set("time", loop_.time_s());
+    return out;
+  }
+
+ private:
+  page::KnobLoop loop_;
+};
+
 /// What is wrong with a law, by line; or the table of `feltgate law`.
 val check_law(const std::string& design, const std::string& text) {
   val out = val::object(), errors = val::array();
@@ -197,9 +258,18 @@ val check_law(const std::string& design, const std::string& text) {
   return out;
 }
 
+/// The designs that drive a lever's motor, with brushes.
+std::vector<std::string> lever_designs() {
+  std::vector<std::string> names;
+  for (const std::string& name : feltgate::design_names()) {
+    if (feltgate::design_named(name).phases != 3) names.push_back(name);
+  }
+  return names;
+}
+
 val design_names() {
   val list = val::array();
-  for (const std::string& name : feltgate::design_names()) list.call<void>("push", name);
+  for (const std::string& name : lever_designs()) list.call<void>("push", name);
   return list;
 }
 
@@ -245,7 +315,7 @@ val own_design(const std::string& text) {
   val out = val::object();
   out.set("error", said([&] {
             const page::OwnDesign own =
-                page::own_design(text, feltgate::design_names(), "/designs/", registers);
+                page::own_design(text, lever_designs(), "/designs/", registers);
             val values = val::array();
             for (const auto& [name, value] : own.values) {
               val one = val::object();
@@ -284,6 +354,17 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("status", &Loop::status)
       .function("parameters", &Loop::parameters)
       .function("design", &Loop::design);
+  emscripten::constant("KNOB_MOST_RAD", page::KnobLoop::most_rad);
+  emscripten::class_<Knob>("Knob")
+      .constructor<>()
+      .function("detents", &Knob::detents)
+      .function("offset", &Knob::offset)
+      .function("arm", &Knob::arm)
+      .function("hold", &Knob::hold)
+      .function("lead", &Knob::lead)
+      .function("advance", &Knob::advance)
+      .function("samples", &Knob::samples)
+      .function("state", &Knob::state);
   emscripten::function("designNames", &design_names);
   emscripten::function("checkLaw", &check_law);
   emscripten::function("hash", &hash);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,7 +21,35 @@ EncoderPins pins_of(int levels) {
 
 }  // namespace
 
-std::string text_of(const RunInputs& inputs) {
+void CountRecorder::turned(double to_rad, Clock clocks) {
+  // As AbsoluteSensor has it.
+  const double slope = (to_rad - at_rad_) / static_cast<double>(clocks);
+  const auto count = [&](Clock after) {
+    constexpr double turn_rad = 6.283185307179586;
+    const double rad = at_rad_ + slope * static_cast<double>(after);
+    return static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, bits_)));
+  };
+  auto& counts = recording_->counts;
+  std::int64_t shown = counts.empty() ? 0 : counts.back().count;
+  for (Clock from = 0; count(clocks - 1) != shown;) {
+    Clock first = from, last = clocks - 1;  // the first clock that shows another count
+    while (first < last) {
+      const Clock middle = first + (last - first) / 2;
+      if (count(middle) != shown) {
+        last = middle;
+      } else {
+        first = middle + 1;
+      }
+    }
+    shown = count(first);
+    counts.push_back({now_ + first, shown});
+    from = first;
+  }
+  now_ += clocks;
+  at_rad_ = to_rad;
+}
+
+std::string text_of(const Recording& inputs) {
   std::string out = fmt::format("c {} {}\n", inputs.clocks, levels(inputs.pins));
   for (const HostWrite& w : inputs.writes) {
     out += fmt::format("w {} {} {}\n", w.clock, w.address, w.data);
@@ -30,11 +59,17 @@ std::string text_of(const RunInputs& inputs) {
     out += fmt::format("{} {}\n", e.clock - before, levels(e.pins));
     before = e.clock;
   }
+  ShownCount shown;
+  for (const ShownCount& c : inputs.counts) {
+    out += fmt::format("a {} {}\n", c.clock - shown.clock, c.count - shown.count);
+    shown = c;
+  }
   return out;
 }
 
-RunInputs inputs_from_text(const std::string& text) {
-  RunInputs inputs;
+Recording inputs_from_text(const std::string& text) {
+  Recording inputs;
+  ShownCount shown;
   std::istringstream lines(text);
   std::string line;
   Clock now = 0;
@@ -51,6 +86,12 @@ RunInputs inputs_from_text(const std::string& text) {
       HostWrite w;
       read = static_cast<bool>(words >> c >> w.clock >> w.address >> w.data);
       inputs.writes.push_back(w);
+    } else if (line[0] == 'a') {
+      char a = 0;
+      ShownCount change;
+      read = static_cast<bool>(words >> a >> change.clock >> change.count) && change.clock >= 0;
+      shown = {shown.clock + change.clock, shown.count + change.count};
+      inputs.counts.push_back(shown);
     } else {
       Clock delta = 0;
       int next = 0;

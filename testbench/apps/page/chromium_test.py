@@ -52,6 +52,8 @@ class Lever(PageTest):
         self.assertGreaterEqual(len(compared), 13)
         for one in compared:
             self.assertTrue(one["same"], one)
+        scenes = [(one["design"], one["scene"]) for one in compared]
+        self.assertIn(("gimbal_motor", "knob_detents"), scenes)
         for one in self.js("return feltgate.closed"):
             self.assertLess(one["rad"], 1e-6, one)
             self.assertLess(one["nm"], 1e-5, one)

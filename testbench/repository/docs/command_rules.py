@@ -111,7 +111,7 @@ RULES = (
     Rule(r"python docs/examples/litex_soc\.py", "BY", "neighbours.litex"),
     Rule(r"python docs/examples/cocotb/test_axi\.py", "BY", "neighbours.cocotb"),
     Rule(r"python docs/examples/mujoco_lever\.py", "BY", "plant.mujoco"),
-    Rule(r"python3 testbench/apps/page/(?:chromium|string_tab)_test\.py", "NAMED"),
+    Rule(r"python3 testbench/apps/page/(?:chromium|string_tab|knob_tab)_test\.py", "NAMED"),
     Rule(r"python3 testbench/apps/python/speed\.py", "BY", "python.speed"),
     Rule(r"(?:python3 -m venv|(?:venv/bin/)?pip install)", "BY", "python.pip"),
 )

@@ -32,7 +32,8 @@ class Row:
         self.count[fault["class"]] += 1
         self.peaks.append(fault["peak_nm"])
         self.integrals.append(fault["integral_nm_s"])
-        self.motor_peaks.append(fault["motor_peak_nm"])
+        if "motor_peak_nm" in fault:  # lines of an earlier campaign have none
+            self.motor_peaks.append(fault["motor_peak_nm"])
         if "off_after_us" in fault:
             self.off_us.append(fault["off_after_us"])
 
@@ -48,7 +49,7 @@ class Row:
             **self.count,
             "peak_nm": max(self.peaks),
             "integral_nm_s": max(self.integrals),
-            "motor_peak_nm": max(self.motor_peaks),
+            "motor_peak_nm": max(self.motor_peaks, default=None),
             "off_after_us": max(self.off_us, default=None),
         }
 

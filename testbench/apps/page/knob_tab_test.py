@@ -88,7 +88,7 @@ class Knob(PageTest):
         self.passed(1)
         self.assertTrue(self.js("return feltgate.knob.held"))
         ActionChains(self.driver).release().perform()
-        seen = self.passed(0.6)
+        seen = self.passed(2)
         self.assertFalse(self.js("return feltgate.knob.held"))
         self.assertAlmostEqual(seen["detent"] / 0.5, round(seen["detent"] / 0.5), delta=0.002)
         self.assertGreater(seen["detent"], 0.9)
@@ -117,7 +117,7 @@ class Knob(PageTest):
         seen = self.passed(0.6)
         self.assertGreater(abs(seen["theta"] - seen["detent"]), 0.15)  # on a crest
         self.choose("offset", 0)
-        seen = self.passed(0.6)
+        seen = self.passed(2)
         self.assertLess(abs(seen["theta"] - seen["detent"]), REST_RAD)
 
     def test_without_the_motor_and_on_a_narrow_screen(self):

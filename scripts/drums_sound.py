@@ -81,7 +81,7 @@ def read_force(path):
             data = np.array([[float(row[c]) for c in columns] for row in rows])
             steps = np.diff(data[:, 0])
             good = np.isfinite(data).all() and steps.min() > 0 and np.ptp(steps) < 0.01 * steps.min()
-        except (ValueError, IndexError):
+        except (ValueError, IndexError, csv.Error):
             good = False
     if not good:
         raise EventError(
@@ -133,7 +133,10 @@ def main():
             hits = read_hits(arguments.run)
             samples, told = mixed(hits), f"{len(hits)} hits"
         write_wav(arguments.output, samples, RATE_HZ)
-    except (EventError, OSError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        print(f"drums_sound: {arguments.run}: is no text", file=sys.stderr)
+        return 2
+    except (EventError, OSError) as error:
         print(f"drums_sound: {error}", file=sys.stderr)
         return 2
     print(f"{arguments.output}: {told}")

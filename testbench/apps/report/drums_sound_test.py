@@ -103,6 +103,9 @@ class DrumsSound(Player):
                      "time_s,tau_ref_nm\n0,0\n1,nan\n2,0\n", "time_s,tau_ref_nm\n0,0\n1\n2,0\n"):
             said = self.samples(self.put("run.csv", text), 2)
             self.assertIn('run.csv: no rows of "time_s" and "tau_ref_nm" at even times', said)
+        path = self.put("run.csv", "time_s,tau_ref_nm\n")
+        path.write_bytes(path.read_bytes() + b"\xff\n")
+        self.assertIn("run.csv: is no text", self.samples(path, 2))
 
     def test_what_is_no_hit(self):
         said = self.play("0.000 hit 2 1 0;\n5 strike 2 1 0;\n", status=2)

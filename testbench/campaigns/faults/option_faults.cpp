@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 #include "campaigns/faults/option_rig.hpp"
@@ -105,9 +106,11 @@ Case current_case(std::string_view name, Random* r) {
     c = asked(r, 0.5, 99, 3);
     c.harm.channels_held = true;
     c.seconds = 0.06;
-  } else {
+  } else if (name == "stop") {
     h.stop = true;
     c.seconds = 0.001;
+  } else {
+    throw std::logic_error(fmt::format("no fault is made for the kind \"{}\"", name));
   }
   return c;
 }
@@ -189,9 +192,11 @@ Case gimbal_case(std::string_view name, Random* r) {
     at_arming(0);
     h.swapped_phases = true;
     c.what.clear();
-  } else {
+  } else if (name == "stop") {
     h.stop = true;
     c.seconds = 0.001;
+  } else {
+    throw std::logic_error(fmt::format("no fault is made for the kind \"{}\"", name));
   }
   return c;
 }

@@ -25,8 +25,10 @@ core/actuation/limiter.sv
 core/actuation/ramp.sv
 core/actuation/torque_control.sv
 core/actuation/current_sense.sv
+core/actuation/current_check.sv
 core/actuation/current_control.sv
 core/actuation/field_oriented.sv
+core/actuation/current_loop.sv
 core/actuation/pwm.sv
 core/actuation/commutation.sv
 core/actuation/pwm_three_phase.sv

@@ -24,9 +24,10 @@ INSTANCE = re.compile(r"^\s*(\w+)\s*(?:#\s*\((?:[^()]|\([^()]*\))*\)\s*)?(u_\w+)
 # Blocks that do not follow the wave: the port whose edge is drawn.
 EDGES = {"quad_decoder": "a_i", "pwm": "gate_a_hi_o", "registers": "reg_write_i",
          "absolute_encoder": "sample_i", "current_sense": "valid_o", "current_control": "valid_o",
+         "current_check": "missing_o",
          "commutation": "valid_o", "pwm_three_phase": "gate_a_hi_o", "field_oriented": "valid_o"}
 BEFORE, AFTER = 3, 40  # clocks around such an edge
-LATE = {"current_sense": 15, "current_control": 22, "commutation": 88, "pwm_three_phase": 20, "field_oriented": 190}  # clocks before it, of blocks that answer late
+LATE = {"current_sense": 15, "current_control": 22, "current_check": 22, "commutation": 88, "pwm_three_phase": 20, "field_oriented": 190}  # clocks before it, of blocks that answer late
 BUSES = {"param_i": "param_", "product_i": "product_", "operand_i": "read_"}  # drawn where these strobes are
 RESETS = ("clk_i", "rst_ni")
 

@@ -13,12 +13,12 @@ PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
 NEEDS = {"axes": "engine", "link": "axes"}  # a folder whose blocks instantiate those of another
 # Rooms of the core below rtl/core, in the order of the data; the tests have the same: testbench/ROOM/BLOCK.
 ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
-# Rooms that connect their blocks, with little of their own; the room scenes is a block itself.
-WIRED_ROOMS = tuple(room for room in ROOMS if room != "scenes")
+# Modules that connect blocks, with little of their own: rooms, of which scenes is a block itself, and a part of actuation.
+WIRED_ROOMS = (*(room for room in ROOMS if room != "scenes"), "current_loop")
 # Without a twin and a test of their own: one is elaborated, never clocked; a room is tested by the core's test.
 NO_BLOCKS = ("feltgate_checks", *WIRED_ROOMS)
 # Blocks for a core of one's own, which the core does not instantiate: not wired yet.
-DROP_INS = ("absolute_encoder", "current_sense", "current_control", "commutation", "pwm_three_phase",
+DROP_INS = ("absolute_encoder", "current_sense", "current_control", "current_check", "commutation", "pwm_three_phase",
             "field_oriented")
 
 

@@ -14,6 +14,8 @@
 #include "design/registers.hpp"
 #include "feltgate/absolute_encoder.hpp"
 #include "feltgate/chain_formats.hpp"
+#include "feltgate/current_check.hpp"
+#include "feltgate/current_control.hpp"
 #include "feltgate/fixed.hpp"
 #include "feltgate/generated/map.hpp"
 
@@ -121,6 +123,9 @@ struct Design {
   /// Clock of the PWM period in which the window of its current begins: the window's middle is that
   /// of the pulse at the terminals.
   int current_strobe_clock() const;
+  /// Words of the controller and the check of a measured current; of a design without, meaningless.
+  CurrentGains current_loop_gains() const;
+  CurrentCheckWords current_loop_check() const;
   /// Refuses M/T for `what`, which knows the N-method alone.
   void needs_n_method(const std::string& what) const;
   /// Throws config::ConfigError at the line of "section.key".
@@ -162,9 +167,11 @@ Design design_from_text(const std::string& text, const std::string& path);
 /// Reads [absolute_encoder], and refuses what of it cannot work.
 void read_absolute_encoder(config::TomlReader& r, Design& d);
 void check_absolute_encoder(const Design& d);
-/// The same for [commutation].
+/// The same for [commutation] and [current_loop].
 void read_commutation(config::TomlReader& r, Design& d);
 void check_commutation(const Design& d);
+void read_current_loop(config::TomlReader& r, Design& d);
+void check_current_loop(const Design& d);
 
 /// Quantises the design against a register map and checks it. Throws config::ConfigError when a
 /// coefficient quantises to 0, a width exceeds the fabric, a parameter does not fit its word, the

@@ -11,9 +11,6 @@
 
 #include "design/design.hpp"
 #include "design/parameter_values.hpp"
-#include "feltgate/current_control.hpp"
-#include "feltgate/current_sense.hpp"
-#include "feltgate/field_oriented.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
@@ -183,52 +180,6 @@ void check_drops(const Elaborated& e) {
   }
 }
 
-void check_current_loop(const Design& d) {
-  const double exponent = std::log2(d.current_full_scale_a);
-  if (exponent != std::round(exponent)) {
-    d.fail("current_loop.full_scale_a", "the full scale is no power of two",
-           "choose the shunt for one, 32 say");
-  }
-  if (exponent < d.current.integer || d.current.fraction + exponent <= kCurrentControlBits) {
-    d.fail("current_loop.full_scale_a", "formats.current does not fit the full scale",
-           fmt::format("give it at most {:g} integer bits and at least {:g} fraction bits",
-                       exponent, kCurrentControlBits + 1 - exponent));
-  }
-  if (d.overcurrent_a <= d.current_limit_a || d.overcurrent_a >= d.current_full_scale_a) {
-    d.fail("current_loop.overcurrent_a",
-           "the over-current is not between control.current_limit_a and the full scale",
-           "choose one between them, with room for ripple and noise on both sides");
-  }
-  if (!current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
-                     1.0 / static_cast<double>(d.pwm_hz), d.current_full_scale_a, d.full_duty_v())
-           .in_range) {
-    d.fail("current_loop.bandwidth_hz", "a gain of the current loop does not fit its word",
-           "choose another bandwidth");
-  }
-  if (!d.emf_in_law()) {
-    d.fail("voltage.law", "a current loop feeds forward what the voltage law gives back",
-           "take law = \"motor_model\"");
-  }
-  if (d.engine || d.axes > 1) {
-    d.fail("current_loop", "a core with an engine or several axes has no pins of a modulator",
-           "leave [current_loop] out, or [engine] and [axes]");
-  }
-  constexpr CurrentSense::Parameters sense;
-  const bool field = d.phases == 3;
-  const int begin = d.current_strobe_clock();
-  const int measured = begin + sense.centre_clocks() + sense.divider + sense.delay_clocks() -
-                       (field ? d.pwm_period_clocks() : 0);  // around the begin of the next period
-  const int end =
-      measured + (field ? FieldOriented::kLatencyClocks : CurrentControl::kLatencyClocks) + 2;
-  if (begin < 2 || begin > d.pwm_period_clocks() - 2 || end > d.pwm_period_clocks() - 2) {
-    d.fail("pwm.frequency_hz",
-           fmt::format("a PWM period has {} clocks, and a current is measured and controlled from "
-                       "clock {} to {}",
-                       d.pwm_period_clocks(), begin, end),
-           "lower it");
-  }
-}
-
 [[noreturn]] void refuse(const Design& d, const Word& w) {
   d.fail(w.key,
          fmt::format("{} = {} {} does not fit its word {}", w.parameter.name, text(w.si),
@@ -275,14 +226,6 @@ void check(const Elaborated& e) {
 }
 
 }  // namespace
-
-int Design::current_strobe_clock() const {
-  constexpr CurrentSense::Parameters sense;
-  constexpr int pwm_clocks = 3;  // from the carrier to a gate
-  // The middle of the pulses; of three phases the begin of the next period.
-  const int middle = phases == 3 ? pwm_period_clocks() : pwm_period_clocks() / 2;
-  return middle + pwm_clocks + dead_clocks() / 2 - sense.centre_clocks() - sense.divider / 2;
-}
 
 Format coefficient_format(double value, bool is_signed, int bits) {
   const int mantissa = bits;

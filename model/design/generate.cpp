@@ -154,12 +154,9 @@ std::vector<Constant> of_estimator(const Design& d) {
 /// Words of the current loop; 0 without it.
 std::vector<Constant> of_current_loop(const Elaborated& e) {
   const Design& d = e.design;
-  const double period_s = 1.0 / static_cast<double>(d.pwm_hz);
   const double full_a = d.current_loop ? d.current_full_scale_a : 1;
-  const CurrentGains gains =
-      d.current_loop ? current_gains(d.resistance_ohm, d.inductance_h, d.current_bandwidth_hz,
-                                     period_s, full_a, d.full_duty_v())
-                     : CurrentGains{0, 0, true};
+  const CurrentGains gains = d.current_loop ? d.current_loop_gains() : CurrentGains{};
+  const CurrentCheckWords check = d.current_loop ? d.current_loop_check() : CurrentCheckWords{};
   // Nine bits: within 0.2 %, and the integrator gives the rest.
   const double per_lsb = std::ldexp(CurrentControl::kSupply / d.full_duty_v(), -d.voltage.fraction);
   const int drop = 8 - std::ilogb(per_lsb);
@@ -170,6 +167,8 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
        "fraction bits of the current reference below an LSB of the measured current"},
       {"current_proportional", gains.proportional, "[0,4,13], supply per full scale"},
       {"current_integral", gains.integral, "[0,0,17]"},
+      {"current_resistance", check.resistance, "[0,4,13], supply per full scale"},
+      {"current_margin", check.margin, "[0,0,17] of the supply: half of the largest current's"},
       {"current_overcurrent",
        given(std::llround(d.overcurrent_a / full_a * CurrentSense::Parameters{}.fast_full_scale())),
        "[0,0,8] of full scale"},

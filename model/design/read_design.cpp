@@ -223,17 +223,6 @@ void read_engine(config::TomlReader& r, Design& d) {
   }
 }
 
-/// Reads [current_loop]: the current is measured and controlled.
-void read_current_loop(config::TomlReader& r, Design& d) {
-  d.current_loop = true;
-  d.current_full_scale_a = r.number("full_scale_a", {0.5, 512});
-  d.current_bandwidth_hz = r.number("bandwidth_hz", {10, 20'000});
-  d.inductance_h = r.number("inductance_h", {1e-7, 1});
-  d.overcurrent_a = r.number("overcurrent_a", {0.01, 512});
-  d.driver_fault = r.has("driver_fault") && r.integer("driver_fault", 0, 1) == 1;
-  d.heartbeat = r.has("heartbeat") && r.integer("heartbeat", 0, 1) == 1;
-}
-
 }  // namespace
 
 int Design::engine_max_age_ticks() const {

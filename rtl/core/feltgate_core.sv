@@ -109,7 +109,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::TORQUE_W-1:0] scene_late;
   // actuation, safety
   logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
-  logic [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state;
+  logic [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state;
   logic [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;  // measured, if there is a current loop

@@ -217,6 +217,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_STATUS_TESTING_MASK 0x00040000u
 #define FELTGATE_STATUS_DRIVER_FAULT_BIT 19  /* of a current loop, else 0: the bridge's driver tells of a fault, or did so with the gates enabled */
 #define FELTGATE_STATUS_DRIVER_FAULT_MASK 0x00080000u
+#define FELTGATE_STATUS_CURRENT_MISSING_BIT 30  /* of a current loop, else 0: the measured current was not what the voltage makes, or a phase was open */
+#define FELTGATE_STATUS_CURRENT_MISSING_MASK 0x40000000u
 
 #define FELTGATE_POSITION 0x301u  /* position [count] [count] */
 
@@ -415,7 +417,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULT_JUMP 12u  /* the velocity moved by more than its filter can */
 #define FELTGATE_FAULT_ENGINE 13u  /* the engine is late: no fresh torque within its time, in the scene law */
 #define FELTGATE_FAULT_AXIS 14u  /* another axis has a fault */
-#define FELTGATE_FAULT_CURRENT 15u  /* of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current and status.driver_fault say which */
+#define FELTGATE_FAULT_CURRENT 15u  /* of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current, status.driver_fault and status.current_missing say which */
 
 /* Numbers that fields and words refer to. */
 #define FELTGATE_MODE_OPEN 1  /* control.mode: open loop */

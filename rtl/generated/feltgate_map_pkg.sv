@@ -308,6 +308,7 @@ package feltgate_map_pkg;
   localparam int W_STATUS_SELF_TEST = 2;
   localparam int B_STATUS_TESTING = 18;
   localparam int B_STATUS_DRIVER_FAULT = 19;
+  localparam int B_STATUS_CURRENT_MISSING = 30;
   localparam int B_FAULTS_SEEN = 0;
   localparam int W_FAULTS_SEEN = 16;
   localparam int B_FAULTS_FIRST = 16;
@@ -345,7 +346,7 @@ package feltgate_map_pkg;
   localparam int FAULT_JUMP = 12;  // the velocity moved by more than its filter can
   localparam int FAULT_ENGINE = 13;  // the engine is late: no fresh torque within its time, in the scene law
   localparam int FAULT_AXIS = 14;  // another axis has a fault
-  localparam int FAULT_CURRENT = 15;  // of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current and status.driver_fault say which
+  localparam int FAULT_CURRENT = 15;  // of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current, status.driver_fault and status.current_missing say which
 endpackage
 /* verilator lint_on UNUSEDPARAM */
 

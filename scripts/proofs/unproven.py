@@ -11,6 +11,7 @@ BLOCKS = {
     "field_oriented": "lock-step with its twin, the same law in double, and seeded defects",
     "link_view": "lock-step with its twin on two and three axes, and seeded defects",
     **dict.fromkeys(rtl_sources.WIRED_ROOMS, "the proofs of feltgate_core go through it"),
+    "current_loop": "lock-step of feltgate_core with a current loop, and seeded defects",
 }
 ENGINE = (
     "not how an instruction gets its words; proven are what it gives, what programs may write, "

@@ -39,7 +39,16 @@ function force_at(handle, theta, newton, per_newton, most) {
 
 /** Curves about 0 in a canvas: lines of {text, colour, values}, of which `kept` values fill the width. */
 function draw_traces(canvas, title, lines, kept, least) {
-  const { pen, width, height, colour } = cleared(canvas), left = 46, top = 24, bottom = height - 8;
+  const { pen, width, height, colour } = cleared(canvas), left = 46, bottom = height - 8;
+  // The key follows the title, and goes on in a second row where the canvas is narrow.
+  let at = left + 6 + pen.measureText(title).width + 16, row = 0;
+  const keys = lines.map(({ text }) => {
+    const wide = pen.measureText(text).width + 16;
+    if (row === 0 && at + wide > width) [at, row] = [left + 6, 1];
+    at += wide;
+    return { x: at - wide, y: 15 + 15 * row };
+  });
+  const top = 24 + 15 * row;
   const most = Math.max(least, ...lines.flatMap((line) => line.values.map(Math.abs)));
   const x = (n) => left + (n / kept) * (width - left - 8), y = (value) => (top + bottom) / 2 - (value / most) * ((bottom - top) / 2);
   pen.strokeStyle = colour("--line");
@@ -51,7 +60,7 @@ function draw_traces(canvas, title, lines, kept, least) {
   }
   lines.forEach((line, n) => {
     pen.strokeStyle = pen.fillStyle = colour(line.colour);
-    pen.fillText(line.text, left + 190 + 130 * n, 15);
+    pen.fillText(line.text, keys[n].x, keys[n].y);
     pen.beginPath();
     line.values.forEach((value, i) => (i ? pen.lineTo(x(i), y(value)) : pen.moveTo(x(i), y(value))));
     pen.stroke();

@@ -15,9 +15,6 @@ namespace feltgate::page {
 namespace {
 
 constexpr int ticks_per_period = GimbalMotor::pwm_period / GimbalMotor::clocks_per_tick;
-/// The tick of a PWM period in which the commutation takes its sample: so late that its on-times
-/// are new when the next period begins.
-constexpr int sampling_tick = (GimbalMotor::pwm_period - 86) / GimbalMotor::clocks_per_tick;
 constexpr int ticks_per_step = 5;  // of the plant: on-times hold for 20 ticks
 constexpr int ticks_per_sample = 1000;
 constexpr double core_share = 0.2;   // of the pitch: where a detent's torque is largest
@@ -35,6 +32,8 @@ KnobCore::KnobCore()
       beside_(design_.control_reset),
       commutation_(design_.pwm_period,
                    static_cast<Commutation::Modulation>(GimbalMotor::modulation)),
+      sampling_tick_((GimbalMotor::pwm_period - 1 - commutation_.latency_clocks()) /
+                     GimbalMotor::clocks_per_tick),
       gain_(static_cast<std::uint32_t>(design_.find("commutation_gain")->raw)),
       offset_(static_cast<std::uint32_t>(design_.find("commutation_offset")->raw)),
       scene_(design_.scene_number("charge_attract")) {
@@ -56,7 +55,7 @@ void KnobCore::tick(std::int32_t position) {
     gates_ = armed_ && sampled_;
     on_ = gates_ ? next_ : std::array<std::int16_t, 3>{};
   }
-  if (of_period == sampling_tick) {
+  if (of_period == sampling_tick_) {
     Commutation::In in;
     in.position = position;
     in.gain = gain_;

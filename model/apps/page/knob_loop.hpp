@@ -49,6 +49,7 @@ class KnobCore {
   std::unique_ptr<RealChain> chain_;
   HostBeside beside_;
   Commutation commutation_;
+  int sampling_tick_;  ///< of a PWM period: so late that the on-times are new when the next begins
   std::uint32_t gain_, offset_;
   int scene_;
   bool armed_ = false, sampled_ = false, gates_ = false;

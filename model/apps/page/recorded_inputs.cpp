@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "sim/backends/absolute_sensor.hpp"
 
 namespace feltgate::page {
 
@@ -22,12 +23,9 @@ EncoderPins pins_of(int levels) {
 }  // namespace
 
 void CountRecorder::turned(double to_rad, Clock clocks) {
-  // As AbsoluteSensor has it.
   const double slope = (to_rad - at_rad_) / static_cast<double>(clocks);
   const auto count = [&](Clock after) {
-    constexpr double turn_rad = 6.283185307179586;
-    const double rad = at_rad_ + slope * static_cast<double>(after);
-    return static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, bits_)));
+    return AbsoluteSensor::count_of(at_rad_ + slope * static_cast<double>(after), bits_);
   };
   auto& counts = recording_->counts;
   std::int64_t shown = counts.empty() ? 0 : counts.back().count;

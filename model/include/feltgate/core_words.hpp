@@ -21,6 +21,7 @@ std::uint32_t FeltgateCore<D, ReadBack>::status(const In& in, bool encoder_error
          field(mode(), C::status_mode) | field(self_test_.result(), C::status_self_test) |
          field(self_test_.busy(out_.armed) || in.axis_testing, C::status_testing) |
          field(loop_.driver_fault(), C::status_driver_fault) |
+         field(loop_.missing(), C::status_current_missing) |
          field(encoder_error, C::status_encoder_error) |
          field(registers_.out().refused, C::status_refused) | field(s.unkicked, C::status_unkicked);
 }

@@ -57,9 +57,10 @@ class CurrentControl {
     std::int32_t limit = 0;         ///< [0,0,17] of the supply: greatest |voltage|, taken before it
   };
   struct Out {
-    std::int32_t voltage = 0;  ///< [1,0,17] of the supply: the duty; held between results
-    bool valid = false;        ///< one clock: voltage is new
-    bool saturated = false;    ///< the last result was limited
+    std::int32_t voltage = 0;    ///< [1,0,17] of the supply: the duty; held between results
+    bool valid = false;          ///< one clock: voltage is new
+    bool saturated = false;      ///< the last result was limited
+    std::int32_t resistive = 0;  ///< [1,1,17] of the supply: whole part of the integrator
   };
 
   void reset() { *this = CurrentControl(); }
@@ -73,7 +74,7 @@ class CurrentControl {
     if (step_ == 0 && !in.valid) return;
     switch (step_) {
       case 0:
-        base_ = (integrator_ >> kCurrentControlBits) + in.emf;
+        base_ = std::int64_t{out_.resistive} + in.emf;
         wanted_ = base_ + ((std::int64_t{in.proportional} * (in.reference - in.current) + kHalf) >>
                            kCurrentProportionalBits);
         break;
@@ -89,6 +90,7 @@ class CurrentControl {
         break;
       case kBusyClocks - 1:
         integrator_ += added_;
+        out_.resistive = static_cast<std::int32_t>(integrator_ >> kCurrentControlBits);
         break;
       default:
         break;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The current loop of the core's twin: what rtl/core/actuation/actuation.sv has with the option
-// CURRENT_LOOP. current_sense and current_control, their inputs from the wave, and the duty for the
-// PWM, clock by clock. Documentation: docs/blocks/current_control.md
+// Twin of rtl/core/actuation/current_loop.sv: current_sense, current_control or field_oriented, and
+// current_check, their inputs from the wave, and the duty for the PWM, clock by clock.
+// Documentation: docs/blocks/current_control.md
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "feltgate/core_ports.hpp"
+#include "feltgate/current_check.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"
 #include "feltgate/field_oriented.hpp"
@@ -37,6 +38,7 @@ class CurrentLoop {
   void reset() {}
   std::uint32_t state() const { return 0; }
   bool driver_fault() const { return false; }
+  bool missing() const { return false; }
   bool ready() const { return true; }
   bool trips(bool) const { return false; }
   bool waits() const { return false; }
@@ -54,7 +56,7 @@ class MeasuredCurrent {
     bool polarity = false;         ///< the motor is connected the other way round
     bool beats = false;            ///< the end of a tick without a fault
     std::uint32_t tick_count = 0;  ///< of this tick
-    bool clear = false;            ///< of the over-current and of the driver's fault
+    bool clear = false;            ///< of the faults that are kept
     bool driver_fault = false;     ///< the pin
     int wave_clock = -1;           ///< clock of the wave
     std::int32_t reference = 0;    ///< current_ref, for EVENT_AT_VOLTAGE
@@ -77,6 +79,8 @@ class MeasuredCurrent {
     return motor_current<D>(current_) >> (D::f.current.fraction - D::f.current_estimate.fraction);
   }
   bool driver_fault() const { return driver_2_ || driver_kept_; }
+  /// status.current_missing: it was not what the voltage makes, or a phase was open.
+  bool missing() const { return missing_kept_; }
   /// faults.current: why a current is not to be relied on.
   std::uint32_t state() const {
     std::uint32_t bits = 0;
@@ -88,7 +92,8 @@ class MeasuredCurrent {
     return bits;
   }
   /// Whether nothing forbids arming.
-  bool ready() const { return state() == 0 && !driver_fault(); }
+  bool ready() const { return state() == 0 && !driver_fault() && !missing(); }
+  bool trips(bool gates_enable) const { return gates_enable && !ready(); }
   /// Whether a request to arm waits, for the first offset.
   bool waits() const { return (state() >> 4) != 0; }
 
@@ -100,8 +105,23 @@ class MeasuredCurrent {
     return static_cast<std::int32_t>(sense_[n].out().current);
   }
   bool aligned() const { return sense_[0].out().aligned; }
+  /// What the check compares, of a controller before the clock edge.
+  struct Compared {
+    std::int32_t resistive = 0, across = 0, current = 0;
+    bool open = false;  ///< a phase has no current
+  };
   /// A clock, at whose end the controller shows a new current if it is `measured`.
-  void clock(const In& in, bool measured, std::int32_t current) {
+  void clock(const In& in, bool measured, std::int32_t current, const Compared& compared) {
+    missing_kept_ = check_.out().missing || compared.open || (missing_kept_ && !in.clear);
+    CurrentCheck::In check;
+    check.armed = in.gates_enable && !in.direct;
+    check.valid = aligned();
+    check.resistive = compared.resistive;
+    check.across = compared.across;
+    check.current = compared.current;
+    check.resistance = D::current_resistance;
+    check.margin = D::current_margin;
+    check_.clock(check);
     if (D::heartbeat != 0 && in.beats) heartbeat_ = (in.tick_count & D::heartbeat) != 0;
     driver_kept_ = (driver_2_ && in.gates_enable) || (driver_kept_ && !in.clear);
     driver_2_ = driver_1_;
@@ -139,10 +159,11 @@ class MeasuredCurrent {
   }
 
   std::array<CurrentSense, controlled_currents<D>> sense_;
+  CurrentCheck check_;
   int since_ = D::pwm_period - 1;        // clocks since a period began
   std::int32_t mean_ = 0, current_ = 0;  // of the last period; of this tick
   bool heartbeat_ = false;
-  bool driver_1_ = false, driver_2_ = false, driver_kept_ = false;
+  bool driver_1_ = false, driver_2_ = false, driver_kept_ = false, missing_kept_ = false;
 };
 
 /// Of one current: it gives the bridge its duty.
@@ -166,13 +187,13 @@ class CurrentLoop<D, 1> : public MeasuredCurrent<D> {
     duty_ = static_cast<std::int16_t>(
         (std::int64_t{control_.out().voltage} * D::pwm_period + CurrentControl::kSupply / 2) >>
         kCurrentControlBits);
-    MeasuredCurrent<D>::clock(in, control.valid, control.current);
+    MeasuredCurrent<D>::clock(in, control.valid, control.current,
+                              {control_.out().resistive, 0, control.current, false});
     control_.clock(control);
   }
 
   /// For the PWM, clocks.
   std::int16_t duty() const { return duty_; }
-  bool trips(bool gates_enable) const { return gates_enable && !this->ready(); }
 
  private:
   CurrentControl control_;
@@ -206,7 +227,8 @@ class CurrentLoop<D, 2> : public MeasuredCurrent<D> {
     field.limit = static_cast<std::uint32_t>(this->limit_);
     constexpr std::int32_t end = 1 << 18;  // of a measured current
     const FieldOriented::Out& out = field_.out();
-    MeasuredCurrent<D>::clock(in, out.valid, std::clamp(out.current_q, -end, end - 1));
+    MeasuredCurrent<D>::clock(in, out.valid, std::clamp(out.current_q, -end, end - 1),
+                              {out.resistive, out.across, out.current_q, out.open});
     field_.clock(field);
     if (in.wave_clock == Map::W::commutation_gain) gain_ = in.word;
     if (in.wave_clock == Map::W::commutation_offset) offset_ = in.word;
@@ -215,10 +237,6 @@ class CurrentLoop<D, 2> : public MeasuredCurrent<D> {
   /// For the PWM, clocks of the high switches.
   std::array<std::int16_t, 3> on_times() const {
     return {field_.out().on_a, field_.out().on_b, field_.out().on_c};
-  }
-  /// Also where a phase has no current, until the gates are disabled.
-  bool trips(bool gates_enable) const {
-    return (gates_enable && !this->ready()) || field_.out().open;
   }
 
  private:

@@ -40,9 +40,12 @@ class FieldOriented {
   };
   struct Out {
     std::int32_t current_q = 0;  ///< [1,3,17] of full scale: along the axis of torque
-    bool open = false;           ///< a phase has no current; held while armed
-    bool saturated = false;      ///< the last voltage was limited
-    std::int16_t on_a = 0;       ///< clocks of the high switch in a period, 0 to period
+    std::int32_t resistive =
+        0;                    ///< [1,1,17] of supply/root 3: whole part of the integrator along it
+    std::int32_t across = 0;  ///< that across it
+    bool open = false;        ///< a phase has no current; held while armed
+    bool saturated = false;   ///< the last voltage was limited
+    std::int16_t on_a = 0;    ///< clocks of the high switch in a period, 0 to period
     std::int16_t on_b = 0;
     std::int16_t on_c = 0;
     bool valid = false;  ///< one clock: the on-times are new
@@ -157,7 +160,10 @@ class FieldOriented {
       if (phases[n] >> 8 == 0 || phases[n] >> 8 == -1) low_ |= 1U << n;
       high_ = high_ || (phases[n] >> 12 != 0 && phases[n] >> 12 != -1);
     }
-    if (direct_) integrator_ = {};
+    if (direct_) {
+      integrator_ = {};
+      out_.resistive = out_.across = 0;
+    }
   }
 
   /// Whether a phase has been low since `start_`, while the angle moved by a 32nd of a turn.
@@ -239,8 +245,12 @@ class FieldOriented {
         break;
       }
       case kAcrossI:
+        integrator_[0] += part_;
+        out_.across = static_cast<std::int32_t>(integrator_[0] >> kCurrentControlBits);
+        break;
       case kAlongI:
-        integrator_[operation_ == kAlongI ? 1 : 0] += part_;
+        integrator_[1] += part_;
+        out_.resistive = static_cast<std::int32_t>(integrator_[1] >> kCurrentControlBits);
         break;
       default:
         break;

@@ -94,6 +94,12 @@ class AbsoluteSensor {
     return bit < p_.frame_bits() && (word_ >> (p_.frame_bits() - 1 - bit) & 1) != 0;
   }
 
+  /// The count at an angle, of a sensor with 2^bits in a turn.
+  static std::int64_t count_of(double rad, int bits) {
+    constexpr double turn_rad = 6.283185307179586;
+    return static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, bits)));
+  }
+
  private:
   bool biss() const { return p_.framing == AbsoluteEncoder::kBiss; }
 
@@ -101,9 +107,7 @@ class AbsoluteSensor {
     reads_ = true;
     edges_ = command_ = 0;
     if (defect_ != Defect::held) {
-      constexpr double turn_rad = 6.283185307179586;
-      const double rad = shown_rad(from_rad_ + slope_ * static_cast<double>(now - begin_));
-      count_ = static_cast<std::int64_t>(std::floor(std::ldexp(rad / turn_rad, p_.bits)));
+      count_ = count_of(shown_rad(from_rad_ + slope_ * static_cast<double>(now - begin_)), p_.bits);
     }
     word_ = word();
   }

@@ -41,7 +41,7 @@ module actuation (
     output logic                                            current_clock_o,   // to it
     output logic signed [                             18:0] current_o,         // measured, [1,1,17] of full scale; new after EVENT_AT_SAMPLE
     output logic signed [     feltgate_pkg::CURRENT_W-1:0]  motor_current_o,   // ampere: the measured current; without a current loop current_ref_o
-    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0]  current_state_o,   // why it is not to be relied on; top bit: the driver
+    output logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_o,  // why it is not to be relied on: faults.current, driver, missing
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   trips_o,           // bit n: cause n
     input  logic                                            clear_i,           // of the over-current
     input  logic                                            gates_enable_i,
@@ -128,7 +128,6 @@ module actuation (
   logic signed [feltgate_pkg::DUTY_W-1:0] bridge_duty;
   logic [31:0] gain_q, offset_q;  // of the angle, with PHASES = 3
   logic [35:0] field_on;           // with a current loop too: the on-times of legs C, B, A
-  logic        open_phase;
   generate
   if (feltgate_pkg::CURRENT_LOOP == 0) begin : g_voltage_law
     assign bridge_duty     = duty_o;
@@ -136,169 +135,22 @@ module actuation (
     assign current_o       = '0;
     assign motor_current_o = current_ref_o;
     assign current_state_o = '0;
-    assign {field_on, open_phase} = '0;
+    assign field_on        = '0;
     logic unused_loop;
     assign unused_loop = ^{current_data_i, driver_fault_i, clear_i, gain_q, offset_q};
   end else begin : g_current_loop
-    localparam int Period = feltgate_pkg::PWM_PERIOD;
-    localparam int EmfDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_EMF_CONSTANT_F - feltgate_pkg::VOLTAGE_F;
-    localparam int CurrentDrop = feltgate_pkg::CURRENT_DROP;
-    localparam int CurrentW = feltgate_pkg::CURRENT_W;
-    localparam int SupplyF = 17;  // voltages of the loop are [1,0,17] of the supply
-    localparam logic [11:0] LimitGain = 12'(((1 << SupplyF) - 1) / Period);  // a whole period is below the supply: 17 bits
-
-    // A product with a constant as a sum, so that no multiplier is inferred. Carries are saved, so that one adder is
-    // left: of several Yosys lets two carry chains of an ECP5 begin with the same cells, which nextpnr refuses.
-    function automatic logic signed [43:0] times(input logic signed [31:0] x, input logic [11:0] constant);
-      logic signed [43:0] sum, carry, term, both;
-      sum   = '0;
-      carry = '0;
-      for (int n = 0; n < 12; n++) begin
-        if (constant[n]) begin
-          term  = 44'(x) <<< n;
-          both  = (sum & carry) | (sum & term) | (carry & term);
-          sum   = sum ^ carry ^ term;
-          carry = both <<< 1;
-        end
-      end
-      times = sum + carry;
-    endfunction
-
-    // From the wave, once per tick: the reference; back-EMF and dead voltage, which are fed forward; the limit.
-    logic signed [31:0] emf_q, dead_q;
-    logic signed [43:0] feed_q, feed;
-    logic signed [18:0] reference_q;
-    logic signed [17:0] feed_forward;
-    logic        [16:0] limit_q;
-    always_ff @(posedge clk_i) begin
-      if (wave_i[feltgate_map_pkg::PRODUCT_AT_EMF_CONSTANT]) emf_q <= 32'(product_i >>> EmfDrop);
-      if (wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE_OFFSET]) dead_q <= 32'(limited);
-    end
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        reference_q <= '0;
-        feed_q      <= '0;
-        limit_q     <= '0;
-      end else begin
-        if (wave_i[feltgate_map_pkg::EVENT_AT_VOLTAGE]) begin
-          reference_q <= 19'((32'(current_ref_o) + (32'sd1 <<< (CurrentDrop - 1))) >>> CurrentDrop);
-          feed_q      <= times(emf_q + dead_q, 12'(feltgate_pkg::FEED_GAIN));
-        end
-        if (wave_i[feltgate_map_pkg::PARAM_AT_DUTY_LIMIT])
-          limit_q <= param_i[31] ? '0 : 17'(times(param_i > 32'(Period) ? Period : param_i, LimitGain));
-      end
-    end
-    assign feed         = feed_q >>> feltgate_pkg::FEED_DROP;
-    assign feed_forward = (feed[43:17] == {27{feed[43]}}) ? feed[17:0] : {feed[43], {17{!feed[43]}}};
-
-    // The middle of a window is that of a pulse at the terminals. All sensors have the clock of the first one.
-    localparam int Sensors = feltgate_pkg::PHASES - 1;
-    logic [11:0] since_q;  // clocks since a period began
-    logic measured, direct;
-    logic [Sensors-1:0] sense_clock, aligned, overcurrent, stuck, saturated, offset, calibrated;
-    logic [19*Sensors-1:0] at_shunt;  // of each
-    logic signed [18:0] current, mean_q;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) since_q <= '0;
-      else since_q <= period_start_o ? 12'd1 : since_q + 12'd1;
-    end
-    /* verilator lint_off PINCONNECTEMPTY */
-    genvar s;
-    for (s = 0; s < Sensors; s = s + 1) begin : g_sense
-      current_sense u_current_sense (
-          .clk_i(clk_i), .rst_ni(rst_ni),
-          .modulator_clock_o(sense_clock[s]), .data_i(current_data_i[s]),
-          .strobe_i(since_q == 12'(feltgate_pkg::CURRENT_STROBE)),
-          .armed_i(gates_enable_i), .clear_i(clear_i),
-          .threshold_i(8'(feltgate_pkg::CURRENT_OVERCURRENT)), .current_o(at_shunt[19*s+:19]), .valid_o(), .aligned_o(aligned[s]),
-          .overcurrent_o(overcurrent[s]), .calibrated_o(calibrated[s]), .offset_fault_o(offset[s]),
-          .stuck_o(stuck[s]), .saturated_o(saturated[s])
-      );
-    end
-    assign current_clock_o      = sense_clock[0];
-    assign current_state_o[4:0] = {calibrated != '1, offset != '0, saturated != '0, stuck != '0, overcurrent != '0};
-    assign direct               = mode == 2'(feltgate_map_pkg::MODE_VOLTAGE);
-
-    // With the gates enabled, the driver's fault is kept until the faults are cleared.
-    logic driver_q, driver_q2, driver_kept_q;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        driver_q      <= 1'b0;
-        driver_q2     <= 1'b0;
-        driver_kept_q <= 1'b0;
-      end else begin
-        driver_q      <= driver_fault_i && feltgate_pkg::DRIVER_FAULT != 0;
-        driver_q2     <= driver_q;
-        driver_kept_q <= (driver_q2 && gates_enable_i) || (driver_kept_q && !clear_i);
-      end
-    end
-    assign current_state_o[5] = driver_q2 || driver_kept_q;
-
-    // The current that makes tau_ref positive. The observer and the heat take the mean of the last period whose window
-    // was whole.
-    logic signed [31:0] in_format;
-    always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) begin
-        mean_q    <= '0;
-        current_o <= '0;
-      end else begin
-        if (measured) mean_q <= current;
-        if (wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE]) current_o <= mean_q;
-      end
-    end
-    assign in_format       = 32'(current_o) <<< CurrentDrop;
-    assign motor_current_o = (in_format[31:CurrentW-1] == {(33 - CurrentW) {in_format[31]}}) ? in_format[CurrentW-1:0]
-                             : {in_format[31], {(CurrentW - 1) {!in_format[31]}}};
-
-    if (feltgate_pkg::PHASES == 2) begin : g_one_current
-      logic signed [17:0] voltage;
-      logic signed [43:0] share;
-      logic signed [feltgate_pkg::DUTY_W-1:0] duty_q;
-      assign {field_on, open_phase} = '0;
-      assign measured = aligned[0];
-      // In a motor that is connected the other way round it flows against that at the shunt.
-      assign current = polarity ? -at_shunt : at_shunt;
-      current_control u_current_control (
-          .clk_i(clk_i), .rst_ni(rst_ni),
-          .armed_i(gates_enable_i && !direct), .valid_i(measured), .reference_i(reference_q), .current_i(current),
-          .emf_i(feed_forward), .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
-          .limit_i(limit_q), .voltage_o(voltage), .valid_o(), .saturated_o()
-      );
-      // Rounded in two steps, so that the second adder does not repeat low bits of the first.
-      assign share = times(32'(voltage), 12'(Period)) >>> (SupplyF - 1);
-      always_ff @(posedge clk_i or negedge rst_ni) begin
-        if (!rst_ni) duty_q <= '0;
-        else duty_q <= feltgate_pkg::DUTY_W'((share + 44'sd1) >>> 1);
-      end
-      assign bridge_duty = direct ? duty_o : duty_q;
-      logic unused_turn;
-      assign unused_turn = ^{gain_q, offset_q};
-    end else begin : g_three_currents
-      logic signed [20:0] along;
-      logic signed [43:0] amplitude;
-      logic signed [17:0] direct_v;
-      // In direct voltage the duty is the length of the voltage.
-      assign amplitude = times(32'(duty_o), LimitGain);
-      assign direct_v  = (amplitude[43:17] == {27{amplitude[43]}}) ? amplitude[17:0] : {amplitude[43], {17{!amplitude[43]}}};
-      field_oriented #(.Period(Period)) u_field_oriented (
-          .clk_i(clk_i), .rst_ni(rst_ni),
-          .armed_i(gates_enable_i), .valid_i(aligned[0]), .direct_i(direct), .reference_i(reference_q),
-          .current_a_i(at_shunt[18:0]), .current_b_i(at_shunt[37:19]), .emf_i(direct ? direct_v : feed_forward),
-          .position_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .polarity_i(polarity),
-          .proportional_i(17'(feltgate_pkg::CURRENT_PROPORTIONAL)), .integral_i(17'(feltgate_pkg::CURRENT_INTEGRAL)),
-          .limit_i(limit_q), .current_q_o(along), .open_o(open_phase), .saturated_o(),
-          .on_a_o(field_on[11:0]), .on_b_o(field_on[23:12]), .on_c_o(field_on[35:24]), .valid_o(measured)
-      );
-      assign current     = (along[20:18] == {3{along[20]}}) ? along[18:0] : {along[20], {18{!along[20]}}};
-      assign bridge_duty = '0;
-      logic unused_sense;
-      assign unused_sense = ^{sense_clock[1], aligned[1]};
-    end
-    /* verilator lint_on PINCONNECTEMPTY */
+    current_loop u_current_loop (
+        .clk_i(clk_i), .rst_ni(rst_ni),
+        .wave_i(wave_i), .param_i(param_i), .product_i(product_i), .limited_i(limited),
+        .current_ref_i(current_ref_o), .duty_i(duty_o), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
+        .polarity_i(polarity), .gates_enable_i(gates_enable_i), .clear_i(clear_i), .period_start_i(period_start_o),
+        .count_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .current_data_i(current_data_i), .driver_fault_i(driver_fault_i),
+        .current_clock_o(current_clock_o), .current_o(current_o), .motor_current_o(motor_current_o),
+        .state_o(current_state_o), .duty_o(bridge_duty), .on_o(field_on)
+    );
   end
   endgenerate
-  assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'((gates_enable_i && current_state_o != '0) || open_phase)
-                   << feltgate_map_pkg::FAULT_CURRENT;
+  assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'(gates_enable_i && current_state_o != '0) << feltgate_map_pkg::FAULT_CURRENT;
 
   generate
   if (feltgate_pkg::PHASES == 2) begin : g_two_legs

@@ -22,7 +22,8 @@ module current_control (
     input  logic        [16:0] limit_i,         // greatest |voltage|
     output logic signed [17:0] voltage_o,
     output logic               valid_o,         // one clock: voltage_o is new
-    output logic               saturated_o      // and was limited
+    output logic               saturated_o,     // and was limited
+    output logic signed [18:0] resistive_o      // [1,1,17]: whole part of the integrator
 );
   // A current is taken in clock 0. Both multiplications are 17 clocks, one bit of the gain in each.
   localparam logic [5:0] Sum = 6'd18;    // the first is there
@@ -76,8 +77,9 @@ module current_control (
   assign most  = $signed({1'b0, limit_i});
   assign above = wanted_q > 25'(most);
   assign below = wanted_q < -(25'(most));
+  assign resistive_o = 19'(integrator_q >>> IntegratorF);
   always_ff @(posedge clk_i) begin
-    if (take) base_q <= 20'(integrator_q >>> IntegratorF) + 20'(emf_i);
+    if (take) base_q <= 20'(resistive_o) + 20'(emf_i);
     if (step_q == Sum) wanted_q <= 25'(product >>> GainDrop) + 25'(base_q);
   end
 

@@ -29,6 +29,8 @@ module field_oriented #(
     input  logic        [16:0] integral_i,      // part of its way that an integrator goes
     input  logic        [16:0] limit_i,         // greatest length of the voltage
     output logic signed [20:0] current_q_o,     // measured, along the axis of torque; [1,3,17]
+    output logic signed [18:0] resistive_o,     // [1,1,17]: whole part of the integrator along that axis
+    output logic signed [18:0] across_o,        // that across it
     output logic               open_o,          // a phase has no current; held while armed
     output logic               saturated_o,     // the voltage was limited
     output logic        [11:0] on_a_o,          // clocks of the high switch in a period
@@ -191,6 +193,8 @@ module field_oriented #(
   logic signed [  19:0] base;
   assign base    = 20'(own_q >>> F) + (along ? 20'(emf_q) : '0);
   assign applied = !saturated_q ? wanted_q2 : 22'((along ? x_q : y_q) >>> Guard);
+  assign resistive_o = 19'((along ? own_q : other_q) >>> F);
+  assign across_o    = 19'((along ? other_q : own_q) >>> F);
   always_comb begin
     case (op_q)
       Alpha:            minuend = W'(current_a_i);

@@ -31,7 +31,7 @@ module safety (
     input  logic                                              axis_waits_i,
     output logic                                              arm_request_o,
     output logic                                              ready_o,         // may be armed
-    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of the current loop, 0: ready; top bit: its driver
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_i,  // of the current loop, 0: ready
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder, 0: ready
     // What is watched
     input  logic        [ feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,        // causes of other rooms, by bit
@@ -96,7 +96,7 @@ module safety (
       .host_i(control_i[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control_i[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm_i),
       .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready),
-      // The top bit of a sensor's state: it has no first offset or reading yet, and a request to arm waits. The other bits refuse it.
+      // The top bit of faults.current and faults.absolute: no first offset or reading yet, a request to arm waits. All others refuse it.
       .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1] ||
                      absolute_state_i[feltgate_map_pkg::W_FAULTS_ABSOLUTE-1]),
       .axis_blocked_i(axis_blocked_i || current_state_i != '0 || absolute_state_i != '0),

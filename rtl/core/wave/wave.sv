@@ -46,7 +46,7 @@ module wave #(
     input  logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_i,
-    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT:0] current_state_i,  // of a current loop; top bit: its driver
+    input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_i,  // of a current loop: faults.current, driver, missing
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder
     input  logic                                             encoder_error_i,
     input  logic        [                              15:0] error_count_i,
@@ -130,6 +130,7 @@ module wave #(
                   (32'(test_result_i) << feltgate_map_pkg::B_STATUS_SELF_TEST) |
                   (32'(paused_i) << feltgate_map_pkg::B_STATUS_TESTING) |
                   (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT]) << feltgate_map_pkg::B_STATUS_DRIVER_FAULT) |
+                  (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT+1]) << feltgate_map_pkg::B_STATUS_CURRENT_MISSING) |
                   (32'(encoder_error_i) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) |
                   (32'(unkicked_i) << feltgate_map_pkg::B_STATUS_UNKICKED);

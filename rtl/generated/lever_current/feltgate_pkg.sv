@@ -40,6 +40,8 @@ package feltgate_pkg;
   localparam int CURRENT_DROP = 4;  // fraction bits of the current reference below an LSB of the measured current
   localparam int CURRENT_PROPORTIONAL = 11842;  // [0,4,13], supply per full scale
   localparam int CURRENT_INTEGRAL = 12762;  // [0,0,17]
+  localparam int CURRENT_RESISTANCE = 4588;  // [0,4,13], supply per full scale
+  localparam int CURRENT_MARGIN = 19038;  // [0,0,17] of the supply: half of the largest current's
   localparam int CURRENT_OVERCURRENT = 192;  // [0,0,8] of full scale
   localparam int CURRENT_STROBE = 135;  // clock of the PWM period in which a window begins
   localparam int FEED_GAIN = 341;  // mantissa: parts of the supply per LSB of the voltage
@@ -57,7 +59,7 @@ package feltgate_pkg;
   localparam int PHASES = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 0;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h6c0bc60c;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h6284cb8c;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]

@@ -40,6 +40,8 @@ package feltgate_pkg;
   localparam int CURRENT_DROP = 0;  // fraction bits of the current reference below an LSB of the measured current
   localparam int CURRENT_PROPORTIONAL = 0;  // [0,4,13], supply per full scale
   localparam int CURRENT_INTEGRAL = 0;  // [0,0,17]
+  localparam int CURRENT_RESISTANCE = 0;  // [0,4,13], supply per full scale
+  localparam int CURRENT_MARGIN = 0;  // [0,0,17] of the supply: half of the largest current's
   localparam int CURRENT_OVERCURRENT = 0;  // [0,0,8] of full scale
   localparam int CURRENT_STROBE = 0;  // clock of the PWM period in which a window begins
   localparam int FEED_GAIN = 0;  // mantissa: parts of the supply per LSB of the voltage

@@ -37,6 +37,7 @@ struct Adapter {
   static void compare(Check& check, const Vcurrent_control& rtl, const CurrentControl::Out& out) {
     FELTGATE_COMPARE(check, rtl, out, valid, saturated);
     check("voltage", sign_extend<18>(rtl.voltage_o), std::int64_t{out.voltage});
+    check("resistive", sign_extend<19>(rtl.resistive_o), std::int64_t{out.resistive});
   }
 };
 

@@ -41,6 +41,8 @@ struct Adapter {
   static void compare(Check& check, const Vfield_oriented& rtl, const FieldOriented::Out& out) {
     FELTGATE_COMPARE(check, rtl, out, open, saturated, on_a, on_b, on_c, valid);
     check("current_q", sign_extend<21>(rtl.current_q_o), std::int64_t{out.current_q});
+    check("resistive", sign_extend<19>(rtl.resistive_o), std::int64_t{out.resistive});
+    check("across", sign_extend<19>(rtl.across_o), std::int64_t{out.across});
   }
 };
 

@@ -49,19 +49,20 @@ Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0
 
 const std::vector<PinKind> current_kinds{
     {"modulator's line stands", "pins", "low, high or as it was", 1, Promise::flagged, 22},
-    {"modulator's line is noise", "pins", "each of its bits drawn", 1, Promise::unseen},
+    {"modulator's line is noise", "pins", "each of its bits drawn", 1, Promise::flagged, 500},
     {"shunt's wires swapped", "pins", "the current with the other sign", 1, Promise::flagged},
-    {"shunt's wires off", "pins", "the modulator says 0 A", 1, Promise::unseen},
+    {"shunt's wires off", "pins", "the modulator says 0 A", 1, Promise::flagged, 500},
     {"shunt or modulator off by a factor", "pins", "0.5 to 2 times the current", 1,
      Promise::unseen},
     {"shunt's offset", "pins", "0.3 to 3 A more, after arming", 1, Promise::unseen},
     {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 1, Promise::flagged},
     {"nFAULT", "pins", "a pulse of 4 clocks", 1, Promise::flagged, 1},
     {"a gate stays off", "pins", "one of four", 1, Promise::none},
-    {"a lead is loose", "pins", "no current for 1 to 10 ms, then again", 1, Promise::none},
+    {"a lead is loose", "pins", "no current for 1 to 10 ms, then again", 1, Promise::flagged, 500},
     {"cable cut, moving", "pins", "A, B, Z stand, a hand moves at 3 to 99 rad/s", 1,
      Promise::unseen},
     {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
+    {"shunt's wires off at arming", "pins", "free, self-test on", 1, Promise::flagged, 25000},
 };
 
 Case current_case(std::string_view name, Random* r) {
@@ -82,6 +83,10 @@ Case current_case(std::string_view name, Random* r) {
     h.reads = 0;
     c.free = r->coin();
     c.seconds = 0.1;
+  } else if (name == "shunt's wires off at arming") {
+    h.reads = 0;
+    c.at_arming = c.free = true;
+    c.seconds = 0.05;
   } else if (name == "shunt or modulator off by a factor") {
     h.reads = std::pow(2.0, 2 * share(r) - 1);
     c.what = fmt::format("{:.2f}, ", h.reads);

@@ -53,12 +53,13 @@ struct Rig {
   double torque_nm = 0.03, direct_v = 0;
   bool reversed = false;                             ///< B and C change places
   std::vector<std::pair<int, std::uint32_t>> words;  ///< further ones, before arming
-  std::int64_t event_at = 1LL << 60;
+  std::int64_t event_at = 1LL << 60, moves_at = kMoves;
   std::function<void(Rig&)> event = [](Rig&) {};  ///< in each clock from then on
 
   Parameters p;
   ThreePhasePlant plant;
   AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
+  std::array<double, 2> reads{1, 1};  ///< part of its current that a modulator sees
   std::array<SigmaDelta, 2> modulators{SigmaDelta{kFullA}, SigmaDelta{kFullA}};
   CoreIn in;
   bool clock_was = false;
@@ -73,7 +74,7 @@ struct Rig {
     const auto gate = [&out](int n) { return static_cast<double>(out.gates >> n & 1); };
     const int b = reversed ? 4 : 2, c = reversed ? 2 : 4;
     const double before_rad = shaft_rad();
-    if (cycle >= kMoves) {
+    if (cycle >= moves_at) {
       plant.advance(Legs::gates(gate(0), gate(1), gate(b), gate(b + 1), gate(c), gate(c + 1)), 1);
     }
     sensor.turn(before_rad, shaft_rad(), cycle, 1);
@@ -82,8 +83,8 @@ struct Rig {
     clock_was = out.current_clock;
     if (rises) {
       const Phases& amperes = plant.motor().phase_a();
-      const bool first = modulators[0].next(amperes[0]);
-      const bool second = modulators[1].next(amperes[reversed ? 2 : 1]);
+      const bool first = modulators[0].next(reads[0] * amperes[0]);
+      const bool second = modulators[1].next(reads[1] * amperes[reversed ? 2 : 1]);
       in.current_data = static_cast<std::uint8_t>(first | second << 1);
     }
     if (cycle >= event_at) event(*this);
@@ -204,6 +205,7 @@ TEST_CASE("field: a step of the torque at rest") {
        {std::array{20.0, 0.03, 1.0}, std::array{-40.0, -0.015, 1.2}}) {
     Rig rig(turning(rad_s), resistance);
     rig.torque_nm = nm;
+    rig.moves_at = kArm - 300'000;  // else it is armed before its speed is known
     const auto turn = static_cast<std::int64_t>(kTwoPi / 11 / std::abs(rad_s) / kClockS);
     const Seen seen = run(rig, kSettled + turn);
     REQUIRE(seen.last.armed);
@@ -298,4 +300,29 @@ TEST_CASE("field: a sensor that fails closes the gates, whichever it is") {
       CHECK(seen.last.faults == fault_bit(Fault::current));
     }
   }
+}
+
+TEST_CASE("field: wires off a shunt, or off both, close the gates at rest") {
+  for (const int shunts : {1, 2, 3}) {
+    for (const double rad : {0.1, 0.17, 0.24, 0.41}) {
+      Rig rig(held_at(rad));
+      rig.torque_nm = 0.02;
+      rig.event_at = kSettled;
+      rig.event = [shunts](Rig& r) { r.reads = {shunts & 1 ? 0.0 : 1.0, shunts & 2 ? 0.0 : 1.0}; };
+      const Seen seen = run(rig, kSettled + 100'000);
+      CAPTURE(shunts, rad, seen.off);
+      CHECK(seen.off > kSettled);
+      CHECK(seen.last.faults == fault_bit(Fault::current));
+    }
+  }
+  // Where phase B has little current anyway the error stays within the margin.
+  Rig rig(held_at(0.05));
+  rig.torque_nm = 0.02;
+  rig.event_at = kSettled;
+  rig.event = [](Rig& r) { r.reads[1] = 0; };
+  const Seen seen = run(rig, kSettled + 100'000);
+  CHECK(seen.off < 0);
+  const double wrong_nm = std::abs(mean_of_last(seen.torque_nm, 10) - 0.02);
+  CHECK(wrong_nm > 0.001);
+  CHECK(wrong_nm < 0.01);
 }

@@ -30,7 +30,7 @@ constexpr double kKt = 0.0302;  // Nm/A
 /// A host that arms the set-point after the calibration, and the winding with its modulator. From
 /// kSettled on something may happen.
 struct Rig {
-  enum class Event { none, shorted, stands, driver };
+  enum class Event { none, shorted, stands, driver, unseen };
   Event event = Event::none;
   double torque_nm = 0.2, ohm = 0.42;
   std::uint32_t duty_limit = word_of_design(A::duty_limit);
@@ -49,7 +49,8 @@ struct Rig {
     const double henry = happens && event == Event::shorted ? 4e-6 : 82e-6;
     const double r = happens && event == Event::shorted ? 0.05 : ohm;
     current_a += (bridge_v(out.gates) - r * current_a) * 20e-9 / henry;
-    if (out.current_clock && !clock_was) in.current_data = modulator.next(current_a);
+    if (out.current_clock && !clock_was)
+      in.current_data = modulator.next(happens && event == Event::unseen ? 0 : current_a);
     clock_was = out.current_clock;
     if (happens && event == Event::stands) in.current_data = false;
     in.driver_fault = happens && event == Event::driver && cycle < kSettled + 3;
@@ -202,6 +203,23 @@ TEST_CASE("loop: a fault of the driver closes the gates, and is kept; the heart 
   CHECK(seen.faults_word >> C::faults_current == 0);
   CHECK((seen.status_word >> C::status_driver_fault & 1u) == 1);
   CHECK(seen.beats == kSettled / kTick / 512);
+}
+
+TEST_CASE("loop: wires off the shunt close the gates before twice the largest current") {
+  for (const double torque_nm : {0.5, -0.1, 0.005}) {
+    Rig rig;
+    rig.torque_nm = torque_nm;
+    rig.event = Rig::Event::unseen;
+    const Seen seen = run(rig, kSettled + 900'000);
+    CAPTURE(torque_nm, seen.off, seen.peak_a);
+    REQUIRE(seen.off > kSettled);
+    // The integrator grows by 10.5 % of R times the current that is asked for in each period.
+    CHECK(seen.off - kSettled < D::pwm_period * (20 + static_cast<int>(2.5 / std::abs(torque_nm))));
+    CHECK(seen.peak_a < 2.7 * 16.6);
+    CHECK(seen.last.faults == fault_bit(Fault::current));
+    CHECK(seen.faults_word >> C::faults_current == 0);
+    CHECK((seen.status_word >> C::status_current_missing & 1u) == 1);
+  }
 }
 
 TEST_CASE("loop: a negative limit of the duty is 0") {

@@ -192,7 +192,8 @@ TEST_CASE("a current loop: gains and strobe, and what it refuses", "[reader]") {
   for (const char* line :
        {"int CURRENT_LOOP = 1;", "int CURRENT_PROPORTIONAL = 11842;",
         "int CURRENT_INTEGRAL = 12762;", "int CURRENT_STROBE = 135;",
-        "int CURRENT_OVERCURRENT = 192;", "int DRIVER_FAULT = 1;", "int HEARTBEAT = 512;"}) {
+        "int CURRENT_OVERCURRENT = 192;", "int CURRENT_RESISTANCE = 4588;",
+        "int CURRENT_MARGIN = 19038;", "int DRIVER_FAULT = 1;", "int HEARTBEAT = 512;"}) {
     CHECK(contains(package, line));
   }
   for (const char* line :

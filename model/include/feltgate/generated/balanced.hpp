@@ -54,6 +54,8 @@ struct Balanced {
   static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
   static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
   static constexpr int current_integral = 0;  // [0,0,17]
+  static constexpr int current_resistance = 0;  // [0,4,13], supply per full scale
+  static constexpr int current_margin = 0;  // [0,0,17] of the supply: half of the largest current's
   static constexpr int current_overcurrent = 0;  // [0,0,8] of full scale
   static constexpr int current_strobe = 0;  // clock of the PWM period in which a window begins
   static constexpr int feed_gain = 0;  // mantissa: parts of the supply per LSB of the voltage

@@ -54,7 +54,7 @@ enum class Fault : std::uint8_t {
   jump = 12,  ///< the velocity moved by more than its filter can
   engine = 13,  ///< the engine is late: no fresh torque within its time, in the scene law
   axis = 14,  ///< another axis has a fault
-  current = 15,  ///< of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current and status.driver_fault say which
+  current = 15,  ///< of a current loop: over-current, the driver's own fault, or the sensor fails; faults.current, status.driver_fault and status.current_missing say which
 };
 /// Its bit of faults.
 constexpr std::uint16_t fault_bit(Fault cause) {

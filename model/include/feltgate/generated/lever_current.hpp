@@ -54,6 +54,8 @@ struct LeverCurrent {
   static constexpr int current_drop = 4;  // fraction bits of the current reference below an LSB of the measured current
   static constexpr int current_proportional = 11842;  // [0,4,13], supply per full scale
   static constexpr int current_integral = 12762;  // [0,0,17]
+  static constexpr int current_resistance = 4588;  // [0,4,13], supply per full scale
+  static constexpr int current_margin = 19038;  // [0,0,17] of the supply: half of the largest current's
   static constexpr int current_overcurrent = 192;  // [0,0,8] of full scale
   static constexpr int current_strobe = 135;  // clock of the PWM period in which a window begins
   static constexpr int feed_gain = 341;  // mantissa: parts of the supply per LSB of the voltage
@@ -71,7 +73,7 @@ struct LeverCurrent {
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x6c0bc60c;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x6284cb8c;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {

@@ -693,6 +693,7 @@ struct Map {
     static constexpr int status_self_test_width = 2;
     static constexpr int status_testing = 18;
     static constexpr int status_driver_fault = 19;
+    static constexpr int status_current_missing = 30;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;
     static constexpr int faults_seen_width = 16;

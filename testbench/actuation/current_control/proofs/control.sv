@@ -24,11 +24,13 @@ module control_proof (
 
   logic valid, saturated;
   logic signed [17:0] voltage;
+  logic signed [18:0] resistive;
   current_control u_dut (
       .*,
       .voltage_o(voltage),
       .valid_o(valid),
-      .saturated_o(saturated)
+      .saturated_o(saturated),
+      .resistive_o(resistive)
   );
   (* hierconn *) wire [5:0] \u_dut.step_q ;
   (* hierconn *) wire [Bits-1:0] \u_dut.gain_q ;
@@ -125,6 +127,7 @@ module control_proof (
       saturated_is_limited: assert (!valid || saturated == (27'(applied) != wanted));
       integrator_is_held: assert (done_q || !armed_q || integrator == integrator_q);
       integrator_never_wraps: assert (!done_q || integrator == integrator_q + added_q);
+      whole_part_is_shown: assert (21'(resistive) == whole);
       integrator_in_its_range: assert (whole <= 21'sd262143 && whole >= -21'sd262142);
       integrator_towards_the_applied: assert (!done_q ||
           (left_q >= 0 ? way >= 0 && way <= left_q : way <= 0 && way >= left_q));

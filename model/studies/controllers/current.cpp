@@ -159,13 +159,18 @@ void errors(const Study& s, CurrentReport& report) {
                             false, "Ke·dω/dt/(2πf·R·I)", asked, 2});
 }
 
-void ripple(const Study& s, CurrentReport& report) {
-  const double kt = s.motor.torque_constant_nm_a;
+/// Ripples of the current at a duty of about 0.29, peak to peak: of its means over 1 ms, and within
+/// a period.
+struct Ripples {
+  double slow_a = 0, within_a = 0, duty = 0;
+};
+Ripples ripples_of(const Study& s, const CurrentSetting& setting) {
   const double reference_a = (0.29 * s.supply_v - s.motor.dead_voltage_v) / s.motor.resistance_ohm;
-  CurrentLoop loop(s.bench, s.as_is);
+  CurrentLoop loop(s.bench, setting);
   loop.run(loop.clocks(2.5e-3), reference_a);
   SignalRange slow;
-  double within_a = 0, high = 0;
+  Ripples r;
+  double high = 0;
   constexpr int windows = 40;
   const Clock ms = loop.clocks(1e-3);
   for (int w = 0; w < windows; ++w) {
@@ -178,28 +183,42 @@ void ripple(const Study& s, CurrentReport& report) {
       if (c < loop.period()) fast.add(loop.seen().motor_current_a);
     }
     slow.add(sum_a / static_cast<double>(ms));
-    within_a += (fast.high - fast.low) / windows;
+    r.within_a += (fast.high - fast.low) / windows;
   }
-  const double duty = high / (windows * static_cast<double>(ms));
+  r.slow_a = slow.high - slow.low;
+  r.duty = high / (windows * static_cast<double>(ms));
+  return r;
+}
+
+void ripple(const Study& s, CurrentReport& report) {
+  const double kt = s.motor.torque_constant_nm_a;
+  const Ripples r = ripples_of(s, s.as_is);
+  const int period = CurrentLoop(s.bench, s.as_is).period();
   report.figures.push_back(
-      {"slow_ripple_mnm", "means over 1 ms, peak to peak, mNm", 1e3 * kt * (slow.high - slow.low),
-       1e3 * kt * 2 * s.supply_v / loop.period() / (s.motor.resistance_ohm * s.rad_s * 1e-3), true,
+      {"slow_ripple_mnm", "means over 1 ms, peak to peak, mNm", 1e3 * kt * r.slow_a,
+       1e3 * kt * 2 * s.supply_v / period / (s.motor.resistance_ohm * s.rad_s * 1e-3), true,
        "the error's integral stays within a clock of the duty", "at most 1", 2});
   report.figures.push_back(
-      {"ripple_mnm", fmt::format("within a period, D = {:.3f}, peak to peak, mNm", duty),
-       1e3 * kt * within_a,
-       1e3 * kt * s.supply_v * duty * (1 - duty) / (s.motor.inductance_h * s.pwm_hz), false,
+      {"ripple_mnm", fmt::format("within a period, D = {:.3f}, peak to peak, mNm", r.duty),
+       1e3 * kt * r.within_a,
+       1e3 * kt * s.supply_v * r.duty * (1 - r.duty) / (s.motor.inductance_h * s.pwm_hz), false,
        "Kt·V·D(1 - D)/(L·f)", "within 5 %", 1});
 }
 
-void shorts(const Study& s, CurrentReport& report) {
-  const double reference_a = s.current_a(kFull_nm);
+/// The latest of so many phases at which the motor is shorted; `trace_a` is that with the largest
+/// current, every 0.1 us.
+struct Shorts {
   double off_us = 0, beyond_us = 0, largest_a = 0;
-  CurrentLoop before(s.bench, s.as_is);
+  std::vector<double> trace_a;
+};
+Shorts shorts_of(const Study& s, const CurrentSetting& setting, int phases) {
+  const double reference_a = s.current_a(kFull_nm);
+  Shorts found;
+  CurrentLoop before(s.bench, setting);
   before.run(before.clocks(2.5e-3), reference_a);
-  for (int phase = 0; phase < kShortPhases; ++phase) {
+  for (int phase = 0; phase < phases; ++phase) {
     CurrentLoop loop = before;
-    before.run(before.period() / kShortPhases, reference_a);
+    before.run(before.period() / phases, reference_a);
     loop.short_motor(kShort_ohm, kShort_h);
     double from_us = 0, us = 0, peak_a = 0;
     std::vector<double> trace_a;
@@ -217,13 +236,20 @@ void shorts(const Study& s, CurrentReport& report) {
       // A current that falls below the threshold again, after the pulse, begins anew.
       if (now_a < overcurrent_a && off == 0) from_us = now_us;
     }
-    off_us = std::max(off_us, us);
-    beyond_us = std::max(beyond_us, us - from_us);
-    if (peak_a > largest_a) {
-      largest_a = peak_a;
-      report.short_a = trace_a;
+    found.off_us = std::max(found.off_us, us);
+    found.beyond_us = std::max(found.beyond_us, us - from_us);
+    if (peak_a > found.largest_a) {
+      found.largest_a = peak_a;
+      found.trace_a = trace_a;
     }
   }
+  return found;
+}
+
+void shorts(const Study& s, CurrentReport& report) {
+  const double reference_a = s.current_a(kFull_nm);
+  const Shorts found = shorts_of(s, s.as_is, kShortPhases);
+  report.short_a = found.trace_a;
   // The over-current's own bound, and the clock of the enable.
   const double most_us = 1e6 * (CurrentSense::Parameters{}.overcurrent_clocks() + 1) / s.clock_hz;
   const double tau_s = kShort_h / kShort_ohm, final_a = s.supply_v / kShort_ohm;
@@ -232,14 +258,37 @@ void shorts(const Study& s, CurrentReport& report) {
   const double low_us = 1e6 * (1 - duty) / s.pwm_hz;
   report.figures.push_back(
       {"short_beyond_us",
-       fmt::format("short at 0.5 Nm: {:g} A to all gates off, µs", overcurrent_a), beyond_us,
+       fmt::format("short at 0.5 Nm: {:g} A to all gates off, µs", overcurrent_a), found.beyond_us,
        most_us, true, "current_sense, and a clock", "", 2});
-  report.figures.push_back({"short_off_us", "the short to all gates off, µs", off_us,
+  report.figures.push_back({"short_off_us", "the short to all gates off, µs", found.off_us,
                             low_us + 2 * rise_us + most_us, true,
                             "a rise, to the next pulse, a rise, and that", "", 2});
-  report.figures.push_back({"short_peak_a", "greatest current, A", largest_a,
+  report.figures.push_back({"short_peak_a", "greatest current, A", found.largest_a,
                             final_a + (overcurrent_a - final_a) * std::exp(-1e-6 * most_us / tau_s),
                             true, "the wiring's exponential until then", "", 1});
+}
+
+/// What 12 bits at a shunt's amplifier give instead, as fast as such converters and the DE0-Nano's.
+void adcs(const Study& s, CurrentReport& report) {
+  const double lsb_a = 2 * shunt_full_scale_a / 4096;
+  for (const double ksps : {1000.0, 200.0}) {
+    CurrentSetting setting = s.as_is;
+    setting.adc_hz = 1e3 * ksps;
+    const std::string name = fmt::format("ADC of 12 bits, {:g} ksps", ksps);
+    const auto key = [ksps](const char* what) { return fmt::format("adc_{:g}_{}", ksps, what); };
+    report.figures.push_back({key("settling_ms"), name + ": 0 to 0.2 Nm, to 2 %, ms",
+                              current_step(s.bench, setting, 0, kStep_nm).settling_ms,
+                              1e3 * std::log(50.0) / s.rad_s, false, "ln 50/(2πf), a lag", "", 3});
+    report.figures.push_back({key("slow_ripple_mnm"), name + ": means over 1 ms, peak to peak, mNm",
+                              1e3 * s.motor.torque_constant_nm_a * ripples_of(s, setting).slow_a,
+                              1e3 * s.motor.torque_constant_nm_a * lsb_a, true, "an LSB, 15.6 mA",
+                              "at most 1", 2});
+    report.figures.push_back(
+        {key("short_beyond_us"),
+         fmt::format("{}: short: {:g} A to all gates off, µs", name, overcurrent_a),
+         shorts_of(s, setting, kShortPhases / 5).beyond_us, 2e3 / ksps + 1e6 / s.clock_hz, true,
+         "two conversions, and a clock", "at most 5", 2});
+  }
 }
 
 }  // namespace
@@ -260,6 +309,7 @@ CurrentReport measure_current(const Bench& bench, const std::function<void(doubl
   errors(s, report);
   ripple(s, report);
   shorts(s, report);
+  adcs(s, report);
   done(1);
   return report;
 }

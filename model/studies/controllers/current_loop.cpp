@@ -93,7 +93,25 @@ CurrentLoop::CurrentLoop(const Bench& bench, const CurrentSetting& setting)
   sense_in_.armed = true;
   sense_in_.threshold = static_cast<std::int32_t>(overcurrent_a / shunt_full_scale_a *
                                                   static_cast<double>(p.fast_full_scale()));
-  strobe_at_ = middle_of(bench.design.design) - p.centre_clocks() - p.divider / 2;
+  middle_at_ = middle_of(bench.design.design);
+  strobe_at_ = middle_at_ - p.centre_clocks() - p.divider / 2;
+  if (setting.adc_hz > 0) conversion_ = static_cast<int>(std::lround(clock_hz_ / setting.adc_hz));
+}
+
+bool CurrentLoop::convert() {
+  constexpr int bits = 12;
+  const int since = (in_period_ - middle_at_ + period()) % period();
+  if (since % conversion_ != 0) return false;
+  // The result of the last conversion; the next one samples now.
+  const std::int32_t result = converted_;
+  const double steps = std::round(seen().motor_current_a / shunt_full_scale_a * (1 << (bits - 1)));
+  constexpr double end = 1 << (bits - 1);
+  converted_ = static_cast<std::int32_t>(std::clamp(steps, -end, end - 1))
+               << (kCurrentControlBits + 1 - bits);
+  tripped_ = tripped_ ||
+             std::abs(result) > overcurrent_a / shunt_full_scale_a * CurrentControl::kFullScale;
+  control_in_.current = result;
+  return since == conversion_;
 }
 
 Clock CurrentLoop::clocks(double seconds) const { return std::llround(seconds * clock_hz_); }
@@ -106,12 +124,16 @@ bool CurrentLoop::gates_on() const {
 void CurrentLoop::clock(double reference_a) {
   // Each block takes what the others showed before the edge.
   const CurrentSense::Out sensed = sense_.out();
-  tripped_ = tripped_ || sensed.overcurrent;
+  tripped_ = tripped_ || (conversion_ == 0 && sensed.overcurrent);
   in_period_ = pwm_.out().period_start ? 1 : in_period_ + 1;
   sense_in_.strobe = in_period_ == strobe_at_;
+  if (conversion_ > 0) {
+    control_in_.valid = convert();
+  } else {
+    control_in_.valid = sensed.aligned;
+    control_in_.current = static_cast<std::int32_t>(sensed.current);
+  }
   control_in_.armed = !tripped_;
-  control_in_.valid = sensed.aligned;
-  control_in_.current = static_cast<std::int32_t>(sensed.current);
   control_in_.reference = static_cast<std::int32_t>(
       std::lround(reference_a / shunt_full_scale_a * CurrentControl::kFullScale));
   control_in_.emf = static_cast<std::int32_t>(

@@ -30,6 +30,9 @@ struct CurrentSetting {
   /// Whether what brushes and dead time take is fed forward, as the voltage law of the design does.
   bool feeds_lost = true;
   bool locked = true;  ///< else the lever is free
+  /// In place of the modulator an ADC of 12 bits, ideal but for its LSB: samples a second. It
+  /// converts one after the other, from the middle of each pulse on.
+  double adc_hz = 0;
 };
 
 /// The loop of design `lever`, clock by clock.
@@ -54,6 +57,9 @@ class CurrentLoop {
   Clock clocks(double seconds) const;
 
  private:
+  /// A clock of the ADC; true when the sample of the middle is there.
+  bool convert();
+
   plant::Plant plant_;
   plant::SigmaDelta modulator_{shunt_full_scale_a};
   CurrentSense sense_;
@@ -66,7 +72,9 @@ class CurrentLoop {
   int in_period_ = 0;  ///< clocks since the PWM took a duty
   int strobe_at_ = 0;  ///< of these
   bool tripped_ = false;
-  std::vector<double> means_a_;  ///< of each clock of a period
+  int middle_at_ = 0, conversion_ = 0;  ///< clocks; of an ADC, 0: the modulator
+  std::int32_t converted_ = 0;          ///< taken by it, of full scale
+  std::vector<double> means_a_;         ///< of each clock of a period
   std::size_t next_mean_ = 0;
   double sum_a_ = 0;
 };

@@ -226,9 +226,21 @@ TEST_CASE("current loop: a short ends within the over-current's bound", "[curren
   CHECK(loop.period_mean_a() == Approx(0.5 / kKt).epsilon(0.01));
 }
 
+TEST_CASE("current loop: an ADC of 12 bits in place of the modulator", "[current]") {
+  for (const double us : {1.0, 5.0}) {  // of a conversion
+    const std::string key = us == 1 ? "adc_1000_" : "adc_200_";
+    check(key + "settling_ms", std::log(50.0) / (2 * kPi * 2000) * 1e3, 0.07);
+    check_bound(key + "slow_ripple_mnm", 0.001, 1e3 * kKt * 64.0 / 4096);
+    // It samples a current beyond the threshold at the next conversion, and tells at the one after.
+    check_bound(key + "short_beyond_us", us, 2 * us + 1e6 * kClock);
+  }
+  CHECK(figure("adc_1000_short_beyond_us").measured < 5);
+  CHECK(figure("adc_200_short_beyond_us").measured > 5);  // too slow for the 5 us
+}
+
 TEST_CASE("current loop: the table and the JSON have every figure", "[current]") {
   const std::string text = current_text(report()), json = current_json(report());
-  CHECK(report().figures.size() == 18);
+  CHECK(report().figures.size() == 24);
   for (const CurrentFigure& f : report().figures) {
     CHECK(text.find("| " + f.what + " |") != std::string::npos);
     CHECK(json.find("\"" + f.key + "\"") != std::string::npos);

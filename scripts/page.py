@@ -36,7 +36,7 @@ It compiles for a minute or two. Exit code: 0 written or current, 1 --check foun
 DESIGNS = ("lever", "paper", "fast", "lever_law", "gimbal_motor")
 LEVER_SCRIPTS = ("core.js", "drawing.js", "objects.js", "device.js", "inside.js", "law.js")
 PENS = ("pen.js", "game.js", "stylus.js", "mesh.js")
-TABS = (*PENS, "drums.js", "materials.js", "coupled.js", "string.js", "knob.js", "board.js")
+TABS = (*PENS, "drums.js", "materials.js", "coupled.js", "string.js", "gimbal.js", "knob.js", "board.js")
 SCRIPTS = (*LEVER_SCRIPTS, *TABS, "address.js", "page.js")
 COMMITTED = "docs/page.html"
 STAMP = re.compile(r'<meta name="feltgate-sources" content="(\w+)">')

@@ -285,7 +285,7 @@ function select_tab(name) {
     tab.tabIndex = chosen ? 0 : -1;
     $(tab.getAttribute("aria-controls")).hidden = !chosen;
   }
-  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab, knob: KnobTab, board: BoardTab }[name];
+  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab, gimbal: GimbalTab, knob: KnobTab, board: BoardTab }[name];
   if (make && !page[name]) {
     page[name] = new make(page.core, page.numbers);
     page.address.opened(name, true);

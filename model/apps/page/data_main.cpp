@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/page/gimbal_loop.hpp"
 #include "apps/page/image_law.hpp"
 #include "apps/page/live_loop.hpp"
 #include "apps/page/recorded_inputs.hpp"
@@ -143,6 +144,18 @@ json stylus() {
   return {{"image", feltgate::law::text(law.image)}, {"slides", slides}, {"worlds", worlds}};
 }
 
+/// The body in space, with where its image keeps the quaternion.
+json gimbal() {
+  const auto law = feltgate::law::compile_file(laws + "rigid_body.law",
+                                               feltgate::law::target_of(page::gimbal_design()));
+  json body = json::array();
+  for (const char* state : {"dw", "dx", "dy", "dz"}) {
+    const page::StateWord word = page::state_word(law, state);
+    body.push_back({{"address", word.address}, {"scale", word.scale}});
+  }
+  return {{"image", feltgate::law::text(law.image)}, {"body", body}};
+}
+
 /// The presets of the law `material` are scenes.
 json materials() {
   json all = json::array();
@@ -200,7 +213,8 @@ int main(int count, char** argv) {
                 {"shapes", hidden_shapes()},  {"training", training_squares()},
                 {"drums", image_of("drums")}, {"material", image_of("material")},
                 {"materials", materials()},   {"coupled", coupled()},
-                {"strings", strings()},       {"stylus", stylus()}};
+                {"strings", strings()},       {"stylus", stylus()},
+                {"gimbal", gimbal()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).phases == 3) {

@@ -15,6 +15,7 @@
 
 #include "apps/page/coupled_loop.hpp"
 #include "apps/page/felt_mesh.hpp"
+#include "apps/page/gimbal_loop.hpp"
 #include "apps/page/pen_loop.hpp"
 #include "apps/page/said.hpp"
 #include "apps/page/stick_loop.hpp"
@@ -24,6 +25,7 @@
 namespace {
 
 using emscripten::val;
+using feltgate::plant::Quaternion;
 using feltgate::plant::Vec3;
 namespace page = feltgate::page;
 namespace touch = feltgate::touch;
@@ -182,17 +184,19 @@ class BowString {
   page::StringLoop loop_;
 };
 
-val array_of(Vec3 v) {
+val array_of(std::initializer_list<double> parts) {
   val list = val::array();
-  for (const double part : {v.x, v.y, v.z}) list.call<void>("push", part);
+  for (const double part : parts) list.call<void>("push", part);
   return list;
 }
-
+val array_of(Vec3 v) { return array_of({v.x, v.y, v.z}); }
+val array_of(const Quaternion& q) { return array_of({q.w, q.x, q.y, q.z}); }
 Vec3 vector_of(const val& list) {
   return {list[0].as<double>(), list[1].as<double>(), list[2].as<double>()};
 }
 
 double number(const val& of, const char* key) { return of[key].as<double>(); }
+page::StateWord word(const val& of) { return {of["address"].as<int>(), number(of, "scale")}; }
 
 /// A pen on three slides in a hand, and a host with a world.
 class Stylus {
@@ -306,6 +310,36 @@ class Stylus {
   std::shared_ptr<page::FeltMesh> felt_;
 };
 
+/// A handle that turns about three axes, and a body behind it.
+class Gimbal {
+ public:
+  /// `body`: of the states w, x, y, z their {address, scale} in the image.
+  Gimbal(const std::string& image, const val& body)
+      : loop_(image, {word(body[0]), word(body[1]), word(body[2]), word(body[3])}) {}
+  std::string set(const std::string& name, double value) {
+    return said([&] { loop_.set(name, value); });
+  }
+  void turn(double x_rad, double y_rad, double z_rad) { loop_.turn({x_rad, y_rad, z_rad}); }
+  std::string advance(double seconds) {
+    return said([&] { loop_.advance(seconds); });
+  }
+  /// Orientations as w, x, y, z; torque on the handle, Nm; twist, rad; time, s.
+  val state() const {
+    val out = val::object();
+    out.set("hand", array_of(loop_.hand()));
+    out.set("handle", array_of(loop_.handle()));
+    out.set("body", array_of(loop_.body()));
+    out.set("torque", array_of(loop_.torque_nm()));
+    out.set("twist", loop_.twist_rad());
+    out.set("time", loop_.time_s());
+    out.set("rate_hz", 1 / loop_.law().period_s());
+    return out;
+  }
+
+ private:
+  page::GimbalLoop loop_;
+};
+
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(feltgate_tabs) {
@@ -341,6 +375,12 @@ EMSCRIPTEN_BINDINGS(feltgate_tabs) {
       .function("advance", &BowString::advance)
       .function("state", &BowString::state)
       .function("heard", &BowString::heard);
+  emscripten::class_<Gimbal>("Gimbal")
+      .constructor<std::string, val>()
+      .function("set", &Gimbal::set)
+      .function("turn", &Gimbal::turn)
+      .function("advance", &Gimbal::advance)
+      .function("state", &Gimbal::state);
   emscripten::constant("STYLUS_MOST_N", page::StylusLoop::most_n);
   emscripten::constant("STYLUS_REACH_M", page::StylusLoop::reach_m);
   emscripten::class_<Stylus>("Stylus")

@@ -302,6 +302,7 @@ class FirstScreen(PageTest):
             "drums": "turn('drums-skin2', 1500)",
             "coupled": "turn('coupled-met', 'wall'); turn('coupled-strength', 9);"
             "turn('coupled-law-share', 0.4)",
+            "gimbal": "turn('gimbal-law-stiffness', 0.2)",
         }
         for tab, act in cases.items():
             with self.subTest(tab=tab):

@@ -254,6 +254,54 @@ class Coupled(PageTest):
         self.assertEqual(self.js("return feltgate.coupled.held"), 0)
 
 
+class Gimbal(PageTest):
+    def test_the_body_follows_the_hand_and_swings_on(self):
+        self.open_tab("gimbal")
+        self.until("return !!feltgate.gimbal")
+        picture = self.driver.find_element(By.CSS_SELECTOR, "#gimbal-stage svg")
+        for key in (Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.PAGE_UP):
+            picture.send_keys(key)
+        begin = self.js("return feltgate.gimbal.seen.time")
+        self.until("return feltgate.gimbal.seen.time > arguments[0]", begin + 2.5)
+        seen = self.js("return feltgate.gimbal.seen")
+        # The rotations one after the other, about the picture's up, right and line of sight.
+        axes = self.js("return [GIMBAL_VIEW.up, GIMBAL_VIEW.right, GIMBAL_VIEW.out]")
+        wanted = (1, 0, 0, 0)
+        for axis, degrees in ((0, 5), (0, 5), (1, -5), (2, 5)):
+            wanted = times(about(axes[axis], math.radians(degrees)), wanted)
+        for name in ("hand", "handle", "body"):
+            same = abs(sum(a * b for a, b in zip(seen[name], wanted)))
+            self.assertGreater(same, 1 - 2e-5, name)  # within 0.7 degrees
+        self.assertLess(seen["twist"], 0.01)
+        # A drag at once leaves the body behind, and the torque pulls the handle back to it.
+        ActionChains(self.driver, duration=20).drag_and_drop_by_offset(picture, 150, 0).perform()
+        most = self.js("return Math.max(...feltgate.gimbal.trace.flat().map(Math.abs))")
+        self.assertGreater(most, 10)
+        self.assertLessEqual(most, 100.1)
+        self.assertIn("31.6 rad/s", self.driver.find_element(By.ID, "gimbal-stage").text)
+        self.js(
+            "const e = document.getElementById('gimbal-law-inertia');"
+            "e.value = 0.4; e.dispatchEvent(new Event('input'))"
+        )
+        self.until(
+            "return document.getElementById('gimbal-stage').textContent.includes('15.8 rad/s')"
+        )
+
+
+def about(axis, rad):
+    return (math.cos(rad / 2), *(math.sin(rad / 2) * part for part in axis))
+
+
+def times(a, b):
+    """First b, then a, written out."""
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
+
+
 def fastest_m_s():
     """Of the tip, in a hand that wants to be 0.6 rad lower at once; later is slower."""
     damping, stiffness, mass = 6.45, 135, 0.554

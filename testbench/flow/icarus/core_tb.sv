@@ -104,6 +104,7 @@ module core_tb;
       .stuck_o(),
       .saturated_o()
   );
+  wire signed [18:0] resistive;
   current_control u_current_control (
       .clk_i(clk),
       .rst_ni(rst_n),
@@ -117,7 +118,22 @@ module core_tb;
       .limit_i(17'd124518),
       .voltage_o(),
       .valid_o(),
-      .saturated_o()
+      .saturated_o(),
+      .resistive_o(resistive)
+  );
+
+  // What the check compares is far apart, so each arming ends with a current that is missing.
+  current_check u_current_check (
+      .clk_i(clk),
+      .rst_ni(rst_n),
+      .armed_i(clocks % 2000 > 200),
+      .valid_i(sense_valid),
+      .resistive_i(resistive),
+      .across_i(19'sd0),
+      .current_i({{2{sense_current[18]}}, sense_current}),
+      .resistance_i(17'd4588),
+      .margin_i(17'd100),
+      .missing_o()
   );
   absolute_encoder #(
       .HalfClocks(4),
@@ -228,7 +244,7 @@ module core_tb;
     rst_n = 1'b1;
     got = $fscanf(file, "%h %h", inputs, expected);
     while (got == 2) begin
-      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control, u_commutation, u_pwm_three_phase, u_field_oriented);
+      if (clocks == first) $dumpvars(0, dut, u_absolute_encoder, u_current_sense, u_current_control, u_current_check, u_commutation, u_pwm_three_phase, u_field_oriented);
       if (clocks == first + 8000) $dumpoff;
       #9 inputs[52] = 1'b0;  // the stop was seen since the last edge, and is not after this one
       #1 clk = 1'b1;

@@ -51,7 +51,7 @@ class GimbalTab {
     line.className = "slider";
     range.oninput = () => {
       this.values[name] = Number(range.value) * si;
-      say(this.loop.set(name, this.values[name]));
+      say(this.loop.set(name, Number(range.value)));
       shown.textContent = `${range.value} ${unit}`;
     };
     range.oninput();

@@ -300,9 +300,9 @@ class FirstScreen(PageTest):
             "pantograph": "turn('pen-shape', 'fish'); turn('pen-stiffness', 120);"
             "document.getElementById('pen-arrow').click()",
             "drums": "turn('drums-skin2', 1500)",
+            "gimbal": "turn('gimbal-law-stiffness', 0.2)",
             "coupled": "turn('coupled-met', 'wall'); turn('coupled-strength', 9);"
             "turn('coupled-law-share', 0.4)",
-            "gimbal": "turn('gimbal-law-stiffness', 0.2)",
         }
         for tab, act in cases.items():
             with self.subTest(tab=tab):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Writes the sound at the bridge of a bowed string as a WAV file of 40 kHz, from
+"""Writes the sound at the bridge of a bowed string, or of four, as a WAV file of 40 kHz, from
 `feltgate run bowed_string --states FILE`. If a law runs slower, each of its values is held, as in a converter.
 
 Documentation: docs/devices/bowed_string.md
@@ -23,18 +23,18 @@ class StatesError(Exception):
 
 
 def read_states(path):
-    """Times in s and what is heard in m/s, of every run of the law."""
+    """Times in s and what is heard of all strings in m/s, of every run of the law."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
     mend = "; write it with feltgate run bowed_string --states FILE"
-    if not rows or rows[0][:1] != ["time_s"] or "heard" not in rows[0]:
+    columns = [n for n, name in enumerate(rows[0] if rows else []) if name.split("_")[0] == "heard"]
+    if not columns or rows[0][0] != "time_s":
         raise StatesError(f'{path}:1: no columns "time_s" and "heard"{mend}')
-    column = rows[0].index("heard")
     times, heard = [], []
     for number, row in enumerate(rows[1:], 2):
         try:
             times.append(float(row[0]))
-            heard.append(float(row[column]))
+            heard.append(sum(float(row[n]) for n in columns))
         except (ValueError, IndexError):
             raise StatesError(f"{path}:{number}: no row of states{mend}") from None
         if not np.isfinite([times[-1], heard[-1]]).all() or times[-2:] != sorted(times[-2:]):

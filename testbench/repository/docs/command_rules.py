@@ -50,12 +50,12 @@ RULES = (
     Rule(r"feltgate run coupled_levers.*", "BY", "coupled_levers_test"),
     Rule(r"feltgate shape .*--table", "BY", "shape.command"),
     Rule(r"feltgate run material_stone --set dynamic=0\.4", "BY", "tracked_test"),
-    Rule(r"feltgate run (?:bowed_string|slow\.toml).*--states", "BY", "bowed_string.sound"),
+    Rule(r"feltgate run (?:bowed_string|four_strings|slow\.toml).*--states", "BY", "bowed_string.sound"),
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),
     # Scenes of a law, which the launcher gives a design with an engine.
     Rule(
         r"feltgate run (attraction|bowed_string|ceiling|collision|cut_string|drums|end_stops|end_stops_thrown|flywheel"
-        r"|graded_membrane|lump|material_(?:fields|object|stick_slip|stone)|moved_detents|pendulum"
+        r"|four_strings|graded_membrane|lump|material_(?:fields|object|stick_slip|stone)|moved_detents|pendulum"
         r"|scroll_wheel|throttle|turn_switch)",
         "BY",
         r"scene.\1.lever_law",

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The bowed string as a WAV: the string's pitch from the law at 40 kHz, another pitch from the same
-at 1 kHz.
+at 1 kHz. Four strings: each sounds at its own pitch, bowed, plucked and crossed to, and dies away.
 
 Documentation: docs/devices/bowed_string.md
 """
 
+import os
 import unittest
 
 import numpy as np
@@ -23,6 +24,28 @@ def pitch_hz(samples, rate):
     lags = np.arange(int(rate / 500), int(rate / 30))
     peaks = [k for k in lags if alike[k] == alike[k - 5 : k + 6].max() and alike[k] > 0.8]
     return rate / peaks[0] if peaks else 0.0
+
+
+STRINGS = "gdae"
+VIOLIN_HZ = [440 * 2 ** (7 * n / 12) for n in (-2, -1, 0, 1)]  # fifths of seven equal semitones
+REFLECTED = (20 - 0.35) / (20 + 0.35)  # by the bridge, in each period
+# At 0 rad the lever is on string n, and for 0.6 rad from there: the other edges are out of the way.
+ALONE = [{"first": 0.9}, {"first": -0.1, "width": 0.9}, {"first": -0.9, "width": 0.85},
+         {"first": -0.9, "width": 0.2}]
+
+
+def amplitude(tone, hz, rate):
+    """Of one frequency, under a Hann window."""
+    turns = np.arange(len(tone)) * hz / rate
+    return abs(tone @ (np.hanning(len(tone)) * np.exp(-2j * np.pi * turns))) * 2 / len(tone)
+
+
+def loudest_hz(tone, rate):
+    """From 100 Hz on, to 0.1 Hz."""
+    step = rate / len(tone)
+    lines = np.abs(np.fft.rfft(tone * np.hanning(len(tone))))[int(100 / step) :]
+    near = (np.argmax(lines) + int(100 / step)) * step
+    return max(near + np.arange(-step, step, 0.1), key=lambda hz: amplitude(tone, hz, rate))
 
 
 class BowedStringSound(Player):
@@ -75,6 +98,81 @@ class BowedStringSound(Player):
         self.assertIn("the RTL alone does not show when a law runs",
                       self.run_scene("bowed_string", status=2, engine="rtl"))
         self.assertFalse(self.states.exists())
+
+    def strings(self, name, scene, parameters):
+        """Times, and what each string of the scene sends to the bridge; the slips of each."""
+        told = self.folder / "events.txt"
+        sets = [word for key, value in parameters.items() for word in ("--set", f"{key}={value}")]
+        self.run_scene(self.put(name, scene), *sets, "--events", told)
+        names = self.states.read_text(encoding="utf-8").split("\n", 1)[0].split(",")
+        table = dict(zip(names, np.loadtxt(self.states, delimiter=",", skiprows=1).T))
+        slips = {n: [] for n in STRINGS}
+        at_s = 0.0
+        for line in told.read_text(encoding="utf-8").splitlines():
+            wait_ms, event, _ = line.split()
+            at_s += float(wait_ms) / 1e3
+            slips[event.removeprefix("slip_")].append(at_s)
+        times = table["time_s"]
+        self.assertAlmostEqual(times[-1] - times[-2], 32e-6, delta=1e-9)
+        return times, [table[f"heard_{n}"] for n in STRINGS], slips
+
+    def dies_away(self, tone, hz):
+        """Its amplitude in 0.06 s, beside that in the 0.06 s before: the bridge takes 1 - REFLECTED in
+        each period, and the low-pass at it something too, but less than as much again."""
+        rate, n = 31250, 1875
+        left = amplitude(tone[n : 2 * n], hz, rate) / amplitude(tone[:n], hz, rate)
+        most = REFLECTED ** (0.06 * hz)
+        self.assertLess(left, 1.01 * most)
+        self.assertGreater(left, most**2)
+        return left
+
+    def test_four_strings_each_alone(self):
+        scene = text_of("vectors/scenes/four_strings.toml")
+        scene = scene[: scene.index("[[expect]]")]
+        motion = scene[scene.index("motion = [") :]
+        for n, hz in enumerate(VIOLIN_HZ):
+            for way, force, end_s, motion_to in (("bowed", 1.7, 0.26, 0.48), ("plucked", 4, 0.06, 0.02)):
+                with self.subTest(hz=hz, way=way):
+                    alone = scene.replace(
+                        motion,
+                        "motion = [\n  { kind = \"hold\", duration_s = 0.02 },\n"
+                        f"  {{ kind = \"ramp\", duration_s = {end_s - 0.02}, to_rad = {motion_to} }},\n]\n"
+                        f"[[event]]\nat_s = {end_s}\nset = {{ force = 0 }}\n",
+                    ).replace("duration_s = 0.62", f"duration_s = {end_s + 0.15}")
+                    times, heard, slips = self.strings(
+                        f"{way}.toml", alone, {"force": force, **ALONE[n]})
+                    for other in range(4):
+                        if other != n:
+                            self.assertEqual(np.abs(heard[other]).max(), 0)
+                            self.assertEqual(slips[STRINGS[other]], [])
+                    if way == "bowed":
+                        late = np.array([t for t in slips[STRINGS[n]] if 0.16 < t < end_s])
+                        bowed_hz = (len(late) - 1) / np.ptp(late)
+                        # Friction keeps the corner back, so a bowed string is flat.
+                        self.assertGreater(bowed_hz, 0.96 * hz)
+                        self.assertLess(bowed_hz, 1.002 * hz)
+                    rings = heard[n][times > end_s + 0.02]
+                    rings_hz = loudest_hz(rings, 31250)
+                    self.assertLess(abs(rings_hz / hz - 1), 0.001)
+                    left = self.dies_away(rings, hz)
+                    if os.environ.get("FELTGATE_SHOW"):
+                        print(f"{hz:.2f} Hz {way}: rings {rings_hz:.1f} Hz, {left:.3f} left after 0.06 s"
+                              + (f", bowed {bowed_hz:.1f} Hz" if way == "bowed" else ""))
+
+    def test_crossing_makes_the_next_string_sound_and_the_last_die_away(self):
+        scene = text_of("vectors/scenes/four_strings.toml")
+        times, heard, slips = self.strings("crossing.toml", scene, {})
+        # 2 rad/s from 0.02 s on, 0.3 rad for each; the arm gives way by less than 10 ms of it.
+        for n, hz in enumerate(VIOLIN_HZ):
+            begins, ends = 0.02 + 0.15 * n, 0.02 + 0.15 * (n + 1)
+            self.assertTrue(all(begins < t < ends + 0.01 for t in slips[STRINGS[n]]))
+            self.assertEqual(np.abs(heard[n][times < begins]).max(initial=0), 0)
+            sounds = heard[n][(times > ends - 0.06) & (times < ends)]
+            self.assertGreater(amplitude(sounds, hz, 31250), 0.1)
+            self.assertLess(abs(loudest_hz(sounds, 31250) / hz - 1), 0.05)
+            if n < 2:
+                self.dies_away(heard[n][times > ends + 0.01], hz)
+        self.assertAlmostEqual(np.ptp(self.play()[-2000:]) * 2.5, 0.2 / 0.1, delta=0.8)
 
     def test_what_are_no_states(self):
         for text, said in (

@@ -102,7 +102,10 @@ def beside_targets(root):
     """The blocks beside the core, each a row that is measured where it is asked for."""
     names = [Path(path).stem for path in beside_sources(root) if "_pkg" not in path]
     blocks = [Target(name, name, registered=name == LINKED) for name in names if name != AXES]
-    return blocks + axes_targets()
+    # The link of a design with one axis, beside which these are counted.
+    several = [Target(f"{name}, {count} axes", name, {"AxisCount": str(count)}, name == LINKED)
+               for name, count in (("link_view", 3), (LINKED, 2), (LINKED, 3))]
+    return blocks + several + axes_targets()
 
 
 def axes_targets():
@@ -244,7 +247,7 @@ def cyclone_figures(cells):
 
 def write_tops(tools, name, target, read):
     """NAME_area.sv and NAME_speed.sv."""
-    ports = tools.ports(target.module, read)
+    ports = tools.ports(target.module, read, target.parameters)
     for kind, text in (("area", area_top(target, ports)), ("speed", speed_top(target, ports))):
         (tools.folder / f"{name}_{kind}.sv").write_text(text, encoding="utf-8")
 

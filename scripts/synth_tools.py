@@ -193,10 +193,11 @@ class Tools:
         self.run(command, f"{name}_pack", [f"{name}.fs"])
         return self.folder / f"{name}.fs"
 
-    def ports(self, top, read):
-        """(name, direction, width) of every port of TOP."""
+    def ports(self, top, read, parameters=()):
+        """(name, direction, width) of every port of TOP, with those of the PARAMETERS that are numbers."""
         name = f"{top}_ports"
-        script = [*read, f"hierarchy -top {top}", "proc", f"write_json {name}.json"]
+        values = [f" -chparam {n} {v}" for n, v in dict(parameters).items() if v.isdigit()]
+        script = [*read, f"hierarchy -top {top}{''.join(values)}", "proc", f"write_json {name}.json"]
         self.run_yosys(name, script, [f"{name}.json"])
         modules = json.loads((self.folder / f"{name}.json").read_text(encoding="utf-8"))["modules"]
         found = next(m for m in modules.values() if int(m["attributes"].get("top", "0"), 2))

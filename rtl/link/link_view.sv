@@ -49,22 +49,22 @@ module link_view #(
   end
   endgenerate
 
-  // Number of the word on the port; valid from the first slot on.
+  // Number of the word on the port, from the first slot on; a word that is none of the twelve shows nothing.
   logic       last;
   logic [3:0] number, number_q;
   assign number = (word_slot_i == feltgate_link_pkg::FIRST_SLOT) ? 4'd0 : number_q;
   assign last   = word_valid_i && number == 4'(Words - 1);
 
   // Choices. The word `tick` is that of axis 0 always: a frame without it says nothing.
-  logic [Words*ChoiceBits-1:0] choices_q;
+  logic [ChoiceBits-1:0] choices_q [0:Words-1];
   logic addressed, fits;
   assign addressed = addr_i[15:4] == FIRST[15:4] && addr_i[3:0] < 4'(Words) && addr_i[3:0] != TICK;
   assign fits      = wdata_i[31:ChoiceBits] == '0 && 32'(wdata_i[5:4]) < AxisCount && wdata_i[3:0] < 4'(Words);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      for (int k = 0; k < Words; k++) choices_q[ChoiceBits*k+:ChoiceBits] <= ChoiceBits'(k);
+      for (int k = 0; k < Words; k++) choices_q[k] <= ChoiceBits'(k);
     end else if (write_i && addressed && fits) begin
-      choices_q[ChoiceBits*addr_i[3:0]+:ChoiceBits] <= wdata_i[ChoiceBits-1:0];
+      choices_q[addr_i[3:0]] <= wdata_i[ChoiceBits-1:0];
     end
   end
 
@@ -73,7 +73,10 @@ module link_view #(
   logic [3:0] at_q;
   logic [1:0] axis_q;
   logic [ChoiceBits-1:0] choice;
-  assign choice = choices_q[ChoiceBits*at_q+:ChoiceBits];
+  logic [4:0] write_at, read_at;
+  assign choice   = choices_q[at_q];
+  assign write_at = {half_q, number};
+  assign read_at  = {!half_q, choice[3:0]};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       number_q     <= '1;
@@ -84,7 +87,7 @@ module link_view #(
       word_valid_o <= 1'b0;
       word_slot_o  <= feltgate_link_pkg::FIRST_SLOT;
     end else begin
-      if (word_valid_i) number_q <= number + 4'd1;
+      if (word_valid_i) number_q <= (number == '1) ? number : number + 4'd1;
       half_q       <= half_q ^ last;
       plays_q      <= last || (plays_q && at_q != 4'(Words - 1));
       at_q         <= (last || !plays_q || at_q == 4'(Words - 1)) ? 4'd0 : at_q + 4'd1;
@@ -102,9 +105,9 @@ module link_view #(
     logic [31:0] ram [0:31];
     logic [31:0] word_q;
     always @(posedge clk_i) begin
-      if (word_valid_i) ram[{half_q, number}] <= word_data_i[32*n+:32];
+      if (word_valid_i) ram[write_at] <= word_data_i[32*n+:32];
     end
-    always_ff @(posedge clk_i) word_q <= ram[{!half_q, choice[3:0]}];
+    always_ff @(posedge clk_i) word_q <= ram[read_at];
     assign words[32*n+:32] = word_q;
   end
   endgenerate
@@ -130,7 +133,7 @@ module link_view #(
       addr_q2 <= addr_q;
       if (addr_q2 == AXES) rdata_o <= 32'(AxisCount);
       else if (addr_q2[15:4] == FIRST[15:4] && addr_q2[3:0] < 4'(Words))
-        rdata_o <= 32'(choices_q[ChoiceBits*addr_q2[3:0]+:ChoiceBits]);
+        rdata_o <= 32'(choices_q[addr_q2[3:0]]);
       else rdata_o <= '0;
     end
   end

@@ -9,7 +9,6 @@ import rtl_sources
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
     "field_oriented": "lock-step with its twin, the same law in double, and seeded defects",
-    "link_view": "lock-step with its twin on two and three axes, and seeded defects",
     **dict.fromkeys(rtl_sources.WIRED_ROOMS, "the proofs of feltgate_core go through it"),
     "current_loop": "lock-step of feltgate_core with a current loop, and seeded defects",
 }

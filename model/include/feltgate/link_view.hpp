@@ -92,7 +92,7 @@ class LinkView {
     if (slot == LinkMap::slots[0]) number_ = 0;
     for (std::size_t n = 0; n < N; ++n) ticks_[half_][n][number_] = data[n];
     const bool last = number_ == words - 1;
-    number_ = (number_ + 1) & 15;
+    if (number_ < 15) ++number_;
     return last;
   }
   void play(bool ends) {

@@ -142,7 +142,7 @@ Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m
 }
 
 Trace traced(const std::string& law, const std::map<std::string, double>& parameters, Point start_m,
-             double patience_s) {
+             double patience_s, const std::optional<PlaneHostSettings>& world) {
   AxesScene scene = scene_named("hidden_shapes");
   auto& setup = std::get<PantographSetup>(scene.device);
   setup.hand = {};
@@ -158,6 +158,7 @@ Trace traced(const std::string& law, const std::map<std::string, double>& parame
   scene.scenario.events.clear();
   scene.scenario.expectations.clear();
   scene.scenario.parameters = parameters;
+  scene.plane = world;
   BlindRobot robot(axes_columns(scene), start_m, patience_s);
   struct Enough {};
   try {

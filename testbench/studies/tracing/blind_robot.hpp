@@ -7,6 +7,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,9 +70,10 @@ class BlindRobot {
 constexpr double most_patience_s = 9;
 
 /// A law of shapes with these parameters under the robot's pen, the twin from pins to pins in
-/// closed loop with the plant. `law` is a name or a path.
+/// closed loop with the plant. `law` is a name or a path; `world` sends planes, to local_plane.
 Trace traced(const std::string& law, const std::map<std::string, double>& parameters, Point start_m,
-             double patience_s = most_patience_s);
+             double patience_s = most_patience_s,
+             const std::optional<PlaneHostSettings>& world = std::nullopt);
 /// The hidden shape of this number with a material.
 Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m);
 

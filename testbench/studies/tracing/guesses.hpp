@@ -29,6 +29,9 @@ constexpr std::array<Shape, 7> kShapes{{{"square", kHard_n_m, kSlippery_ns_m},
                                         {"mushroom", kSoft_n_m, kSticky_ns_m},
                                         {"duck", kHard_n_m, kSticky_ns_m}}};
 
+/// Where the pen starts, outside of every shape.
+constexpr std::array<Point, 4> kStarts{{{0, 0.17}, {-0.055, 0.12}, {0.055, 0.12}, {0, 0.075}}};
+
 struct Cues {
   bool stiffness = false, damping = false, texture = false;
 };
@@ -44,6 +47,9 @@ constexpr double kSmooth_n = 3e-3, kRough_n = 14e-3;
 struct Memory {
   double degrees_per_root_cm = 0;
 };
+
+/// Of the memory's error, degrees per root cm: the robot is then about as often right as people.
+constexpr double kLikePeople = 10;
 
 /// Knows the outlines of the seven shapes.
 class Guesser {

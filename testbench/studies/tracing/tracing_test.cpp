@@ -21,11 +21,6 @@ using namespace feltgate::test;
 
 namespace {
 
-const std::array<Point, 4> kStarts{{{0, 0.17}, {-0.055, 0.12}, {0.055, 0.12}, {0, 0.075}}};
-
-/// Of the memory's error, degrees per root cm: the robot is then about as often right as people.
-constexpr double kLikePeople = 10;
-
 /// What was traced once: the twin does the same again.
 class Traces {
  public:

@@ -17,7 +17,7 @@ ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
 WIRED_ROOMS = (*(room for room in ROOMS if room != "scenes"), "current_loop")
 # Without a twin and a test of their own: one is elaborated, never clocked; a room is tested by the core's test.
 NO_BLOCKS = ("feltgate_checks", *WIRED_ROOMS)
-# Blocks for a core of one's own, which the core does not instantiate: not wired yet.
+# Blocks that the core has only in some designs.
 DROP_INS = ("absolute_encoder", "current_sense", "current_control", "current_check", "commutation", "pwm_three_phase",
             "field_oriented")
 

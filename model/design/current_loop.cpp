@@ -63,7 +63,7 @@ void check_current_loop(const Design& d) {
   }
   if (!d.current_loop_check().in_range) {
     d.fail("motor.resistance_ohm", "the check of the measured current has no word for it",
-           "choose a full scale whose voltage at the resistance is below 16 times the supply");
+           "choose a full scale whose voltage at the resistance is 0.0002 to 16 times the supply");
   }
   if (!d.emf_in_law()) {
     d.fail("voltage.law", "a current loop feeds forward what the voltage law gives back",

@@ -67,7 +67,7 @@ def generated(result, proofs, before=""):
     lines = [
         BEGIN,
         "",
-        f"{count} properties in {len(proofs)} proofs of {len(names)} blocks; {tools['yosys']}, "
+        f"{count} properties in {len(proofs)} proofs of {len(names)} blocks; the last of them with {tools['yosys']}, "
         f"{tools['z3']}.",
         "",
         *(found[name] for name in names),

@@ -17,7 +17,9 @@
   const newtonmetres = (mnm) => (mnm / 1000).toFixed(3).replace("-", "\u2212") + " Nm";
 
   for (const card of document.querySelectorAll(".moving")) {
-    const data = JSON.parse(card.querySelector("script").textContent);
+    const run = card.querySelector("script");
+    if (!run) continue; // a drawing of several axes stands still
+    const data = JSON.parse(run.textContent);
     const part = (name) => card.querySelector(name);
     const slider = part("input"), button = part("button"), cursor = part(".cursor");
     const rows = data.angle_deg.length;

@@ -56,7 +56,7 @@ class GimbalLoop {
   plant::Quaternion hand_, handle_;
   plant::Vec3 wanted_rad_, speed_rad_s_, torque_nm_;
   int runs_per_host_;
-  int runs_ = 0;  ///< since the host sent
+  int runs_ = 0;  ///< until the host sends
   double time_s_ = 0;
   Pace pace_;
 };

@@ -43,7 +43,7 @@ module actuation (
     output logic signed [     feltgate_pkg::CURRENT_W-1:0]  motor_current_o,   // ampere: the measured current; without a current loop current_ref_o
     output logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_o,  // why it is not to be relied on: faults.current, driver, missing
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0]   trips_o,           // bit n: cause n
-    input  logic                                            clear_i,           // of the over-current
+    input  logic                                            clear_i,           // of the faults that are kept
     input  logic                                            gates_enable_i,
     input  logic                                            gates_clear_i,  // asynchronous
     output logic                                            gate_a_hi_o,

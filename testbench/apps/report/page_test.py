@@ -7,6 +7,8 @@ Documentation: docs/figures.md
 """
 
 import json
+import shutil
+import subprocess
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from html import escape
@@ -137,6 +139,12 @@ class Cards(Recorded):
         self.assertEqual(lever.arrow(0.5, 0.5), "M12 0H76.0M67.0 -6L76.0 0L67.0 6")
         self.assertEqual(lever.arrow(-9.0, 0.5), lever.arrow(-0.7, 0.5))
         self.assertEqual(lever.arrow(0.001, 0.5), "")
+
+    @unittest.skipUnless(shutil.which("node"), "no node")
+    def test_a_card_without_a_run_stops_no_other(self):
+        script = (SCRIPTS / "reports" / "lever.js").read_text()
+        of_axes = "globalThis.document = {querySelectorAll: () => [{querySelector: () => null}]};"
+        subprocess.run(["node", "-e", of_axes + script], check=True)
 
     def test_what_is_shown_is_what_is_felt(self):
         found, summary, csv = self.card("membrane")

@@ -206,40 +206,6 @@ Case gimbal_case(std::string_view name, Random* r) {
   return c;
 }
 
-/// Deviations of the torque, and how long they last.
-class Judge {
- public:
-  Judge(const Limits& limits, double clock_hz) : l_(limits), clock_hz_(clock_hz) {}
-
-  template <class R>
-  void step(const R& faulty, const R& sound, bool closed, Outcome* o) {
-    constexpr auto step = R::kStep;
-    const double e = faulty.torque_nm() - sound.torque_nm(), motor = std::abs(faulty.torque_nm());
-    o->both_clocks = std::max(o->both_clocks, faulty.both_clocks());
-    o->motor_peak_nm = larger(o->motor_peak_nm, motor);
-    if (faulty.on() || !closed) {
-      o->peak_nm = larger(o->peak_nm, std::abs(e));
-      o->integral_nm_s += std::abs(e) * static_cast<double>(step) / clock_hz_;
-    }
-    over_ = motor > l_.unsafe_share * l_.torque_nm ? over_ + step : 0;
-    wrong_ = std::abs(e) > l_.silent_share * l_.torque_nm && !closed ? wrong_ + step : 0;
-    too_much_ = too_much_ || lasts(over_);
-    torque_wrong_ = torque_wrong_ || lasts(wrong_);
-  }
-  bool unsafe(const Outcome& o) const { return too_much_ || o.both_clocks > l_.both_clocks; }
-  bool torque_wrong() const { return torque_wrong_; }
-
- private:
-  bool lasts(Clock clocks) const {
-    return static_cast<double>(clocks) > l_.ticks * 1e-6 * clock_hz_;
-  }
-
-  Limits l_;
-  double clock_hz_;
-  Clock over_ = 0, wrong_ = 0;
-  bool too_much_ = false, torque_wrong_ = false;
-};
-
 /// `arm_s`: when it is armed, for a sensor must have been read, or an offset be known.
 template <class D>
 Outcome run_case(const std::string& root, const Case& c, const char* plant_name, double arm_s,
@@ -286,7 +252,7 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
   const double from_rad = faulty.shaft_rad();
   Limits limits;
   limits.torque_nm = info.find("torque_limit")->si;
-  Judge judge(limits, D::clock_hz);
+  TorqueLimits judge(limits);
   Outcome o;
   Clock off_for = 0;
   bool differed = false, position_wrong = false;
@@ -301,7 +267,9 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
       o.travel_rad = std::abs(faulty.shaft_rad() - from_rad);
     }
     if (!closed) o.off_after = -1;
-    judge.step(faulty, sound, closed, &o);
+    o.both_clocks = std::max(o.both_clocks, faulty.both_clocks());
+    judge.step(faulty.torque_nm() - sound.torque_nm(), faulty.torque_nm(),
+               1e6 * Rig<D>::kStep / D::clock_hz, faulty.on(), closed, &o);
     position_wrong = !c.free && f.position != s.position;
     o.count_changed = o.count_changed || position_wrong;
     differed = differed || f.gates != s.gates || f.position != s.position || f.tau_ref != s.tau_ref;

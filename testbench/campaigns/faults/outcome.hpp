@@ -83,6 +83,35 @@ struct GateTimes {
   }
 };
 
+/// How far a torque is off, and for how long: what makes a run unsafe, or its torque wrong.
+class TorqueLimits {
+ public:
+  explicit TorqueLimits(const Limits& limits) : l_(limits) {}
+
+  /// A step of the faulty core: its torque less the sound one's, the motor's own torque. Once it is
+  /// flagged the torque is not wrong any more, and without a gate it is not counted.
+  void step(double off_nm, double motor_nm, double step_us, bool on, bool flagged, Outcome* o) {
+    const double motor = std::abs(motor_nm), off = std::abs(off_nm);
+    o->motor_peak_nm = larger(o->motor_peak_nm, motor);
+    // After the gates are off the lever is free: its torque is not judged.
+    if (on || !flagged) {
+      o->peak_nm = larger(o->peak_nm, off);
+      o->integral_nm_s += off * 1e-6 * step_us;
+    }
+    over_us_ = motor > l_.unsafe_share * l_.torque_nm ? over_us_ + step_us : 0;
+    wrong_us_ = off > l_.silent_share * l_.torque_nm && !flagged ? wrong_us_ + step_us : 0;
+    too_much_ = too_much_ || over_us_ > l_.ticks;
+    torque_wrong_ = torque_wrong_ || wrong_us_ > l_.ticks;
+  }
+  bool unsafe(const Outcome& o) const { return too_much_ || o.both_clocks > l_.both_clocks; }
+  bool torque_wrong() const { return torque_wrong_; }
+
+ private:
+  Limits l_;
+  double over_us_ = 0, wrong_us_ = 0;
+  bool too_much_ = false, torque_wrong_ = false;
+};
+
 /// Compares, tick by tick, the torque of a core with a fault with that of a sound core on the same
 /// lever. Each torque is computed from the winding's voltage (mean of a PWM period) minus the
 /// back-EMF.
@@ -92,7 +121,7 @@ class TorqueJudge {
     double supply_v, torque_constant_nm_a, emf_v_s_rad, resistance_ohm;
     int clocks_per_tick, period_ticks;
   };
-  TorqueJudge(const Motor& motor, const Limits& limits) : m_(motor), l_(limits) {}
+  TorqueJudge(const Motor& motor, const Limits& limits) : m_(motor), limits_(limits) {}
 
   /// Takes a tick before the fault, so that the means over a PWM period are already filled.
   void before(const GateTimes& gates, double motor_torque_nm) {
@@ -106,21 +135,11 @@ class TorqueJudge {
     sound_.add(share(sound), sound.on(), m_.period_ticks);
     motor_.add(motor_torque_nm, true, m_.period_ticks);
     const double e = torque(faulty_, omega_rad_s) - torque(sound_, omega_rad_s);
-    if (faulty.both > o->both_clocks) o->both_clocks = faulty.both;
-    const double motor = std::abs(motor_.mean());
-    o->motor_peak_nm = larger(o->motor_peak_nm, motor);
-    // After the gates are off the lever is free: its torque is not judged.
-    if (faulty_.on() || !flagged) {
-      o->peak_nm = larger(o->peak_nm, std::abs(e));
-      o->integral_nm_s += std::abs(e) * 1e-6;
-    }
-    over_ = motor > l_.unsafe_share * l_.torque_nm ? over_ + 1 : 0;
-    wrong_ = std::abs(e) > l_.silent_share * l_.torque_nm && !flagged ? wrong_ + 1 : 0;
-    if (over_ > l_.ticks) too_much_ = true;
-    if (wrong_ > l_.ticks) torque_wrong_ = true;
+    o->both_clocks = std::max(o->both_clocks, faulty.both);
+    limits_.step(e, motor_.mean(), 1, faulty_.on(), flagged, o);
   }
-  bool unsafe(const Outcome& o) const { return too_much_ || o.both_clocks > l_.both_clocks; }
-  bool torque_wrong() const { return torque_wrong_; }
+  bool unsafe(const Outcome& o) const { return limits_.unsafe(o); }
+  bool torque_wrong() const { return limits_.torque_wrong(); }
 
  private:
   /// Mean of the last ticks of a PWM period.
@@ -162,10 +181,8 @@ class TorqueJudge {
   }
 
   Motor m_;
-  Limits l_;
+  TorqueLimits limits_;
   Window faulty_, sound_, motor_;
-  int over_ = 0, wrong_ = 0;
-  bool too_much_ = false, torque_wrong_ = false;
 };
 
 }  // namespace feltgate::faults

@@ -205,7 +205,7 @@ TEST_CASE("loop: a fault of the driver closes the gates, and is kept; the heart 
   CHECK(seen.beats == kSettled / kTick / 512);
 }
 
-TEST_CASE("loop: wires off the shunt close the gates before twice the largest current") {
+TEST_CASE("loop: wires off the shunt close the gates") {
   for (const double torque_nm : {0.5, -0.1, 0.005}) {
     Rig rig;
     rig.torque_nm = torque_nm;
@@ -215,7 +215,7 @@ TEST_CASE("loop: wires off the shunt close the gates before twice the largest cu
     REQUIRE(seen.off > kSettled);
     // The integrator grows by 10.5 % of R times the current that is asked for in each period.
     CHECK(seen.off - kSettled < D::pwm_period * (20 + static_cast<int>(2.5 / std::abs(torque_nm))));
-    CHECK(seen.peak_a < 2.7 * 16.6);
+    CHECK(seen.peak_a < 2.5 * 16.6);  // with the ripple of a period
     CHECK(seen.last.faults == fault_bit(Fault::current));
     CHECK(seen.faults_word >> C::faults_current == 0);
     CHECK((seen.status_word >> C::status_current_missing & 1u) == 1);

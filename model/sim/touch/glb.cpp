@@ -326,7 +326,12 @@ Soup read_glb(const std::string& path) {
   } catch (const std::bad_alloc&) {
     refuse(path + ": does not fit into the memory; decimate it first");
   } catch (const std::exception& error) {
-    refuse(path + ": " + error.what());
+    std::string what = error.what();
+    // A message may have bytes of the file in it.
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    if (what.find("; ") == std::string::npos) what += "; export it again as binary glTF, .glb";
+    refuse(path + ": " + what);
   }
 }
 
@@ -343,7 +348,8 @@ double place(Soup& soup, const Placing& placing) {
   }
   const Vec3 side = high - low, middle = 0.5 * (low + high);
   const double largest_m = std::max({side.x, side.y, side.z});
-  if (!(largest_m > 0) || !std::isfinite(largest_m)) refuse("the mesh has no extent");
+  if (!(largest_m > 0) || !std::isfinite(largest_m))
+    refuse("the mesh has no extent; export a mesh that has triangles with an area");
   const bool moves = placing.size_m > 0;
   const double scale = moves ? placing.size_m / largest_m : 1;
   for (Vec3& v : soup.at) {

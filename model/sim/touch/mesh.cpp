@@ -46,14 +46,16 @@ double longest_side(const std::vector<Vec3>& at, const Triangle& t) {
 }
 
 /// Vertices nearer to each other than `within` become one. A cell of the grid is ten times as
-/// large, so that few vertices look into a neighbour's.
+/// large, so that few vertices look into a neighbour's. It counts from `origin`, which is among
+/// them: far from it a cell's number would not fit.
 class Welder {
  public:
-  explicit Welder(double within) : within_(within), cell_(10 * within) {}
+  Welder(double within, Vec3 origin) : within_(within), cell_(10 * within), origin_(origin) {}
 
   std::uint32_t add(Vec3 v) {
     std::int64_t low[3], high[3];
-    const double part[] = {v.x, v.y, v.z};
+    const Vec3 from_origin = v - origin_;
+    const double part[] = {from_origin.x, from_origin.y, from_origin.z};
     for (int n = 0; n < 3; ++n) {
       low[n] = static_cast<std::int64_t>(std::floor((part[n] - within_) / cell_));
       high[n] = static_cast<std::int64_t>(std::floor((part[n] + within_) / cell_));
@@ -70,9 +72,9 @@ class Welder {
     }
     const auto index = static_cast<std::uint32_t>(at.size());
     at.push_back(v);
-    cells_.emplace(key(static_cast<std::int64_t>(std::floor(v.x / cell_)),
-                       static_cast<std::int64_t>(std::floor(v.y / cell_)),
-                       static_cast<std::int64_t>(std::floor(v.z / cell_))),
+    cells_.emplace(key(static_cast<std::int64_t>(std::floor(part[0] / cell_)),
+                       static_cast<std::int64_t>(std::floor(part[1] / cell_)),
+                       static_cast<std::int64_t>(std::floor(part[2] / cell_))),
                    index);
     return index;
   }
@@ -87,6 +89,7 @@ class Welder {
            static_cast<std::uint64_t>(k) * 0x165667b19e3779f9U;
   }
   double within_, cell_;
+  Vec3 origin_;
   std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
 };
 
@@ -127,7 +130,7 @@ struct Edges {
 };
 
 void drop_degenerate(Mesh& mesh, const Soup& soup, double within) {
-  Welder welder(within);
+  Welder welder(within, soup.at[soup.triangles[0][0]]);
   // Vertices that no triangle has are not there.
   std::vector<std::uint32_t> now(soup.at.size(), std::numeric_limits<std::uint32_t>::max());
   std::set<Triangle> known;
@@ -315,11 +318,14 @@ Mesh clean(const Soup& soup, double crease_rad) {
     for (const std::uint32_t n : t)
       largest = std::max(largest, length(soup.at[n] - soup.at[soup.triangles[0][0]]));
   }
-  if (!(largest > 0)) throw std::invalid_argument("the mesh has no extent");
+  if (!(largest > 0) || !std::isfinite(largest))
+    throw std::invalid_argument(
+        "the mesh has no extent; export a mesh that has triangles with an area");
   Mesh mesh;
   mesh.materials = soup.materials;
   drop_degenerate(mesh, soup, 1e-6 * largest);
-  if (mesh.triangles.empty()) throw std::invalid_argument("the mesh has no triangle with an area");
+  if (mesh.triangles.empty())
+    throw std::invalid_argument("the mesh has no triangle with an area; export a mesh that has");
   const Edges edges(mesh.triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     mesh.report.border_edges += edges.faces(e) == 1 ? 1 : 0;

@@ -7,6 +7,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -24,6 +25,7 @@
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/plant_table.hpp"
 #include "sim/plant/profile.hpp"
+#include "sim/touch/touch.hpp"
 #include "sim/traces/open.hpp"
 #include "sim/traces/place.hpp"
 
@@ -90,6 +92,33 @@ std::string as_session(const std::string& input) {
   archive_write_free(a);
   zip.resize(used);
   return zip;
+}
+
+/// The JSON of a GLB file, a line "===" and its binary chunk: with the lengths of the container, so
+/// that changes reach what is behind them.
+std::string as_glb(const std::string& input) {
+  const std::string between = "\n===\n";
+  const std::size_t at = input.find(between);
+  std::string json = input.substr(0, at), binary;
+  if (at != std::string::npos) binary = input.substr(at + between.size());
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  std::string file;
+  const auto word = [&file](std::size_t value) {
+    const auto bits = static_cast<std::uint32_t>(value);
+    char bytes[4];
+    std::memcpy(bytes, &bits, 4);
+    file.append(bytes, 4);
+  };
+  word(0x46546c67);  // "glTF"
+  word(2);
+  word(28 + json.size() + binary.size());
+  word(json.size());
+  word(0x4e4f534a);  // "JSON"
+  file += json;
+  word(binary.size());
+  word(0x004e4942);  // "BIN"
+  return file + binary;
 }
 
 /// ":123: " somewhere in the message.
@@ -207,6 +236,21 @@ Ending use_law(const fs::path& file) {
   return ending;
 }
 
+/// What can be read is also cleaned; the command puts the file's name before an error of that.
+Ending use_glb(const fs::path& file) {
+  Ending ending;
+  std::string prefix;
+  try {
+    const touch::Soup soup = touch::read_glb(file.string());
+    prefix = file.string() + ": ";
+    (void)touch::clean(soup);
+    ending.read = true;
+  } catch (const std::invalid_argument& error) {
+    ending.error = prefix + error.what();
+  }
+  return ending;
+}
+
 /// The options of a recording come from its bytes: the same input, the same options.
 traces::Options options_of(const fs::path& file, traces::FileFormat format) {
   traces::Options o;
@@ -285,6 +329,7 @@ const std::vector<Reader>& readers() {
       {"columns", "input.csv", as_it_is, use_trace<F::columns>},
       {"law", "input.law", as_it_is, use_law},
       {"vector", "input.vec", as_it_is, use_trace<F::vector>},
+      {"glb", "input.glb", as_glb, use_glb},
       {"faulty", "input.txt", as_it_is, use_faulty},
   };
   return all;

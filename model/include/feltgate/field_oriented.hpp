@@ -40,12 +40,11 @@ class FieldOriented {
   };
   struct Out {
     std::int32_t current_q = 0;  ///< [1,3,17] of full scale: along the axis of torque
-    std::int32_t resistive =
-        0;                    ///< [1,1,17] of supply/root 3: whole part of the integrator along it
-    std::int32_t across = 0;  ///< that across it
-    bool open = false;        ///< a phase has no current; held while armed
-    bool saturated = false;   ///< the last voltage was limited
-    std::int16_t on_a = 0;    ///< clocks of the high switch in a period, 0 to period
+    /// [1,1,17] of supply/root 3: whole parts of the integrators, along the axis and across it.
+    std::int32_t resistive = 0, across = 0;
+    bool open = false;       ///< a phase has no current; held while armed
+    bool saturated = false;  ///< the last voltage was limited
+    std::int16_t on_a = 0;   ///< clocks of the high switch in a period, 0 to period
     std::int16_t on_b = 0;
     std::int16_t on_c = 0;
     bool valid = false;  ///< one clock: the on-times are new

@@ -37,6 +37,7 @@ module current_loop (
   localparam int EmfDrop = feltgate_pkg::VELOCITY_F + feltgate_pkg::P_EMF_CONSTANT_F - feltgate_pkg::VOLTAGE_F;
   localparam int CurrentDrop = feltgate_pkg::CURRENT_DROP;
   localparam int CurrentW = feltgate_pkg::CURRENT_W;
+  localparam int StateW = feltgate_map_pkg::W_FAULTS_CURRENT;
   localparam int SupplyF = 17;  // voltages of the loop are [1,0,17] of the supply
   localparam logic [11:0] LimitGain = 12'(((1 << SupplyF) - 1) / Period);  // a whole period is below the supply: 17 bits
 
@@ -112,7 +113,7 @@ module current_loop (
   end
   endgenerate
   assign current_clock_o = sense_clock[0];
-  assign state_o[4:0] = {calibrated != '1, offset != '0, saturated != '0, stuck != '0, overcurrent != '0};
+  assign state_o[StateW-1:0] = {calibrated != '1, offset != '0, saturated != '0, stuck != '0, overcurrent != '0};
 
   // With the gates enabled, the driver's fault and a current that is missing are kept until the faults are cleared.
   logic driver_q, driver_q2, driver_kept_q, missing, open_phase;
@@ -129,7 +130,7 @@ module current_loop (
       missing_q     <= missing || open_phase || (missing_q && !clear_i);
     end
   end
-  assign state_o[6:5] = {missing_q, driver_q2 || driver_kept_q};
+  assign state_o[StateW+:2] = {missing_q, driver_q2 || driver_kept_q};
 
   // The current that makes tau_ref positive. The observer and the heat take the mean of the last period whose window
   // was whole.

@@ -1,45 +1,51 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_board: a simulated board with the twin; feltgate_board_rtl also has the Verilated RTL. docs/board.md
+# Simulated boards. feltgate_board has the twins of the designs that every program has, feltgate_board_NAME that of a
+# preset, and feltgate_board_rtl_NAME twin and Verilated RTL of one design, a minute to compile. docs/board.md
 include_guard(GLOBAL)
 
-feltgate_library(feltgate_board_parts host/board EXCEPT "/rtl_cores" feltgate_backends feltgate_loop feltgate_axes_loop)
-# Also presets: an engine, three phases, and of devices with several axes those with a pen.
-set(board_designs ${FELTGATE_DESIGNS} lever_law gimbal_motor pantograph_law stylus_law)
-set(axes_of_pantograph_law 2)
-set(axes_of_stylus_law 3)
-set(registrations "")
-foreach(design IN LISTS board_designs)
-  feltgate_type_of(${design} type)
-  set(axes 1)
-  if(DEFINED axes_of_${design})
-    set(axes ${axes_of_${design}})
-  endif()
-  string(APPEND registrations "FELTGATE_DESIGN(${design})\n")
-  set(generated "${PROJECT_BINARY_DIR}/backends/${design}_board")
-  feltgate_for_design(board "${generated}.cpp")
-  target_sources(feltgate_board_parts PRIVATE "${generated}.cpp")
-endforeach()
-file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/board_designs.inc" CONTENT "${registrations}")
-# The RTL of one design: each costs a minute to compile.
-set(design lever)
-set(type ${FELTGATE_TYPE_lever})
-file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_linked.f" linked_sources REGEX "^[^/]")
-list(TRANSFORM linked_sources PREPEND "${FELTGATE_ROOT}/rtl/")
-feltgate_verilate(board_lever board_pins
-  "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv;${linked_sources};${FELTGATE_ROOT}/model/host/board/board_pins.sv"
-  CLASS Vboard_lever FASTEST)
-set(rtl_sources "${FELTGATE_ROOT}/model/host/board/rtl_cores.cpp"
-  "${PROJECT_BINARY_DIR}/backends/lever_board_rtl.cpp")
-feltgate_for_design(board_rtl "${PROJECT_BINARY_DIR}/backends/lever_board_rtl.cpp")
-
-target_include_directories(feltgate_board_parts PRIVATE "${PROJECT_BINARY_DIR}/backends")
+feltgate_library(feltgate_board_parts host/board feltgate_backends feltgate_loop feltgate_axes_loop)
 target_compile_options(feltgate_board_parts PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-
 set(board_libraries feltgate_command_line feltgate_board_parts feltgate_files feltgate_design)
 feltgate_program(feltgate_board board_main.cpp ${board_libraries})
-feltgate_program(feltgate_board_rtl board_main.cpp ${board_libraries} board_lever)
-target_sources(feltgate_board_rtl PRIVATE ${rtl_sources})
-target_include_directories(feltgate_board_rtl PRIVATE "${PROJECT_BINARY_DIR}/backends")
-set_source_files_properties(${rtl_sources} PROPERTIES COMPILE_OPTIONS "-O3;-fno-tree-slp-vectorize")
+
+# feltgate_board_objects(<kind> <part> [library]): board_<kind>_<design>, which makes that kind of ${design} known.
+function(feltgate_board_objects kind part)
+  feltgate_type_of(${design} type)
+  set(source "${PROJECT_BINARY_DIR}/backends/${design}_board_${kind}.cpp")
+  feltgate_for_design(${part} "${source}")
+  add_library(board_${kind}_${design} OBJECT "${source}")
+  target_compile_options(board_${kind}_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
+  target_link_libraries(board_${kind}_${design} PRIVATE feltgate_board_parts ${ARGN})
+  set_target_properties(board_${kind}_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
+endfunction()
+
+# feltgate_board_program(<name> [library]): board_main.cpp with these objects and libraries, built when it is asked for.
+function(feltgate_board_program name)
+  add_executable(${name} $<TARGET_OBJECTS:feltgate_board> ${ARGN})
+  target_link_libraries(${name} PRIVATE ${board_libraries} fmt::fmt)
+  set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+endfunction()
+
+file(STRINGS "${FELTGATE_ROOT}/rtl/feltgate_linked.f" linked_sources REGEX "^[^/]")
+list(TRANSFORM linked_sources PREPEND "${FELTGATE_ROOT}/rtl/")
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_PRESETS)
+  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
+  if(NOT EXISTS "${package}")
+    continue()
+  endif()
+  feltgate_board_objects(twin board)
+  set(twin $<TARGET_OBJECTS:board_twin_${design}>)
+  if(design IN_LIST FELTGATE_PRESETS)
+    feltgate_board_program(feltgate_board_${design} ${twin})
+  else()
+    target_sources(feltgate_board PRIVATE ${twin})
+  endif()
+  feltgate_verilate(board_${design} board_pins
+    "${package};${linked_sources};${FELTGATE_ROOT}/model/host/board/board_pins.sv" CLASS Vboard_${design} FASTEST)
+  set_target_properties(board_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
+  feltgate_board_objects(rtl board_rtl board_${design})
+  feltgate_board_program(feltgate_board_rtl_${design} ${twin} $<TARGET_OBJECTS:board_rtl_${design}>)
+  target_link_libraries(feltgate_board_rtl_${design} PRIVATE board_${design})
+endforeach()

@@ -7,6 +7,8 @@ import subprocess
 import unittest
 from pathlib import Path
 
+from testing import ROOT
+
 
 def need_terminals():
     """Skips the test on a machine without pseudo-terminals."""
@@ -15,6 +17,13 @@ def need_terminals():
             os.close(descriptor)
     except OSError as error:
         raise unittest.SkipTest(f"no pseudo-terminals, {error}: mount devpts at /dev/pts") from None
+
+
+def board_program(words, kind=""):
+    """The program of `feltgate board` with these options; kind "_rtl" has the RTL of any design."""
+    design = words[words.index("--design") + 1] if "--design" in words else "lever"
+    presets = (ROOT / "rtl/designs/presets.txt").read_text(encoding="utf-8").splitlines()
+    return f"feltgate_board{kind}_{design}" if kind or design in presets else "feltgate_board"
 
 
 class BoardProcess:

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "sim/backends/absolute_sensor.hpp"
+#include "sim/loop/loop.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/loop/scenario_check.hpp"
 
@@ -116,7 +117,9 @@ LeverBoard::LeverBoard(std::unique_ptr<Core> core, const plant::Parameters& para
                        const plant::Hand& hand, const Setup& setup)
     : Board(std::move(core), setup),
       plant_(parameters, parameters.effects, hand, core_->design(), false),
-      plan_(plan(parameters, hand, core_->design())) {
+      plan_(plan(parameters, hand, core_->design())),
+      looped_(core_->design().current_full_scale_a > 0),
+      modulator_(looped_ ? core_->design().current_full_scale_a : 1) {
   if (parameters.effects.encoder_imperfect) {
     for (const double mrad : parameters.encoder.absolute_error_mrad) {
       error_rad_.push_back(1e-3 * mrad);
@@ -128,9 +131,10 @@ LeverBoard::LeverBoard(std::unique_ptr<Core> core, const plant::Parameters& para
 
 StepPlan LeverBoard::plan(const plant::Parameters& parameters, const plant::Hand& hand,
                           const DesignInfo& design) {
-  const Scenario s = scene_of(parameters, hand);
+  const Scenario s = as_run(scene_of(parameters, hand), design);
   check_phases(s, parameters, design);
   check_step(s, parameters, static_cast<double>(design.clock_hz));
+  if (s.switched) return StepPlan(s.step_clocks);
   return {s, parameters, design};
 }
 
@@ -139,7 +143,13 @@ StepPlan LeverBoard::plan(const plant::Parameters& parameters, const plant::Hand
 void LeverBoard::step(Clock corner) {
   const Clock end = plan_.end_of_step(now_, std::min(corner, plant_.shaft().next_corner()),
                                       std::numeric_limits<Clock>::max());
-  plant_.advance(*core_, end - now_);
+  if (looped_) {
+    plant_.advance(core_->take_gates(), last_clocks_, end - now_);
+    in_.current_data = modulator_.next(plant().motor_current_a);
+  } else {
+    plant_.advance(*core_, end - now_);
+  }
+  last_clocks_ = end - now_;
   const double shown_rad = shown_angle(plant().theta_rad, error_rad_);
   core_->turn_encoder(shown_rad_, shown_rad, end - now_);
   shown_rad_ = shown_rad;

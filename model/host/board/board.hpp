@@ -14,6 +14,7 @@
 #include "sim/backends/fnv1a.hpp"
 #include "sim/loop/driven_plant.hpp"
 #include "sim/loop/step_plan.hpp"
+#include "sim/plant/sigma_delta.hpp"
 
 namespace feltgate::board {
 
@@ -88,6 +89,9 @@ class LeverBoard : public Board {
   std::vector<double> error_rad_;  ///< of an absolute encoder
   double shown_rad_ = 0;           ///< by it
   StepPlan plan_;
+  bool looped_;  ///< by a current loop: a step is a clock of its modulator
+  plant::SigmaDelta modulator_;
+  Clock last_clocks_ = 0;  ///< of the last step
 };
 
 }  // namespace feltgate::board

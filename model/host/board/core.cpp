@@ -1,53 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Registry of the boards' cores, by design and kind. Documentation: docs/board.md
+// Registry of the boards' cores that a program has, by design and kind. Documentation:
+// docs/board.md
 #include "host/board/core.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <stdexcept>
+#include <vector>
 
 namespace feltgate::board {
 
-#define FELTGATE_DESIGN(name) std::unique_ptr<Core> make_##name##_twin(const BoardOptions&);
-#include "board_designs.inc"
-#undef FELTGATE_DESIGN
-
 namespace {
 
-RtlCoreMaker rtl_maker = nullptr;
+struct Maker {
+  std::string design, kind;
+  CoreMaker make;
+};
+
+std::vector<Maker>& makers() {
+  static std::vector<Maker> all;
+  return all;
+}
 
 }  // namespace
 
-void provide_rtl_cores(RtlCoreMaker maker) { rtl_maker = maker; }
+bool add_core(const std::string& design, const std::string& kind, CoreMaker make) {
+  makers().push_back({design, kind, make});
+  return true;
+}
 
-bool has_design(const std::string& design) {
-  const char* const names[] = {
-#define FELTGATE_DESIGN(name) #name,
-#include "board_designs.inc"
-#undef FELTGATE_DESIGN
-  };
-  return std::find(std::begin(names), std::end(names), design) != std::end(names);
+bool has_design(const std::string& design, const std::string& kind) {
+  const auto& all = makers();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Maker& m) { return m.design == design && m.kind == kind; });
 }
 
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options) {
-  if (kind == "rtl") {
-    if (rtl_maker == nullptr) {
-      throw std::invalid_argument(
-          "--rtl: this program has the twin alone; ./feltgate board --rtl builds and starts the "
-          "one with the RTL");
-    }
-    return rtl_maker(design, options);
+  for (const Maker& m : makers()) {
+    if (m.design == design && m.kind == kind) return m.make(options);
   }
-#define FELTGATE_DESIGN(name) \
-  if (design == #name) return make_##name##_twin(options);
-#include "board_designs.inc"
-#undef FELTGATE_DESIGN
-  throw std::invalid_argument(fmt::format("design \"{}\" is not in this program", design));
+  throw std::invalid_argument(fmt::format(
+      "design {}: its board as {} is not in this program; ./feltgate board --design {}{} builds it",
+      design, kind, design, kind == "rtl" ? " --rtl" : ""));
 }
 
 }  // namespace feltgate::board

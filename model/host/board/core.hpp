@@ -21,6 +21,7 @@ namespace feltgate::board {
 /// Pins of the board, which hold for a number of clocks.
 struct BoardIn {
   std::array<EncoderPins, most_axes> encoder;  ///< of each axis that the board has
+  bool current_data = false;                   ///< the bit of a current loop's modulator
   bool arm = false, stop = false;
   std::uint8_t scene = 0;  ///< of all axes
 };
@@ -86,19 +87,21 @@ class Core {
   /// Of a bridge with three legs: clocks of a leg's high gate in a period, in force.
   virtual int on_time(std::size_t leg) const = 0;
   virtual bool gates_enabled(std::size_t axis = 0) const = 0;
+  /// Clocks that each gate was on since the last call. Only a design with a current loop counts
+  /// them: its plant is moved by the gates.
+  virtual GateClocks take_gates() = 0;
   virtual const TickHash& ticks() const = 0;
 };
 
-/// Whether the board of this design exists as a twin.
-bool has_design(const std::string& design);
+using CoreMaker = std::unique_ptr<Core> (*)(const BoardOptions&);
+/// Makes a kind of core, "twin" or "rtl", known: the sources of each design call it before main().
+bool add_core(const std::string& design, const std::string& kind, CoreMaker make);
 
-/// `kind` is "twin", or "rtl" if that is linked. Errors: std::invalid_argument that names the
-/// choices.
+/// Whether this program has such a core.
+bool has_design(const std::string& design, const std::string& kind);
+
+/// Errors: std::invalid_argument that names the command which builds it.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options);
-
-/// Makes "rtl", if its library is linked.
-using RtlCoreMaker = std::unique_ptr<Core> (*)(const std::string& design, const BoardOptions&);
-void provide_rtl_cores(RtlCoreMaker maker);
 
 }  // namespace feltgate::board

@@ -5,13 +5,16 @@
 // Documentation: docs/board.md
 #pragma once
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "feltgate/generated/link.hpp"
 #include "feltgate/uart_line.hpp"
 #include "host/board/core.hpp"
+#include "sim/backends/absolute_sensor.hpp"
+#include "sim/backends/rtl_axes_ports.hpp"
 #include "sim/backends/rtl_model.hpp"
-#include "sim/backends/rtl_ports.hpp"
 
 namespace feltgate::board {
 
@@ -23,11 +26,13 @@ class PinRtl : public Core {
       : info_(design_info<D>()),
         rtl_(1),
         line_(D::clock_hz, o.baud),
-        inputs_(static_cast<std::uint8_t>(o.inputs)) {
+        inputs_(static_cast<std::uint8_t>(o.inputs)),
+        looped_(info_.current_full_scale_a > 0) {
     if (o.baud != LinkMap::baud) {
       throw std::invalid_argument(
           "--rtl: its link was built for 1000000 baud; leave --baud out, or take the twin");
     }
+    if (info_.absolute) sensor_.emplace(*info_.absolute);
     drive({});
     rtl_->uart_rx_i = 1;
     rtl_.reset(4);
@@ -35,46 +40,71 @@ class PinRtl : public Core {
 
   const DesignInfo& design() const override { return info_; }
   const char* kind() const override { return "rtl"; }
-  void turn_encoder(double, double, Clock) override {}  // board_pins has no such pins
+  std::size_t axes() const override { return D::axes; }
+  void turn_encoder(double from_rad, double to_rad, Clock clocks) override {
+    if (sensor_) sensor_->turn(from_rad, to_rad, now_, clocks);
+  }
   void run(const BoardIn& in, Clock clocks) override {
     drive(in);
-    for (; clocks > 0; --clocks) {
+    for (const Clock end = now_ + clocks; now_ < end; ++now_) {
       const bool tx = rtl_->uart_tx_o != 0;
       rtl_->uart_rx_i = line_.level();
       line_.clock(tx);
+      if (sensor_) rtl_->encoder_data_i = sensor_->pin(now_, rtl_->serial_o);
       // The stop was active since the last clock edge, and is not in the next clock.
       rtl_->stop_i = in.stop;
       rtl_.low();
       rtl_->stop_i = false;
       rtl_.high();
-      if (rtl_->snapshot_valid_o != 0) hash_.add(read_outputs<D>(*rtl_));
+      if (looped_) gates_.add(gates());
+      if (rtl_->snapshot_valid_o == 0) continue;
+      for (int n = 0; n < D::axes; ++n) hash_.add(read_axis<D>(*rtl_, n));
     }
-    out_ = read_outputs<D>(*rtl_);
   }
   void send(std::uint8_t byte) override { line_.send(byte); }
   std::size_t unsent() const override { return line_.unsent(); }
   std::vector<std::uint8_t> take_received() override { return line_.take_received(); }
-  int duty(std::size_t) const override { return out_.duty_active; }
-  int on_time(std::size_t) const override { return 0; }
-  bool gates_enabled(std::size_t) const override { return out_.gates_enable; }
+  int duty(std::size_t axis) const override {
+    return read_axis<D>(*rtl_, static_cast<int>(axis)).duty_active;
+  }
+  int on_time(std::size_t leg) const override {
+    const auto first = static_cast<int>(12 * leg);
+    return std::min(static_cast<int>(bits_of(rtl_->on_times_o, first, 12)), info_.pwm_period);
+  }
+  bool gates_enabled(std::size_t axis) const override {
+    return bits_of(rtl_->gates_enable_o, static_cast<int>(axis), 1) != 0;
+  }
+  GateClocks take_gates() override { return std::exchange(gates_, {}); }
   const TickHash& ticks() const override { return hash_; }
 
  private:
   void drive(const BoardIn& in) {
-    rtl_->enc_a_i = in.encoder[0].a;
-    rtl_->enc_b_i = in.encoder[0].b;
-    rtl_->enc_z_i = in.encoder[0].z;
+    for (int n = 0; n < D::axes; ++n) {
+      const EncoderPins& pins = in.encoder[static_cast<std::size_t>(n)];
+      set_bits(rtl_->enc_a_i, n, 1, pins.a);
+      set_bits(rtl_->enc_b_i, n, 1, pins.b);
+      set_bits(rtl_->enc_z_i, n, 1, pins.z);
+      set_bits(rtl_->scene_i, 4 * n, 4, in.scene);
+    }
+    rtl_->current_data_i = in.current_data;
     rtl_->arm_i = in.arm;
-    rtl_->set_zero_i = false;
-    rtl_->scene_i = in.scene;
     rtl_->inputs_i = inputs_;
+  }
+  /// As in CoreOut; of the axis where there is one.
+  unsigned gates() const {
+    return static_cast<unsigned>(rtl_->gate_a_hi_o | rtl_->gate_a_lo_o << 1 |
+                                 rtl_->gate_b_hi_o << 2 | rtl_->gate_b_lo_o << 3 |
+                                 rtl_->gate_c_hi_o << 4 | rtl_->gate_c_lo_o << 5);
   }
 
   DesignInfo info_;
   RtlModel<Rtl> rtl_;
   UartLine line_;
   std::uint8_t inputs_;
-  CoreOut out_;
+  bool looped_;  ///< a current loop
+  GateClocks gates_;
+  std::optional<AbsoluteSensor> sensor_;
+  Clock now_ = 0;
   TickHash hash_;
 };
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "feltgate/linked_core.hpp"
 #include "host/board/core.hpp"
@@ -13,13 +14,16 @@
 
 namespace feltgate::board {
 
-template <class D, int N = 1>
+template <class D>
 class PinTwin : public Core {
+  static constexpr int N = D::axes;
+
  public:
   explicit PinTwin(const BoardOptions& o)
       : info_(design_info<D>()),
         core_(std::make_unique<Linked>(LinkedOptions{o.baud, o.simulated, o.board})),
-        inputs_(static_cast<std::uint8_t>(o.inputs)) {
+        inputs_(static_cast<std::uint8_t>(o.inputs)),
+        looped_(info_.current_full_scale_a > 0) {
     if (info_.absolute) sensor_.emplace(*info_.absolute);
   }
 
@@ -43,15 +47,17 @@ class PinTwin : public Core {
     pins.arm = in.arm;
     pins.stop = in.stop;
     pins.inputs = inputs_;
+    if constexpr (N == 1) pins.current_data = in.current_data;
     const auto tell = [this] {
       for (std::size_t n = 0; n < N; ++n) hash_.add(of_axis(n));
     };
     const Clock end = now_ + clocks;
     if constexpr (N == 1) {
-      // The sensor's data may change in any clock.
-      for (; sensor_ && now_ < end; ++now_) {
-        pins.encoder_data = sensor_->pin(now_, of_axis(0).serial);
+      // A sensor's data and a gate may change in any clock.
+      for (; (sensor_ || looped_) && now_ < end; ++now_) {
+        if (sensor_) pins.encoder_data = sensor_->pin(now_, of_axis(0).serial);
         core_->run(pins, 1, tell);
+        if (looped_) gates_.add(of_axis(0).gates);
       }
     }
     if (now_ < end) core_->run(pins, end - now_, tell);
@@ -66,6 +72,7 @@ class PinTwin : public Core {
     return 0;
   }
   bool gates_enabled(std::size_t axis) const override { return of_axis(axis).gates_enable; }
+  GateClocks take_gates() override { return std::exchange(gates_, {}); }
   const TickHash& ticks() const override { return hash_; }
 
  private:
@@ -75,6 +82,8 @@ class PinTwin : public Core {
   DesignInfo info_;
   std::unique_ptr<Linked> core_;
   std::uint8_t inputs_;
+  bool looped_;  ///< a current loop
+  GateClocks gates_;
   std::optional<AbsoluteSensor> sensor_;
   Clock now_ = 0;
   TickHash hash_;

@@ -83,10 +83,20 @@ struct Panel {
   std::uint8_t scene = 0;
 };
 
-/// Clocks for which each gate was on during the last advance().
+/// Clocks for which each gate was on, such as during the last advance().
 struct GateClocks {
   std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
   std::int64_t c_hi = 0, c_lo = 0;  ///< of a bridge with three phases
+
+  /// Counts a clock with these gates on, as in CoreOut.
+  void add(unsigned on) {
+    a_hi += on & 1U;
+    a_lo += on >> 1 & 1U;
+    b_hi += on >> 2 & 1U;
+    b_lo += on >> 3 & 1U;
+    c_hi += on >> 4 & 1U;
+    c_lo += on >> 5 & 1U;
+  }
 };
 
 /// What every back-end has, whatever its number of axes.

@@ -110,12 +110,7 @@ class ClockedBackend : public Backend {
 
   /// Evaluates the outputs after a clock.
   void note(const CoreOut& out) {
-    gates_.a_hi += out.gates & 1u;
-    gates_.a_lo += (out.gates >> 1) & 1u;
-    gates_.b_hi += (out.gates >> 2) & 1u;
-    gates_.b_lo += (out.gates >> 3) & 1u;
-    gates_.c_hi += (out.gates >> 4) & 1u;
-    gates_.c_lo += (out.gates >> 5) & 1u;
+    gates_.add(out.gates);
     last_ = out;
   }
   void keep(const CoreOut& out, std::int16_t travel, std::int64_t writes) {

@@ -43,7 +43,10 @@ class DrivenPlant {
   /// Advances by `clocks`; the core's gates are those of its last `last` clocks.
   void advance(const Backend& core, Clock last, Clock clocks) {
     if (!switched_) return advance(core, clocks);
-    const GateClocks g = core.gates();
+    advance(core.gates(), last, clocks);
+  }
+  /// The same by gates of `last` clocks.
+  void advance(const GateClocks& g, Clock last, Clock clocks) {
     const double n = static_cast<double>(std::max<Clock>(last, 1));  // 0 before the first step
     const auto share = [n](std::int64_t on) { return static_cast<double>(on) / n; };
     const double a_hi = share(g.a_hi), a_lo = share(g.a_lo), b_hi = share(g.b_hi),

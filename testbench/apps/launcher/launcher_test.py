@@ -193,6 +193,11 @@ class Presets(Machine):
         self.said = done.stdout
         return [c.split()[3:] for c in log if c.startswith("ninja")]
 
+    def recording(self, design):
+        path = self.folder / f"{design}.board"
+        path.write_text(f"feltgate-board/1\n# written by a board\ndesign {design}\n", encoding="utf-8")
+        return str(path)
+
     def test_a_preset_burdens_the_command_that_names_it_and_no_other(self):
         self.installed(*BUILD_PACKAGES)
         self.assertEqual(self.built("run", "membrane", "--design", "fast"), [["feltgate_fast"]])
@@ -208,8 +213,12 @@ class Presets(Machine):
         # Programs of their own and scripts have all designs, or none.
         out = str(self.folder / "out")
         for words, target in (
-            (("board", "--design", "lever_law", "--hand", "swing"), "feltgate_board"),
-            (("board", "--design", "lever_law", "--rtl"), "feltgate_board_rtl"),
+            (("board", "--design", "lever_law", "--hand", "swing"), "feltgate_board_lever_law"),
+            (("board", "--design", "paper"), "feltgate_board"),
+            (("board", "--rtl"), "feltgate_board_rtl_lever"),
+            (("board", "--design=pantograph_law", "--rtl"), "feltgate_board_rtl_pantograph_law"),
+            (("board", "--replay", self.recording("gimbal_motor")), "feltgate_board_gimbal_motor"),
+            (("board", "--rtl", "--replay", self.recording("fast")), "feltgate_board_rtl_fast"),
             (("host", "PORT", "info", "--design", "lever_law"), "feltgate_host"),
             (("product", "board", "--design", "fast", "-o", out), "feltgate_generate"),
         ):

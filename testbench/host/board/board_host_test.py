@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-from board_process import need_terminals
+from board_process import board_program, need_terminals
 from host_program import BUILD, ROOT, ProgramTest
 from testing import ran, weekly
 
@@ -23,8 +23,9 @@ SLOPE, DEAD = 0.0302 / 0.42, 0.34 + 0.635  # of p24 at 50 kHz
 class Board:
     """feltgate board in a process of its own."""
 
-    def __init__(self, test, *words, program="feltgate_board"):
+    def __init__(self, test, *words, kind=""):
         need_terminals()
+        program = board_program(words, kind)
         self.process = test.start_program(program, *words, stderr=subprocess.STDOUT)
         self.port = self.process.stdout.readline().strip()
 
@@ -189,7 +190,8 @@ class ThreePhases(BoardTest):
         self.assertIn(again.splitlines()[0], said)
 
     def test_a_motor_of_another_kind_is_refused(self):
-        said = self.run_program("feltgate_board", "--design", "gimbal_motor", "--plant", "p24", status=2)
+        words = ("--design", "gimbal_motor", "--plant", "p24")
+        said = self.run_program(board_program(words), *words, status=2)
         self.assertIn("plant p24 has a motor with brushes", said)
         said = self.run_program("feltgate_board", "--plant", "gimbal_motor", status=2)
         self.assertIn("design lever drives one with brushes", said)
@@ -259,8 +261,8 @@ class Lines(BoardTest):
 
 
 class Recordings(BoardTest):
-    def record(self, *words, program="feltgate_board", path="day.board"):
-        with Board(self, "--record", path, *words, program=program) as board:
+    def record(self, *words, kind="", path="day.board"):
+        with Board(self, "--record", path, *words, kind=kind) as board:
             self.host(board.port, "set", "torque_limit=0.1")
             if "--rtl" not in words:  # which takes its time
                 self.patient(board.port)
@@ -277,7 +279,7 @@ class Recordings(BoardTest):
         self.assertIn("identical to the recording", again)
         self.assertEqual(again.splitlines()[0], said.splitlines()[0])
         # The RTL is slow: a short session, first on it.
-        self.record("--hand", "swing", "--rtl", program="feltgate_board_rtl", path="rtl.board")
+        self.record("--hand", "swing", "--rtl", kind="_rtl", path="rtl.board")
         again = self.run_program("feltgate_board", "--replay", "rtl.board")
         self.assertIn("identical to the recording", again)
 
@@ -299,21 +301,21 @@ class Recordings(BoardTest):
             (("--scene", "walls"), "wall"),
             (("--design", "levr"), "did you mean"),
             (("--twin", "--rtl"), "give one of them"),
-            (("--rtl", "--for", "1"), "this program has the twin alone"),
+            (("--rtl", "--for", "1"), "./feltgate board --design lever --rtl builds it"),
+            (("--design", "gimbal_law"), "./feltgate board --design gimbal_law builds it"),
             (("--replay", "none.board"), "cannot be read"),
             (("--replay", "x", "--link", "y"), "leave --record and --link out"),
             (("--bad-line", "2"), "--bad-line"),
-            (("--design", "gimbal_law"), "no board of this device with 3 axes"),
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))
         for words, needle in (
-            (("--design", "paper"), "leave --rtl out"),
+            (("--design", "paper"), "./feltgate board --design paper --rtl builds it"),
             (("--baud", "115200"), "leave --baud out, or take the twin"),
         ):
             with self.subTest(words):
                 words = ("--rtl", "--for", "1", *words)
-                said = self.run_program("feltgate_board_rtl", *words, status=2)
+                said = self.run_program("feltgate_board_rtl_lever", *words, status=2)
                 self.assertIn(needle, said)
         (self.folder / "there").write_text("mine")
         said = self.run_program("feltgate_board", "--link", "there", status=2)

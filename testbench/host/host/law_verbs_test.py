@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-from board_process import need_terminals
+from board_process import board_program, need_terminals
 from host_program import ROOT, ProgramTest, patterns_of
 from testing import weekly
 
@@ -35,7 +35,7 @@ class Laws(ProgramTest):
 
     def board(self, *words):
         need_terminals()
-        board = self.start_program("feltgate_board", *words, stderr=subprocess.STDOUT)
+        board = self.start_program(board_program(words), *words, stderr=subprocess.STDOUT)
         self.port = board.stdout.readline().split(" -> ")[-1].strip()
 
     def host(self, *words, status=0):

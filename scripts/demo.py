@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The main job: every scene in closed loop and every recording whole, through RTL and twin.
+"""The main job: every scene in closed loop and recordings whole, through RTL and twin.
 
 Writes demo.html (one file, pictures inside, no network) and demo.json, and prints the page's path
 last. The exit code is 1 if there was a mismatch or a broken expectation; these are listed before.
@@ -67,12 +67,12 @@ def all_jobs(scenes, replays, figures):
     return list(jobs.values())
 
 
-def find_recordings(named):
-    """(recordings, complaints, where they lie). Without any: those of the project itself."""
+def find_recordings(named, everything=False):
+    """(recordings, complaints, where they lie): of a known file one encoder. Without any: those of the project itself."""
     where = recordings.folder(named)
     found, complaints = recordings.find(where) if where.is_dir() else ([], [])
     if found:
-        return found, complaints, where
+        return found if everything else recordings.one_of_each(found), complaints, where
     print(recordings.SOURCES, file=sys.stderr)
     own, more = recordings.find(recordings.OWN)
     return own, complaints + more, recordings.OWN
@@ -175,14 +175,14 @@ def run_all(demo, jobs, folder, arguments):
 def arguments_of(argv):
     parser = command_line.parser(
         "demo",
-        "Every object in closed loop, every recording whole, through RTL and twin in\n"
-        "lock-step; one HTML report. About 17 minutes on two cores.",
+        "Every object in closed loop and recordings whole, through RTL and twin in\n"
+        "lock-step; one HTML report. About 14 minutes on two cores.",
         EPILOG,
     )
     what = "recordings; default: FELTGATE_TRACES, ../shared/traces"
     parser.add_argument("--traces", metavar="DIR", help=what)
     command_line.add_folder(parser, "default: demo in build")
-    command_line.add_flags(parser, all="scenes that are left out for time, too")
+    command_line.add_flags(parser, all="scenes and recordings that are left out for time, too")
     what = "runs at a time; default: all cores"
     parser.add_argument("--jobs", type=command_line.whole(1), metavar="N", help=what)
     command_line.add_flags(parser, no_figures="leave out the runs that only the figures need")
@@ -199,7 +199,7 @@ def run(arguments):
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
     with outputs.new_folder(folder):
-        found, unreadable, where = find_recordings(arguments.traces)
+        found, unreadable, where = find_recordings(arguments.traces, arguments.all)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
         figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True)

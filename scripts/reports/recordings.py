@@ -36,6 +36,9 @@ KNOWN = {
     ("qube_20230828T150615_434_696_394.csv", "theta"): (6586, 0, 99),
 }
 
+# Where a known file has two encoders, the demo takes this one.
+ONE_OF = {"smoothieware.sr": "X", **{name: "Y" for name, _ in KNOWN if name.startswith(MOUSE)}}
+
 SOURCES = """\
 No recordings were found. Public ones, free to use:
   sigrokproject/sigrok-dumps: mouse_sensors/avago_adns_2051 (quadrature of a mouse moved by hand),
@@ -184,6 +187,11 @@ def find(where):
         except (OSError, ValueError, zipfile.BadZipFile) as error:
             complaints.append(f"{path.name}: {error}")
     return found, complaints
+
+
+def one_of_each(found):
+    """Without the second encoder of a known file."""
+    return [r for r in found if ONE_OF.get(r.path.name, r.channel) == r.channel]
 
 
 def job(recording, number, design_name, scene):

@@ -31,6 +31,7 @@ class Found(Bench):
         self.assertEqual(x.arguments, ("--probes", "XA,XB"))
         self.assertEqual(y.arguments, ("--probes", "YA,YB"))
         self.assertEqual((x.seconds, x.sure, y.expected), (0.5, True, (4154, 0, 72)))
+        self.assertEqual(recordings.one_of_each([x, y]), [y])
 
     def test_step_and_dir_of_the_motion_controller(self):
         self.capture("smoothieware.sr", list("01234567"), "12 MHz", 1_200_000)
@@ -38,10 +39,11 @@ class Found(Bench):
         self.assertEqual(x.arguments, ("--step", "5", "--dir", "6"))
         self.assertEqual(y.arguments, ("--step", "3", "--dir", "4"))
         self.assertAlmostEqual(x.seconds, 0.1)
+        self.assertEqual(recordings.one_of_each([x, y]), [x])
 
     def test_unknown_capture_is_guessed_and_not_sure(self):
         self.capture("mine.sr", ["enc_a", "enc_b", "x"])
-        (one,) = self.found()
+        (one,) = recordings.one_of_each(self.found())
         self.assertEqual((one.channel, one.arguments), ("ENC", ("--probes", "enc_a,enc_b")))
         self.assertFalse(one.sure)
 

@@ -110,8 +110,8 @@ def arguments(argv):
         parser.error(
             "--save, --picture and --markdown tell of a campaign, not of --clean or --replay"
         )
-    if options.design != "lever" and (options.clean or options.replay or options.only):
-        parser.error("--clean, --replay and --only are of lever: leave --design out")
+    if options.design != "lever" and (options.replay or options.only):
+        parser.error("--replay and --only are of lever: leave --design out")
     if options.update and options.design != "lever":
         parser.error("--update takes a campaign of lever")
     if options.update and (options.only or options.clean or options.replay or not options.flips):
@@ -142,7 +142,8 @@ def lines_of(build, arguments_, jobs, total):
 def clean(options, build):
     """Device time without a fault; the exit code."""
     seconds = DAY_S if options.long else CLEAN_S
-    lines = lines_of(build, ["--clean", seconds, "--seed", options.seed], options.jobs, 1)
+    words = ["--clean", seconds, "--seed", options.seed, "--design", options.design]
+    lines = lines_of(build, words, options.jobs, 1)
     parts = [line for line in lines if "clean_s" in line]
     if len(parts) != options.jobs:
         raise campaign.CampaignError(

@@ -23,4 +23,9 @@ struct CleanResult {
 CleanResult run_clean(const std::string& root, double seconds, std::uint64_t seed,
                       const std::function<void(double done)>& progress);
 
+/// The same of a design with a current loop, an absolute encoder or three phases, in closed loop
+/// alone. Errors: std::invalid_argument for another design.
+CleanResult run_option_clean(const std::string& root, const std::string& design, double seconds,
+                             std::uint64_t seed, const std::function<void(double done)>& progress);
+
 }  // namespace feltgate::faults

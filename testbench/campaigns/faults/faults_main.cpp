@@ -83,11 +83,12 @@ int run(const Arguments& a) {
   }
   if (!a.replay.empty()) return replay(a);
   if (a.clean_s > 0) {
-    const auto r = faults::run_clean(a.state.root, a.clean_s / a.parts,
-                                     a.state.seed * 1000 + static_cast<std::uint64_t>(a.part),
-                                     [](double done) {
-                                       say(Json{{"done", done}}.dump());
-                                     });
+    const double seconds = a.clean_s / a.parts;
+    const std::uint64_t seed = a.state.seed * 1000 + static_cast<std::uint64_t>(a.part);
+    const auto progress = [](double done) { say(Json{{"done", done}}.dump()); };
+    const auto r = a.design == "lever"
+                       ? faults::run_clean(a.state.root, seconds, seed, progress)
+                       : faults::run_option_clean(a.state.root, a.design, seconds, seed, progress);
     say(Json{{"clean_s", r.seconds()},
              {"scenes_s", r.scenes_s},
              {"recordings_s", r.recordings_s},

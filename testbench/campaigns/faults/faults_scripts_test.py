@@ -119,7 +119,7 @@ class Command(Scratch):
                             (("--update", "--flips", "0"), "all registers"),
                             (("--clean", "--save", "x"), "tell of a campaign"),
                             (("--design", "paper"), "invalid choice"),
-                            (("--design", "lever_current", "--clean"), "are of lever"),
+                            (("--design", "lever_current", "--replay", "x"), "are of lever"),
                             (("--design", "gimbal_motor", "--update"), "of lever"),
                             (("--lines", "x", "--json", "y", "--save", "y"),
                              "is also that of --json"),

@@ -59,7 +59,7 @@ def library_of(design):
     path = build / f"feltgate_fmu_{design}.so"
     if (build / "build.ninja").is_file():
         if f"build feltgate_fmu_{design}.so:" not in (build / "build.ninja").read_text("utf-8"):
-            raise FmuError(f"--design {design}: an FMU is of one of the designs lever and paper")
+            raise FmuError(f"--design {design}: an FMU is of a design with one axis and no engine")
         building.make("product", build, [path.stem], 2)
     if not path.is_file():
         raise FmuError(f"--design {design}: there is no {path}; choose lever, or build {path.stem}")

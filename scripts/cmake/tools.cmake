@@ -90,19 +90,23 @@ target_compile_options(feltgate_identify PRIVATE -O1)
 # The page for a browser: what runs natively of it; scripts/page.py compiles it for the browser.
 feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_backends feltgate_loop feltgate_design feltgate_law_loop
   feltgate_axes_loop feltgate_shape feltgate_proxy)
-# Presets of several axes, for `feltgate rates` of all scenes.
+# Presets of several axes, and those of one without an engine.
 set(FELTGATE_AXES_PRESETS "")
+set(FELTGATE_CORE_PRESETS "")
 foreach(design IN LISTS FELTGATE_PRESETS)
   set(package "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
   if(NOT EXISTS "${package}")
     continue()
   endif()
   file(STRINGS "${package}" several REGEX " AXES = [23];")
+  file(STRINGS "${package}" engine REGEX " ENGINE = 1;")
   if(several)
     list(APPEND FELTGATE_AXES_PRESETS ${design})
+  elseif(NOT engine)
+    list(APPEND FELTGATE_CORE_PRESETS ${design})
   endif()
 endforeach()
-foreach(design fast lever_law gimbal_motor ${FELTGATE_AXES_PRESETS})
+foreach(design lever_law ${FELTGATE_CORE_PRESETS} ${FELTGATE_AXES_PRESETS})
   feltgate_type_of(${design} type)
   set(part twin)
   if(design IN_LIST FELTGATE_AXES_PRESETS)
@@ -113,6 +117,9 @@ foreach(design fast lever_law gimbal_motor ${FELTGATE_AXES_PRESETS})
   add_library(twin_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_twin.cpp")
   target_compile_options(twin_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
   target_link_libraries(twin_${design} PRIVATE feltgate_registry fmt::fmt)
+  if(design IN_LIST FELTGATE_CORE_PRESETS)  # an FMU has it too
+    set_target_properties(twin_${design} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
 endforeach()
 # Their error budgets.
 foreach(design IN LISTS FELTGATE_AXES_PRESETS)
@@ -228,17 +235,20 @@ if(NOT FELTGATE_TESTS)
   set_target_properties(feltgate_mesh PROPERTIES EXCLUDE_FROM_ALL ON)
 endif()
 
-# feltgate_fmu_DESIGN.so, the library in what `feltgate product fmu` writes; with tests that of lever is
-# built, the others when asked for. Nothing but its functions is seen from outside: an importer may load two.
+# feltgate_fmu_DESIGN.so, the library in what `feltgate product fmu` writes, of designs with one axis and no engine; with
+# tests those of lever and gimbal_motor are built, the others when asked for. Nothing but its functions is seen from outside: an importer may load two.
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/fmu.map" CONTENT "{ global: fmi3*; feltgate_fmu_*; local: *; };\n")
-foreach(design IN LISTS FELTGATE_DESIGNS)
+foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
   set(name feltgate_fmu_${design})
-  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" "${FELTGATE_ROOT}/model/apps/fmu/scene_model.cpp"
-    "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp" $<TARGET_OBJECTS:design_${design}>)
+  set(twin $<TARGET_OBJECTS:twin_${design}>)
+  if(design IN_LIST FELTGATE_DESIGNS)
+    set(twin "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp" $<TARGET_OBJECTS:design_${design}>)
+  endif()
+  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" "${FELTGATE_ROOT}/model/apps/fmu/scene_model.cpp" ${twin})
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/${design}_alone/designs.inc"
     CONTENT "FELTGATE_DESIGN(${design})\n")
   set_target_properties(${name} PROPERTIES PREFIX "" POSITION_INDEPENDENT_CODE ON EXCLUDE_FROM_ALL ON)
-  if(FELTGATE_TESTS AND design STREQUAL "lever")
+  if(FELTGATE_TESTS AND design MATCHES "^(lever|gimbal_motor)$")
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL OFF)
   endif()
   target_include_directories(${name} PRIVATE "${PROJECT_BINARY_DIR}/backends/${design}_alone")

@@ -249,3 +249,13 @@ TEST_CASE("faults: no alarm without a fault") {
   CHECK(r.recordings_s > seconds / 15);
   CHECK(r.dither_s > seconds / 15);
 }
+
+TEST_CASE("faults: no alarm of a current loop or an absolute encoder without a fault") {
+  const double seconds = feltgate::test::whole_run() ? 5 : 0.6;
+  for (const char* design : {"lever_current", "gimbal_motor"}) {
+    const CleanResult r = run_option_clean(root, design, seconds, 5, [](double) {});
+    INFO(design << ": " << r.first);
+    CHECK(r.alarms == 0);
+    CHECK(r.scenes_s >= seconds);
+  }
+}

@@ -39,15 +39,15 @@ class Fmu(Scratch):
         env = os.environ | {"FELTGATE_BUILD": str(BUILD)}
         return script("product.py", "fmu", *words, cwd=self.folder, env=env)
 
-    def made(self, scene):
+    def made(self, scene, design="lever"):
         path = self.folder / "it.fmu"
-        self.ended(self.product("--scene", scene, "-o", path))
+        self.ended(self.product("--scene", scene, "--design", design, "-o", path))
         return path
 
-    def rows(self, scene):
+    def rows(self, scene, design="lever", program="feltgate_twin"):
         """Those of the program: what is written in nine digits as text, the rest as it is."""
-        done = ran(BUILD / "feltgate_twin", "run", scene, "--engine", "twin", "--quiet", "--csv",
-                   "it.csv", "--every", EVERY, cwd=self.folder)  # fmt: skip
+        done = ran(BUILD / program, "run", scene, "--engine", "twin", "--quiet", "--csv", "it.csv",
+                   "--every", EVERY, "--design", design, cwd=self.folder)  # fmt: skip
         self.ended(done)
         with open(self.folder / "it.csv", newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
@@ -120,6 +120,14 @@ class Fmu(Scratch):
             self.started(model)
             self.compare(model, names, rows, lambda now, end: [end])
 
+    def test_a_design_with_three_phases_and_an_absolute_encoder(self):
+        scene, design = "knob_detents", "gimbal_motor"
+        rows = self.rows(scene, design, "feltgate_gimbal_motor")[:2000]
+        self.assertGreater(max(abs(float(row["tau_ref_nm"])) for row in rows), 0.005)
+        model, names = self.instance(self.made(scene, design))
+        self.started(model)
+        self.compare(model, names, rows, lambda now, end: [end])
+
     def test_steps_of_any_length(self):
         rows = self.rows("wall")[:800]
         model, names = self.instance(self.made("wall"))
@@ -187,6 +195,7 @@ class Fmu(Scratch):
             (("--scene", "detent"), "has no engine; choose a scene without law"),
             (("--scene", "plane_circle"), "names a device of several axes"),
             (("--design", "nothing"), "choose lever"),
+            (("--design", "lever_law"), "choose lever"),
         ):
             self.ended(self.product(*words, "-o", "it.fmu"), 2, said)
             self.assertFalse((self.folder / "it.fmu").exists())

@@ -248,6 +248,13 @@ async function compare_bits() {
     [r.design, r.scene, found, same ? "same" : `native ${r.hash}`].forEach((text) => (row.insertCell().textContent = text));
     row.lastChild.className = same ? "same" : "differs";
   }
+  for (const p of page.numbers.planes) {
+    const row = table.insertRow(), found = await page.worker.call("planesHash", "", "", 0);
+    const same = found === p.hash;
+    page.compared.push({ design: "planes", scene: p.mesh, found, same });
+    ["planes of a stroke", p.mesh, found, same ? "same" : `native ${p.hash}`].forEach((text) => (row.insertCell().textContent = text));
+    row.lastChild.className = same ? "same" : "differs";
+  }
   for (const c of page.numbers.closed) {
     const rows = await page.worker.call("closedLoop", c.design);
     const apart = [0, 1].map((n) => Math.max(...rows.map((row, i) => Math.abs(row[n] - c.rows[i][n]))));

@@ -42,7 +42,7 @@ class StylusTab {
   /** Another object, with the pen above it. */
   choose() {
     const name = $("stylus-world").value, meshed = name === "mesh";
-    if (meshed && !this.mesh) this.load("the knob", new Uint8Array());
+    if (meshed && !this.mesh) this.load("", new Uint8Array());
     if (!meshed) { this.pen.unload(); this.mesh = null; }
     this.world = meshed ? { name, kind: 0, centre: [0, 0, 0], radius_m: 0 } : this.worlds.find((world) => world.name === name);
     $("stylus-mesh").hidden = $("stylus-view").hidden = !meshed;
@@ -61,14 +61,16 @@ class StylusTab {
     this.choose();
   }
 
+  /** Without a name, the knob. */
   load(name, bytes) {
     const begin = performance.now(), found = this.pen.load(name, bytes, MESH_SIZE_M);
     $("stylus-said").textContent = found.error;
     if (found.error) return false;
-    this.mesh = { name, ...found, triangles: this.pen.triangles(), import_ms: performance.now() - begin };
-    const { faces, read, scale, parts, borders, genus } = this.mesh, closed = borders ? `${borders} edges at a border` : "closed";
-    $("stylus-said").textContent = `${name}: ${faces} of ${read} triangles, scaled by ${Number(scale.toPrecision(3))} to ${1000 * MESH_SIZE_M} mm; ` +
-      `${parts} part${parts === 1 ? "" : "s"}, ${closed}${genus === null ? "" : `, genus ${genus}`}`;
+    this.mesh = { name: name || "the knob", ...found, triangles: this.pen.triangles(), import_ms: performance.now() - begin };
+    const { faces, read, scale, parts, borders, nonmanifold, genus } = this.mesh, closed = borders ? `${borders} edges at a border` : "closed";
+    const many = nonmanifold ? `, ${nonmanifold} edges of more than two faces` : "";
+    $("stylus-said").textContent = `${this.mesh.name}: ${faces} of ${read} triangles, scaled by ${Number(scale.toPrecision(3))} to ${1000 * MESH_SIZE_M} mm; ` +
+      `${parts} part${parts === 1 ? "" : "s"}, ${closed}${many}${genus === null ? "" : `, genus ${genus}`}`;
     return true;
   }
 

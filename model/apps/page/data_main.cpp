@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/page/felt_mesh.hpp"
 #include "apps/page/gimbal_loop.hpp"
 #include "apps/page/image_law.hpp"
 #include "apps/page/live_loop.hpp"
@@ -184,6 +185,11 @@ json strings() {
   return all;
 }
 
+/// Of the mesh that the page makes itself.
+json planes() {
+  return {{{"mesh", "knob"}, {"hash", page::hex(stroke_hash(clean(page::knob_mesh())))}}};
+}
+
 json hidden_shapes() {
   json all = json::array();
   for (const std::string& name : shapes) all.push_back(hidden(name, {}));
@@ -214,7 +220,7 @@ int main(int count, char** argv) {
                 {"drums", image_of("drums")}, {"material", image_of("material")},
                 {"materials", materials()},   {"coupled", coupled()},
                 {"strings", strings()},       {"stylus", stylus()},
-                {"gimbal", gimbal()}};
+                {"gimbal", gimbal()},         {"planes", planes()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       if (feltgate::design_named(design).phases == 3) {

@@ -31,6 +31,25 @@ namespace page = feltgate::page;
 namespace touch = feltgate::touch;
 using page::said;
 
+/// Of the bytes of a GLB file, or without a name the knob.
+touch::Soup soup_of(const std::string& name, const std::string& bytes) {
+  if (name.empty()) return page::knob_mesh();
+  std::ofstream(name, std::ios::binary) << bytes;
+  const std::unique_ptr<const char, int (*)(const char*)> removed(name.c_str(), &std::remove);
+  return touch::read_glb(name);
+}
+
+/// stroke_hash() of such a mesh, its largest side `size_m`; "error: ..." where there is none.
+std::string planes_hash(const std::string& name, const std::string& bytes, double size_m) {
+  std::string out;
+  const std::string error = said([&] {
+    touch::Soup soup = soup_of(name, bytes);
+    if (!name.empty()) touch::place(soup, {size_m, {}});
+    out = page::hex(touch::stroke_hash(touch::clean(soup)));
+  });
+  return error.empty() ? out : "error: " + error;
+}
+
 /// The pen of the pantograph in a hand, and a law's image that pushes it.
 class Pen {
  public:
@@ -229,12 +248,12 @@ class Stylus {
     loop_.touch(world);
   }
   /// From the next touch() on a mesh is felt: the bytes of a GLB file, its largest side `size_m`;
-  /// of no bytes, the knob. Returns what it is, or {error}, which changes nothing. The next call
+  /// without a name, the knob. Returns what it is, or {error}, which changes nothing. The next call
   /// is place().
   val load(const std::string& name, const std::string& bytes, double size_m) {
     val out = val::object();
     out.set("error", said([&] {
-              touch::Soup soup = bytes.empty() ? page::knob_mesh() : read(name, bytes);
+              touch::Soup soup = soup_of(name, bytes);
               out.set("scale", touch::place(soup, {size_m, {}}));
               felt_ = std::make_shared<page::FeltMesh>(touch::clean(soup));
             }));
@@ -244,6 +263,7 @@ class Stylus {
     out.set("read", static_cast<double>(r.triangles_read));
     out.set("parts", static_cast<double>(r.components.size()));
     out.set("borders", static_cast<double>(r.border_edges));
+    out.set("nonmanifold", static_cast<double>(r.nonmanifold_edges));
     const bool one = r.components.size() == 1 && r.components[0].genus();
     out.set("genus", one ? val(static_cast<double>(*r.components[0].genus())) : val::null());
     return out;
@@ -300,12 +320,6 @@ class Stylus {
 
  private:
   /// The importer reads files, here one in the memory, under the name that it will say.
-  static touch::Soup read(const std::string& name, const std::string& bytes) {
-    std::ofstream(name, std::ios::binary) << bytes;
-    const std::unique_ptr<const char, int (*)(const char*)> removed(name.c_str(), &std::remove);
-    return touch::read_glb(name);
-  }
-
   page::StylusLoop loop_;
   std::shared_ptr<page::FeltMesh> felt_;
 };
@@ -343,6 +357,7 @@ class Gimbal {
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(feltgate_tabs) {
+  emscripten::function("planesHash", &planes_hash);
   emscripten::class_<Pen>("Pen")
       .constructor<std::string>()
       .function("load", &Pen::load)

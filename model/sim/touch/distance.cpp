@@ -44,7 +44,7 @@ SignedDistance::Place SignedDistance::at(Vec3 point_m) {
       const Vec3 corner = mesh_.at[t[k]];
       if (length(corner - near.point_m) > same_m) continue;
       const Vec3 a = mesh_.at[t[(k + 1) % 3]] - corner, b = mesh_.at[t[(k + 2) % 3]] - corner;
-      angle_rad = std::atan2(length(cross(a, b)), dot(a, b));
+      angle_rad = arctangent(length(cross(a, b)), dot(a, b));
     }
     const Vec3 across = mesh_.across(t);
     sum = sum + angle_rad / length(across) * across;

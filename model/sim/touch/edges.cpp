@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // What makes a plane of the proxy more than a face: normals between those of the corners, and the
-// second plane of a sharp edge. Documentation: docs/touch.md
+// second plane of a sharp edge; a hash over planes. Documentation: docs/touch.md
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <tuple>
 
+#include "sim/backends/fnv1a.hpp"
 #include "sim/touch/touch.hpp"
 
 namespace feltgate::touch {
@@ -97,6 +99,42 @@ void SharpEdges::add(Touched& t, Vec3 at, double distance_m) const {
   t.second = second;
   t.second_point_m = near.point_m;
   t.convex = convex_[near.triangle] == (side > 0);
+}
+
+std::uint64_t stroke_hash(const Mesh& mesh) {
+  Vec3 low = mesh.at.front(), high = low;
+  for (const Vec3& v : mesh.at) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  const Vec3 middle = 0.5 * (low + high);
+  const double reach_m = 0.5 * length(high - low);
+  Proxy proxy(mesh, {});
+  Fnv1a hash;
+  const auto add = [&hash](Vec3 v) {
+    for (const double part : {v.x, v.y, v.z}) {
+      std::int64_t bits = 0;
+      std::memcpy(&bits, &part, sizeof part);
+      hash.add(bits);
+    }
+  };
+  for (const bool smooth : {false, true}) {
+    proxy.shade(smooth);
+    // Around the middle and tumbling, from outside to 0.4 of the reach and out again.
+    Vec3 way{1, 0, 0};
+    proxy.begin(middle + 1.2 * reach_m * way);
+    constexpr int moves = 2000;
+    for (int n = 0; n < moves; ++n) {
+      way = {0.999 * way.x - 0.04 * way.y, 0.999 * way.y + 0.04 * way.x + 0.011 * way.z,
+             0.999 * way.z - 0.011 * way.y};
+      way = 1 / length(way) * way;
+      const double share = 2.0 * (n < moves / 2 ? n : moves - n) / moves;
+      const Touched plane = proxy.move(middle + (1.2 - 0.8 * share) * reach_m * way);
+      add(plane.point_m);
+      add(plane.normal);
+    }
+  }
+  return hash.value();
 }
 
 }  // namespace feltgate::touch

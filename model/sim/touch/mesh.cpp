@@ -52,7 +52,10 @@ class Welder {
  public:
   Welder(double within, Vec3 origin) : within_(within), cell_(10 * within), origin_(origin) {}
 
+  /// The first of them, in whatever order the cell has them.
   std::uint32_t add(Vec3 v) {
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t first = none;
     std::int64_t low[3], high[3];
     const Vec3 from_origin = v - origin_;
     const double part[] = {from_origin.x, from_origin.y, from_origin.z};
@@ -65,11 +68,12 @@ class Welder {
         for (std::int64_t k = low[2]; k <= high[2]; ++k) {
           const auto [from, to] = cells_.equal_range(key(i, j, k));
           for (auto it = from; it != to; ++it) {
-            if (length(at[it->second] - v) <= within_) return it->second;
+            if (length(at[it->second] - v) <= within_) first = std::min(first, it->second);
           }
         }
       }
     }
+    if (first != none) return first;
     const auto index = static_cast<std::uint32_t>(at.size());
     at.push_back(v);
     cells_.emplace(key(static_cast<std::int64_t>(std::floor(part[0] / cell_)),
@@ -273,10 +277,20 @@ void count_components(Mesh& mesh, const Edges& edges, const std::vector<bool>& t
                    [](const Component& a, const Component& b) { return a.faces > b.faces; });
 }
 
+/// As arctangent(); its angle is at most pi.
+double cosine(double angle_rad) {
+  double sum = 1, term = 1;
+  for (int n = 1; n < 16; ++n) {
+    term *= -angle_rad * angle_rad / ((2 * n - 1) * (2 * n));
+    sum += term;
+  }
+  return sum;
+}
+
 double angle_at(const Mesh& mesh, const Triangle& t, std::size_t corner) {
   const Vec3 at = mesh.at[t[corner]];
   const Vec3 a = mesh.at[t[(corner + 1) % 3]] - at, b = mesh.at[t[(corner + 2) % 3]] - at;
-  return std::atan2(length(cross(a, b)), dot(a, b));
+  return arctangent(length(cross(a, b)), dot(a, b));
 }
 
 void add_normals(Mesh& mesh, double crease_rad) {
@@ -289,7 +303,7 @@ void add_normals(Mesh& mesh, double crease_rad) {
     faces.push_back(1 / length(area) * area);
     for (std::size_t c = 0; c < 3; ++c) around[t[c]].emplace_back(n, angle_at(mesh, t, c));
   }
-  const double crease = std::cos(crease_rad);
+  const double crease = cosine(crease_rad);
   for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
     std::array<Vec3, 3> smooth{faces[n], faces[n], faces[n]};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -306,6 +320,27 @@ void add_normals(Mesh& mesh, double crease_rad) {
 }
 
 }  // namespace
+
+double arctangent(double y, double x) {
+  const double size = std::sqrt(x * x + y * y);
+  if (size == 0) return 0;
+  double c = x / size, s = y / size;
+  // Half the angle, four times: at most pi / 16 is left.
+  for (int n = 0; n < 4; ++n) {
+    if (c >= 0) {
+      c = std::sqrt((1 + c) / 2);
+      s /= 2 * c;
+    } else {
+      const double half = std::copysign(std::sqrt((1 - c) / 2), s);
+      c = s / (2 * half);
+      s = half;
+    }
+  }
+  const double t = s / c;
+  double sum = 0;
+  for (int n = 21; n > 0; n -= 2) sum = 1.0 / n - t * t * sum;
+  return 16 * t * sum;
+}
 
 std::optional<std::int64_t> Component::genus() const {
   if (!manifold || !orientable) return std::nullopt;
@@ -348,7 +383,7 @@ double winding(const Mesh& mesh, Vec3 at) {
     const Vec3 a = mesh.at[t[0]] - at, b = mesh.at[t[1]] - at, c = mesh.at[t[2]] - at;
     const double la = length(a), lb = length(b), lc = length(c);
     // Half the solid angle: van Oosterom and Strackee, 1983.
-    sum += std::atan2(dot(a, cross(b, c)),
+    sum += arctangent(dot(a, cross(b, c)),
                       la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   return sum / (2 * 3.14159265358979323846);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "sim/touch/touch.hpp"
 
@@ -150,8 +151,12 @@ void TriangleTree::split(std::size_t node, const std::vector<Box>& boxes,
   nodes_[node].box = box;
   const Vec3 size = spread.high - spread.low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (count <= most_in_leaf || depth >= 60) return;
   const auto begin = order_.begin() + first;
+  if (count <= most_in_leaf || depth >= 60) {
+    // Which halves a leaf is made of is certain, their order is the library's.
+    std::sort(begin, begin + count);
+    return;
+  }
   std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
     const double at_a = part(middles[a], axis), at_b = part(middles[b], axis);
     return at_a != at_b ? at_a < at_b : a < b;
@@ -262,8 +267,9 @@ void Proxy::begin(Vec3 pen_m) {
 
 void Proxy::find_walls() {
   tree_.within(at_, (1 + near_share) * settings_.radius_m, near_);
-  std::sort(near_.begin(), near_.end(),
-            [](const Near& a, const Near& b) { return a.distance_m < b.distance_m; });
+  std::sort(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
+    return std::tie(a.distance_m, a.triangle) < std::tie(b.distance_m, b.triangle);
+  });
   walls_.clear();
   for (const Near& near : near_) {
     // A radius above a face's plane it may go along, also beyond its edges: no seams. Beside a

@@ -21,6 +21,10 @@ namespace feltgate::touch {
 using plant::Vec3;
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// std::atan2(y, x) within 4e-15, by sums, products, quotients and roots alone: the planes of a
+/// mesh have the same bits with every standard library.
+double arctangent(double y, double x);
+
 /// Triangles as a file has them, in the frame of the device: x to the right, y away, z up; m.
 struct Soup {
   std::vector<Vec3> at;
@@ -266,5 +270,9 @@ class Proxy {
   std::vector<Near> near_;
   std::vector<Wall> walls_;
 };
+
+/// Hash over the planes of a stroke around and into a mesh, with the normals of its facets and with
+/// smooth ones: the same on every machine. Errors: those of Proxy::begin().
+std::uint64_t stroke_hash(const Mesh& mesh);
 
 }  // namespace feltgate::touch

@@ -54,6 +54,7 @@ class Lever(PageTest):
             self.assertTrue(one["same"], one)
         scenes = [(one["design"], one["scene"]) for one in compared]
         self.assertIn(("gimbal_motor", "knob_detents"), scenes)
+        self.assertIn(("planes", "knob"), scenes)
         for one in self.js("return feltgate.closed"):
             self.assertLess(one["rad"], 1e-6, one)
             self.assertLess(one["nm"], 1e-5, one)

@@ -58,6 +58,18 @@ double to_mesh_m(const Mesh& m, Vec3 p) {
 
 }  // namespace
 
+TEST_CASE("touch: the arctangent that every machine has alike") {
+  CHECK(arctangent(0.0, 0.0) == 0);
+  CHECK(std::abs(arctangent(0.0, -1.0) - std::atan2(0.0, -1.0)) < 4e-15);
+  double worst = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const double y = std::sin(0.7 * n), x = std::cos(1.3 * n);
+    worst = std::max(worst, std::abs(arctangent(y, x) - std::atan2(y, x)));
+    CHECK(!std::isnan(arctangent(y, x)));
+  }
+  CHECK(worst < 4e-15);
+}
+
 TEST_CASE("touch: the tree finds what a look at all triangles finds") {
   SplitMix64 random(11);
   for (const Soup& soup : {icosphere(0.03, 2), torus(0.02, 0.008, 12), open_plate(0.04, 1e-4, 5)}) {

@@ -63,7 +63,7 @@ from reports.progress import Steps
 
 SCHEMA = "feltgate-faults/1"
 CLEAN_S, DAY_S = 600, 86400
-DESIGNS = ("lever", "lever_current", "gimbal_motor")
+DESIGNS = ("lever", "lever_current", "gimbal_motor", "gimbal_current")
 # What tells two cases apart.
 CASE = (
     "point design group seed register bit address register_2 bit_2 address_2 "

@@ -67,8 +67,7 @@ const std::vector<PinKind> current_kinds{
     {"shunt's wires off at arming", "pins", "free, self-test on", 1, Promise::flagged, 25000},
 };
 
-Case current_case(std::string_view name, Random* r, double limit_nm = 0.5,
-                  double most_rad_s = 30) {
+Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, double most_rad_s = 30) {
   using Line = Harm::Line;
   Case c = asked(r, limit_nm, most_rad_s);
   Harm& h = c.harm;
@@ -212,7 +211,8 @@ Case gimbal_case(std::string_view name, Random* r) {
 /// Of two shunts: what one can have, or both, and all that gimbal_motor has.
 const std::vector<PinKind> field_kinds = [] {
   std::vector<PinKind> all{
-      {"modulator's line stands", "pins", "A or B, low, high or as it was", 1, Promise::flagged, 22},
+      {"modulator's line stands", "pins", "A or B, low, high or as it was", 1, Promise::flagged,
+       22},
       {"modulator's line is noise", "pins", "A or B, each of its bits drawn", 1, Promise::none},
       {"shunt's wires swapped", "pins", "A, B or both with the other sign", 1, Promise::flagged},
       {"shunts exchanged", "pins", "A's modulator at B's pin", 1, Promise::flagged},
@@ -334,7 +334,7 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
 
 const std::vector<PinKind>& option_kinds(const std::string& design) {
   static const std::vector<PinKind> none;
-  return design == LeverCurrent::name  ? current_kinds
+  return design == LeverCurrent::name    ? current_kinds
          : design == GimbalMotor::name   ? gimbal_kinds
          : design == GimbalCurrent::name ? field_kinds
                                          : none;

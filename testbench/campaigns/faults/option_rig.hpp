@@ -198,8 +198,8 @@ class Rig {
   bool modulated(std::size_t n) {
     using Line = Harm::Line;
     const bool mine = (harm_.shunts >> n & 1U) != 0;
-    const bool bit = modulators_[n].next(mine ? harm_.reads * amperes(n) + harm_.offset_a
-                                              : amperes(n));
+    const bool bit =
+        modulators_[n].next(mine ? harm_.reads * amperes(n) + harm_.offset_a : amperes(n));
     switch (mine ? harm_.modulator : Line::sound) {
       case Line::sound:
         return bit;
@@ -250,7 +250,7 @@ class Rig {
   CoreIn in_;
   Motor motor_;
   std::array<plant::SigmaDelta, 2> modulators_;  // the second of three phases
-  plant::Phases wiring_a_{};  // of a shorted motor with three phases
+  plant::Phases wiring_a_{};                     // of a shorted motor with three phases
   std::optional<AbsoluteSensor> sensor_;
   plant::PeriodMean torque_{D::pwm_period};
   std::array<double, std::tuple_size_v<GateCounts>> gates_{};  // shares of the last step

@@ -13,10 +13,10 @@ points of injection:
               twin
   words       wrong bits and garbage at the register port while armed; the twin
 
---design lever_current and --design gimbal_motor break what these have at their pins instead: the
-current's sensor, the driver, the winding and its gates; the absolute encoder, a phase, the offset
-of the electrical angle. There a setpoint acts in a hand that holds or turns the shaft, and the
-sound core has a motor of its own.
+--design lever_current, gimbal_motor or gimbal_current breaks what these have at their pins instead:
+the current's sensors, the driver, the winding and its gates; the absolute encoder, a phase, the
+offset of the electrical angle. There a setpoint acts in a hand that holds or turns the shaft, and
+the sound core has a motor of its own.
 
 Each fault ends in one class:
 
@@ -64,7 +64,7 @@ from reports.progress import Steps
 
 SCHEMA = "feltgate-faults/1"
 CLEAN_S, DAY_S = 600, 86400
-DESIGNS = ("lever", "lever_current", "gimbal_motor")
+DESIGNS = ("lever", "lever_current", "gimbal_motor", "gimbal_current")
 # What tells two cases apart.
 CASE = (
     "point design group seed register bit address register_2 bit_2 address_2 "

@@ -30,8 +30,12 @@ EP4CE22 = {"cells": 22320, "m9k": 66, "mult18": 66}
 EP4CE22_BITS = EP4CE22["m9k"] * 9216
 
 
+def of_package(folder, name):
+    return int(re.search(rf"int {name} = (\d);", (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))[1])
+
+
 def legs(folder):
-    return int(re.search(r"int PHASES = (\d);", (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))[1])
+    return of_package(folder, "PHASES")
 
 
 def sources(root, board, design, folder):
@@ -39,6 +43,8 @@ def sources(root, board, design, folder):
     names = synth_measure.copy_sources(root, design, folder)
     if board != "ulx3s" and legs(folder) == 3:
         raise ToolError(f"{design} has three phases, and {board} has no pins of a third leg")
+    if legs(folder) == 3 and of_package(folder, "CURRENT_LOOP"):
+        raise ToolError(f"{design} has two shunts, and {board} has no pin of a second modulator")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)

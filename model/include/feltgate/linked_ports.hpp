@@ -19,7 +19,8 @@ namespace feltgate {
 struct LinkedIn {
   EncoderPins encoder;
   /// Of a design with these options, as in CoreIn; in others they are not used.
-  bool encoder_data = false, current_data = false, driver_fault = false;
+  bool encoder_data = false, driver_fault = false;
+  std::uint8_t current_data = 0;  ///< bit n: of modulator n
   bool arm = false, stop = false, set_zero = false;
   bool clear_faults = false;  ///< one clock, like set_zero
   std::uint8_t scene = 0;

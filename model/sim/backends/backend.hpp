@@ -140,8 +140,8 @@ class Backend : public AnyBackend {
     set_panel(panel);
   }
 
-  /// Sets the bit of a current loop's modulator from now() on.
-  virtual void set_current_bit(bool bit) = 0;
+  /// Sets the bits of a current loop's modulators from now() on; bit n: of modulator n.
+  virtual void set_current_bits(std::uint8_t bits) = 0;
   /// The shaft of an absolute encoder turns between these angles in the next `clocks`.
   virtual void turn_encoder(double from_rad, double to_rad, Clock clocks) = 0;
 

@@ -32,7 +32,7 @@ class ClockedBackend : public Backend {
     events_.reset(pins);
     writes_.clear();
     panel_ = {};
-    current_bit_ = false;
+    current_bits_ = 0;
     mount_sensor();
     snapshots_.clear();
     gates_ = {};
@@ -41,7 +41,7 @@ class ClockedBackend : public Backend {
     reset_core(seed, pins);
   }
   void set_panel(const Panel& panel) override { panel_ = panel; }
-  void set_current_bit(bool bit) override { current_bit_ = bit; }
+  void set_current_bits(std::uint8_t bits) override { current_bits_ = bits; }
   void turn_encoder(double from_rad, double to_rad, Clock clocks) override {
     if (sensor_) sensor_->turn(from_rad, to_rad, now_, clocks);
   }
@@ -84,7 +84,7 @@ class ClockedBackend : public Backend {
   /// The inputs that hold between events: panel, and the address used last.
   CoreIn inputs() const {
     CoreIn in;
-    in.current_data = current_bit_;
+    in.current_data = current_bits_;
     in.arm = panel_.arm;
     in.stop = panel_.stop;
     in.scene = panel_.scene;
@@ -120,7 +120,7 @@ class ClockedBackend : public Backend {
   DesignInfo info_;
   Clock now_ = 0;
   Panel panel_;
-  bool current_bit_ = false;
+  std::uint8_t current_bits_ = 0;
   std::optional<AbsoluteSensor> sensor_;
   EventQueue events_;
   WriteQueue writes_;

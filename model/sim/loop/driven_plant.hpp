@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <variant>
 
@@ -36,6 +37,12 @@ class DrivenPlant {
   }
   plant::Evaluations evaluations() const {
     return std::visit([](const auto& p) { return p.evaluations(); }, plant_);
+  }
+  /// In the shunts of a design with a current loop: of the motor, or of its phases A and B.
+  std::array<double, 2> shunts_a() const {
+    const auto* three = std::get_if<plant::ThreePhasePlant>(&plant_);
+    if (three == nullptr) return {shaft().observables().motor_current_a, 0.0};
+    return {three->motor().phase_a()[0], three->motor().phase_a()[1]};
   }
   /// Of a motor with three phases.
   void open_phase(std::size_t phase) { std::get<plant::ThreePhasePlant>(plant_).open_phase(phase); }

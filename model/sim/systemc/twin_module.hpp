@@ -14,6 +14,8 @@ namespace feltgate::systemc {
 
 template <class D>
 class TwinModule : public sc_core::sc_module {
+  static_assert(controlled_currents<D> < 2, "current_data_i has one line here");
+
  public:
   sc_core::sc_in<bool> clk_i{"clk_i"}, rst_ni{"rst_ni"};
 #define FELTGATE_PORT(type, name) sc_core::sc_in<type> name{#name};

@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", a.state.only, "registers with this in their name");
   app.add_option("--pins", a.pins, "faults at pins and register port");
   app.add_option("--design", a.design, "whose pins are broken; flips are of lever")
-      ->check(CLI::IsMember({"lever", "lever_current", "gimbal_motor"}));
+      ->check(CLI::IsMember({"lever", "lever_current", "gimbal_motor", "gimbal_current"}));
   app.add_option("--parts", a.parts, "of so many parts");
   app.add_option("--part", a.part, "this one, from 0");
   app.add_option("--clean", a.clean_s, "seconds of device time without a fault instead");

@@ -181,7 +181,7 @@ TEST_CASE("faults: each kind at the pins ends as it must") {
 
 TEST_CASE("faults: at the pins of the options each kind ends as it must") {
   const std::uint64_t seeds = feltgate::test::whole_run() ? 4 : 1;
-  for (const char* design : {"lever_current", "gimbal_motor"}) {
+  for (const char* design : {"lever_current", "gimbal_motor", "gimbal_current"}) {
     const auto& kinds = pin_kinds(design);
     REQUIRE(kinds.size() > 10);
     for (std::size_t k = 0; k < kinds.size(); ++k) {

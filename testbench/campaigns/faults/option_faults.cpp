@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
 
 #include "campaigns/faults/option_rig.hpp"
+#include "feltgate/generated/gimbal_current.hpp"
 #include "feltgate/generated/gimbal_motor.hpp"
 #include "feltgate/generated/lever_current.hpp"
 #include "sim/backends/backend.hpp"
@@ -65,9 +67,9 @@ const std::vector<PinKind> current_kinds{
     {"shunt's wires off at arming", "pins", "free, self-test on", 1, Promise::flagged, 25000},
 };
 
-Case current_case(std::string_view name, Random* r) {
+Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, double most_rad_s = 30) {
   using Line = Harm::Line;
-  Case c = asked(r, 0.5, 30);
+  Case c = asked(r, limit_nm, most_rad_s);
   Harm& h = c.harm;
   c.seconds = 0.02;
   if (name == "modulator's line stands") {
@@ -206,6 +208,53 @@ Case gimbal_case(std::string_view name, Random* r) {
   return c;
 }
 
+/// Of two shunts: what one can have, or both, and all that gimbal_motor has.
+const std::vector<PinKind> field_kinds = [] {
+  std::vector<PinKind> all{
+      {"modulator's line stands", "pins", "A or B, low, high or as it was", 1, Promise::flagged,
+       22},
+      {"modulator's line is noise", "pins", "A or B, each of its bits drawn", 1, Promise::none},
+      {"shunt's wires swapped", "pins", "A, B or both with the other sign", 1, Promise::flagged},
+      {"shunts exchanged", "pins", "A's modulator at B's pin", 1, Promise::flagged},
+      {"shunt's wires off", "pins", "A, B or both show 0 A", 1, Promise::none},
+      {"shunt or modulator off by a factor", "pins", "A, B or both, 0.5 to 2 times", 1,
+       Promise::unseen},
+      {"shunt's offset", "pins", "A, B or both, 0.02 to 0.15 A more, after arming", 1,
+       Promise::unseen},
+      {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 1, Promise::flagged},
+      {"nFAULT", "pins", "a pulse of 4 clocks", 1, Promise::flagged, 1},
+      {"shunt's wires off at arming", "pins", "A, B or both, free, self-test on", 1, Promise::none},
+  };
+  all.insert(all.end(), gimbal_kinds.begin(), gimbal_kinds.end());
+  for (PinKind& k : all) {
+    if (std::string_view("a phase opens") == k.name) k.promise = Promise::none;  // seen, mostly
+  }
+  return all;
+}();
+
+Case field_case(std::string_view name, Random* r) {
+  constexpr double limit_nm = 0.05, most_rad_s = 20;
+  const auto is_its_own = [&](const PinKind& k) { return name == k.name; };
+  if (std::any_of(gimbal_kinds.begin(), gimbal_kinds.end(), is_its_own)) {
+    return gimbal_case(name, r);
+  }
+  if (name == "shunts exchanged") {
+    Case c = asked(r, limit_nm, most_rad_s);
+    c.harm.exchanged = true;
+    c.seconds = 0.02;
+    return c;
+  }
+  Case c = current_case(name, r, limit_nm, most_rad_s);
+  Harm& h = c.harm;
+  h.offset_a *= 0.05;
+  if (h.offset_a != 0) c.what = fmt::format("{:.3f} A, ", h.offset_a);
+  const bool line = h.modulator != Harm::Line::sound;
+  h.shunts = 1 + static_cast<unsigned>(r->below(line ? 2 : 3));
+  const bool of_shunt = line || h.reads != 1 || h.offset_a != 0;
+  if (of_shunt) c.what += h.shunts == 1 ? "A, " : h.shunts == 2 ? "B, " : "A and B, ";
+  return c;
+}
+
 /// `arm_s`: when it is armed, for a sensor must have been read, or an offset be known.
 template <class D>
 Outcome run_case(const std::string& root, const Case& c, const char* plant_name, double arm_s,
@@ -285,22 +334,26 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
 
 const std::vector<PinKind>& option_kinds(const std::string& design) {
   static const std::vector<PinKind> none;
-  return design == LeverCurrent::name  ? current_kinds
-         : design == GimbalMotor::name ? gimbal_kinds
-                                       : none;
+  return design == LeverCurrent::name    ? current_kinds
+         : design == GimbalMotor::name   ? gimbal_kinds
+         : design == GimbalCurrent::name ? field_kinds
+                                         : none;
 }
 
 PinResult run_option_fault(const std::string& root, const std::string& design, std::size_t kind,
                            std::uint64_t seed) {
   Random random(seed * 64 + kind);
-  const bool current = design == LeverCurrent::name;
+  const bool current = design == LeverCurrent::name, field = design == GimbalCurrent::name;
   const char* name = option_kinds(design)[kind].name;
-  const Case c = current ? current_case(name, &random) : gimbal_case(name, &random);
+  const Case c = current ? current_case(name, &random)
+                 : field ? field_case(name, &random)
+                         : gimbal_case(name, &random);
   PinResult result{kind, seed, c.what, {}, design};
   result.what += c.free ? fmt::format("{:.3f} Nm, free", c.torque_nm)
                         : fmt::format("{:.3f} Nm, {:.3g} rad/s", c.torque_nm, c.rad_s);
   // The offset of a current takes 512 PWM periods, the first angle three readings.
   result.outcome = current ? run_case<LeverCurrent>(root, c, "p24", 0.011, random.bits())
+                   : field ? run_case<GimbalCurrent>(root, c, "gimbal_motor", 0.011, random.bits())
                            : run_case<GimbalMotor>(root, c, "gimbal_motor", 0.001, random.bits());
   return result;
 }

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Faults at the pins that lever does not have: of the current loop of lever_current, of the encoder
-// and the three phases of gimbal_motor. Documentation: docs/verification.md
+// and the three phases of gimbal_motor, of both in gimbal_current. Documentation:
+// docs/verification.md
 #pragma once
 
 #include <cstdint>

@@ -33,6 +33,8 @@ struct Harm {
   enum class Line { sound, low, high, held, noise };
   Line modulator = Line::sound;
   double reads = 1, offset_a = 0;  ///< of the current, what the modulator gets
+  unsigned shunts = 1;             ///< of which this holds, by the bits of CoreIn::current_data
+  bool exchanged = false;          ///< the lines of two modulators
   bool driver_fault = false;       ///< a pulse of nFAULT
   bool shorted = false;            ///< the motor's terminals
   unsigned dead_gates = 0;         ///< that stay off, by the bits of CoreOut::gates
@@ -56,7 +58,7 @@ class Rig {
   /// `offset_rad`: what is added to the electrical angle of the plant.
   Rig(plant::Parameters p, const plant::Hand& hand, double offset_rad = 0)
       : motor_(made(turned(std::move(p), offset_rad), hand)),
-        modulator_(D::current_loop != 0 ? info().current_full_scale_a : 1) {
+        modulators_{modulator(), modulator()} {
     if constexpr (D::absolute_encoder != 0) sensor_.emplace(absolute_parameters<D>());
     in_.encoder = motor_.encoder().pins();
   }
@@ -74,6 +76,7 @@ class Rig {
     if (sensor_) sensor_->set(harm.sensor);
     if constexpr (D::phases == 3) {
       if (harm.open_phase) motor_.open_phase(*harm.open_phase);
+      wiring_a_ = motor_.motor().phase_a();
     } else {
       // What is left is the wiring.
       if (harm.shorted) motor_.short_motor(0.05, 4e-6);
@@ -83,7 +86,7 @@ class Rig {
   /// The gates of the last step drive the motor in this one, so nothing depends on its own future.
   void step() {
     const double before_rad = angle_rad();
-    motor_.advance(bridge(), kStep);
+    advance();
     torque_.add(kStep, harm_.shorted ? 0 : motor_.observables().motor_torque_mean_nm);
     if (sensor_) sensor_->turn(before_rad, angle_rad(), now_, kStep);
     if constexpr (D::current_loop != 0) in_.current_data = modulated();
@@ -133,6 +136,30 @@ class Rig {
   }
 
   double angle_rad() const { return shaft_rad() + (since_ >= 0 ? harm_.slipped_rad : 0); }
+  /// The gates of the last step drive the motor, or what is left of a shorted one with three
+  /// phases.
+  void advance() {
+    if constexpr (D::phases == 3) {
+      if (harm_.shorted) {
+        motor_.advance(plant::Legs::off(), kStep);
+        return flow();
+      }
+    }
+    motor_.advance(bridge(), kStep);
+  }
+  /// A star of the wiring's 50 mohm and 4 uH.
+  void flow() {
+    const double dt_s = static_cast<double>(kStep) / D::clock_hz;
+    std::array<double, 3> volts{};
+    for (std::size_t n = 0; n < volts.size(); ++n) {
+      const double dead = 1 - gates_[2 * n] - gates_[2 * n + 1];
+      volts[n] = info().supply_v * (gates_[2 * n] + (wiring_a_[n] < 0 ? dead : 0));
+    }
+    const double mean_v = (volts[0] + volts[1] + volts[2]) / 3;
+    for (std::size_t n = 0; n < volts.size(); ++n) {
+      wiring_a_[n] += (volts[n] - mean_v - 0.05 * wiring_a_[n]) * dt_s / 4e-6;
+    }
+  }
   bool loose() const {
     return harm_.loose_s == 0 || static_cast<double>(since_) < harm_.loose_s * D::clock_hz;
   }
@@ -149,15 +176,35 @@ class Rig {
       return plant::Bridge::gates(g[0], g[1], g[2], g[3]);
     }
   }
-  bool modulated() {
+  static plant::SigmaDelta modulator() {
+    return plant::SigmaDelta(D::current_loop != 0 ? info().current_full_scale_a : 1);
+  }
+  /// In the shunt of this leg.
+  double amperes(std::size_t shunt) const {
+    if constexpr (D::phases == 3) {
+      if (harm_.shorted) return wiring_a_[shunt];
+      return motor_.motor().phase_a()[harm_.swapped_phases && shunt == 1 ? 2 : shunt];
+    } else {
+      return motor_.observables().motor_current_a;
+    }
+  }
+  std::uint8_t modulated() {
+    unsigned bits = 0;
+    for (std::size_t n = 0; n < (D::phases == 3 ? 2 : 1); ++n) {
+      bits |= (modulated(n) ? 1U : 0U) << (harm_.exchanged ? 1 - n : n);
+    }
+    return static_cast<std::uint8_t>(bits);
+  }
+  bool modulated(std::size_t n) {
     using Line = Harm::Line;
-    const double current_a = motor_.observables().motor_current_a;
-    const bool bit = modulator_.next(harm_.reads * current_a + harm_.offset_a);
-    switch (harm_.modulator) {
+    const bool mine = (harm_.shunts >> n & 1U) != 0;
+    const bool bit =
+        modulators_[n].next(mine ? harm_.reads * amperes(n) + harm_.offset_a : amperes(n));
+    switch (mine ? harm_.modulator : Line::sound) {
       case Line::sound:
         return bit;
       case Line::held:
-        return in_.current_data != 0;
+        return (in_.current_data >> n & 1U) != 0;
       case Line::noise:
         return random_.coin();
       default:
@@ -202,7 +249,8 @@ class Rig {
   FeltgateCore<D> core_;
   CoreIn in_;
   Motor motor_;
-  plant::SigmaDelta modulator_;
+  std::array<plant::SigmaDelta, 2> modulators_;  // the second of three phases
+  plant::Phases wiring_a_{};                     // of a shorted motor with three phases
   std::optional<AbsoluteSensor> sensor_;
   plant::PeriodMean torque_{D::pwm_period};
   std::array<double, std::tuple_size_v<GateCounts>> gates_{};  // shares of the last step

@@ -155,6 +155,12 @@ class StandIns(Scratch):
         self.assertIn("DOES NOT CLOSE", done.stdout)
         self.assertEqual((written, self.design), ("", ""))
 
+    def test_two_shunts_are_refused(self):
+        done, written, _ = self.run_board("--board", "ulx3s", "--design", "gimbal_current")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has two shunts, and ulx3s has no pin of a second modulator", done.stderr)
+        self.assertEqual(written, "")
+
     def test_percent_of_the_cyclone(self):
         done, _, there = self.run_board("--board", "de0_nano")
         self.assertEqual(done.returncode, 0, done.stderr)

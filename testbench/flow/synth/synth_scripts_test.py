@@ -121,6 +121,7 @@ class Wrapper(unittest.TestCase):
         self.assertEqual(free("lever_current"), ["current_clock_o", "current_data_i", "driver_fault_i", "heartbeat_o"])
         self.assertEqual(len(free("lever_absolute")), 4)
         self.assertEqual(free("gimbal_motor")[4:], ["gate_c_hi_o", "gate_c_lo_o"])
+        self.assertEqual(len(free("gimbal_current")), 10)
 
 
 class Report(Scratch):

@@ -19,6 +19,8 @@
 #include "feltgate/generated/lever_absolute.hpp"
 #elif defined(GIMBAL_MOTOR)
 #include "feltgate/generated/gimbal_motor.hpp"
+#elif defined(GIMBAL_CURRENT)
+#include "feltgate/generated/gimbal_current.hpp"
 #else
 #include "feltgate/generated/lever.hpp"
 #endif
@@ -33,6 +35,8 @@ using D = LeverCurrent;
 using D = LeverAbsolute;
 #elif defined(GIMBAL_MOTOR)
 using D = GimbalMotor;
+#elif defined(GIMBAL_CURRENT)
+using D = GimbalCurrent;
 #else
 using D = Lever;
 #endif

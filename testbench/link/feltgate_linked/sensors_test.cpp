@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_linked of a design with a current loop, with an absolute encoder, or with that and three
-// phases: RTL against twin on every clock with a modulator and a winding, or a sensor, at its pins.
+// phases or both: RTL against twin on every clock with a modulator and a winding, or a sensor, or
+// that and two modulators, at its pins.
 // What happens is judged in plain numbers. Documentation: docs/blocks/feltgate_linked.md
+#include <array>
 #include <cmath>
 
 #include "catch.hpp"
@@ -31,7 +33,7 @@ struct Seen {
   unsigned first_fault = 0;
   std::int64_t modulator_clocks = 0, beats = 0, third_leg = 0;
   std::int32_t position = 0;
-  double current_a = 0;  ///< measured, at the end; of 32 A
+  double current = 0;  ///< measured, at the end; share of full scale
 };
 
 struct Watch {
@@ -43,7 +45,7 @@ struct Watch {
   const char* operator()(const LinkedIn&, const Vfeltgate_linked&, const Twin& twin, bool) {
     const CoreOut& out = twin.out().core;
     if (out.gates_enable) seen->enabled.at(cycle);
-    seen->current_a = std::ldexp(out.current, -17) * 32;
+    seen->current = std::ldexp(out.current, -17);
     if (out.first_fault != 0) seen->fault.at(cycle), seen->first_fault = out.first_fault;
     if (out.current_clock && !clock_was) ++seen->modulator_clocks, seen->current_clock.at(cycle);
     if (out.heartbeat != beat_was) ++seen->beats, seen->beat.at(cycle);
@@ -135,11 +137,11 @@ TEST_CASE("sensors: the modulator's bits are the current, the heart beats") {
   // 12.5 MHz of 50 MHz; a beat in 512 ticks of 50 clocks.
   CHECK(std::abs(seen.modulator_clocks - kEnd / 4) <= 2);
   CHECK(std::abs(seen.beats - kEnd / (512 * 50)) <= 1);
-  CHECK(seen.current_a == Approx(0).margin(0.1));
+  CHECK(32 * seen.current == Approx(0).margin(0.1));
   for (const double shown_a : {5.0, -3.0}) {
     Rig rig;
     rig.shown_a = shown_a;
-    CHECK(seen_of(rig, kEnd).current_a == Approx(shown_a).epsilon(0.02));
+    CHECK(32 * seen_of(rig, kEnd).current == Approx(shown_a).epsilon(0.02));
   }
 }
 
@@ -160,6 +162,64 @@ TEST_CASE("sensors: a fault of the driver closes the gates, an unplugged driver 
   CHECK(seen.first_fault == static_cast<unsigned>(Fault::current));
   CHECK(seen.enabled.last - kEvent <= 6);
   CHECK(seen_of(Rig(Rig::Event::driver_unplugged, 0), kEnd).enabled.first < 0);
+}
+#elif defined(GIMBAL_CURRENT)
+static_assert(D::current_loop != 0 && D::phases == 3 && D::absolute_encoder != 0);
+namespace {
+
+constexpr std::int64_t kArm = 520'000, kEvent = kArm + 20'000, kEnd = kEvent + 10'000;
+constexpr double kRad = 0.9;
+
+/// A shaft at rest with its sensor, and two modulators, which show something from kEvent on.
+struct Rig : Panel {
+  std::array<double, 2> shown{};  ///< shares of full scale, of A and of B
+  unsigned high = 0, low = 0;     ///< lines that stand, by the bits of current_data
+  AbsoluteSensor sensor{absolute_parameters<D>()};
+  std::array<plant::SigmaDelta, 2> modulators{plant::SigmaDelta(), plant::SigmaDelta()};
+  bool clock_was = false;
+
+  LinkedIn operator()(std::int64_t cycle, const LinkedOut& out) {
+    arm_at = kArm;
+    press(cycle);
+    sensor.turn(kRad, kRad, cycle, 1);
+    in.encoder_data = sensor.pin(cycle, out.core.serial);
+    const bool happens = cycle >= kEvent;
+    if (out.core.current_clock && !clock_was) {
+      const bool a = modulators[0].next(happens ? shown[0] : 0);
+      const bool b = modulators[1].next(happens ? shown[1] : 0);
+      in.current_data = static_cast<std::uint8_t>(a | b << 1);
+    }
+    clock_was = out.core.current_clock;
+    if (happens) in.current_data = static_cast<std::uint8_t>((in.current_data | high) & ~low);
+    return in;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("sensors: the bits of both modulators are the current along the rotor's axis") {
+  const double e = 11 * kRad;  // pole pairs
+  for (const auto& shown : {std::array{0.3, 0.1}, std::array{-0.1, 0.25}}) {
+    Rig rig;
+    rig.shown = shown;
+    const Seen seen = seen_of(rig, kEnd);
+    CHECK(seen.enabled.first > kArm);
+    CHECK(seen.enabled.last == kEnd - 1);
+    const double across = (shown[0] + 2 * shown[1]) / std::sqrt(3.0);
+    const double along = shown[0] * std::cos(e) + across * std::sin(e);
+    CHECK(seen.current == Approx(along).margin(0.005));
+  }
+}
+
+TEST_CASE("sensors: either modulator that is cut or grounded is a fault") {
+  for (const unsigned line : {1U, 2U}) {
+    Rig rig;
+    (line == 1 ? rig.high : rig.low) = line;
+    const Seen seen = seen_of(rig, kEnd);
+    CHECK(seen.enabled.first > 0);
+    CHECK(seen.first_fault == static_cast<unsigned>(Fault::current));
+    CHECK(seen.enabled.last - kEvent < 1'100);
+  }
 }
 #else
 static_assert(D::absolute_encoder != 0);
@@ -184,7 +244,8 @@ struct Rig : Panel {
     sensor.turn(rad, rad, cycle, 1);
     if (cycle == at) sensor.set(defect);
     in.encoder_data = sensor.pin(cycle, out.core.serial);
-    in.current_data = in.driver_fault = (cycle / 7 & 1) != 0;  // not options of this design
+    in.driver_fault = (cycle / 7 & 1) != 0;  // not options of this design
+    in.current_data = in.driver_fault;
     in.encoder = pins_at(static_cast<unsigned>(cycle / 999));  // nor is this
     return in;
   }

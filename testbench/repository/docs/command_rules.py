@@ -39,6 +39,8 @@ RULES = (
     Rule(r"feltgate run slow_turn\.toml", "BY", "calibrate.cogging"),
     Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
     Rule(r"feltgate run (\w+) --design gimbal_motor --torque-scale 0\.1", "BY", r"scene.\1.gimbal_motor"),
+    Rule(r"feltgate run (\w+) --design gimbal_current --torque-scale 0\.1", "BY", r"scene.\1.gimbal_current"),
+    Rule(r"feltgate run knob_detents --design gimbal_current --engine all", "BY", "scene.knob_detents.gimbal_current.rtl"),
     Rule(r"feltgate run knob_detents", "BY", "scene.knob_detents.gimbal_motor"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),
@@ -149,7 +151,7 @@ BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
     for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
-                 "lever_law", "gimbal_motor", "mine")
+                 "lever_law", "gimbal_motor", "gimbal_current", "mine")
 }
 
 

@@ -66,7 +66,7 @@ class LoopDevice {
     const auto share = [](Clock on) { return static_cast<double>(on) / kStep; };
     plant_.advance(plant::Bridge::gates(share(g.a_hi), share(g.a_lo), share(g.b_hi), share(g.b_lo)),
                    kStep);
-    core_.set_current_bit(modulator_.next(seen().motor_current_a));
+    core_.set_current_bits(modulator_.next(seen().motor_current_a));
     const auto& events = plant_.events();
     core_.advance(kStep, events.data(), events.data() + events.size());
     for (const Snapshot& s : core_.snapshots()) {

@@ -12,7 +12,7 @@ module wires_proof (
     input logic       enc_b_i,
     input logic       enc_z_i,
     input logic       encoder_data_i,
-    input logic       current_data_i,
+    input logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
     input logic       driver_fault_i,
     input logic       arm_i,
     input logic       stop_i,
@@ -112,7 +112,7 @@ module wires_proof (
   localparam logic [15:0] AddressMask = 16'hffff;
 `else
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_data_i ;
-  (* hierconn *) wire \u_dut.g_core.u_core.current_data_i ;
+  (* hierconn *) wire [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] \u_dut.g_core.u_core.current_data_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.driver_fault_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_select_no ;
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_clock_o ;

@@ -118,8 +118,7 @@ LeverBoard::LeverBoard(std::unique_ptr<Core> core, const plant::Parameters& para
     : Board(std::move(core), setup),
       plant_(parameters, parameters.effects, hand, core_->design(), false),
       plan_(plan(parameters, hand, core_->design())),
-      looped_(core_->design().current_full_scale_a > 0),
-      modulator_(looped_ ? core_->design().current_full_scale_a : 1) {
+      looped_(core_->design().current_full_scale_a > 0) {
   if (parameters.effects.encoder_imperfect) {
     for (const double mrad : parameters.encoder.absolute_error_mrad) {
       error_rad_.push_back(1e-3 * mrad);
@@ -145,7 +144,7 @@ void LeverBoard::step(Clock corner) {
                                       std::numeric_limits<Clock>::max());
   if (looped_) {
     plant_.advance(core_->take_gates(), last_clocks_, end - now_);
-    in_.current_data = modulator_.next(plant().motor_current_a);
+    in_.current_data = plant_.current_bits();
   } else {
     plant_.advance(*core_, end - now_);
   }

@@ -14,7 +14,6 @@
 #include "sim/backends/fnv1a.hpp"
 #include "sim/loop/driven_plant.hpp"
 #include "sim/loop/step_plan.hpp"
-#include "sim/plant/sigma_delta.hpp"
 
 namespace feltgate::board {
 
@@ -89,8 +88,7 @@ class LeverBoard : public Board {
   std::vector<double> error_rad_;  ///< of an absolute encoder
   double shown_rad_ = 0;           ///< by it
   StepPlan plan_;
-  bool looped_;  ///< by a current loop: a step is a clock of its modulator
-  plant::SigmaDelta modulator_;
+  bool looped_;            ///< by a current loop: a step is a clock of its modulators
   Clock last_clocks_ = 0;  ///< of the last step
 };
 

@@ -14,7 +14,7 @@ module board_pins #(
     input  logic [AxisCount-1:0]   enc_b_i,
     input  logic [AxisCount-1:0]   enc_z_i,
     input  logic                   encoder_data_i,
-    input  logic                   current_data_i,
+    input  logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
     input  logic                   arm_i,
     input  logic                   stop_i,
     input  logic [4*AxisCount-1:0] scene_i,

@@ -21,7 +21,7 @@ namespace feltgate::board {
 /// Pins of the board, which hold for a number of clocks.
 struct BoardIn {
   std::array<EncoderPins, most_axes> encoder;  ///< of each axis that the board has
-  bool current_data = false;                   ///< the bit of a current loop's modulator
+  std::uint8_t current_data = 0;               ///< of a current loop: bit n of modulator n
   bool arm = false, stop = false;
   std::uint8_t scene = 0;  ///< of all axes
 };

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "../backends/backend.hpp"
 #include "../plant/drive.hpp"
+#include "../plant/sigma_delta.hpp"
 #include "../plant/three_phase.hpp"
 
 namespace feltgate {
@@ -24,7 +26,12 @@ class DrivenPlant {
               const plant::Hand& hand, const DesignInfo& design, bool switched)
       : switched_(switched),
         period_(design.pwm_period),
-        plant_(made(parameters, effects, plant::drive_of(design), hand)) {}
+        plant_(made(parameters, effects, plant::drive_of(design), hand)) {
+    if (design.current_full_scale_a > 0) {
+      modulators_.assign(design.phases == 3 ? 2 : 1,
+                         plant::SigmaDelta(design.current_full_scale_a));
+    }
+  }
 
   const plant::ShaftPlant& shaft() const {
     return std::visit([](const auto& p) -> const plant::ShaftPlant& { return p; }, plant_);
@@ -38,11 +45,17 @@ class DrivenPlant {
   plant::Evaluations evaluations() const {
     return std::visit([](const auto& p) { return p.evaluations(); }, plant_);
   }
-  /// In the shunts of a design with a current loop: of the motor, or of its phases A and B.
-  std::array<double, 2> shunts_a() const {
+  /// Of a design with a current loop: the next bits of the modulators at its shunts, bit n of the
+  /// n-th; the shunts are in the motor's line, or in those of phases A and B.
+  std::uint8_t current_bits() {
     const auto* three = std::get_if<plant::ThreePhasePlant>(&plant_);
-    if (three == nullptr) return {shaft().observables().motor_current_a, 0.0};
-    return {three->motor().phase_a()[0], three->motor().phase_a()[1]};
+    unsigned bits = 0;
+    for (std::size_t n = 0; n < modulators_.size(); ++n) {
+      const double current_a =
+          three == nullptr ? shaft().observables().motor_current_a : three->motor().phase_a()[n];
+      bits |= (modulators_[n].next(current_a) ? 1U : 0U) << n;
+    }
+    return static_cast<std::uint8_t>(bits);
   }
   /// Of a motor with three phases.
   void open_phase(std::size_t phase) { std::get<plant::ThreePhasePlant>(plant_).open_phase(phase); }
@@ -98,6 +111,7 @@ class DrivenPlant {
   bool switched_;
   double period_;  ///< of the PWM, clocks
   Either plant_;
+  std::vector<plant::SigmaDelta> modulators_;
   int duty_clocks_ = 0;  ///< duty of the bridge; duty_ is its share of a period
   double duty_ = 0;
 };

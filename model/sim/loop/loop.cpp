@@ -22,7 +22,6 @@
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/step_plan.hpp"
 #include "sim/plant/period_mean.hpp"
-#include "sim/plant/sigma_delta.hpp"
 #include "sim/traces/statistics.hpp"
 #include "sim/traces/vector_file.hpp"
 
@@ -48,7 +47,6 @@ class ScenarioRun : public SteppedRun {
         core_(options.design, choice_, options.seed, plant_.encoder().pins(),
               Waveform{options.fst, options.fst_from, options.fst_to}),
         looped_(core_.design().current_full_scale_a > 0),
-        modulators_(modulators(core_.design())),
         plan_(plan(scenario, plant, core_.design(), choice_)),
         mean_(core_.design().pwm_period, plan_.phase()),
         felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
@@ -136,20 +134,6 @@ class ScenarioRun : public SteppedRun {
     }
   }
 
-  static std::vector<plant::SigmaDelta> modulators(const DesignInfo& d) {
-    if (d.current_full_scale_a == 0) return {};
-    return std::vector<plant::SigmaDelta>(d.phases == 3 ? 2 : 1,
-                                          plant::SigmaDelta(d.current_full_scale_a));
-  }
-  std::uint8_t current_bits() {
-    const auto amperes = driven_.shunts_a();
-    unsigned bits = 0;
-    for (std::size_t n = 0; n < modulators_.size(); ++n) {
-      bits |= (modulators_[n].next(amperes[n]) ? 1U : 0U) << n;
-    }
-    return static_cast<std::uint8_t>(bits);
-  }
-
   void watch_states() {
     if (choice_.lead == "rtl") {
       throw std::invalid_argument(
@@ -214,7 +198,7 @@ class ScenarioRun : public SteppedRun {
       counter_.add(e);
       if (recorder_) recorder_->add(e);
     }
-    if (looped_) core_.lead().set_current_bits(current_bits());
+    if (looped_) core_.lead().set_current_bits(driven_.current_bits());
     const double shown_rad = shown_angle(o.theta_rad, error_rad_);
     core_.lead().turn_encoder(shown_rad_, shown_rad, clocks);
     shown_rad_ = shown_rad;
@@ -335,7 +319,6 @@ class ScenarioRun : public SteppedRun {
   plant::ShaftPlant& plant_;
   Ensemble core_;
   bool looped_;  ///< the core measures the motor's current
-  std::vector<plant::SigmaDelta> modulators_;
   StepPlan plan_;
   plant::PeriodMean mean_;
   FeltMeter felt_;

@@ -252,7 +252,7 @@ TEST_CASE("faults: no alarm without a fault") {
 
 TEST_CASE("faults: no alarm of a current loop or an absolute encoder without a fault") {
   const double seconds = feltgate::test::whole_run() ? 5 : 0.6;
-  for (const char* design : {"lever_current", "gimbal_motor"}) {
+  for (const char* design : {"lever_current", "gimbal_motor", "gimbal_current"}) {
     const CleanResult r = run_option_clean(root, design, seconds, 5, [](double) {});
     INFO(design << ": " << r.first);
     CHECK(r.alarms == 0);

@@ -12,6 +12,7 @@
 
 #include "campaigns/faults/clean.hpp"
 #include "campaigns/faults/option_rig.hpp"
+#include "feltgate/generated/gimbal_current.hpp"
 #include "feltgate/generated/gimbal_motor.hpp"
 #include "feltgate/generated/lever_current.hpp"
 #include "sim/backends/backend.hpp"
@@ -108,6 +109,8 @@ CleanResult run_option_clean(const std::string& root, const std::string& design,
       life<LeverCurrent>("p24", root, &random, 30, lasts_s, &result);
     } else if (design == GimbalMotor::name) {
       life<GimbalMotor>("gimbal_motor", root, &random, 20, lasts_s, &result);
+    } else if (design == GimbalCurrent::name) {
+      life<GimbalCurrent>("gimbal_motor", root, &random, 20, lasts_s, &result);
     } else {
       throw std::invalid_argument("no false alarms are looked for in the design " + design);
     }

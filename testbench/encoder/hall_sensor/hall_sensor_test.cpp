@@ -179,8 +179,11 @@ struct AnyInputs {
       if (random.one_in(9)) direction = -direction;
     }
     if (random.one_in(400)) {
-      // As many counts in a sector as the lines stay for, or any.
+      // As many counts in a sector as the lines stay for; one count to a limit, or beside it; or
+      // any.
+      const std::uint32_t near = random.coin() ? 5459 + random.below(6) : 16'381 + random.below(6);
       in.gain = random.one_in(6)   ? 0
+                : random.one_in(4) ? near << 16
                 : random.one_in(4) ? static_cast<std::uint32_t>(random.bits())
                                    : static_cast<std::uint32_t>(kTurn / 6 / (4 * kGlitch + 1));
     }

@@ -4,6 +4,7 @@ generated/feltgate_map_pkg.sv
 core/feltgate_checks.sv
 core/encoder/quad_decoder.sv
 core/encoder/encoder_monitor.sv
+core/encoder/hall_sensor.sv
 core/encoder/absolute_encoder.sv
 core/encoder/encoder.sv
 core/estimators/lowpass.sv

@@ -28,7 +28,7 @@ SNAPSHOT_PORTS = (
 # Inputs of a core that is alone and has no engine.
 ALONE = (
     "law_torque_i law_late_i law_restart_i axis_fault_i axis_silent_i axis_blocked_i "
-    "axis_testing_i axis_waits_i current_data_i driver_fault_i encoder_data_i"
+    "axis_testing_i axis_waits_i current_data_i driver_fault_i encoder_data_i hall_i"
 ).split()
 # Pins of an option of the design, which count where it has the option.
 OPTION_PINS = {
@@ -36,6 +36,7 @@ OPTION_PINS = {
     "DRIVER_FAULT": ("driver_fault_i",),
     "HEARTBEAT": ("heartbeat_o",),
     "ABSOLUTE_ENCODER": ("encoder_data_i", "encoder_select_no", "encoder_clock_o", "encoder_command_o"),
+    "HALL": ("hall_i",),
     "PHASES": ("gate_c_hi_o", "gate_c_lo_o"),
 }
 WITHOUT = {"PHASES": 2}  # what a design without the option says, if not 0

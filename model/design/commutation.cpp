@@ -22,6 +22,7 @@ constexpr double kElectricalTurnRad = 2 * 3.14159265358979323846;
 
 void read_commutation(config::TomlReader& r, Design& d) {
   d.pole_pairs = static_cast<int>(r.integer("pole_pairs", 1, 100));
+  d.hall = r.has("hall") && r.integer("hall", 0, 1) == 1;
   d.commutation_offset_rad = r.number("offset_rad", {-kElectricalTurnRad, kElectricalTurnRad});
   d.modulation = static_cast<int>(r.choice("modulation", {"sines", "space_vectors"}));
 }
@@ -60,6 +61,10 @@ void check_commutation(const Design& d) {
   }
   if (d.pole_pairs >= 4 * d.lines) {
     d.fail("commutation.pole_pairs", "a count is an electrical turn or more", "lower it");
+  }
+  if (d.hall && d.absolute) {
+    d.fail("commutation.hall", "an absolute encoder knows the angle at power-up",
+           "leave it or [absolute_encoder] out");
   }
   const double between_s = d.absolute ? d.absolute_period_s : 0;
   if (d.overspeed_rad_s * d.pole_pairs * between_s > kElectricalTurnRad / 8) {

@@ -92,6 +92,7 @@ struct Design {
   int phases = 2;  ///< legs of the bridge
   int pole_pairs = 0, modulation = 0;
   double commutation_offset_rad = 0;  ///< electrical
+  bool hall = false;          ///< three Hall lines give the angle at which the encoder begins
   bool allow_coarse = false;  ///< not in the file: accept a resolution coarser than promised
   std::map<std::string, int> lines_of;  ///< line of each "section.key" in the file, for errors
 

@@ -197,9 +197,10 @@ std::vector<Constant> of_absolute_encoder(const Design& d) {
       {"absolute_diagnosis", p.diag_address, "SPI: address of the diagnosis"}};
 }
 
-/// Table against its error; not in the CRC of designs without one.
-Constant of_absolute_table(const Design& d) {
-  return {"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"};
+/// Table against its error, and Hall lines; not in the CRC of designs without them.
+std::vector<Constant> of_angle(const Design& d) {
+  return {{"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"},
+          {"hall", d.hall ? 1 : 0, "1: Hall lines give the electrical angle at power-up"}};
 }
 
 /// Words of the commutation; only phases = 2 without it.
@@ -211,12 +212,9 @@ std::vector<Constant> of_phases(const Design& d) {
 /// The constants of all options, in the order of the files.
 std::vector<Constant> of_options(const Elaborated& e) {
   std::vector<Constant> all;
-  for (const auto& list : {further(e.design),
-                           of_estimator(e.design),
-                           of_current_loop(e),
-                           of_absolute_encoder(e.design),
-                           {of_absolute_table(e.design)},
-                           of_phases(e.design)}) {
+  for (const auto& list :
+       {further(e.design), of_estimator(e.design), of_current_loop(e),
+        of_absolute_encoder(e.design), of_angle(e.design), of_phases(e.design)}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   return all;
@@ -235,6 +233,7 @@ std::uint32_t design_crc(const Elaborated& e) {
   if (e.design.current_loop) add(of_current_loop(e));
   if (e.design.absolute) add(of_absolute_encoder(e.design));
   if (e.design.phases == 3) add(of_phases(e.design));
+  if (e.design.hall) text += "hall 1\n";
   if (e.design.absolute_table()) {
     for (const int correction : e.design.absolute_corrections()) {
       text += fmt::format("correction {}\n", correction);
@@ -307,7 +306,6 @@ std::string systemverilog_package(const Elaborated& e) {
 
 std::string cpp_header(const Elaborated& e) {
   const Design& d = e.design;
-  const std::string type = camel(d.name);
   std::ostringstream s;
   s << banner(e, "")
     << "#pragma once\n\n#include <cstdint>\n#include <string_view>\n\n#include "
@@ -315,7 +313,7 @@ std::string cpp_header(const Elaborated& e) {
     << "#include \"feltgate/fixed.hpp\"\n#include \"feltgate/generated/map.hpp\"\n#include "
        "\"feltgate/parameter.hpp\"\n\nnamespace feltgate "
        "{\n\n"
-    << "/// " << d.description << ".\nstruct " << type << " {\n"
+    << "/// " << d.description << ".\nstruct " << camel(d.name) << " {\n"
     << "  static constexpr const char* name = \"" << d.name << "\";\n"
     << "  static constexpr std::int64_t clock_hz = " << d.clock_hz << ";\n"
     << "  static constexpr std::int64_t tick_hz = " << d.tick_hz << ";\n"

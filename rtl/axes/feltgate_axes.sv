@@ -143,7 +143,7 @@ module feltgate_axes #(
         .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
         .gate_c_hi_o(leg_c[2*n]), .gate_c_lo_o(leg_c[2*n+1]),
         .encoder_data_i(1'b0), .encoder_select_no(serial[3*n]), .encoder_clock_o(serial[3*n+1]), .encoder_command_o(serial[3*n+2]),
-        .current_data_i(1'b0), .current_clock_o(current_clock[n]), .current_o(current[19*n+:19]),
+        .hall_i(3'b000), .current_data_i(1'b0), .current_clock_o(current_clock[n]), .current_o(current[19*n+:19]),
         .driver_fault_i(1'b0), .heartbeat_o(heartbeat[n]),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
         .law_torque_i(law_torque[n*TorqueW+:TorqueW]),

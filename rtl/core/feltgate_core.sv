@@ -23,6 +23,7 @@ module feltgate_core #(
     output logic encoder_select_no,
     output logic encoder_clock_o,
     output logic encoder_command_o,
+    input  logic [2:0] hall_i,      // Hall lines of a motor with PHASES = 3, for the option HALL; else tie them to 0
     output logic gate_a_hi_o,
     output logic gate_a_lo_o,
     output logic gate_b_hi_o,
@@ -98,6 +99,7 @@ module feltgate_core #(
   logic signed [feltgate_pkg::PRODUCT_BITS-1:0] supervisor_product;
   // encoder, estimators, scenes
   logic signed [31:0] index_position, count;
+  logic [31:0] hall_angle;
   logic signed [feltgate_pkg::SCENE_POSITION_W-1:0] scene_position;
   logic signed [feltgate_pkg::TRAVEL_BITS-1:0] travel;
   logic [15:0] error_count, rejected_count;
@@ -122,6 +124,7 @@ module feltgate_core #(
 
   encoder u_encoder (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .tick_count_i(tick_count_o), .enc_a_i(enc_a_i), .enc_b_i(enc_b_i),
+      .param_i(param), .hall_i(hall_i), .hall_angle_o(hall_angle),
       .enc_z_i(enc_z_i), .encoder_data_i(encoder_data_i), .encoder_select_no(encoder_select_no),
       .encoder_clock_o(encoder_clock_o), .encoder_command_o(encoder_command_o), .control_i(control),
       .set_zero_i(set_zero), .clear_i(clear), .position_o(position_o), .scene_position_o(scene_position),
@@ -148,6 +151,7 @@ module feltgate_core #(
   actuation u_actuation (
       .clk_i(clk_i), .rst_ni(rst_ni), .wave_i(wave), .param_i(param), .armed_i(armed_o), .paused_i(paused),
       .control_i(control), .scene_i(scene_o), .restart_i(restart || (tick && law && law_restart_i)),
+      .hall_angle_i(hall_angle),
       .frozen_i(chatters), .derated_i(derated), .early_term_i(scene_early | pulse), .early_up_i(scene_up),
       .late_term_i(scene_late), .late_not_i(scene_not), .late_up_i(scene_late_up), .product_i(control_product),
       .over_limit_o(over_limit), .applied_o(applied), .region_high_o(region_high), .tau_ref_o(tau_ref_o),

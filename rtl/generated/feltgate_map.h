@@ -239,7 +239,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULTS_FIRST_MASK 0x001f0000u
 #define FELTGATE_FAULTS_CURRENT_BIT 21  /* of a current loop, else 0: bit 0 over-current, 1 stuck, 2 saturated, 3 offset, 4 not calibrated */
 #define FELTGATE_FAULTS_CURRENT_MASK 0x03e00000u
-#define FELTGATE_FAULTS_ABSOLUTE_BIT 26  /* of an absolute encoder, else 0: bit 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen, 5 no reading yet */
+#define FELTGATE_FAULTS_ABSOLUTE_BIT 26  /* of an absolute encoder, else 0: bit 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen, 5 no reading yet; of Hall lines 0 all alike, 1 apart, 3 a sector passed over, 5 no sector yet */
 #define FELTGATE_FAULTS_ABSOLUTE_MASK 0xfc000000u
 
 #define FELTGATE_TAU_REF 0x31cu  /* torque reference [Nm] */
@@ -403,7 +403,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LIMIT_CHATTER (1u << 9)  /* the count alternates on one edge: the torque reference does not grow */
 
 /* Numbers in FELTGATE_FAULTS_FIRST; fault n is also bit n of FELTGATE_FAULTS_SEEN. */
-#define FELTGATE_FAULT_ENCODER 1u  /* too many illegal transitions; of an absolute encoder what faults.absolute says */
+#define FELTGATE_FAULT_ENCODER 1u  /* too many illegal transitions; of an absolute encoder or Hall lines what faults.absolute says */
 #define FELTGATE_FAULT_SPEED 2u  /* |w| above the limit */
 #define FELTGATE_FAULT_POLARITY 3u  /* the speed grows against the commanded current */
 #define FELTGATE_FAULT_I2T 4u  /* estimated current above nominal for too long */

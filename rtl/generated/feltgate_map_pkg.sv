@@ -332,7 +332,7 @@ package feltgate_map_pkg;
 
   // Causes of fault: numbers of the first fault, and bits of the faults.
   localparam int FAULT_NONE = 0;
-  localparam int FAULT_ENCODER = 1;  // too many illegal transitions; of an absolute encoder what faults.absolute says
+  localparam int FAULT_ENCODER = 1;  // too many illegal transitions; of an absolute encoder or Hall lines what faults.absolute says
   localparam int FAULT_SPEED = 2;  // |w| above the limit
   localparam int FAULT_POLARITY = 3;  // the speed grows against the commanded current
   localparam int FAULT_I2T = 4;  // estimated current above nominal for too long

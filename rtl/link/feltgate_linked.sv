@@ -134,6 +134,7 @@ module feltgate_linked #(
         .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
         .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
         .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
+        .hall_i(3'b000),  // no pins yet: docs/blocks/hall_sensor.md
         .arm_request_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
         .reg_addr_i(reg_addr[11:0]), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
         .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),

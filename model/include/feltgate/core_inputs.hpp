@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "feltgate/feltgate_core.hpp"
 
@@ -16,6 +17,16 @@ template <class D, class Registers>
 std::uint32_t commutation_word(const Registers& registers, int wave_clock) {
   const bool offset = wave_clock == Map::W::commutation_offset;
   return registers.parameter(offset ? D::A::commutation_offset : D::A::commutation_gain);
+}
+
+/// The count that a bridge or a loop turns with; of Hall lines their angle in its place.
+template <class Decoder, class In>
+void turned_by(const Decoder& decoder, In* in) {
+  if constexpr (std::is_base_of_v<HallDecoder, Decoder>) {
+    in->angle = decoder.angle();
+  } else {
+    in->count = decoder.count();
+  }
 }
 
 template <class D, bool ReadBack>
@@ -99,6 +110,12 @@ typename FeltgateCore<D, ReadBack>::Decoder::In FeltgateCore<D, ReadBack>::decod
     d.filter =
         static_cast<std::uint8_t>(field<D::C::control_filter, D::C::control_filter_width>(control));
     d.clear_error = clear;
+    if constexpr (D::hall != 0) {
+      d.hall = in.hall;
+      d.gates_enable = open;
+      d.wave_clock = clock_ - Map::first_wave_clock;
+      d.word = commutation_word<D>(registers_, d.wave_clock);
+    }
     return d;
   }
 }
@@ -122,7 +139,7 @@ auto FeltgateCore<D, ReadBack>::loop_inputs(const In& in, bool clear) const {
   l.duty_limit = registers_.parameter(D::A::duty_limit);
   if constexpr (D::phases == 3) {
     l.duty = out_.duty;
-    l.count = decoder_.count();
+    turned_by(decoder_, &l);
     l.word = commutation_word<D>(registers_, l.wave_clock);
   }
   return l;
@@ -148,7 +165,7 @@ auto FeltgateCore<D, ReadBack>::bridge_inputs(bool enable,
     p.on = loop_.on_times();
   } else if constexpr (D::phases == 3) {
     p.amplitude = duty;
-    p.count = decoder_.count();
+    turned_by(decoder_, &p);
     p.wave_clock = clock_ - Map::first_wave_clock;
     p.word = commutation_word<D>(registers_, p.wave_clock);
   } else {

@@ -19,6 +19,7 @@ constexpr int host_write_clock = 5;
 struct CoreIn {
   EncoderPins encoder;
   bool encoder_data = false;      ///< of an absolute encoder
+  std::uint8_t hall = 0;          ///< Hall lines of the motor; bit n: line n
   std::uint8_t current_data = 0;  ///< of a current loop; bit n: of modulator n
   bool driver_fault = false;      ///< of the bridge's driver, in a design with this pin
   bool arm = false;               ///< the panel's request

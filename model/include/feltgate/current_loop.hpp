@@ -64,7 +64,8 @@ class MeasuredCurrent {
     std::uint32_t duty_limit = 0;  ///< the word
     // Of three phases.
     std::int16_t duty = 0;   ///< the length of the direct voltage, clocks
-    std::int32_t count = 0;  ///< of the encoder, whatever its zero
+    std::int32_t count = 0;   ///< of the encoder, whatever its zero
+    std::uint32_t angle = 0;  ///< or of Hall lines; the count is 0 then
     std::uint32_t word = 0;  ///< on the parameter bus, if it is one of commutation
   };
 
@@ -220,7 +221,7 @@ class CurrentLoop<D, 2> : public MeasuredCurrent<D> {
     field.emf = in.direct ? std::clamp(in.duty * this->kLimitGain, -most - 1, most) : this->feed_;
     field.position = in.count;
     field.gain = gain_;
-    field.offset = offset_;
+    field.offset = offset_ + in.angle;
     field.polarity = in.polarity;
     field.proportional = D::current_proportional;
     field.integral = D::current_integral;

@@ -10,11 +10,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "feltgate/absolute_position.hpp"
 #include "feltgate/core_ports.hpp"
 #include "feltgate/core_steps.hpp"
 #include "feltgate/core_wave.hpp"
 #include "feltgate/current_loop.hpp"
+#include "feltgate/hall_sensor.hpp"
 #include "feltgate/hold_timer.hpp"
 #include "feltgate/registers.hpp"
 #include "feltgate/self_test.hpp"
@@ -166,7 +166,7 @@ class FeltgateCore {
   using Step = Map::Step;
   using T = Map::T;
   static constexpr bool kAbsolute = D::absolute_encoder != 0;
-  using Decoder = std::conditional_t<kAbsolute, AbsolutePosition<D>, QuadDecoder>;
+  using Decoder = DecoderOf<D>;
   using Bridge = BridgeOf<D>;
   /// The clock of the tick after the one of wave clock t.
   static constexpr int after(int t) { return core_steps::clock_of(t) + 1; }

@@ -72,6 +72,7 @@ class ThreePhaseBridge : public ThreeLegs {
     bool enable = false;         ///< else the on-times are 0
     bool polarity = false;       ///< of the motor: legs B and C change places
     std::int32_t count = 0;      ///< of the encoder, whatever its zero
+    std::uint32_t angle = 0;     ///< or of Hall lines; the count is 0 then
     std::int16_t amplitude = 0;  ///< clocks
     int wave_clock = -1;         ///< clock of the wave
     std::uint32_t word = 0;      ///< on the parameter bus, if it is one of commutation
@@ -107,7 +108,7 @@ class ThreePhaseBridge : public ThreeLegs {
     angle.sample = wait_ == 1;
     angle.position = in.count;
     angle.gain = gain_;
-    angle.offset = offset_;
+    angle.offset = offset_ + in.angle;
     angle.amplitude = in.amplitude;
     angle.polarity = in.polarity;
     const bool opens = in.enable && fresh_;

@@ -62,6 +62,7 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
     rtl.reg_read_i = 0;
   } else {
     rtl.encoder_data_i = in.encoder_data;
+    rtl.hall_i = in.hall;
     rtl.current_data_i = in.current_data;
     rtl.driver_fault_i = in.driver_fault;
     rtl.axis_fault_i = in.axis_fault;

@@ -19,6 +19,7 @@
   X(bool, enc_b_i)               \
   X(bool, enc_z_i)               \
   X(bool, encoder_data_i)        \
+  X(std::uint32_t, hall_i)       \
   X(bool, current_data_i)        \
   X(bool, driver_fault_i)        \
   X(bool, arm_i)                 \

@@ -54,6 +54,7 @@ class TwinModule : public sc_core::sc_module {
     CoreIn in;
     in.encoder = {enc_a_i.read(), enc_b_i.read(), enc_z_i.read()};
     in.encoder_data = encoder_data_i.read();
+    in.hall = static_cast<std::uint8_t>(hall_i.read());
     in.current_data = current_data_i.read();
     in.driver_fault = driver_fault_i.read();
     in.arm = arm_i.read();

@@ -51,6 +51,7 @@ module actuation (
     output logic                                            gate_b_hi_o,
     output logic                                            gate_b_lo_o,
     input  logic signed [                             31:0] count_i,        // of the encoder, for PHASES = 3
+    input  logic        [                             31:0] hall_angle_i,   // with the option HALL in its place
     output logic                                            gate_c_hi_o,    // of PHASES = 3; else 0
     output logic                                            gate_c_lo_o,
     output logic                                            period_start_o,
@@ -127,6 +128,10 @@ module actuation (
 
   logic signed [feltgate_pkg::DUTY_W-1:0] bridge_duty;
   logic [31:0] gain_q, offset_q;  // of the angle, with PHASES = 3
+  logic signed [31:0] angle_count;
+  logic [31:0] angle_offset;
+  assign angle_count  = (feltgate_pkg::HALL == 0) ? count_i : '0;
+  assign angle_offset = (feltgate_pkg::HALL == 0) ? offset_q : offset_q + hall_angle_i;
   logic [35:0] field_on;           // with a current loop too: the on-times of legs C, B, A
   generate
   if (feltgate_pkg::CURRENT_LOOP == 0) begin : g_voltage_law
@@ -137,14 +142,14 @@ module actuation (
     assign current_state_o = '0;
     assign field_on        = '0;
     logic unused_loop;
-    assign unused_loop = ^{current_data_i, driver_fault_i, clear_i, gain_q, offset_q};
+    assign unused_loop = ^{current_data_i, driver_fault_i, clear_i, gain_q, angle_offset};
   end else begin : g_current_loop
     current_loop u_current_loop (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .wave_i(wave_i), .param_i(param_i), .product_i(product_i), .limited_i(limited),
         .current_ref_i(current_ref_o), .duty_i(duty_o), .direct_i(mode == 2'(feltgate_map_pkg::MODE_VOLTAGE)),
         .polarity_i(polarity), .gates_enable_i(gates_enable_i), .clear_i(clear_i), .period_start_i(period_start_o),
-        .count_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .current_data_i(current_data_i), .driver_fault_i(driver_fault_i),
+        .count_i(angle_count), .gain_i(gain_q), .offset_i(angle_offset), .current_data_i(current_data_i), .driver_fault_i(driver_fault_i),
         .current_clock_o(current_clock_o), .current_o(current_o), .motor_current_o(motor_current_o),
         .state_o(current_state_o), .duty_o(bridge_duty), .on_o(field_on)
     );
@@ -166,7 +171,7 @@ module actuation (
     assign gate_c_lo_o = 1'b0;
     assign {gain_q, offset_q} = '0;
     logic unused_count;
-    assign unused_count = ^{count_i, field_on};
+    assign unused_count = ^{angle_count, field_on};
   end else begin : g_three_legs
     logic [11:0] on_a, on_b, on_c;
     logic opens;
@@ -206,7 +211,7 @@ module actuation (
       end
       commutation #(.Period(feltgate_pkg::PWM_PERIOD), .Modulation(feltgate_pkg::MODULATION)) u_commutation (
           .clk_i(clk_i), .rst_ni(rst_ni),
-          .sample_i(samples), .position_i(count_i), .gain_i(gain_q), .offset_i(offset_q), .amplitude_i(bridge_duty),
+          .sample_i(samples), .position_i(angle_count), .gain_i(gain_q), .offset_i(angle_offset), .amplitude_i(bridge_duty),
           .polarity_i(polarity), .on_a_o(on_a), .on_b_o(on_b), .on_c_o(on_c), .valid_o(valid)
       );
       logic unused_field;
@@ -246,7 +251,7 @@ module actuation (
                     (LimitsW'(limit_duty) << feltgate_map_pkg::L_DUTY);
 
   logic unused;
-  assign unused = ^{wave_i, control_i};  // a room takes its own clocks of the wave and its own fields of the control word
+  assign unused = ^{wave_i, control_i, count_i, hall_angle_i};  // a room takes its own clocks of the wave and its own fields of the control word
 endmodule
 
 `default_nettype wire

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Room: encoder pins to position, with the checks of the encoder. With the option ABSOLUTE_ENCODER the position is that of
-// an absolute encoder's serial lines (docs/blocks/absolute_encoder.md), and A, B and Z are not used.
+// an absolute encoder's serial lines (docs/blocks/absolute_encoder.md), and A, B and Z are not used. With the option HALL
+// three lines of the motor say where its electrical angle begins (docs/blocks/hall_sensor.md).
 // Timing: the wave samples the position in EVENT_AT_SAMPLE; an absolute encoder's reading begins there. docs/architecture.md
 
 `default_nettype none
@@ -12,10 +13,12 @@ module encoder (
     input  logic                                             rst_ni,
     input  logic        [ feltgate_map_pkg::WAVE_LENGTH-1:0] wave_i,
     input  logic        [                              31:0] tick_count_i,
+    input  logic        [                              31:0] param_i,
     input  logic                                             enc_a_i,
     input  logic                                             enc_b_i,
     input  logic                                             enc_z_i,
     input  logic                                             encoder_data_i,   // of an absolute encoder
+    input  logic        [                               2:0] hall_i,           // Hall lines of the motor
     output logic                                             encoder_select_no,
     output logic                                             encoder_clock_o,
     output logic                                             encoder_command_o,
@@ -35,7 +38,8 @@ module encoder (
     output logic signed [                              31:0] index_position_o,  // counts at the last index
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,        // bit n: limit n acted
     input  logic                                             gates_enable_i,
-    output logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_o,  // why an absolute encoder is not to be relied on
+    output logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_o,  // why an absolute encoder or Hall lines are not to be relied on
+    output logic        [                              31:0] hall_angle_o,      // electrical, 2^-32 turn, with Hall lines
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_o            // bit n: cause n
 );
   localparam int SceneW = feltgate_pkg::SCENE_POSITION_W;
@@ -85,9 +89,28 @@ module encoder (
     assign encoder_select_no = 1'b1;
     assign encoder_clock_o   = 1'b0;
     assign encoder_command_o = 1'b0;
-    assign absolute_state_o  = '0;
     logic unused_serial;
     assign unused_serial = encoder_data_i;
+    if (feltgate_pkg::HALL == 0) begin : g_no_hall
+      assign absolute_state_o = '0;
+      assign hall_angle_o     = '0;
+      logic unused_hall;
+      assign unused_hall = ^{hall_i, param_i};
+    end else begin : g_hall
+      logic [31:0] gain_q;  // of the angle
+      logic [2:0] faults;
+      logic waits, unused_exact;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) gain_q <= '0;
+        else if (wave_i[feltgate_map_pkg::PARAM_AT_COMMUTATION_GAIN]) gain_q <= param_i;
+      end
+      hall_sensor u_hall_sensor (
+          .clk_i(clk_i), .rst_ni(rst_ni), .hall_i(hall_i), .count_i(count[1:0]), .gain_i(gain_q),
+          .gates_enable_i(gates_enable_i), .clear_i(clear_i), .angle_o(hall_angle_o), .exact_o(unused_exact),
+          .faults_o(faults), .waits_o(waits)
+      );
+      assign absolute_state_o = {waits, 1'b0, faults[2], 1'b0, faults[1:0]};
+    end
   end else begin : g_absolute
     localparam int PeriodW = $clog2(feltgate_pkg::ABSOLUTE_PERIOD + 1);
     logic [PeriodW-1:0] wait_q;  // ticks to the next reading
@@ -202,8 +225,9 @@ module encoder (
         end
       end
     end
+    assign hall_angle_o = '0;
     logic unused_edges;
-    assign unused_edges = ^{decoded, travel, edge_moved};
+    assign unused_edges = ^{decoded, travel, edge_moved, hall_i, param_i};
   end
   endgenerate
 

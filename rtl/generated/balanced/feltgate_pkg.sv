@@ -56,6 +56,7 @@ package feltgate_pkg;
   localparam int ABSOLUTE_PERIOD = 0;  // ticks from reading to reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
   localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
+  localparam int HALL = 0;  // 1: Hall lines give the electrical angle at power-up
   localparam int PHASES = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 0;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent

@@ -5,6 +5,7 @@
 // panel. Documentation: docs/testing.md
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <iterator>
@@ -44,6 +45,7 @@ class CoreStimulus {
     }
     first_ = last;
     if constexpr (D::current_loop != 0) current_.set(out, &in_);
+    if constexpr (D::hall != 0) set_hall();
     if constexpr (D::absolute_encoder != 0) {
       const double rad = (static_cast<double>(counted_) + 0.5) * D::count_rad;
       sensor_.turn(rad, rad, clock, 1);
@@ -85,6 +87,14 @@ class CoreStimulus {
                    (phase_ & (many_indices_ ? 0x7u : 0xfffu)) == 0};
   }
 
+  /// Hall lines of the shaft; with a bad cable two sectors ahead, or all high.
+  void set_hall() {
+    const double gain = design_info<D>().find("commutation_gain")->si;
+    const double sectors = std::floor(6 * gain * static_cast<double>(counted_));
+    const int sector = static_cast<int>(sectors - 6 * std::floor(sectors / 6));
+    in_.hall = hall_code((sector + (bad_cable_ ? 2 : 0)) % 6);
+    if (bad_cable_ && spacing_ > 5'000) in_.hall = 7;
+  }
   struct Write {
     int address;  ///< or one of these
     std::uint32_t word;

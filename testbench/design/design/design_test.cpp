@@ -266,3 +266,22 @@ TEST_CASE("three phases with two shunts: the words of the loop, and what it refu
   CHECK_THAT(design_error(replaced(shunts, "frequency_hz = 50_000", "frequency_hz = 80_000")),
              Catch::Contains("a current is measured and controlled"));
 }
+
+TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encoder beside them") {
+  const std::string sectioned = replaced(
+      replaced(file_text(design_path("lever")), "[pwm]\n", "[pwm]\nphases = 3\n"), "[pwm]\n",
+      "[commutation]\npole_pairs = 7\noffset_rad = 0.0\nmodulation = \"sines\"\nhall = 0\n[pwm]\n");
+  const auto made = [](const std::string& text) {
+    return elaborate(design_from_text(text, "hall.toml"), shipped_registers());
+  };
+  const std::string with = replaced(sectioned, "hall = 0", "hall = 1");
+  CHECK_THAT(systemverilog_package(made(with)), Catch::Contains("int HALL = 1;"));
+  CHECK_THAT(systemverilog_package(made(sectioned)), Catch::Contains("int HALL = 0;"));
+  CHECK(design_crc(made(sectioned)) == design_crc(made(replaced(sectioned, "hall = 0\n", ""))));
+  CHECK(design_crc(made(with)) != design_crc(made(sectioned)));
+  CHECK_THAT(design_error(replaced(sectioned, "hall = 0", "hall = 2")),
+             Catch::Contains("\"hall\""));
+  CHECK_THAT(design_error(replaced(file_text(design_path("gimbal_motor")), "pole_pairs = 11",
+                                   "hall = 1\npole_pairs = 11")),
+             Catch::Contains("an absolute encoder knows the angle at power-up"));
+}

@@ -8,7 +8,6 @@
 
 #include "adapter.hpp"
 #include "catch.hpp"
-#include "stimulus.hpp"
 
 using feltgate::QuadDecoder;
 using namespace feltgate::test;

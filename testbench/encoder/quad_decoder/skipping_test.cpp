@@ -3,8 +3,8 @@
 //
 // quad_decoder: the twin alone, which can skip the clocks between two changes of a pin.
 // Documentation: docs/blocks/quad_decoder.md
+#include "adapter.hpp"
 #include "catch.hpp"
-#include "stimulus.hpp"
 
 using feltgate::QuadDecoder;
 using namespace feltgate::test;

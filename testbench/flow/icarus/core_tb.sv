@@ -42,6 +42,7 @@ module core_tb;
       .set_zero_i(inputs[53]),
       .reg_write_i(inputs[54]),
       .current_data_i(1'b0),
+      .hall_i(3'b000),
       .driver_fault_i(1'b0),
       .encoder_data_i(1'b0),
       .law_torque_i('0),

@@ -32,6 +32,7 @@ void set_inputs(Vpair& pair, const CoreIn& in) {
   put("enc_b_i", in.encoder.b);
   put("enc_z_i", in.encoder.z);
   put("encoder_data_i", in.encoder_data);
+  put("hall_i", in.hall);
   put("current_data_i", in.current_data);
   put("driver_fault_i", in.driver_fault);
   put("arm_i", in.arm);

@@ -40,7 +40,7 @@ inline constexpr std::array<const char*, 10> names{
 /// Numbers of the causes, as in first_fault and as bits of faults.
 enum class Fault : std::uint8_t {
   none = 0,
-  encoder = 1,  ///< too many illegal transitions; of an absolute encoder what faults.absolute says
+  encoder = 1,  ///< too many illegal transitions; of an absolute encoder or Hall lines what faults.absolute says
   speed = 2,  ///< |w| above the limit
   polarity = 3,  ///< the speed grows against the commanded current
   i2t = 4,  ///< estimated current above nominal for too long

@@ -70,6 +70,7 @@ struct Exact {
   static constexpr int absolute_period = 0;  // ticks from reading to reading
   static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
   static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
+  static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds

@@ -21,7 +21,7 @@
   feltgate_core #(.ParameterFile("parameters.mem")) u_core (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
-      .encoder_data_i(encoder_data_i), .current_data_i(current_data_i), .driver_fault_i(driver_fault_i), .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
+      .encoder_data_i(encoder_data_i), .hall_i(3'b000), .current_data_i(current_data_i), .driver_fault_i(driver_fault_i), .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i), .scene_i(scene_i),
       .law_torque_i(law_torque_i), .law_late_i(law_late_i), .law_restart_i(law_restart_i),
       .axis_fault_i(axis_fault_i), .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i),
       .axis_testing_i(axis_testing_i), .axis_waits_i(axis_waits_i),

@@ -5,13 +5,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
@@ -38,12 +41,37 @@ struct Arguments {
   double for_s = 0;
 };
 
-/// Sets the plant where none is given.
+/// Who holds a board where --hand does not say: nobody, or the hand of the first scene of the
+/// device.
+std::string default_hand(const std::string& design, std::size_t axes) {
+  if (axes == 1 || design == "pantograph_law") return "free";
+  const std::string line = fmt::format("device = \"{}\"", design.substr(0, design.rfind("_law")));
+  std::vector<std::string> scenes;
+  for (const auto& file : std::filesystem::directory_iterator(repository() + "/vectors/scenes")) {
+    std::ifstream in(file.path());
+    for (std::string text; std::getline(in, text);) {
+      if (text == line) scenes.push_back(file.path().stem().string());
+    }
+  }
+  if (scenes.empty()) {
+    throw std::invalid_argument(fmt::format("--hand: {} needs a scene file of its device", design));
+  }
+  return *std::min_element(scenes.begin(), scenes.end());
+}
+
+/// Sets hand and plant where none is given.
 std::unique_ptr<Board> make_board(Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
   auto core = make_core(setup.design, kind, options);
-  if (core->axes() > 1) return make_axes_board(std::move(core), setup, find_file);
+  if (setup.hand.empty()) setup.hand = default_hand(setup.design, core->axes());
+  if (core->axes() > 1) {
+    if (!setup.plant.empty()) {
+      throw std::invalid_argument(fmt::format(
+          "--plant {}: is for levers; {} has the device of --hand", setup.plant, setup.design));
+    }
+    return make_axes_board(std::move(core), setup, find_file);
+  }
   if (setup.plant.empty()) setup.plant = default_plant(core->design());
   return std::make_unique<LeverBoard>(
       std::move(core), plant::read_plant_file(find_file(setup.plant, "vectors/plants")),
@@ -154,6 +182,7 @@ int main(int argc, char** argv) {
       "Ctrl-C ends it. Exit code: 0 all well, 1 a replay differs, 2 unusable input.\n"
       "docs/board.md teaches.");
   Arguments a;
+  a.setup.hand.clear();
   app.add_flag("--twin", a.twin, "the bit-exact twin; the default");
   app.add_flag("--rtl", a.rtl,
                "the RTL of core and link, compiled by Verilator, at 1 Mbaud; a minute to build");
@@ -166,8 +195,8 @@ int main(int argc, char** argv) {
       ->type_name("PLANT");
   app.add_option(
          "--hand", a.setup.hand,
-         "who holds the lever: free, locked, hold, swing, or a scene file whose [hand] it is")
-      ->capture_default_str()
+         "who holds the lever: free, locked, hold, swing, or a scene file whose [hand] it is; "
+         "default: free, with a stylus, a gimbal or two levers the first scene of the device")
       ->type_name("HAND");
   app.add_option("--scene", a.setup.scene, "what the panel's switches choose")
       ->capture_default_str()

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -13,8 +15,25 @@
 #include <string>
 #include <utility>
 
-#include "apps/fmu/fmi3.hpp"
 #include "apps/fmu/scene_model.hpp"
+
+// What is used of FMI 3.0 (https://fmi-standard.org), as the standard documents it.
+extern "C" {
+
+enum fmi3Status { fmi3OK, fmi3Warning, fmi3Discard, fmi3Error, fmi3Fatal };
+using fmi3Instance = void*;
+using fmi3InstanceEnvironment = void*;
+using fmi3ValueReference = std::uint32_t;
+using fmi3Float64 = double;
+using fmi3Int32 = std::int32_t;
+using fmi3Boolean = bool;
+using fmi3String = const char*;
+using fmi3LogMessageCallback = void (*)(fmi3InstanceEnvironment, fmi3Status, fmi3String category,
+                                        fmi3String message);
+/// Of functions that are never called here.
+using fmi3Unused = void (*)();
+
+}  // extern "C"
 
 namespace {
 

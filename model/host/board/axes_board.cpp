@@ -130,16 +130,17 @@ std::unique_ptr<Board> make_axes_board(
   const auto device = [&](const std::string& name) { return find(name, "vectors/devices"); };
   const bool named = setup.hand == "free" || setup.hand == "hold" || setup.hand == "swing";
   if (named && setup.design != "pantograph_law") {
-    throw std::invalid_argument(
-        fmt::format("--hand {}: is for the design pantograph_law; give a scene of the device of {}",
-                    setup.hand, setup.design));
+    throw std::invalid_argument(fmt::format(
+        "--hand {}: is for the design pantograph_law; leave it out, or give a scene of the device "
+        "of {}",
+        setup.hand, setup.design));
   }
   const AxesScene scene = named ? pantograph_with(setup.hand, device("pantograph"))
                                 : read_axes_scene(find(setup.hand, "vectors/scenes"), device);
-  if (axes_of(scene) != static_cast<int>(core->axes())) {
+  if (!named && own_design(scene) != setup.design) {
     throw std::invalid_argument(
-        fmt::format("--hand {}: its device {} has {} axes, the design {} has {}", setup.hand,
-                    device_of(scene), axes_of(scene), setup.design, core->axes()));
+        fmt::format("--hand {}: is a scene of the device {}, whose design is {}, not {}",
+                    setup.hand, device_of(scene), own_design(scene), setup.design));
   }
   return std::visit(
       [&](const auto& s) -> std::unique_ptr<Board> {

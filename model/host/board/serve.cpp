@@ -40,7 +40,9 @@ void sleep_s(double seconds) {
 Pace serve(Board& board, PseudoTerminal& terminal, const ServeOptions& o) {
   const double clock_hz = static_cast<double>(board.core().design().clock_hz);
   const Clock slice = std::llround(kSlice_s * clock_hz);
-  const Clock end = o.for_s > 0 ? std::llround(o.for_s * clock_hz) : INT64_MAX;
+  // A board of several axes has homed already.
+  const Clock start = board.now();
+  const Clock end = o.for_s > 0 ? start + std::llround(o.for_s * clock_hz) : INT64_MAX;
   Pace pace;
   const double begin_s = wall_s();
   // Wall-clock times: when board.now() is due; when `tell` was called.
@@ -52,7 +54,7 @@ Pace serve(Board& board, PseudoTerminal& terminal, const ServeOptions& o) {
     terminal.write(board.take_sent());
     const double done_s = wall_s();
     pace.busy_s += worked_s() - work_s;
-    pace.simulated_s = static_cast<double>(board.now()) / clock_hz;
+    pace.simulated_s = static_cast<double>(board.now() - start) / clock_hz;
     due_s += static_cast<double>(board.now() - from) / clock_hz;
     double wait_s = o.paced ? due_s - done_s : 0;
     if (wait_s < -kLag_s) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -13,17 +14,41 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "feltgate/largest.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/axes_loop/axes_backends.hpp"
 #include "sim/axes_loop/axes_columns.hpp"
-#include "sim/axes_loop/hand_work.hpp"
 #include "sim/axes_loop/homing.hpp"
 #include "sim/axes_loop/plane_host.hpp"
 #include "sim/axes_loop/signal_record.hpp"
+#include "sim/loop/felt.hpp"
 #include "sim/plant/axes_loop.hpp"
 #include "sim/plant/drive.hpp"
 
 namespace feltgate {
+
+/// Sums of the energy in both directions.
+class HandWork {
+ public:
+  /// Updates the sums; `work_j` is the plant's present count, J.
+  void follow(double work_j) {
+    const double more_j = work_j - net_j_;
+    net_j_ = work_j;
+    (more_j > 0 ? energy_.taken_from_hand_j : given_j_) += more_j;
+    energy_.peak_from_hand_j = larger(energy_.peak_from_hand_j, net_j_);
+    energy_.peak_to_hand_j = larger(energy_.peak_to_hand_j, -net_j_);
+  }
+  double net_j() const { return net_j_; }
+  FeltEnergy energy() const {
+    FeltEnergy energy = energy_;
+    energy.given_to_hand_j = 0.0 - given_j_;
+    return energy;
+  }
+
+ private:
+  FeltEnergy energy_;
+  double net_j_ = 0, given_j_ = 0;
+};
 
 namespace {
 

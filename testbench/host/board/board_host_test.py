@@ -309,6 +309,16 @@ class Recordings(BoardTest):
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))
+        pen = ("--design", "pantograph_law", "--for", "0.01")
+        for words, needle in (
+            (("--plant", "p24"), "--plant p24: is for levers"),
+            (("--hand", "coupled_levers"), "is a scene of the device two_levers, whose design is two_levers_law"),
+        ):
+            with self.subTest(words):
+                said = self.run_program(board_program(pen), *pen, *words, status=2)
+                self.assertIn(needle, said)
+        said = self.run_program(board_program(pen), *pen, "--unpaced")
+        self.assertIn("simulated 0.01 s", said)
         for words, needle in (
             (("--design", "paper"), "./feltgate board --design paper --rtl builds it"),
             (("--baud", "115200"), "leave --baud out, or take the twin"),

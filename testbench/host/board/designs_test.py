@@ -10,15 +10,15 @@ import unittest
 from board_host_test import Board, BoardTest
 from board_process import board_program
 
-# Who holds a device that is no lever.
-HANDS = {"two_levers_law": "coupled_levers", "stylus_law": "stylus_sphere", "gimbal_law": "gimbal"}
+# Without --hand the hand of a scene holds them.
+HELD = ("two_levers_law", "stylus_law", "gimbal_law")
 DESIGNS = sys.argv[1:]
 
 
 class Designs(BoardTest):
     def board(self, design, kind, *more):
-        hand = HANDS.get(design, "swing")
-        words = ("--design", design, "--hand", hand, "--scene", "setpoint", "--arm", *more)
+        hand = () if design in HELD else ("--hand", "swing")
+        words = ("--design", design, *hand, "--scene", "setpoint", "--arm", *more)
         return Board(self, *words, *(["--rtl"] if kind else []), kind=kind)
 
     def wait_for(self, port, name):

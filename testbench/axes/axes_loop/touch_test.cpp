@@ -15,6 +15,7 @@
 
 #include "catch.hpp"
 #include "feltgate/random.hpp"
+#include "sim/touch/make_glb.hpp"
 #include "touch_meshes.hpp"
 
 using namespace feltgate;
@@ -122,6 +123,17 @@ TEST_CASE("touch: a file that is broken, empty, huge or not alone is refused in 
   const std::string whole = glb_of(json, binary);
   CHECK(told(whole) == "read");
   CHECK(told("").find("too short") == 0);
+  // An old container; extensions that its writer says are needed, and one that is only of looks.
+  CHECK(told(std::string(whole).replace(4, 1, "\1")).find("glTF 1, and 2 is read; ") == 0);
+  const auto required = [&](const std::string& name, const std::string& part) {
+    return told(glb_of(
+        replaced(part, R"("scene":0)", R"("extensionsRequired":[")" + name + R"("],"scene":0)"),
+        binary));
+  };
+  CHECK(required("KHR_materials_unlit", json) == "read");
+  // As meshopt leaves the buffer that its decoder fills.
+  CHECK(required("EXT_meshopt_compression", replaced(json, R"("byteLength":)", R"("byteLength":9)"))
+            .find("needs the extension EXT_meshopt_compression, which is not read; ") == 0);
   CHECK(told("solid cube, a file of another kind").find("no GLB file") == 0);
   CHECK(told(whole.substr(0, whole.size() - 100)).find("cut off") == 0);
   // Whatever is cut off or changed is refused or read, and never a crash: run with a sanitizer,
@@ -310,6 +322,10 @@ TEST_CASE("touch: a stroke over a mesh goes over its top; one of a file is refus
   CHECK(told("1,0,0,0.1\n1.5,0.01,0\n").find(":3: not four numbers") == 0);
   CHECK(told("1,0,0,0.1\n1,0.01,0,0\n").find(":3: time does not go on") == 0);
   CHECK(told("1,0,0,0.3\n").find(":2: beyond the pen's") == 0);
+  CHECK(told("0,0,0,0.04\n1e-9,0.2,0,0.03\n").find(":3: 200 mm in 1e-06 ms, faster than 5") == 0);
+  CHECK(told("0,0,0,0.04\n0.04,0.2,0,0.04\n") == "2");
+  CHECK(told(std::string("0,0,0,0.1\n1,0,0,0.1\0junk\n", 25)).find(":3: not four") == 0);
+  CHECK_THROWS_WITH(touch::read_stroke("/nope.csv"), "/nope.csv: cannot be read; check the path");
   CHECK(told("1,0,0,0.1\n").find(":2: fewer than two rows") == 0);
 }
 
@@ -375,19 +391,80 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   CHECK(std::filesystem::exists(json));
   CHECK(run(ball + " --mesh-only --faces 100") == 0);
   CHECK(text.find("of 320 faces: ") != std::string::npos);
+  CHECK(text.find("warning") == std::string::npos);
+  CHECK(run(ball + " --mesh-only --faces 40") == 0);
+  CHECK(text.find("% of its size away: another shape is felt; take more") != std::string::npos);
   CHECK(run(ball + " --size 20mm --speed 1m/s --json " + json) == 0);
   CHECK(text.find("engine off the law") != std::string::npos);
   CHECK(run(ball + " --size 20mm --speed 1m/s --distance --material none=stone") == 0);
-  for (const std::string& words :
-       {cut, said + ".none", ball + " --centre nan 0 0", ball + " --size 0.5m --centre 0.1 0 0",
-        ball + " --stroke " + ball, ball + " --material moss=1,2,3", ball + " --material none=1,2",
-        ball + " --mesh-only --csv x", open + " --distance", ball + " --edges --drag 1.5",
-        ball + " --edges --distance", ball + " --material none=steel", ball + " --engine fast",
-        ball + " --faces -1"}) {
+  const std::string fast = temporary("feltgate_touch_fast.csv");
+  write_file(fast, "time_s,x_m,y_m,z_m\n0,0,0,0.04\n0.0005,0,0,0.04\n");
+  CHECK(run(ball + " --stroke " + fast) == 2);
+  CHECK(text.find(fast + ":3: the stroke ends after 0.5 ms and a plane may take 12 ms") !=
+        std::string::npos);
+  CHECK(run(ball + " --faces 2.5") == 2);
+  CHECK(text.find("2.5 is not a whole number from 0 to 4000000") != std::string::npos);
+  CHECK(run(ball + " --engine rtl") == 2);
+  CHECK(text.find("--engine rtl: this program has the twin alone; ") != std::string::npos);
+  for (const std::string& words : {cut,
+                                   ball + " --faces 3",
+                                   ball + " --latency 100ms --size 1mm --speed 1",
+                                   ball + " --make ball -o x",
+                                   ball + " -o x",
+                                   std::string("--make cone -o x"),
+                                   std::string("--make ball --faces 20 -o x"),
+                                   said + ".none",
+                                   ball + " --centre nan 0 0",
+                                   ball + " --size 0.5m --centre 0.1 0 0",
+                                   ball + " --stroke " + ball,
+                                   ball + " --material moss=1,2,3",
+                                   ball + " --material none=1,2",
+                                   ball + " --mesh-only --csv x",
+                                   open + " --distance",
+                                   ball + " --edges --drag 1.5",
+                                   ball + " --edges --distance",
+                                   ball + " --material none=steel",
+                                   ball + " --engine fast",
+                                   ball + " --faces -1"}) {
     INFO(words);
     CHECK(run(words + " --json " + json) == 2);
     CHECK(std::count(text.begin(), text.end(), '\n') == 1);
     CHECK(text.find("feltgate: ") == 0);
     CHECK_FALSE(std::filesystem::exists(json));
   }
+}
+
+TEST_CASE("touch: the meshes that the command makes are closed, outwards and as large as asked") {
+  const std::string path = temporary("feltgate_touch_made.glb"), again = path + "2";
+  const auto report = [&](const std::string& shape, std::int64_t faces) {
+    const std::string bytes = touch::glb_of(touch::made_mesh(shape, faces, 0.06), "test");
+    CHECK(bytes == touch::glb_of(touch::made_mesh(shape, faces, 0.06), "test"));
+    write_file(path, bytes);
+    const Soup read = touch::read_glb(path);
+    double far_m = 0;
+    for (const Vec3& v : read.at) far_m = std::max(far_m, std::abs(v.x));
+    CHECK(far_m == Approx(0.03).epsilon(0.02));
+    return touch::clean(read).report;
+  };
+  for (const std::int64_t faces : {36, 1280, 1999, 20480}) {
+    for (const std::string shape : {"ball", "torus"}) {
+      INFO(shape << " " << faces);
+      const auto r = report(shape, faces);
+      CHECK((r.welded == 0 && r.degenerate == 0 && r.duplicates == 0 && r.turned == 0));
+      REQUIRE(r.components.size() == 1);
+      const touch::Component& c = r.components[0];
+      CHECK((c.faces <= faces && c.faces > faces / 2));
+      CHECK(c.genus() == (shape == "ball" ? 0 : 1));
+      CHECK(c.volume_m3 > 0);
+      // Of the sphere, and 2 pi^2 R r^2 of the torus with r = 0.4 R, R + r = 30 mm.
+      const double round_m3 =
+          shape == "ball" ? 113.1e-6 : 2 * 9.8696 * 0.16 * std::pow(0.03 / 1.4, 3);
+      if (faces > 1000) CHECK(c.volume_m3 == Approx(round_m3).epsilon(0.05));
+    }
+  }
+  // The ball is that of the tests: every corner of one is a corner of the other.
+  const Soup made = touch::made_mesh("ball", 1280, 0.06), tested = icosphere(0.03, 3);
+  CHECK(made.triangles.size() == 1280);
+  const Mesh mesh = touch::clean(made);
+  CHECK(touch::hausdorff_m(mesh, touch::clean(tested)) < 1e-4);
 }

@@ -62,6 +62,15 @@ Summary summary_of(const touch::TouchRun& run) {
 
 }  // namespace
 
+std::vector<std::string> Decimation::warnings() const {
+  constexpr double far_share = 0.05;
+  std::vector<std::string> all;
+  if (share > far_share)
+    all.push_back(fmt::format("{:.0f} % of its size away: another shape is felt", 100 * share));
+  if (opened) all.push_back("it has borders that it did not have");
+  return all;
+}
+
 std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const touch::Mesh& mesh,
                       double scale, const std::optional<Decimation>& fewer) {
   constexpr std::size_t most_shown = 8;
@@ -100,6 +109,7 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
         degrees(fewer->jumps.most_rad), degrees(fewer->jumps.largest_rad),
         degrees(fewer->before.most_rad), degrees(fewer->before.largest_rad), fewer->force_step_n,
         1e3 * a.depth_m, a.stiffness);
+    for (const std::string& w : fewer->warnings()) s += "  warning: " + w + "; take more faces\n";
   }
   return s;
 }
@@ -185,6 +195,7 @@ nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mes
     d["turn_rad"] = turn(fewer->jumps);
     d["turn_before_rad"] = turn(fewer->before);
     d["force_step_n"] = fewer->force_step_n;
+    d["warnings"] = fewer->warnings();
   }
   return j;
 }

@@ -130,9 +130,9 @@ Decimation decimate(const TouchArguments& a, touch::Mesh& mesh) {
   const auto [low, high] = touch::box_of(mesh);
   const plant::Vec3 side = high - low;
   d.share = d.hausdorff_m / std::max({side.x, side.y, side.z});
-  d.opened = few.report.border_edges > mesh.report.border_edges;
+  d.opened = std::max<std::int64_t>(0, few.report.border_edges - mesh.report.border_edges);
   constexpr double most_share = 0.25;
-  if (!(d.share <= most_share) || (d.opened && d.faces < 4)) {
+  if (!(d.share <= most_share) || (d.opened > 0 && d.faces < 4)) {
     throw std::invalid_argument(fmt::format(
         "--faces {}: {} of {} faces would be left, {:.3g} mm away at most; take more faces",
         a.faces, d.faces, d.faces_before, 1e3 * d.hausdorff_m));
@@ -140,7 +140,7 @@ Decimation decimate(const TouchArguments& a, touch::Mesh& mesh) {
   d.jumps = touch::jumps_of(few);
   d.before = touch::jumps_of(mesh);
   d.force_step_n = a.stiffness * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
-  few.report = mesh.report;  // of the file
+  d.file = mesh.report;
   mesh = std::move(few);
   return d;
 }

@@ -33,8 +33,9 @@ struct TouchArguments {
 struct Decimation {
   std::int64_t faces = 0, faces_before = 0;
   double hausdorff_m = 0, share = 0;  ///< that of the mesh's largest side
-  bool opened = false;                ///< borders where there were none
+  std::int64_t opened = 0;            ///< edges at a border that were none before
   touch::Jumps jumps, before;         ///< of the normals at its edges
+  touch::MeshReport file;             ///< of the mesh before
   double force_step_n = 0;            ///< at 95 % of the edges, at the stroke's depth and stiffness
 
   /// What one should know before one touches it; empty: nothing.

@@ -113,7 +113,8 @@ inline std::string glb_of(const Soup& s, const std::string& generator) {
       R"({{"asset":{{"version":"2.0","generator":"{}","copyright":"CC0-1.0"}},"scene":0,)"
       R"("scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[)"
       R"({{"attributes":{{"POSITION":0}},"indices":1}}]}}],"buffers":[{{"byteLength":{}}}],)"
-      R"("bufferViews":[{{"buffer":0,"byteLength":{}}},{{"buffer":0,"byteOffset":{},"byteLength":{}}}],)"
+      R"("bufferViews":[{{"buffer":0,"byteLength":{}}},)"
+      R"({{"buffer":0,"byteOffset":{},"byteLength":{}}}],)"
       R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":{},)"
       R"("min":[{:.9g},{:.9g},{:.9g}],"max":[{:.9g},{:.9g},{:.9g}]}},)"
       R"({{"bufferView":1,"componentType":5125,"type":"SCALAR","count":{}}}]}})",

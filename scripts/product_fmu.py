@@ -43,8 +43,10 @@ class Library:
 
 
 def scene_path(root, scene):
-    """Of a name in vectors/scenes, or of a file."""
+    """Of a name in vectors/scenes, or of a file, which is looked for before anything is built."""
     if "/" in scene or scene.endswith(".toml"):
+        if not Path(scene).is_file():
+            raise FmuError(f"{scene}: there is no such file; check the path")
         return Path(scene)
     path = root / f"vectors/scenes/{scene}.toml"
     if not path.is_file():

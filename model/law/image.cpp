@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "feltgate/crc32.hpp"
 
 namespace feltgate::law {
@@ -33,6 +36,16 @@ class Fields {
   Value take(const char* what) {
     Value value{};
     if (!(in_ >> value)) fail(std::string(what) + " is missing or no such value");
+    return value;
+  }
+  /// A finite number.
+  double number(const char* what, bool may_be_zero = false) {
+    const auto word = take<std::string>(what);
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (*end != 0 || !std::isfinite(value) || (value == 0 && !may_be_zero)) {
+      fail(fmt::format("{} \"{}\" is no number that it can have", what, word));
+    }
     return value;
   }
   std::uint64_t hex(const char* what, int bits) {
@@ -69,14 +82,15 @@ ImageWord read_word(Fields& line) {
   w.word = static_cast<int>(line.index("word", 32));
   w.name = line.take<std::string>("name");
   w.unit = unblank(line.take<std::string>("unit"));
-  w.scale = std::strtod(line.take<std::string>("scale").c_str(), nullptr);
-  w.to_si = std::strtod(line.take<std::string>("factor").c_str(), nullptr);
+  w.scale = line.number("scale");
+  w.to_si = line.number("factor");
   w.lower = line.take<std::int32_t>("lower end");
   w.upper = line.take<std::int32_t>("upper end");
   w.initial = line.take<std::int32_t>("value");
   w.whole = line.take<int>("whole") != 0;
   w.mailbox = line.take<int>("mailbox") != 0;
-  w.max_age_s = std::strtod(line.take<std::string>("age").c_str(), nullptr);
+  w.max_age_s = line.number("age", true);
+  if (w.lower > w.upper) line.fail(fmt::format("{} is above {}", w.lower, w.upper));
   w.formula = unblank(line.rest());
   return w;
 }
@@ -129,7 +143,7 @@ void read_line(Image& image, std::uint32_t& stored, Fields& line) {
     ImageEvent e;
     e.number = line.take<int>("number");
     e.name = line.take<std::string>("name");
-    e.scale = std::strtod(line.take<std::string>("scale").c_str(), nullptr);
+    e.scale = line.number("scale");
     image.events.push_back(e);
   } else if (key == "require") {
     image.requirements.push_back(read_requirement(line));
@@ -144,6 +158,23 @@ void read_line(Image& image, std::uint32_t& stored, Fields& line) {
     image.table[n] = line.hex("table word", 36);
   } else {
     line.fail("\"" + key + "\" is unknown");
+  }
+}
+
+/// Throws std::invalid_argument where a formula cannot be computed from the parameters.
+void check_formulas(const Image& image) {
+  const auto value_of = [&image](const std::string& name) {
+    for (const ImageWord& p : image.words) {
+      if (p.formula.empty() && p.name == name) return p.initial * p.scale;
+    }
+    throw std::invalid_argument("formula names \"" + name + "\", which is no parameter");
+  };
+  for (const ImageWord& w : image.words) {
+    if (!w.formula.empty()) (void)evaluate_formula(w.formula, value_of);
+  }
+  for (const ImageRequirement& r : image.requirements) {
+    for (const std::string& formula : {r.smaller, r.larger})
+      (void)evaluate_formula(formula, value_of);
   }
 }
 
@@ -215,6 +246,9 @@ Image read_image(const std::string& text) {
   std::uint32_t stored = 0;
   for (int number = 1; std::getline(in, line); ++number) {
     Fields fields(line, number);
+    const auto control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+    if (std::any_of(line.begin(), line.end(), control))
+      fields.fail("a character that cannot be printed");
     if (number == 1) {
       if (line != first_line)
         fields.fail(fmt::format("this is no law's image (\"{}\")", first_line));
@@ -222,11 +256,17 @@ Image read_image(const std::string& text) {
     }
     if (!line.empty()) read_line(image, stored, fields);
   }
+  if (image.name.empty() || image.design.empty()) Fields("", 1).fail("no name or no design");
   if (image.line_base < 0 || image.line_base > 512)
     Fields("", 1).fail("line_base is not in 0 .. 512");
   if (stored != crc(image)) {
     Fields("", 1).fail(
         fmt::format("the CRC-32 is {:08x} where {:08x} is written", crc(image), stored));
+  }
+  try {
+    check_formulas(image);
+  } catch (const std::invalid_argument& error) {
+    Fields("", 1).fail(error.what());
   }
   return image;
 }
@@ -235,8 +275,8 @@ std::vector<std::int32_t> parameter_words(const Image& image, const std::vector<
   std::vector<std::int32_t> words(32, 0);
   const auto rounded = [](const ImageWord& w, double value) {
     const double word = std::nearbyint(value / w.scale);
-    return static_cast<std::int32_t>(
-        std::clamp(word, static_cast<double>(w.lower), static_cast<double>(w.upper)));
+    if (!(word > w.lower)) return w.lower;  // NaN too
+    return static_cast<std::int32_t>(std::min(word, static_cast<double>(w.upper)));
   };
   std::size_t next = 0;
   for (const ImageWord& w : image.words) {

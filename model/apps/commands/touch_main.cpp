@@ -17,6 +17,7 @@
 #include "sim/axes_loop/axes_backends.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
+#include "sim/touch/make_glb.hpp"
 
 namespace feltgate {
 
@@ -78,6 +79,13 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
                                                    a.press_n > 0 ? 0.5 : 0.9)
                               : touch::read_stroke(a.stroke);
   if (!a.motion.empty()) r.mesh_way = touch::read_stroke(a.motion, true);
+  if (r.stroke.back().time_s < touch::shortest_s(r.host)) {
+    throw std::invalid_argument(fmt::format(
+        "{}the stroke ends after {:.3g} ms and a plane may take {:.3g} ms to come; make it longer, "
+        "or --latency and --jitter shorter",
+        a.stroke.empty() ? "" : fmt::format("{}:{}: ", a.stroke, r.stroke.size() + 1),
+        1e3 * r.stroke.back().time_s, 1e3 * touch::shortest_s(r.host)));
+  }
   return r;
 }
 
@@ -98,23 +106,47 @@ touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh) {
   return touch::run_touch(mesh, request_of(a, mesh), scene, options, info.tick_hz);
 }
 
-/// Puts a mesh with fewer faces in its place.
+/// Refuses RTL where this program has the twin alone.
+void require_engine(const std::string& engine) {
+  const std::string lead = choose_axes_backends(engine).lead;
+  try {
+    (void)find_axes_design("stylus_law")->cores(lead);
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument(fmt::format(
+        "--engine {}: this program has the twin alone; ./feltgate touch builds the one with the "
+        "RTL, or choose from twin, double and quad",
+        engine));
+  }
+}
+
+/// Puts a mesh with fewer faces in its place. Errors: std::invalid_argument where what is left is
+/// no such body.
 Decimation decimate(const TouchArguments& a, touch::Mesh& mesh) {
   touch::Mesh few = touch::clean(touch::decimate(mesh, static_cast<std::size_t>(a.faces)));
   Decimation d;
   d.faces = static_cast<std::int64_t>(few.triangles.size());
   d.faces_before = static_cast<std::int64_t>(mesh.triangles.size());
   d.hausdorff_m = touch::hausdorff_m(few, mesh);
+  const auto [low, high] = touch::box_of(mesh);
+  const plant::Vec3 side = high - low;
+  d.share = d.hausdorff_m / std::max({side.x, side.y, side.z});
+  d.opened = std::max<std::int64_t>(0, few.report.border_edges - mesh.report.border_edges);
+  constexpr double most_share = 0.25;
+  if (!(d.share <= most_share) || (d.opened > 0 && d.faces < 4)) {
+    throw std::invalid_argument(fmt::format(
+        "--faces {}: {} of {} faces would be left, {:.3g} mm away at most; take more faces",
+        a.faces, d.faces, d.faces_before, 1e3 * d.hausdorff_m));
+  }
   d.jumps = touch::jumps_of(few);
   d.before = touch::jumps_of(mesh);
   d.force_step_n = a.stiffness * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
-  few.report = mesh.report;  // of the file
+  d.file = mesh.report;
   mesh = std::move(few);
   return d;
 }
 
 int run(const TouchArguments& a) {
-  (void)choose_axes_backends(a.engine);
+  require_engine(a.engine);
   files::Outputs outputs;
   outputs.reads(a.glb);
   for (const std::string& path : {a.stroke, a.motion}) {
@@ -153,9 +185,22 @@ int run(const TouchArguments& a) {
   return a.mesh_only || told.result.as_expected() ? exit_ok : exit_failed;
 }
 
+/// Writes a mesh in place of reading one.
+int make(const TouchArguments& a) {
+  files::Outputs outputs;
+  files::OutputFile* file = outputs.open("--output", a.out);
+  const touch::Soup s = touch::made_mesh(a.make, a.faces > 0 ? a.faces : 1280, a.size_m);
+  file->write(touch::glb_of(s, "feltgate touch --make " + a.make));
+  if (!a.quiet) {
+    outputs.say(fmt::format("{}: {} faces, {} vertices, {:.1f} mm; CC0-1.0\n", a.out,
+                            s.triangles.size(), s.at.size(), 1e3 * a.size_m));
+  }
+  outputs.commit();
+  return exit_ok;
+}
+
 void add_options(CLI::App& sub, TouchArguments& a) {
-  sub.add_option("glb", a.glb, "binary glTF; all that it needs is inside")
-      ->required()
+  sub.add_option("glb", a.glb, "binary glTF; all that it needs is inside. Or --make one")
       ->type_name("FILE")
       ->check(checks::no_folder());
   const auto amount = [&](const std::string& name, double& value, const std::string& about,
@@ -177,8 +222,13 @@ void add_options(CLI::App& sub, TouchArguments& a) {
       ->excludes(centre);
   sub.add_option("--faces", a.faces, "at most so many faces, the others merged; 0: all")
       ->type_name("N")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{4000000}))
+      ->check(checks::whole(0, 4000000))
       ->capture_default_str();
+  CLI::Option* out = sub.add_option("-o,--output", a.out, "the file of --make")->type_name("FILE");
+  sub.add_option("--make", a.make,
+                 "no FILE: write one to touch, ball or torus, of --faces and --size; CC0")
+      ->type_name("SHAPE")
+      ->needs(out);
   sub.add_flag("--mesh-only", a.mesh_only, "what the mesh is, without a stroke");
   CLI::Option* stroke =
       sub.add_option("--stroke", a.stroke,
@@ -253,6 +303,7 @@ int main(int argc, char** argv) {
       "Reads the mesh, tells what it is, and leads the stylus over it. A proxy (god-object) finds\n"
       "the plane under the pen 1000 times a second; it is sent to the law local_space, which the\n"
       "engine renders at 100 kHz (docs/touch.md). Nothing of the mesh needs to be closed.\n"
+      "  feltgate touch --make ball -o ball.glb           a mesh to begin with\n"
       "  feltgate touch part.glb                          over it, 2 mm deep\n"
       "  feltgate touch part.glb --mesh-only              edges, components, genus\n"
       "  feltgate touch part.glb --size 80mm --shading    facets feel round\n"
@@ -267,7 +318,12 @@ int main(int argc, char** argv) {
   sub->callback([&] {
     if (a.mesh_only && !a.csv.empty())
       throw std::invalid_argument("--csv is of a stroke; leave --mesh-only out");
-    exit_code = run(a);
+    if (a.make.empty() == a.glb.empty() || a.make.empty() != a.out.empty()) {
+      throw std::invalid_argument(
+          "touch reads a GLB file or makes one; write feltgate touch FILE, or feltgate touch "
+          "--make ball -o FILE");
+    }
+    exit_code = a.make.empty() ? run(a) : make(a);
   });
   return run_command_line(app, argc, argv, exit_code);
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -70,7 +71,10 @@ Recording read_recording(const std::string& path) {
   Recording r;
   std::string line, key, value, more;
   int number_of_line = 0;
-  const auto fail = [&](const std::string& what, const std::string& mend) {
+  const auto fail = [&](std::string what, const std::string& mend) {
+    // A line of the file may have any bytes.
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     throw std::invalid_argument(fmt::format("{}:{}: {}; {}", path, number_of_line, what, mend));
   };
   const std::map<std::string, std::function<void()>> keys{

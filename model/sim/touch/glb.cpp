@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "sim/touch/touch.hpp"
@@ -276,12 +277,37 @@ std::vector<unsigned char> bytes_of(const std::string& path) {
   file.seekg(0);
   if (!file.read(reinterpret_cast<char*>(bytes.data()), size)) refuse("cannot be read");
   if (std::memcmp(bytes.data(), "glTF", 4) != 0) refuse("no GLB file; export as binary glTF, .glb");
-  std::uint32_t length = 0;
+  std::uint32_t version = 0, length = 0;
+  std::memcpy(&version, bytes.data() + 4, sizeof(version));
   std::memcpy(&length, bytes.data() + 8, sizeof(length));
+  if (version != 2) refuse(fmt::format("glTF {}, and 2 is read; export as glTF 2.0", version));
   if (length > bytes.size()) {
     refuse(fmt::format("cut off: {} of {} bytes; copy or export it again", bytes.size(), length));
   }
   return bytes;
+}
+
+/// Refuses what the file's `extensionsRequired` names and this reader does not know, before
+/// TinyGLTF stumbles over it. What only changes the looks is let through.
+void check_extensions(const std::vector<unsigned char>& bytes) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  const auto from = bytes.begin() + 20;
+  const auto to = from + std::min<std::ptrdiff_t>(length, bytes.end() - from);
+  const std::string key = "\"extensionsRequired\"";
+  if (std::search(from, to, key.begin(), key.end()) == to) return;
+  const auto json = nlohmann::json::parse(from, to, nullptr, false);
+  const auto required = json.is_object() ? json.find("extensionsRequired") : json.end();
+  if (!json.is_object() || required == json.end() || !required->is_array()) return;
+  for (const auto& name : *required) {
+    if (!name.is_string()) continue;
+    const std::string text = name.get<std::string>().substr(0, 60);
+    const auto begins = [&](const char* with) { return text.rfind(with, 0) == 0; };
+    if (begins("KHR_materials_") || begins("KHR_texture_") || begins("EXT_texture_") ||
+        begins("KHR_lights_"))
+      continue;
+    refuse(fmt::format("needs the extension {}, which is not read; export without it", text));
+  }
 }
 
 /// Lets TinyGLTF see no other file; remembers what it asked for.
@@ -301,6 +327,7 @@ tinygltf::FsCallbacks no_files(std::string* asked) {
 
 Soup read(const std::string& path) {
   const std::vector<unsigned char> bytes = bytes_of(path);
+  check_extensions(bytes);
   tinygltf::TinyGLTF loader;
   std::string asked, error, warning;
   loader.SetFsCallbacks(no_files(&asked));

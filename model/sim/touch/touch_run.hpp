@@ -132,13 +132,14 @@ inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double dep
 
 /// A stroke of a CSV file with the columns time_s,x_m,y_m,z_m and a line of their names; with
 /// `turns` the way of a mesh, which has a column turn_rad too. Errors: std::invalid_argument
-/// "path:line: what; mend".
+/// "path:line: what; mend", "path: cannot be read; ..." where there is no file.
 inline Stroke read_stroke(const std::string& path, bool turns = false) {
   const std::string columns = turns ? "time_s,x_m,y_m,z_m,turn_rad" : "time_s,x_m,y_m,z_m";
   const int count = turns ? 5 : 4;
   constexpr std::size_t most_rows = 100'000;
-  constexpr double longest_s = 60;
+  constexpr double longest_s = 60, fastest_m_s = 5, most_turn_rad = 1000;
   std::ifstream file(path);
+  if (!file) throw std::invalid_argument(path + ": cannot be read; check the path");
   std::string text;
   int line = 1;
   const auto fail = [&](const std::string& what) {
@@ -152,12 +153,14 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
     ++line;
     double value[5] = {};
     const char* at = text.c_str();
+    const auto at_end = [&](const char* c) { return text.c_str() + text.size() - c; };
     for (int n = 0; n < count; ++n) {
       char* end = nullptr;
       value[n] = std::strtod(at, &end);
       const bool last = n + 1 == count;
       const char follows = last ? '\0' : ',';
-      if (end == at || !std::isfinite(value[n]) || (*end != follows && !(last && *end == '\r'))) {
+      if (end == at || !std::isfinite(value[n]) || (*end != follows && !(last && *end == '\r')) ||
+          (last && at_end(end) > (*end == '\r' ? 1 : 0))) {
         fail(fmt::format("not {} numbers; write {}", turns ? "five" : "four", columns));
       }
       at = end + 1;
@@ -166,8 +169,18 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
     if (std::max({std::abs(to.x), std::abs(to.y), std::abs(to.z)}) > reach_m) {
       fail(fmt::format("beyond the pen's {} m; stay within", reach_m));
     }
+    if (std::abs(value[4]) > most_turn_rad)
+      fail(fmt::format("more than {} rad; turn it less", most_turn_rad));
     if (!stroke.empty() && value[0] <= stroke.back().time_s)
       fail("time does not go on; sort the rows");
+    if (!stroke.empty()) {
+      const double far_m = plant::length(to - stroke.back().at_m);
+      const double took_s = value[0] - stroke.back().time_s;
+      if (far_m > fastest_m_s * took_s * (1 + 1e-9)) {
+        fail(fmt::format("{:.3g} mm in {:.3g} ms, faster than {} m/s; take more time", 1e3 * far_m,
+                         1e3 * took_s, fastest_m_s));
+      }
+    }
     stroke.push_back({value[0], to, value[4]});
     if (stroke.back().time_s - stroke.front().time_s > longest_s || stroke.size() > most_rows) {
       fail(fmt::format("longer than {} s or {} rows; make it shorter", longest_s, most_rows));
@@ -209,6 +222,11 @@ struct TouchRequest {
   /// presses it with this force.
   double press_n = 0;
 };
+
+/// So long a stroke lasts at least if a plane shall come: the core arms after 10 ms.
+inline double shortest_s(const PlaneHostSettings& host) {
+  return 0.01 + host.latency_s + host.jitter_s;
+}
 
 /// One pose that the host took, and what it found of it.
 struct TouchUpdate {

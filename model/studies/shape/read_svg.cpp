@@ -191,7 +191,10 @@ std::string read(const std::string& path) {
 
 Outline read_svg(const std::string& path) {
   const std::string text = read(path);
-  const auto refuse = [&](long line, const std::string& what) {
+  const auto refuse = [&](long line, std::string what) {
+    // A message of the library may have bytes of the file in it.
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     throw std::invalid_argument(fmt::format("{}:{}: {}", path, line, what));
   };
   if (depth_of(text) > most_depth) {
@@ -202,8 +205,9 @@ Outline read_svg(const std::string& path) {
   rapidxml_ns::xml_document<> document;
   Collector found;
   const auto line_at = [&](const char* place) {
-    const auto before =
-        std::min<std::ptrdiff_t>(place - buffer.data(), static_cast<std::ptrdiff_t>(text.size()));
+    // Of a prefix without a namespace the library tells no place.
+    const bool inside = place >= buffer.data() && place <= buffer.data() + text.size();
+    const auto before = inside ? place - buffer.data() : 0;
     const std::string_view above(text.data(), static_cast<std::size_t>(before));
     long line = 1;
     for (std::size_t i = 0; i < above.size(); ++i) {

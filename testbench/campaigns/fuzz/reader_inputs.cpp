@@ -7,8 +7,9 @@
 #include <archive.h>
 #include <archive_entry.h>
 
-#include <cstring>
-#include <memory>
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "design/generate.hpp"
@@ -16,8 +17,10 @@
 #include "design/schedule.hpp"
 #include "faulty_reader.hpp"
 #include "files/toml/toml_reader.hpp"
+#include "host/board/recording.hpp"
 #include "law/derive.hpp"
 #include "law/evaluate.hpp"
+#include "law/load.hpp"
 #include "law/read_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/gimbal/gimbal_file.hpp"
@@ -25,9 +28,11 @@
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/plant_table.hpp"
 #include "sim/plant/profile.hpp"
-#include "sim/touch/touch.hpp"
+#include "sim/touch/touch_run.hpp"
 #include "sim/traces/open.hpp"
 #include "sim/traces/place.hpp"
+#include "studies/shape/outline.hpp"
+#include "studies/texture/image.hpp"
 
 namespace feltgate::fuzz {
 
@@ -106,9 +111,7 @@ std::string as_glb(const std::string& input) {
   std::string file;
   const auto word = [&file](std::size_t value) {
     const auto bits = static_cast<std::uint32_t>(value);
-    char bytes[4];
-    std::memcpy(bytes, &bits, 4);
-    file.append(bytes, 4);
+    file.append(reinterpret_cast<const char*>(&bits), 4);
   };
   word(0x46546c67);  // "glTF"
   word(2);
@@ -119,6 +122,24 @@ std::string as_glb(const std::string& input) {
   word(binary.size());
   word(0x004e4942);  // "BIN"
   return file + binary;
+}
+
+/// A law's image with the CRC-32 that it should have, so that changes get behind it.
+std::string as_law_image(const std::string& input) {
+  try {
+    (void)law::read_image(input);
+  } catch (const std::invalid_argument& error) {
+    const std::string said = error.what(), before = "the CRC-32 is ";
+    const std::size_t at = said.find(before), line = input.find("\ncrc ");
+    if (std::max(at, line) != std::string::npos)
+      return std::string(input).replace(line + 5, 8, said, at + before.size(), 8);
+  }
+  return input;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// ":123: " somewhere in the message.
@@ -236,19 +257,55 @@ Ending use_law(const fs::path& file) {
   return ending;
 }
 
+/// Readers that refuse with std::invalid_argument "FILE: what; mend".
+template <class Use>
+Ending plain_ending(Use use) {
+  Ending ending;
+  try {
+    use();
+    ending.read = true;
+  } catch (const std::invalid_argument& error) {
+    ending.error = error.what();
+  }
+  return ending;
+}
+
 /// What can be read is also cleaned; the command puts the file's name before an error of that.
 Ending use_glb(const fs::path& file) {
-  Ending ending;
   std::string prefix;
-  try {
+  Ending ending = plain_ending([&] {
     const touch::Soup soup = touch::read_glb(file.string());
     prefix = file.string() + ": ";
     (void)touch::clean(soup);
-    ending.read = true;
-  } catch (const std::invalid_argument& error) {
-    ending.error = prefix + error.what();
-  }
+  });
+  if (!ending.read) ending.error = prefix + ending.error;
   return ending;
+}
+
+/// The way of a pen, or of a mesh where the first line names a turn.
+Ending use_stroke(const fs::path& file) {
+  const bool turns = text_of(file).find("turn_rad") < 100;
+  return plain_ending([&] { (void)touch::read_stroke(file.string(), turns); });
+}
+
+/// What can be read is made into the words of a load, with other values too, and written again; the
+/// command puts the file's name before an error.
+Ending use_law_image(const fs::path& file) {
+  law::Image image;
+  Ending ending = plain_ending([&] {
+    image = law::read_image(text_of(file));
+    (void)law::load(image);
+    (void)law::parameter_words(image, std::vector<double>(image.words.size(), 0.3));
+  });
+  if (!ending.read) ending.error = file.string() + ": " + ending.error;
+  if (ending.read && law::text(law::read_image(law::text(image))) != law::text(image))
+    ending.trouble = "what was read is not what is written again";
+  return ending;
+}
+
+template <auto Read>
+Ending use_file(const fs::path& file) {
+  return plain_ending([&] { (void)Read(file.string()); });
 }
 
 /// The options of a recording come from its bytes: the same input, the same options.
@@ -330,6 +387,11 @@ const std::vector<Reader>& readers() {
       {"law", "input.law", as_it_is, use_law},
       {"vector", "input.vec", as_it_is, use_trace<F::vector>},
       {"glb", "input.glb", as_glb, use_glb},
+      {"stroke", "input.csv", as_it_is, use_stroke},
+      {"law_image", "input.img", as_law_image, use_law_image},
+      {"svg", "input.svg", as_it_is, use_file<shape::read_svg>},
+      {"board", "input.board", as_it_is, use_file<board::read_recording>},
+      {"png", "input.png", as_it_is, use_file<texture::read_png>},
       {"faulty", "input.txt", as_it_is, use_faulty},
   };
   return all;

@@ -192,6 +192,8 @@ class Fmu(Scratch):
         for words, said in (
             (("--scene", "wal"), '"wal" is not in vectors/scenes'),
             (("--scene", "no/scene.toml"), "no/scene.toml: there is no such file"),
+            # Before a design is looked for or built.
+            (("--scene", "no/scene.toml", "--design", "nothing"), "no/scene.toml: there is no such file"),
             (("--scene", "detent"), "has no engine; choose a scene without law"),
             (("--scene", "plane_circle"), "names a device of several axes"),
             (("--design", "nothing"), "choose lever"),

@@ -85,6 +85,17 @@ class Laws(ProgramTest):
             speed = (x[k] - x[k - 10]) / (10 * every_s)
             self.assertAlmostEqual(sum(fx[k - 10 : k]) / 10, -speed, delta=0.05)
         self.assertIn("ARMED", {row[4] for row in shown})
+        # The same words of a device that is no pantograph; and with both joints at 0 there is no pen.
+        two = self.folder / "two.toml"
+        two.write_text((ROOT / "rtl/designs/pantograph_law.toml").read_text(encoding="utf-8"), encoding="utf-8")
+        said = self.host("--design", two, "watch", "--pen", "--for", "1", status=2)
+        self.assertIn('has "pantograph" in it; the board has two, leave --pen out', said)
+        self.board("--design", "pantograph_law", "--hand", "free")
+        self.host("zero")
+        said = self.host("watch", "--pen", "--for", "0.1", "--every", "0.05")
+        self.assertRegex(said, r"  x - m  y - m  Fx - N  Fy - N  disarmed")
+        said = self.host("watch", "--pen", "--teleplot", "--for", "0.1", "--every", "0.05")
+        self.assertNotIn("nan", said)
 
     def lever_refuses_a_pen(self):
         pantograph = self.port

@@ -34,6 +34,41 @@ TEST_CASE("a changed word is found by the CRC, a wrong line by its number") {
   CHECK_THROWS(read_image("something else\n"));
 }
 
+TEST_CASE("an image that a host could not compute with is refused, with its line") {
+  const std::string written = text(compile_text("param k = 1 Nm/rad in 0 .. 2 Nm/rad\n"
+                                                "out torque = -k * position\n",
+                                                "k.law", Target{})
+                                       .image);
+  const auto at = written.find("\nparameter ") + 1;
+  const std::string line = written.substr(at, written.find('\n', at) - at);
+  CHECK_NOTHROW(read_image(written));
+  const auto told = [&](const std::string& changed) {
+    try {
+      (void)read_image(std::string(written).replace(at, line.size(), changed));
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("read");
+  };
+  for (const char* scale : {"0", "nan", "1e999", "0.5x"}) {
+    const std::string said = told(fmt::format("parameter 0 k Nm/rad {} 1 0 9 1 0 0 0 -", scale));
+    CHECK_THAT(said, Catch::Matchers::Contains("is no number that it can have; compile"));
+  }
+  CHECK(told("parameter 0 k Nm/rad 1 1 9 0 1 0 0 0 -").find("9 is above 0") != std::string::npos);
+  CHECK(told("parameter 0 k\x01 Nm/rad 1 1 0 9 1 0 0 0 -").find("cannot be printed") !=
+        std::string::npos);
+  for (const char* formula : {"k k", "+", "gone"}) {
+    const std::string said = told(line + "\nparameter 1 d Nm 1 1 0 9 1 0 0 0 " + formula);
+    CHECK_THAT(said,
+               Catch::Matchers::Contains("formula ") && Catch::Matchers::Contains("; compile"));
+  }
+  // Where a formula has no value the word is its least.
+  Image image = detent().image;
+  image.words = {{"k", "Nm", 0, 1, 1, -5, 9, 0, false, false, 0, ""},
+                 {"d", "Nm", 1, 1, 1, -5, 9, 0, false, false, 0, "k k /"}};
+  CHECK(parameter_words(image, {0})[1] == -5);
+}
+
 TEST_CASE("mailbox words lie at the end, and the shortest max_age counts") {
   const Compiled c = compile_text(
       "mailbox goal = 0 rad in -1 .. 1 rad max_age 20 ms\n"

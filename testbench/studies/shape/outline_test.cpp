@@ -126,6 +126,10 @@ TEST_CASE("what is refused, with the mend") {
              Contains("2 outlines; unite"));
   CHECK_THAT(message("<svg xmlns=\"http://www.w3.org/2000/svg\">\n<path d='M0 0 L60 0"),
              Contains("outline_test.svg:2: no whole XML"));
+  // A prefix without a namespace; a byte that cannot be printed.
+  CHECK_THAT(message("<svg xmlns=\"http://www.w3.org/2000/svg\" a:b=\"1\"/>"),
+             Contains("outline_test.svg:1: no whole XML"));
+  CHECK_THAT(message(drawing("<path d='M0 0 L60 \x01 Z'/>")), Contains("\"M0 0 L60 ? Z\""));
   CHECK_THAT(message(""), Contains("no element"));
   CHECK_THAT(message(drawing("<path d='M0 0 L60 nothing Z'/>")), Contains("save the drawing"));
   CHECK_THAT(message(drawing("<path d='M0 0 L1 0 L2 0 Z'/>")), Contains("no area"));

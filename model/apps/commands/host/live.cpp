@@ -25,6 +25,11 @@ std::size_t terminal_width() {
   return known ? size.ws_col : 80;
 }
 
+/// "-" for a value that there is not, as of a pen where the rods do not reach each other.
+std::string shown(double value) {
+  return !std::isfinite(value) ? "-" : fmt::format("{:.5g}", value);
+}
+
 }  // namespace
 
 std::string unit_suffix(const std::string& unit) {
@@ -100,14 +105,18 @@ void Live::on_terminal(const Tick& tick) {
   for (std::size_t n = 0; n < columns_.size(); ++n) {
     const LiveColumn& q = columns_[n];
     std::deque<double>& h = history_[n];
-    h.push_back(q.value(tick));
+    const double value = q.value(tick);
+    if (std::isfinite(value)) h.push_back(value);
     if (h.size() > most_history) h.pop_front();
     const std::size_t room = width > before_bars ? width - before_bars : 0;
     const std::deque<double> seen(
         h.size() > room ? h.end() - static_cast<std::ptrdiff_t>(room) : h.begin(), h.end());
-    const auto [low, high] = std::minmax_element(h.begin(), h.end());
-    text += fmt::format("\r\x1b[K{:>14} {:>11.5g} {:<7}{:>9.3g} to {:<9.3g} {}\n", q.name, h.back(),
-                        q.unit, *low, *high, sparkline(seen));
+    text += fmt::format("\r\x1b[K{:>14} {:>11} {:<7}", q.name, shown(value), q.unit);
+    if (!h.empty()) {
+      const auto [low, high] = std::minmax_element(h.begin(), h.end());
+      text += fmt::format("{:>9.3g} to {:<9.3g} {}", *low, *high, sparkline(seen));
+    }
+    text += "\n";
   }
   text += fmt::format("\r\x1b[K{}\n", status(tick).substr(0, width - 1));
   lines_ = static_cast<int>(columns_.size()) + 2;
@@ -118,7 +127,7 @@ void Live::on_terminal(const Tick& tick) {
 void Live::as_line(const Tick& tick) {
   std::string text = fmt::format("{:.3f} s", tick.time_s);
   for (const LiveColumn& q : columns_) {
-    text += fmt::format("  {} {:.5g} {}", q.name, q.value(tick), q.unit);
+    text += fmt::format("  {} {} {}", q.name, shown(q.value(tick)), q.unit);
     if (q.unit.empty()) text.pop_back();
   }
   text += "  " + status(tick);
@@ -130,6 +139,7 @@ void Live::as_line(const Tick& tick) {
 void Live::as_teleplot(const Tick& tick) {
   std::string text;
   for (const LiveColumn& q : columns_) {
+    if (!std::isfinite(q.value(tick))) continue;
     text += fmt::format(">{}:{:.3f}:{:.9g}{}\n", q.name, 1e3 * tick.time_s, q.value(tick),
                         q.unit.empty() ? "" : "§" + q.unit);
   }

@@ -26,11 +26,19 @@ struct WatchArguments : StreamArguments {
 };
 
 /// Position of the pen and force of the motors on it, from the joints of a pantograph: x, y in m,
-/// Fx, Fy in N.
+/// Fx, Fy in N; NaN where the joints are none of a pantograph's. A board tells its design and no
+/// more, so the design's name says whether there is one.
 std::vector<LiveColumn> pen_columns(Device& device) {
   if (device.axes() != 2) {
     throw std::invalid_argument(fmt::format(
         "--pen: is for a board with two axes, a pantograph; this one has {}", device.axes()));
+  }
+  const std::string& design = device.design().design.name;
+  if (design.find("pantograph") == std::string::npos) {
+    throw std::invalid_argument(fmt::format(
+        "--pen: is for a design whose name has \"pantograph\" in it; the board has {}, leave --pen "
+        "out or rename the design's file",
+        design));
   }
   const auto parameters = plant::read_pantograph_file(find_file("pantograph", "vectors/devices"));
   const plant::Linkage linkage(parameters.linkage);

@@ -62,10 +62,21 @@ Summary summary_of(const touch::TouchRun& run) {
 
 }  // namespace
 
+std::vector<std::string> Decimation::warnings() const {
+  constexpr double far_share = 0.05;
+  std::vector<std::string> all;
+  if (share > far_share)
+    all.push_back(fmt::format("{:.0f} % of its size away: another shape is felt; take more faces",
+                              100 * share));
+  if (opened > 0)
+    all.push_back(fmt::format("{} edges more at a border: slivers were dropped", opened));
+  return all;
+}
+
 std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const touch::Mesh& mesh,
                       double scale, const std::optional<Decimation>& fewer) {
   constexpr std::size_t most_shown = 8;
-  const touch::MeshReport& r = mesh.report;
+  const touch::MeshReport& r = fewer ? fewer->file : mesh.report;
   std::string s = fmt::format("{}: {} triangles of {} primitives, {} vertices; ", a.glb,
                               r.triangles_read, soup.primitives, r.vertices_read);
   s += a.as_is ? "as in the file\n"
@@ -100,6 +111,7 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
         degrees(fewer->jumps.most_rad), degrees(fewer->jumps.largest_rad),
         degrees(fewer->before.most_rad), degrees(fewer->before.largest_rad), fewer->force_step_n,
         1e3 * a.depth_m, a.stiffness);
+    for (const std::string& w : fewer->warnings()) s += "  warning: " + w + "\n";
   }
   return s;
 }
@@ -150,7 +162,7 @@ std::string run_text(const TouchArguments& a, const touch::TouchRun& run) {
 
 nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mesh, double scale,
                                  const std::optional<Decimation>& fewer) {
-  const touch::MeshReport& r = mesh.report;
+  const touch::MeshReport& r = fewer ? fewer->file : mesh.report;
   nlohmann::ordered_json j{{"schema", "feltgate-touch/1"},
                            {"version", FELTGATE_VERSION},
                            {"mesh", std::filesystem::path(a.glb).filename().string()},
@@ -185,6 +197,7 @@ nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mes
     d["turn_rad"] = turn(fewer->jumps);
     d["turn_before_rad"] = turn(fewer->before);
     d["force_step_n"] = fewer->force_step_n;
+    d["warnings"] = fewer->warnings();
   }
   return j;
 }

@@ -18,7 +18,7 @@
 namespace feltgate {
 
 struct TouchArguments {
-  std::string glb, stroke, motion, engine = "twin,double", json, csv;
+  std::string glb, stroke, motion, engine = "twin,double", json, csv, make, out;
   std::vector<std::string> materials;
   std::int64_t faces = 0;  ///< at most so many; 0: all of the file
   double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0, press_n = 0;
@@ -32,9 +32,14 @@ struct TouchArguments {
 /// What fewer faces cost.
 struct Decimation {
   std::int64_t faces = 0, faces_before = 0;
-  double hausdorff_m = 0;
-  touch::Jumps jumps, before;  ///< of the normals at its edges
-  double force_step_n = 0;     ///< at 95 % of the edges, at the stroke's depth and stiffness
+  double hausdorff_m = 0, share = 0;  ///< that of the mesh's largest side
+  std::int64_t opened = 0;            ///< edges at a border that were none before
+  touch::Jumps jumps, before;         ///< of the normals at its edges
+  touch::MeshReport file;             ///< of the mesh before
+  double force_step_n = 0;            ///< at 95 % of the edges, at the stroke's depth and stiffness
+
+  /// What one should know before one touches it; empty: nothing.
+  std::vector<std::string> warnings() const;
 };
 
 /// The mesh in words.

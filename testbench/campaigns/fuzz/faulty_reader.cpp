@@ -3,11 +3,11 @@
 //
 // A reader with every fault that fuzzing must find, chosen by the input. Documentation:
 // docs/testing.md
-#include "faulty_reader.hpp"
-
 #include <fstream>
 #include <stdexcept>
 #include <vector>
+
+#include "reader_inputs.hpp"
 
 namespace feltgate::fuzz {
 

@@ -15,7 +15,6 @@
 #include "design/generate.hpp"
 #include "design/host_words.hpp"
 #include "design/schedule.hpp"
-#include "faulty_reader.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "host/board/recording.hpp"
 #include "law/derive.hpp"

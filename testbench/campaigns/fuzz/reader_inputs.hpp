@@ -32,4 +32,8 @@ const std::vector<Reader>& readers();
 /// Where the plants, designs and the register map of the project lie.
 void set_root(const std::filesystem::path& root);
 
+/// A reader with every fault that fuzzing must find. The input names the fault: crash, hang,
+/// message, throw or write.
+Ending use_faulty(const std::filesystem::path& file);
+
 }  // namespace feltgate::fuzz

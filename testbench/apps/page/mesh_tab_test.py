@@ -12,8 +12,11 @@ import base64
 import itertools
 import json
 import struct
+import tempfile
+from pathlib import Path
 
 from browsing import PAGE, ActionChains, By, PageTest, main, taking
+from testing import BUILD, ran
 
 HAND_N_M, STIFFNESS_N_M, COUNT_M = 135, 206, 15.4e-6
 MOST_BYTES = 2_000_000
@@ -113,11 +116,33 @@ class Mesh(PageTest):
             self.assertAlmostEqual(found, wanted, delta=2 * COUNT_M)
         self.assertGreater(self.painted()[0], 30_000)
 
+    def test_its_planes_are_those_of_the_program(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+        def touch(*words):
+            done = ran(BUILD / "feltgate_touch", "touch", *words, cwd=folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+        torus, box = folder / "torus.glb", folder / "box.glb"
+        touch("--make", "torus", "--faces", "400", "-o", torus)
+        box.write_bytes(box_glb(3, 1, 3))
+        for path in (torus, box):
+            touch(path, "--json", "it.json", "--quiet")
+            native = json.loads((folder / "it.json").read_text(encoding="utf-8"))
+            self.js(
+                "window.found = null; const bytes = Uint8Array.from(atob(arguments[1]), (c) => c.charCodeAt(0));"
+                "feltgate.worker.call('planesHash', arguments[0], bytes, 0.06).then((hash) => { window.found = hash; })",
+                path.name,
+                base64.b64encode(path.read_bytes()).decode(),
+            )
+            self.assertEqual(self.until("return window.found"), native["stroke_hash"], path.name)
+
     def test_a_bad_file_is_refused_in_the_importers_words(self):
         self.drop("box.glb", box_glb(3, 1, 3))
         whole = box_glb(1, 1, 1)
         for name, data, needle in (
             ("cut.glb", whole[:-40], "cut off: "),
+            ("empty.glb", b"", "export"),
             ("note.glb", b"a text that is no mesh at all", "no GLB file; export as binary"),
             ("two.glb", box_glb(1, 1, 1, "other.bin"), "needs the file other.bin beside it"),
             ("flat.glb", box_glb(float("nan"), 1, 1), "vertex 0 of a primitive is not finite"),

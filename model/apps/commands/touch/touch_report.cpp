@@ -175,7 +175,8 @@ nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mes
                            {"border_edges", r.border_edges},
                            {"nonmanifold_edges", r.nonmanifold_edges},
                            {"inverted_edges", r.inverted_edges},
-                           {"turned", r.turned}};
+                           {"turned", r.turned},
+                           {"stroke_hash", fmt::format("{:016x}", touch::stroke_hash(mesh))}};
   for (const touch::Component& c : r.components) {
     nlohmann::ordered_json part{{"vertices", c.vertices},
                                 {"edges", c.edges},

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -30,12 +29,6 @@ std::vector<Maker>& makers() {
 bool add_core(const std::string& design, const std::string& kind, CoreMaker make) {
   makers().push_back({design, kind, make});
   return true;
-}
-
-bool has_design(const std::string& design, const std::string& kind) {
-  const auto& all = makers();
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Maker& m) { return m.design == design && m.kind == kind; });
 }
 
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,

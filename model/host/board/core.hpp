@@ -97,9 +97,6 @@ using CoreMaker = std::unique_ptr<Core> (*)(const BoardOptions&);
 /// Makes a kind of core, "twin" or "rtl", known: the sources of each design call it before main().
 bool add_core(const std::string& design, const std::string& kind, CoreMaker make);
 
-/// Whether this program has such a core.
-bool has_design(const std::string& design, const std::string& kind);
-
 /// Errors: std::invalid_argument that names the command which builds it.
 std::unique_ptr<Core> make_core(const std::string& design, const std::string& kind,
                                 const BoardOptions& options);

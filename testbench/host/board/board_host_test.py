@@ -294,6 +294,11 @@ class Recordings(BoardTest):
         (self.folder / "x.board").write_text(text[: len(text) // 2])
         self.run_program("feltgate_board", "--replay", "x.board", status=2)
 
+    def test_the_time_of_several_axes_begins_after_homing(self):
+        need_terminals()
+        words = ("--design", "pantograph_law", "--for", "0.01", "--unpaced")
+        self.assertIn("simulated 0.01 s", self.run_program(board_program(words), *words))
+
     def test_wrong_words(self):
         for words, needle in (
             (("--hand", "wave"), "is neither free, locked, hold or swing"),
@@ -317,8 +322,6 @@ class Recordings(BoardTest):
             with self.subTest(words):
                 said = self.run_program(board_program(pen), *pen, *words, status=2)
                 self.assertIn(needle, said)
-        said = self.run_program(board_program(pen), *pen, "--unpaced")
-        self.assertIn("simulated 0.01 s", said)
         for words, needle in (
             (("--design", "paper"), "./feltgate board --design paper --rtl builds it"),
             (("--baud", "115200"), "leave --baud out, or take the twin"),

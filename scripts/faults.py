@@ -88,7 +88,7 @@ def arguments(argv):
     add.add_flags(
         parser,
         clean="device time without a fault instead: false alarms",
-        long="with --clean: 24 hours, two or three of CPU time",
+        long="with --clean: 24 hours, two or three of CPU time; of another design than lever a tenth",
     )
     add.add_path(parser, "--replay", what="the listed cases instead")
     what = "tell of the lines that --save kept; runs nothing"

@@ -184,8 +184,7 @@ int main(int argc, char** argv) {
   Arguments a;
   a.setup.hand.clear();
   app.add_flag("--twin", a.twin, "the bit-exact twin; the default");
-  app.add_flag("--rtl", a.rtl,
-               "the RTL of core and link, compiled by Verilator, at 1 Mbaud; a minute to build");
+  app.add_flag("--rtl", a.rtl, "the RTL of core and link, compiled by Verilator, at 1 Mbaud");
   app.add_option("--design", a.setup.design, "a name in rtl/designs")
       ->capture_default_str()
       ->type_name("DESIGN");

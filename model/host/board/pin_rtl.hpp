@@ -5,6 +5,7 @@
 // Documentation: docs/board.md
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <utility>

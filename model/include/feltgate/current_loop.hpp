@@ -63,10 +63,10 @@ class MeasuredCurrent {
     std::int64_t forwarded = 0;    ///< LSB of the voltage, for the same clock
     std::uint32_t duty_limit = 0;  ///< the word
     // Of three phases.
-    std::int16_t duty = 0;   ///< the length of the direct voltage, clocks
+    std::int16_t duty = 0;    ///< the length of the direct voltage, clocks
     std::int32_t count = 0;   ///< of the encoder, whatever its zero
     std::uint32_t angle = 0;  ///< or of Hall lines; the count is 0 then
-    std::uint32_t word = 0;  ///< on the parameter bus, if it is one of commutation
+    std::uint32_t word = 0;   ///< on the parameter bus, if it is one of commutation
   };
 
   /// The current is measured, in the direction of tau_ref, and held from Step::sample on.

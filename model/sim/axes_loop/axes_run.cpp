@@ -27,6 +27,8 @@
 
 namespace feltgate {
 
+namespace {
+
 /// Accumulates one signal, tick by tick.
 class SignalRecord {
  public:
@@ -80,8 +82,6 @@ class HandWork {
   FeltEnergy energy_;
   double net_j_ = 0, given_j_ = 0;
 };
-
-namespace {
 
 /// The limits that can make the commanded torque differ from the law's.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;

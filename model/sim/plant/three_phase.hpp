@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -16,23 +15,6 @@ namespace feltgate::plant {
 
 /// One value of each phase or leg: A, B, C.
 using Phases = std::array<double, 3>;
-
-/// Three Hall sensors of a motor. Line n is high in half of an electrical turn, from a third of a
-/// turn after line n - 1 on.
-struct HallLines {
-  double begin_rad = 0;  ///< electrical angle at which line A rises
-  Phases error_rad{};    ///< electrical: how far each sensor is from its place
-  /// The lines at an electrical angle; bit 0: A.
-  unsigned code(double electrical_rad) const {
-    unsigned code = 0;
-    for (std::size_t n = 0; n < 3; ++n) {
-      const double third_rad = 2.0943951023931953 * static_cast<double>(n);
-      const double since_rad = electrical_rad - begin_rad - third_rad - error_rad[n];
-      if (std::sin(since_rad) >= 0) code |= 1u << n;
-    }
-    return code;
-  }
-};
 
 /// State of the three half bridges during one step.
 struct Legs {

@@ -24,8 +24,8 @@ struct Stretch {
 };
 
 inline bool same(const CoreIn& a, const CoreIn& b) {
-  return a.encoder == b.encoder && a.encoder_data == b.encoder_data &&
-         a.hall == b.hall && a.current_data == b.current_data && a.driver_fault == b.driver_fault && a.arm == b.arm &&
+  return a.encoder == b.encoder && a.encoder_data == b.encoder_data && a.hall == b.hall &&
+         a.current_data == b.current_data && a.driver_fault == b.driver_fault && a.arm == b.arm &&
          a.stop == b.stop && a.set_zero == b.set_zero && a.scene == b.scene &&
          a.reg_addr == b.reg_addr && a.reg_wdata == b.reg_wdata && a.reg_write == b.reg_write &&
          a.law_torque == b.law_torque && a.law_late == b.law_late &&

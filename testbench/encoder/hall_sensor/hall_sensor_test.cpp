@@ -15,11 +15,11 @@
 #include <memory>
 #include <string>
 
+#include "../../sim/plant/three_phase_fixture.hpp"
 #include "catch.hpp"
 #include "lock_step.hpp"
 #include "page_figures.hpp"
 #include "ports.hpp"
-#include "sim/plant/three_phase.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

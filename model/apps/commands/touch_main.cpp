@@ -23,8 +23,8 @@ namespace feltgate {
 
 namespace {
 
-/// NAME=STIFFNESS,DAMPING,DRAG of a material of the mesh, or NAME=PRESET. Errors:
-/// std::invalid_argument.
+/// NAME=STIFFNESS,DAMPING,DRAG of a material of the mesh, with or without ,VIBRATION,FREQUENCY; or
+/// NAME=PRESET. Errors: std::invalid_argument.
 std::pair<std::string, PlaneMaterial> material_of(const std::string& text, const touch::Mesh& mesh,
                                                   double stiffness_n_m) {
   const std::size_t equals = text.rfind('=');
@@ -39,18 +39,20 @@ std::pair<std::string, PlaneMaterial> material_of(const std::string& text, const
     if (words.size() == 1 && words[0] == preset.name)
       return {name, touch::material_of(preset, stiffness_n_m)};
   }
-  constexpr double most[] = {1000, touch::most_damping_ns_m, 2};
-  double value[3] = {};
-  for (std::size_t n = 0; n < 3; ++n) {
-    if (words.size() != 3 || !CLI::detail::lexical_cast(words[n], value[n]) ||
-        !(value[n] >= 0 && value[n] <= most[n])) {
-      throw std::invalid_argument(
-          fmt::format("--material {}: not NAME=STIFFNESS,DAMPING,DRAG up to 1000 N/m, 2 N s/m and "
-                      "2, and no preset; write {}=300,0,0 or {}=stone",
-                      text, name, name));
-    }
+  constexpr double most[] = {1000, touch::most_damping_ns_m, 2, touch::most_vibration_n,
+                             touch::most_frequency_hz};
+  double value[5] = {};
+  bool good = words.size() == 3 || words.size() == 5;
+  for (std::size_t n = 0; good && n < words.size(); ++n) {
+    good = CLI::detail::lexical_cast(words[n], value[n]) && value[n] >= 0 && value[n] <= most[n];
   }
-  return {name, {value[0], value[1], value[2]}};
+  if (!good) {
+    throw std::invalid_argument(fmt::format(
+        "--material {}: not NAME=STIFFNESS,DAMPING,DRAG up to 1000 N/m, 2 N s/m and 2, nor with "
+        ",VIBRATION,FREQUENCY up to 1 N and 250 Hz, and no preset; write {}=300,0,0 or {}=stone",
+        text, name, name));
+  }
+  return {name, {value[0], value[1], value[2], value[3], value[4]}};
 }
 
 touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh) {
@@ -237,7 +239,8 @@ void add_options(CLI::App& sub, TouchArguments& a) {
           ->check(checks::no_folder());
   sub.add_option(
          "--motion", a.motion,
-         "the mesh moves and turns: CSV with time_s,x_m,y_m,z_m,turn_rad; default: it stands")
+         "the mesh moves, turns about a direction by its length, and grows: CSV with "
+         "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale; default: it stands")
       ->type_name("FILE")
       ->check(checks::no_folder());
   amount("--depth", a.depth_m, "of the stroke below what is seen from above",
@@ -254,8 +257,8 @@ void add_options(CLI::App& sub, TouchArguments& a) {
          checks::number(0, 2, ""), "MU");
   sub.add_option(
          "--material", a.materials,
-         "stiffness, damping and drag of the parts of one material, or stone, fabric, water, "
-         "object; repeat it")
+         "stiffness, damping and drag of the parts of one material, then a vibration if it has "
+         "one, N and Hz; or stone, fabric, water, object; repeat it")
       ->type_name("NAME=N/M,NS/M,MU");
   CLI::Option* friction = amount("--friction", a.friction,
                                  "friction of the proxy: it stays within the cone, by the host",

@@ -42,13 +42,17 @@ std::map<std::string, double> words_of(const PlaneHostSettings& world,
     add_words(words, "second", plane.second, world.axes);
     words["height"] = plant::dot(plane.normal, plane.point_m);
     words["second_height"] = plant::dot(plane.second, plane.second_point_m);
-    words["convex"] = plane.convex ? 1 : 0;
     words["lean"] = lean;
-    words["spread"] = 1 / (1 - lean * lean);
+    words["spread"] = plane.convex ? 0 : 1 / (1 - lean * lean);
   } else {
     add_words(words, "point", plane.point_m, world.axes);
   }
   add_words(words, "normal", plane.normal, world.axes);
+  if (world.moves) add_words(words, "speed", plane.velocity_m_s, world.axes);
+  if (world.vibrates) {
+    words["vibration"] = material.vibration_n;
+    words["frequency"] = material.frequency_hz;
+  }
   return words;
 }
 

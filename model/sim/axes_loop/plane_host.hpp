@@ -30,14 +30,16 @@ struct Plane {
   plant::Vec3 point_m, normal;
   plant::Vec3 second_point_m{}, second{};
   bool convex = false;  ///< material is where both planes have it, else where either has
+  plant::Vec3 velocity_m_s{};  ///< of the surface at the point
   bool edge() const { return plant::length(second) > 0; }
 };
 /// Within this the force of local_edge turns from one side of a convex edge to the other.
 constexpr double edge_round_m = 1e-3;
 
-/// What a plane is made of.
+/// What a plane is made of. Its texture is a vibration of the push, as of the law material.
 struct PlaneMaterial {
   double stiffness_n_m = 0, damping_ns_m = 0, friction = 0;
+  double vibration_n = 0, frequency_hz = 0;
 };
 
 /// [plane] of a scene file. With two axes z is always 0.
@@ -51,6 +53,8 @@ struct PlaneHostSettings : PlaneMaterial {
   int axes = 2;
   bool sends_force = false;  ///< sends the force instead of the plane: one word per axis
   bool edges = false;        ///< sends two planes at an edge, to the law local_edge
+  bool moves = false;        ///< sends the planes' velocities too
+  bool vibrates = false;     ///< sends the materials' vibrations too
   World world = World::kFloor;
   plant::Vec3 centre_m;
   double radius_m = 0;  ///< for a cube: half its edge

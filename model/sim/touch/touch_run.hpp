@@ -27,8 +27,8 @@ namespace feltgate::touch {
 struct StrokePoint {
   double time_s = 0;
   Vec3 at_m;
-  double turn_rad =
-      0;  ///< of a mesh about the vertical through the middle of its box; a pen has none
+  Vec3 turn_rad{};   ///< of a mesh, about this direction and by its length; a pen has none
+  double scale = 1;  ///< of a mesh; it turns and grows about the middle of its box
 };
 using Stroke = std::vector<StrokePoint>;
 
@@ -41,7 +41,8 @@ inline StrokePoint at_time(const Stroke& way, double time_s) {
   const StrokePoint& last = *(next - 1);
   const double share = (time_s - last.time_s) / (next->time_s - last.time_s);
   return {time_s, last.at_m + share * (next->at_m - last.at_m),
-          last.turn_rad + share * (next->turn_rad - last.turn_rad)};
+          last.turn_rad + share * (next->turn_rad - last.turn_rad),
+          last.scale + share * (next->scale - last.scale)};
 }
 
 /// The two corners of a mesh's box.
@@ -54,8 +55,8 @@ inline std::pair<Vec3, Vec3> box_of(const Mesh& mesh) {
   return {low, high};
 }
 
-/// A mesh that moves: T_world = T_actor T_mesh. The proxy stays in the frame of the mesh, so a
-/// surface that comes to the pen pushes it as one that the pen goes to.
+/// A mesh that moves, turns and grows: T_world = T_actor T_mesh. The proxy stays in the frame of the
+/// mesh, so a surface that comes to the pen pushes it as one that the pen goes to.
 class Actor {
  public:
   Actor(const Mesh& mesh, Stroke way) : way_(std::move(way)) {
@@ -66,21 +67,34 @@ class Actor {
   Vec3 in_mesh(Vec3 at_m, double time_s) const {
     if (way_.empty()) return at_m;
     const StrokePoint pose = at_time(way_, time_s);
-    return middle_m_ + turned(at_m - pose.at_m - middle_m_, -pose.turn_rad);
+    return middle_m_ +
+           1 / pose.scale * turned(at_m - pose.at_m - middle_m_, -1.0 * pose.turn_rad);
+  }
+  /// And a point of the mesh in the frame of the device.
+  Vec3 in_device(Vec3 in_mesh_m, double time_s) const {
+    if (way_.empty()) return in_mesh_m;
+    const StrokePoint pose = at_time(way_, time_s);
+    return middle_m_ + pose.at_m + pose.scale * turned(in_mesh_m - middle_m_, pose.turn_rad);
+  }
+  /// How fast that point of the mesh goes from now on, m/s.
+  Vec3 velocity_m_s(Vec3 in_mesh_m, double time_s) const {
+    constexpr double step_s = 1e-6;
+    return 1 / step_s * (in_device(in_mesh_m, time_s + step_s) - in_device(in_mesh_m, time_s));
   }
   /// What the proxy knows, in the frame of the device.
   Touched in_device(Touched t, double time_s) const {
     if (way_.empty()) return t;
     const StrokePoint pose = at_time(way_, time_s);
-    for (Vec3* at : {&t.proxy_m, &t.point_m, &t.second_point_m})
-      *at = middle_m_ + pose.at_m + turned(*at - middle_m_, pose.turn_rad);
+    for (Vec3* at : {&t.proxy_m, &t.point_m, &t.second_point_m}) *at = in_device(*at, time_s);
     for (Vec3* normal : {&t.normal, &t.second}) *normal = turned(*normal, pose.turn_rad);
+    t.depth_m *= pose.scale;
     return t;
   }
 
  private:
-  static Vec3 turned(Vec3 v, double rad) {
-    return plant::Quaternion::about({0, 0, 1}, rad).turn(v);
+  static Vec3 turned(Vec3 v, Vec3 by_rad) {
+    const double rad = plant::length(by_rad);
+    return rad > 0 ? plant::Quaternion::about(1 / rad * by_rad, rad).turn(v) : v;
   }
   Stroke way_;
   Vec3 middle_m_;
@@ -131,13 +145,15 @@ inline Stroke stroke_over(const Mesh& mesh, const TriangleTree& tree, double dep
 }
 
 /// A stroke of a CSV file with the columns time_s,x_m,y_m,z_m and a line of their names; with
-/// `turns` the way of a mesh, which has a column turn_rad too. Errors: std::invalid_argument
-/// "path:line: what; mend", "path: cannot be read; ..." where there is no file.
+/// `turns` the way of a mesh, which has columns of turns and scale too. Errors:
+/// std::invalid_argument "path:line: what; mend", "path: cannot be read; ..." where there is no
+/// file.
 inline Stroke read_stroke(const std::string& path, bool turns = false) {
-  const std::string columns = turns ? "time_s,x_m,y_m,z_m,turn_rad" : "time_s,x_m,y_m,z_m";
-  const int count = turns ? 5 : 4;
+  const std::string columns =
+      turns ? "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale" : "time_s,x_m,y_m,z_m";
+  const int count = turns ? 8 : 4;
   constexpr std::size_t most_rows = 100'000;
-  constexpr double longest_s = 60, fastest_m_s = 5, most_turn_rad = 1000;
+  constexpr double longest_s = 60, fastest_m_s = 5, most_turn_rad = 1000, most_scale = 10;
   std::ifstream file(path);
   if (!file) throw std::invalid_argument(path + ": cannot be read; check the path");
   std::string text;
@@ -151,7 +167,7 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
   Stroke stroke;
   while (std::getline(file, text)) {
     ++line;
-    double value[5] = {};
+    double value[] = {0, 0, 0, 0, 0, 0, 0, 1};
     const char* at = text.c_str();
     const auto at_end = [&](const char* c) { return text.c_str() + text.size() - c; };
     for (int n = 0; n < count; ++n) {
@@ -161,7 +177,7 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
       const char follows = last ? '\0' : ',';
       if (end == at || !std::isfinite(value[n]) || (*end != follows && !(last && *end == '\r')) ||
           (last && at_end(end) > (*end == '\r' ? 1 : 0))) {
-        fail(fmt::format("not {} numbers; write {}", turns ? "five" : "four", columns));
+        fail(fmt::format("not {} numbers; write {}", turns ? "eight" : "four", columns));
       }
       at = end + 1;
     }
@@ -169,8 +185,11 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
     if (std::max({std::abs(to.x), std::abs(to.y), std::abs(to.z)}) > reach_m) {
       fail(fmt::format("beyond the pen's {} m; stay within", reach_m));
     }
-    if (std::abs(value[4]) > most_turn_rad)
+    const Vec3 turn_rad{value[4], value[5], value[6]};
+    if (plant::length(turn_rad) > most_turn_rad)
       fail(fmt::format("more than {} rad; turn it less", most_turn_rad));
+    if (!(value[7] >= 1 / most_scale && value[7] <= most_scale))
+      fail(fmt::format("a scale that is not within 1/{0:g} to {0:g}; 1 leaves the size", most_scale));
     if (!stroke.empty() && value[0] <= stroke.back().time_s)
       fail("time does not go on; sort the rows");
     if (!stroke.empty()) {
@@ -181,7 +200,7 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
                          1e3 * took_s, fastest_m_s));
       }
     }
-    stroke.push_back({value[0], to, value[4]});
+    stroke.push_back({value[0], to, turn_rad, value[7]});
     if (stroke.back().time_s - stroke.front().time_s > longest_s || stroke.size() > most_rows) {
       fail(fmt::format("longer than {} s or {} rows; make it shorter", longest_s, most_rows));
     }
@@ -193,21 +212,22 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
 }
 
 /// A material by its name, as the scenes material_NAME have it: shares of the stiffness that is
-/// asked for and of the law's most damping, and the dynamic friction.
+/// asked for and of the law's most damping and vibration, the dynamic friction, and a frequency.
 struct MaterialPreset {
   const char* name;
-  double hardness, damping, friction;
+  double hardness, damping, friction, vibration, frequency_hz;
 };
 constexpr MaterialPreset material_presets[] = {
-    {"stone", 1, 0.08, 0.2},
-    {"fabric", 0.3, 0.16, 0.5},
-    {"water", 0.02, 0, 0},
-    {"object", 0.8, 0.1, 0.3},  // what TouchWorld gives each generated one
+    {"stone", 1, 0.08, 0.2, 0.2, 200},
+    {"fabric", 0.3, 0.16, 0.5, 0.2, 30},
+    {"water", 0.02, 0, 0, 0, 0},
+    {"object", 0.8, 0.1, 0.3, 0, 0},  // what TouchWorld gives each generated one
 };
-constexpr double most_damping_ns_m = 2;  ///< of the law
+constexpr double most_damping_ns_m = 2, most_vibration_n = 1, most_frequency_hz = 250;  ///< of the law
 
 inline PlaneMaterial material_of(const MaterialPreset& preset, double stiffness_n_m) {
-  return {preset.hardness * stiffness_n_m, preset.damping * most_damping_ns_m, preset.friction};
+  return {preset.hardness * stiffness_n_m, preset.damping * most_damping_ns_m, preset.friction,
+          preset.vibration * most_vibration_n, preset.frequency_hz};
 }
 
 /// What a stroke is run with; `host` has material, rate and delay of the planes.
@@ -289,20 +309,28 @@ inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesSce
   PlaneHostSettings host = request.host;
   host.axes = 3;
   host.edges = request.proxy.edges;
+  host.moves = !request.mesh_way.empty();
+  host.vibrates = host.vibration_n > 0;
   std::vector<PlaneMaterial> materials(std::max<std::size_t>(1, mesh.materials.size()), host);
   for (std::size_t n = 0; n < mesh.materials.size(); ++n) {
     const auto own = request.materials.find(mesh.materials[n]);
     if (own != request.materials.end()) materials[n] = own->second;
+    host.vibrates = host.vibrates || materials[n].vibration_n > 0;
+  }
+  if (host.vibrates && host.edges) {
+    throw std::invalid_argument(
+        "the law of two planes has no room for a vibration; leave it or the edges out");
   }
   host.search = [&](Vec3 pen_m) {
     const auto from = std::chrono::steady_clock::now();
     const double time_s = static_cast<double>(run.updates.size()) / host.rate_hz;
     const Vec3 in_mesh = actor.in_mesh(pen_m, time_s);
-    const Touched t =
-        actor.in_device(distance ? distance->touched(in_mesh) : proxy.move(in_mesh), time_s);
+    const Touched found = distance ? distance->touched(in_mesh) : proxy.move(in_mesh);
+    const Touched t = actor.in_device(found, time_s);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
     run.updates.push_back({time_s, pen_m, t, took.count()});
-    return std::pair{Plane{t.point_m, t.normal, t.second_point_m, t.second, t.convex},
+    return std::pair{Plane{t.point_m, t.normal, t.second_point_m, t.second, t.convex,
+                           actor.velocity_m_s(found.point_m, time_s)},
                      materials[mesh.parts[t.triangle]]};
   };
   auto& setup = std::get<StylusSetup>(scene.device);

@@ -26,7 +26,7 @@ TEST_CASE("touch: a mesh that comes to the pen is felt as one that the pen goes 
   touch::TouchRequest request;
   request.host.stiffness_n_m = 300;
   request.stroke = {{0, {0.003, 0, 0.004}}, {0.2, {0.003, 0, 0.004}}};
-  request.mesh_way = {{0, {0, 0, 0}, 0}, {0.2, {0, 0, 4e-3}, 3}};
+  request.mesh_way = {{0, {0, 0, 0}, {}}, {0.2, {0, 0, 4e-3}, {0, 0, 3}}};
   const touch::TouchRun rising = run_on(plate, "twin,double", request);
   CHECK(rising.result.broken.empty());
   int felt = 0;
@@ -48,7 +48,8 @@ TEST_CASE("touch: a wall that turns about the vertical turns the force with it")
   touch::TouchRequest request;
   request.host.stiffness_n_m = 300;
   request.stroke = {{0, {0, -0.012, 0}}, {0.03, {0, -0.0085, 0}}, {0.2, {0, -0.0085, 0}}};
-  request.mesh_way = {{0, {}, 0}, {0.05, {}, 0}, {0.15, {}, 0.3}, {0.2, {}, 0.3}};
+  request.mesh_way = {
+      {0, {}}, {0.05, {}}, {0.15, {}, {0, 0, 0.3}}, {0.2, {}, {0, 0, 0.3}}};
   const touch::TouchRun run = run_on(wall, "twin,double", request);
   CHECK(run.result.broken.empty());
   int felt = 0;
@@ -62,6 +63,148 @@ TEST_CASE("touch: a wall that turns about the vertical turns the force with it")
     CHECK(length(row.force_n) == Approx(300 * deep_m).margin(300 * 40e-6));
   }
   CHECK(felt > 150);
+}
+
+/// Rodrigues' formula: v turned about `by_rad` by its length.
+Vec3 turned(Vec3 v, Vec3 by_rad) {
+  const double rad = length(by_rad), c = std::cos(rad), s = std::sin(rad);
+  const Vec3 k = 1 / rad * by_rad;
+  return c * v + s * plant::cross(k, v) + (1 - c) * plant::dot(k, v) * k;
+}
+
+TEST_CASE("touch: a mesh that moves, turns about any direction and grows, as a rigid body's") {
+  // About its middle (5, -2, 3) mm, not about the frame's.
+  Soup soup = box({0.02, 0.01, 0.03});
+  const Vec3 middle{0.005, -0.002, 0.003};
+  for (Vec3& v : soup.at) v = v + middle;
+  const Mesh mesh = touch::clean(soup);
+  SplitMix64 random(3);
+  const auto some = [&](double most) {
+    return Vec3{random.between(-most, most), random.between(-most, most),
+                random.between(-most, most)};
+  };
+  for (int run = 0; run < 300; ++run) {
+    // It turns at one rate about one direction, so that its speed has a closed form.
+    const Vec3 at = some(0.05), speed = some(0.2), turn = some(2);
+    const double rad_s = random.between(-5, 5), scale = random.between(0.2, 4),
+                 grows_1_s = random.between(-1, 1);
+    const touch::Actor actor(
+        mesh, {{0, at, turn, scale},
+               {0.1, at + 0.1 * speed, (1 + 0.1 * rad_s) * turn, scale + 0.1 * grows_1_s}});
+    const double t = random.between(0, 0.099), size = scale + t * grows_1_s;
+    const Vec3 p = some(0.03), arm = turned(p - middle, (1 + t * rad_s) * turn);
+    const Vec3 is = actor.in_device(p, t);
+    CHECK(length(is - (middle + at + t * speed + size * arm)) < 1e-12);
+    CHECK(length(actor.in_mesh(is, t) - p) < 1e-12);
+    const Vec3 goes = speed + grows_1_s * arm + size * rad_s * plant::cross(turn, arm);
+    CHECK(length(actor.velocity_m_s(p, t) - goes) < 1e-5 + 1e-4 * length(goes));
+    touch::Touched found;
+    found.point_m = p, found.normal = 1 / length(p) * p, found.depth_m = 1e-3;
+    const touch::Touched told = actor.in_device(found, t);
+    CHECK(length(told.point_m - is) == 0);
+    CHECK(length(told.normal - turned(found.normal, (1 + t * rad_s) * turn)) < 1e-12);
+    CHECK(told.depth_m == Approx(1e-3 * size));
+    CHECK(length(actor.velocity_m_s(p, 0.2)) == 0);
+  }
+}
+
+TEST_CASE("touch: a ball that grows under the pen pushes it, and damps by the speed between both") {
+  // Its top rises by 20 mm/s; the pen is held 1 mm above where it was.
+  const Mesh ball = touch::clean(icosphere(0.02, 4));
+  touch::TouchRequest request;
+  request.proxy.shading = true;
+  request.host.stiffness_n_m = 300;
+  request.stroke = {{0, {0, 0, 0.021}}, {0.2, {0, 0, 0.021}}};
+  request.mesh_way = {{0, {}, {}, 1}, {0.2, {}, {}, 1.2}};
+  touch::TouchRun runs[2];
+  for (const int n : {0, 1}) {
+    request.host.damping_ns_m = n;
+    runs[n] = run_on(ball, "twin,double", request);
+    CHECK(runs[n].result.broken.empty());
+  }
+  int felt = 0;
+  for (std::size_t n = 0; n < runs[0].rows.size(); ++n) {
+    const touch::TouchRow &bare = runs[0].rows[n], &damped = runs[1].rows[n];
+    if (bare.time_s < 0.06) continue;
+    ++felt;
+    const double deep_m = 0.02 * bare.time_s - 1e-3;
+    // A plane is up to 3.1 ms old; the facets' planes are up to 20 um below the ball.
+    CHECK(bare.force_n.z < 300 * (deep_m + 30e-6));
+    CHECK(bare.force_n.z > 300 * (deep_m - 0.02 * 3.1e-3 - 60e-6));
+    if (deep_m > 0.2e-3)
+      CHECK(damped.force_n.z - bare.force_n.z == Approx(1 * 0.02).margin(3e-3));
+  }
+  CHECK(felt > 130);
+}
+
+TEST_CASE("touch: a plate that slides under a held pen takes it along, by friction and no more") {
+  const Mesh plate = touch::clean(box({0.08, 0.08, 0.005}));
+  touch::TouchRequest request;
+  request.host.stiffness_n_m = 300;
+  request.host.friction = 0.5;
+  request.stroke = {{0, {0, 0, 0.007}}, {0.03, {0, 0, 0.003}}, {0.3, {0, 0, 0.003}}};
+  // 5 Ns/m of grip: 0.05 N at 10 mm/s, and from 60 mm/s on half of 0.6 N.
+  request.mesh_way = {{0, {}}, {0.1, {}}, {0.2, {1e-3, 0, 0}}, {0.3, {1e-3, 0.02, 0}}};
+  const touch::TouchRun run = run_on(plate, "twin,double", request);
+  CHECK(run.result.broken.empty());
+  int felt = 0;
+  for (const touch::TouchRow& row : run.rows) {
+    if (row.time_s < 0.045) continue;
+    const auto within = [&](double from, double to) {
+      return row.time_s > from + 4e-3 && row.time_s < to;
+    };
+    Vec3 drag{};
+    if (within(0.1, 0.2)) drag = {5 * 0.01, 0, 0};
+    if (within(0.2, 0.3)) drag = {0, 0.5 * 0.6, 0};
+    if (!within(0.045, 0.1) && length(drag) == 0) continue;
+    ++felt;
+    CHECK(length(row.force_n - Vec3{drag.x, drag.y, 0.6}) < 300 * 30e-6);
+  }
+  CHECK(felt > 230);
+}
+
+TEST_CASE("touch: the parts of a vibrating material are felt by its frequency, the others not") {
+  // A plate of two halves, stone to the right; both are pressed 2 mm deep for 0.1 s.
+  Soup soup = box({0.03, 0.03, 0.005});
+  Soup right = box({0.03, 0.03, 0.005});
+  soup.materials = {"moss", "slab"};
+  soup.parts.assign(soup.triangles.size(), 0);
+  const auto first = static_cast<std::uint32_t>(soup.at.size());
+  for (const Vec3& v : right.at) soup.at.push_back(v + Vec3{0.061, 0, 0});
+  for (const touch::Triangle& t : right.triangles) {
+    soup.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    soup.parts.push_back(1);
+  }
+  const Mesh mesh = touch::clean(soup);
+  for (const bool slab : {false, true}) {
+    const double x = slab ? 0.061 : 0;
+    touch::TouchRequest request;
+    request.host.stiffness_n_m = 300;
+    request.materials["slab"] = {300, 0, 0, 0.2, 50};
+    request.stroke = {{0, {x, 0, 0.007}}, {0.03, {x, 0, 0.003}}, {0.145, {x, 0, 0.003}}};
+    const touch::TouchRun run = run_on(mesh, "twin,double", request);
+    CHECK(run.result.broken.empty());
+    // Five periods of 20 ms, a row a millisecond.
+    double sum = 0, squares = 0, sine = 0, cosine = 0;
+    int rows = 0;
+    for (const touch::TouchRow& row : run.rows) {
+      if (row.time_s < 0.0405 || rows == 100) continue;
+      ++rows;
+      const double off = row.force_n.z - 0.6, angle = full_turn * 50 * row.time_s;
+      sum += off, squares += off * off, sine += off * std::sin(angle),
+          cosine += off * std::cos(angle);
+    }
+    CHECK(rows == 100);
+    CHECK(sum / rows == Approx(0).margin(300 * 20e-6));
+    const double amplitude_n = 2 * std::hypot(sine, cosine) / rows;
+    CHECK(amplitude_n == Approx(slab ? 0.2 : 0).margin(4e-3));
+    CHECK(squares / rows == Approx(amplitude_n * amplitude_n / 2).margin(2e-5));
+  }
+  touch::TouchRequest both;
+  both.proxy.edges = true;
+  both.materials["slab"] = {300, 0, 0, 0.2, 50};
+  both.stroke = {{0, {0, 0, 0.007}}, {0.03, {0, 0, 0.003}}};
+  CHECK_THROWS_WITH(run_on(mesh, "twin", both), Catch::Contains("no room for a vibration"));
 }
 
 /// The most that the force changes from one row to the next, 1 ms later.
@@ -169,6 +312,8 @@ TEST_CASE("touch: materials by name have the shares of their scenes") {
     CHECK(preset.hardness == value("hardness"));
     CHECK(preset.damping == Approx(value("damping") / 50));  // of 50 mNm s/rad
     CHECK(preset.friction == value("dynamic"));
+    CHECK(preset.vibration == Approx(value("vibration") / 0.1));
+    CHECK(preset.frequency_hz == value("frequency"));
     CHECK(touch::material_of(preset, 400).stiffness_n_m == Approx(400 * value("hardness")));
   }
 }

@@ -14,7 +14,7 @@ const vector_plus = (a, b, k = 1) => a.map((v, n) => v + k * b[n]);
 class StylusTab {
   constructor(core, numbers) {
     this.most_n = core.STYLUS_MOST_N;
-    this.pen = new core.Stylus(numbers.stylus.image, numbers.stylus.slides);
+    this.pen = new core.Stylus(numbers.stylus.image, numbers.stylus.image_of_edges, numbers.stylus.slides);
     this.worlds = numbers.stylus.worlds;
     this.seen = this.pen.state();
     this.trace = [];
@@ -33,6 +33,7 @@ class StylusTab {
     $("stylus-world").value = "sphere";
     $("stylus-file").onchange = () => $("stylus-file").files[0] && this.open($("stylus-file").files[0]);
     $("stylus-shading").oninput = () => this.shade();
+    $("stylus-edges").oninput = () => this.touch();
     $("stylus-world").oninput = () => this.choose();
     for (const id of ["stiffness", "damping", "friction", "rate", "age"]) $(`stylus-${id}`).oninput = () => this.touch();
     $("stylus-y").oninput = () => this.aim(this.lead[0], Number($("stylus-y").value) / 1000, this.lead[2]);
@@ -85,6 +86,10 @@ class StylusTab {
     const number = (id) => Number($(`stylus-${id}`).value);
     const shown = (id, text) => ($(`stylus-${id}-shown`).textContent = text);
     this.material = { stiffness_n_m: number("stiffness"), damping_ns_m: number("damping"), friction: number("friction") };
+    const edged = ["mesh", "cube"].includes(this.world.name);
+    $("stylus-edged").hidden = !edged;
+    this.pen.tellEdges(edged && $("stylus-edges").checked);
+    this.seen = this.pen.state();
     this.rate_hz = number("rate") || this.seen.rate_hz;
     this.pen.touch({ ...this.world, ...this.material, rate_hz: this.rate_hz, age_s: number("age") / 1000 });
     shown("stiffness", `${fixed(this.material.stiffness_n_m, 0)} N/m`);
@@ -155,9 +160,13 @@ class StylusTab {
   }
 
   /** The plane that came last, cut at the pen's y next to the pen, and its normal, beside the pen. */
-  plane_in_section() {
-    const { point, normal, pen } = this.seen;
-    if (!point) return "";
+  planes_in_section() {
+    const { point, normal, second_point, second } = this.seen;
+    return (point ? this.plane_in_section(point, normal) : "") + (second ? this.plane_in_section(second_point, second) : "");
+  }
+
+  plane_in_section(point, normal) {
+    const { pen } = this.seen;
     const above = vector_plus(pen, point, -1).reduce((sum, part, n) => sum + part * normal[n], 0);
     const flat = Math.hypot(normal[0], normal[2]);
     if (flat < 0.2) return `<text x="8" y="36">the sent plane lies along the cut: see from above</text>`;
@@ -191,12 +200,13 @@ class StylusTab {
       ([name, text], n) => `<text x="490" y="${288 + 36 * n}">${name}</text><text class="figure" x="628" y="${290 + 36 * n}">${text}</text>`).join("");
     this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect x="-500" width="${STYLUS_CUT.right + 500}" height="${STYLUS_CUT.height}"/></clipPath>
       <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>
-      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.plane_in_section()}${s.proxy ? `<circle class="proxy" cx="${in_section(s.proxy)[0]}" cy="${in_section(s.proxy)[1]}" r="5"/>` : ""}<path class="handline" d="${path([tip, hand])}"/>
+      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.planes_in_section()}${s.proxy ? `<circle class="proxy" cx="${in_section(s.proxy)[0]}" cy="${in_section(s.proxy)[1]}" r="5"/>` : ""}<path class="handline" d="${path([tip, hand])}"/>
       <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>
       <path class="scale" d="${path([[STYLUS_CUT.right, 0], [STYLUS_CUT.right, STYLUS_CUT.height]])}"/><text x="8" y="18">cut at y = ${fixed(1000 * s.pen[1], 1)} mm, z up</text>${this.view_from_above()}${key}${large}`;
     const list = (v, digits, k = 1) => `(${v.map((part) => fixed(k * part, digits)).join(", ")})`;
     this.caption.textContent = `pen ${list(s.pen, 1, 1000)} mm; F = ${list(s.force, 2)} N${s.limited ? `: an axis gives ${this.most_n} N, no more` : ""}\n` +
-      (s.normal ? `n = ${list(s.normal, 3)} as sent, ${fixed(1000 * s.tilt, 1)} mrad off the true one; ` : "") + `the law's words at ${fixed(s.rate_hz / 1000, 0)} kHz`;
+      (s.normal ? `n = ${list(s.normal, 3)} as sent, ${fixed(1000 * s.tilt, 1)} mrad off the true one; ` : "") + `the law's words at ${fixed(s.rate_hz / 1000, 0)} kHz\n` +
+      (s.hollow > 0 ? `border of stability: pressed so, in hollows below R = ${fixed(1000 * s.hollow, 1)} mm it would swing` : "border of stability: pressed so, it stays still in every hollow");
   }
 
   draw_trace() {

@@ -237,10 +237,9 @@ void add_options(CLI::App& sub, TouchArguments& a) {
                      "a hand's way: CSV with time_s,x_m,y_m,z_m; default: over it, left to right")
           ->type_name("FILE")
           ->check(checks::no_folder());
-  sub.add_option(
-         "--motion", a.motion,
-         "the mesh moves, turns about a direction by its length, and grows: CSV with "
-         "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale; default: it stands")
+  sub.add_option("--motion", a.motion,
+                 "the mesh moves, turns about a direction by its length, and grows: CSV with "
+                 "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale; default: it stands")
       ->type_name("FILE")
       ->check(checks::no_folder());
   amount("--depth", a.depth_m, "of the stroke below what is seen from above",

@@ -126,7 +126,9 @@ json coupled() {
 /// The law, the slides and the worlds of a stylus: device and scenes as they are shipped.
 json stylus() {
   const auto target = feltgate::law::target_of(page::stylus_design());
-  const auto law = feltgate::law::compile_file(laws + "local_space.law", target);
+  const auto image = [&](const char* law) {
+    return feltgate::law::text(feltgate::law::compile_file(laws + law, target).image);
+  };
   json worlds = json::array(), slides;
   for (const char* name : {"floor", "sphere", "cube"}) {
     const auto scene = feltgate::read_axes_scene(
@@ -142,7 +144,10 @@ json stylus() {
     slides = {
         {"mass_kg", s.mass_kg}, {"friction_ns_m", s.friction_ns_m}, {"capstan_m", s.capstan_m}};
   }
-  return {{"image", feltgate::law::text(law.image)}, {"slides", slides}, {"worlds", worlds}};
+  return {{"image", image("local_space.law")},
+          {"image_of_edges", image("local_edge.law")},
+          {"slides", slides},
+          {"worlds", worlds}};
 }
 
 /// The body in space, with where its image keeps the quaternion.

@@ -53,7 +53,8 @@ void FeltMesh::begin(Vec3 pen_m) {
 
 Plane FeltMesh::move(Vec3 pen_m) {
   touched_ = proxy_.move(pen_m);
-  return {touched_.point_m, touched_.normal};
+  const touch::Touched& t = touched_;
+  return {t.point_m, t.normal, t.second_point_m, t.second, t.convex};
 }
 
 }  // namespace feltgate::page

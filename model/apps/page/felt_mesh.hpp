@@ -25,6 +25,8 @@ class FeltMesh {
   void begin(plant::Vec3 pen_m);
   /// Normals between those of the corners, or those of the facets, from the next move on.
   void shade(bool on) { proxy_.shade(on); }
+  /// Both planes of an edge, or the proxy's alone, from the next move on.
+  void tell_edges(bool on) { proxy_.tell_edges(on); }
   /// For PlaneHostSettings::search: the pen is here now.
   Plane move(plant::Vec3 pen_m);
 

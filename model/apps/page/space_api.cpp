@@ -65,12 +65,14 @@ page::StateWord word(const val& of) { return {of["address"].as<int>(), number(of
 /// A pen on three slides in a hand, and a host with a world.
 class Stylus {
  public:
-  /// `slides`: mass_kg, friction_ns_m, capstan_m.
-  Stylus(const std::string& image, const val& slides)
-      : loop_(image, {number(slides, "mass_kg"), number(slides, "friction_ns_m"),
-                      number(slides, "capstan_m")}) {}
+  /// `image` of local_space, `of_edges` of local_edge; `slides`: mass_kg, friction_ns_m, capstan_m.
+  Stylus(const std::string& image, const std::string& of_edges, const val& slides)
+      : images_{image, of_edges},
+        slides_{number(slides, "mass_kg"), number(slides, "friction_ns_m"),
+                number(slides, "capstan_m")},
+        loop_(std::make_unique<page::StylusLoop>(image, slides_)) {}
   std::string set(const std::string& name, double value) {
-    return said([&] { loop_.set(name, value); });
+    return said([&] { loop_->set(name, value); });
   }
   /// `w`: kind, a number of PlaneHostSettings::World; centre, m; radius_m; stiffness_n_m,
   /// damping_ns_m, friction; rate_hz and age_s of its planes.
@@ -85,12 +87,13 @@ class Stylus {
     world.friction = number(w, "friction");
     world.rate_hz = number(w, "rate_hz");
     world.latency_s = number(w, "age_s");
+    world.edges = edges_;
     if (felt_) {
       world.search = [felt = felt_, material = feltgate::PlaneMaterial(world)](Vec3 pen_m) {
         return std::pair{felt->move(pen_m), material};
       };
     }
-    loop_.touch(world);
+    loop_->touch(world);
   }
   /// From the next touch() on a mesh is felt: the bytes of a GLB file, its largest side `size_m`;
   /// without a name, the knob. Returns what it is, or {error}, which changes nothing. The next call
@@ -101,6 +104,7 @@ class Stylus {
               touch::Soup soup = soup_of(name, bytes);
               out.set("scale", touch::place(soup, {size_m, {}}));
               felt_ = std::make_shared<page::FeltMesh>(touch::clean(soup));
+              felt_->tell_edges(edges_);
             }));
     if (!out["error"].as<std::string>().empty()) return out;
     const touch::MeshReport& r = felt_->mesh().report;
@@ -118,6 +122,16 @@ class Stylus {
   void shade(bool on) {
     if (felt_) felt_->shade(on);
   }
+  /// Both planes of an edge of a cube or a mesh, by the other law; the next call is touch().
+  void tell_edges(bool on) {
+    if (on == edges_) return;
+    edges_ = on;
+    const Vec3 pen_m = loop_->pen_m(), hand_m = loop_->hand_m();
+    loop_ = std::make_unique<page::StylusLoop>(images_[on ? 1 : 0], slides_);
+    loop_->place(pen_m);
+    loop_->lead(hand_m);
+    if (felt_) felt_->tell_edges(on);
+  }
   /// Of each triangle its corners, m, then their normals: a Float32Array of 18 each.
   val triangles() const {
     std::vector<float> all;
@@ -134,37 +148,44 @@ class Stylus {
   std::string place(double x_m, double y_m, double z_m) {
     return said([&] {
       if (felt_) felt_->begin({x_m, y_m, z_m});
-      loop_.place({x_m, y_m, z_m});
+      loop_->place({x_m, y_m, z_m});
     });
   }
-  void lead(double x_m, double y_m, double z_m) { loop_.lead({x_m, y_m, z_m}); }
+  void lead(double x_m, double y_m, double z_m) { loop_->lead({x_m, y_m, z_m}); }
   std::string advance(double seconds) {
-    return said([&] { loop_.advance(seconds); });
+    return said([&] { loop_->advance(seconds); });
   }
   /// Places, m, speed, m/s, and force, N, as arrays; of the plane that came last its point and
   /// normal, or null; depth, m; tilt, rad; age and time, s.
   val state() const {
     val out = val::object();
-    out.set("pen", array_of(loop_.pen_m()));
-    out.set("speed", array_of(loop_.velocity_m_s()));
-    out.set("hand", array_of(loop_.hand_m()));
-    out.set("force", array_of(loop_.force_n()));
-    out.set("limited", loop_.limited());
-    out.set("depth", felt_ ? felt_->touched().depth_m : loop_.depth_m());
+    out.set("pen", array_of(loop_->pen_m()));
+    out.set("speed", array_of(loop_->velocity_m_s()));
+    out.set("hand", array_of(loop_->hand_m()));
+    out.set("force", array_of(loop_->force_n()));
+    out.set("limited", loop_->limited());
+    out.set("depth", felt_ ? felt_->touched().depth_m : loop_->depth_m());
     out.set("proxy",
             felt_ && felt_->touched().touching ? array_of(felt_->touched().proxy_m) : val::null());
-    const auto plane = loop_.plane();
+    const auto plane = loop_->plane();
     out.set("point", plane ? array_of(plane->point_m) : val::null());
     out.set("normal", plane ? array_of(plane->normal) : val::null());
-    out.set("tilt", loop_.tilt_rad());
-    out.set("age", loop_.age_s());
-    out.set("time", loop_.time_s());
-    out.set("rate_hz", 1 / loop_.law().period_s());
+    out.set("tilt", loop_->tilt_rad());
+    const bool edge = plane && plane->edge();
+    out.set("second_point", edge ? array_of(plane->second_point_m) : val::null());
+    out.set("second", edge ? array_of(plane->second) : val::null());
+    out.set("age", loop_->age_s());
+    out.set("hollow", loop_->steady_hollow_m());
+    out.set("time", loop_->time_s());
+    out.set("rate_hz", 1 / loop_->law().period_s());
     return out;
   }
 
  private:
-  page::StylusLoop loop_;
+  const std::string images_[2];
+  const page::StylusSlides slides_;
+  std::unique_ptr<page::StylusLoop> loop_;
+  bool edges_ = false;
   std::shared_ptr<page::FeltMesh> felt_;
 };
 
@@ -211,12 +232,13 @@ EMSCRIPTEN_BINDINGS(feltgate_space) {
   emscripten::constant("STYLUS_MOST_N", page::StylusLoop::most_n);
   emscripten::constant("STYLUS_REACH_M", page::StylusLoop::reach_m);
   emscripten::class_<Stylus>("Stylus")
-      .constructor<std::string, val>()
+      .constructor<std::string, std::string, val>()
       .function("set", &Stylus::set)
       .function("touch", &Stylus::touch)
       .function("load", &Stylus::load)
       .function("unload", &Stylus::unload)
       .function("shade", &Stylus::shade)
+      .function("tellEdges", &Stylus::tell_edges)
       .function("triangles", &Stylus::triangles)
       .function("place", &Stylus::place)
       .function("lead", &Stylus::lead)

@@ -67,6 +67,27 @@ double StylusLoop::depth_m() const {
   return plant::dot(p.normal, p.point_m - pen_m_);
 }
 
+double StylusLoop::steady_hollow_m() const {
+  const double force_n = plant::length(force_n_);
+  if (!host_ || !(force_n > 0) || !(world_.stiffness_n_m > 0)) return 0;
+  // m s^2 + b s + k + F / (R + d) e^(-s age) = 0 at s = i w: what is left of the first two terms
+  // grows with w until age w = pi.
+  constexpr double half_turn = 3.141592653589793;
+  const double age_s =
+      world_.latency_s + 0.5 * (world_.jitter_s + 1 / world_.rate_hz + law_.period_s());
+  const double mass_kg = hand_.mass_kg + slides_.mass_kg;
+  const double damping_ns_m = hand_.damping_ns_m + slides_.friction_ns_m;
+  double low = 0, high = half_turn / age_s;
+  for (int half = 0; half < 60; ++half) {
+    const double w = 0.5 * (low + high);
+    const bool over =
+        mass_kg * w * w - hand_.stiffness_n_m > damping_ns_m * w / std::tan(w * age_s);
+    (over ? high : low) = w;
+  }
+  const double spring_n_m = damping_ns_m * low / std::sin(low * age_s);
+  return std::max(0.0, force_n / spring_n_m - force_n / world_.stiffness_n_m);
+}
+
 void StylusLoop::advance(double seconds) {
   const double dt = law_.period_s();
   const int runs = pace_.runs(seconds, dt);

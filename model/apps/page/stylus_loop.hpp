@@ -70,6 +70,10 @@ class StylusLoop {
   /// pose of that plane. Both at the end of the last advance(); 0 if no plane has arrived.
   double tilt_rad() const { return tilt_rad_; }
   double age_s() const { return age_s_; }
+  /// In a hollow of a smaller radius the pen would swing sideways by itself, pressed as it is now,
+  /// m: by the linear loop of docs/page.md#a-mesh with the mean age of a plane and the hand's
+  /// mass, spring and damping; 0: in none.
+  double steady_hollow_m() const;
   const ImageLaw& law() const { return law_; }
   double time_s() const { return time_s_; }
 

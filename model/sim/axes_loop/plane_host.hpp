@@ -29,7 +29,7 @@ namespace feltgate {
 struct Plane {
   plant::Vec3 point_m, normal;
   plant::Vec3 second_point_m{}, second{};
-  bool convex = false;  ///< material is where both planes have it, else where either has
+  bool convex = false;         ///< material is where both planes have it, else where either has
   plant::Vec3 velocity_m_s{};  ///< of the surface at the point
   bool edge() const { return plant::length(second) > 0; }
 };

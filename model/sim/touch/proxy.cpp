@@ -252,7 +252,7 @@ double TriangleTree::free_way(Vec3 from, Vec3 way, double radius_m) const {
 
 Proxy::Proxy(const Mesh& mesh, const ProxySettings& settings)
     : mesh_(mesh), tree_(mesh), settings_(settings) {
-  if (settings.edges) edges_.emplace(mesh);
+  tell_edges(settings.edges);
 }
 
 void Proxy::begin(Vec3 pen_m) {

@@ -242,6 +242,11 @@ class Proxy {
   Touched move(Vec3 pen_m);
   /// From the next move on, with shading or without.
   void shade(bool on) { settings_.shading = on; }
+  /// From the next move on, with second planes at edges or without.
+  void tell_edges(bool on) {
+    edges_.reset();
+    if (on) edges_.emplace(mesh_);
+  }
 
   /// Middle of its ball.
   Vec3 at() const { return at_; }

@@ -55,8 +55,8 @@ inline std::pair<Vec3, Vec3> box_of(const Mesh& mesh) {
   return {low, high};
 }
 
-/// A mesh that moves, turns and grows: T_world = T_actor T_mesh. The proxy stays in the frame of the
-/// mesh, so a surface that comes to the pen pushes it as one that the pen goes to.
+/// A mesh that moves, turns and grows: T_world = T_actor T_mesh. The proxy stays in the frame of
+/// the mesh, so a surface that comes to the pen pushes it as one that the pen goes to.
 class Actor {
  public:
   Actor(const Mesh& mesh, Stroke way) : way_(std::move(way)) {
@@ -67,8 +67,7 @@ class Actor {
   Vec3 in_mesh(Vec3 at_m, double time_s) const {
     if (way_.empty()) return at_m;
     const StrokePoint pose = at_time(way_, time_s);
-    return middle_m_ +
-           1 / pose.scale * turned(at_m - pose.at_m - middle_m_, -1.0 * pose.turn_rad);
+    return middle_m_ + 1 / pose.scale * turned(at_m - pose.at_m - middle_m_, -1.0 * pose.turn_rad);
   }
   /// And a point of the mesh in the frame of the device.
   Vec3 in_device(Vec3 in_mesh_m, double time_s) const {
@@ -189,7 +188,8 @@ inline Stroke read_stroke(const std::string& path, bool turns = false) {
     if (plant::length(turn_rad) > most_turn_rad)
       fail(fmt::format("more than {} rad; turn it less", most_turn_rad));
     if (!(value[7] >= 1 / most_scale && value[7] <= most_scale))
-      fail(fmt::format("a scale that is not within 1/{0:g} to {0:g}; 1 leaves the size", most_scale));
+      fail(fmt::format("a scale that is not within 1/{0:g} to {0:g}; 1 leaves the size",
+                       most_scale));
     if (!stroke.empty() && value[0] <= stroke.back().time_s)
       fail("time does not go on; sort the rows");
     if (!stroke.empty()) {
@@ -223,7 +223,8 @@ constexpr MaterialPreset material_presets[] = {
     {"water", 0.02, 0, 0, 0, 0},
     {"object", 0.8, 0.1, 0.3, 0, 0},  // what TouchWorld gives each generated one
 };
-constexpr double most_damping_ns_m = 2, most_vibration_n = 1, most_frequency_hz = 250;  ///< of the law
+constexpr double most_damping_ns_m = 2, most_vibration_n = 1,
+                 most_frequency_hz = 250;  ///< of the law
 
 inline PlaneMaterial material_of(const MaterialPreset& preset, double stiffness_n_m) {
   return {preset.hardness * stiffness_n_m, preset.damping * most_damping_ns_m, preset.friction,

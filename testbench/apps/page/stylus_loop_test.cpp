@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/page/felt_mesh.hpp"
 #include "apps/page/stylus_loop.hpp"
@@ -25,9 +26,12 @@ const std::string root = FELTGATE_ROOT;
 constexpr double count_m = 15.4e-6;  // of a capstan of 10 mm
 constexpr double run_s = 1e-5;
 
+std::string image_of(const std::string& law) {
+  const law::Target target = law::target_of(stylus_design());
+  return law::text(law::compile_file(root + "/rtl/laws/" + law + ".law", target).image);
+}
 const std::string& image() {
-  static const std::string text = law::text(
-      law::compile_file(root + "/rtl/laws/local_space.law", law::target_of(stylus_design())).image);
+  static const std::string text = image_of("local_space");
   return text;
 }
 
@@ -283,6 +287,83 @@ TEST_CASE("page stylus: a mesh holds the pen as a plane does, and shading turns 
   loop.advance(0.1);
   // Halfway to the roof's edge, whose normal is upright.
   CHECK(felt.touched().normal.z > normal.z + 0.001);
+}
+
+TEST_CASE("page: over a cube's edge the force steps with one plane, and not with two") {
+  double most_n[2] = {};
+  for (const bool edges : {false, true}) {
+    StylusLoop loop(image_of(edges ? "local_edge" : "local_space"), slides());
+    PlaneHostSettings world = world_of("stylus_cube", 1000, 0.001);
+    world.edges = edges;
+    world.stiffness_n_m = 300;
+    loop.touch(world);
+    const double half_m = world.radius_m;
+    loop.place({half_m - 0.006, 0, half_m + 0.001});
+    rest(loop, {half_m - 0.006, 0, half_m - 0.008});
+    Vec3 before = loop.force_n();
+    CHECK(plant::length(before) > 0.6);
+    // The hand goes off to the side at 20 mm/s; what pushes it there is the edge.
+    for (int ms = 1; ms <= 800; ++ms) {
+      loop.lead({half_m - 0.006 + 2e-5 * ms, 0, half_m - 0.008});
+      loop.advance(1e-3);
+      most_n[edges ? 1 : 0] =
+          std::max(most_n[edges ? 1 : 0], plant::length(loop.force_n() - before));
+      before = loop.force_n();
+    }
+    CHECK(plant::length(before) < 0.01);
+  }
+  INFO(most_n[0] << " N with one plane, " << most_n[1] << " N with two");
+  CHECK(most_n[0] > 0.5);
+  CHECK(most_n[1] < 0.15);
+}
+
+TEST_CASE(
+    "page: in a hollow smaller than it says the pen swings, in a larger one it comes to rest") {
+  // How much an amplitude grows a second, in a spherical hollow, pressed by about 1.5 N.
+  const auto growth_1_s = [](double rate_hz, double age_s, double radius_m, double& steady_m) {
+    StylusLoop loop(image(), slides());
+    PlaneHostSettings world = world_of("stylus_floor", rate_hz, age_s);
+    world.stiffness_n_m = 1000;
+    world.search = [radius_m, m = PlaneMaterial(world)](Vec3 pen_m) {
+      const Vec3 out = 1 / plant::length(pen_m) * pen_m;
+      return std::pair{Plane{radius_m * out, -1.0 * out}, m};
+    };
+    loop.touch(world);
+    // Pressed slowly, then a step of the hand aside.
+    const double led_m = -radius_m - 1.5 / 1000 - 1.5 / hand.stiffness_n_m;
+    loop.place({0, 0, -radius_m - 1.5 / 1000});
+    loop.lead({0, 0, led_m});
+    loop.advance(0.3);
+    loop.advance(0.5);
+    loop.lead({0.1 * radius_m, 0, led_m});
+    loop.advance(1e-3);
+    std::vector<double> peaks;  // how wide it swings, in windows longer than a swing
+    for (int window = 0; window < 8; ++window) {
+      double low_m = 1, high_m = -1;
+      for (int ms = 0; ms < 400; ++ms) {
+        loop.advance(1e-3);
+        low_m = std::min(low_m, loop.pen_m().x);
+        high_m = std::max(high_m, loop.pen_m().x);
+      }
+      peaks.push_back(high_m - low_m);
+    }
+    steady_m = loop.steady_hollow_m();
+    return std::log(peaks[7] / peaks[2]) / (5 * 0.4);
+  };
+  for (const auto& [rate_hz, age_s] : {std::pair{50.0, 0.02}, std::pair{1000.0, 0.03}}) {
+    double steady_m = 0;
+    growth_1_s(rate_hz, age_s, 0.05, steady_m);
+    double growth[2], unused = 0;
+    const double radius_m[2] = {0.85 * steady_m, 1.15 * steady_m};
+    for (int n : {0, 1}) growth[n] = growth_1_s(rate_hz, age_s, radius_m[n], unused);
+    const double border_m =
+        radius_m[0] - growth[0] * (radius_m[1] - radius_m[0]) / (growth[1] - growth[0]);
+    INFO(rate_hz << " Hz: " << 1e3 * steady_m << " mm said, " << 1e3 * border_m << " mm found; "
+                 << growth[0] << " and " << growth[1] << " 1/s");
+    CHECK(growth[0] > 0);
+    CHECK(growth[1] < 0);
+    CHECK(border_m == Approx(steady_m).epsilon(0.05));
+  }
 }
 
 }  // namespace feltgate::page

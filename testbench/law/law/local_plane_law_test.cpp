@@ -174,7 +174,7 @@ TEST_CASE(
     }
   };
   int both[2] = {}, single = 0;
-  for (int run = 0; run < 900; ++run) {
+  for (int run = 0; run < 1400; ++run) {
     const Vec3 n = unit(), m = unit();
     const double lean = dot(n, m);
     if (std::abs(lean) > 0.766) continue;

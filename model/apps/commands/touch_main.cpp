@@ -13,7 +13,8 @@
 
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
-#include "apps/commands/touch/touch_report.hpp"
+#include "apps/commands/host/session.hpp"
+#include "apps/commands/touch/touch_board.hpp"
 #include "sim/axes_loop/axes_backends.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
@@ -76,11 +77,12 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
     most_drag = std::max(most_drag, material.friction);
   if (a.edges && most_drag > 1)
     throw std::invalid_argument("--edges takes a drag of at most 1, as the law local_edge");
+  if (!a.motion.empty()) r.mesh_way = touch::read_stroke(a.motion, true);
+  if (!a.board.empty()) return r;
   r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
                                                    a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
                                                    a.press_n > 0 ? 0.5 : 0.9)
                               : touch::read_stroke(a.stroke);
-  if (!a.motion.empty()) r.mesh_way = touch::read_stroke(a.motion, true);
   if (r.stroke.back().time_s < touch::shortest_s(r.host)) {
     throw std::invalid_argument(fmt::format(
         "{}the stroke ends after {:.3g} ms and a plane may take {:.3g} ms to come; make it longer, "
@@ -91,7 +93,8 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
   return r;
 }
 
-touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh) {
+touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh,
+                        const touch::TouchRequest& request) {
   AxesScene scene =
       read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
                       [](const std::string& name) { return find_file(name, "vectors/devices"); });
@@ -105,7 +108,7 @@ touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh) {
   options.law = law.get();
   Progress progress(scene.scenario.name + " on " + options.design, a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
-  return touch::run_touch(mesh, request_of(a, mesh), scene, options, info.tick_hz);
+  return touch::run_touch(mesh, request, scene, options, info.tick_hz);
 }
 
 /// Refuses RTL where this program has the twin alone.
@@ -164,12 +167,14 @@ int run(const TouchArguments& a) {
   touch::Mesh mesh;
   std::optional<Decimation> fewer;
   touch::TouchRun told;
+  touch::TouchRequest request;
   try {
     scale = touch::place(soup, placing);
     mesh = touch::clean(soup);
     if (a.faces > 0 && static_cast<std::size_t>(a.faces) < mesh.triangles.size())
       fewer = decimate(a, mesh);
-    if (!a.mesh_only) told = touched(a, mesh);
+    if (!a.mesh_only) request = request_of(a, mesh);
+    if (!a.mesh_only && a.board.empty()) told = touched(a, mesh, request);
   } catch (const std::invalid_argument& error) {
     // Of the files of stroke and motion it already says where.
     for (const std::string& path : {a.stroke, a.motion}) {
@@ -177,14 +182,32 @@ int run(const TouchArguments& a) {
     }
     throw std::invalid_argument(a.glb + ": " + error.what());
   }
+  const BoardTouch board = a.board.empty() ? BoardTouch{} : touch_board(a, mesh, request);
   nlohmann::ordered_json j = mesh_json(a, mesh, scale, fewer);
-  if (!a.mesh_only) add_run(j, told);
+  const bool simulated = !a.mesh_only && a.board.empty();
+  if (simulated) add_run(j, told);
+  if (!a.board.empty()) add_board(j, board);
   if (json != nullptr) json->write(j.dump(2) + "\n");
-  if (csv != nullptr) write_rows(csv->handle(), told);
-  if (!a.quiet)
-    outputs.say(mesh_text(a, soup, mesh, scale, fewer) + (a.mesh_only ? "" : run_text(a, told)));
+  if (csv != nullptr) write_rows(csv->handle(), a.board.empty() ? told : board.run);
+  if (!a.quiet) {
+    outputs.say(mesh_text(a, soup, mesh, scale, fewer) + (simulated ? run_text(a, told) : "") +
+                (a.board.empty() ? "" : board_text(board)));
+  }
   outputs.commit();
-  return a.mesh_only || told.result.as_expected() ? exit_ok : exit_failed;
+  return !simulated || told.result.as_expected() ? exit_ok : exit_failed;
+}
+
+/// With the exit codes of feltgate host for errors of a board and its line.
+int guarded(const TouchArguments& a) {
+  try {
+    return run(a);
+  } catch (const host::LinkLost& e) {
+    std::fputs(fmt::format("feltgate touch: {}\n", e.what()).c_str(), stderr);
+    return host::exit_link;
+  } catch (const host::Refused& e) {
+    std::fputs(fmt::format("feltgate touch: {}\n", e.what()).c_str(), stderr);
+    return exit_failed;
+  }
 }
 
 /// Writes a mesh in place of reading one.
@@ -280,6 +303,21 @@ void add_options(CLI::App& sub, TouchArguments& a) {
   amount("--jitter", a.jitter_s, "most that comes to it", checks::number(0, 0.1, "s"), "S");
   amount("--lost", a.lost, "share of the planes that are lost", checks::number(0, 0.9, ""),
          "SHARE");
+  CLI::Option* board =
+      sub.add_option("--board", a.board,
+                     "port of a board with the design stylus_law, or the name that feltgate board "
+                     "prints: its pen feels the mesh")
+          ->type_name("PORT")
+          ->excludes(stroke);
+  sub.add_option("--baud", a.baud, "bits per second at the board, as it was built")
+      ->type_name("BAUD")
+      ->check(checks::whole(1200, 4000000))
+      ->capture_default_str()
+      ->needs(board);
+  sub.add_option("--for", a.seconds, "end at the board after so long; default: Ctrl-C")
+      ->type_name("SECONDS")
+      ->transform(checks::seconds())
+      ->needs(board);
   sub.add_option("--engine", a.engine,
                  "twin, double, quad; all: with the RTL, which takes a minute to build")
       ->type_name("LIST")
@@ -312,20 +350,24 @@ int main(int argc, char** argv) {
       "  feltgate touch part.glb --faces 8000             merges faces, and says what that "
       "changes\n"
       "  feltgate touch part.glb --stroke way.csv --csv felt.csv --engine all\n"
+      "  feltgate touch part.glb --board /dev/ttyUSB0     a pen on three slides feels it\n"
       "Exit code: 0 all well, 1 a mismatch or a torque beyond its proven bound, 2 unusable input:\n"
       "no GLB, cut off, empty, not finite, with files beside it, out of reach, or a stroke that\n"
-      "begins inside; nothing is written then.");
+      "begins inside; nothing is written then. 3 the line to a board broke down.");
   TouchArguments a;
   add_options(*sub, a);
   sub->callback([&] {
     if (a.mesh_only && !a.csv.empty())
       throw std::invalid_argument("--csv is of a stroke; leave --mesh-only out");
+    if (!a.board.empty() && (a.mesh_only || a.press_n > 0))
+      throw std::invalid_argument(
+          "--board has a pen of its own; leave --mesh-only and --press out");
     if (a.make.empty() == a.glb.empty() || a.make.empty() != a.out.empty()) {
       throw std::invalid_argument(
           "touch reads a GLB file or makes one; write feltgate touch FILE, or feltgate touch "
           "--make ball -o FILE");
     }
-    exit_code = a.make.empty() ? run(a) : make(a);
+    exit_code = a.make.empty() ? guarded(a) : make(a);
   });
   return run_command_line(app, argc, argv, exit_code);
 }

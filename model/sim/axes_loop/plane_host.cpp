@@ -25,37 +25,6 @@ void add_words(std::map<std::string, double>& words, const std::string& name, Ve
   for (int n = 0; n < axes; ++n) words[name + "_" + kAxes[n]] = parts[n];
 }
 
-/// What the host sends of a pose and the plane that it found.
-std::map<std::string, double> words_of(const PlaneHostSettings& world,
-                                       const PlaneMaterial& material, const Plane& plane,
-                                       Vec3 pen_m) {
-  std::map<std::string, double> words;
-  if (world.sends_force) {
-    add_words(words, "force", spring_force(material, plane, pen_m), world.axes);
-    return words;
-  }
-  words = {{"stiffness", material.stiffness_n_m},
-           {"damping", material.damping_ns_m},
-           {"friction", material.friction}};
-  if (world.edges) {
-    const double lean = plant::dot(plane.normal, plane.second);
-    add_words(words, "second", plane.second, world.axes);
-    words["height"] = plant::dot(plane.normal, plane.point_m);
-    words["second_height"] = plant::dot(plane.second, plane.second_point_m);
-    words["lean"] = lean;
-    words["spread"] = plane.convex ? 0 : 1 / (1 - lean * lean);
-  } else {
-    add_words(words, "point", plane.point_m, world.axes);
-  }
-  add_words(words, "normal", plane.normal, world.axes);
-  if (world.moves) add_words(words, "speed", plane.velocity_m_s, world.axes);
-  if (world.vibrates) {
-    words["vibration"] = material.vibration_n;
-    words["frequency"] = material.frequency_hz;
-  }
-  return words;
-}
-
 struct WorldKey {
   const char* key;
   int axes;  ///< number of axes; 0: two or three
@@ -172,8 +141,38 @@ Plane nearest_plane(const PlaneHostSettings& world, Vec3 pen_m) {
   return {world.centre_m + world.radius_m * normal, normal};
 }
 
+std::map<std::string, double> plane_words(const PlaneHostSettings& world,
+                                          const PlaneMaterial& material, const Plane& plane,
+                                          Vec3 pen_m) {
+  std::map<std::string, double> words;
+  if (world.sends_force) {
+    add_words(words, "force", spring_force(material, plane, pen_m), world.axes);
+    return words;
+  }
+  words = {{"stiffness", material.stiffness_n_m},
+           {"damping", material.damping_ns_m},
+           {"friction", material.friction}};
+  if (world.edges) {
+    const double lean = plant::dot(plane.normal, plane.second);
+    add_words(words, "second", plane.second, world.axes);
+    words["height"] = plant::dot(plane.normal, plane.point_m);
+    words["second_height"] = plant::dot(plane.second, plane.second_point_m);
+    words["lean"] = lean;
+    words["spread"] = plane.convex ? 0 : 1 / (1 - lean * lean);
+  } else {
+    add_words(words, "point", plane.point_m, world.axes);
+  }
+  add_words(words, "normal", plane.normal, world.axes);
+  if (world.moves) add_words(words, "speed", plane.velocity_m_s, world.axes);
+  if (world.vibrates) {
+    words["vibration"] = material.vibration_n;
+    words["frequency"] = material.frequency_hz;
+  }
+  return words;
+}
+
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, Vec3 pen_m) {
-  return words_of(world, world, nearest_plane(world, pen_m), pen_m);
+  return plane_words(world, world, nearest_plane(world, pen_m), pen_m);
 }
 
 Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, Vec3 pen_m) {
@@ -251,7 +250,7 @@ std::map<std::string, double> PlaneHost::act(Clock now, Vec3 counted_m) {
     if (!before_) before_ = now_;
     now_ = under_way_.front();
     ++arrived_;
-    arriving = words_of(settings_, now_->material, now_->plane, now_->pen_m);
+    arriving = plane_words(settings_, now_->material, now_->plane, now_->pen_m);
   }
   return arriving;
 }

@@ -76,6 +76,10 @@ PlaneHostSettings read_plane_host(config::TomlReader table, int axes);
 Plane nearest_plane(const PlaneHostSettings& world, plant::Vec3 pen_m);
 /// What the host sends of a pose, by the names of the law's mailboxes.
 std::map<std::string, double> plane_words(const PlaneHostSettings& world, plant::Vec3 pen_m);
+/// And of a pose and the plane that was found for it.
+std::map<std::string, double> plane_words(const PlaneHostSettings& world,
+                                          const PlaneMaterial& material, const Plane& plane,
+                                          plant::Vec3 pen_m);
 /// Force of the spring behind a plane, or behind the two of an edge, N.
 plant::Vec3 spring_force(const PlaneMaterial& material, const Plane& plane, plant::Vec3 pen_m);
 

@@ -11,6 +11,7 @@ Documentation: docs/page.md
 import base64
 import itertools
 import json
+import math
 import struct
 import tempfile
 from pathlib import Path
@@ -166,6 +167,44 @@ class Mesh(PageTest):
         self.assertEqual(self.painted()[0], count)
         self.assertNotEqual(self.painted()[1], facets)
         self.assertNotEqual(smooth["normal"], seen["normal"])
+
+    def test_an_edge_has_two_planes_when_it_is_asked_for(self):
+        self.drop("box.glb", box_glb(3, 1, 3))
+        seen, _ = self.lead(0.0295, 0.006)
+        self.assertIsNone(seen["second"])
+        self.assertAlmostEqual(seen["rate_hz"], 1e5)
+        self.js("document.getElementById('stylus-edges').click()")
+        seen, _ = self.lead(0.029, 0.006)
+        self.assertAlmostEqual(seen["rate_hz"], 5e4)
+        # The upper side and the right one, each in the other's place at the edge.
+        normals = {tuple(round(part) for part in seen[n]) for n in ("normal", "second")}
+        self.assertEqual(normals, {(0, 0, 1), (1, 0, 0)})
+        self.assertGreater(min(seen["force"][0], seen["force"][2]), -1e-3)
+        self.js("document.getElementById('stylus-edges').click()")
+        seen, _ = self.lead(0.0295, 0.006)
+        self.assertIsNone(seen["second"])
+
+    def test_the_border_in_a_hollow_is_that_of_the_linear_loop(self):
+        self.open_tab("stylus")
+        self.until("return !!feltgate.stylus")
+        for name, value in (("world", "floor"), ("stiffness", 1000), ("rate", 50), ("age", 12)):
+            self.js(
+                "const e = document.getElementById(arguments[0]);"
+                "e.value = arguments[1]; e.dispatchEvent(new Event('input'))",
+                f"stylus-{name}",
+                value,
+            )
+        seen, _ = self.lead(0.01, -0.02)
+        force, radius = seen["force"][2], seen["hollow"]
+        self.assertGreater(radius, 1e-3)
+        spring, age = force / (radius + force / 1000), 0.012 + 0.5 / 50 + 0.5e-5
+        # At the border i w solves 0.599 s^2 + 6.453 s + 135 + spring e^(-s age) = 0.
+        w = math.sqrt((HAND_N_M + spring) / 0.599)
+        for _ in range(200):
+            w = math.sqrt((HAND_N_M + spring * math.cos(w * age)) / 0.599)
+        self.assertAlmostEqual(spring * math.sin(w * age) / (6.453 * w), 1, delta=2e-3)
+        caption = self.driver.find_element(By.CSS_SELECTOR, "#stylus-stage .equation").text
+        self.assertIn(f"in hollows below R = {1000 * radius:.1f} mm it would swing", caption)
 
     def test_the_page_is_small(self):
         size = PAGE.stat().st_size

@@ -32,16 +32,22 @@ std::string genus_text(const touch::Component& c) {
                      c.volume_m3 < 0 ? "inwards" : "outwards");
 }
 
-/// What a run was, in numbers.
-struct Summary {
-  double touching = 0;  ///< share of the poses
-  int constraints = 0;
-  double depth_m = 0, force_n = 0, median_s = 0, rare_s = 0, tilt_rad = 0, age_s = 0;
+/// Of the planes in a simulated run.
+struct PlaneSummary {
+  double tilt_rad = 0, age_s = 0;
   double step_n = 0;  ///< of the spring's force, at a new plane
 };
 
-Summary summary_of(const touch::TouchRun& run) {
-  Summary s;
+PlaneSummary planes_of(const touch::TouchRun& run) {
+  const auto& figures = run.result.figures;
+  return {figures.at("plane_tilt_rad.max"), figures.at("plane_age_s.max"),
+          figures.at("plane_step_n.max")};
+}
+
+}  // namespace
+
+TouchSummary summary_of(const touch::TouchRun& run) {
+  TouchSummary s;
   std::vector<double> took;
   for (const touch::TouchUpdate& u : run.updates) {
     s.touching += u.touched.touching ? 1 : 0;
@@ -54,13 +60,8 @@ Summary summary_of(const touch::TouchRun& run) {
   std::sort(took.begin(), took.end());
   s.median_s = touch::quantile(took, 0.5);
   s.rare_s = touch::quantile(took, 0.999);
-  s.tilt_rad = run.result.figures.at("plane_tilt_rad.max");
-  s.age_s = run.result.figures.at("plane_age_s.max");
-  s.step_n = run.result.figures.at("plane_step_n.max");
   return s;
 }
-
-}  // namespace
 
 std::vector<std::string> Decimation::warnings() const {
   constexpr double far_share = 0.05;
@@ -133,7 +134,8 @@ std::string run_text(const TouchArguments& a, const touch::TouchRun& run) {
                      three(r[n].pen_m, 1e3, 2), three(r[n].normal, 1, 3),
                      1e3 * u[n].touched.depth_m, three(r[n].force_n, 1, 3));
   }
-  const Summary m = summary_of(run);
+  const TouchSummary m = summary_of(run);
+  const PlaneSummary p = planes_of(run);
   const AxesResult& o = run.result;
   s += fmt::format(
       "\n{} planes at {:g} Hz, {:.0f} % touching, up to {} constraints; {:.0f} arrived, {:.0f} "
@@ -144,7 +146,7 @@ std::string run_text(const TouchArguments& a, const touch::TouchRun& run) {
   s += fmt::format(
       "a plane in force is up to {:.1f} ms old and {:.1f} degrees off the newest; at a new one the "
       "force steps by up to {:.3f} N\n",
-      1e3 * m.age_s, degrees(m.tilt_rad), m.step_n);
+      1e3 * p.age_s, degrees(p.tilt_rad), p.step_n);
   s += fmt::format(
       "an update of the proxy took {:.1f} us in the median, {:.1f} us in all but one of a "
       "thousand, here\n",
@@ -204,16 +206,17 @@ nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mes
 }
 
 void add_run(nlohmann::ordered_json& j, const touch::TouchRun& run) {
-  const Summary m = summary_of(run);
+  const TouchSummary m = summary_of(run);
+  const PlaneSummary p = planes_of(run);
   const AxesResult& o = run.result;
   j["planes"] = run.updates.size();
   j["touching"] = m.touching;
   j["constraints"] = m.constraints;
   j["depth_m"] = m.depth_m;
   j["force_n"] = m.force_n;
-  j["plane_age_s"] = m.age_s;
-  j["plane_tilt_rad"] = m.tilt_rad;
-  j["plane_step_n"] = m.step_n;
+  j["plane_age_s"] = p.age_s;
+  j["plane_tilt_rad"] = p.tilt_rad;
+  j["plane_step_n"] = p.step_n;
   j["update_s"] = {{"median", m.median_s}, {"q999", m.rare_s}};
   for (const AxisFigures& axis : o.axes) {
     if (!o.reference.empty())

@@ -25,6 +25,9 @@ struct TouchArguments {
   std::array<double, 3> centre_m{};
   double stiffness = 300, damping = 0, drag = 0;
   double rate_hz = 1000, latency_s = 1e-3, jitter_s = 1e-3, lost = 0;
+  std::string board;   ///< port of one; empty: the simulated device
+  int baud = 1000000;  ///< of its line
+  double seconds = 0;  ///< how long at a board; 0: until Ctrl-C
   bool as_is = false, shading = false, edges = false, distance = false, mesh_only = false,
        quiet = false;
 };
@@ -41,6 +44,14 @@ struct Decimation {
   /// What one should know before one touches it; empty: nothing.
   std::vector<std::string> warnings() const;
 };
+
+/// Updates and rows in numbers.
+struct TouchSummary {
+  double touching = 0;  ///< share of the poses
+  int constraints = 0;
+  double depth_m = 0, force_n = 0, median_s = 0, rare_s = 0;
+};
+TouchSummary summary_of(const touch::TouchRun& run);
 
 /// The mesh in words.
 std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const touch::Mesh& mesh,

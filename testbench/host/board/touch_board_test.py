@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""A mesh under the pen of a board in software: the forces that the board's engine asks for, against
+the sphere that the mesh stands for, and what is refused. Documentation: docs/touch.md"""
+
+import csv
+import json
+import math
+import signal
+import subprocess
+import unittest
+
+from board_process import board_program, need_terminals
+from host_program import ROOT, ProgramTest
+
+RADIUS_M, STIFFNESS_N_M = 0.03, 300
+# To and fro over the top of the ball, 3 mm deep at most; the pen is free at both ends.
+HAND = """[hand]
+start_m = [0.018, 0, 0.027]
+[[hand.phase]]
+kind = "prescribed"
+x = [
+  { kind = "sine", amplitude_m = 0.018, frequency_hz = 2, phase_rad = 1.5707963, duration_s = 1000 },
+]
+y = [{ kind = "hold", duration_s = 1000 }]
+z = [{ kind = "hold", duration_s = 1000 }]
+"""
+
+
+class TouchBoard(ProgramTest):
+    def board(self, *words):
+        need_terminals()
+        process = self.start_program(board_program(words), *words, stderr=subprocess.STDOUT)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process, process.stdout.readline().strip()
+
+    def stylus(self):
+        scene = (ROOT / "vectors/scenes/stylus_sphere.toml").read_text(encoding="utf-8")
+        begin = scene.index("[hand]")
+        end = scene.index("]\n\n", begin) + 2
+        (self.folder / "over.toml").write_text(scene[:begin] + HAND + scene[end:], encoding="utf-8")
+        words = ("--design", "stylus_law", "--hand", "over.toml", "--baud", "3000000")
+        return self.board(*words)
+
+    def touch(self, *words, **how):
+        return self.run_program("feltgate_touch", "touch", *words, **how)
+
+    def setUp(self):
+        super().setUp()
+        self.touch("--make", "ball", "--faces", 20480, "-o", "ball.glb")
+
+    def test_the_pen_feels_the_sphere(self):
+        _, port = self.stylus()
+        at = ("--board", port, "--baud", 3000000, "--for", "5 s", "--shading")
+        said = self.touch("ball.glb", *at, "--csv", "felt.csv", "--json", "felt.json")
+        self.assertIn("0 frames lost on the line", said)
+        told = json.loads((self.folder / "felt.json").read_text(encoding="utf-8"))
+        self.assertEqual((told["lost_frames"], told["dropped"], told["rate_hz"]), (0, 0, 1000))
+        self.assertGreater(told["depth_m"], 2.8e-3)
+        with open(self.folder / "felt.csv", encoding="utf-8", newline="") as rows:
+            felt = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(rows)]
+        deep = free = 0
+        for row in felt:
+            pen = [row[f"pen_{axis}_m"] for axis in "xyz"]
+            force = [row[f"force_{axis}_n"] for axis in "xyz"]
+            far = math.hypot(*pen)
+            newton = math.hypot(*force)
+            if far > RADIUS_M + 1e-3:
+                free += 1
+                # The plane in force may be of a pose that was nearer.
+                self.assertLess(newton, 0.05, row)
+            elif far < RADIUS_M - 1e-3:
+                deep += 1
+                self.assertAlmostEqual(newton, STIFFNESS_N_M * (RADIUS_M - far), delta=0.06)
+                turn = math.acos(sum(a * b for a, b in zip(pen, force, strict=True)) / far / newton)
+                # 0.23 m/s over 27 mm, for as long as it takes to hear of the pose and to answer.
+                self.assertLess(turn, 0.12, row)
+        print(f"{len(felt)} poses, {deep} deep, {free} free, {told['overtaken']} overtaken")
+        self.assertGreater(deep, 60)
+        self.assertGreater(free, 60)
+
+    def test_afterwards_the_motors_are_off(self):
+        _, port = self.stylus()
+        self.touch("ball.glb", "--board", port, "--baud", 3000000, "--for", "1 s")
+        for verb, needle in (("info", "disarmed"), ("law", "law local_space")):
+            said = self.run_program("feltgate_host", "--baud", 3000000, port, verb)
+            self.assertIn(needle, said)
+
+    def test_a_board_that_goes_away(self):
+        board, port = self.stylus()
+        words = ("touch", "ball.glb", "--board", port, "--baud", 3000000)
+        touching = self.start_program("feltgate_touch", *words)
+        self.addCleanup(touching.kill)
+        for line in touching.stderr:
+            if "pen " in line:
+                break
+        board.send_signal(signal.SIGKILL)
+        _, said = touching.communicate(timeout=60)
+        self.assertEqual(touching.returncode, 3, said)
+
+    def test_what_is_refused(self):
+        _, lever = self.board()
+        for words, needle in (
+            (("--board", lever), "its design lever is no stylus"),
+            (("--board", "/dev/none"), "there is no such port"),
+            (("--board", lever, "--press", 1), "leave --mesh-only and --press out"),
+            (("--board", lever, "--stroke", "x.csv"), "--stroke excludes --board"),
+            (("--for", 1), "requires --board"),
+        ):
+            with self.subTest(words):
+                self.assertIn(needle, self.touch("ball.glb", *words, status=2))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -37,7 +37,7 @@ def arguments():
     add = {"action": "append"}
     what = "a design point; default: lever, paper; with --board lever, or a file of your own"
     parser.add_argument("--design", metavar="DESIGN", help=what, **add)
-    parser.add_argument("--block", metavar="BLOCK", help="a block, or 'core'; default: all", **add)
+    parser.add_argument("--block", metavar="BLOCK", help="a block, or 'core'; default: all; of several the sum too, each as often as named", **add)
     what = (
         "the core of a design that builds only what these scenes need, instead of the blocks; "
         "may be repeated, one row for each"
@@ -173,7 +173,7 @@ def measure(options, root):
                 figures = synth_measure.measure(tools, root, design, row, seeds)
                 measured[design][row.name] = figures
             progress("")
-            print(synth_report.text_table(design, measured[design]))
+            print(synth_report.text_table(design, measured[design], options.block or ()))
             print()
     used = {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
     return measured, used

@@ -79,8 +79,18 @@ def cells(name, row):
     return [name, *(str(row[k]) for k in keys), speed(row), *(str(row.get(k, "-")) for k in late)]
 
 
-def text_table(design, rows):
+def total(rows, blocks):
+    """What these blocks have together, each as often as it is named; without wiring between them."""
+    often = {name: blocks.count(name) for name in rows}
+    keys = {key for row in rows.values() for key, value in row.items() if isinstance(value, int)}
+    return {key: sum(often[name] * row.get(key, 0) for name, row in rows.items()) for key in keys}
+
+
+def text_table(design, rows, blocks=()):
+    """`blocks`: those asked for; two and more have a sum where each is one row."""
     lines = [[f"design {design}", *HEADS[1:]], *(cells(n, r) for n, r in rows.items())]
+    if len(blocks) > 1 and set(blocks) == set(rows):
+        lines.append(cells(f"sum of {len(blocks)}", total(rows, list(blocks))))
     paths = [f"  {n}: {r['critical_path']}" for n, r in rows.items() if "critical_path" in r]
     return "\n".join([aligned(lines), *(["critical paths:", *paths] if paths else [])])
 

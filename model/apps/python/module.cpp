@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The extension module feltgate._core. Documentation: docs/python.md
+// The extension module feltgate._core. Designs beyond lever and paper, presets and files given to
+// the build (FELTGATE_EXTRA_DESIGNS), are in a separate module, _designs, which is loaded when one
+// of them is first used. Documentation: docs/python.md
+#include <vector>
+
+#include "apps/python/arrays.hpp"
 #include "apps/python/bindings.hpp"
 #include "apps/python/errors.hpp"
-#include "apps/python/extra_designs.hpp"
 #include "sim/backends/backend.hpp"
+#include "sim/reference/real_chain.hpp"
 
 namespace feltgate::python {
+
+namespace {
+
+/// Loads the module _designs and returns the makers of one of its designs.
+const DesignMakers& loaded(const std::string& name) {
+  const py::gil_scoped_acquire hold;
+  static const std::vector<DesignMakers>* all = nullptr;
+  if (all == nullptr) {
+    const py::capsule made = py::module_::import("feltgate._designs").attr("makers");
+    all = made.get_pointer<const std::vector<DesignMakers>>();
+  }
+  for (const DesignMakers& d : *all) {
+    if (d.name == name) return d;
+  }
+  throw std::logic_error("feltgate._designs has no " + name + "; install the package again");
+}
+
+/// Registers these designs for make_backend() and make_real_chain(); returns their names.
+std::vector<std::string> add_extra_designs() {
+  std::vector<std::string> names;
+#define FELTGATE_DESIGN(name)                                                      \
+  add_design({#name, [](const std::string& k) { return loaded(#name).engine(k); }, \
+              [](const std::string& k) { return loaded(#name).chain(k); },         \
+              [] { return loaded(#name).info(); }});                               \
+  names.emplace_back(#name);
+#include "extra_designs.inc"
+#undef FELTGATE_DESIGN
+  return names;
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ side of the package feltgate.";

@@ -67,6 +67,11 @@ class AbsoluteSensor {
   explicit AbsoluteSensor(const AbsoluteEncoder::Parameters& parameters) : p_(parameters) {}
 
   void set(Defect defect) { defect_ = defect; }
+  /// From now on a bit of its angle is 0 or 1 in frames that are valid.
+  void stick(int bit, bool high) {
+    stuck_ = std::int64_t{1} << bit;
+    stuck_high_ = high;
+  }
   /// See shown_angle().
   void set_error(std::vector<double> terms_rad) { error_rad_ = std::move(terms_rad); }
   /// What it shows at an angle, before rounding.
@@ -121,7 +126,8 @@ class AbsoluteSensor {
   std::uint64_t word() const {
     const std::int64_t turn = std::int64_t{1} << p_.bits;
     const std::int64_t off = defect_ == Defect::half_a_turn_off ? turn / 2 : 0;
-    const auto position = static_cast<std::uint64_t>((count_ + off) & (turn - 1));
+    const std::int64_t count = stuck_high_ ? (count_ + off) | stuck_ : (count_ + off) & ~stuck_;
+    const auto position = static_cast<std::uint64_t>(count & (turn - 1));
     const bool ill = defect_ == Defect::magnet_lost;
     std::uint64_t said = position << 2 | (ill ? 1U : 3U);
     if (p_.framing == AbsoluteEncoder::kSsi) said = position << 4 | (ill ? 2U : 0U);
@@ -140,7 +146,8 @@ class AbsoluteSensor {
   Clock begin_ = 0, edge_at_ = 0;
   bool reads_ = false, high_ = false;
   int edges_ = 0, command_ = 0, answers_ = -1;
-  std::int64_t count_ = 0;
+  std::int64_t count_ = 0, stuck_ = 0;
+  bool stuck_high_ = false;
   std::uint64_t word_ = 0;
 };
 

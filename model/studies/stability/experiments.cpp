@@ -9,6 +9,7 @@
 #include <random>
 
 #include "feltgate/largest.hpp"
+#include "studies/stability/axes_linear_loop.hpp"
 
 namespace feltgate::stability {
 
@@ -35,6 +36,27 @@ plant::HandPhase pressing(plant::HandPhase::Kind kind, double to, double ramp_s)
   phase.kind = kind;
   phase.profile = {{plant::Segment::Kind::kMinimumJerk, ramp_s, to}};
   return phase;
+}
+
+/// A hand with impedance comes from outside and presses with a torque into a wall; 0: a face.
+plant::Hand held(double press_nm, double stiffness_nm_rad, const plant::Parameters& plant) {
+  plant::Hand hand;
+  hand.start_rad = -0.05;
+  const double own = plant::dynamics_of(plant::Impedance{}, plant.lever.radius_m).stiffness_nm_rad;
+  const double depth_rad = stiffness_nm_rad > 0 ? press_nm / stiffness_nm_rad : 0;
+  hand.phases = {pressing(plant::HandPhase::Kind::kImpedance, press_nm / own + depth_rad, 0.3)};
+  return hand;
+}
+
+/// Where something begins to hold, to 0.5 %, by bisection; NaN where it does not between the ends.
+template <class Holds>
+double between(double low, double high, Holds holds) {
+  if (holds(low) || !holds(high)) return std::nan("");
+  while (high - low > 0.005 * high) {
+    const double middle = std::sqrt(low * high);
+    (holds(middle) ? high : low) = middle;
+  }
+  return std::sqrt(low * high);
 }
 
 std::int64_t ticks_of(const design::Design& d, double seconds) {
@@ -85,9 +107,7 @@ HostFigures host_wall(const design::Elaborated& design, const plant::Parameters&
   s.linear = false;
   s.plant = plant;
   s.wall = {c.stiffness_nm_rad, 0, scene_ticks(design.design, c.rate_hz)};
-  s.hand.start_rad = -0.05;
-  // The default hand has 1.35 Nm/rad at 0.1 m: its aim 15 mrad beyond the face is 20 mNm.
-  s.hand.phases = {pressing(plant::HandPhase::Kind::kImpedance, 0.015, 0.3)};
+  s.hand = held(c.press_nm, 0, plant);
   BitLoop loop(design, s);
   std::mt19937_64 bits(1);
   const auto gauss = [&bits] {
@@ -103,14 +123,63 @@ HostFigures host_wall(const design::Elaborated& design, const plant::Parameters&
     return std::min(0.0, -c.stiffness_nm_rad * smooth);
   });
   Spread torque, angle;
+  while (loop.ticks() < ticks_of(design.design, 1.0)) loop.tick();
+  double low_nm = loop.tau_ref_nm(), high_nm = low_nm;
+  std::int32_t low = loop.position(), high = low;
   while (loop.ticks() < ticks_of(design.design, 2.0)) {
     loop.tick();
-    if (loop.ticks() < ticks_of(design.design, 1.0)) continue;
     torque.add(loop.tau_ref_nm());
     angle.add(loop.theta_rad());
+    low_nm = std::min(low_nm, loop.tau_ref_nm()), high_nm = larger(high_nm, loop.tau_ref_nm());
+    low = std::min(low, loop.position()), high = larger(high, loop.position());
   }
   return {static_cast<double>(design.design.tick_hz) / s.wall.scene_ticks, torque.rms(),
-          angle.rms()};
+          angle.rms(), high_nm - low_nm, high - low};
+}
+
+HeldWall held_wall(const design::Elaborated& e, const plant::Parameters& linear,
+                   const plant::Parameters& full, double rate_hz, double stiffness_nm_rad) {
+  const int ticks = scene_ticks(e.design, rate_hz);
+  const double tick_s = e.design.tick_s();
+  double age_ticks = 0;
+  if (e.design.absolute) {
+    age_ticks = e.design.absolute_delay_ticks() + (e.design.absolute_period_ticks() - 1) / 2.0;
+  }
+  HeldWall w;
+  w.rate_hz = static_cast<double>(e.design.tick_hz) / ticks;
+  w.stiffness_nm_rad = stiffness_nm_rad;
+  const double late_s =
+      actuator_delay_s(make_axes_model(e, linear).axis, ticks) + age_ticks * tick_s;
+  w.needed_nm_s_rad = stiffness_nm_rad * (ticks * tick_s / 2 + late_s);
+  const plant::HandDynamics hand = plant::dynamics_of(plant::Impedance{}, linear.lever.radius_m);
+  const AxesLoopModel model = make_axes_model(e, linear, &hand);
+  AxesWall wall{Eigen::MatrixXd(1, 1), Eigen::MatrixXd::Zero(1, 1), Eigen::MatrixXd::Zero(1, 1),
+                ticks, host_ticks + static_cast<int>(std::lround(age_ticks))};
+  w.border_nm_rad = between(1, 1e4, [&](double k) {
+    wall.stiffness_nm_rad(0, 0) = k;
+    return poles(model, wall).front().real() > 0;
+  });
+  constexpr double enough_counts = 8;
+  w.bits_nm_rad = std::nan("");
+  if (press_nm / w.border_nm_rad > enough_counts * e.design.count_rad()) {
+    w.bits_nm_rad = between(0.7 * w.border_nm_rad, 1.4 * w.border_nm_rad, [&](double k) {
+      BitLoopSetting s;
+      s.plant = linear;
+      s.wall = {k, 0, ticks};
+      s.hand = held(press_nm, k, linear);
+      BitLoop loop(e, s);
+      while (loop.ticks() < ticks_of(e.design, 1.5)) loop.tick();
+      std::int32_t low = loop.position(), high = low;
+      while (loop.ticks() < ticks_of(e.design, 1.75)) {
+        loop.tick();
+        low = std::min(low, loop.position()), high = larger(high, loop.position());
+      }
+      return high - low > enough_counts / 2;
+    });
+  }
+  w.leaning = host_wall(e, full, {rate_hz, stiffness_nm_rad});
+  w.pressing = host_wall(e, full, {rate_hz, stiffness_nm_rad, 0, 1, 0.25});
+  return w;
 }
 
 int scene_ticks(const design::Design& d, double rate_hz) {

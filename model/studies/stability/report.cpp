@@ -91,6 +91,37 @@ void experiments(std::string& out, const Study& s) {
   }
 }
 
+/// Whether it swings by itself, or by no more than counts make.
+const char* verdict(const HeldWall& w) {
+  const double border = std::isfinite(w.bits_nm_rad) ? w.bits_nm_rad : w.border_nm_rad;
+  const double share = w.stiffness_nm_rad / border;
+  return share < 0.95 ? "stable" : share > 1.05 ? "swings" : "at it";
+}
+
+void held(std::string& out, const Study& s) {
+  if (s.held.empty()) return;
+  const double k = s.held.front().stiffness_nm_rad;
+  add(out,
+      "\na wall of 2 Nm/deg = {:.2f} Nm/rad that a host renders, in a hand; a count is {:.4f} mrad "
+      "and {:.1f} mNm,\nfriction holds a lever between two counts below 2f/q = {:.2f} Nm/rad\n\n"
+      "            takes b       border with the hand, Nm/rad     leaning, 20 mNm         "
+      "pressing, "
+      "0.25 Nm\n"
+      "     rate   Nm s/rad   eigenvalues     bits             counts  mNm p-p     rms   counts  "
+      "mNm "
+      "p-p     rms\n",
+      k, 1e3 * s.count_rad, 1e3 * k * s.count_rad, s.rule_nm_rad);
+  for (const HeldWall& w : s.held) {
+    add(out,
+        "{:>9}   {:8.4f}   {:>11}  {:>7}   {:>6}   {:>6}  {:7.1f}  {:6.1f}   {:>6}  {:7.1f}  "
+        "{:6.1f}\n",
+        rate(std::round(w.rate_hz)).c_str(), w.needed_nm_s_rad, number(w.border_nm_rad).c_str(),
+        number(w.bits_nm_rad).c_str(), verdict(w), w.leaning.counts,
+        1e3 * w.leaning.torque_swing_nm, 1e3 * w.leaning.torque_rms_nm, w.pressing.counts,
+        1e3 * w.pressing.torque_swing_nm, 1e3 * w.pressing.torque_rms_nm);
+  }
+}
+
 nlohmann::json json_number(double v) {
   return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json(nullptr);
 }
@@ -107,6 +138,7 @@ std::string study_text(const Study& s) {
         percent(k.computed, k.published).c_str());
   }
   if (!s.rests.empty()) experiments(out, s);
+  held(out, s);
   return out;
 }
 
@@ -163,6 +195,22 @@ std::string study_json(const Study& s) {
                             {"smoothing", r.setting.smoothing},
                             {"torque_rms_nm", r.figures.torque_rms_nm},
                             {"angle_rms_rad", r.figures.angle_rms_rad}});
+  }
+  const auto figures = [](const HostFigures& f) {
+    return json{{"counts", f.counts},
+                {"torque_swing_nm", f.torque_swing_nm},
+                {"torque_rms_nm", f.torque_rms_nm},
+                {"angle_rms_rad", f.angle_rms_rad}};
+  };
+  out["held"] = json::array();
+  for (const HeldWall& w : s.held) {
+    out["held"].push_back({{"rate_hz", w.rate_hz},
+                           {"stiffness_nm_rad", w.stiffness_nm_rad},
+                           {"needed_nm_s_rad", w.needed_nm_s_rad},
+                           {"border_nm_rad", json_number(w.border_nm_rad)},
+                           {"bits_nm_rad", json_number(w.bits_nm_rad)},
+                           {"leaning", figures(w.leaning)},
+                           {"pressing", figures(w.pressing)}});
   }
   return files::json_text(out);
 }

@@ -123,7 +123,7 @@ Study run_study(const design::Elaborated& design, const plant::Parameters& linea
   s.linear_plant = linear.name;
   s.full_plant = full.name;
   s.model = make_model(design, linear);
-  const std::size_t all = o.rates_hz.size() * o.damping_nm_s_rad.size() + (o.experiments ? 14 : 0);
+  const std::size_t all = o.rates_hz.size() * o.damping_nm_s_rad.size() + (o.experiments ? 17 : 0);
   std::size_t done = 0;
   const auto step = [&] {
     if (o.progress) o.progress(static_cast<double>(++done) / static_cast<double>(all));
@@ -150,6 +150,11 @@ Study run_study(const design::Elaborated& design, const plant::Parameters& linea
   for (const double k : {3.0, 6.0}) rest(k, 10, 6);
   s.hosts = host_rows(design, full);
   for (int i = 0; i < 5; ++i) step();
+  s.count_rad = design.design.count_rad();
+  for (const double rate_hz : {144.0, 490.0, 10e3}) {
+    s.held.push_back(held_wall(design, linear, full, rate_hz, 2 / kDegree));
+    step();
+  }
   return s;
 }
 

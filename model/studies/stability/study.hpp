@@ -56,6 +56,8 @@ struct Study {
   double rest_damping_nm_s_rad = 0;
   std::vector<Rest> rests;
   std::vector<HostRow> hosts;
+  double count_rad = 0;
+  std::vector<HeldWall> held;  ///< 2 Nm/deg at three rates
 };
 
 struct StudyOptions {

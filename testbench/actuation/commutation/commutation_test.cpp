@@ -203,6 +203,22 @@ Commutation::In at(int pole_pairs, int count, int amplitude) {
   return in;
 }
 
+/// Peak to peak of the torque, over its mean, of sines with a peak of 1/sqrt(3) of the supply whose
+/// legs meet their ends.
+double clipped_sines() {
+  double least = 1, most = 0, sum = 0;
+  for (int n = 0; n < 3600; ++n) {
+    const double angle = 2 * M_PI * n / 3600;
+    double torque = 0;
+    for (int leg = 0; leg < 3; ++leg) {
+      const double way = std::cos(angle - 2 * M_PI * leg / 3);
+      torque += 2.0 / 3 * way * std::clamp(way / std::sqrt(3), -0.5, 0.5);
+    }
+    least = std::min(least, torque), most = larger(most, torque), sum += torque / 3600;
+  }
+  return (most - least) / sum;
+}
+
 }  // namespace
 
 TEST_CASE("commutation: all inputs and resets") {
@@ -278,6 +294,35 @@ TEST_CASE("commutation: torque over a turn") {
                       100 * std::sqrt(squares / (3 * kCounts)), 100 * longer, 180 / M_PI * turned);
     }
     figures += "|\n";
+  }
+  figures +=
+      "\n| modulation | greatest peak of a phase, of the supply | closed form | torque there: "
+      "peak, % "
+      "| farthest leg from the middle | as large as space vectors: torque, peak to peak, % |\n"
+      "|---|---|---|---|---|---|\n";
+  double reach = 0;
+  for (const auto modulation : {Commutation::kSines, Commutation::kSpaceVectors}) {
+    const bool sines = modulation == Commutation::kSines;
+    const Commutation twin(1000, modulation);
+    double sum = 0, far = 0, peak = 0;
+    for (int count = 0; count < kCounts; ++count) {
+      const auto [a, b, c] = twin.on_times(at(11, count, twin.limit()));
+      const Vector is(a, b, c);
+      const double angle = 2 * M_PI * 11 * count / kCounts;
+      const double along = is.x * std::cos(angle) + is.y * std::sin(angle);
+      sum += std::hypot(is.x, is.y) / 1000 / kCounts;
+      peak = larger(peak, std::fabs(along * std::sqrt(3) / twin.limit() - 1));
+      for (const int on : {+a, +b, +c}) far = larger(far, std::abs(on - 500) / 1000.0);
+    }
+    // Sines have two clocks less, for the roundings of their legs.
+    CHECK(sum == Approx(sines ? 0.5 : 1 / std::sqrt(3)).epsilon(0.003));
+    CHECK((peak < 2e-3 && far <= 0.5 && far > 0.498));
+    if (!sines) CHECK(sum / reach == Approx(2 / std::sqrt(3)).epsilon(0.003));
+    figures += fmt::format("| {} | {:.4f} | {} | {:.2f} | {:.3f} | {} |\n",
+                           sines ? "sines" : "space vectors, 2/√3 = 1.1547 times as much", sum,
+                           sines ? "1/2" : "1/√3 = 0.5774", 100 * peak, far,
+                           sines ? fmt::format("{:.1f}, clipped", 100 * clipped_sines()) : "-");
+    reach = sum;
   }
   if (kPeriod == 1000) check_page_figures("commutation", figures);
 }

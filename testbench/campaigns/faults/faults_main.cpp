@@ -13,6 +13,7 @@
 
 #include "apps/commands/commands.hpp"
 #include "campaigns/faults/clean.hpp"
+#include "campaigns/faults/option_faults.hpp"
 #include "campaigns/faults/record.hpp"
 #include "campaigns/faults/world.hpp"
 
@@ -130,8 +131,10 @@ int main(int argc, char** argv) {
   app.add_option("--acts", a.state.acts, "scenes that act, so many of them at most");
   app.add_option("--only", a.state.only, "registers with this in their name");
   app.add_option("--pins", a.pins, "faults at pins and register port");
+  std::vector<std::string> designs = faults::option_designs();
+  designs.insert(designs.begin(), a.design);
   app.add_option("--design", a.design, "whose pins are broken; flips are of lever")
-      ->check(CLI::IsMember({"lever", "lever_current", "gimbal_motor", "gimbal_current"}));
+      ->check(CLI::IsMember(designs));
   app.add_option("--parts", a.parts, "of so many parts");
   app.add_option("--part", a.part, "this one, from 0");
   app.add_option("--clean", a.clean_s, "seconds of device time without a fault instead");

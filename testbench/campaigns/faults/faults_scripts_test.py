@@ -118,7 +118,6 @@ class Command(Scratch):
                             (("--update", "--only", "x"), "all registers"),
                             (("--update", "--flips", "0"), "all registers"),
                             (("--clean", "--save", "x"), "tell of a campaign"),
-                            (("--design", "paper"), "invalid choice"),
                             (("--design", "lever_current", "--replay", "x"), "are of lever"),
                             (("--design", "gimbal_motor", "--update"), "of lever"),
                             (("--lines", "x", "--json", "y", "--save", "y"),

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "campaigns/faults/clean.hpp"
+#include "campaigns/faults/option_faults.hpp"
 #include "campaigns/faults/record.hpp"
 #include "campaigns/faults/world.hpp"
 #include "catch.hpp"
@@ -181,7 +182,7 @@ TEST_CASE("faults: each kind at the pins ends as it must") {
 
 TEST_CASE("faults: at the pins of the options each kind ends as it must") {
   const std::uint64_t seeds = feltgate::test::whole_run() ? 4 : 1;
-  for (const char* design : {"lever_current", "gimbal_motor", "gimbal_current"}) {
+  for (const std::string& design : option_designs()) {
     const auto& kinds = pin_kinds(design);
     REQUIRE(kinds.size() > 10);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -252,7 +253,7 @@ TEST_CASE("faults: no alarm without a fault") {
 
 TEST_CASE("faults: no alarm of a current loop or an absolute encoder without a fault") {
   const double seconds = feltgate::test::whole_run() ? 5 : 0.6;
-  for (const char* design : {"lever_current", "gimbal_motor", "gimbal_current"}) {
+  for (const std::string& design : option_designs()) {
     const CleanResult r = run_option_clean(root, design, seconds, 5, [](double) {});
     INFO(design << ": " << r.first);
     CHECK(r.alarms == 0);

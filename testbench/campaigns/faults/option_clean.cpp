@@ -12,11 +12,6 @@
 
 #include "campaigns/faults/clean.hpp"
 #include "campaigns/faults/option_rig.hpp"
-#include "feltgate/generated/gimbal_current.hpp"
-#include "feltgate/generated/gimbal_motor.hpp"
-#include "feltgate/generated/lever_current.hpp"
-#include "sim/backends/backend.hpp"
-#include "sim/plant/plant_file.hpp"
 
 namespace feltgate::faults {
 
@@ -105,13 +100,11 @@ CleanResult run_option_clean(const std::string& root, const std::string& design,
   Random random(seed);
   while (result.seconds() < seconds) {
     const double lasts_s = std::clamp(seconds - result.seconds(), 0.05, kLife_s);
-    if (design == LeverCurrent::name) {
-      life<LeverCurrent>("p24", root, &random, 30, lasts_s, &result);
-    } else if (design == GimbalMotor::name) {
-      life<GimbalMotor>("gimbal_motor", root, &random, 20, lasts_s, &result);
-    } else if (design == GimbalCurrent::name) {
-      life<GimbalCurrent>("gimbal_motor", root, &random, 20, lasts_s, &result);
-    } else {
+    const bool found = with_option(design, [&](const auto& o) {
+      using D = typename std::decay_t<decltype(o)>::Design;
+      life<D>(o.plant, root, &random, o.most_rad_s, lasts_s, &result);
+    });
+    if (!found) {
       throw std::invalid_argument("no false alarms are looked for in the design " + design);
     }
     progress(std::min(1.0, result.seconds() / seconds));

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Faults at the pins that lever does not have: of the current loop of lever_current, of the encoder
-// and the three phases of gimbal_motor, of both in gimbal_current. Documentation:
-// docs/verification.md
+// of lever_absolute, of that and the three phases of gimbal_motor, of all in gimbal_current.
+// Documentation: docs/verification.md
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,8 @@
 
 namespace feltgate::faults {
 
+/// Names of these designs.
+std::vector<std::string> option_designs();
 /// Those of one of these designs; none for another.
 const std::vector<PinKind>& option_kinds(const std::string& design);
 

@@ -12,21 +12,54 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
+#include "campaigns/faults/outcome.hpp"
 #include "campaigns/faults/world.hpp"
 #include "feltgate/current_sense.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
+#include "feltgate/generated/gimbal_current.hpp"
+#include "feltgate/generated/gimbal_motor.hpp"
+#include "feltgate/generated/lever_absolute.hpp"
+#include "feltgate/generated/lever_current.hpp"
 #include "random.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/period_mean.hpp"
+#include "sim/plant/plant_file.hpp"
 #include "sim/plant/sigma_delta.hpp"
 #include "sim/plant/three_phase.hpp"
 
 namespace feltgate::faults {
+
+template <class D>
+struct Option {
+  using Design = D;
+  const char* plant;
+  double arm_s;       ///< when it may be armed: a sensor must have been read, an offset be known
+  double most_rad_s;  ///< of a hand in lives without a fault
+};
+/// The designs other than lever whose pins the campaign breaks.
+constexpr std::tuple options{Option<LeverCurrent>{"p24", 0.011, 30},
+                             Option<LeverAbsolute>{"p24", 0.001, 30},
+                             Option<GimbalMotor>{"gimbal_motor", 0.001, 20},
+                             Option<GimbalCurrent>{"gimbal_motor", 0.011, 20}};
+/// Calls f(option) for the one of this name; false: there is none.
+template <class F>
+bool with_option(const std::string& design, F f) {
+  const auto one = [&](const auto& o) {
+    if (design != std::decay_t<decltype(o)>::Design::name) return false;
+    f(o);
+    return true;
+  };
+  return std::apply([&](const auto&... all) { return (one(all) || ...); }, options);
+}
 
 /// What is broken.
 struct Harm {
@@ -42,6 +75,8 @@ struct Harm {
   std::optional<std::size_t> open_phase;
   bool swapped_phases = false;  ///< B and C
   AbsoluteSensor::Defect sensor = AbsoluteSensor::Defect::none;
+  int stuck_bit = -1;  ///< of its angle; its frames are valid
+  bool stuck_high = false;
   unsigned cut_lines = 0;      ///< to the sensor, by the bits of CoreOut::serial: it sees them high
   double flips = 0;            ///< share of the clocks in which the sensor's data pin is inverted
   double slipped_rad = 0;      ///< of the magnet on its shaft
@@ -74,6 +109,7 @@ class Rig {
     since_ = 0;
     random_ = test::Random(seed);
     if (sensor_) sensor_->set(harm.sensor);
+    if (sensor_ && harm.stuck_bit >= 0) sensor_->stick(harm.stuck_bit, harm.stuck_high);
     if constexpr (D::phases == 3) {
       if (harm.open_phase) motor_.open_phase(*harm.open_phase);
       wiring_a_ = motor_.motor().phase_a();
@@ -260,5 +296,97 @@ class Rig {
   Clock since_ = -1;  // clocks since something is broken; -1: nothing is
   Clock now_ = 0;
 };
+
+/// A fault: when and in which loop.
+struct Case {
+  std::string what;
+  Harm harm;
+  double torque_nm = 0, from_rad = 0;
+  double rad_s = 0;         ///< at which a hand moves the shaft
+  bool free = false;        ///< no hand does
+  double seconds = 0.01;    ///< after the fault, or after arming
+  bool at_arming = false;   ///< it is there from the start, and the self-test is on
+  bool from_start = false;  ///< it is there from the start
+  double offset_rad = 0;    ///< of the electrical angle
+  bool wall = false;        ///< the design's wall acts from 0 rad on, in place of the torque
+};
+
+/// Runs it beside a sound core with a motor of its own; `arm_s`: when both are armed.
+template <class D>
+Outcome run_case(const std::string& root, const Case& c, const char* plant_name, double arm_s,
+                 std::uint64_t seed) {
+  const DesignInfo& info = Rig<D>::info();
+  const auto clocks = [](double s) { return static_cast<Clock>(s * D::clock_hz); };
+  const auto word = [&info](const char* name, double value) {
+    const ParameterInfo* p = info.find(name);
+    return Word{p->address, static_cast<std::uint32_t>(quantise_parameter(*p, value))};
+  };
+  const auto p = plant::read_plant_file(root + "/vectors/plants/" + plant_name + ".toml");
+  plant::Hand hand;
+  if (!c.free) hand = moving_hand(c.from_rad, c.rad_s);
+  hand.start_rad = c.from_rad;
+  Rig<D> sound(p, hand), faulty(p, hand, c.offset_rad);
+  const auto scene = static_cast<std::uint32_t>(c.wall ? D::S::wall : D::S::setpoint);
+  const std::uint32_t control = static_cast<std::uint32_t>(D::control_reset) |
+                                1u << D::C::control_host | scene << D::C::control_scene;
+  std::vector<Word> setup{word("setpoint_torque", c.torque_nm), {D::C::control, control}};
+  if (c.wall) setup.push_back(word("wall_contact", 0));
+  if (!c.at_arming) {  // the torque at once
+    setup.push_back({D::A::self_test_pulse, 0});
+    setup.push_back({D::A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1});
+  }
+  const Word arm{D::C::control, control | 1u << D::C::control_arm};
+  const bool before = c.at_arming || c.from_start;
+  if (before) faulty.harm(c.harm, seed);
+  // Both as far as the arming; a fault under way comes 5 to 6 ms later, and until then both are
+  // one.
+  const auto start = [&](Rig<D>* rig) {
+    for (const Word& w : setup) rig->write(w);
+    while (rig->now() < clocks(arm_s)) rig->step();
+    rig->write(arm);
+  };
+  start(&sound);
+  if (before) {
+    start(&faulty);
+  } else {
+    test::Random when(seed + 1);
+    const double share = 1e-6 * (1 + static_cast<double>(when.below(999998)));
+    const Clock to = clocks(arm_s + 0.005 + 0.001 * share);
+    while (sound.now() < to) sound.step();
+    faulty = sound;
+    faulty.harm(c.harm, seed);
+  }
+  const Clock from = faulty.now();
+  const double from_rad = faulty.shaft_rad();
+  Limits limits;
+  limits.torque_nm = info.find("torque_limit")->si;
+  TorqueLimits judge(limits);
+  Outcome o;
+  Clock off_for = 0;
+  bool differed = false, position_wrong = false;
+  while (faulty.now() < from + clocks(c.seconds) && off_for < 60 * D::clocks_per_tick) {
+    faulty.step();
+    sound.step();
+    const CoreOut &f = faulty.out(), &s = sound.out();
+    o.flagged |= f.faults & ~static_cast<unsigned>(s.faults);
+    const bool closed = !f.gates_enable && (s.gates_enable || o.flagged != 0);
+    if (closed && o.off_after < 0) {
+      o.off_after = (faulty.now() - from + D::clocks_per_tick - 1) / D::clocks_per_tick;
+      o.travel_rad = std::abs(faulty.shaft_rad() - from_rad);
+    }
+    if (!closed) o.off_after = -1;
+    o.both_clocks = std::max(o.both_clocks, faulty.both_clocks());
+    judge.step(faulty.torque_nm() - sound.torque_nm(), faulty.torque_nm(),
+               1e6 * Rig<D>::kStep / D::clock_hz, faulty.on(), closed, &o);
+    position_wrong = !c.free && f.position != s.position;
+    o.count_changed = o.count_changed || position_wrong;
+    differed = differed || f.gates != s.gates || f.position != s.position || f.tau_ref != s.tau_ref;
+    if (judge.unsafe(o)) break;
+    off_for = closed && !faulty.on() ? off_for + Rig<D>::kStep : 0;
+  }
+  settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,
+         &o);
+  return o;
+}
 
 }  // namespace feltgate::faults

@@ -40,6 +40,15 @@ class LoopStep(Scratch):
                 self.assertLessEqual(abs(found[f"tau_hat_final_error_nm.{n}"]), 1e-3)
                 self.assertLessEqual(found[f"torque_settling_ms.{n}"], 0.5)
 
+    def test_a_warm_winding_is_beyond_the_voltage_law(self):
+        """warm_winding, whose expectations lever_current keeps, on lever: V = R I + V_d, so I is 1/1.2."""
+        out = self.folder / "lever.json"
+        self.ended(ran(BUILD / "feltgate_twin", "run", "warm_winding", "--design", "lever", "--engine",
+                       "twin", "--quiet", "--json", out), 1)
+        found = json.loads(out.read_text(encoding="utf-8"))["figures"]
+        for n in range(3):
+            self.assertLess(abs(found[f"final_error_pct.{n}"] - 100 * (1 / 1.2 - 1)), 1)
+
     def test_no_error_exceeds_its_bound(self):
         self.ended(ran(PROGRAM, "budget", "torque_step", "--design", "lever_current"))
 

@@ -141,6 +141,15 @@ class Report(Scratch):
             synth_report.write_page(page, {"measured": TOOLS, "figures": {}})
 
 
+class Sum(unittest.TestCase):
+    def test_each_block_as_often_as_named(self):
+        area = dict.fromkeys(("lut4", "ccu2c", "ff", "mult18", "bram"), 1)
+        rows = {"a": area | {"lut4_equivalents": 5}, "b": area | {"lut4_equivalents": 70}}
+        text = synth_report.text_table("lever", rows, ["a", "b", "a"])
+        self.assertRegex(text, r"sum of 3 +3 +3 +80 +3 +3 +3 +-")
+        self.assertNotIn("sum", synth_report.text_table("lever", rows, ["a"]))
+
+
 class CriticalPath(unittest.TestCase):
     NETLIST = {
         "cells": {

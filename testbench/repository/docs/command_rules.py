@@ -41,6 +41,8 @@ RULES = (
     Rule(r"feltgate run (\w+) --design gimbal_motor --torque-scale 0\.1", "BY", r"scene.\1.gimbal_motor"),
     Rule(r"feltgate run (\w+) --design gimbal_current --torque-scale 0\.1", "BY", r"scene.\1.gimbal_current"),
     Rule(r"feltgate run knob_detents --design gimbal_current --engine all", "BY", "scene.knob_detents.gimbal_current.rtl"),
+    Rule(r"feltgate run warm_winding --design lever", "BY", "scene.torque_step.lever_current"),
+    Rule(r"feltgate run warm_winding", "BY", "scene.warm_winding.lever_current"),
     Rule(r"feltgate run knob_detents", "BY", "scene.knob_detents.gimbal_motor"),
     Rule(r"feltgate texture .*--table", "BY", "texture.command"),
     Rule(r"feltgate run plane_floor.*", "BY", "scene.plane_floor.pantograph_law"),

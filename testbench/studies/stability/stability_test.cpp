@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "feltgate/generated/lever_absolute.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/stability/eigenvalues.hpp"
 #include "studies/stability/report.hpp"
@@ -196,6 +197,79 @@ TEST_CASE("stability: noise shakes a slow host's wall, smoothing calms it") {
   CHECK(quiet.torque_rms_nm < 1e-4);
   CHECK(noisy.torque_rms_nm > 5e-3);
   CHECK(smooth.torque_rms_nm < 0.8 * noisy.torque_rms_nm);
+}
+
+namespace {
+
+/// Another way to a host's border with the hand: the swing of unquantised readings in plain steps,
+/// a winding that lags by L/R, half a PWM period of 20 us, a register write, a reading of 96 us.
+bool grows(double nm_rad, double period_s) {
+  constexpr double dt = 2e-6, lag_s = 82.3e-6 / 0.42, inertia = 1.22e-4, hand_inertia = 5.54e-3;
+  constexpr double grip = 30, grip_b = 0.1, own = 1.35, own_b = 0.0645;
+  double torque = 0, speed = 0, angle = 1e-3, hand_speed = 0, hand = 0, asked = 0, next = 0;
+  double reading = 0, under_way = 0, at_s = -1, early = 0, late = 0;
+  constexpr int host_steps = 6;  // 12 us: half a PWM period and two ticks
+  const auto every = std::llround(period_s / dt);
+  const int steps = static_cast<int>(0.6 / dt);
+  for (int n = 0; n < steps; ++n) {
+    if (n % 48 == 2) reading = under_way;
+    if (n % 48 == 0) under_way = angle;
+    if (n % every == 0) next = -nm_rad * reading, at_s = n + host_steps;
+    if (n == at_s) asked = next;
+    const double held = grip * (hand - angle) + grip_b * (hand_speed - speed);
+    torque += (asked - torque) * -std::expm1(-dt / lag_s);
+    speed += (torque + held) / inertia * dt;
+    hand_speed += (-held - own * hand - own_b * hand_speed) / hand_inertia * dt;
+    angle += speed * dt;
+    hand += hand_speed * dt;
+    const double size = std::hypot(angle, speed / std::sqrt((nm_rad + grip) / inertia));
+    if (n > steps / 3 && n < steps / 2) early = std::max(early, size);
+    if (n > 5 * steps / 6) late = std::max(late, size);
+  }
+  return !(late < early);  // not a number grew
+}
+
+}  // namespace
+
+TEST_CASE("stability: 2 Nm/deg with counts of 14 bits at 144 Hz, 490 Hz and 10 kHz") {
+  const auto design = elaborate(design::read_design(kRoot + "/rtl/designs/lever_absolute.toml"),
+                                design::read_registers(kRoot + "/rtl/registers.toml"));
+  const auto linear = plant_named("linear"), full = plant_named("p24");
+  const double stiff = 360 / 3.141592653589793;  // 2 Nm/deg
+  const double count_rad = 2 * 3.141592653589793 / (1 << LeverAbsolute::absolute_bits);
+  CHECK(design.design.count_rad() == Approx(count_rad).epsilon(1e-12));
+  CHECK(1e3 * count_rad == Approx(0.3835).epsilon(1e-4));
+  CHECK(1e3 * stiff * count_rad == Approx(43.9).epsilon(2e-3));
+  const double step_nm = 45.0 / 1024;  // 360/pi of 2 pi/2^14
+  for (const double hz : {144.0, 490.0, 10e3}) {
+    const HeldWall w = held_wall(design, linear, full, hz, stiff);
+    CAPTURE(hz, w.border_nm_rad, w.bits_nm_rad, w.leaning.counts, w.pressing.counts);
+    // L/R, half a PWM period, half a tick, two of a host, and a reading of 4 to 99 us ago.
+    const double late_s = 82.3e-6 / 0.42 + 10e-6 + 0.5e-6 + 2e-6 + 51.5e-6;
+    CHECK(w.needed_nm_s_rad == Approx(stiff * (0.5 / w.rate_hz + late_s)).epsilon(1e-3));
+    double low = 10, high = 1000;
+    while (high - low > 1e-3 * high) {
+      const double middle = std::sqrt(low * high);
+      (grows(middle, 1 / w.rate_hz) ? high : low) = middle;
+    }
+    within(w.border_nm_rad, low, 0.05);
+    if (hz < 1e3) within(w.bits_nm_rad, w.border_nm_rad, 0.08);
+    if (hz > 1e3) CHECK(std::isnan(w.bits_nm_rad));
+    // Whole counts of 43.9 mNm, but for the face of the wall and its limit.
+    const double steps = w.leaning.torque_swing_nm / step_nm;
+    CHECK(std::abs(steps - std::round(steps)) * step_nm < 4e-5);
+    if (hz < 200) {  // three times the border: from the limit to nothing
+      CHECK(w.border_nm_rad < 0.4 * stiff);
+      CHECK(w.pressing.torque_swing_nm == Approx(0.5).epsilon(1e-3));
+    } else {
+      CHECK(w.border_nm_rad > stiff);
+    }
+    if (hz > 1e3) {  // one count: friction cannot hold it above 2f/q
+      CHECK(stiff > 2 * full.lugre.coulomb_nm / count_rad);
+      CHECK((w.leaning.counts == 1 && w.pressing.counts == 1));
+      within(w.pressing.torque_rms_nm, step_nm / 2, 0.05);
+    }
+  }
 }
 
 TEST_CASE("stability: a study as text and JSON") {

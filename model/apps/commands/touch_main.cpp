@@ -359,9 +359,13 @@ int main(int argc, char** argv) {
   sub->callback([&] {
     if (a.mesh_only && !a.csv.empty())
       throw std::invalid_argument("--csv is of a stroke; leave --mesh-only out");
-    if (!a.board.empty() && (a.mesh_only || a.press_n > 0))
-      throw std::invalid_argument(
-          "--board has a pen of its own; leave --mesh-only and --press out");
+    for (const char* name : {"--mesh-only", "--depth", "--speed", "--press", "--latency",
+                             "--jitter", "--lost", "--engine"}) {
+      if (!a.board.empty() && sub->count(name) > 0) {
+        throw std::invalid_argument(
+            fmt::format("{} is not for a pen at a board; leave it or --board out", name));
+      }
+    }
     if (a.make.empty() == a.glb.empty() || a.make.empty() != a.out.empty()) {
       throw std::invalid_argument(
           "touch reads a GLB file or makes one; write feltgate touch FILE, or feltgate touch "

@@ -21,6 +21,8 @@ namespace {
 
 /// Of an update on the line: SLIP, CRC, address and word of each write.
 constexpr double bits_per_write = 15 * 10, most_of_line = 0.8;
+/// Without --csv, figures are of the last so many poses at most: a session may last for days.
+constexpr std::size_t most_kept = 200'000;
 
 double capstan_of_stylus_m() {
   const AxesScene scene =
@@ -45,6 +47,13 @@ void keep_within(std::map<std::string, double>& words, const host::LawEngine& la
     const double ends[] = {w.lower * w.scale, w.upper * w.scale};
     value = std::clamp(value, std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
   }
+}
+
+/// Leaves the oldest poses out.
+void forget(touch::TouchRun& run, std::size_t count) {
+  const auto rows = static_cast<std::ptrdiff_t>(count);
+  run.rows.erase(run.rows.begin(), run.rows.begin() + rows);
+  run.updates.erase(run.updates.begin(), run.updates.begin() + rows);
 }
 
 /// Whether the pen is outside of the mesh, so that a proxy can begin; says what to do if not.
@@ -78,6 +87,10 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
   bring_law(session, laws, a);
   const double capstan_m = capstan_of_stylus_m();
   touch::Seeker seeker(mesh, request);
+  // The first update sends what another session may have left in the mailbox, too.
+  PlaneHostSettings all = seeker.host();
+  all.moves = true;
+  all.vibrates = !all.edges;
   host::MailboxBurst burst(device, laws);
 
   BoardTouch b;
@@ -112,11 +125,13 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
     const Vec3 pen_m = vector_of(0, capstan_m);
     if (b.run.updates.empty() && !began(seeker, pen_m, a.quiet || b.waited++ > 0)) return;
     const auto [plane, material] = seeker.find(pen_m, tick.time_s, b.run.updates);
-    std::map<std::string, double> words = plane_words(seeker.host(), material, plane, pen_m);
+    std::map<std::string, double> words =
+        plane_words(burst.counts().sent == 0 ? all : seeker.host(), material, plane, pen_m);
     keep_within(words, laws);
     burst.send(words);
     const Vec3 force_n = vector_of(3, 1 / capstan_m);
     b.run.rows.push_back({tick.time_s, pen_m, plane.normal, force_n});
+    if (a.csv.empty() && b.run.rows.size() >= most_kept) forget(b.run, most_kept / 2);
     if (a.quiet || tick.time_s - shown_s < shown_every_s) return;
     shown_s = tick.time_s;
     const touch::Touched& t = b.run.updates.back().touched;

@@ -99,7 +99,7 @@ touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh,
       read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
                       [](const std::string& name) { return find_file(name, "vectors/devices"); });
   scene.scenario.name = std::filesystem::path(a.glb).stem().string();
-  if (a.edges) scene.scenario.law = "local_edge";
+  scene.scenario.law = touch::law_of(request);
   const DesignInfo info = find_axes_design(own_design(scene))->info();
   const auto law = make_axes_law(find_law(scene.scenario.law), info, axes_of(scene));
   AxesRunOptions options;

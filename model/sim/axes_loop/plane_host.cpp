@@ -214,6 +214,7 @@ void PlaneHost::check(const PlaneHostSettings& settings, const std::string& path
                     path, settings.line, law.name(), name,
                     settings.sends_force ? "sent_force"
                     : settings.edges     ? "local_edge"
+                    : settings.vibrates  ? "local_vibration"
                     : settings.axes == 2 ? "local_plane"
                                          : "local_space"));
   }

@@ -53,6 +53,14 @@ struct TouchRequest {
   double press_n = 0;
 };
 
+/// The law that renders its planes.
+inline const char* law_of(const TouchRequest& request) {
+  if (request.proxy.edges) return "local_edge";
+  bool vibrates = request.host.vibration_n > 0;
+  for (const auto& [name, m] : request.materials) vibrates = vibrates || m.vibration_n > 0;
+  return vibrates ? "local_vibration" : "local_space";
+}
+
 /// So long a stroke lasts at least if a plane shall come: the core arms after 10 ms.
 inline double shortest_s(const PlaneHostSettings& host) {
   return 0.01 + host.latency_s + host.jitter_s;
@@ -123,8 +131,11 @@ class Seeker {
       const auto own = request.materials.find(mesh.materials[n]);
       if (own != request.materials.end()) materials_[n] = own->second;
     }
-    for (const PlaneMaterial& m : materials_) host_.vibrates = host_.vibrates || m.vibration_n > 0;
-    if (host_.vibrates && host_.edges) {
+    const std::string law = law_of(request);
+    host_.vibrates = law == "local_vibration";
+    const bool textured = std::any_of(materials_.begin(), materials_.end(),
+                                      [](const PlaneMaterial& m) { return m.vibration_n > 0; });
+    if (textured && host_.edges) {
       throw std::invalid_argument(
           "the law of two planes has no room for a vibration; leave it or the edges out");
     }
@@ -158,9 +169,8 @@ class Seeker {
 };
 
 /// Runs the stroke in `scene`, one of the stylus with planes; its hand, world, length and
-/// expectations are replaced. The law of `options` is local_edge where the proxy tells edges, else
-/// local_space. Errors: std::invalid_argument where the stroke begins in the mesh,
-/// and those of run_axes().
+/// expectations are replaced. The law of `options` is law_of() the request. Errors:
+/// std::invalid_argument where the stroke begins in the mesh, and those of run_axes().
 inline TouchRun run_touch(const Mesh& mesh, const TouchRequest& request, AxesScene scene,
                           AxesRunOptions options, std::int64_t tick_hz) {
   TouchRun run;

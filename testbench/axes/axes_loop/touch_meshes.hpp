@@ -201,9 +201,8 @@ inline touch::TouchRun run_on(const touch::Mesh& mesh, const std::string& engine
   const AxesScene scene = scene_named("stylus_cube");
   const AxesDesignMakers* made = find_axes_design("stylus_law");
   REQUIRE(made != nullptr);
-  const auto law = make_axes_law(std::string(FELTGATE_ROOT) + "/rtl/laws/" +
-                                     (request.proxy.edges ? "local_edge.law" : "local_space.law"),
-                                 made->info(), 3);
+  const auto law = make_axes_law(
+      std::string(FELTGATE_ROOT) + "/rtl/laws/" + touch::law_of(request) + ".law", made->info(), 3);
   AxesRunOptions options;
   options.design = "stylus_law";
   options.engine = engine;

@@ -89,15 +89,21 @@ class TouchBoard(ProgramTest):
         self.assertGreater(deep, 10)
         self.assertGreater(free, 5)
 
-    def test_afterwards_the_motors_are_off_and_nothing_of_a_texture_is_left(self):
+    def test_afterwards_the_motors_are_off_and_no_speed_is_left(self):
         _, port = self.stylus()
-        self.felt(port, "--material", "none=300,0,0,0.5,100")
-        for verb, needle in (("info", "disarmed"), ("law", "vibration            0.5 N")):
+        rises = "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale\n0,0,0,-0.1,0,0,0,1\n60,0,0,-0.04,0,0,0,1\n"
+        (self.folder / "rises.csv").write_text(rises, encoding="utf-8")
+        self.felt(port, "--motion", "rises.csv")
+        for verb, needle in (("info", "disarmed"), ("law", "speed_z              0.00097")):
             said = self.run_program("feltgate_host", "--baud", 3000000, port, verb)
             self.assertIn(needle, said)
+        self.felt(port, "--material", "none=stone")
+        said = self.run_program("feltgate_host", "--baud", 3000000, port, "law")
+        self.assertIn("law local_vibration", said)
         self.felt(port)
         said = self.run_program("feltgate_host", "--baud", 3000000, port, "law")
-        self.assertIn("vibration            0 N", said)
+        self.assertIn("law local_space", said)
+        self.assertIn("speed_z              0 m/s", said)
 
     def test_a_board_that_goes_away(self):
         board, port = self.stylus()

@@ -67,9 +67,12 @@ TEST_CASE("local_plane: spring, damping and friction of a plane, its cone exact"
   CHECK(slipping > 500);
 }
 
-TEST_CASE("local_space: spring, damping and friction of a plane that moves under three slides") {
+namespace {
+
+/// Of a plane that moves under three slides: spring, damping, friction, and of local_vibration the
+/// texture.
+void check_plane_in_space(Running<>& law, bool vibrates) {
   constexpr double kCapstan_m = 0.01;
-  Running<> law(shipped("local_space"));
   feltgate::SplitMix64 random(6);
   const char* const axes[] = {"x", "y", "z"};
   int pressed = 0, slipping = 0;
@@ -96,8 +99,10 @@ TEST_CASE("local_space: spring, damping and friction of a plane that moves under
     law.set("stiffness", k);
     law.set("damping", damping);
     law.set("friction", mu);
-    law.set("vibration", vibration_n);
-    law.set("frequency", frequency_hz);
+    if (vibrates) {
+      law.set("vibration", vibration_n);
+      law.set("frequency", frequency_hz);
+    }
     law.torque({{"position", pen[0] / kCapstan_m},
                 {"position[1]", pen[1] / kCapstan_m},
                 {"position[2]", pen[2] / kCapstan_m},
@@ -105,7 +110,7 @@ TEST_CASE("local_space: spring, damping and friction of a plane that moves under
                 {"velocity[1]", v[1] / kCapstan_m},
                 {"velocity[2]", v[2] / kCapstan_m}});
     const double spring = k * std::max(deep_m, 0.0);
-    const double shake_n = vibration_n * std::sin(2 * 3.14159265358979 * turns);
+    const double shake_n = vibrates ? vibration_n * std::sin(2 * 3.14159265358979 * turns) : 0;
     turns += frequency_hz * 1e-5;
     const double push = std::clamp(spring - damping * out_of + shake_n, 0.0, 2 * spring);
     pressed += push > 0 ? 1 : 0;
@@ -118,6 +123,18 @@ TEST_CASE("local_space: spring, damping and friction of a plane that moves under
   }
   CHECK(pressed > 1000);
   CHECK(slipping > 500);
+}
+
+}  // namespace
+
+TEST_CASE("local_space: spring, damping and friction of a plane that moves under three slides") {
+  Running<> law(shipped("local_space"));
+  check_plane_in_space(law, false);
+}
+
+TEST_CASE("local_vibration: the same, and a vibration of the push that never pulls") {
+  Running<> law(shipped("local_vibration"));
+  check_plane_in_space(law, true);
 }
 
 namespace {

@@ -29,7 +29,7 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       // virtual_objects_test.cpp
       "flywheel", "pendulum", "collision", "rigid_body",
       // local_plane_law_test.cpp
-      "local_plane", "sent_force", "local_space", "local_edge",
+      "local_plane", "sent_force", "local_space", "local_vibration", "local_edge",
       // material_test.cpp
       "material",
       // testbench/studies/shape

@@ -98,7 +98,6 @@ TEST_CASE("planes of a sphere: a pen slides off, and swings as on a floor") {
   Place place{Eigen::VectorXd::Zero(9), {}, {}};
   place.inputs[2] = 0.028 * per_m;
   for (const law::Parameter& q : law.parameters) place.parameters.push_back(q.initial);
-  for (const law::State& q : law.states) place.states.push_back(q.initial);
   plant::Effects on = scene.scenario.effects;
   on.lugre = false;
   const auto model = stability::make_axes_model(e, joint_of(scene.device, on),

@@ -31,11 +31,11 @@ double capstan_of_stylus_m() {
   return std::get<StylusSetup>(scene.device).parameters.lever.lever.radius_m;
 }
 
-/// Gives the board the law of one plane or of two, if it does not have it.
-void bring_law(host::Session& session, host::LawEngine& laws, const TouchArguments& a) {
-  const law::Image image = session.image_of(a.edges ? "local_edge" : "local_space");
+/// Gives the board this law, if it does not have it.
+void bring_law(host::Session& session, host::LawEngine& laws, const char* name, bool quiet) {
+  const law::Image image = session.image_of(name);
   if (laws.holds(image)) return laws.attach(image);
-  Progress progress("loading the law " + image.name, a.quiet);
+  Progress progress("loading the law " + image.name, quiet);
   laws.load(image, [&](double share) { progress.update(share); });
   host::keep_law(host::laws_folder(), image);
 }
@@ -84,13 +84,12 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
   }
   host::Device& device = session.device();
   host::LawEngine laws(device);
-  bring_law(session, laws, a);
+  bring_law(session, laws, touch::law_of(request), a.quiet);
   const double capstan_m = capstan_of_stylus_m();
   touch::Seeker seeker(mesh, request);
-  // The first update sends what another session may have left in the mailbox, too.
+  // The first update sends the velocity, too, which another session may have left in the mailbox.
   PlaneHostSettings all = seeker.host();
   all.moves = true;
-  all.vibrates = !all.edges;
   host::MailboxBurst burst(device, laws);
 
   BoardTouch b;

@@ -19,7 +19,7 @@ ENGINE = (
 # Blocks of which some ports are in a property: why not all.
 SOME_PORTS = {
     "feltgate_core": "only the register port, the snapshot and the clocks to the duty are proven",
-    "feltgate_axes": "only the register port and what the axes hear of each other are proven",
+    "feltgate_axes": "torque from the ports, where there is no engine: no design has that with several axes",
     "engine": ENGINE,
     "engine_barrel": ENGINE,
     "engine_inputs": "when a thread is due is not proven",

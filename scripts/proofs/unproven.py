@@ -8,7 +8,6 @@ import rtl_sources
 # Blocks of which no port is in a property: how they are tested instead.
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
-    "field_oriented": "lock-step with its twin, the same law in double, and seeded defects",
     **dict.fromkeys(rtl_sources.WIRED_ROOMS, "the proofs of feltgate_core go through it"),
     "current_loop": "lock-step of feltgate_core with a current loop, and seeded defects",
 }

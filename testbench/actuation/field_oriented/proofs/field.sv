@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The clocks of a result, its products and sums, the integrators, and the watch for an open phase. The vectors that the
+// The clocks of a result, the factors of its products, the integrators, and the watch for an open phase. The vectors the
 // turns give are as they are: turns.sv.
 `default_nettype none
 

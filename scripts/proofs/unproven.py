@@ -8,7 +8,6 @@ import rtl_sources
 # Blocks of which no port is in a property: how they are tested instead.
 BLOCKS = {
     "feltgate_checks": "it has no ports; lint.elaboration breaks each constant that it checks",
-    "field_oriented": "lock-step with its twin, the same law in double, and seeded defects",
     **dict.fromkeys(rtl_sources.WIRED_ROOMS, "the proofs of feltgate_core go through it"),
     "current_loop": "lock-step of feltgate_core with a current loop, and seeded defects",
 }
@@ -19,7 +18,7 @@ ENGINE = (
 # Blocks of which some ports are in a property: why not all.
 SOME_PORTS = {
     "feltgate_core": "only the register port, the snapshot and the clocks to the duty are proven",
-    "feltgate_axes": "only the register port and what the axes hear of each other are proven",
+    "feltgate_axes": "torque from the ports, where there is no engine: no design has that with several axes",
     "engine": ENGINE,
     "engine_barrel": ENGINE,
     "engine_inputs": "when a thread is due is not proven",

@@ -2,37 +2,40 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Core and link put together: who gets what from whom, whatever each of them does; of them only the ports
-// are read. LAW: the design has an engine, and the core is an axis of feltgate_axes.
+// are read. LAW: the design has an engine, and its cores are the axes of feltgate_axes. VIEW: it has more than one.
 `default_nettype none
 
 module wires_proof (
     input logic       clk_i,
     input logic       rst_ni,
-    input logic       enc_a_i,
-    input logic       enc_b_i,
-    input logic       enc_z_i,
+    input logic [feltgate_pkg::AXES-1:0] enc_a_i,
+    input logic [feltgate_pkg::AXES-1:0] enc_b_i,
+    input logic [feltgate_pkg::AXES-1:0] enc_z_i,
     input logic       encoder_data_i,
     input logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
     input logic       driver_fault_i,
     input logic       arm_i,
     input logic       stop_i,
-    input logic       set_zero_i,
+    input logic [feltgate_pkg::AXES-1:0] set_zero_i,
     input logic       clear_faults_i,
-    input logic [3:0] scene_i,
+    input logic [4*feltgate_pkg::AXES-1:0] scene_i,
     input logic       uart_rx_i,
     input logic [7:0] inputs_i
 );
 
+  localparam int A = feltgate_pkg::AXES;
+
   `include "reset.svh"
 
   // Outputs.
-  logic a_hi, a_lo, b_hi, b_lo, c_hi, c_lo, tx, armed, gates_enable, snapshot_valid;
+  logic [A-1:0] a_hi, a_lo, b_hi, b_lo, armed, gates_enable;
+  logic c_hi, c_lo, tx, snapshot_valid;
   logic select_n, serial_clock, command, current_clock, heartbeat;
-  logic [31:0] position;
-  logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
-  logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
-  logic [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault;
-  logic [3:0] scene;
+  logic [32*A-1:0] position;
+  logic [A*feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
+  logic [A*feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
+  logic [A*feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault;
+  logic [4*A-1:0] scene;
   feltgate_linked u_dut (
       .*,
       .gate_a_hi_o(a_hi), .gate_a_lo_o(a_lo), .gate_b_hi_o(b_hi), .gate_b_lo_o(b_lo),
@@ -43,68 +46,68 @@ module wires_proof (
       .scene_o(scene), .armed_o(armed), .gates_enable_o(gates_enable), .snapshot_valid_o(snapshot_valid)
   );
 `ifdef LAW
-  (* hierconn *) wire \u_dut.g_law.u_axes.enc_a_i ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.enc_b_i ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.enc_z_i ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.enc_a_i ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.enc_b_i ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.enc_z_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.arm_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.stop_i ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.set_zero_i ;
-  (* hierconn *) wire [3:0] \u_dut.g_law.u_axes.scene_i ;
-  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_dut.g_law.u_axes.law_torque_i ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.set_zero_i ;
+  (* hierconn *) wire [4*A-1:0] \u_dut.g_law.u_axes.scene_i ;
+  (* hierconn *) wire [A*feltgate_pkg::TORQUE_W-1:0] \u_dut.g_law.u_axes.law_torque_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.law_late_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.law_restart_i ;
   (* hierconn *) wire [31:0] \u_dut.g_law.u_axes.reg_wdata_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.reg_write_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.reg_busy_o ;
   (* hierconn *) wire [31:0] \u_dut.g_law.u_axes.reg_rdata_o ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.gate_a_hi_o ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.gate_a_lo_o ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.gate_b_hi_o ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.gate_b_lo_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gate_a_hi_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gate_a_lo_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gate_b_hi_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gate_b_lo_o ;
   (* hierconn *) wire \u_dut.g_law.u_axes.snapshot_valid_o ;
   (* hierconn *) wire \u_dut.g_law.u_axes.word_valid_o ;
   (* hierconn *) wire [5:0] \u_dut.g_law.u_axes.word_slot_o ;
-  (* hierconn *) wire [31:0] \u_dut.g_law.u_axes.word_data_o ;
-  (* hierconn *) wire [31:0] \u_dut.g_law.u_axes.position_o ;
-  (* hierconn *) wire [3:0] \u_dut.g_law.u_axes.scene_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_STATUS_LIMITS-1:0] \u_dut.g_law.u_axes.limits_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_FAULTS_SEEN-1:0] \u_dut.g_law.u_axes.faults_o ;
-  (* hierconn *) wire [feltgate_map_pkg::W_FAULTS_FIRST-1:0] \u_dut.g_law.u_axes.first_fault_o ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.armed_o ;
-  (* hierconn *) wire \u_dut.g_law.u_axes.gates_enable_o ;
+  (* hierconn *) wire [32*A-1:0] \u_dut.g_law.u_axes.word_data_o ;
+  (* hierconn *) wire [32*A-1:0] \u_dut.g_law.u_axes.position_o ;
+  (* hierconn *) wire [4*A-1:0] \u_dut.g_law.u_axes.scene_o ;
+  (* hierconn *) wire [A*feltgate_map_pkg::W_STATUS_LIMITS-1:0] \u_dut.g_law.u_axes.limits_o ;
+  (* hierconn *) wire [A*feltgate_map_pkg::W_FAULTS_SEEN-1:0] \u_dut.g_law.u_axes.faults_o ;
+  (* hierconn *) wire [A*feltgate_map_pkg::W_FAULTS_FIRST-1:0] \u_dut.g_law.u_axes.first_fault_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.armed_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gates_enable_o ;
   (* hierconn *) wire [15:0] \u_dut.g_law.u_axes.reg_addr_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.reg_read_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.event_valid_o ;
   (* hierconn *) wire [8:0] \u_dut.g_law.u_axes.event_number_o ;
-  wire core_enc_a_i = \u_dut.g_law.u_axes.enc_a_i ;
-  wire core_enc_b_i = \u_dut.g_law.u_axes.enc_b_i ;
-  wire core_enc_z_i = \u_dut.g_law.u_axes.enc_z_i ;
+  wire [A-1:0] core_enc_a_i = \u_dut.g_law.u_axes.enc_a_i ;
+  wire [A-1:0] core_enc_b_i = \u_dut.g_law.u_axes.enc_b_i ;
+  wire [A-1:0] core_enc_z_i = \u_dut.g_law.u_axes.enc_z_i ;
   wire core_arm_i = \u_dut.g_law.u_axes.arm_i ;
   wire core_stop_i = \u_dut.g_law.u_axes.stop_i ;
-  wire core_set_zero_i = \u_dut.g_law.u_axes.set_zero_i ;
-  wire [3:0] core_scene_i = \u_dut.g_law.u_axes.scene_i ;
-  wire [feltgate_pkg::TORQUE_W-1:0] core_law_torque_i = \u_dut.g_law.u_axes.law_torque_i ;
+  wire [A-1:0] core_set_zero_i = \u_dut.g_law.u_axes.set_zero_i ;
+  wire [4*A-1:0] core_scene_i = \u_dut.g_law.u_axes.scene_i ;
+  wire [A*feltgate_pkg::TORQUE_W-1:0] core_law_torque_i = \u_dut.g_law.u_axes.law_torque_i ;
   wire core_law_late_i = \u_dut.g_law.u_axes.law_late_i ;
   wire core_law_restart_i = \u_dut.g_law.u_axes.law_restart_i ;
   wire [31:0] core_reg_wdata_i = \u_dut.g_law.u_axes.reg_wdata_i ;
   wire core_reg_write_i = \u_dut.g_law.u_axes.reg_write_i ;
   wire core_reg_busy_o = \u_dut.g_law.u_axes.reg_busy_o ;
   wire [31:0] core_reg_rdata_o = \u_dut.g_law.u_axes.reg_rdata_o ;
-  wire core_gate_a_hi_o = \u_dut.g_law.u_axes.gate_a_hi_o ;
-  wire core_gate_a_lo_o = \u_dut.g_law.u_axes.gate_a_lo_o ;
-  wire core_gate_b_hi_o = \u_dut.g_law.u_axes.gate_b_hi_o ;
-  wire core_gate_b_lo_o = \u_dut.g_law.u_axes.gate_b_lo_o ;
+  wire [A-1:0] core_gate_a_hi_o = \u_dut.g_law.u_axes.gate_a_hi_o ;
+  wire [A-1:0] core_gate_a_lo_o = \u_dut.g_law.u_axes.gate_a_lo_o ;
+  wire [A-1:0] core_gate_b_hi_o = \u_dut.g_law.u_axes.gate_b_hi_o ;
+  wire [A-1:0] core_gate_b_lo_o = \u_dut.g_law.u_axes.gate_b_lo_o ;
   wire core_snapshot_valid_o = \u_dut.g_law.u_axes.snapshot_valid_o ;
   wire core_word_valid_o = \u_dut.g_law.u_axes.word_valid_o ;
   wire [5:0] core_word_slot_o = \u_dut.g_law.u_axes.word_slot_o ;
-  wire [31:0] core_word_data_o = \u_dut.g_law.u_axes.word_data_o ;
-  wire [31:0] core_position_o = \u_dut.g_law.u_axes.position_o ;
-  wire [3:0] core_scene_o = \u_dut.g_law.u_axes.scene_o ;
-  wire [feltgate_map_pkg::W_STATUS_LIMITS-1:0] core_limits_o = \u_dut.g_law.u_axes.limits_o ;
-  wire [feltgate_map_pkg::W_FAULTS_SEEN-1:0] core_faults_o = \u_dut.g_law.u_axes.faults_o ;
-  wire [feltgate_map_pkg::W_FAULTS_FIRST-1:0] core_first_fault_o = \u_dut.g_law.u_axes.first_fault_o ;
-  wire core_armed_o = \u_dut.g_law.u_axes.armed_o ;
-  wire core_gates_enable_o = \u_dut.g_law.u_axes.gates_enable_o ;
+  wire [32*A-1:0] core_word_data_o = \u_dut.g_law.u_axes.word_data_o ;
+  wire [32*A-1:0] core_position_o = \u_dut.g_law.u_axes.position_o ;
+  wire [4*A-1:0] core_scene_o = \u_dut.g_law.u_axes.scene_o ;
+  wire [A*feltgate_map_pkg::W_STATUS_LIMITS-1:0] core_limits_o = \u_dut.g_law.u_axes.limits_o ;
+  wire [A*feltgate_map_pkg::W_FAULTS_SEEN-1:0] core_faults_o = \u_dut.g_law.u_axes.faults_o ;
+  wire [A*feltgate_map_pkg::W_FAULTS_FIRST-1:0] core_first_fault_o = \u_dut.g_law.u_axes.first_fault_o ;
+  wire [A-1:0] core_armed_o = \u_dut.g_law.u_axes.armed_o ;
+  wire [A-1:0] core_gates_enable_o = \u_dut.g_law.u_axes.gates_enable_o ;
   wire [15:0] core_reg_addr_i = \u_dut.g_law.u_axes.reg_addr_i ;
   wire core_reg_read_i = \u_dut.g_law.u_axes.reg_read_i ;
   wire core_event_valid_o = \u_dut.g_law.u_axes.event_valid_o ;
@@ -191,6 +194,8 @@ module wires_proof (
   wire core_axis_testing_i = \u_dut.g_core.u_core.axis_testing_i ;
   wire core_axis_waits_i = \u_dut.g_core.u_core.axis_waits_i ;
   wire [15:0] core_reg_addr_i = {4'd0, \u_dut.g_core.u_core.reg_addr_i };
+  wire core_event_valid_o = 1'b0;
+  wire [8:0] core_event_number_o = 9'd0;
   localparam logic [15:0] AddressMask = 16'h0fff;  // the core has no more
 `endif
   (* hierconn *) wire \u_dut.u_uart_rx.rx_i ;
@@ -268,6 +273,40 @@ module wires_proof (
   (* hierconn *) wire \u_dut.u_uart_tx.ready_o ;
   (* hierconn *) wire \u_dut.u_uart_tx.tx_o ;
 
+  wire [38:0] stream_word = {\u_dut.u_link_stream.word_valid_i , \u_dut.u_link_stream.word_slot_i , \u_dut.u_link_stream.word_data_i };
+  wire [38:0] capture_word = {\u_dut.u_link_capture.word_valid_i , \u_dut.u_link_capture.word_slot_i , \u_dut.u_link_capture.word_data_i };
+  wire [9:0] capture_event = {\u_dut.u_link_capture.event_valid_i , \u_dut.u_link_capture.event_number_i };
+  wire [48:0] link_write = {\u_dut.u_link_port.addr_o , \u_dut.u_link_port.wdata_o , \u_dut.u_link_port.write_o };
+`ifdef VIEW
+  (* hierconn *) wire \u_dut.g_view.u_link_view.word_valid_i ;
+  (* hierconn *) wire [5:0] \u_dut.g_view.u_link_view.word_slot_i ;
+  (* hierconn *) wire [32*A-1:0] \u_dut.g_view.u_link_view.word_data_i ;
+  (* hierconn *) wire \u_dut.g_view.u_link_view.event_valid_i ;
+  (* hierconn *) wire [8:0] \u_dut.g_view.u_link_view.event_number_i ;
+  (* hierconn *) wire [15:0] \u_dut.g_view.u_link_view.addr_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_view.u_link_view.wdata_i ;
+  (* hierconn *) wire \u_dut.g_view.u_link_view.write_i ;
+  (* hierconn *) wire [31:0] \u_dut.g_view.u_link_view.rdata_o ;
+  (* hierconn *) wire \u_dut.g_view.u_link_view.word_valid_o ;
+  (* hierconn *) wire [5:0] \u_dut.g_view.u_link_view.word_slot_o ;
+  (* hierconn *) wire [31:0] \u_dut.g_view.u_link_view.word_data_o ;
+  (* hierconn *) wire \u_dut.g_view.u_link_view.event_valid_o ;
+  (* hierconn *) wire [8:0] \u_dut.g_view.u_link_view.event_number_o ;
+  wire [6+32*A:0] seen = {\u_dut.g_view.u_link_view.word_valid_i , \u_dut.g_view.u_link_view.word_slot_i , \u_dut.g_view.u_link_view.word_data_i };
+  wire [9:0] seen_event = {\u_dut.g_view.u_link_view.event_valid_i , \u_dut.g_view.u_link_view.event_number_i };
+  wire [48:0] view_write = {\u_dut.g_view.u_link_view.addr_i , \u_dut.g_view.u_link_view.wdata_i , \u_dut.g_view.u_link_view.write_i };
+  wire [31:0] view_rdata = \u_dut.g_view.u_link_view.rdata_o ;
+  wire [38:0] shown = {\u_dut.g_view.u_link_view.word_valid_o , \u_dut.g_view.u_link_view.word_slot_o , \u_dut.g_view.u_link_view.word_data_o };
+  wire [9:0] shown_event = {\u_dut.g_view.u_link_view.event_valid_o , \u_dut.g_view.u_link_view.event_number_o };
+`else
+  wire [38:0] seen = stream_word;
+  wire [9:0] seen_event = capture_event;
+  wire [48:0] view_write = link_write;
+  wire [31:0] view_rdata = 32'd0;
+  wire [38:0] shown = {core_word_valid_o, core_word_slot_o, core_word_data_o};
+  wire [9:0] shown_event = {core_event_valid_o, core_event_number_o};
+`endif
+
   always_comb begin
     if (past_ok_q) begin
       gates_are_the_cores: assert ({a_hi, a_lo, b_hi, b_lo} == {core_gate_a_hi_o, core_gate_a_lo_o, core_gate_b_hi_o, core_gate_b_lo_o});
@@ -291,11 +330,12 @@ module wires_proof (
       request_to_the_port: assert ({\u_dut.u_link_port.valid_i , \u_dut.u_link_port.write_i , \u_dut.u_link_port.sequence_i , \u_dut.u_link_port.address_i , \u_dut.u_link_port.data_i , \u_dut.u_link_port.good_i , \u_dut.u_link_port.bad_i } == {\u_dut.u_link_receiver.valid_o , \u_dut.u_link_receiver.write_o , \u_dut.u_link_receiver.sequence_o , \u_dut.u_link_receiver.address_o , \u_dut.u_link_receiver.data_o , \u_dut.u_link_receiver.good_o , \u_dut.u_link_receiver.bad_o } &&
           \u_dut.u_link_receiver.taken_i  == \u_dut.u_link_port.taken_o );
       board_to_the_port: assert ({\u_dut.u_link_port.clear_faults_i , \u_dut.u_link_port.inputs_i , \u_dut.u_link_port.tick_i } == {clear_faults_i, inputs_i, core_snapshot_valid_o});
-      words_to_the_link: assert ({\u_dut.u_link_stream.word_valid_i , \u_dut.u_link_stream.word_slot_i , \u_dut.u_link_stream.word_data_i } == {core_word_valid_o, core_word_slot_o, core_word_data_o} &&
-          {\u_dut.u_link_capture.word_valid_i , \u_dut.u_link_capture.word_slot_i , \u_dut.u_link_capture.word_data_i } == {core_word_valid_o, core_word_slot_o, core_word_data_o});
-      writes_to_the_link: assert ({\u_dut.u_link_stream.addr_i , \u_dut.u_link_stream.wdata_i , \u_dut.u_link_stream.write_i } == {\u_dut.u_link_port.addr_o , \u_dut.u_link_port.wdata_o , \u_dut.u_link_port.write_o } &&
-          {\u_dut.u_link_capture.addr_i , \u_dut.u_link_capture.wdata_i , \u_dut.u_link_capture.write_i } == {\u_dut.u_link_port.addr_o , \u_dut.u_link_port.wdata_o , \u_dut.u_link_port.write_o });
-      reads_of_the_link: assert (\u_dut.u_link_port.rdata_i  == (\u_dut.u_link_stream.rdata_o | \u_dut.u_link_capture.rdata_o ));
+      words_of_all_axes: assert (seen == {core_word_valid_o, core_word_slot_o, core_word_data_o});
+      words_to_the_link: assert (stream_word == shown && capture_word == shown);
+      writes_to_the_link: assert (view_write == link_write &&
+          {\u_dut.u_link_stream.addr_i , \u_dut.u_link_stream.wdata_i , \u_dut.u_link_stream.write_i } == link_write &&
+          {\u_dut.u_link_capture.addr_i , \u_dut.u_link_capture.wdata_i , \u_dut.u_link_capture.write_i } == link_write);
+      reads_of_the_link: assert (\u_dut.u_link_port.rdata_i  == (\u_dut.u_link_stream.rdata_o | \u_dut.u_link_capture.rdata_o  | view_rdata));
       frames_to_the_wire: assert ({\u_dut.u_link_transmitter.reply_valid_i , \u_dut.u_link_transmitter.reply_byte_i , \u_dut.u_link_transmitter.reply_last_i } == {\u_dut.u_link_port.valid_o , \u_dut.u_link_port.byte_o , \u_dut.u_link_port.last_o } &&
           {\u_dut.u_link_transmitter.stream_valid_i , \u_dut.u_link_transmitter.stream_byte_i , \u_dut.u_link_transmitter.stream_last_i } == {\u_dut.u_link_stream.valid_o , \u_dut.u_link_stream.byte_o , \u_dut.u_link_stream.last_o } &&
           {\u_dut.u_link_port.ready_i , \u_dut.u_link_stream.ready_i } == {\u_dut.u_link_transmitter.reply_ready_o , \u_dut.u_link_transmitter.stream_ready_o } &&
@@ -304,12 +344,12 @@ module wires_proof (
       all_addresses: assert (core_reg_addr_i == (\u_dut.u_link_port.reg_addr_o & AddressMask));
 `ifdef LAW
       nothing_from_elsewhere: assert ({core_law_torque_i, core_law_late_i, core_law_restart_i} == '0);
-      events_to_the_host: assert ({\u_dut.u_link_capture.event_valid_i , \u_dut.u_link_capture.event_number_i } ==
-          {core_event_valid_o, core_event_number_o} && core_reg_read_i == (core_reg_write_i && !core_reg_busy_o));
+      events_to_the_host: assert (seen_event == {core_event_valid_o, core_event_number_o} && capture_event == shown_event &&
+          core_reg_read_i == (core_reg_write_i && !core_reg_busy_o));
 `else
       nothing_from_elsewhere: assert ({core_law_torque_i, core_law_late_i, core_law_restart_i, core_axis_fault_i,
           core_axis_silent_i, core_axis_blocked_i, core_axis_testing_i, core_axis_waits_i} == '0);
-      events_to_the_host: assert (!\u_dut.u_link_capture.event_valid_i );
+      events_to_the_host: assert (seen_event == 10'd0 && capture_event == 10'd0);
 `endif
       writes: cover (core_reg_write_i && core_reg_busy_o);
       answers: cover (\u_dut.u_link_transmitter.reply_valid_i && \u_dut.u_link_transmitter.stream_valid_i );

@@ -28,7 +28,8 @@ module requests_proof (
   logic [15:0] reg_addr, addr;
   logic [31:0] reg_wdata, wdata;
   logic [7:0] reply_byte;
-  link_port u_dut (
+  localparam int Axes = feltgate_pkg::AXES;
+  link_port #(.Axes(Axes)) u_dut (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .valid_i(valid_i), .write_i(write_i), .sequence_i(sequence_i), .address_i(address_i), .data_i(data_i),
       .good_i(good_i), .bad_i(bad_i), .taken_o(taken),
@@ -50,6 +51,7 @@ module requests_proof (
   (* hierconn *) wire [8:0] \u_dut.sequence_q ;
   (* hierconn *) wire \u_dut.done_q ;
   (* hierconn *) wire \u_dut.clear_q ;
+  (* hierconn *) wire [1:0] \u_dut.clear_axis_q ;
   (* hierconn *) wire [15:0] \u_dut.good_q ;
   (* hierconn *) wire [15:0] \u_dut.bad_q ;
   (* hierconn *) wire \u_dut.status_q ;
@@ -61,24 +63,31 @@ module requests_proof (
   (* hierconn *) wire [31:0] \u_dut.word_q ;
   (* hierconn *) wire [AddressW-1:0] \u_dut.address_q ;
 
-  // Writes: what a request still wants of a port, and the panel.
+  // Writes: what a request still wants of a port, and the panel, which clears axis after axis.
   logic [8:0] last_q;  // sequence of the last that a port took
-  logic done_q, clear_q, repeats, wants, to_core, of_core, of_panel, port_takes;
+  logic done_q, repeats, wants, to_core, of_core, of_panel, port_takes;
+  logic [Axes-1:0] left_q;  // axes that are still to be cleared
+  logic [1:0] next_clear;
+  always_comb begin
+    next_clear = 2'd0;
+    for (int k = Axes - 1; k >= 0; k--) if (left_q[k]) next_clear = 2'(k);
+  end
   assign repeats    = last_q == {1'b0, sequence_i};
   assign wants      = valid_i && write_i && !done_q && !repeats;
   assign to_core    = address_i[13:12] == 2'd0;
   assign of_core    = wants && to_core;
-  assign of_panel   = clear_q && !of_core;
+  assign of_panel   = left_q != '0 && !of_core;
   assign port_takes = wants && (!to_core || !reg_busy_i);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       last_q  <= 9'h100;
       done_q  <= 1'b0;
-      clear_q <= 1'b0;
+      left_q  <= '0;
     end else begin
       if (port_takes) last_q <= {1'b0, sequence_i};
       done_q  <= valid_i && !taken && (done_q || port_takes || (write_i && repeats));
-      clear_q <= clear_faults_i || (clear_q && (of_core || reg_busy_i));
+      if (clear_faults_i) left_q <= '1;
+      else if (of_panel && !reg_busy_i) left_q[next_clear] <= 1'b0;
     end
   end
 
@@ -91,7 +100,12 @@ module requests_proof (
   logic [AddressW-1:0] first_q, asked;
   logic [5:0] steady_q;
   logic engines;
-  assign asked   = of_write_q ? AddressW'(Status) : first_q + AddressW'(sent_q[8:2]) - AddressW'(1);
+  // Of a write the status of the axis that was written, of axis 0 where there is none.
+  logic [1:0] axis;
+  logic [15:0] status;
+  assign axis    = first_q[AddressW-1:12] == '0 && 32'(first_q[11:10]) < Axes ? first_q[11:10] : 2'd0;
+  assign status  = Status + {4'd0, axis, 10'd0};
+  assign asked   = of_write_q ? AddressW'(status) : first_q + AddressW'(sent_q[8:2]) - AddressW'(1);
   // The link's own words that change.
   logic counted, elsewhere;
   logic [15:0] good_q, bad_q;
@@ -185,18 +199,23 @@ module requests_proof (
           : write && addr == 16'(address_i) && wdata == data_i));
       write_of_a_request: assert (!write || (wants && !to_core));
       port_of_request_or_panel: assert (!reg_write || of_core || of_panel);
-      clear_is_there: assert (!of_panel || (reg_write && reg_addr == 16'(feltgate_map_pkg::A_COMMAND) &&
+      clear_is_there: assert (!of_panel || (reg_write && reg_addr[9:0] == 10'(feltgate_map_pkg::A_COMMAND) &&
                                             reg_wdata[5:0] == OnlyClear));
+      clear_of_each_axis: assert (!of_panel || reg_addr[15:10] == {4'd0, next_clear});
       taken_when_done: assert (!taken || (valid_i && !replies_q && (!write_i || done_q)));
       reply_of_a_request: assert (!valid || replies_q);
       reply_has_its_length: assert (!valid || last == (sent_q == {words_q, 2'b11}));
       head_says_what: assert (!valid || of_a_word || reply_byte == 8'(head_q >> {sent_q[1:0], 3'd0}));
       status_of_a_later_tick: assert (!(valid && of_write_q) || ticks_q == 2'd3);
+      status_of_its_axis: assert (!(replies_q && of_write_q) || reg_write || sent_q > 9'd4 || (valid && of_a_word) ||
+                                  reg_addr == status);
       word_after_its_address: assert (!word_begins || steady_then_q >= (engines ? 6'd40 : 6'd3));
       word_of_the_port: assert (!(valid && of_a_word && elsewhere) || reply_byte == word_q[7:0]);
       word_that_counts: assert (!(valid && of_a_word && counted) || reply_byte == word_q[7:0]);
       if (after_q) byte_stands: assert (!stood_q || (valid && reply_byte == byte_q && last == last_then_q));
-      inside_writes: assert (\u_dut.sequence_q == last_q && \u_dut.done_q == done_q && \u_dut.clear_q == clear_q);
+      inside_writes: assert (\u_dut.sequence_q == last_q && \u_dut.done_q == done_q && \u_dut.clear_q == (left_q != '0));
+      inside_clears: assert (left_q == '0 ? \u_dut.clear_axis_q == 2'd0 || (Axes > 1 && 32'(\u_dut.clear_axis_q ) == Axes)
+                                          : \u_dut.clear_axis_q == next_clear && left_q == ({Axes{1'b1}} << next_clear));
       inside_idle: assert ((\u_dut.state_q == Idle) == !replies_q);
       inside_byte: assert (\u_dut.byte_q == (valid ? sent_q[1:0] : 2'd0) && (valid || !replies_q || sent_q[1:0] == 2'd0));
       inside_begin: assert (!replies_q || \u_dut.state_q != Wait || (sent_q == 9'd0 && of_write_q));
@@ -218,7 +237,7 @@ module requests_proof (
       writes: cover (port_takes && to_core);
       answers: cover (valid && last && ready_i && of_write_q);
       reads_two: cover (valid && last && ready_i && !of_write_q && words_q == 7'd2);
-      clears: cover (of_panel && !reg_busy_i);
+      clears: cover (of_panel && !reg_busy_i && 32'(next_clear) == Axes - 1);
     end
   end
 endmodule

@@ -91,10 +91,11 @@ class TouchBoard(ProgramTest):
 
     def test_afterwards_the_motors_are_off_and_no_speed_is_left(self):
         _, port = self.stylus()
-        rises = "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale\n0,0,0,-0.1,0,0,0,1\n60,0,0,-0.04,0,0,0,1\n"
-        (self.folder / "rises.csv").write_text(rises, encoding="utf-8")
+        names = "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale"
+        rows = (names, "0,0,0,-0.1,0,0,0,1", "60,0,0,-0.04,0,0,0,1")
+        (self.folder / "rises.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
         self.felt(port, "--motion", "rises.csv")
-        for verb, needle in (("info", "disarmed"), ("law", "speed_z              0.00097")):
+        for verb, needle in (("info", "disarmed"), ("law", "speed_z              0.00100")):
             said = self.run_program("feltgate_host", "--baud", 3000000, port, verb)
             self.assertIn(needle, said)
         self.felt(port, "--material", "none=stone")

@@ -88,9 +88,9 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, D::f.duty.width()));
   o.duty_active =
       static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, D::f.duty.width()));
-  o.gates = static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 |
-                                      rtl.gate_b_hi_o << 2 | rtl.gate_b_lo_o << 3 |
-                                      rtl.gate_c_hi_o << 4 | rtl.gate_c_lo_o << 5);
+  o.gates =
+      static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 | rtl.gate_b_hi_o << 2 |
+                                rtl.gate_b_lo_o << 3 | rtl.gate_c_hi_o << 4 | rtl.gate_c_lo_o << 5);
   o.serial = static_cast<std::uint8_t>(rtl.encoder_select_no | rtl.encoder_clock_o << 1 |
                                        rtl.encoder_command_o << 2);
   o.scene = rtl.scene_o;

@@ -118,9 +118,8 @@ def axes_targets():
             {"AxisCount": str(count)},
             registered,
             tuple(set(SNAPSHOT_PORTS)
-                  - {"arm_request_o", "ready_o", "testing_o", "current_clock_o", "current_o", "heartbeat_o",
-                     "encoder_select_no", "encoder_clock_o", "encoder_command_o", "gate_c_hi_o", "gate_c_lo_o"}),
-            ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i"),
+                  - {"arm_request_o", "ready_o", "testing_o", "current_clock_o", "current_o", "heartbeat_o"}),
+            ("law_torque_i", "law_late_i", "law_restart_i", "reg_read_i", "encoder_data_i"),
         )
         for count in (1, 2, 3)
         for registered, which in ((True, "registered"), (False, "inferred"))

@@ -136,9 +136,9 @@ void check_error(const Design& d) {
 
 void check_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p = d.absolute_parameters();
-  if (d.engine || d.axes > 1) {
-    d.fail("absolute_encoder", "a core with an engine or several axes has no pins for its lines",
-           "leave [absolute_encoder] out, or [engine] and [axes]");
+  if (d.axes > 1) {
+    d.fail("absolute_encoder", "a core with several axes has no pins for its lines",
+           "leave [absolute_encoder] out, or [axes]");
   }
   if (d.mt) {
     d.fail("velocity.estimator", "M/T needs the clocks of edges, which an absolute encoder lacks",

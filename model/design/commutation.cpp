@@ -40,9 +40,9 @@ void check_commutation(const Design& d) {
   if (d.pole_pairs == 0) {
     d.fail("pwm.phases", "three phases need to know the motor", "add [commutation]");
   }
-  if (d.engine || d.axes > 1) {
-    d.fail("pwm.phases", "a core with an engine or several axes has no pins of a third leg",
-           "write phases = 2, or leave [engine] and [axes] out");
+  if (d.axes > 1) {
+    d.fail("pwm.phases", "a core with several axes has no pins of a third leg",
+           "write phases = 2, or leave [axes] out");
   }
   if (d.current_loop && d.modulation != Commutation::kSpaceVectors) {
     d.fail("commutation.modulation", "a current loop makes space vectors",

@@ -31,6 +31,12 @@ module feltgate_axes #(
     output logic [AxisCount-1:0] gate_a_lo_o,
     output logic [AxisCount-1:0] gate_b_hi_o,
     output logic [AxisCount-1:0] gate_b_lo_o,
+    output logic [AxisCount-1:0] gate_c_hi_o,  // of bridges with PHASES = 3; else 0
+    output logic [AxisCount-1:0] gate_c_lo_o,
+    input  logic [AxisCount-1:0] encoder_data_i,  // of absolute encoders, as in feltgate_core
+    output logic [AxisCount-1:0] encoder_select_no,
+    output logic [AxisCount-1:0] encoder_clock_o,
+    output logic [AxisCount-1:0] encoder_command_o,
 
     // Panel
     input  logic                   arm_i,
@@ -124,8 +130,6 @@ module feltgate_axes #(
   logic law_late, law_restart, unchecked, unfit;
   logic [AxisCount-1:0] current_clock, heartbeat;  // no axis has a current loop
   logic [19*AxisCount-1:0] current;
-  logic [3*AxisCount-1:0] serial;         // nor an absolute encoder
-  logic [2*AxisCount-1:0] leg_c;          // nor a third leg
 
   generate
   genvar n;
@@ -141,8 +145,9 @@ module feltgate_axes #(
         .enc_a_i(enc_a_i[n]), .enc_b_i(enc_b_i[n]), .enc_z_i(enc_z_i[n]),
         .gate_a_hi_o(gate_a_hi_o[n]), .gate_a_lo_o(gate_a_lo_o[n]),
         .gate_b_hi_o(gate_b_hi_o[n]), .gate_b_lo_o(gate_b_lo_o[n]),
-        .gate_c_hi_o(leg_c[2*n]), .gate_c_lo_o(leg_c[2*n+1]),
-        .encoder_data_i(1'b0), .encoder_select_no(serial[3*n]), .encoder_clock_o(serial[3*n+1]), .encoder_command_o(serial[3*n+2]),
+        .gate_c_hi_o(gate_c_hi_o[n]), .gate_c_lo_o(gate_c_lo_o[n]),
+        .encoder_data_i(encoder_data_i[n]), .encoder_select_no(encoder_select_no[n]),
+        .encoder_clock_o(encoder_clock_o[n]), .encoder_command_o(encoder_command_o[n]),
         .hall_i(3'b000), .current_data_i(1'b0), .current_clock_o(current_clock[n]), .current_o(current[19*n+:19]),
         .driver_fault_i(1'b0), .heartbeat_o(heartbeat[n]),
         .arm_i(arm_i), .stop_i(stop_i), .set_zero_i(set_zero_i[n]), .scene_i(scene_i[4*n+:4]),
@@ -216,7 +221,7 @@ module feltgate_axes #(
 
   logic unused;
   always_comb begin
-    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, heartbeat, current, serial, leg_c};
+    unused = ^{snapshot_valid, word_valid, measured, in_law, current_clock, heartbeat, current};
     for (int k = 0; k < AxisCount; k++) unused = unused ^ (^{word_slot[k], tick_count[k]});
   end
 endmodule

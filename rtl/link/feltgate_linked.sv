@@ -86,6 +86,7 @@ module feltgate_linked #(
   /* verilator lint_off PINCONNECTEMPTY */  // the host reads these as words
   generate
   if (feltgate_pkg::ENGINE != 0 || AxisCount > 1) begin : g_law
+    logic [AxisCount-1:0] leg_c_hi, leg_c_lo, select_n, serial_clock, command;
     // A repeated read must change nothing, so a write to the event's last word removes the event.
     feltgate_axes #(
         .AxisCount(AxisCount), .Engine(feltgate_pkg::ENGINE), .ReadBack(1), .ParameterFile(ParameterFile),
@@ -102,6 +103,8 @@ module feltgate_linked #(
         .reg_read_i(reg_write && !reg_busy),
         .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),
         .event_valid_o(event_valid), .event_number_o(event_number), .event_value_o(),
+        .gate_c_hi_o(leg_c_hi), .gate_c_lo_o(leg_c_lo), .encoder_data_i(AxisCount'(encoder_data_i)),
+        .encoder_select_no(select_n), .encoder_clock_o(serial_clock), .encoder_command_o(command),
         .snapshot_valid_o(snapshot_valid_o),
         .tick_count_o(), .velocity_o(), .tau_hat_o(), .tau_ref_o(),
         .current_ref_o(), .voltage_o(), .duty_o(), .duty_active_o(),
@@ -110,16 +113,16 @@ module feltgate_linked #(
         .faults_o(faults_o), .first_fault_o(first_fault_o),
         .armed_o(armed_o), .gates_enable_o(gates_enable_o)
     );
-    // No design has an engine and one of these options: the generator refuses it.
-    assign gate_c_hi_o       = 1'b0;
-    assign gate_c_lo_o       = 1'b0;
-    assign encoder_select_no = 1'b1;
-    assign encoder_clock_o   = 1'b0;
-    assign encoder_command_o = 1'b0;
+    // Of one axis. The generator refuses these options of several, and a current loop beside an engine.
+    assign gate_c_hi_o       = feltgate_pkg::PHASES == 3 && leg_c_hi[0];
+    assign gate_c_lo_o       = feltgate_pkg::PHASES == 3 && leg_c_lo[0];
+    assign encoder_select_no = feltgate_pkg::ABSOLUTE_ENCODER == 0 || select_n[0];
+    assign encoder_clock_o   = feltgate_pkg::ABSOLUTE_ENCODER != 0 && serial_clock[0];
+    assign encoder_command_o = feltgate_pkg::ABSOLUTE_ENCODER != 0 && command[0];
     assign current_clock_o   = 1'b0;
     assign heartbeat_o       = 1'b0;
     logic unused;
-    assign unused = ^{encoder_data_i, current_data_i, driver_fault_i};
+    assign unused = ^{leg_c_hi, leg_c_lo, select_n, serial_clock, command, current_data_i, driver_fault_i};
   end else begin : g_core
     feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
         .clk_i(clk_i), .rst_ni(rst_ni),

@@ -83,7 +83,11 @@ module board_pins #(
     assign word_valid_o  = u_linked.g_law.u_axes.word_valid_o;
     assign word_slot_o   = u_linked.g_law.u_axes.word_slot_o;
     assign word_data_o   = u_linked.g_law.u_axes.word_data_o;
-    assign on_times_o    = '0;
+    if (feltgate_pkg::PHASES == 3) begin : g_three_legs
+      assign on_times_o = u_linked.g_law.u_axes.g_axis[0].u_core.u_actuation.g_three_legs.u_pwm.taken_q;
+    end else begin : g_two_legs
+      assign on_times_o = '0;
+    end
   end else begin : g_core
     assign tick_count_o  = u_linked.g_core.u_core.tick_count_o;
     assign velocity_o    = u_linked.g_core.u_core.velocity_o;

@@ -63,7 +63,8 @@ Turn read_turn(const ColumnTable& table, const design::Elaborated& e) {
       table.fail(row, "a field is empty", "take the row out");
     }
     turn.seen_nm.push_back(hat);
-    turn.load_nm.push_back(small.exact() ? hat : hat + small.torque(ref) - ref);
+    turn.load_nm.push_back(small.exact() ? hat
+                                         : hat + small.torque(ref, turn.at.angle_rad[row]) - ref);
   }
   return turn;
 }

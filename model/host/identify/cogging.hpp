@@ -17,13 +17,18 @@ namespace feltgate::host {
 /// What a voltage law makes of a torque near zero: the dead voltage is proportional to the torque
 /// below linear_nm, so the motor gives nothing before edge_nm. command() is the reference for a
 /// torque, torque() is its inverse. No more than cap_nm is added, since the ripple of a small
-/// current overcomes part of the dead time, and that within rise_nm from 0.
+/// current overcomes part of the dead time, and that within rise_nm from 0. Of three phases what
+/// the dead times take also depends on the shaft's angle, and on whether two or three of them
+/// conduct.
 struct SmallTorque {
   double linear_nm = 0, edge_nm = 0, cap_nm = 0, rise_nm = 0;
+  int pole_pairs = 0;   ///< of a motor with three phases; else 0
+  double zero_rad = 0;  ///< where its electrical angle is 0
+  double lost_nm = 0;   ///< torque of the voltage that is given back at large torques
 
   bool exact() const { return edge_nm == 0; }
-  double command(double torque_nm) const;
-  double torque(double command_nm) const;
+  double command(double torque_nm, double angle_rad) const;
+  double torque(double command_nm, double angle_rad) const;
 };
 
 /// Nothing is missing if the current is controlled, or if no dead voltage is given back.
@@ -59,8 +64,8 @@ struct Cogging {
 Cogging identify_cogging(const ColumnTable& turn, const design::Elaborated& design,
                          double confidence);
 
-/// A law that turns the lever slowly up and down again.
-std::string slow_turn_law(const SmallTorque& small);
+/// A law that turns the lever of a design slowly up and down again.
+std::string slow_turn_law(const design::Elaborated& design);
 /// The law `into` without the cogging; `name` is its file in errors, and if that is empty, the law
 /// does nothing else. `from` is the recording. Errors: std::invalid_argument, law::LawError.
 std::string compensating_law(const Cogging& cogging, const SmallTorque& small,

@@ -17,6 +17,7 @@ template <int N>
 struct AxesIn {
   struct Axis {
     EncoderPins encoder;
+    bool encoder_data = false;  ///< of an absolute encoder, as in CoreIn
     bool set_zero = false;
     std::uint8_t scene = 0;
     std::int32_t law_torque = 0;  ///< raw, in the format of the torque
@@ -35,6 +36,7 @@ struct AxesIn {
 inline AxesIn<1> single_axis(const CoreIn& in) {
   AxesIn<1> to;
   to.axis[0].encoder = in.encoder;
+  to.axis[0].encoder_data = in.encoder_data;
   to.axis[0].set_zero = in.set_zero;
   to.axis[0].scene = in.scene;
   to.arm = in.arm;

@@ -160,6 +160,7 @@ class FeltgateAxes {
     for (std::size_t n = 0; n < N; ++n) {
       CoreIn& c = each[n];
       c.encoder = in.axis[n].encoder;
+      c.encoder_data = in.axis[n].encoder_data;
       c.arm = in.arm;
       c.stop = in.stop;
       c.set_zero = in.axis[n].set_zero;

@@ -51,6 +51,7 @@ void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
     set_bits(rtl.enc_a_i, n, 1, axis.encoder.a);
     set_bits(rtl.enc_b_i, n, 1, axis.encoder.b);
     set_bits(rtl.enc_z_i, n, 1, axis.encoder.z);
+    set_bits(rtl.encoder_data_i, n, 1, axis.encoder_data);
     set_bits(rtl.set_zero_i, n, 1, axis.set_zero);
     set_bits(rtl.scene_i, 4 * n, 4, axis.scene);
   }

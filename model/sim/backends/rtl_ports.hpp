@@ -35,7 +35,7 @@ constexpr bool is_axes = false;
 template <class Rtl>
 constexpr bool is_axes<Rtl, std::void_t<decltype(std::declval<Rtl&>().reg_read_i)>> = true;
 
-/// Whether Rtl has the pins of the options, such as a current loop: the core itself.
+/// Whether Rtl has the pins of a current loop: the core itself.
 template <class Rtl, class = void>
 constexpr bool has_current = false;
 template <class Rtl>
@@ -58,10 +58,10 @@ void drive_inputs(Rtl& rtl, const CoreIn& in) {
   rtl.law_torque_i = static_cast<std::uint32_t>(in.law_torque) & ((1u << D::f.torque.width()) - 1);
   rtl.law_late_i = in.law_late;
   rtl.law_restart_i = in.law_restart;
+  rtl.encoder_data_i = in.encoder_data;
   if constexpr (is_axes<Rtl>) {
     rtl.reg_read_i = 0;
   } else {
-    rtl.encoder_data_i = in.encoder_data;
     rtl.hall_i = in.hall;
     rtl.current_data_i = in.current_data;
     rtl.driver_fault_i = in.driver_fault;
@@ -88,8 +88,11 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.duty = static_cast<std::int16_t>(detail::narrow_word(rtl.duty_o, D::f.duty.width()));
   o.duty_active =
       static_cast<std::int16_t>(detail::narrow_word(rtl.duty_active_o, D::f.duty.width()));
-  o.gates = static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 |
-                                      rtl.gate_b_hi_o << 2 | rtl.gate_b_lo_o << 3);
+  o.gates =
+      static_cast<std::uint8_t>(rtl.gate_a_hi_o | rtl.gate_a_lo_o << 1 | rtl.gate_b_hi_o << 2 |
+                                rtl.gate_b_lo_o << 3 | rtl.gate_c_hi_o << 4 | rtl.gate_c_lo_o << 5);
+  o.serial = static_cast<std::uint8_t>(rtl.encoder_select_no | rtl.encoder_clock_o << 1 |
+                                       rtl.encoder_command_o << 2);
   o.scene = rtl.scene_o;
   o.limits = rtl.limits_o;
   o.faults = rtl.faults_o;
@@ -102,12 +105,9 @@ CoreOut read_outputs(const Rtl& rtl) {
   o.word_slot = rtl.word_slot_o;
   o.word_data = rtl.word_data_o;
   if constexpr (has_current<Rtl>) {
-    o.gates = static_cast<std::uint8_t>(o.gates | rtl.gate_c_hi_o << 4 | rtl.gate_c_lo_o << 5);
     o.current = detail::narrow_word(rtl.current_o, 19);
     o.current_clock = rtl.current_clock_o != 0;
     o.heartbeat = rtl.heartbeat_o != 0;
-    o.serial = static_cast<std::uint8_t>(rtl.encoder_select_no | rtl.encoder_clock_o << 1 |
-                                         rtl.encoder_command_o << 2);
   }
   return o;
 }

@@ -86,20 +86,21 @@ class Felt:
         return abs(sum(x * cmath.exp(-1j * n * math.radians(k + 0.5)) for k, x in enumerate(self.nm))) / 180
 
 
-def told(name, ways):
+def told(name, ways, nominal_nm=NOMINAL_NM):
     """Prints a row of the page's table, in % of the nominal torque."""
     largest, mean = max(w.peak() for w in ways), max(w.rms() for w in ways)
-    print(f"| {name} | {100 * largest / NOMINAL_NM:.2f} | {100 * mean / NOMINAL_NM:.2f} |", flush=True)
+    print(f"| {name} | {100 * largest / nominal_nm:.2f} | {100 * mean / nominal_nm:.2f} |", flush=True)
 
 
 class CoggingTest(ProgramTest):
-    def host(self, *words, status=0, design="lever_law"):
-        return self.run_program("feltgate_host", "-", "--design", design, "calibrate", "cogging", *words, status=status)
+    design, shipped, nominal_nm = "lever_law", "p24", NOMINAL_NM
 
+    def host(self, *words, status=0, design=None):
+        return self.run_program("feltgate_host", "-", "--design", design or self.design, "calibrate", "cogging", *words,
+                                status=status)  # fmt: skip
 
-class Cogging(CoggingTest):
     def plant(self, name, cogging, seed, **changed):
-        text = text_of("vectors/plants/p24.toml")
+        text = text_of(f"vectors/plants/{self.shipped}.toml")
         changed |= {"seed": seed, "encoder_imperfect": "true"}
         for key, value in changed.items():
             text, times = re.subn(rf"^{key} = \S+", f"{key} = {value}", text, flags=re.M)
@@ -109,8 +110,8 @@ class Cogging(CoggingTest):
         return self.put(name, text)
 
     def run_scene(self, scene, plant, csv_name, *words):
-        self.run_program("feltgate_lever_law", "run", scene, "--design", "lever_law", "--plant", plant, "--engine",
-                         "twin", "--csv", csv_name, "--every", 1000, "--quiet", *words)  # fmt: skip
+        self.run_program(f"feltgate_{self.design}", "run", scene, "--design", self.design, "--plant", plant, "--engine",
+                         "twin", "--csv", csv_name, "--every", 1000, "--quiet", *words, timeout=1500)  # fmt: skip
 
     def slow_turn(self, plant, *words):
         """The page's scene with the law that the command writes."""
@@ -123,15 +124,37 @@ class Cogging(CoggingTest):
         self.run_scene("hand.toml", plant, "felt.csv", *words)
         return [Felt(self.folder / "felt.csv", span) for span in (UP_S, DOWN_S)]
 
-    def judged(self, cogging, **changed):
+    def judged(self, cogging, name="", **changed):
         """Both ways with a law that comes of another seed, and what was found; prints a row of the page's table."""
         self.slow_turn(self.plant("first.toml", cogging, 1, **changed))
         self.said = self.host("--from", "turn.csv", "--write", "mine.law", "--json", "c.json")
         other = self.plant("other.toml", cogging, 2, **changed)
         after = self.felt(other)
-        told(", ".join(f"{k} = {v}" for k, v in changed.items()) or " and ".join(str(n) for n, _, _ in cogging), after)
+        name = name or ", ".join(f"{k} = {v}" for k, v in changed.items())
+        told(name or " and ".join(str(n) for n, _, _ in cogging), after, self.nominal_nm)
         return after, json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
 
+
+    def the_table_alone(self, least, name):
+        """Without what the voltage law leaves out near zero the same table does little."""
+        law = (self.folder / "mine.law").read_text(encoding="utf-8").splitlines()
+        wanted = next(k for k, line in enumerate(law) if line.startswith("let cogging_wanted"))
+        self.put("blunt.law", "\n".join([*law[: wanted + 1], "out torque = cogging_wanted\n"]))
+        blunt = self.felt("other.toml", scene=HAND.replace("mine.law", "blunt.law"))
+        told(f"{name}, the table alone", blunt, self.nominal_nm)
+        self.assertGreater(min(way.peak() for way in blunt), least * self.nominal_nm)
+
+    def in_lock_step(self):
+        """The engine's RTL takes the law as the twin does."""
+        self.put("short.toml", HAND.replace("14.8", "0.2").replace("7.0", "1.0").replace("0.2 }", "0.06 }"))
+        self.run_program(f"feltgate_{self.design}", "run", "short.toml", "--design", self.design, "--plant",
+                         "other.toml", "--engine", "rtl,twin", "--quiet", "--json", "short.json")  # fmt: skip
+        short = json.loads((self.folder / "short.json").read_text(encoding="utf-8"))["figures"]
+        self.assertEqual((short["mismatches"], short["faults"]), (0, 0))
+        self.assertGreater(short["tau_ref_max_nm"], 0.02 * self.nominal_nm)
+
+
+class Cogging(CoggingTest):
     @weekly(3)
     def test_5_percent_fall_to_half_a_percent(self):
         after, found = self.judged(PLAIN)
@@ -156,24 +179,12 @@ class Cogging(CoggingTest):
         for way in elsewhere:
             self.assertLess(way.peak(), 0.005 * NOMINAL_NM)
         self.assertEqual(self.said.strip(), re.search(r"prints\n\n```\n(.*?)```", SECTION, re.S)[1].strip())
-        # The engine's RTL takes the law as the twin does.
-        self.put("short.toml", HAND.replace("14.8", "0.2").replace("7.0", "1.0").replace("0.2 }", "0.06 }"))
-        self.run_program("feltgate_lever_law", "run", "short.toml", "--design", "lever_law", "--plant", "other.toml",
-                         "--engine", "rtl,twin", "--quiet", "--json", "short.json")  # fmt: skip
-        short = json.loads((self.folder / "short.json").read_text(encoding="utf-8"))
-        self.assertEqual(short["figures"]["mismatches"], 0)
+        self.in_lock_step()
         if WHOLE:
             self.the_rest()
 
     def the_rest(self):
-        # Without what the voltage law leaves out near zero the same table does little.
-        law = (self.folder / "mine.law").read_text(encoding="utf-8").splitlines()
-        kept = [line for line in law if not line.startswith(("let cogging_edge", "out "))]
-        self.assertEqual(len(kept), len(law) - 2)
-        self.put("blunt.law", "\n".join([*kept, "out torque = cogging_wanted\n"]))
-        blunt = self.felt("other.toml", scene=HAND.replace("mine.law", "blunt.law"))
-        told("12, the table alone", blunt)
-        self.assertGreater(min(way.peak() for way in blunt), 0.02 * NOMINAL_NM)
+        self.the_table_alone(0.02, "12")
         # A lever that is let go stays, and would have gone to where the cogging pulls it.
         self.put("let_go.toml", LET_GO)
         moved = {}
@@ -223,6 +234,45 @@ class Cogging(CoggingTest):
         self.assertEqual(json.loads((self.folder / "c.json").read_text(encoding="utf-8"))["harmonics"], [])
         self.assertIn("nothing to take away", self.host("--from", "turn.csv", "--write", "x.law", status=2))
         self.assertFalse((self.folder / "x.law").exists())
+
+
+class Knob(CoggingTest):
+    """A motor with three phases, whose dead times take more than its cogging; its sensor has no noise but its steps."""
+
+    design, shipped, nominal_nm = "knob_law", "gimbal_motor", 0.6 * 0.0585
+    slots = [(24, 0.05 * nominal_nm, 0.4)]
+
+    def left(self, ways, largest, rms):
+        for way in ways:
+            self.assertLess(way.peak(), largest * self.nominal_nm)
+            self.assertLess(way.rms(), rms * self.nominal_nm)
+
+    def test_5_percent_fall_to_half_a_percent(self):
+        after, found = self.judged(self.slots)
+        self.left(after, 0.005, 0.0025)
+        before = self.felt("other.toml", "--set", "cogging_share=0")
+        told("24, no law", before, self.nominal_nm)
+        for way in before:
+            self.assertGreater(way.peak(), 0.049 * self.nominal_nm)
+        self.assertEqual(found["harmonics"][0]["per_turn"], 24)
+        self.assertAlmostEqual(found["harmonics"][0]["amplitude_nm"]["value"] / self.slots[0][1], 1, delta=0.01)
+        self.assertAlmostEqual(found["friction_nm"], 0.53e-3, delta=0.1e-3)
+        self.assertEqual(found["warnings"], [])
+        self.in_lock_step()
+        self.the_table_alone(0.02, "24")
+
+    def test_harmonics_of_slots_and_magnets(self):
+        after, found = self.judged([(24, 1.2e-3, 1.0), (48, 0.4e-3, -2.0), (22, 0.15e-3, 0.3)])
+        told("24 and 48 and 22, no law", self.felt("other.toml", "--set", "cogging_share=0"), self.nominal_nm)
+        self.assertEqual([h["per_turn"] for h in found["harmonics"]][:3], [24, 48, 22])
+        self.left(after, 0.005, 0.0025)
+
+    def test_a_magnet_that_is_off_its_axis(self):
+        error = "0.0\nabsolute_error_mrad = [10.0, 0.0, 0.0, 5.0]"
+        self.left(self.judged(self.slots, "the magnet", line_jitter_counts_rms=error)[0], 0.01, 0.005)
+
+    def test_a_warm_winding(self):
+        self.left(self.judged(self.slots, resistance_ohm=3.19)[0], 0.01, 0.005)
 
 
 if not WHOLE:  # these take two minutes of the core's twin
@@ -296,6 +346,12 @@ class Recordings(CoggingTest):
                 turn(self.folder / "r.csv", **({"cogging": cogging} | recorded))
                 self.assertRegex(self.host("--from", "r.csv", "--json", "c.json", status=2, design="paper"), *said)
                 self.assertFalse((self.folder / "c.json").exists())
+
+    def test_a_slow_turn_of_three_phases(self):
+        self.host("--slow-turn", "slow.law", design="knob_law")
+        law = (self.folder / "slow.law").read_text(encoding="utf-8")
+        for part in ("0.164 Nm/rad", "-0.01 Nm, 0.01 Nm)", "periodic on [0, 1 turn / 66]", "* cogging_command\n"):
+            self.assertIn(part, law)
 
     def test_words_that_do_not_go_together(self):
         turn(self.folder / "r.csv", cogging=[(12, 8e-3, 0.4)])

@@ -25,6 +25,7 @@ module standalone (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(1'b0),
       .gate_a_hi_o(gates_o[0]), .gate_a_lo_o(gates_o[1]), .gate_b_hi_o(gates_o[2]), .gate_b_lo_o(gates_o[3]),
+      .gate_c_hi_o(), .gate_c_lo_o(), .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
       .arm_i(arm_i), .stop_i(1'b0), .set_zero_i(1'b0), .scene_i(scene_i),
       .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
       .measured_o(),

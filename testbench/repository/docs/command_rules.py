@@ -153,7 +153,7 @@ BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
     for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
-                 "lever_law", "gimbal_motor", "gimbal_current", "mine")
+                 "lever_law", "knob_law", "gimbal_motor", "gimbal_current", "mine")
 }
 
 

@@ -137,7 +137,7 @@ int calibrate_cogging(Session& session, const CoggingArguments& a) {
   files::OutputFile* write = outputs.open("--write", a.write);
   files::OutputFile* slow = outputs.open("--slow-turn", a.slow_turn);
   if (slow != nullptr) {
-    write_law(slow, a.slow_turn, slow_turn_law(small), e);
+    write_law(slow, a.slow_turn, slow_turn_law(e), e);
     outputs.say(
         fmt::format("{}: turns the lever by 1.2 turns up and down in 31 s; record "
                     "position, tau_hat and tau_ref\n",

@@ -10,6 +10,7 @@ module together_proof (
     input logic [2:0]  enc_a_i,
     input logic [2:0]  enc_b_i,
     input logic [2:0]  enc_z_i,
+    input logic [2:0]  encoder_data_i,
     input logic        arm_i,
     input logic        stop_i,
     input logic [2:0]  set_zero_i,
@@ -27,6 +28,7 @@ module together_proof (
   logic [31:0] rdata, tick_count_o, event_value_o;
   logic [8:0] event_number_o;
   logic [5:0] word_slot_o;
+  logic [2:0] gate_c_hi_o, gate_c_lo_o, encoder_select_no, encoder_clock_o, encoder_command_o;
   logic [2:0] gate_a_hi_o, gate_a_lo_o, gate_b_hi_o, gate_b_lo_o, armed_o, gates_enable_o, zeroed_o;
   logic [11:0] scene_o;
   logic [95:0] position_o, word_data_o;
@@ -64,6 +66,12 @@ module together_proof (
   (* hierconn *) wire \u_dut.g_axis[0].u_core.enc_a_i , \u_dut.g_axis[1].u_core.enc_a_i , \u_dut.g_axis[2].u_core.enc_a_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.enc_b_i , \u_dut.g_axis[1].u_core.enc_b_i , \u_dut.g_axis[2].u_core.enc_b_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.enc_z_i , \u_dut.g_axis[1].u_core.enc_z_i , \u_dut.g_axis[2].u_core.enc_z_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.encoder_data_i , \u_dut.g_axis[1].u_core.encoder_data_i , \u_dut.g_axis[2].u_core.encoder_data_i ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.gate_c_hi_o , \u_dut.g_axis[1].u_core.gate_c_hi_o , \u_dut.g_axis[2].u_core.gate_c_hi_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.gate_c_lo_o , \u_dut.g_axis[1].u_core.gate_c_lo_o , \u_dut.g_axis[2].u_core.gate_c_lo_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.encoder_select_no , \u_dut.g_axis[1].u_core.encoder_select_no , \u_dut.g_axis[2].u_core.encoder_select_no ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.encoder_clock_o , \u_dut.g_axis[1].u_core.encoder_clock_o , \u_dut.g_axis[2].u_core.encoder_clock_o ;
+  (* hierconn *) wire \u_dut.g_axis[0].u_core.encoder_command_o , \u_dut.g_axis[1].u_core.encoder_command_o , \u_dut.g_axis[2].u_core.encoder_command_o ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.set_zero_i , \u_dut.g_axis[1].u_core.set_zero_i , \u_dut.g_axis[2].u_core.set_zero_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.law_late_i , \u_dut.g_axis[1].u_core.law_late_i , \u_dut.g_axis[2].u_core.law_late_i ;
   (* hierconn *) wire \u_dut.g_axis[0].u_core.law_restart_i , \u_dut.g_axis[1].u_core.law_restart_i , \u_dut.g_axis[2].u_core.law_restart_i ;
@@ -170,7 +178,8 @@ module together_proof (
                            \u_dut.g_engine.u_engine.reg_read_i == read_i);
       engine_hears_all: assert (\u_dut.g_engine.u_engine.arm_request_i == arm_requests && \u_dut.g_engine.u_engine.reg_addr_i == addr_i);
       engine_is_given_signs: assert (\u_dut.g_engine.u_engine.velocity_i == velocities && \u_dut.g_engine.u_engine.tau_hat_i == torques);
-      pins_of_its_axis: assert ({enc_a_i, enc_b_i, enc_z_i} == {\u_dut.g_axis[2].u_core.enc_a_i , \u_dut.g_axis[1].u_core.enc_a_i , \u_dut.g_axis[0].u_core.enc_a_i , \u_dut.g_axis[2].u_core.enc_b_i , \u_dut.g_axis[1].u_core.enc_b_i , \u_dut.g_axis[0].u_core.enc_b_i , \u_dut.g_axis[2].u_core.enc_z_i , \u_dut.g_axis[1].u_core.enc_z_i , \u_dut.g_axis[0].u_core.enc_z_i } &&
+      pins_of_its_axis: assert ({encoder_data_i, gate_c_hi_o, gate_c_lo_o, encoder_select_no, encoder_clock_o, encoder_command_o} == {\u_dut.g_axis[2].u_core.encoder_data_i , \u_dut.g_axis[1].u_core.encoder_data_i , \u_dut.g_axis[0].u_core.encoder_data_i , \u_dut.g_axis[2].u_core.gate_c_hi_o , \u_dut.g_axis[1].u_core.gate_c_hi_o , \u_dut.g_axis[0].u_core.gate_c_hi_o , \u_dut.g_axis[2].u_core.gate_c_lo_o , \u_dut.g_axis[1].u_core.gate_c_lo_o , \u_dut.g_axis[0].u_core.gate_c_lo_o , \u_dut.g_axis[2].u_core.encoder_select_no , \u_dut.g_axis[1].u_core.encoder_select_no , \u_dut.g_axis[0].u_core.encoder_select_no , \u_dut.g_axis[2].u_core.encoder_clock_o , \u_dut.g_axis[1].u_core.encoder_clock_o , \u_dut.g_axis[0].u_core.encoder_clock_o , \u_dut.g_axis[2].u_core.encoder_command_o , \u_dut.g_axis[1].u_core.encoder_command_o , \u_dut.g_axis[0].u_core.encoder_command_o } &&
+          {enc_a_i, enc_b_i, enc_z_i} == {\u_dut.g_axis[2].u_core.enc_a_i , \u_dut.g_axis[1].u_core.enc_a_i , \u_dut.g_axis[0].u_core.enc_a_i , \u_dut.g_axis[2].u_core.enc_b_i , \u_dut.g_axis[1].u_core.enc_b_i , \u_dut.g_axis[0].u_core.enc_b_i , \u_dut.g_axis[2].u_core.enc_z_i , \u_dut.g_axis[1].u_core.enc_z_i , \u_dut.g_axis[0].u_core.enc_z_i } &&
           {gate_a_hi_o, gate_a_lo_o} == {\u_dut.g_axis[2].u_core.gate_a_hi_o , \u_dut.g_axis[1].u_core.gate_a_hi_o , \u_dut.g_axis[0].u_core.gate_a_hi_o , \u_dut.g_axis[2].u_core.gate_a_lo_o , \u_dut.g_axis[1].u_core.gate_a_lo_o , \u_dut.g_axis[0].u_core.gate_a_lo_o } &&
           {gate_b_hi_o, gate_b_lo_o} == {\u_dut.g_axis[2].u_core.gate_b_hi_o , \u_dut.g_axis[1].u_core.gate_b_hi_o , \u_dut.g_axis[0].u_core.gate_b_hi_o , \u_dut.g_axis[2].u_core.gate_b_lo_o , \u_dut.g_axis[1].u_core.gate_b_lo_o , \u_dut.g_axis[0].u_core.gate_b_lo_o } &&
           {set_zero_i, scene_i} == {\u_dut.g_axis[2].u_core.set_zero_i , \u_dut.g_axis[1].u_core.set_zero_i , \u_dut.g_axis[0].u_core.set_zero_i , \u_dut.g_axis[2].u_core.scene_i , \u_dut.g_axis[1].u_core.scene_i , \u_dut.g_axis[0].u_core.scene_i });

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Generated from rtl/designs/knob_law.toml and rtl/registers.toml by
+// `feltgate generate`: do not edit.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "feltgate/chain_formats.hpp"
+#include "feltgate/fixed.hpp"
+#include "feltgate/generated/map.hpp"
+#include "feltgate/parameter.hpp"
+
+namespace feltgate {
+
+/// knob on a gimbal motor with three phases and an engine: programs give the torque.
+struct KnobLaw {
+  static constexpr const char* name = "knob_law";
+  static constexpr std::int64_t clock_hz = 50000000;
+  static constexpr std::int64_t tick_hz = 1000000;
+  static constexpr double count_rad = 0.00038349519697141029;
+  static constexpr double velocity_gain_rad_s = 0.0;
+  static constexpr double supply_v = 2.8867513459481291;
+  static constexpr int clocks_per_tick = 50;  // clocks
+  static constexpr int m1 = 384;  // ticks between the two positions of the velocity estimator
+  static constexpr int velocity_shift = 0;  // raw velocity = 2^n * counts
+  static constexpr int velocity_gain = 0;  // mantissa of the gain that stands for 2^n; 0: none
+  static constexpr int velocity_gain_f = 17;  // its fraction bits
+  static constexpr int index_counts = 0;  // counts from index to index; 0: not checked
+  static constexpr int pwm_period = 1000;  // clocks
+  static constexpr int dead_clocks = 25;  // clocks
+  static constexpr int shortest_clocks = 1;  // clocks, of a pulse at a gate
+  static constexpr int scene_mask = 1029;  // bit n: scene n is built
+  static constexpr int control_reset = 0;  // control word after reset
+  static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
+  static constexpr int parallel_multipliers = 0;  // 1: each block has its own
+  static constexpr int multiplier_a_bits = 35;  // bits
+  static constexpr int multiplier_b_bits = 18;  // bits
+  static constexpr int product_bits = 53;  // bits
+  static constexpr int travel_bits = 16;  // bits
+  static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
+  static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
+  static constexpr int emf_in_law = 1;  // 1: the voltage law gives back the back-EMF
+  static constexpr int i2t_start = 14800000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
+  static constexpr int axes = 1;  // motors with an encoder each
+  static constexpr int engine = 1;  // 1: programs give the torque of the scene law
+  static constexpr int engine_max_age = 1000;  // ticks without a fresh torque that are borne
+  static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
+  static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
+  static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
+  static constexpr int current_loop = 0;  // 1: a measured current is controlled
+  static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
+  static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
+  static constexpr int current_integral = 0;  // [0,0,17]
+  static constexpr int current_resistance = 0;  // [0,4,13], supply per full scale
+  static constexpr int current_margin = 0;  // [0,0,17] of the supply: half of the largest current's
+  static constexpr int current_overcurrent = 0;  // [0,0,8] of full scale
+  static constexpr int current_strobe = 0;  // clock of the PWM period in which a window begins
+  static constexpr int feed_gain = 0;  // mantissa: parts of the supply per LSB of the voltage
+  static constexpr int feed_drop = 0;  // its fraction bits
+  static constexpr int driver_fault = 0;  // 1: the driver tells of its faults
+  static constexpr int heartbeat = 0;  // ticks between changes of the pin for a watchdog outside, a power of two; 0: no pin
+  static constexpr int absolute_encoder = 1;  // 1: the position is of an absolute encoder
+  static constexpr int absolute_framing = 1;  // 0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C
+  static constexpr int absolute_bits = 14;  // of a turn
+  static constexpr int absolute_half_clocks = 5;  // clocks: half a serial clock
+  static constexpr int absolute_gap_clocks = 20;  // clocks before the serial clock and between readings
+  static constexpr int absolute_period = 96;  // ticks from reading to reading
+  static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
+  static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
+  static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up
+  static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
+  static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
+  static constexpr Round rounding = Round::half_up;  // where the chain rounds
+  static constexpr std::uint32_t design_crc = 0x6bd24600;  // by which a host knows the design
+
+  /// Formats of the parameters.
+  struct P {
+    static constexpr Format velocity_a1{0, -10, 27};
+    static constexpr Format inverse_resistance{0, -1, 18};
+    static constexpr Format emf_over_resistance{0, -6, 23};
+    static constexpr Format torque_constant{0, -4, 21};
+    static constexpr Format inertia_gain{0, -6, 23};
+    static constexpr Format nominal_current_squared{0, 17, 2};
+    static constexpr Format observer_a1{0, -10, 27};
+    static constexpr Format overspeed{1, 10, 21};
+    static constexpr Format i2t_budget{0, 30, 2};
+    static constexpr Format polarity_speed{1, 10, 21};
+    static constexpr Format polarity_current{1, 3, 18};
+    static constexpr Format polarity_ticks{0, 31, 0};
+    static constexpr Format emf_constant{0, -4, 21};
+    static constexpr Format observer_gain{1, 0, 17};
+    static constexpr Format voltage_setpoint{1, 3, 16};
+    static constexpr Format voltage_step{1, 3, 16};
+    static constexpr Format torque_limit{1, 2, 18};
+    static constexpr Format ramp_step{1, 2, 24};
+    static constexpr Format voltage_to_current{0, -1, 18};
+    static constexpr Format torque_gain{0, 5, 12};
+    static constexpr Format dead_voltage_slope{0, 7, 10};
+    static constexpr Format region_torque{1, 2, 18};
+    static constexpr Format hold_torque{1, 2, 18};
+    static constexpr Format hold_time{0, 31, 0};
+    static constexpr Format hold_limit{1, 2, 18};
+    static constexpr Format current_limit{1, 3, 18};
+    static constexpr Format voltage_gain{0, 2, 15};
+    static constexpr Format voltage_gain_high{0, 2, 15};
+    static constexpr Format dead_voltage{1, 3, 16};
+    static constexpr Format voltage_window{1, 3, 16};
+    static constexpr Format duty_gain{0, 9, 8};
+    static constexpr Format duty_limit{0, 31, 0};
+    static constexpr Format watchdog_ticks{0, 31, 0};
+    static constexpr Format self_test_torque{1, 2, 18};
+    static constexpr Format self_test_quiet{0, 31, 0};
+    static constexpr Format self_test_pulse{0, 31, 0};
+    static constexpr Format self_test_arms{0, 31, 0};
+    static constexpr Format commutation_gain{0, 0, 32};
+    static constexpr Format commutation_offset{0, 0, 32};
+    static constexpr Format setpoint_torque{1, 2, 18};
+    static constexpr Format membrane_lower{1, 17, 8};
+    static constexpr Format membrane_upper{1, 17, 8};
+    static constexpr Format membrane_torque{1, 2, 18};
+    static constexpr Format compression_contact{1, 17, 8};
+    static constexpr Format compression_stiffness{0, -14, 31};
+    static constexpr Format tension_rest{1, 17, 8};
+    static constexpr Format tension_stiffness{0, -14, 31};
+    static constexpr Format damper_damping{0, -8, 25};
+    static constexpr Format attract_centre{1, 17, 8};
+    static constexpr Format attract_strength{0, 16, 16};
+    static constexpr Format attract_core{0, 31, 0};
+    static constexpr Format attract_core_slope{0, -13, 30};
+    static constexpr Format repel_centre{1, 17, 8};
+    static constexpr Format repel_strength{0, 16, 16};
+    static constexpr Format repel_core{0, 31, 0};
+    static constexpr Format repel_core_slope{0, -13, 30};
+    static constexpr Format wall_contact{1, 17, 8};
+    static constexpr Format wall_stiffness{0, -9, 26};
+    static constexpr Format wall_damping{0, -7, 24};
+  };
+
+  // Equal in all designs.
+  using A = Map::A;
+  using S = Map::S;
+  using C = Map::C;
+  static constexpr int scene_number(std::string_view scene) {
+    return Map::scene_number(scene);
+  }
+  static constexpr const auto& scene_names = Map::scene_names;
+
+  static constexpr BaseFormats base{
+      {1, 10, 21}, {1, 2, 18}, {1, 3, 18}, {1, 3, 16},
+      30, velocity_shift, velocity_gain != 0, {0, 0, 17},
+      P::velocity_a1, P::torque_constant, P::inertia_gain, P::observer_a1,
+      P::torque_gain, P::observer_gain, P::voltage_gain, P::emf_constant,
+      P::dead_voltage_slope, P::voltage_to_current, P::duty_gain,
+      P::inverse_resistance, P::emf_over_resistance, P::compression_stiffness,
+      P::tension_stiffness, P::attract_core_slope, P::repel_core_slope, P::wall_stiffness,
+      P::damper_damping, P::wall_damping};
+  static constexpr Formats f = derive(base);
+
+  /// Parameters: name, unit, address, format, exact value, integer.
+  static constexpr ParameterInfo parameters[] = {
+      {"velocity_a1", "1", A::velocity_a1, P::velocity_a1,
+       0.00049987502083072939, 67092},
+      {"inverse_resistance", "1/ohm", A::inverse_resistance, P::inverse_resistance,
+       0.34482758620689657, 90394},
+      {"emf_over_resistance", "A s/rad", A::emf_over_resistance, P::emf_over_resistance,
+       0.013448275862068966, 112812},
+      {"torque_constant", "Nm/A", A::torque_constant, P::torque_constant,
+       0.058500000000000003, 122683},
+      {"inertia_gain", "Nm s/rad", A::inertia_gain, P::inertia_gain,
+       0.01, 83886},
+      {"nominal_current_squared", "A^2", A::nominal_current_squared, P::nominal_current_squared,
+       0.35999999999999999, 1},
+      {"observer_a1", "1", A::observer_a1, P::observer_a1,
+       0.00049987502083072939, 67092},
+      {"overspeed", "rad/s", A::overspeed, P::overspeed,
+       100.0, 209715200},
+      {"i2t_budget", "A^2 tick", A::i2t_budget, P::i2t_budget,
+       7400000.0, 29600000},
+      {"polarity_speed", "rad/s", A::polarity_speed, P::polarity_speed,
+       3.0, 6291456},
+      {"polarity_current", "A", A::polarity_current, P::polarity_current,
+       0.29999999999999999, 78643},
+      {"polarity_ticks", "tick", A::polarity_ticks, P::polarity_ticks,
+       6000.0, 6000},
+      {"emf_constant", "V s/rad", A::emf_constant, P::emf_constant,
+       0.039, 81789},
+      {"observer_gain", "A/Nm", A::observer_gain, P::observer_gain,
+       0.0, 0},
+      {"voltage_setpoint", "V", A::voltage_setpoint, P::voltage_setpoint,
+       0.0, 0},
+      {"voltage_step", "V/tick", A::voltage_step, P::voltage_step,
+       0.0023956298828125, 157},
+      {"torque_limit", "Nm", A::torque_limit, P::torque_limit,
+       0.050000000000000003, 13107},
+      {"ramp_step", "Nm/tick", A::ramp_step, P::ramp_step,
+       4.9999999999999998e-07, 8},
+      {"voltage_to_current", "1/ohm", A::voltage_to_current, P::voltage_to_current,
+       0.34482758620689657, 90394},
+      {"torque_gain", "A/Nm", A::torque_gain, P::torque_gain,
+       17.09401709401709, 70017},
+      {"dead_voltage_slope", "V/Nm", A::dead_voltage_slope, P::dead_voltage_slope,
+       101.85916357881301, 104304},
+      {"region_torque", "Nm", A::region_torque, P::region_torque,
+       0.050000000000000003, 13107},
+      {"hold_torque", "Nm", A::hold_torque, P::hold_torque,
+       0.025000000000000001, 6554},
+      {"hold_time", "1024 ticks", A::hold_time, P::hold_time,
+       4883.0, 4883},
+      {"hold_limit", "Nm", A::hold_limit, P::hold_limit,
+       0.012500000000000001, 3277},
+      {"current_limit", "A", A::current_limit, P::current_limit,
+       0.85499999999999998, 224133},
+      {"voltage_gain", "ohm", A::voltage_gain, P::voltage_gain,
+       2.8999999999999999, 95027},
+      {"voltage_gain_high", "ohm", A::voltage_gain_high, P::voltage_gain_high,
+       2.8999999999999999, 95027},
+      {"dead_voltage", "V", A::dead_voltage, P::dead_voltage,
+       0.20371832715762603, 13351},
+      {"voltage_window", "V", A::voltage_window, P::voltage_window,
+       2.813718327157626, 184400},
+      {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
+       346.41016151377545, 88681},
+      {"duty_limit", "clock", A::duty_limit, P::duty_limit,
+       948.0, 948},
+      {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
+       100000.0, 100000},
+      {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,
+       0.0080000000000000002, 2097},
+      {"self_test_quiet", "128 ticks", A::self_test_quiet, P::self_test_quiet,
+       157.0, 157},
+      {"self_test_pulse", "128 ticks", A::self_test_pulse, P::self_test_pulse,
+       39.0, 39},
+      {"self_test_arms", "1", A::self_test_arms, P::self_test_arms,
+       2.0, 2},
+      {"commutation_gain", "turn/count", A::commutation_gain, P::commutation_gain,
+       0.00067138671875, 2883584},
+      {"commutation_offset", "turn", A::commutation_offset, P::commutation_offset,
+       0.0, 0},
+      {"setpoint_torque", "Nm", A::setpoint_torque, P::setpoint_torque,
+       0.0, 0},
+      {"membrane_lower", "count", A::membrane_lower, P::membrane_lower,
+       1303.7972938088067, 333772},
+      {"membrane_upper", "count", A::membrane_upper, P::membrane_upper,
+       1825.3162113323292, 467281},
+      {"membrane_torque", "Nm", A::membrane_torque, P::membrane_torque,
+       0.040000000000000001, 10486},
+      {"compression_contact", "count", A::compression_contact, P::compression_contact,
+       1303.7972938088067, 333772},
+      {"compression_stiffness", "Nm/count", A::compression_stiffness, P::compression_stiffness,
+       3.8349519697141029e-05, 82355},
+      {"tension_rest", "count", A::tension_rest, P::tension_rest,
+       0.0, 0},
+      {"tension_stiffness", "Nm/count", A::tension_stiffness, P::tension_stiffness,
+       1.9174759848570515e-05, 41177},
+      {"damper_damping", "Nm s/rad", A::damper_damping, P::damper_damping,
+       0.0030000000000000001, 100663},
+      {"attract_centre", "count", A::attract_centre, P::attract_centre,
+       0.0, 0},
+      {"attract_strength", "Nm count^2", A::attract_strength, P::attract_strength,
+       13599.099066745341, 891230556},
+      {"attract_core", "count", A::attract_core, P::attract_core,
+       521.0, 521},
+      {"attract_core_slope", "Nm/count", A::attract_core_slope, P::attract_core_slope,
+       9.5873799242852546e-05, 102944},
+      {"repel_centre", "count", A::repel_centre, P::repel_centre,
+       0.0, 0},
+      {"repel_strength", "Nm count^2", A::repel_strength, P::repel_strength,
+       13599.099066745341, 891230556},
+      {"repel_core", "count", A::repel_core, P::repel_core,
+       521.0, 521},
+      {"repel_core_slope", "Nm/count", A::repel_core_slope, P::repel_core_slope,
+       9.5873799242852546e-05, 102944},
+      {"wall_contact", "count", A::wall_contact, P::wall_contact,
+       1303.7972938088067, 333772},
+      {"wall_stiffness", "Nm/count", A::wall_stiffness, P::wall_stiffness,
+       0.00011504855909142309, 7721},
+      {"wall_damping", "Nm s/rad", A::wall_damping, P::wall_damping,
+       0.00029999999999999997, 5033},
+  };
+};
+
+}  // namespace feltgate

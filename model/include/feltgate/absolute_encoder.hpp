@@ -6,7 +6,9 @@
 // bit by bit in the RTL. Documentation: docs/blocks/absolute_encoder.md
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 #include "feltgate/generated/map.hpp"
 
@@ -54,6 +56,7 @@ class AbsoluteEncoder {
     int errors = 4;             ///< wrong readings in a row that are a fault
     int frozen_step = 4;        ///< counts between two readings that are a motion
     int frozen_reads = 16;      ///< equal readings after a motion that are a fault
+    int jump_step = 160;        ///< counts of the fastest motion from one reading to the next
     int diag_address = 0x3ffc;  ///< SPI: register of the diagnosis
     int diag_log2 = 4;          ///< SPI: it is read once in 2^diag_log2 readings
     /// Bits that a sensor sends; BiSS-C: after the start bit.
@@ -226,7 +229,8 @@ class AbsoluteEncoder {
                                                        p_.bits));
     std::int32_t step = (angle - turn_ + turn) % turn;
     if (step >= turn / 2) step -= turn;
-    if (kind == 0 && is_angle && !is_lost && (step < -turn / 8 || step >= turn / 8)) kind = kJump;
+    if (kind != 0 || !is_angle) ++left_out_;
+    if (kind == 0 && is_angle && !is_lost && std::abs(step) > reach()) kind = kJump;
     if (!missing_) flagged_ = field(14, 1) != 0 && asked_ != Kind::flags;
     if (kind != 0) {
       kind_ = kind;
@@ -240,12 +244,20 @@ class AbsoluteEncoder {
         (errors_ == p_.errors ? kind_ : 0) | (ill_ == 2 ? kSensor : 0) | (frozen_ ? kFrozen : 0);
   }
 
+  /// Counts by which a good reading may differ from the last one: those of two readings, for a
+  /// sensor that samples by itself gives an angle up to a reading old, and one more for each left
+  /// out. A jump adds none, so an angle that stays where it leapt is a fault.
+  std::int64_t reach() const {
+    return std::min(std::int64_t{1} << (p_.bits - 3), (2 + left_out_) * p_.jump_step);
+  }
+
   void accept(std::int32_t angle, std::int32_t step, bool was_lost) {
     out_.valid = true;
     out_.position = static_cast<std::int32_t>(static_cast<std::uint32_t>(out_.position) +
                                               static_cast<std::uint32_t>(step));
     turn_ = angle;
     errors_ = 0;
+    left_out_ = 0;
     if (step != 0 || was_lost) {
       moved_ = !was_lost && (step < 0 ? -step : step) >= p_.frozen_step;
       equal_ = 0;
@@ -269,6 +281,7 @@ class AbsoluteEncoder {
   bool flagged_ = false;
   int ill_ = 0;  // diagnoses in a row that say the angle cannot be trusted
   std::int32_t turn_ = 0;
+  std::int64_t left_out_ = 0;  // readings since the last good one, without jumps
   int errors_, kind_ = kMissing, equal_ = 0;
   bool moved_ = false, frozen_ = false;
 };

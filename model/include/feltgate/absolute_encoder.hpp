@@ -229,8 +229,8 @@ class AbsoluteEncoder {
                                                        p_.bits));
     std::int32_t step = (angle - turn_ + turn) % turn;
     if (step >= turn / 2) step -= turn;
-    if (kind != 0 || !is_angle) ++left_out_;
-    if (kind == 0 && is_angle && !is_lost && std::abs(step) > reach()) kind = kJump;
+    if (kind != 0 || !is_angle) reach_ = std::min(turn / 8, reach_ + pace());
+    if (kind == 0 && is_angle && !is_lost && std::abs(step) > reach_) kind = kJump;
     if (!missing_) flagged_ = field(14, 1) != 0 && asked_ != Kind::flags;
     if (kind != 0) {
       kind_ = kind;
@@ -244,20 +244,24 @@ class AbsoluteEncoder {
         (errors_ == p_.errors ? kind_ : 0) | (ill_ == 2 ? kSensor : 0) | (frozen_ ? kFrozen : 0);
   }
 
-  /// Counts by which a good reading may differ from the last one: those of two readings, for a
-  /// sensor that samples by itself gives an angle up to a reading old, and one more for each left
-  /// out. A jump adds none, so an angle that stays where it leapt is a fault.
-  std::int64_t reach() const {
-    return std::min(std::int64_t{1} << (p_.bits - 3), (2 + left_out_) * p_.jump_step);
+  /// What a reading that was left out adds to the reach: the larger of the last two steps and a
+  /// third of the fastest, which is more than a shaft gains in a reading.
+  int pace() const {
+    const int gain = (p_.jump_step + 2) / 3;
+    return std::min(p_.jump_step, std::max(last_step_, step_before_) + gain);
   }
 
   void accept(std::int32_t angle, std::int32_t step, bool was_lost) {
     out_.valid = true;
+    // Two readings: a sensor that samples by itself gives an angle up to a reading old. A jump adds
+    // nothing, so an angle that stays where it leapt is a fault.
+    reach_ = std::min(1 << (p_.bits - 3), 2 * p_.jump_step);
+    step_before_ = last_step_;
+    last_step_ = was_lost ? p_.jump_step : std::min(std::abs(step), p_.jump_step);
     out_.position = static_cast<std::int32_t>(static_cast<std::uint32_t>(out_.position) +
                                               static_cast<std::uint32_t>(step));
     turn_ = angle;
     errors_ = 0;
-    left_out_ = 0;
     if (step != 0 || was_lost) {
       moved_ = !was_lost && (step < 0 ? -step : step) >= p_.frozen_step;
       equal_ = 0;
@@ -281,7 +285,8 @@ class AbsoluteEncoder {
   bool flagged_ = false;
   int ill_ = 0;  // diagnoses in a row that say the angle cannot be trusted
   std::int32_t turn_ = 0;
-  std::int64_t left_out_ = 0;  // readings since the last good one, without jumps
+  int reach_ = 0;  // counts by which the next good reading may differ from the last one
+  int last_step_ = 0, step_before_ = 0;  // of good readings, at most jump_step
   int errors_, kind_ = kMissing, equal_ = 0;
   bool moved_ = false, frozen_ = false;
 };

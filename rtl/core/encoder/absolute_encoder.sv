@@ -280,13 +280,25 @@ module absolute_encoder #(
     end
   end
 
-  // The reach is that of two readings, for a sensor that samples by itself gives an angle up to a reading old, and of one more
-  // for each left out since: it was wrong, or no angle. A jump adds none, so an angle that stays where it leapt is a fault.
+  // The reach is that of two readings, for a sensor that samples by itself gives an angle up to a reading old. Each left out
+  // since, because it was wrong or no angle, adds the larger of the last two steps and a third of the fastest, which is more
+  // than a shaft gains in a reading. A jump adds nothing, so an angle that stays where it leapt is a fault.
+  localparam int Gain = (JumpStep + 2) / 3;
+  logic [ReachW-1:0] step_q, before_q, larger, pace;  // at most JumpStep
+  assign larger = step_q > before_q ? step_q : before_q;
+  assign pace   = larger > ReachW'(JumpStep - Gain) ? ReachW'(JumpStep) : larger + ReachW'(Gain);
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) reach_q <= '0;  // the first reading is any
-    else if (good) reach_q <= 2 * JumpStep < Eighth ? ReachW'(2 * JumpStep) : ReachW'(Eighth);
-    else if (ends_q && (missing_q || wrong || bad || !is_angle))
-      reach_q <= reach_q > ReachW'(Eighth - JumpStep) ? ReachW'(Eighth) : reach_q + ReachW'(JumpStep);
+    if (!rst_ni) begin
+      reach_q  <= '0;  // the first reading is any
+      step_q   <= '0;
+      before_q <= '0;
+    end else if (good) begin
+      reach_q  <= 2 * JumpStep < Eighth ? ReachW'(2 * JumpStep) : ReachW'(Eighth);
+      step_q   <= is_lost || size > Bits'(JumpStep) ? ReachW'(JumpStep) : ReachW'(size);
+      before_q <= step_q;
+    end else if (ends_q && (missing_q || wrong || bad || !is_angle)) begin
+      reach_q <= reach_q > ReachW'(Eighth) - pace ? ReachW'(Eighth) : reach_q + pace;
+    end
   end
 endmodule
 

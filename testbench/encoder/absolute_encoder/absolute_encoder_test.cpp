@@ -144,12 +144,13 @@ class Reference {
                                                 kEncoder.bits));
     const double turns = std::floor((angle - angle_) / kTurn + 0.5);
     const double step = angle - angle_ - turns * kTurn;
-    // From the last good angle to this one the shaft had this and the readings left out, and an
-    // angle is up to a reading old.
+    // Two of the fastest readings, for an angle is up to a reading old, and for each left out the
+    // speed of the last two steps and a third of the fastest.
     const bool left_out = wrong != 0 || !is_angle;
     if (left_out) left_out_ += 1;
-    const double readings = 1 + left_out_ + 1, size = std::fabs(step);
-    const double most = std::fmin(readings * kEncoder.jump_step, kTurn / 8.0);
+    const double fastest = kEncoder.jump_step, size = std::fabs(step);
+    const double speed = std::fmin(fastest, speed_ + std::ceil(fastest / 3));
+    const double most = std::fmin(2 * fastest + left_out_ * speed, kTurn / 8.0);
     if (!left_out && size > most && !lost()) {
       wrong = AbsoluteEncoder::kJump;
       tally_->first_refused += size == most + 1;
@@ -173,6 +174,9 @@ class Reference {
     tally_->last_accepted += size == most && !lost();
     tally_->accepted_late += size == most && left_out_ > 0 && !lost();
     left_out_ = 0;
+    const double moved = lost() ? INFINITY : size;
+    speed_ = std::fmax(moved, last_size_);
+    last_size_ = moved;
     tally_->wraps += turns != 0;
     const bool was_lost = lost();
     tally_->found += was_lost;
@@ -215,7 +219,7 @@ class Reference {
   std::int64_t clock_ = 0, began_ = 0, position_ = 0, last_position_ = 0;
   bool busy_ = false, first_ = true, frozen_ = false, last_well_ = true, unwell_ = false;
   int valids_ = 0, wrong_ = kEncoder.errors, kind_ = AbsoluteEncoder::kMissing;
-  double angle_ = 0, left_out_ = 0;
+  double angle_ = 0, left_out_ = 0, speed_ = 0, last_size_ = 0;
   std::vector<double> steps_;
 };
 
@@ -311,10 +315,10 @@ TEST_CASE("absolute_encoder: a fault is named within 2 ms at 10 000 readings a s
 namespace {
 
 /// A shaft at a constant speed beside the twin with a design's parameters. Its sensor samples by
-/// itself, so an angle is any time up to a reading old, and has a count of noise. Now and then
-/// `errors` - 1 readings in a row are wrong. True if a jump is named.
+/// itself each `own` of a reading's period, so an angle is up to so old, and has a count of noise.
+/// Now and then `errors` - 1 readings in a row are wrong. True if a jump is named.
 template <class D>
-bool jumps(double rad_s, std::uint64_t seed, double leap_counts = 0) {
+bool jumps(double rad_s, std::uint64_t seed, double own, double leap_counts = 0) {
   using Defect = AbsoluteSensor::Defect;
   const AbsoluteEncoder::Parameters p = absolute_parameters<D>();
   constexpr std::int64_t every = std::int64_t{D::absolute_period} * D::clocks_per_tick;
@@ -322,12 +326,10 @@ bool jumps(double rad_s, std::uint64_t seed, double leap_counts = 0) {
   AbsoluteEncoder twin(p);
   AbsoluteSensor sensor(p);
   Random random(seed);
-  double age = 0;
+  const double phase = 1e-6 * static_cast<double>(random.below(1'000'000));
   int wrong = 0;
   for (std::int64_t reading = 0; reading < 400; ++reading) {
-    // Oldest and newest in turn: the largest step. A leap comes in good readings and at rest.
-    age = random.coin() ? 1 - age : random.one_in(2) ? 1 : random.one_in(2) ? 0.5 : 0;
-    const double at = static_cast<double>(reading) - age;
+    const double at = std::floor((static_cast<double>(reading) + phase) / own) * own;
     double rad = rad_s * at * static_cast<double>(every) / D::clock_hz;
     if (leap_counts == 0) rad += D::count_rad * static_cast<double>(random.between(-1, 1));
     if (leap_counts != 0 && reading >= 200) rad += leap_counts * D::count_rad;
@@ -353,17 +355,18 @@ bool jumps(double rad_s, std::uint64_t seed, double leap_counts = 0) {
 template <class D>
 void check_limit(double overspeed_rad_s) {
   const double fastest = overspeed_rad_s * D::absolute_period * D::clocks_per_tick / D::clock_hz;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    CHECK_FALSE(jumps<D>(overspeed_rad_s, seed));
-    CHECK_FALSE(jumps<D>(-overspeed_rad_s, seed));
+  std::uint64_t seed = 1;
+  for (const double own : {1.0, 0.999, 0.927, 0.7, 0.667, 0.51, 0.34, 0.01}) {
+    INFO(own);
+    CHECK_FALSE(jumps<D>(overspeed_rad_s, ++seed, own));
+    CHECK_FALSE(jumps<D>(-overspeed_rad_s, ++seed, own));
+    CHECK(jumps<D>(2.2 * overspeed_rad_s, ++seed, own));
   }
-  CHECK(jumps<D>(2.1 * overspeed_rad_s, 1));
-  // A leap of 6 and of 14 counts of noise beyond two such readings; in SPI from a reading that
-  // follows a diagnosis one more, which the moment of the leap here is not.
+  // At rest, beyond two such readings and their noise.
   const double reach = 2 * fastest / D::count_rad;
-  CHECK_FALSE(jumps<D>(0, 1, std::floor(reach)));
-  CHECK(jumps<D>(0, 1, std::ceil(reach) + 6));
-  CHECK(jumps<D>(0, 1, -std::ceil(reach) - 6));
+  CHECK_FALSE(jumps<D>(0, 1, 1, std::floor(reach)));
+  CHECK(jumps<D>(0, 1, 1, std::ceil(reach) + 6));
+  CHECK(jumps<D>(0, 1, 1, -std::ceil(reach) - 6));
 }
 
 }  // namespace

@@ -73,12 +73,20 @@ struct Magnet {
         count -= random.between(few - 1, few + 1);
         break;
       case 4:
-      case 7:
         away = away != 0 ? -away : sign * random.between(edge, edge + 1);  // and back
         count += away;
         break;
       case 5:
         count += random.between(-edge, edge);
+        break;
+      case 7:  // from rest, and back
+        if (left % 3 == 0) {
+          const std::int64_t third = (kEncoder.jump_step + 2) / 3;
+          const std::int64_t rest =
+              2 * kEncoder.jump_step + static_cast<std::int64_t>(random.below(3)) * third;
+          away = away != 0 ? -away : sign * (rest + (random.coin() ? 1 : 0));
+          count += away;
+        }
         break;
       default:
         if (random.one_in(3)) count += random.between(-kTurn, kTurn);

@@ -62,6 +62,8 @@ module frame_proof (
   (* hierconn *) wire [4:0] \u_dut.equal_q ;
   (* hierconn *) wire \u_dut.moved_q ;
   (* hierconn *) wire [11:0] \u_dut.reach_q ;
+  (* hierconn *) wire [11:0] \u_dut.step_q ;
+  (* hierconn *) wire [11:0] \u_dut.before_q ;
   wire [1:0] state = \u_dut.state_q ;
   wire [3:0] count = \u_dut.wait_q ;
   wire [4:0] period = \u_dut.period_q ;
@@ -128,13 +130,16 @@ module frame_proof (
   logic [3:0] name, name_q;
   logic moved_q, frozen_q;
   logic [5:0] equal_q;
-  logic [3:0] left_out_q;  // readings since the last good one, without jumps
   logic [31:0] reach, reach_q;
+  logic [13:0] moved_by, speed, last_q, before_q, sum_q;
   logic bad_once_q, unwell_q;  // the last diagnosis was bad; and the one before
   assign lost  = row_q == 3'(Errors);
   assign flag  = pins_q[14] && answered_q != Flags;
   assign step  = pins_q[13:0] - position[13:0];
-  assign reach = left_out_q < 4'd11 ? Fastest * (32'd2 + 32'(left_out_q)) : 32'd2048;  // an eighth of a turn
+  // Speed of the last two good steps, and a third of the fastest.
+  assign moved_by = lost || $signed(step) >= Fastest || $signed(step) <= -Fastest ? 14'(Fastest) : step[13] ? -step : step;
+  assign speed    = (last_q > before_q ? last_q : before_q) >= 14'(Fastest - 54) ? 14'(Fastest) : (last_q > before_q ? last_q : before_q) + 14'd54;
+  assign reach    = sum_q < 14'd2048 ? 32'(sum_q) : 32'd2048;  // an eighth of a turn
   assign far   = answered_q == Angle && !lost && ($signed(step) > $signed(14'(reach)) || $signed(step) < -$signed(14'(reach)));
   assign wrong = odd_q || flag || far;
   assign good  = !wrong && answered_q == Angle;
@@ -147,7 +152,9 @@ module frame_proof (
       equal_q    <= '0;
       position_q <= '0;
       step_q     <= '0;
-      left_out_q <= '0;
+      sum_q      <= 14'(2 * Fastest);
+      last_q     <= '0;
+      before_q   <= '0;
       reach_q    <= '0;
     end else begin
       began_q    <= 1'b1;
@@ -157,8 +164,11 @@ module frame_proof (
       position_q <= position;
       step_q     <= step;
       reach_q    <= reach;
-      if (ends && good) left_out_q <= '0;
-      else if (ends && (odd_q || flag || answered_q != Angle)) left_out_q <= left_out_q + 4'(left_out_q < 4'd11);
+      if (ends && good) begin
+        sum_q      <= 14'(2 * Fastest);
+        last_q     <= moved_by;
+        before_q   <= last_q;
+      end else if (ends && (odd_q || flag || answered_q != Angle)) sum_q <= sum_q < 14'd2048 ? sum_q + speed : sum_q;
       if (ends && !wrong && answered_q == Diagnosis) begin
         bad_once_q <= pins_q[11:8] != 4'b0001;
         unwell_q   <= pins_q[11:8] != 4'b0001 && (bad_once_q || unwell_q);
@@ -257,6 +267,8 @@ module frame_proof (
       inside_turn: assert (position[13:0] == \u_dut.turn_q );
       inside_ill: assert (\u_dut.g_spi.ill_q == (unwell_q ? 2'd2 : 2'(bad_once_q)) && (bad_once_q || !unwell_q));
       inside_reach: assert (lost || \u_dut.reach_q == 12'(reach));
+      inside_sum: assert (sum_q < 14'd2048 + 14'(Fastest));
+      inside_steps: assert (14'(\u_dut.step_q ) == last_q && 14'(\u_dut.before_q ) == before_q && last_q <= 14'(Fastest) && before_q <= 14'(Fastest));
       inside_row: assert (row_q == \u_dut.errors_q && row_q <= 3'(Errors));
       inside_name: assert (name_q == \u_dut.kinds_q );
       inside_moved: assert (\u_dut.moved_q == (moved_q && equal_q < 6'(Reads)));

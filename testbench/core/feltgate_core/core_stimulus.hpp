@@ -64,7 +64,7 @@ class CoreStimulus {
       spacing_ = kind < 3    ? 0
                  : kind < 13 ? 600 + random_.below(30'000)
                  : kind < 15 ? 30 + random_.below(200)
-                             : 1 + random_.below(8);
+                             : kLeast + random_.below(8);
       up_ = random_.one_in(2);
       bad_cable_ = random_.one_in(12);
       dead_ = random_.one_in(7) ? 1 + random_.below(2) : 0;
@@ -99,6 +99,11 @@ class CoreStimulus {
     int address;  ///< or one of these
     std::uint32_t word;
   };
+  /// Clocks from count to count in the fastest motion. An absolute encoder would see more as jumps.
+  static constexpr std::int64_t kLeast =
+      D::absolute_encoder != 0
+          ? D::absolute_period * D::clocks_per_tick / (2 * D::absolute_jump_step) + 1
+          : 1;
   static constexpr int kSetOff = -1;  ///< moves the lever by one count every `word` clocks
   static constexpr int kRest = -2;    ///< no write for `word` clocks
   static constexpr int kBreak = -3;   ///< sets the defect of the encoder, see break_encoder()

@@ -100,11 +100,9 @@ class CoreStimulus {
     int address;  ///< or one of these
     std::uint32_t word;
   };
-  /// Clocks from count to count in the fastest motion. An absolute encoder would see more as jumps.
+  /// Clocks from count to count in the fastest motion: to an absolute encoder more is a jump.
   static constexpr std::int64_t kLeast =
-      D::absolute_encoder != 0
-          ? D::absolute_period * D::clocks_per_tick / (2 * D::absolute_jump_step) + 1
-          : 1;
+      D::absolute_period * D::clocks_per_tick / std::max(1, 2 * D::absolute_jump_step) + 1;
   static constexpr int kSetOff = -1;  ///< moves the lever by one count every `word` clocks
   static constexpr int kRest = -2;    ///< no write for `word` clocks
   static constexpr int kBreak = -3;   ///< sets the defect of the encoder, see break_encoder()
@@ -152,8 +150,7 @@ class CoreStimulus {
       write(D::C::command, random_.below(32));
     }
   }
-  /// Takes over the lever's random motion: from now on one count every `spacing` clocks, then
-  /// faster.
+  /// Takes over the random motion: from now on one count every `spacing` clocks, then faster.
   void set_off(std::uint32_t spacing) {
     left_ = 30'000;
     spacing_ = spacing;

@@ -5,6 +5,7 @@
 // work. Documentation: docs/blocks/absolute_encoder.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "design/design.hpp"
@@ -24,6 +25,9 @@ constexpr std::size_t kMostTerms = 32;
 /// and the order of the angles stay what they are.
 constexpr double kMostError_mrad = 190, kMostSlope_mrad = 500;
 
+/// Of a reading: the noise of two, and rounding.
+constexpr int kNoise_counts = 2;
+
 int whole(double value) { return static_cast<int>(std::lround(value)); }
 bool is_whole(double value) { return std::abs(value - std::round(value)) < 1e-6; }
 
@@ -31,6 +35,20 @@ bool is_whole(double value) { return std::abs(value - std::round(value)) < 1e-6;
 int busy_clocks(const AbsoluteEncoder::Parameters& p) {
   const int late = p.framing == AbsoluteEncoder::kBiss ? p.ack_clocks + 3 : 0;
   return 2 * p.gap_clocks + 2 * p.half_clocks * (p.frame_bits() + late) + 8;
+}
+
+/// The amplitudes of the harmonics and those of their slopes add up to at most so much.
+struct Amplitudes {
+  double error = 0, slope = 0;
+};
+Amplitudes sum_of(const std::vector<double>& terms) {
+  Amplitudes sum;
+  for (std::size_t k = 0; k + 1 < terms.size(); k += 2) {
+    const double size = std::hypot(terms[k], terms[k + 1]);
+    sum.error += size;
+    sum.slope += static_cast<double>(k / 2 + 1) * size;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -84,6 +102,11 @@ AbsoluteEncoder::Parameters Design::absolute_parameters() const {
   p.half_clocks = whole(clocks / (2 * absolute_serial_hz));
   p.gap_clocks = static_cast<int>(std::ceil(clocks * absolute_gap_s - 1e-6));
   p.diag_address = absolute_diagnosis;
+  // The table's error makes a reading move up to so much faster than the shaft.
+  const double counts = overspeed_rad_s * absolute_period_s / count_rad() /
+                        (1 - 1e-3 * sum_of(absolute_error_mrad).slope);
+  p.jump_step = static_cast<int>(
+      std::min(std::ceil(counts - 1e-6) + kNoise_counts, std::ldexp(1, absolute_bits - 3)));
   return p;
 }
 
@@ -114,12 +137,7 @@ void check_error(const Design& d) {
                       kMostTerms / 2),
           "write two for each harmonic of a turn, or []");
   }
-  double error = 0, slope = 0;
-  for (std::size_t k = 0; k < terms.size(); k += 2) {
-    const double size = std::hypot(terms[k], terms[k + 1]);
-    error += size;
-    slope += static_cast<double>(k / 2 + 1) * size;
-  }
+  const auto [error, slope] = sum_of(terms);
   if (error > kMostError_mrad || slope > kMostSlope_mrad) {
     wrong(fmt::format("the harmonics may add up to {:.4g} mrad and a slope of {:.4g} mrad per "
                       "radian, more than {:g} and {:g}",

@@ -185,7 +185,8 @@ std::vector<Constant> of_current_loop(const Elaborated& e) {
 /// Words of the absolute encoder; 0 without it.
 std::vector<Constant> of_absolute_encoder(const Design& d) {
   const AbsoluteEncoder::Parameters p =
-      d.absolute ? d.absolute_parameters() : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0};
+      d.absolute ? d.absolute_parameters()
+                 : AbsoluteEncoder::Parameters{0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   return {
       {"absolute_encoder", d.absolute ? 1 : 0, "1: the position is of an absolute encoder"},
       {"absolute_framing", p.framing, "0 SPI with parity, 1 SSI with CRC-6, 2 BiSS-C"},
@@ -194,6 +195,7 @@ std::vector<Constant> of_absolute_encoder(const Design& d) {
       {"absolute_gap_clocks", p.gap_clocks, "clocks before the serial clock and between readings"},
       {"absolute_period", d.absolute ? d.absolute_period_ticks() : 0,
        "ticks from reading to reading"},
+      {"absolute_jump_step", p.jump_step, "counts of the fastest motion in a reading"},
       {"absolute_diagnosis", p.diag_address, "SPI: address of the diagnosis"}};
 }
 

@@ -6,7 +6,9 @@
 // bit by bit in the RTL. Documentation: docs/blocks/absolute_encoder.md
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 
 #include "feltgate/generated/map.hpp"
 
@@ -54,6 +56,7 @@ class AbsoluteEncoder {
     int errors = 4;             ///< wrong readings in a row that are a fault
     int frozen_step = 4;        ///< counts between two readings that are a motion
     int frozen_reads = 16;      ///< equal readings after a motion that are a fault
+    int jump_step = 160;        ///< counts of the fastest motion from one reading to the next
     int diag_address = 0x3ffc;  ///< SPI: register of the diagnosis
     int diag_log2 = 4;          ///< SPI: it is read once in 2^diag_log2 readings
     /// Bits that a sensor sends; BiSS-C: after the start bit.
@@ -226,7 +229,8 @@ class AbsoluteEncoder {
                                                        p_.bits));
     std::int32_t step = (angle - turn_ + turn) % turn;
     if (step >= turn / 2) step -= turn;
-    if (kind == 0 && is_angle && !is_lost && (step < -turn / 8 || step >= turn / 8)) kind = kJump;
+    if (kind != 0 || !is_angle) reach_ = std::min(turn / 8, reach_ + pace());
+    if (kind == 0 && is_angle && !is_lost && std::abs(step) > reach_) kind = kJump;
     if (!missing_) flagged_ = field(14, 1) != 0 && asked_ != Kind::flags;
     if (kind != 0) {
       kind_ = kind;
@@ -240,8 +244,20 @@ class AbsoluteEncoder {
         (errors_ == p_.errors ? kind_ : 0) | (ill_ == 2 ? kSensor : 0) | (frozen_ ? kFrozen : 0);
   }
 
+  /// What a reading that was left out adds to the reach: the larger of the last two steps and a
+  /// third of the fastest, which is more than a shaft gains in a reading.
+  int pace() const {
+    const int gain = (p_.jump_step + 2) / 3;
+    return std::min(p_.jump_step, std::max(last_step_, step_before_) + gain);
+  }
+
   void accept(std::int32_t angle, std::int32_t step, bool was_lost) {
     out_.valid = true;
+    // Two readings: a sensor that samples by itself gives an angle up to a reading old. A jump adds
+    // nothing, so an angle that stays where it leapt is a fault.
+    reach_ = std::min(1 << (p_.bits - 3), 2 * p_.jump_step);
+    step_before_ = last_step_;
+    last_step_ = was_lost ? p_.jump_step : std::min(std::abs(step), p_.jump_step);
     out_.position = static_cast<std::int32_t>(static_cast<std::uint32_t>(out_.position) +
                                               static_cast<std::uint32_t>(step));
     turn_ = angle;
@@ -269,6 +285,8 @@ class AbsoluteEncoder {
   bool flagged_ = false;
   int ill_ = 0;  // diagnoses in a row that say the angle cannot be trusted
   std::int32_t turn_ = 0;
+  int reach_ = 0;  // counts by which the next good reading may differ from the last one
+  int last_step_ = 0, step_before_ = 0;  // of good readings, at most jump_step
   int errors_, kind_ = kMissing, equal_ = 0;
   bool moved_ = false, frozen_ = false;
 };

@@ -23,6 +23,7 @@ constexpr AbsoluteEncoder::Parameters absolute_parameters() {
   p.bits = D::absolute_bits;
   p.half_clocks = D::absolute_half_clocks;
   p.gap_clocks = D::absolute_gap_clocks;
+  p.jump_step = D::absolute_jump_step;
   p.diag_address = D::absolute_diagnosis;
   return p;
 }

@@ -17,6 +17,7 @@ module absolute_encoder #(
     parameter int Errors      = 4,      // wrong readings in a row that are a fault
     parameter int FrozenStep  = 4,      // counts between two readings that are a motion
     parameter int FrozenReads = 16,     // equal readings after a motion that are a fault
+    parameter int JumpStep    = 160,    // counts of the fastest motion from one reading to the next
     parameter int DiagAddress = 'h3ffc, // SPI: register of the diagnosis
     parameter int DiagLog2    = 4       // SPI: it is read once in 2^DiagLog2 readings
 ) (
@@ -42,11 +43,13 @@ module absolute_encoder #(
   localparam int BitW = $clog2(FrameBits + 1);
   localparam int ErrorW = $clog2(Errors + 1);
   localparam int FrozenW = $clog2(FrozenReads + 1);
+  localparam int Eighth = 2 ** (Bits - 3);  // of a turn
+  localparam int ReachW = Bits - 2;
 
   generate
   if (!(Framing >= 0 && Framing <= 2 && Bits >= 12 && Bits <= 24 && (!Spi || Bits == 14) && HalfClocks >= 4 && GapClocks >= 4 &&
         AckClocks >= 4 && Errors >= 1 && FrozenStep >= 1 && FrozenStep < 2 ** (Bits - 3) && FrozenReads >= 2 &&
-        DiagLog2 >= 1)) begin : g_check
+        JumpStep >= 1 && JumpStep <= Eighth && DiagLog2 >= 1)) begin : g_check
     a_parameter_is_out_of_its_range missing ();
   end
   endgenerate
@@ -171,6 +174,7 @@ module absolute_encoder #(
   // What a frame says.
   logic wrong, bad, unwell, is_angle, jumps, is_wrong, good, is_lost;
   logic [Bits-1:0] angle, turn_q, step, size;
+  logic [ReachW-1:0] reach_q;  // counts by which the next good reading may differ from the last one
   assign angle = frame_q[Below+:Bits];
   generate
   if (Spi) begin : g_spi
@@ -232,7 +236,7 @@ module absolute_encoder #(
   endgenerate
   assign step = angle - turn_q;
   assign size = step[Bits-1] ? -step : step;
-  assign jumps = is_angle && !(step[Bits-1-:3] == 3'b000 || step[Bits-1-:3] == 3'b111) && !is_lost;
+  assign jumps = is_angle && size > Bits'(reach_q) && !is_lost;
   assign is_wrong = missing_q || (ends_q && (wrong || bad || jumps));
   assign good = ends_q && is_angle && !is_wrong;
 
@@ -273,6 +277,27 @@ module absolute_encoder #(
         kinds_q <= missing_q ? 4'b0001 : wrong ? 4'b0010 : bad ? 4'b0100 : 4'b1000;
         if (!is_lost) errors_q <= errors_q + 1'b1;
       end
+    end
+  end
+
+  // The reach is that of two readings, for a sensor that samples by itself gives an angle up to a reading old. Each left out
+  // since, because it was wrong or no angle, adds the larger of the last two steps and a third of the fastest, which is more
+  // than a shaft gains in a reading. A jump adds nothing, so an angle that stays where it leapt is a fault.
+  localparam int Gain = (JumpStep + 2) / 3;
+  logic [ReachW-1:0] step_q, before_q, larger, pace;  // at most JumpStep
+  assign larger = step_q > before_q ? step_q : before_q;
+  assign pace   = larger > ReachW'(JumpStep - Gain) ? ReachW'(JumpStep) : larger + ReachW'(Gain);
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      reach_q  <= '0;  // the first reading is any
+      step_q   <= '0;
+      before_q <= '0;
+    end else if (good) begin
+      reach_q  <= 2 * JumpStep < Eighth ? ReachW'(2 * JumpStep) : ReachW'(Eighth);
+      step_q   <= is_lost || size > Bits'(JumpStep) ? ReachW'(JumpStep) : ReachW'(size);
+      before_q <= step_q;
+    end else if (ends_q && (missing_q || wrong || bad || !is_angle)) begin
+      reach_q <= reach_q > ReachW'(Eighth) - pace ? ReachW'(Eighth) : reach_q + pace;
     end
   end
 endmodule

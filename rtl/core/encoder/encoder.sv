@@ -122,7 +122,7 @@ module encoder (
     absolute_encoder #(
         .Framing(feltgate_pkg::ABSOLUTE_FRAMING), .Bits(feltgate_pkg::ABSOLUTE_BITS),
         .HalfClocks(feltgate_pkg::ABSOLUTE_HALF_CLOCKS), .GapClocks(feltgate_pkg::ABSOLUTE_GAP_CLOCKS),
-        .DiagAddress(feltgate_pkg::ABSOLUTE_DIAGNOSIS)
+        .JumpStep(feltgate_pkg::ABSOLUTE_JUMP_STEP), .DiagAddress(feltgate_pkg::ABSOLUTE_DIAGNOSIS)
     ) u_absolute_encoder (
         .clk_i(clk_i), .rst_ni(rst_ni), .sample_i(begins), .data_i(encoder_data_i),
         .select_no(encoder_select_no), .serial_clock_o(encoder_clock_o), .command_o(encoder_command_o),

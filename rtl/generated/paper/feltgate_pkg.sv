@@ -54,6 +54,7 @@ package feltgate_pkg;
   localparam int ABSOLUTE_HALF_CLOCKS = 0;  // clocks: half a serial clock
   localparam int ABSOLUTE_GAP_CLOCKS = 0;  // clocks before the serial clock and between readings
   localparam int ABSOLUTE_PERIOD = 0;  // ticks from reading to reading
+  localparam int ABSOLUTE_JUMP_STEP = 0;  // counts of the fastest motion in a reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
   localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
   localparam int HALL = 0;  // 1: Hall lines give the electrical angle at power-up

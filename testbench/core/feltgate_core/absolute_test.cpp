@@ -191,7 +191,7 @@ TEST_CASE("absolute: with a table the position is within a count of the shaft, a
 
 TEST_CASE("absolute: each defect closes the gates within 2 ms and is named") {
   const std::map<Defect, std::uint32_t> names{
-      {Defect::cut, 4},       {Defect::grounded, 4}, {Defect::magnet_lost, 4},
+      {Defect::cut, 4},       {Defect::grounded, 8}, {Defect::magnet_lost, 4},
       {Defect::wrong_bit, 2}, {Defect::held, 16},    {Defect::half_a_turn_off, 8}};
   for (const Defect defect : kDefects) {
     Rig rig;
@@ -208,6 +208,22 @@ TEST_CASE("absolute: each defect closes the gates within 2 ms and is named") {
       CHECK(seen.last.first_fault == static_cast<unsigned>(Fault::encoder));
       CHECK(seen.named == names.at(defect));
     }
+  }
+}
+
+TEST_CASE("absolute: a line at ground reads as the angle 0, near which it is a small step") {
+  // The over-speed of 613.6 rad/s makes 59 mrad in a reading; two, noise and the table's slope are
+  // up to 0.122 rad. The low-pass of 500 rad/s shows a step at rest as no more speed than this.
+  for (const auto& [rad, name] : {std::pair{0.1, 4u}, {-0.1, 4u}, {0.14, 8u}, {-0.14, 8u}}) {
+    Rig rig;
+    rig.defect = Defect::grounded;
+    rig.start_rad = rad;
+    const Seen seen = run(rig, rig.at + 100'000);
+    INFO(rad << " rad");
+    CHECK(seen.off - rig.at < 100'000);
+    CHECK(seen.named == name);
+    CHECK(seen.fastest_rad_s < 500 * 0.122);
+    CHECK((seen.fastest_rad_s == 0) == (name == 8));
   }
 }
 

@@ -5,6 +5,7 @@
 // panel. Documentation: docs/testing.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -63,8 +64,8 @@ class CoreStimulus {
       const std::uint32_t kind = random_.below(16);
       spacing_ = kind < 3    ? 0
                  : kind < 13 ? 600 + random_.below(30'000)
-                 : kind < 15 ? 30 + random_.below(200)
-                             : 1 + random_.below(8);
+                 : kind < 15 ? std::max<std::int64_t>(30, kLeast) + random_.below(200)
+                             : kLeast + random_.below(8);
       up_ = random_.one_in(2);
       bad_cable_ = random_.one_in(12);
       dead_ = random_.one_in(7) ? 1 + random_.below(2) : 0;
@@ -99,6 +100,9 @@ class CoreStimulus {
     int address;  ///< or one of these
     std::uint32_t word;
   };
+  /// Clocks from count to count in the fastest motion: to an absolute encoder more is a jump.
+  static constexpr std::int64_t kLeast =
+      D::absolute_period * D::clocks_per_tick / std::max(1, 2 * D::absolute_jump_step) + 1;
   static constexpr int kSetOff = -1;  ///< moves the lever by one count every `word` clocks
   static constexpr int kRest = -2;    ///< no write for `word` clocks
   static constexpr int kBreak = -3;   ///< sets the defect of the encoder, see break_encoder()
@@ -146,8 +150,7 @@ class CoreStimulus {
       write(D::C::command, random_.below(32));
     }
   }
-  /// Takes over the lever's random motion: from now on one count every `spacing` clocks, then
-  /// faster.
+  /// Takes over the random motion: from now on one count every `spacing` clocks, then faster.
   void set_off(std::uint32_t spacing) {
     left_ = 30'000;
     spacing_ = spacing;
@@ -210,9 +213,9 @@ class CoreStimulus {
         then(D::A::nominal_current_squared, 0x7fffffff);
         as_designed(D::A::i2t_budget);
         // A test that does not arm a shaft that is held would leave no current.
-        if (D::phases == 3 && D::absolute_encoder != 0) then(D::A::self_test_pulse, 0);
+        if (kKnob) then(D::A::self_test_pulse, 0);
         arm();
-        if (kField) heat(then, host | 1u << D::C::control_arm);
+        if (kKnob) heat(then, host | 1u << D::C::control_arm);
         then(D::A::i2t_budget, some(8 + random_.below(12)));
         then(D::A::nominal_current_squared, some(random_.below(10)));
         for (int k = 0; k < 4; ++k) write_something(then);
@@ -375,7 +378,7 @@ class CoreStimulus {
     }
   }
 
-  static constexpr bool kField = D::current_loop != 0 && D::phases == 3;
+  static constexpr bool kKnob = D::phases == 3 && D::absolute_encoder != 0;
   static constexpr bool kOutside = scene_built<D>(Map::S::law);
   std::uint32_t any_scene() { return random_.below(kOutside ? 11 : 10); }
 

@@ -262,7 +262,7 @@ TEST_CASE("three: random motion and host: no leg conducts through, disabled gate
     std::array<std::int64_t, 6> off_at{};
     std::int64_t cycle = 0, armed = 0;
     CoreBench bench("feltgate_core", seed);
-    bench.run(CoreStimulus<D>(seed), 600'000, {},
+    bench.run(CoreStimulus<D>(seed), 800'000, {},
               [&](const CoreIn& in, const auto&, const CoreTwin& twin, bool) -> const char* {
                 const CoreOut& out = twin.out();
                 ++cycle;

@@ -226,6 +226,9 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
     CHECK(contains(package, line));
   }
   CHECK(shipped("lever_absolute").design.count_rad() == 2 * 3.14159265358979323846 / 16384);
+  // 613.6 and 100 rad/s in 96 us are 153.6 and 25.03 counts; 2 more for noise.
+  CHECK(contains(package, "ABSOLUTE_JUMP_STEP = 156;"));
+  CHECK(contains(systemverilog_package(shipped("gimbal_motor")), "ABSOLUTE_JUMP_STEP = 28;"));
   CHECK(contains(systemverilog_package(shipped("lever")), "int ABSOLUTE_ENCODER = 0;"));
   const auto refused = [&](const char* from, const char* to, const char* message) {
     const std::string error = design_error(replaced(good, from, to));
@@ -256,6 +259,11 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   CHECK(contains(corrected, "8'd128: absolute_correction = 16'd1335;"));  // 8 mrad
   CHECK(contains(package, "int ABSOLUTE_TABLE = 0;"));
   CHECK_FALSE(contains(package, "8'd0: absolute_correction"));
+  // A slope of 0.4 makes the readings of a motion faster by 1/0.6: 256.003 counts, and 2.
+  CHECK(contains(
+      systemverilog_package(elaborate(design_from_text(with("0, 0, 0, 0, 0, 0, 0, 100"), "t.toml"),
+                                      shipped_registers())),
+      "ABSOLUTE_JUMP_STEP = 259;"));
   CHECK(design_crc(table) != design_crc(shipped("lever_absolute")));
   CHECK(contains(design_error(with("8.0")), "1 numbers are no cosines and sines"));
   CHECK(contains(design_error(with("191, 0")), "error_mrad"));

@@ -9,6 +9,10 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "feltgate/absolute_position.hpp"
+#include "feltgate/generated/gimbal_current.hpp"
+#include "feltgate/generated/gimbal_motor.hpp"
+#include "feltgate/generated/lever_absolute.hpp"
 #include "lock_step.hpp"
 #include "page_figures.hpp"
 #include "ports.hpp"
@@ -38,6 +42,7 @@ struct Tally {
   std::int64_t good = 0, silent = 0, missing = 0, check = 0, sensor = 0, jump = 0, ignored = 0;
   std::int64_t lost = 0, found = 0, unwell = 0, once_unwell = 0, frozen = 0, moved_again = 0;
   std::int64_t first_refused = 0, last_accepted = 0, wraps = 0, below_zero = 0;
+  std::int64_t refused_late = 0, accepted_late = 0;  // after readings that were left out
 };
 
 /// Readings in any distance, also in a row and too early.
@@ -139,10 +144,17 @@ class Reference {
                                                 kEncoder.bits));
     const double turns = std::floor((angle - angle_) / kTurn + 0.5);
     const double step = angle - angle_ - turns * kTurn;
-    const bool far = step < -kTurn / 8.0 || step >= kTurn / 8.0;
-    if (wrong == 0 && is_angle && far && !lost()) {
+    // Two of the fastest readings, for an angle is up to a reading old, and for each left out the
+    // speed of the last two steps and a third of the fastest.
+    const bool left_out = wrong != 0 || !is_angle;
+    if (left_out) left_out_ += 1;
+    const double fastest = kEncoder.jump_step, size = std::fabs(step);
+    const double speed = std::fmin(fastest, speed_ + std::ceil(fastest / 3));
+    const double most = std::fmin(2 * fastest + left_out_ * speed, kTurn / 8.0);
+    if (!left_out && size > most && !lost()) {
       wrong = AbsoluteEncoder::kJump;
-      tally_->first_refused += step == kTurn / 8.0;
+      tally_->first_refused += size == most + 1;
+      tally_->refused_late += size == most + 1 && left_out_ > 0;
     }
     tally_->missing += wrong == AbsoluteEncoder::kMissing;
     tally_->check += wrong == AbsoluteEncoder::kCheck;
@@ -159,7 +171,12 @@ class Reference {
       return false;
     }
     ++tally_->good;
-    tally_->last_accepted += step == -kTurn / 8.0;
+    tally_->last_accepted += size == most && !lost();
+    tally_->accepted_late += size == most && left_out_ > 0 && !lost();
+    left_out_ = 0;
+    const double moved = lost() ? INFINITY : size;
+    speed_ = std::fmax(moved, last_size_);
+    last_size_ = moved;
     tally_->wraps += turns != 0;
     const bool was_lost = lost();
     tally_->found += was_lost;
@@ -202,7 +219,7 @@ class Reference {
   std::int64_t clock_ = 0, began_ = 0, position_ = 0, last_position_ = 0;
   bool busy_ = false, first_ = true, frozen_ = false, last_well_ = true, unwell_ = false;
   int valids_ = 0, wrong_ = kEncoder.errors, kind_ = AbsoluteEncoder::kMissing;
-  double angle_ = 0;
+  double angle_ = 0, left_out_ = 0, speed_ = 0, last_size_ = 0;
   std::vector<double> steps_;
 };
 
@@ -215,13 +232,14 @@ TEST_CASE("absolute_encoder: all frames, errors and motions of a sensor") {
   const Stimulus stimulus{Sensor(2, &log), Random(3)};
   // After a reset the line of BiSS-C still holds what was sent before it: see the case below.
   const bool biss = kEncoder.framing == AbsoluteEncoder::kBiss;
-  bench.run(stimulus, scaled_clocks(4'000'000), {biss ? 0U : 200'000U}, Reference(&log, &tally));
+  bench.run(stimulus, scaled_clocks(6'000'000), {biss ? 0U : 200'000U}, Reference(&log, &tally));
   INFO("good " << tally.good << ", missing " << tally.missing << ", check " << tally.check
                << ", sensor " << tally.sensor << ", jump " << tally.jump << ", ignored "
                << tally.ignored << ", lost " << tally.lost << ", found " << tally.found
                << ", frozen " << tally.frozen << ", moved again " << tally.moved_again
                << ", first refused " << tally.first_refused << ", last accepted "
-               << tally.last_accepted << ", wraps " << tally.wraps << ", below zero "
+               << tally.last_accepted << ", late " << tally.refused_late << " and "
+               << tally.accepted_late << ", wraps " << tally.wraps << ", below zero "
                << tally.below_zero);
   CHECK(tally.good > 3000);
   CHECK((tally.missing > 100) == biss);
@@ -237,6 +255,8 @@ TEST_CASE("absolute_encoder: all frames, errors and motions of a sensor") {
   CHECK(tally.moved_again > 10);
   CHECK(tally.first_refused > 10);
   CHECK(tally.last_accepted > 10);
+  CHECK(tally.refused_late > 2);
+  CHECK(tally.accepted_late > 2);
   CHECK(tally.wraps > 100);
   CHECK(tally.below_zero > 100);
 }
@@ -290,4 +310,70 @@ TEST_CASE("absolute_encoder: a fault is named within 2 ms at 10 000 readings a s
     figures += "|\n";
   }
   check_page_figures("absolute_encoder", figures);
+}
+
+namespace {
+
+/// A shaft at a constant speed beside the twin with a design's parameters. Its sensor samples by
+/// itself each `own` of a reading's period, so an angle is up to so old, and has a count of noise.
+/// Now and then `errors` - 1 readings in a row are wrong. True if a jump is named.
+template <class D>
+bool jumps(double rad_s, std::uint64_t seed, double own, double leap_counts = 0) {
+  using Defect = AbsoluteSensor::Defect;
+  const AbsoluteEncoder::Parameters p = absolute_parameters<D>();
+  constexpr std::int64_t every = std::int64_t{D::absolute_period} * D::clocks_per_tick;
+  constexpr Defect defects[] = {Defect::cut, Defect::wrong_bit, Defect::magnet_lost};
+  AbsoluteEncoder twin(p);
+  AbsoluteSensor sensor(p);
+  Random random(seed);
+  const double phase = 1e-6 * static_cast<double>(random.below(1'000'000));
+  int wrong = 0;
+  for (std::int64_t reading = 0; reading < 400; ++reading) {
+    const double at = std::floor((static_cast<double>(reading) + phase) / own) * own;
+    double rad = rad_s * at * static_cast<double>(every) / D::clock_hz;
+    if (leap_counts == 0) rad += D::count_rad * static_cast<double>(random.between(-1, 1));
+    if (leap_counts != 0 && reading >= 200) rad += leap_counts * D::count_rad;
+    if (wrong > 0) --wrong;
+    if (twin.out().position != 0 && leap_counts == 0 && wrong == 0 && random.one_in(8)) {
+      wrong = p.errors;  // the last one is good
+    }
+    sensor.set(wrong > 1 ? defects[random.below(3)] : Defect::none);
+    for (std::int64_t clock = 0; clock < every; ++clock) {
+      const std::int64_t now = reading * every + clock;
+      sensor.turn(rad, rad, now, 1);
+      const AbsoluteEncoder::Out& o = twin.out();
+      const unsigned lines =
+          (o.select_n ? 1u : 0u) | (o.serial_clock ? 2u : 0u) | (o.command ? 4u : 0u);
+      twin.clock({clock == 0, sensor.pin(now, lines)});
+      if ((twin.out().faults & AbsoluteEncoder::kJump) != 0) return true;
+    }
+  }
+  return false;
+}
+
+/// `overspeed_rad_s`: of the design's file.
+template <class D>
+void check_limit(double overspeed_rad_s) {
+  const double fastest = overspeed_rad_s * D::absolute_period * D::clocks_per_tick / D::clock_hz;
+  std::uint64_t seed = 1;
+  for (const double own : {1.0, 0.999, 0.927, 0.7, 0.667, 0.51, 0.34, 0.01}) {
+    INFO(own);
+    CHECK_FALSE(jumps<D>(overspeed_rad_s, ++seed, own));
+    CHECK_FALSE(jumps<D>(-overspeed_rad_s, ++seed, own));
+    CHECK(jumps<D>(2.2 * overspeed_rad_s, ++seed, own));
+  }
+  // At rest, beyond two such readings and their noise.
+  const double reach = 2 * fastest / D::count_rad;
+  CHECK_FALSE(jumps<D>(0, 1, 1, std::floor(reach)));
+  CHECK(jumps<D>(0, 1, 1, std::ceil(reach) + 6));
+  CHECK(jumps<D>(0, 1, 1, -std::ceil(reach) - 6));
+}
+
+}  // namespace
+
+TEST_CASE("absolute_encoder: a motion up to the over-speed is no jump, a little larger leap is") {
+  if (kEncoder.framing != AbsoluteEncoder::kSpi) return;  // the twin alone: once is enough
+  check_limit<LeverAbsolute>(613.6);
+  check_limit<GimbalMotor>(100);
+  check_limit<GimbalCurrent>(100);
 }

@@ -47,15 +47,18 @@ struct Log {
 /// The magnet, in counts; moves between readings.
 struct Magnet {
   Random random;
-  std::int64_t count = 0;
+  std::int64_t count = 0, away = 0;
   int mode = 0, left = 0;
 
   std::int64_t next() {
     if (--left <= 0) {
-      mode = static_cast<int>(random.below(7));
+      mode = static_cast<int>(random.below(8));
+      away = 0;
       left = static_cast<int>(random.between(1, 3 * kEncoder.frozen_reads));
     }
-    const std::int64_t eighth = kTurn / 8, few = kEncoder.frozen_step;
+    // A jump begins beyond 2 to 5 of the fastest readings, by how many were left out.
+    const std::int64_t few = kEncoder.frozen_step;
+    const std::int64_t edge = std::min(kTurn / 8, random.between(2, 5) * kEncoder.jump_step);
     const std::int64_t sign = random.coin() ? 1 : -1;
     switch (mode) {
       case 0:
@@ -70,13 +73,24 @@ struct Magnet {
         count -= random.between(few - 1, few + 1);
         break;
       case 4:
-        count += sign * random.between(eighth - 2, eighth);
+        away = away != 0 ? -away : sign * random.between(edge, edge + 1);  // and back
+        count += away;
         break;
       case 5:
-        count += random.between(-eighth, eighth - 1);
+        count += random.between(-edge, edge);
+        break;
+      case 7:  // from rest, and back
+        if (left % 3 == 0) {
+          const std::int64_t third = (kEncoder.jump_step + 2) / 3;
+          const std::int64_t rest =
+              2 * kEncoder.jump_step + static_cast<std::int64_t>(random.below(3)) * third;
+          away = away != 0 ? -away : sign * (rest + (random.coin() ? 1 : 0));
+          count += away;
+        }
         break;
       default:
         if (random.one_in(3)) count += random.between(-kTurn, kTurn);
+        if (random.one_in(2)) count = random.between(-few, few);
         mode = 0;
     }
     return (count % kTurn + kTurn) % kTurn;

@@ -68,6 +68,7 @@ struct Fast {
   static constexpr int absolute_half_clocks = 0;  // clocks: half a serial clock
   static constexpr int absolute_gap_clocks = 0;  // clocks before the serial clock and between readings
   static constexpr int absolute_period = 0;  // ticks from reading to reading
+  static constexpr int absolute_jump_step = 0;  // counts of the fastest motion in a reading
   static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
   static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
   static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up

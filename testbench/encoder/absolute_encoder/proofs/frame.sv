@@ -17,6 +17,7 @@ module frame_proof (
   localparam int Errors = 4;
   localparam int Step = 4;
   localparam int Reads = 16;
+  localparam int Fastest = 160;  // counts in a reading
   localparam logic [15:0] Angle = 16'hffff, Flags = 16'h4001, Diagnosis = 16'hfffc;
 
   `include "reset.svh"
@@ -60,6 +61,9 @@ module frame_proof (
   (* hierconn *) wire [3:0] \u_dut.kinds_q ;
   (* hierconn *) wire [4:0] \u_dut.equal_q ;
   (* hierconn *) wire \u_dut.moved_q ;
+  (* hierconn *) wire [11:0] \u_dut.reach_q ;
+  (* hierconn *) wire [11:0] \u_dut.step_q ;
+  (* hierconn *) wire [11:0] \u_dut.before_q ;
   wire [1:0] state = \u_dut.state_q ;
   wire [3:0] count = \u_dut.wait_q ;
   wire [4:0] period = \u_dut.period_q ;
@@ -126,12 +130,17 @@ module frame_proof (
   logic [3:0] name, name_q;
   logic moved_q, frozen_q;
   logic [5:0] equal_q;
+  logic [31:0] reach, reach_q;
+  logic [13:0] moved_by, speed, last_q, before_q, sum_q;
   logic bad_once_q, unwell_q;  // the last diagnosis was bad; and the one before
   assign lost  = row_q == 3'(Errors);
   assign flag  = pins_q[14] && answered_q != Flags;
   assign step  = pins_q[13:0] - position[13:0];
-  assign far   = answered_q == Angle && $signed(step) != 14'sd0 && !lost &&
-                 ($signed(step) >= 14'sd2048 || $signed(step) < -14'sd2048);
+  // Speed of the last two good steps, and a third of the fastest.
+  assign moved_by = lost || $signed(step) >= Fastest || $signed(step) <= -Fastest ? 14'(Fastest) : step[13] ? -step : step;
+  assign speed    = (last_q > before_q ? last_q : before_q) >= 14'(Fastest - 54) ? 14'(Fastest) : (last_q > before_q ? last_q : before_q) + 14'd54;
+  assign reach    = sum_q < 14'd2048 ? 32'(sum_q) : 32'd2048;  // an eighth of a turn
+  assign far   = answered_q == Angle && !lost && ($signed(step) > $signed(14'(reach)) || $signed(step) < -$signed(14'(reach)));
   assign wrong = odd_q || flag || far;
   assign good  = !wrong && answered_q == Angle;
   assign name  = odd_q ? 4'b0010 : flag ? 4'b0100 : 4'b1000;
@@ -143,6 +152,10 @@ module frame_proof (
       equal_q    <= '0;
       position_q <= '0;
       step_q     <= '0;
+      sum_q      <= 14'(2 * Fastest);
+      last_q     <= '0;
+      before_q   <= '0;
+      reach_q    <= '0;
     end else begin
       began_q    <= 1'b1;
       ends_q     <= ends;
@@ -150,6 +163,12 @@ module frame_proof (
       lost_q     <= lost;
       position_q <= position;
       step_q     <= step;
+      reach_q    <= reach;
+      if (ends && good) begin
+        sum_q      <= 14'(2 * Fastest);
+        last_q     <= moved_by;
+        before_q   <= last_q;
+      end else if (ends && (odd_q || flag || answered_q != Angle)) sum_q <= sum_q < 14'd2048 ? sum_q + speed : sum_q;
       if (ends && !wrong && answered_q == Diagnosis) begin
         bad_once_q <= pins_q[11:8] != 4'b0001;
         unwell_q   <= pins_q[11:8] != 4'b0001 && (bad_once_q || unwell_q);
@@ -186,7 +205,7 @@ module frame_proof (
       position_of_the_pins: assert (!valid || position[13:0] == pins_q[13:0]);
       position_by_the_step: assert (!valid || position == position_q + 32'($signed(step_q)));
       position_is_held: assert (!began_q || valid || position == position_q);
-      jumps_only_when_lost: assert (!valid || lost_q || (position - position_q < 32'sd2048 && position - position_q >= -32'sd2048));
+      jumps_only_when_lost: assert (!valid || lost_q || (position - position_q <= $signed(reach_q) && position - position_q >= -$signed(reach_q)));
       lost_after_errors: assert ({faults[3], faults[1:0]} == ({3{lost}} & {name_q[3], name_q[1:0]}));
       unwell_or_flagged: assert (faults[2] == (unwell_q || (lost && name_q[2])));
       frozen_after_a_motion: assert (faults[4] == frozen_q);
@@ -247,6 +266,9 @@ module frame_proof (
       inside_none: assert (asked_kind != 2'd0 || !\u_dut.g_spi.flagged_q );
       inside_turn: assert (position[13:0] == \u_dut.turn_q );
       inside_ill: assert (\u_dut.g_spi.ill_q == (unwell_q ? 2'd2 : 2'(bad_once_q)) && (bad_once_q || !unwell_q));
+      inside_reach: assert (lost || \u_dut.reach_q == 12'(reach));
+      inside_sum: assert (sum_q < 14'd2048 + 14'(Fastest));
+      inside_steps: assert (14'(\u_dut.step_q ) == last_q && 14'(\u_dut.before_q ) == before_q && last_q <= 14'(Fastest) && before_q <= 14'(Fastest));
       inside_row: assert (row_q == \u_dut.errors_q && row_q <= 3'(Errors));
       inside_name: assert (name_q == \u_dut.kinds_q );
       inside_moved: assert (\u_dut.moved_q == (moved_q && equal_q < 6'(Reads)));

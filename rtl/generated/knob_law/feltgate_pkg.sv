@@ -54,13 +54,14 @@ package feltgate_pkg;
   localparam int ABSOLUTE_HALF_CLOCKS = 5;  // clocks: half a serial clock
   localparam int ABSOLUTE_GAP_CLOCKS = 20;  // clocks before the serial clock and between readings
   localparam int ABSOLUTE_PERIOD = 96;  // ticks from reading to reading
+  localparam int ABSOLUTE_JUMP_STEP = 28;  // counts of the fastest motion in a reading
   localparam int ABSOLUTE_DIAGNOSIS = 0;  // SPI: address of the diagnosis
   localparam int ABSOLUTE_TABLE = 0;  // 1: readings are corrected by a table
   localparam int HALL = 0;  // 1: Hall lines give the electrical angle at power-up
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h6bd24600;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'hcc2fe835;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]

@@ -68,13 +68,14 @@ struct KnobLaw {
   static constexpr int absolute_half_clocks = 5;  // clocks: half a serial clock
   static constexpr int absolute_gap_clocks = 20;  // clocks before the serial clock and between readings
   static constexpr int absolute_period = 96;  // ticks from reading to reading
+  static constexpr int absolute_jump_step = 28;  // counts of the fastest motion in a reading
   static constexpr int absolute_diagnosis = 0;  // SPI: address of the diagnosis
   static constexpr int absolute_table = 0;  // 1: readings are corrected by a table
   static constexpr int hall = 0;  // 1: Hall lines give the electrical angle at power-up
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x6bd24600;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0xcc2fe835;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {

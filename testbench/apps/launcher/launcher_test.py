@@ -274,7 +274,8 @@ class Presets(Machine):
         self.assertEqual(first, ["feltgate_run"])
         self.assertEqual(others[0], ["feltgate_lever_law"])
         devices = ("lever", "pantograph", "two_levers", "stylus", "gimbal")
-        wanted = {"feltgate", "feltgate_gimbal_motor", *(f"feltgate_{name}_law" for name in devices)}
+        motors = ("feltgate_gimbal_motor", "feltgate_lever_current")
+        wanted = {"feltgate", *motors, *(f"feltgate_{name}_law" for name in devices)}
         self.assertEqual(sorted(*zip(*others)), sorted(wanted))
 
 

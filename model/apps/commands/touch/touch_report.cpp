@@ -152,8 +152,11 @@ std::string run_text(const TouchArguments& a, const touch::TouchRun& run) {
       "thousand, here\n",
       1e6 * m.median_s, 1e6 * m.rare_s);
   for (std::size_t n = 0; n < o.axes.size() && !o.reference.empty(); ++n) {
-    s += fmt::format("axis {}: engine off the law in {} by up to {:.3g} uNm, proven {:.3g} uNm\n",
-                     n, o.reference, 1e6 * o.axes[n].law_error_nm.max(), 1e6 * o.axes[n].bound_nm);
+    const double bound_nm = o.axes[n].bound_nm;
+    s += fmt::format("axis {}: engine off the law in {} by up to {:.3g} uNm, {}\n", n, o.reference,
+                     1e6 * o.axes[n].law_error_nm.max(),
+                     std::isfinite(bound_nm) ? fmt::format("proven {:.3g} uNm", 1e6 * bound_nm)
+                                             : "no bound proven: the law has a state");
   }
   s += o.lock_step
            ? fmt::format("RTL and twin: {} mismatches in {} clocks\n", o.mismatches, o.clocks)

@@ -35,7 +35,7 @@ struct HostCase {
   double stiffness_nm_rad = 0;
   double noise_rad = 0;    ///< standard deviation, drawn anew at each reading
   double smoothing = 1.0;  ///< alpha of s += alpha * (x - s); 1 is none
-  double press_nm = 0.02;  ///< of the hand, whose aim is as far beyond the face as that takes
+  double press_nm = 0.02025;  ///< of the hand, which aims as far beyond the face as that takes
 };
 struct HostFigures {
   double rate_hz = 0;          ///< nearest whole number of ticks

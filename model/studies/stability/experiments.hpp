@@ -33,8 +33,8 @@ double encoder_rule_nm_rad(const design::Elaborated& design, const plant::Parame
 struct HostCase {
   double rate_hz = 0;
   double stiffness_nm_rad = 0;
-  double noise_rad = 0;    ///< standard deviation, drawn anew at each reading
-  double smoothing = 1.0;  ///< alpha of s += alpha * (x - s); 1 is none
+  double noise_rad = 0;       ///< standard deviation, drawn anew at each reading
+  double smoothing = 1.0;     ///< alpha of s += alpha * (x - s); 1 is none
   double press_nm = 0.02025;  ///< of the hand, which aims as far beyond the face as that takes
 };
 struct HostFigures {

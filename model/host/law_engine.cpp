@@ -173,6 +173,9 @@ LoadReport LawEngine::load(const law::Image& image, const std::function<void(dou
         {H::data + law::Image::parameter_base + n, static_cast<std::uint32_t>(image.data[word])});
   }
   image_ = std::make_unique<law::Image>(image);
+  // Each commit fills one of two banks. In the other one a word of the law before may be out of
+  // the ranges of this one, and the next set would be refused for it.
+  commit(parameters);
   commit(parameters);
   // From here on the board may be armed.
   write(H::crc, law::crc(image));

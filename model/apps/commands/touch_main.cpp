@@ -95,9 +95,7 @@ touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh)
 
 touch::TouchRun touched(const TouchArguments& a, const touch::Mesh& mesh,
                         const touch::TouchRequest& request) {
-  AxesScene scene =
-      read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
-                      [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  AxesScene scene = stylus_scene();
   scene.scenario.name = std::filesystem::path(a.glb).stem().string();
   scene.scenario.law = touch::law_of(request);
   const DesignInfo info = find_axes_design(own_design(scene))->info();

@@ -224,4 +224,12 @@ TEST_CASE("host axes: mailbox updates of 64 bytes at 3 Mbaud; lost and late ones
   b.wire->run(D::clock_hz / 5);
   CHECK(nm(0) == 0);
   CHECK(nm(1) == 0);
+
+  // Both banks of the next law have its own words: none of this one's is refused for it.
+  b.device.disarm();
+  b.settle();
+  b.engine.load(springs());
+  for (const double stiffness : {0.5, 0.75, 0.9}) {
+    CHECK(std::abs(b.engine.set({{"stiffness", stiffness}}).front() - stiffness) < 1e-3);
+  }
 }

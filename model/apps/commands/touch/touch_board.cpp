@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "apps/commands/commands.hpp"
 #include "apps/commands/host/streaming.hpp"
-#include "sim/axes_loop/axes_scene.hpp"
 
 namespace feltgate {
 
@@ -24,20 +24,18 @@ constexpr double bits_per_write = 15 * 10, most_of_line = 0.8;
 /// Without --csv, figures are of the last so many poses at most: a session may last for days.
 constexpr std::size_t most_kept = 200'000;
 
-double capstan_of_stylus_m() {
-  const AxesScene scene =
-      read_axes_scene(find_file("stylus_cube", "vectors/scenes"),
-                      [](const std::string& name) { return find_file(name, "vectors/devices"); });
-  return std::get<StylusSetup>(scene.device).parameters.lever.lever.radius_m;
-}
-
-/// Gives the board this law, if it does not have it.
+/// Gives the board this law, if it does not have it, without a plane: another session may have left
+/// one, and its velocity, in the mailbox.
 void bring_law(host::Session& session, host::LawEngine& laws, const char* name, bool quiet) {
   const law::Image image = session.image_of(name);
-  if (laws.holds(image)) return laws.attach(image);
-  Progress progress("loading the law " + image.name, quiet);
-  laws.load(image, [&](double share) { progress.update(share); });
-  host::keep_law(host::laws_folder(), image);
+  if (laws.holds(image)) {
+    laws.attach(image);
+  } else {
+    Progress progress("loading the law " + image.name, quiet);
+    laws.load(image, [&](double share) { progress.update(share); });
+    host::keep_law(host::laws_folder(), image);
+  }
+  laws.set({{"stiffness", 0}, {"speed_x", 0}, {"speed_y", 0}, {"speed_z", 0}});
 }
 
 /// Within the ranges of the law's words.
@@ -69,6 +67,12 @@ bool began(touch::Seeker& seeker, Vec3 pen_m, bool quiet) {
 
 }  // namespace
 
+AxesScene stylus_scene() {
+  return read_axes_scene(find_file("stylus_cube", "vectors/scenes"), [](const std::string& name) {
+    return find_file(name, "vectors/devices");
+  });
+}
+
 BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
                        const touch::TouchRequest& request) {
   constexpr double shown_every_s = 0.25;
@@ -85,11 +89,9 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
   host::Device& device = session.device();
   host::LawEngine laws(device);
   bring_law(session, laws, touch::law_of(request), a.quiet);
-  const double capstan_m = capstan_of_stylus_m();
+  const double capstan_m =
+      std::get<StylusSetup>(stylus_scene().device).parameters.lever.lever.radius_m;
   touch::Seeker seeker(mesh, request);
-  // The first update sends the velocity, too, which another session may have left in the mailbox.
-  PlaneHostSettings all = seeker.host();
-  all.moves = true;
   host::MailboxBurst burst(device, laws);
 
   BoardTouch b;
@@ -108,6 +110,7 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
   b.rate_hz = tick_hz / period;
   const auto columns = host::stream_columns(device, stream);
   double shown_s = -shown_every_s;
+  bool told = a.quiet;  // that the pen is in the mesh
   if (!a.quiet) {
     std::fputs(fmt::format("{}planes at {:.0f} Hz to {}, {} baud; Ctrl-C ends it\n",
                            simulated_banner(session.board()), b.rate_hz, a.board, a.baud)
@@ -122,10 +125,9 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
                   by * tick.value(*columns[first + 2])};
     };
     const Vec3 pen_m = vector_of(0, capstan_m);
-    if (b.run.updates.empty() && !began(seeker, pen_m, a.quiet || b.waited++ > 0)) return;
+    if (b.run.updates.empty() && !began(seeker, pen_m, std::exchange(told, true))) return;
     const auto [plane, material] = seeker.find(pen_m, tick.time_s, b.run.updates);
-    std::map<std::string, double> words =
-        plane_words(burst.counts().sent == 0 ? all : seeker.host(), material, plane, pen_m);
+    std::map<std::string, double> words = plane_words(seeker.host(), material, plane, pen_m);
     keep_within(words, laws);
     burst.send(words);
     const Vec3 force_n = vector_of(3, 1 / capstan_m);
@@ -151,10 +153,9 @@ std::string board_text(const BoardTouch& b) {
   const TouchSummary m = summary_of(b.run);
   return fmt::format(
       "\n{} planes at {:.0f} Hz, {:.0f} % touching; {} poses overtaken, {} frames lost on the "
-      "line, "
-      "{} checks found a busy engine\ndepth up to {:.3f} mm, force up to {:.3f} N; an update of "
-      "the "
-      "proxy took {:.1f} us in the median\n",
+      "line, {} checks found a busy engine\n"
+      "depth up to {:.3f} mm, force up to {:.3f} N; an update of the proxy took {:.1f} us in the "
+      "median\n",
       b.counts.sent, b.rate_hz, 100 * m.touching, b.skipped, b.counts.lost_frames, b.counts.dropped,
       1e3 * m.depth_m, m.force_n, 1e6 * m.median_s);
 }

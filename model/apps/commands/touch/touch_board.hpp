@@ -7,6 +7,7 @@
 
 #include "apps/commands/touch/touch_report.hpp"
 #include "host/mailbox_burst.hpp"
+#include "sim/axes_loop/axes_scene.hpp"
 
 namespace feltgate {
 
@@ -15,9 +16,11 @@ struct BoardTouch {
   touch::TouchRun run;  ///< poses, planes, and the force that the law asked for then; no result
   double rate_hz = 0;   ///< at which poses are asked for
   std::int64_t skipped = 0;  ///< poses that a newer one had overtaken
-  std::int64_t waited = 0;   ///< poses in the mesh before the pen was led out of it
   host::BurstCounts counts;
 };
+
+/// The stylus with planes that is shipped.
+AxesScene stylus_scene();
 
 /// Loads the law if the board has another one, arms it, and sends planes until `a.seconds` are over
 /// or Ctrl-C; the motors are off afterwards. A pen that is in the mesh feels nothing until it is

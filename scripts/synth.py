@@ -37,7 +37,8 @@ def arguments():
     add = {"action": "append"}
     what = "a design point; default: lever, paper; with --board lever, or a file of your own"
     parser.add_argument("--design", metavar="DESIGN", help=what, **add)
-    parser.add_argument("--block", metavar="BLOCK", help="a block, or 'core'; default: all; of several the sum too, each as often as named", **add)
+    what = "a block, or 'core'; default: all; of several the sum too, each as often as named"
+    parser.add_argument("--block", metavar="BLOCK", help=what, **add)
     what = (
         "the core of a design that builds only what these scenes need, instead of the blocks; "
         "may be repeated, one row for each"

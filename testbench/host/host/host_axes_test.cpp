@@ -230,6 +230,7 @@ TEST_CASE("host axes: mailbox updates of 64 bytes at 3 Mbaud; lost and late ones
   b.settle();
   b.engine.load(springs());
   for (const double stiffness : {0.5, 0.75, 0.9}) {
-    CHECK(std::abs(b.engine.set({{"stiffness", stiffness}}).front() - stiffness) < 1e-3);
+    // A step of its word is 5.3 mNm/rad.
+    CHECK(std::abs(b.engine.set({{"stiffness", stiffness}}).front() - stiffness) < 5.3e-3);
   }
 }

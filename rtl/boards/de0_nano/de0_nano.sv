@@ -39,7 +39,9 @@ module de0_nano #(
   input  logic       CURRENT_DATA, // modulator of the motor's current
   output logic       CURRENT_CLOCK,
   input  logic       DRIVER_FAULT, // high: the bridge's driver has a fault, or it is not plugged in
-  output logic       HEARTBEAT   // to a watchdog outside
+  output logic       HEARTBEAT,  // to a watchdog outside
+  output logic       GATE_C_HI,  // third leg, of a motor with three phases
+  output logic       GATE_C_LO
 );
 
   generate
@@ -83,8 +85,8 @@ module de0_nano #(
     .current_clock_o(CURRENT_CLOCK),
     .driver_fault_i(DRIVER_FAULT),
     .heartbeat_o(HEARTBEAT),
-    .gate_c_hi_o(),
-    .gate_c_lo_o(),
+    .gate_c_hi_o(GATE_C_HI),
+    .gate_c_lo_o(GATE_C_LO),
     .arm_i(arm),
     .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),

@@ -55,15 +55,15 @@ module current_check (
 
   logic signed [37:0] product;
   logic signed [25:0] apart;  // of voltage and current
-  logic signed [25:0] margin;
+  logic signed [17:0] margin;
   logic signed [18:0] far;
   logic               astray;
   logic        [ 3:0] count_q;  // results astray before this one
   assign product = {high_q, word_q};
   assign apart   = 26'(resistive_q) - 26'(product >>> Drop);
-  assign margin  = $signed({9'd0, margin_i});
+  assign margin  = $signed({1'b0, margin_i});
   assign far     = $signed(margin_i[16] ? 19'h3ffff : {1'b0, margin_i[15:0], 2'b00});
-  assign astray  = apart > margin || apart < -margin || 26'(across_q) > margin || 26'(across_q) < -margin;
+  assign astray  = apart > 26'(margin) || apart < -26'(margin) || across_q > 19'(margin) || across_q < -19'(margin);
   logic unused_product;
   assign unused_product = ^product[Drop-1:0];
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -284,9 +284,10 @@ module absolute_encoder #(
   // since, because it was wrong or no angle, adds the larger of the last two steps and a third of the fastest, which is more
   // than a shaft gains in a reading. A jump adds nothing, so an angle that stays where it leapt is a fault.
   localparam int Gain = (JumpStep + 2) / 3;
-  logic [ReachW-1:0] step_q, before_q, larger, pace;  // at most JumpStep
+  localparam int StepW = $clog2(JumpStep + 1);
+  logic [StepW-1:0] step_q, before_q, larger, pace;
   assign larger = step_q > before_q ? step_q : before_q;
-  assign pace   = larger > ReachW'(JumpStep - Gain) ? ReachW'(JumpStep) : larger + ReachW'(Gain);
+  assign pace   = larger > StepW'(JumpStep - Gain) ? StepW'(JumpStep) : larger + StepW'(Gain);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       reach_q  <= '0;  // the first reading is any
@@ -294,10 +295,10 @@ module absolute_encoder #(
       before_q <= '0;
     end else if (good) begin
       reach_q  <= 2 * JumpStep < Eighth ? ReachW'(2 * JumpStep) : ReachW'(Eighth);
-      step_q   <= is_lost || size > Bits'(JumpStep) ? ReachW'(JumpStep) : ReachW'(size);
+      step_q   <= is_lost || size > Bits'(JumpStep) ? StepW'(JumpStep) : StepW'(size);
       before_q <= step_q;
     end else if (ends_q && (missing_q || wrong || bad || !is_angle)) begin
-      reach_q <= reach_q > ReachW'(Eighth) - pace ? ReachW'(Eighth) : reach_q + pace;
+      reach_q <= reach_q > ReachW'(Eighth) - ReachW'(pace) ? ReachW'(Eighth) : reach_q + ReachW'(pace);
     end
   end
 endmodule

@@ -24,7 +24,8 @@ module hall_sensor #(
 );
   // Lines that stay.
   logic [2:0] meta_q, sync_q, last_q, code_q;
-  logic [9:0] wait_q;
+  localparam int WaitW = Glitch > 0 ? $clog2(Glitch + 1) : 1;
+  logic [WaitW-1:0] wait_q;
   logic       ready_q;  // code_q is of the lines
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -32,13 +33,13 @@ module hall_sensor #(
       sync_q  <= '0;
       last_q  <= '0;
       code_q  <= '0;
-      wait_q  <= 10'(Glitch);
+      wait_q  <= WaitW'(Glitch);
       ready_q <= 1'b0;
     end else begin
       meta_q <= hall_i;
       sync_q <= meta_q;
       last_q <= sync_q;
-      if (sync_q != last_q) wait_q <= 10'(Glitch);
+      if (sync_q != last_q) wait_q <= WaitW'(Glitch);
       else if (wait_q != '0) wait_q <= wait_q - 1'b1;
       else begin
         code_q  <= last_q;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""scripts/cmake/ccache.cmake: what was compiled comes from the cache, and never what a header was before."""
+"""scripts/cmake/quick_build.cmake: what was compiled comes from the cache, and never what a header was before."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ from testing import ROOT, Scratch, environment, ran
 PROJECT = f"""cmake_minimum_required(VERSION 3.22)
 project(small LANGUAGES CXX)
 list(APPEND CMAKE_MODULE_PATH "{ROOT}/scripts/cmake")
-include(ccache)
+include(quick_build)
 add_executable(small small.cpp)
 target_precompile_headers(small PRIVATE early.hpp)
 """

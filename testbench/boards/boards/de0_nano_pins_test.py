@@ -52,14 +52,14 @@ ENC_A = "set_location_assignment PIN_A5 -to ENC_A\n"
 
 
 class De0Nano(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 34, 18)
+    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 36, 20)
     WORDS = ("PIN_",)
     MISTAKES = (
         ("qsf", ENC_A, "", "port ENC_A is at None"),
         ("qsf", ENC_A, ENC_A + ENC_A.replace("A5", "A6"), "port ENC_A is used 2 times"),
         ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_C9 -to GATE_A_LO", "pin C9 is used 2 times"),
         ("qsf", "PIN_D9 -to", "PIN_Z99 -to", "Z99, which is not in pins.csv"),
-        ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_D9 -to GATE_C_LO", "GATE_C_LO is no port"),
+        ("qsf", "PIN_D9 -to GATE_A_LO", "PIN_D9 -to GATE_D_LO", "GATE_D_LO is no port"),
         ("qsf", STANDARD_OF, "", "ESTOP has IO_TYPE None"),
         ("qsf", '"3.3-V LVTTL" -to KEY[1]', '"2.5-V LVTTL" -to KEY[1]',
          "KEY[1] has IO_TYPE 2.5-V LVTTL"),

@@ -63,7 +63,7 @@ module current_check (
   assign apart   = 26'(resistive_q) - 26'(product >>> Drop);
   assign margin  = $signed({1'b0, margin_i});
   assign far     = $signed(margin_i[16] ? 19'h3ffff : {1'b0, margin_i[15:0], 2'b00});
-  assign astray  = apart > 26'(margin) || apart < -26'(margin) || across_q > 19'(margin) || across_q < -19'(margin);
+  assign astray  = apart > 26'(margin) || apart < -(26'(margin)) || across_q > 19'(margin) || across_q < -(19'(margin));
   logic unused_product;
   assign unused_product = ^product[Drop-1:0];
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -85,6 +85,7 @@ module de0_nano #(
     .heartbeat_o(HEARTBEAT),
     .gate_c_hi_o(),
     .gate_c_lo_o(),
+    .hall_i(3'b000),  // such designs are refused
     .arm_i(arm),
     .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),

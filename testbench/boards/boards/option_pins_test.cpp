@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A board's top level around a stub of feltgate_linked: each pin of a current loop, of the bridge's
-// driver and of an absolute encoder reaches its port of that block and no other. What the block
+// driver, of an absolute encoder and of Hall lines reaches its port of that block and no other. What the block
 // does with them: testbench/link/feltgate_linked/sensors_test.cpp. Documentation:
 // docs/boards/ulx3s.md
 #if defined(ULX3S)
@@ -52,16 +52,31 @@ Outputs outputs_of(const Inputs& in) {
 }  // namespace
 
 #ifdef ULX3S
-TEST_CASE("board: the gates of the third leg reach their pins") {
-  for (unsigned k = 0; k < 8; ++k) {
+TEST_CASE("board: the gates of the third leg and the Hall lines reach their pins") {
+  for (unsigned k = 0; k < 64; ++k) {
     const auto top = std::make_unique<Top>();
     top->enc_a = k & 1u;
     top->enc_b = k >> 1 & 1u;
     top->enc_z = k >> 2 & 1u;
+    top->hall = k >> 3;
     top->eval();
-    // What the stub shows of the encoder.
-    CHECK(top->gate_c_hi == (top->enc_a && top->enc_z));
-    CHECK(top->gate_c_lo == (top->enc_b && top->enc_z));
+    // What the stub shows of the encoder and of the lines.
+    const auto line = [&](unsigned n) { return k >> (3 + n) & 1u; };
+    CHECK(top->gate_c_hi == ((top->enc_a && top->enc_z) ^ line(0) ^ line(2)));
+    CHECK(top->gate_c_lo == ((top->enc_b && top->enc_z) ^ line(1) ^ line(2)));
+  }
+}
+
+TEST_CASE("board: the second modulator has a pin where the design has two shunts, and its clock") {
+  for (unsigned k = 0; k < 4; ++k) {
+    const auto top = std::make_unique<Top>();
+    top->encoder_data = 1;
+    top->current_data = k & 1u;
+    top->current_data_b = k >> 1 & 1u;
+    top->eval();
+    CHECK(top->encoder_command == (k & 1u));  // the stub: of the first alone
+    CHECK(top->current_clock == (MODULATORS == 2 ? (k & 1u) ^ (k >> 1 & 1u) : k & 1u));
+    CHECK(top->current_clock_b == top->current_clock);
   }
 }
 #endif

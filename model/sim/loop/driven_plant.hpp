@@ -129,7 +129,7 @@ class DrivenPlant {
   }
 
   bool switched_;
-  double period_;  ///< of the PWM, clocks
+  double period_;                         ///< of the PWM, clocks
   std::optional<plant::HallLines> hall_;  ///< only of a design that has their pins
   Either plant_;
   std::vector<plant::SigmaDelta> modulators_;

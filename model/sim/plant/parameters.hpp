@@ -34,7 +34,7 @@ struct EmfHarmonic {
 /// Three Hall sensors of a motor. Line n is high in half of an electrical turn, from a third of a
 /// turn after line n - 1 on.
 struct HallLines {
-  double begin_rad = 0;                ///< electrical angle at which line 0 rises
+  double begin_rad = 0;                  ///< electrical angle at which line 0 rises
   std::array<double, 3> error_rad = {};  ///< electrical: how far each sensor is from its place
   /// The lines at an electrical angle; bit n: line n.
   unsigned code(double electrical_rad) const {

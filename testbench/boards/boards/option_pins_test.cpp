@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A board's top level around a stub of feltgate_linked: each pin of a current loop, of the bridge's
-// driver, of an absolute encoder and of Hall lines reaches its port of that block and no other. What the block
-// does with them: testbench/link/feltgate_linked/sensors_test.cpp. Documentation:
+// driver, of an absolute encoder and of Hall lines reaches its port of that block and no other.
+// What the block does with them: testbench/link/feltgate_linked/sensors_test.cpp. Documentation:
 // docs/boards/ulx3s.md
 #if defined(ULX3S)
 #include <Vulx3s.h>

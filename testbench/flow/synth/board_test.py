@@ -157,11 +157,11 @@ class StandIns(Scratch):
 
     def test_what_a_board_has_no_pins_of_is_refused(self):
         for design, said in (
-            ("gimbal_current", "has two shunts, and tang_nano_9k has no pin of a second modulator"),
-            ("hall_motor", "has Hall lines, and tang_nano_9k has no pins of them"),
+            ("gimbal_current", "has two shunts, and de0_nano has no pin of a second modulator"),
+            ("hall_motor", "has Hall lines, and de0_nano has no pins of them"),
         ):
             with self.subTest(design):
-                done, written, _ = self.run_board("--board", "tang_nano_9k", "--design", design, clock=54)
+                done, written, _ = self.run_board("--board", "de0_nano", "--design", design)
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(said, done.stderr)
                 self.assertEqual(written, "")

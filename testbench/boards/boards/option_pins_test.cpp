@@ -58,7 +58,7 @@ TEST_CASE("board: the gates of the third leg and the Hall lines reach their pins
     top->enc_a = k & 1u;
     top->enc_b = k >> 1 & 1u;
     top->enc_z = k >> 2 & 1u;
-    top->hall = k >> 3;
+    top->hall = static_cast<unsigned char>(k >> 3);
     top->eval();
     // What the stub shows of the encoder and of the lines.
     const auto line = [&](unsigned n) { return k >> (3 + n) & 1u; };

@@ -192,7 +192,8 @@ class Beside : public sc_core::sc_module {
       ++mismatches;
     }
     currents += o.current != 0 ? 1 : 0;
-    faults += o.faults != 0 ? 1 : 0;
+    const bool told = o.word_valid && o.word_slot == Map::R::faults;
+    faults += told && o.word_data >> D::C::faults_absolute != 0 ? 1 : 0;
     ++clocks;
     bits_ = bits_ * 6364136223846793005u + 1442695040888963407u;
     const auto random = static_cast<std::uint32_t>(bits_ >> 40);
@@ -225,7 +226,8 @@ int options(std::int64_t clocks) {
       static_cast<long long>(shunts.clocks), static_cast<long long>(shunts.mismatches),
       static_cast<long long>(shunts.currents), static_cast<long long>(hall.mismatches),
       static_cast<long long>(hall.faults));
-  const bool lived = shunts.currents > clocks / 2 && hall.faults > clocks / 8;
+  // A current is measured once its offset is, in 512 periods; the lines are told in each tick.
+  const bool lived = shunts.currents > clocks / 16 && hall.faults > clocks / 1000;
   return shunts.mismatches + hall.mismatches == 0 && lived ? 0 : 1;
 }
 

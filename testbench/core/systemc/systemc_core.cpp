@@ -19,6 +19,7 @@
 #include "feltgate/generated/gimbal_current.hpp"
 #include "feltgate/generated/hall_motor.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/pushing_hand.hpp"
@@ -200,10 +201,15 @@ class Beside : public sc_core::sc_module {
     CoreIn in;
     in.current_data = static_cast<std::uint8_t>(random & (controlled_currents<D> > 1 ? 3u : 0u));
     in.hall = static_cast<std::uint8_t>(clocks >> 9 & 7);
-    in.encoder_data = (random & 8u) != 0;
+    in.arm = clocks > 530'000;  // once the offset of the current is known, after 512 periods
+    if constexpr (D::absolute_encoder != 0) {
+      sensor_.turn(0.9, 0.9, clocks, 1);
+      in.encoder_data = sensor_.pin(clocks, o.serial);
+    }
     board.in.current_data_i.write(static_cast<systemc::CurrentDataOf<D>>(in.current_data));
     board.in.hall_i.write(in.hall);
     board.in.encoder_data_i.write(in.encoder_data);
+    board.in.arm_i.write(in.arm);
     core_.clock(in);
   }
 
@@ -213,6 +219,7 @@ class Beside : public sc_core::sc_module {
 
  private:
   FeltgateCore<D> core_;
+  AbsoluteSensor sensor_{absolute_parameters<GimbalCurrent>()};
   std::uint64_t bits_ = 1;
 };
 
@@ -226,8 +233,7 @@ int options(std::int64_t clocks) {
       static_cast<long long>(shunts.clocks), static_cast<long long>(shunts.mismatches),
       static_cast<long long>(shunts.currents), static_cast<long long>(hall.mismatches),
       static_cast<long long>(hall.faults));
-  // A current is measured once its offset is, in 512 periods; the lines are told in each tick.
-  const bool lived = shunts.currents > clocks / 16 && hall.faults > clocks / 1000;
+  const bool lived = shunts.currents > 1000 && hall.faults > clocks / 1000;
   return shunts.mismatches + hall.mismatches == 0 && lived ? 0 : 1;
 }
 

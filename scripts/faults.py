@@ -15,8 +15,9 @@ points of injection:
 
 --design lever_current, lever_absolute, gimbal_motor, gimbal_current or hall_motor breaks what these
 have at their pins instead: the current's sensors, the driver, the winding and its gates; the absolute
-encoder, a phase, the offset of the electrical angle, Hall lines. There a setpoint acts in a hand that holds or
-turns the shaft (a wall too where a position is wrong), and the sound core has a motor of its own.
+encoder, a phase, the offset of the electrical angle, Hall lines. There a setpoint acts in a hand
+that holds or turns the shaft (a wall too where a position is wrong), and the sound core has a motor
+of its own.
 
 Each fault ends in one class:
 

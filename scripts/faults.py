@@ -13,10 +13,11 @@ points of injection:
               twin
   words       wrong bits and garbage at the register port while armed; the twin
 
---design lever_current, lever_absolute, gimbal_motor or gimbal_current breaks what these have at
-their pins instead: the current's sensors, the driver, the winding and its gates; the absolute
-encoder, a phase, the offset of the electrical angle. There a setpoint acts in a hand that holds or
-turns the shaft (a wall too where a position is wrong), and the sound core has a motor of its own.
+--design lever_current, lever_absolute, gimbal_motor, gimbal_current or hall_motor breaks what these
+have at their pins instead: the current's sensors, the driver, the winding and its gates; the absolute
+encoder, a phase, the offset of the electrical angle, Hall lines. There a setpoint acts in a hand
+that holds or turns the shaft (a wall too where a position is wrong), and the sound core has a motor
+of its own.
 
 Each fault ends in one class:
 

@@ -41,10 +41,12 @@ def legs(folder):
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
+    if board == "tang_nano_9k" and of_package(folder, "HALL"):
+        raise ToolError(f"{design} has Hall lines, and {board} has no pins of them")
+    if board == "tang_nano_9k" and legs(folder) == 3 and of_package(folder, "CURRENT_LOOP"):
+        raise ToolError(f"{design} has two shunts, and {board} has no pin of a second modulator")
     if board == "tang_nano_9k" and legs(folder) == 3:
         raise ToolError(f"{design} has three phases, and {board} has no pins of a third leg")
-    if legs(folder) == 3 and of_package(folder, "CURRENT_LOOP"):
-        raise ToolError(f"{design} has two shunts, and {board} has no pin of a second modulator")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)

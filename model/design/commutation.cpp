@@ -66,6 +66,10 @@ void check_commutation(const Design& d) {
     d.fail("commutation.hall", "an absolute encoder knows the angle at power-up",
            "leave it or [absolute_encoder] out");
   }
+  if (d.hall && d.engine) {
+    d.fail("commutation.hall", "a core with an engine has no pins of Hall lines",
+           "leave it or [engine] out");
+  }
   const double between_s = d.absolute ? d.absolute_period_s : 0;
   if (d.overspeed_rad_s * d.pole_pairs * between_s > kElectricalTurnRad / 8) {
     d.fail("supervisor.overspeed_rad_s",

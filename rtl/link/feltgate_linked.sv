@@ -45,6 +45,7 @@ module feltgate_linked #(
     output logic current_clock_o,
     input  logic driver_fault_i,
     output logic heartbeat_o,
+    input  logic [2:0] hall_i,
 
     // Panel
     input  logic       arm_i,
@@ -113,7 +114,7 @@ module feltgate_linked #(
         .faults_o(faults_o), .first_fault_o(first_fault_o),
         .armed_o(armed_o), .gates_enable_o(gates_enable_o)
     );
-    // Of one axis. The generator refuses these options of several, and a current loop beside an engine.
+    // Of one axis. The generator refuses these options of several, and a current loop or Hall lines beside an engine.
     assign gate_c_hi_o       = feltgate_pkg::PHASES == 3 && leg_c_hi[0];
     assign gate_c_lo_o       = feltgate_pkg::PHASES == 3 && leg_c_lo[0];
     assign encoder_select_no = feltgate_pkg::ABSOLUTE_ENCODER == 0 || select_n[0];
@@ -122,7 +123,7 @@ module feltgate_linked #(
     assign current_clock_o   = 1'b0;
     assign heartbeat_o       = 1'b0;
     logic unused;
-    assign unused = ^{leg_c_hi, leg_c_lo, select_n, serial_clock, command, current_data_i, driver_fault_i};
+    assign unused = ^{leg_c_hi, leg_c_lo, select_n, serial_clock, command, current_data_i, driver_fault_i, hall_i};
   end else begin : g_core
     feltgate_core #(.ReadBack(1), .ParameterFile(ParameterFile)) u_core (
         .clk_i(clk_i), .rst_ni(rst_ni),
@@ -137,7 +138,7 @@ module feltgate_linked #(
         .gate_c_hi_o(gate_c_hi_o), .gate_c_lo_o(gate_c_lo_o),
         .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
         .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
-        .hall_i(3'b000),  // no pins yet: docs/blocks/hall_sensor.md
+        .hall_i(hall_i),
         .arm_request_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
         .reg_addr_i(reg_addr[11:0]), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),
         .reg_busy_o(reg_busy), .reg_rdata_o(reg_rdata),

@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
       ->type_name("DESIGN");
   app.add_option("--plant", a.setup.plant,
                  "motor and lever: a name in vectors/plants or a path; default: p24, for three "
-                 "phases gimbal_motor")
+                 "phases gimbal_motor, for Hall lines hall_motor")
       ->type_name("PLANT");
   app.add_option(
          "--hand", a.setup.hand,

@@ -142,6 +142,7 @@ StepPlan LeverBoard::plan(const plant::Parameters& parameters, const plant::Hand
 void LeverBoard::step(Clock corner) {
   const Clock end = plan_.end_of_step(now_, std::min(corner, plant_.shaft().next_corner()),
                                       std::numeric_limits<Clock>::max());
+  const double before_rad = plant().theta_rad;
   if (looped_) {
     plant_.advance(core_->take_gates(), last_clocks_, end - now_);
     in_.current_data = plant_.current_bits();
@@ -152,11 +153,22 @@ void LeverBoard::step(Clock corner) {
   const double shown_rad = shown_angle(plant().theta_rad, error_rad_);
   core_->turn_encoder(shown_rad_, shown_rad, end - now_);
   shown_rad_ = shown_rad;
+  HallChange hall;
+  if (plant_.has_hall()) hall = plant_.hall(before_rad, plant().theta_rad, now_, end - now_);
+  const auto run_to = [&](Clock clock) {
+    const Clock until = std::clamp(clock, now_, end);
+    in_.hall = hall.code(now_);
+    if (hall.at > now_ && hall.at < until) {
+      run_core(hall.at - now_);
+      in_.hall = hall.after;
+    }
+    run_core(until - now_);
+  };
   for (const EncoderEvent& e : plant_.shaft().events()) {
-    run_core(std::clamp(e.clock, now_, end) - now_);
+    run_to(e.clock);
     in_.encoder[0] = e.pins;
   }
-  run_core(end - now_);
+  run_to(end);
 }
 
 std::vector<std::uint8_t> Board::take_sent() {

@@ -15,6 +15,7 @@ module board_pins #(
     input  logic [AxisCount-1:0]   enc_z_i,
     input  logic                   encoder_data_i,
     input  logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
+    input  logic [2:0]             hall_i,
     input  logic                   arm_i,
     input  logic                   stop_i,
     input  logic [4*AxisCount-1:0] scene_i,
@@ -59,7 +60,7 @@ module board_pins #(
       .encoder_data_i(encoder_data_i), .encoder_select_no(serial_o[0]), .encoder_clock_o(serial_o[1]),
       .encoder_command_o(serial_o[2]),
       /* verilator lint_off PINCONNECTEMPTY */  // the board's plant has no clock of a modulator and no watchdog
-      .current_data_i(current_data_i), .current_clock_o(), .driver_fault_i(1'b0), .heartbeat_o(),
+      .current_data_i(current_data_i), .current_clock_o(), .driver_fault_i(1'b0), .heartbeat_o(), .hall_i(hall_i),
       /* verilator lint_on PINCONNECTEMPTY */
       .arm_i(arm_i), .stop_i(stop_i), .set_zero_i({AxisCount{1'b0}}), .clear_faults_i(1'b0),
       .scene_i(scene_i),

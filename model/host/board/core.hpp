@@ -22,6 +22,7 @@ namespace feltgate::board {
 struct BoardIn {
   std::array<EncoderPins, most_axes> encoder;  ///< of each axis that the board has
   std::uint8_t current_data = 0;               ///< of a current loop: bit n of modulator n
+  std::uint8_t hall = 0;                       ///< of a motor with Hall lines; bit n: line n
   bool arm = false, stop = false;
   std::uint8_t scene = 0;  ///< of all axes
 };

@@ -88,6 +88,7 @@ class PinRtl : public Core {
       set_bits(rtl_->scene_i, 4 * n, 4, in.scene);
     }
     rtl_->current_data_i = in.current_data;
+    rtl_->hall_i = in.hall;
     rtl_->arm_i = in.arm;
     rtl_->inputs_i = inputs_;
   }

@@ -48,6 +48,7 @@ class PinTwin : public Core {
     pins.stop = in.stop;
     pins.inputs = inputs_;
     if constexpr (N == 1) pins.current_data = in.current_data;
+    if constexpr (N == 1) pins.hall = in.hall;
     const auto tell = [this] {
       for (std::size_t n = 0; n < N; ++n) hash_.add(of_axis(n));
     };

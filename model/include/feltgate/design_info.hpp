@@ -42,6 +42,7 @@ struct DesignInfo {
   double torque_constant_nm_a = 0;
   double current_full_scale_a = 0;  ///< of the current loop's modulator; 0: no loop
   std::optional<AbsoluteEncoder::Parameters> absolute;  ///< nothing: the encoder is incremental
+  bool hall = false;  ///< Hall lines give the electrical angle at power-up
   const ParameterInfo* parameters = nullptr;
   int parameter_count = 0;
   int control_address = 0, command_address = 0;
@@ -110,6 +111,7 @@ DesignInfo design_info() {
   i.shortest_clocks = D::shortest_clocks;
   i.pwm_mode = (D::control_reset >> D::C::control_pwm_mode) & 1;
   i.phases = D::phases;
+  i.hall = D::hall != 0;
   i.m1 = D::m1;
   i.rad_s_per_count = D::velocity_gain == 0
                           ? std::ldexp(1.0, D::velocity_shift)

@@ -21,6 +21,7 @@ struct LinkedIn {
   /// Of a design with these options, as in CoreIn; in others they are not used.
   bool encoder_data = false, driver_fault = false;
   std::uint8_t current_data = 0;  ///< bit n: of modulator n
+  std::uint8_t hall = 0;          ///< bit n: line n
   bool arm = false, stop = false, set_zero = false;
   bool clear_faults = false;  ///< one clock, like set_zero
   std::uint8_t scene = 0;
@@ -88,6 +89,7 @@ inline void to_device(const LinkedIn& in, CoreIn& to) {
   to.encoder_data = in.encoder_data;
   to.current_data = in.current_data;
   to.driver_fault = in.driver_fault;
+  to.hall = in.hall;
   to.arm = in.arm;
   to.stop = in.stop;
   to.set_zero = in.set_zero;

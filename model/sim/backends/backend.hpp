@@ -83,6 +83,13 @@ struct Panel {
   std::uint8_t scene = 0;
 };
 
+/// Hall lines that change once at most; bit n: line n.
+struct HallChange {
+  std::uint8_t before = 0, after = 0;
+  Clock at = 0;  ///< first clock of `after`
+  std::uint8_t code(Clock now) const { return now < at ? before : after; }
+};
+
 /// Clocks for which each gate was on, such as during the last advance().
 struct GateClocks {
   std::int64_t a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0;
@@ -142,6 +149,8 @@ class Backend : public AnyBackend {
 
   /// Sets the bits of a current loop's modulators from now() on; bit n: of modulator n.
   virtual void set_current_bits(std::uint8_t bits) = 0;
+  /// Hall lines of the motor from now() on.
+  virtual void set_hall(const HallChange& lines) = 0;
   /// The shaft of an absolute encoder turns between these angles in the next `clocks`.
   virtual void turn_encoder(double from_rad, double to_rad, Clock clocks) = 0;
 

@@ -33,6 +33,7 @@ class ClockedBackend : public Backend {
     writes_.clear();
     panel_ = {};
     current_bits_ = 0;
+    hall_ = {};
     mount_sensor();
     snapshots_.clear();
     gates_ = {};
@@ -42,6 +43,7 @@ class ClockedBackend : public Backend {
   }
   void set_panel(const Panel& panel) override { panel_ = panel; }
   void set_current_bits(std::uint8_t bits) override { current_bits_ = bits; }
+  void set_hall(const HallChange& lines) override { hall_ = lines; }
   void turn_encoder(double from_rad, double to_rad, Clock clocks) override {
     if (sensor_) sensor_->turn(from_rad, to_rad, now_, clocks);
   }
@@ -85,16 +87,18 @@ class ClockedBackend : public Backend {
   CoreIn inputs() const {
     CoreIn in;
     in.current_data = current_bits_;
+    in.hall = hall_.code(now_);
     in.arm = panel_.arm;
     in.stop = panel_.stop;
     in.scene = panel_.scene;
     in.reg_addr = reg_addr_;
     return in;
   }
-  /// The data of an absolute encoder in clock `now`, whose lines the core has set. Returns the end
-  /// of the clocks for which it holds, at most `until`.
+  /// Hall lines and the data of an absolute encoder in clock `now`, whose lines the core has set.
+  /// Returns the end of the clocks for which they hold, at most `until`.
   Clock sense(CoreIn* in, Clock now, unsigned lines, Clock until = 0) {
-    if (!sensor_) return until;
+    in->hall = hall_.code(now);
+    if (!sensor_) return now < hall_.at ? std::min(until, hall_.at) : until;
     in->encoder_data = sensor_->pin(now, lines);
     return now + 1;
   }
@@ -121,6 +125,7 @@ class ClockedBackend : public Backend {
   Clock now_ = 0;
   Panel panel_;
   std::uint8_t current_bits_ = 0;
+  HallChange hall_;
   std::optional<AbsoluteSensor> sensor_;
   EventQueue events_;
   WriteQueue writes_;

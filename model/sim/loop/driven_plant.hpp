@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -26,6 +27,7 @@ class DrivenPlant {
               const plant::Hand& hand, const DesignInfo& design, bool switched)
       : switched_(switched),
         period_(design.pwm_period),
+        hall_(design.hall ? parameters.phases->hall : std::nullopt),
         plant_(made(parameters, effects, plant::drive_of(design), hand)) {
     if (design.current_full_scale_a > 0) {
       modulators_.assign(design.phases == 3 ? 2 : 1,
@@ -56,6 +58,24 @@ class DrivenPlant {
       bits |= (modulators_[n].next(current_a) ? 1U : 0U) << n;
     }
     return static_cast<std::uint8_t>(bits);
+  }
+  bool has_hall() const { return hall_.has_value(); }
+  /// The Hall lines while the shaft turns between these angles, in `clocks` from `now` on; it turns
+  /// by less than a sector.
+  HallChange hall(double from_rad, double to_rad, Clock now, Clock clocks) const {
+    const auto code = [&](Clock after) {
+      const double share = static_cast<double>(after) / static_cast<double>(clocks);
+      const double rad = from_rad + share * (to_rad - from_rad);
+      return static_cast<std::uint8_t>(
+          hall_->code(std::get<plant::ThreePhasePlant>(plant_).motor().electrical_rad(rad)));
+    };
+    const std::uint8_t before = code(0), after = code(clocks);
+    Clock low = 0, high = before == after ? 0 : clocks;
+    while (high - low > 1) {
+      const Clock middle = (low + high) / 2;
+      (code(middle) == before ? low : high) = middle;
+    }
+    return {before, after, now + high};
   }
   /// Of a motor with three phases.
   void open_phase(std::size_t phase) { std::get<plant::ThreePhasePlant>(plant_).open_phase(phase); }
@@ -109,7 +129,8 @@ class DrivenPlant {
   }
 
   bool switched_;
-  double period_;  ///< of the PWM, clocks
+  double period_;                         ///< of the PWM, clocks
+  std::optional<plant::HallLines> hall_;  ///< only of a design that has their pins
   Either plant_;
   std::vector<plant::SigmaDelta> modulators_;
   int duty_clocks_ = 0;  ///< duty of the bridge; duty_ is its share of a period

@@ -199,6 +199,10 @@ class ScenarioRun : public SteppedRun {
       if (recorder_) recorder_->add(e);
     }
     if (looped_) core_.lead().set_current_bits(driven_.current_bits());
+    if (driven_.has_hall()) {
+      core_.lead().set_hall(
+          driven_.hall(before_.theta_rad, o.theta_rad, plant_.now() - clocks, clocks));
+    }
     const double shown_rad = shown_angle(o.theta_rad, error_rad_);
     core_.lead().turn_encoder(shown_rad_, shown_rad, clocks);
     shown_rad_ = shown_rad;

@@ -25,10 +25,12 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   Ensemble core(options.design, choice, options.seed, source.initial(),
                 Waveform{options.fst, options.fst_from, options.fst_to});
   const DesignInfo& d = core.design();
-  if (d.current_full_scale_a > 0 || d.absolute) {
+  if (d.current_full_scale_a > 0 || d.absolute || d.hall) {
     throw std::invalid_argument(
         fmt::format("design {} measures {}, which a recording does not have", d.name,
-                    d.absolute ? "the angle by an absolute encoder" : "the motor's current"));
+                    d.absolute ? "the angle by an absolute encoder"
+                    : d.hall   ? "the motor's angle by Hall lines"
+                               : "the motor's current"));
   }
   core.skip_self_test();
   core.set_control(scene_number(d, options.scene), 0, options.arm);

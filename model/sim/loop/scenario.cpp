@@ -240,6 +240,7 @@ std::string own_design(const Scenario& scenario) {
 }
 
 std::string default_plant(const DesignInfo& design) {
+  if (design.hall) return "hall_motor";
   return design.phases == 3 ? "gimbal_motor" : "p24";
 }
 

@@ -310,6 +310,12 @@ void check_phases(const Scenario& s, const plant::Parameters& plant, const Desig
         "gimbal_motor say",
         s.path, e.line, plant.name));
   }
+  if (design.hall && three && !plant.phases->hall) {
+    throw config::ConfigError(fmt::format(
+        "design {} begins with the motor's Hall lines, and plant {} has none; give it hall_rad and "
+        "hall_error_rad in [motor], or choose another, hall_motor say",
+        design.name, plant.name));
+  }
   if (three == (design.phases == 3)) return;
   throw config::ConfigError(fmt::format(
       "plant {} has a motor {}, and design {} drives one {}; choose another plant or design",

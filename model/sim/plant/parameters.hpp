@@ -6,6 +6,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +31,23 @@ struct EmfHarmonic {
   double share = 0.0;
 };
 
+/// Three Hall sensors of a motor. Line n is high in half of an electrical turn, from a third of a
+/// turn after line n - 1 on.
+struct HallLines {
+  double begin_rad = 0;                  ///< electrical angle at which line 0 rises
+  std::array<double, 3> error_rad = {};  ///< electrical: how far each sensor is from its place
+  /// The lines at an electrical angle; bit n: line n.
+  unsigned code(double electrical_rad) const {
+    unsigned code = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const double third_rad = kTwoPi / 3 * static_cast<double>(n);
+      const double since_rad = electrical_rad - begin_rad - third_rad - error_rad[n];
+      if (std::sin(since_rad) >= 0) code |= 1u << n;
+    }
+    return code;
+  }
+};
+
 /// Constants of a motor with three phases. Electrical angle = pole_pairs*theta + offset_rad;
 /// back-EMF of phase k = back_emf_v_s_rad*omega*shape(electrical angle - k*120 degrees).
 struct PhaseParameters {
@@ -38,6 +57,7 @@ struct PhaseParameters {
   double offset_rad = 0.0;
   double back_emf_v_s_rad = 0.0;       ///< peak of one phase; also Nm/A of one phase
   std::vector<EmfHarmonic> harmonics;  ///< empty: sinusoidal
+  std::optional<HallLines> hall;       ///< nullopt: the motor has none
 
   /// Current: the peak of a phase, whose sinusoid is in phase with the back-EMF.
   MotorParameters as_brushed() const {

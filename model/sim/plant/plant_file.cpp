@@ -18,6 +18,8 @@ namespace {
 constexpr config::Range kEdgeOffset{-0.25, 0.25};
 constexpr config::Range kLineJitter{0.0, 0.05};
 constexpr config::Range kAbsoluteError{-200.0, 200.0};
+// Beyond half a sector the order of a sensor's edges is another.
+constexpr config::Range kHallError{-0.5, 0.5};
 
 LeverParameters read_lever(config::TomlReader table) {
   LeverParameters lever;
@@ -86,6 +88,17 @@ PhaseParameters read_phases(config::TomlReader table, std::vector<config::TomlRe
   motor.back_emf_v_s_rad = table.number("back_emf_v_s_rad", config::kPositive);
   motor.resistance_ohm = table.number("resistance_ohm", config::kPositive);
   motor.inductance_h = table.number("inductance_h", config::kPositive);
+  if (table.has("hall_rad")) {
+    HallLines hall;
+    hall.begin_rad = table.number("hall_rad", {-kTwoPi, kTwoPi});
+    const auto errors = table.numbers("hall_error_rad", kHallError);
+    if (errors.size() != hall.error_rad.size()) {
+      table.fail("hall_error_rad", "\"hall_error_rad\" does not hold three numbers",
+                 "write one for each Hall line");
+    }
+    std::copy(errors.begin(), errors.end(), hall.error_rad.begin());
+    motor.hall = hall;
+  }
   table.finish();
   for (config::TomlReader& of : harmonics) {
     EmfHarmonic h;

@@ -14,7 +14,7 @@ namespace feltgate::systemc {
 
 template <class D>
 class TwinModule : public sc_core::sc_module {
-  static_assert(controlled_currents<D> < 2, "current_data_i has one line here");
+  using CurrentData = CurrentDataOf<D>;
 
  public:
   sc_core::sc_in<bool> clk_i{"clk_i"}, rst_ni{"rst_ni"};
@@ -55,7 +55,7 @@ class TwinModule : public sc_core::sc_module {
     in.encoder = {enc_a_i.read(), enc_b_i.read(), enc_z_i.read()};
     in.encoder_data = encoder_data_i.read();
     in.hall = static_cast<std::uint8_t>(hall_i.read());
-    in.current_data = current_data_i.read();
+    in.current_data = static_cast<std::uint8_t>(current_data_i.read());
     in.driver_fault = driver_fault_i.read();
     in.arm = arm_i.read();
     in.stop = stop_seen_ || stop_i.read();

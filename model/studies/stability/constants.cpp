@@ -38,8 +38,10 @@ std::vector<Constant> shared_constants(const Design& d, const Parameters& p, con
   if (d.phases == 3 && p.phases) {
     all.push_back({"pole pairs", "", "commutation.pole_pairs", static_cast<double>(d.pole_pairs),
                    static_cast<double>(p.phases->pole_pairs)});
+    // With Hall lines it is theirs, wherever the rotor stands at power-up.
+    const bool lines = d.hall && p.phases->hall;
     all.push_back({"electrical offset", "rad", "commutation.offset_rad", d.commutation_offset_rad,
-                   p.phases->offset_rad});
+                   lines ? p.phases->hall->begin_rad : p.phases->offset_rad});
   }
   if (d.compensate_dead_time && (on.dead_time || d.diode_drop_v > 0)) {
     all.push_back({"diode drop", "V", "pwm.diode_drop_v", d.diode_drop_v,

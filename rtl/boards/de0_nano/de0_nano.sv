@@ -38,10 +38,13 @@ module de0_nano #(
   output logic       ENCODER_COMMAND,
   input  logic       CURRENT_DATA, // modulator of the motor's current
   output logic       CURRENT_CLOCK,
+  input  logic       CURRENT_DATA_B,  // of a second modulator, at phase B
+  output logic       CURRENT_CLOCK_B, // the same clock
   input  logic       DRIVER_FAULT, // high: the bridge's driver has a fault, or it is not plugged in
   output logic       HEARTBEAT,  // to a watchdog outside
   output logic       GATE_C_HI,  // third leg, of a motor with three phases
-  output logic       GATE_C_LO
+  output logic       GATE_C_LO,
+  input  logic [2:0] HALL        // Hall lines of such a motor
 );
 
   generate
@@ -65,6 +68,11 @@ module de0_nano #(
     .rst_no(rst_n)
   );
 
+  localparam int Modulators = 1 + feltgate_pkg::CURRENT_LOOP * (feltgate_pkg::PHASES - 2);
+  logic [1:0] shunts;
+  assign shunts = {CURRENT_DATA_B, CURRENT_DATA};
+  assign CURRENT_CLOCK_B = CURRENT_CLOCK;
+
   // Open pins are not used on this board.
   /* verilator lint_off PINCONNECTEMPTY */
   feltgate_linked #(.Baud(Baud), .Board(1), .ParameterFile(ParameterFile)) u_linked (
@@ -81,12 +89,13 @@ module de0_nano #(
     .encoder_select_no(ENCODER_SELECT_N),
     .encoder_clock_o(ENCODER_CLOCK),
     .encoder_command_o(ENCODER_COMMAND),
-    .current_data_i(CURRENT_DATA),
+    .current_data_i(shunts[Modulators-1:0]),
     .current_clock_o(CURRENT_CLOCK),
     .driver_fault_i(DRIVER_FAULT),
     .heartbeat_o(HEARTBEAT),
     .gate_c_hi_o(GATE_C_HI),
     .gate_c_lo_o(GATE_C_LO),
+    .hall_i(HALL),
     .arm_i(arm),
     .stop_i(ESTOP || panel_stop),
     .set_zero_i(set_zero),
@@ -136,7 +145,7 @@ module de0_nano #(
   );
 
   logic unused;
-  assign unused = ^{limits, position};  // not all of their bits are shown
+  assign unused = ^{limits, position, shunts};  // not all of their bits are shown
 endmodule
 
 `default_nettype wire

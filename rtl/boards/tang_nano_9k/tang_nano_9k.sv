@@ -87,6 +87,7 @@ module tang_nano_9k #(
     .heartbeat_o(heartbeat),
     .gate_c_hi_o(),
     .gate_c_lo_o(),
+    .hall_i(3'b000),  // such designs are refused
     .arm_i(arm),
     .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),

@@ -38,10 +38,13 @@ module ulx3s #(
   output logic       encoder_command,
   input  logic       current_data, // modulator of the motor's current
   output logic       current_clock,
+  input  logic       current_data_b, // of a second modulator, at phase B
+  output logic       current_clock_b, // the same clock
   input  logic       driver_fault_n, // low: the bridge's driver has a fault, or it is not plugged in
   output logic       heartbeat,  // to a watchdog outside
   output logic       gate_c_hi,  // third leg, of a motor with three phases
-  output logic       gate_c_lo
+  output logic       gate_c_lo,
+  input  logic [2:0] hall        // Hall lines of such a motor
 );
 
   logic       clk, locked;
@@ -69,6 +72,11 @@ module ulx3s #(
 
   assign wifi_gpio0 = 1'b1;
 
+  localparam int Modulators = 1 + feltgate_pkg::CURRENT_LOOP * (feltgate_pkg::PHASES - 2);
+  logic [1:0] shunts;
+  assign shunts = {current_data_b, current_data};
+  assign current_clock_b = current_clock;
+
   // Open pins are not used on this board.
   /* verilator lint_off PINCONNECTEMPTY */
   feltgate_linked #(.Baud(Baud), .Board(2), .ParameterFile(ParameterFile)) u_linked (
@@ -85,10 +93,11 @@ module ulx3s #(
     .encoder_select_no(encoder_select_n),
     .encoder_clock_o(encoder_clock),
     .encoder_command_o(encoder_command),
-    .current_data_i(current_data),
+    .current_data_i(shunts[Modulators-1:0]),
     .current_clock_o(current_clock),
     .driver_fault_i(!driver_fault_n),
     .heartbeat_o(heartbeat),
+    .hall_i(hall),
     .gate_c_hi_o(gate_c_hi),
     .gate_c_lo_o(gate_c_lo),
     .arm_i(arm),
@@ -140,7 +149,7 @@ module ulx3s #(
   );
 
   logic unused;
-  assign unused = ^{limits, position};  // not all of their bits are shown
+  assign unused = ^{limits, position, shunts};  // not all of their bits are shown
 endmodule
 
 `default_nettype wire

@@ -181,8 +181,8 @@ class Installed(unittest.TestCase):
                 continue
             self.assertTrue(filecmp.cmp(path, ROOT / path.relative_to(data), shallow=False), path)
         in_tree = {path.stem for path in (ROOT / "rtl/designs").glob("*.toml")}
-        # One is a board's for an hour, two have sensors of their own: scripts/cmake/python.cmake.
-        in_tree -= {"first_power", "lever_absolute", "lever_current", "gimbal_motor", "gimbal_current"}
+        # One is a board's for an hour, five have sensors of their own: scripts/cmake/python.cmake.
+        in_tree -= {"first_power", "lever_absolute", "lever_current", "gimbal_motor", "gimbal_current", "hall_motor"}
         # Without programs these have set-points only.
         in_tree -= {name for name in in_tree if name.endswith("_law")}
         self.assertEqual(names[2], sorted([*in_tree, "narrow"]))

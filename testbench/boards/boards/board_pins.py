@@ -45,7 +45,7 @@ def read_ports(text, board):
 
 # Beginnings of the ports that have to be high while their wire is open: no edge, not plugged in, stop, data that stand.
 PULLED_UP = ("enc_", "estop", "sw_n", "key_n", "reset_n", "ftdi_txd", "uart_rx")
-PULLED_UP += ("encoder_data", "encoder_select_n", "current_data")
+PULLED_UP += ("encoder_data", "encoder_select_n", "current_data", "hall")
 # What has to be low: gates, a driver that is not plugged in, a heart that does not beat.
 PULLED_DOWN = {
     "gate_": "an open gate would be on",

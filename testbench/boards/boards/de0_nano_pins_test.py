@@ -17,7 +17,8 @@ from board_pins import PinsTests, placement
 IO_STANDARD = "3.3-V LVTTL"
 GLOBALS = {"FAMILY": "Cyclone IV E", "DEVICE": "EP4CE22F17C6", "TOP_LEVEL_ENTITY": "de0_nano"}
 # Open: no edge, not plugged in, stop, an idle line, data that stand, a fault of the driver.
-PULLED_UP = ("ENC_A", "ENC_B", "ENC_Z", "ENC_LOOP", "ESTOP", "UART_RX", "ENCODER_DATA", "CURRENT_DATA", "DRIVER_FAULT")
+PULLED_UP = ("ENC_A", "ENC_B", "ENC_Z", "ENC_LOOP", "ESTOP", "UART_RX", "ENCODER_DATA", "CURRENT_DATA", "DRIVER_FAULT",
+             "CURRENT_DATA_B", "HALL[0]", "HALL[1]", "HALL[2]")
 
 
 def read_qsf(text):
@@ -52,7 +53,7 @@ ENC_A = "set_location_assignment PIN_A5 -to ENC_A\n"
 
 
 class De0Nano(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 36, 20)
+    BOARD, KIND, KEY, COUNTS = "de0_nano", "qsf", "pin", (87, 41, 21)
     WORDS = ("PIN_",)
     MISTAKES = (
         ("qsf", ENC_A, "", "port ENC_A is at None"),
@@ -72,6 +73,7 @@ class De0Nano(PinsTests, unittest.TestCase):
         ("qsf", "EP4CE22F17C6", "EP4CE10F17C8", "DEVICE is not"),
         ("qsf", "WEAK_PULL_UP_RESISTOR ON -to DRIVER_FAULT\n", "WEAK_PULL_UP_RESISTOR OFF -to DRIVER_FAULT\n",
          "DRIVER_FAULT is not pulled up"),
+        ("qsf", "WEAK_PULL_UP_RESISTOR ON -to HALL[1]\n", "WEAK_PULL_UP_RESISTOR OFF -to HALL[1]\n", "HALL[1] is not pulled up"),
         ("doc", "GPIO_0[9] | D5 | JP1 pin 14", "GPIO_0[9] | D5 | JP1 pin 15", "doc: no row"),
     )
     read, findings = staticmethod(read_qsf), staticmethod(findings)

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A board's top level around a stub of feltgate_linked: each pin of a current loop, of the bridge's
-// driver and of an absolute encoder reaches its port of that block and no other. What the block
-// does with them: testbench/link/feltgate_linked/sensors_test.cpp. Documentation:
+// driver, of an absolute encoder and of Hall lines reaches its port of that block and no other.
+// What the block does with them: testbench/link/feltgate_linked/sensors_test.cpp. Documentation:
 // docs/boards/ulx3s.md
 #if defined(ULX3S)
 #include <Vulx3s.h>
@@ -52,26 +52,55 @@ Outputs outputs_of(const Inputs& in) {
 }  // namespace
 
 #ifndef TANG_NANO_9K
-TEST_CASE("board: the gates of the third leg reach their pins") {
-  for (unsigned k = 0; k < 8; ++k) {
+TEST_CASE("board: the gates of the third leg and the Hall lines reach their pins") {
+  for (unsigned k = 0; k < 64; ++k) {
     const bool a = (k & 1u) != 0, b = (k & 2u) != 0, z = (k & 4u) != 0;
+    const auto lines = static_cast<unsigned char>(k >> 3);
     const auto top = std::make_unique<Top>();
 #ifdef DE0_NANO
     top->ENC_A = a;
     top->ENC_B = b;
     top->ENC_Z = z;
+    top->HALL = lines;
     top->eval();
-    const int high = top->GATE_C_HI, low = top->GATE_C_LO;
+    const unsigned high = top->GATE_C_HI, low = top->GATE_C_LO;
 #else
     top->enc_a = a;
     top->enc_b = b;
     top->enc_z = z;
+    top->hall = lines;
     top->eval();
-    const int high = top->gate_c_hi, low = top->gate_c_lo;
+    const unsigned high = top->gate_c_hi, low = top->gate_c_lo;
 #endif
-    // What the stub shows of the encoder.
-    CHECK(high == (a && z));
-    CHECK(low == (b && z));
+    // What the stub shows of the encoder and of the lines.
+    const auto line = [&](unsigned n) { return k >> (3 + n) & 1u; };
+    CHECK(high == ((a && z) ^ line(0) ^ line(2)));
+    CHECK(low == ((b && z) ^ line(1) ^ line(2)));
+  }
+}
+
+TEST_CASE("board: the second modulator has a pin where the design has two shunts, and its clock") {
+  for (unsigned k = 0; k < 4; ++k) {
+    const unsigned first = k & 1u, second = k >> 1 & 1u;
+    const auto top = std::make_unique<Top>();
+#ifdef DE0_NANO
+    top->ENCODER_DATA = 1;
+    top->CURRENT_DATA = first;
+    top->CURRENT_DATA_B = second;
+    top->eval();
+    const unsigned command = top->ENCODER_COMMAND, clock = top->CURRENT_CLOCK,
+                   clock_b = top->CURRENT_CLOCK_B;
+#else
+    top->encoder_data = 1;
+    top->current_data = first;
+    top->current_data_b = second;
+    top->eval();
+    const unsigned command = top->encoder_command, clock = top->current_clock,
+                   clock_b = top->current_clock_b;
+#endif
+    CHECK(command == first);  // the stub: of the first alone
+    CHECK(clock == (MODULATORS == 2 ? first ^ second : first));
+    CHECK(clock_b == clock);
   }
 }
 #endif

@@ -38,7 +38,7 @@ GATE = 'IOBUF PORT "gate_a_hi" PULLMODE=DOWN'
 
 
 class Ulx3s(PinsTests, unittest.TestCase):
-    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 37, 21)
+    BOARD, KIND, KEY, COUNTS = "ulx3s", "lpf", "site", (79, 42, 22)
     WORDS = ("LOCATE COMP", "IOBUF PORT")
     MISTAKES = (
         ("lpf", 'LOCATE COMP "enc_a" SITE "B11"', 'LOCATE COMP "enc_a" SITE "A10"',
@@ -59,6 +59,11 @@ class Ulx3s(PinsTests, unittest.TestCase):
          "an unplugged driver would look healthy"),
         ("lpf", 'IOBUF PORT "current_data" PULLMODE=UP', 'IOBUF PORT "current_data" PULLMODE=NONE',
          "current_data is not pulled up"),
+        ("lpf", 'IOBUF PORT "hall[1]" PULLMODE=UP', 'IOBUF PORT "hall[1]" PULLMODE=DOWN', "hall[1] is not pulled up"),
+        ("lpf", 'LOCATE COMP "hall[2]" SITE "B8"', 'LOCATE COMP "hall[2]" SITE "C8"', "site C8 is used 2"),
+        ("lpf", 'IOBUF PORT "current_data_b" PULLMODE=UP', 'IOBUF PORT "current_data_b" PULLMODE=NONE',
+         "current_data_b is not pulled up"),
+        ("doc", "| `current_data_b` | gn[20] | E17 |", "| `current_data_b` | gn[20] | D18 |", "doc: no row"),
         ("lpf", f"{GATE} IO_TYPE=LVCMOS33", f"{GATE} IO_TYPE=LVCMOS25", "IO_TYPE LVCMOS25"),
         ("lpf", "25 MHZ", "50 MHZ", "not its 25 MHz"),
         ("pins", "gp[0],B11,J1 pin 5+,inout,A B C", "gp[0],B11,J1 pin 5+,inout,A",

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
@@ -295,6 +296,59 @@ Case field_case(std::string_view name, Random* r) {
   return c;
 }
 
+/// Of Hall lines beside an encoder with A and B, and of three phases; a hand turns the shaft.
+const std::vector<PinKind> hall_kinds = [] {
+  std::vector<PinKind> all{
+      {"a Hall line stands", "pins", "low or high, 10 to 100 rad/s", 1, Promise::flagged},
+      {"a Hall line stands, held", "pins", "low or high, held", 1, Promise::unseen},
+      {"Hall plug off", "pins", "all lines high", 1, Promise::flagged, 3},
+      // Until an edge tells, torque and back-EMF may have the other sign.
+      {"two Hall lines exchanged", "pins", "from power-up, 10 to 100 rad/s", 1, Promise::unseen},
+      {"Hall lines exchanged at arming", "pins", "two, free, self-test on", 1, Promise::none},
+      {"encoder slips", "pins", "10 to 50 % lost, 10 to 100 rad/s", 1, Promise::flagged},
+      {"cable cut, moving", "pins", "A, B, Z stand, 10 to 100 rad/s", 1, Promise::flagged},
+  };
+  std::copy_if(
+      gimbal_kinds.begin(), gimbal_kinds.end(), std::back_inserter(all), [](const auto& k) {
+        return std::none_of(sensor_kinds.begin(), sensor_kinds.end(),
+                            [&](const PinKind& s) { return std::string_view(s.name) == k.name; });
+      });
+  return all;
+}();
+
+Case hall_case(std::string_view name, Random* r) {
+  constexpr double limit_nm = 0.2;
+  if (std::none_of(hall_kinds.begin(), hall_kinds.begin() + 7,
+                   [&](const PinKind& k) { return name == k.name; })) {
+    return gimbal_case(name, r, limit_nm);
+  }
+  Case c = asked(r, limit_nm, 100, 10);
+  Harm& h = c.harm;
+  double rad = 1;
+  if (name.substr(0, 11) == "a Hall line") {
+    const auto line = static_cast<unsigned>(r->below(3));
+    const bool high = r->coin();
+    (high ? h.hall_high : h.hall_low) = 1U << line;
+    c.what = fmt::format("line {} {}, ", line, high ? "high" : "low");
+    if (name != "a Hall line stands") c.rad_s = 0;
+  } else if (name == "Hall plug off") {
+    h.hall_high = 7;
+  } else if (name == "encoder slips") {
+    h.slips = 0.1 + 0.4 * share(r);
+    rad = 0.25 / h.slips;
+    c.what = fmt::format("{:.0f} %, ", 100 * h.slips);
+  } else if (name == "cable cut, moving") {
+    h.channels_held = true;
+  } else {
+    h.hall_exchanged = static_cast<int>(r->below(3));
+    c.from_start = true;
+    if (name != "two Hall lines exchanged") c.at_arming = c.free = true;
+    c.what = fmt::format("{} and {}, ", h.hall_exchanged, (h.hall_exchanged + 1) % 3);
+  }
+  c.seconds = c.rad_s == 0 || c.free ? 0.05 : rad / std::abs(c.rad_s);
+  return c;
+}
+
 /// Kinds of faults of a design, and what makes one of them.
 struct Faults {
   const std::vector<PinKind>* kinds;
@@ -308,6 +362,7 @@ Faults faults_of(const Option<GimbalMotor>&) {
   return {&gimbal_kinds, [](std::string_view n, Random* r) { return gimbal_case(n, r); }};
 }
 Faults faults_of(const Option<GimbalCurrent>&) { return {&field_kinds, field_case}; }
+Faults faults_of(const Option<HallMotor>&) { return {&hall_kinds, hall_case}; }
 
 }  // namespace
 

@@ -25,6 +25,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/gimbal_current.hpp"
 #include "feltgate/generated/gimbal_motor.hpp"
+#include "feltgate/generated/hall_motor.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
 #include "feltgate/generated/lever_current.hpp"
 #include "random.hpp"
@@ -46,10 +47,10 @@ struct Option {
   double most_rad_s;  ///< of a hand in lives without a fault
 };
 /// The designs other than lever whose pins the campaign breaks.
-constexpr std::tuple options{Option<LeverCurrent>{"p24", 0.011, 30},
-                             Option<LeverAbsolute>{"p24", 0.001, 30},
-                             Option<GimbalMotor>{"gimbal_motor", 0.001, 20},
-                             Option<GimbalCurrent>{"gimbal_motor", 0.011, 20}};
+constexpr std::tuple options{
+    Option<LeverCurrent>{"p24", 0.011, 30}, Option<LeverAbsolute>{"p24", 0.001, 30},
+    Option<GimbalMotor>{"gimbal_motor", 0.001, 20},
+    Option<GimbalCurrent>{"gimbal_motor", 0.011, 20}, Option<HallMotor>{"hall_motor", 0.001, 50}};
 /// Calls f(option) for the one of this name; false: there is none.
 template <class F>
 bool with_option(const std::string& design, F f) {
@@ -61,29 +62,6 @@ bool with_option(const std::string& design, F f) {
   return std::apply([&](const auto&... all) { return (one(all) || ...); }, options);
 }
 
-/// What is broken.
-struct Harm {
-  enum class Line { sound, low, high, held, noise };
-  Line modulator = Line::sound;
-  double reads = 1, offset_a = 0;  ///< of the current, what the modulator gets
-  unsigned shunts = 1;             ///< of which this holds, by the bits of CoreIn::current_data
-  bool exchanged = false;          ///< the lines of two modulators
-  bool driver_fault = false;       ///< a pulse of nFAULT
-  bool shorted = false;            ///< the motor's terminals
-  unsigned dead_gates = 0;         ///< that stay off, by the bits of CoreOut::gates
-  double loose_s = 0;              ///< for so long only; 0: for ever
-  std::optional<std::size_t> open_phase;
-  bool swapped_phases = false;  ///< B and C
-  AbsoluteSensor::Defect sensor = AbsoluteSensor::Defect::none;
-  int stuck_bit = -1;  ///< of its angle; its frames are valid
-  bool stuck_high = false;
-  unsigned cut_lines = 0;      ///< to the sensor, by the bits of CoreOut::serial: it sees them high
-  double flips = 0;            ///< share of the clocks in which the sensor's data pin is inverted
-  double slipped_rad = 0;      ///< of the magnet on its shaft
-  bool channels_held = false;  ///< of an encoder with A and B
-  bool stop = false;
-};
-
 /// One core in its loop. A copy goes on from the same state.
 template <class D>
 class Rig {
@@ -92,10 +70,13 @@ class Rig {
 
   /// `offset_rad`: what is added to the electrical angle of the plant.
   Rig(plant::Parameters p, const plant::Hand& hand, double offset_rad = 0)
-      : motor_(made(turned(std::move(p), offset_rad), hand)),
+      : hall_(p.phases ? p.phases->hall : std::nullopt),
+        motor_(made(turned(std::move(p), offset_rad), hand)),
         modulators_{modulator(), modulator()} {
     if constexpr (D::absolute_encoder != 0) sensor_.emplace(absolute_parameters<D>());
+    if (hall_) hall_->begin_rad += offset_rad;  // else they would turn with the rotor
     in_.encoder = motor_.encoder().pins();
+    sense_hall();
   }
 
   static const DesignInfo& info() {
@@ -109,6 +90,7 @@ class Rig {
     since_ = 0;
     random_ = test::Random(seed);
     if (sensor_) sensor_->set(harm.sensor);
+    slipping_.emplace(in_.encoder);
     if (sensor_ && harm.stuck_bit >= 0) sensor_->stick(harm.stuck_bit, harm.stuck_high);
     if constexpr (D::phases == 3) {
       if (harm.open_phase) motor_.open_phase(*harm.open_phase);
@@ -126,6 +108,7 @@ class Rig {
     torque_.add(kStep, harm_.shorted ? 0 : motor_.observables().motor_torque_mean_nm);
     if (sensor_) sensor_->turn(before_rad, angle_rad(), now_, kStep);
     if constexpr (D::current_loop != 0) in_.current_data = modulated();
+    sense_hall();
     in_.driver_fault = harm_.driver_fault && since_ == 0;
     in_.stop = harm_.stop && since_ == 0;
     const GateCounts last = core_.gate_clocks();
@@ -247,6 +230,13 @@ class Rig {
         return harm_.modulator == Line::high;
     }
   }
+  /// The lines at the end of the step, which is less than a sample of their filter.
+  void sense_hall() {
+    if constexpr (D::hall != 0) {
+      const double rad = motor_.motor().electrical_rad(shaft_rad());
+      in_.hall = broken_hall(hall_->code(rad), harm_);
+    }
+  }
   void sense() {
     in_.encoder_data = sensor_->pin(now_, core_.out().serial | harm_.cut_lines);
     if (harm_.flips > 0 && random_.below(1'000'000) < harm_.flips * 1e6) {
@@ -258,7 +248,11 @@ class Rig {
     std::size_t next = 0;
     const auto pins = [&](Clock until) {
       for (; next < events.size() && events[next].clock <= until; ++next) {
-        if (!harm_.channels_held) in_.encoder = events[next].pins;
+        if (harm_.slips > 0) {
+          in_.encoder = slipping_->shown(events[next].pins, harm_.slips);
+        } else if (!harm_.channels_held) {
+          in_.encoder = events[next].pins;
+        }
       }
     };
     for (const Clock end = now_ + kStep; now_ < end;) {
@@ -284,7 +278,9 @@ class Rig {
 
   FeltgateCore<D> core_;
   CoreIn in_;
+  std::optional<plant::HallLines> hall_;
   Motor motor_;
+  std::optional<SlippingEncoder> slipping_;
   std::array<plant::SigmaDelta, 2> modulators_;  // the second of three phases
   plant::Phases wiring_a_{};                     // of a shorted motor with three phases
   std::optional<AbsoluteSensor> sensor_;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// systemc_core CLOCKS [--broken] [--by-twin] [--vcd FILE]: the Verilated core and its twin as
-// sc_modules on the same pins, every output compared on every clock; motor and encoder close the
-// loop through the gates of one of them. --broken: a twin whose observer is one bit off.
-// The same loop without SystemC must end at the same count.
+// systemc_core CLOCKS [--broken] [--by-twin] [--options] [--vcd FILE]: the Verilated core and its
+// twin as sc_modules on the same pins, every output compared on every clock; motor and encoder
+// close the loop through the gates of one of them. --broken: a twin whose observer is one bit off.
+// The same loop without SystemC must end at the same count. --options: twins with two modulators
+// and with Hall lines, on random pins beside the same cores without SystemC.
 #include <Vcore_sc.h>
 
 #include <array>
@@ -15,7 +16,10 @@
 #include <string>
 #include <systemc>
 
+#include "feltgate/generated/gimbal_current.hpp"
+#include "feltgate/generated/hall_motor.hpp"
 #include "feltgate/generated/lever.hpp"
+#include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/pushing_hand.hpp"
@@ -163,20 +167,93 @@ int simulate(std::int64_t clocks, bool by_twin, const char* vcd) {
   return watch.mismatches == 0 && lived && count == direct ? 0 : 1;
 }
 
+/// Random pins of the options for a twin, in SystemC and by itself.
+template <class D>
+class Beside : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(Beside);
+  explicit Beside(const sc_core::sc_module_name& name) : sc_module(name) {
+    board.connect(twin);
+    core_.clock({});  // the first edge is at 0 s
+    SC_METHOD(between);
+    sensitive << board.clk.negedge_event();
+    dont_initialize();
+  }
+  std::int64_t clocks = 0, mismatches = 0, currents = 0, faults = 0;
+
+ private:
+  void between() {
+    const CoreOut& o = core_.out();
+    const auto& shown = board.out;
+    const unsigned gates =
+        (shown.gate_a_hi_o.read() ? 1u : 0u) | (shown.gate_c_lo_o.read() ? 32u : 0u);
+    if ((shown.current_o.read() != (static_cast<std::uint32_t>(o.current) & 0x7ffff) ||
+         gates != (o.gates & 33u) || shown.faults_o.read() != o.faults ||
+         shown.word_data_o.read() != o.word_data)) {
+      ++mismatches;
+    }
+    currents += o.current != 0 ? 1 : 0;
+    const bool told = o.word_valid && o.word_slot == Map::R::faults;
+    faults += told && o.word_data >> D::C::faults_absolute != 0 ? 1 : 0;
+    ++clocks;
+    bits_ = bits_ * 6364136223846793005u + 1442695040888963407u;
+    const auto random = static_cast<std::uint32_t>(bits_ >> 40);
+    CoreIn in;
+    in.current_data = static_cast<std::uint8_t>(random & (controlled_currents<D> > 1 ? 3u : 0u));
+    in.hall = static_cast<std::uint8_t>(clocks >> 9 & 7);
+    in.arm = clocks > 530'000;  // once the offset of the current is known, after 512 periods
+    if constexpr (D::absolute_encoder != 0) {
+      sensor_.turn(0.9, 0.9, clocks, 1);
+      in.encoder_data = sensor_.pin(clocks, o.serial);
+    }
+    board.in.current_data_i.write(static_cast<systemc::CurrentDataOf<D>>(in.current_data));
+    board.in.hall_i.write(in.hall);
+    board.in.encoder_data_i.write(in.encoder_data);
+    board.in.arm_i.write(in.arm);
+    core_.clock(in);
+  }
+
+ public:
+  systemc::Board<D> board{"board"};
+  systemc::TwinModule<D> twin{"twin"};
+
+ private:
+  FeltgateCore<D> core_;
+  AbsoluteSensor sensor_{absolute_parameters<GimbalCurrent>()};
+  std::uint64_t bits_ = 1;
+};
+
+int options(std::int64_t clocks) {
+  Beside<GimbalCurrent> shunts("shunts");
+  Beside<HallMotor> hall("hall");
+  sc_core::sc_start(20 * static_cast<double>(clocks), sc_core::SC_NS);
+  std::printf(
+      "two shunts: %lld clocks, %lld mismatches, %lld currents; Hall: %lld mismatches, %lld "
+      "faults\n",
+      static_cast<long long>(shunts.clocks), static_cast<long long>(shunts.mismatches),
+      static_cast<long long>(shunts.currents), static_cast<long long>(hall.mismatches),
+      static_cast<long long>(hall.faults));
+  const bool lived = shunts.currents > 1000 && hall.faults > clocks / 1000;
+  return shunts.mismatches + hall.mismatches == 0 && lived ? 0 : 1;
+}
+
 }  // namespace
 
 int sc_main(int argc, char** argv) {
   const std::int64_t clocks = argc > 1 ? std::atoll(argv[1]) : 0;
-  bool broken = false, by_twin = false;
+  bool broken = false, by_twin = false, pins = false;
   const char* vcd = nullptr;
   for (int i = 2; i < argc; ++i) {
     if (std::strcmp(argv[i], "--broken") == 0) broken = true;
     if (std::strcmp(argv[i], "--by-twin") == 0) by_twin = true;
+    if (std::strcmp(argv[i], "--options") == 0) pins = true;
     if (std::strcmp(argv[i], "--vcd") == 0 && i + 1 < argc) vcd = argv[++i];
   }
   if (clocks < 1) {
-    std::fprintf(stderr, "usage: systemc_core CLOCKS [--broken] [--by-twin] [--vcd FILE]\n");
+    std::fprintf(stderr,
+                 "usage: systemc_core CLOCKS [--broken] [--by-twin] [--options] [--vcd FILE]\n");
     return 2;
   }
+  if (pins) return options(clocks);
   return broken ? simulate<Broken>(clocks, by_twin, vcd) : simulate<Lever>(clocks, by_twin, vcd);
 }

@@ -284,4 +284,11 @@ TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encode
   CHECK_THAT(design_error(replaced(file_text(design_path("gimbal_motor")), "pole_pairs = 11",
                                    "hall = 1\npole_pairs = 11")),
              Catch::Contains("an absolute encoder knows the angle at power-up"));
+  std::string law = file_text(design_path("knob_law"));
+  const auto from = law.find("[absolute_encoder]");
+  law.erase(from, law.find("[commutation]") - from);
+  law = replaced(law, "polarity = 0\n\n[",
+                 "polarity = 0\nlines = 1024\nfilter_samples = 0\nindex = 1\n\n[");
+  CHECK_THAT(design_error(replaced(law, "pole_pairs = 11", "hall = 1\npole_pairs = 11")),
+             Catch::Contains("a core with an engine has no pins of Hall lines"));
 }

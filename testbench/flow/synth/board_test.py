@@ -155,11 +155,16 @@ class StandIns(Scratch):
         self.assertIn("DOES NOT CLOSE", done.stdout)
         self.assertEqual((written, self.design), ("", ""))
 
-    def test_two_shunts_are_refused(self):
-        done, written, _ = self.run_board("--board", "ulx3s", "--design", "gimbal_current")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("has two shunts, and ulx3s has no pin of a second modulator", done.stderr)
-        self.assertEqual(written, "")
+    def test_what_a_board_has_no_pins_of_is_refused(self):
+        for design, said in (
+            ("gimbal_current", "has two shunts, and tang_nano_9k has no pin of a second modulator"),
+            ("hall_motor", "has Hall lines, and tang_nano_9k has no pins of them"),
+        ):
+            with self.subTest(design):
+                done, written, _ = self.run_board("--board", "tang_nano_9k", "--design", design)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(said, done.stderr)
+                self.assertEqual(written, "")
 
     def test_percent_of_the_cyclone(self):
         done, _, there = self.run_board("--board", "de0_nano")

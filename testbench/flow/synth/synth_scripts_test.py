@@ -122,6 +122,7 @@ class Wrapper(unittest.TestCase):
         self.assertEqual(len(free("lever_absolute")), 4)
         self.assertEqual(free("gimbal_motor")[4:], ["gate_c_hi_o", "gate_c_lo_o"])
         self.assertEqual(len(free("gimbal_current")), 10)
+        self.assertEqual(free("hall_motor"), ["gate_c_hi_o", "gate_c_lo_o", "hall_i"])
 
 
 class Report(Scratch):

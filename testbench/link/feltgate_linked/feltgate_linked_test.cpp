@@ -46,6 +46,7 @@ struct Stimulus {
     in.encoder_data = random.coin();  // without the options nothing follows from these
     in.current_data = random.coin();
     in.driver_fault = random.coin();
+    in.hall = static_cast<std::uint8_t>(random.below(8));
     if (random.one_in(60'000)) in.arm = !in.arm;
     if (random.one_in(200'000)) in.scene = static_cast<std::uint8_t>(random.below(10));
     in.stop = random.one_in(400'000);

@@ -21,6 +21,8 @@
 #include "feltgate/generated/gimbal_motor.hpp"
 #elif defined(GIMBAL_CURRENT)
 #include "feltgate/generated/gimbal_current.hpp"
+#elif defined(HALL_MOTOR)
+#include "feltgate/generated/hall_motor.hpp"
 #else
 #include "feltgate/generated/lever.hpp"
 #endif
@@ -37,6 +39,8 @@ using D = LeverAbsolute;
 using D = GimbalMotor;
 #elif defined(GIMBAL_CURRENT)
 using D = GimbalCurrent;
+#elif defined(HALL_MOTOR)
+using D = HallMotor;
 #else
 using D = Lever;
 #endif
@@ -47,7 +51,7 @@ struct LinkedAdapter {
     rtl.enc_a_i = in.encoder.a;
     rtl.enc_b_i = in.encoder.b;
     rtl.enc_z_i = in.encoder.z;
-    FELTGATE_DRIVE(rtl, in, encoder_data, current_data, driver_fault, arm, stop, set_zero);
+    FELTGATE_DRIVE(rtl, in, encoder_data, current_data, driver_fault, hall, arm, stop, set_zero);
     FELTGATE_DRIVE(rtl, in, clear_faults, scene, uart_rx, inputs);
   }
   static void at_edge(Vfeltgate_linked& rtl) { rtl.stop_i = 0; }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_linked of a design with a current loop, with an absolute encoder, or with that and three
-// phases or both: RTL against twin on every clock with a modulator and a winding, or a sensor, or
-// that and two modulators, at its pins.
+// feltgate_linked of a design with a current loop, with an absolute encoder, with that and three
+// phases or both, or with Hall lines: RTL against twin on every clock with a modulator and a
+// winding, a sensor, that and two modulators, or the lines at its pins.
 // What happens is judged in plain numbers. Documentation: docs/blocks/feltgate_linked.md
 #include <array>
 #include <cmath>
+#include <complex>
 
 #include "catch.hpp"
 #include "linked_adapter.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "sim/plant/parameters.hpp"
 #include "sim/plant/sigma_delta.hpp"
 
 using namespace feltgate;
@@ -220,6 +222,81 @@ TEST_CASE("sensors: either modulator that is cut or grounded is a fault") {
     CHECK(seen.first_fault == static_cast<unsigned>(Fault::current));
     CHECK(seen.enabled.last - kEvent < 1'100);
   }
+}
+#elif defined(HALL_MOTOR)
+static_assert(D::hall != 0 && D::phases == 3);
+namespace {
+
+constexpr std::int64_t kArm = 20'000, kEvent = 60'000, kTurn = 196'350, kEnd = kEvent + kTurn;
+constexpr double kPairs = 8, kRad_s = 200, kBegin = -2.0943951;
+
+/// A shaft that turns by itself, its encoder and its Hall lines, which something happens to.
+struct Rig : Panel {
+  unsigned high = 0, low = 0;  ///< lines that stand from `at` on
+  bool exchanged = false;      ///< lines 1 and 2
+  std::int64_t at = kEvent;
+  double from_rad = 0.3;                   ///< electrical
+  std::complex<double>* vector = nullptr;  ///< of the legs, turned back by the rotor's angle
+
+  LinkedIn operator()(std::int64_t cycle, const LinkedOut& out) {
+    arm_at = kArm;
+    press(cycle);
+    const double turned_rad = kRad_s * static_cast<double>(cycle) * 20e-9;
+    const double e = from_rad + kPairs * turned_rad;
+    in.encoder = pins_at(static_cast<unsigned>(turned_rad / D::count_rad));
+    unsigned code = plant::HallLines{kBegin, {}}.code(e);
+    if (exchanged) code = (code & 1u) | (code & 2u) << 1 | (code & 4u) >> 1;
+    if (cycle >= at) code = (code | high) & ~low;
+    in.hall = static_cast<std::uint8_t>(code);
+    for (unsigned leg = 0; vector != nullptr && cycle >= kEvent && leg < 3; ++leg) {
+      const double third = 2 * 3.14159265358979 / 3 * leg;
+      const double share = (out.core.gates >> 2 * leg & 1u) / static_cast<double>(kTurn);
+      *vector += std::polar(share, third - e);
+    }
+    return in;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("sensors: Hall lines turn the voltage with the rotor, from any angle at power-up") {
+  for (const double from_rad : {0.3, 2.0, 4.4}) {
+    Rig rig;
+    rig.from_rad = from_rad;
+    std::complex<double> vector;
+    rig.vector = &vector;
+    const Seen seen = seen_of(rig, kEnd);
+    CAPTURE(from_rad, vector.real(), vector.imag());
+    CHECK(seen.enabled.first > kArm);
+    CHECK(seen.enabled.last == kEnd - 1);
+    CHECK(seen.fault.first < 0);
+    CHECK(seen.position == Approx(kRad_s * kEnd * 20e-9 / D::count_rad).margin(2));
+    // Ke w, 4.46 V, less R I at the begin of the ramp and what the dead times give; 1.5 of that over
+    // the supply.
+    CHECK(vector.real() > 0.18);
+    CHECK(vector.real() < 0.22);
+    CHECK(std::abs(vector.imag()) < 0.05 * vector.real());
+  }
+}
+
+TEST_CASE("sensors: a Hall line that is cut or grounded, or two that change places, is a fault") {
+  for (unsigned k = 0; k < 4; ++k) {
+    Rig rig;
+    if (k < 3) (k == 1 ? rig.low : rig.high) = 1u << k;
+    rig.exchanged = k == 3;
+    const Seen seen = seen_of(rig, kEnd);
+    CAPTURE(k, seen.enabled.last);
+    CHECK(seen.enabled.first > 0);
+    CHECK(seen.first_fault == static_cast<unsigned>(Fault::encoder));
+    CHECK(seen.enabled.last < kEnd - 1);
+  }
+}
+
+TEST_CASE("sensors: without the plug of the Hall lines it cannot be armed") {
+  Rig rig;
+  rig.high = 7;
+  rig.at = 0;
+  CHECK(seen_of(rig, 2 * kEvent).enabled.first < 0);
 }
 #else
 static_assert(D::absolute_encoder != 0);

@@ -17,23 +17,6 @@ inline constexpr double kThird = kTwoPi / 3;
 inline constexpr int kPwmClocks = 1000;  // 50 kHz
 inline constexpr double kBus = 5;        // V
 
-/// Three Hall sensors of a motor. Line n is high in half of an electrical turn, from a third of a
-/// turn after line n - 1 on.
-struct HallLines {
-  double begin_rad = 0;  ///< electrical angle at which line A rises
-  Phases error_rad{};    ///< electrical: how far each sensor is from its place
-  /// The lines at an electrical angle; bit 0: A.
-  unsigned code(double electrical_rad) const {
-    unsigned code = 0;
-    for (std::size_t n = 0; n < 3; ++n) {
-      const double third_rad = kThird * static_cast<double>(n);
-      const double since_rad = electrical_rad - begin_rad - third_rad - error_rad[n];
-      if (std::sin(since_rad) >= 0) code |= 1u << n;
-    }
-    return code;
-  }
-};
-
 /// A gimbal motor of the 5 V class. Assumed values of that class, not a product's.
 inline PhaseParameters gimbal_motor() {
   PhaseParameters p;

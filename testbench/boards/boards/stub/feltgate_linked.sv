@@ -29,10 +29,11 @@ module feltgate_linked #(
   output logic        encoder_select_no,
   output logic        encoder_clock_o,
   output logic        encoder_command_o,
-  input  logic        current_data_i,
+  input  logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
   output logic        current_clock_o,
   input  logic        driver_fault_i,
   output logic        heartbeat_o,
+  input  logic [2:0]  hall_i,
   input  logic        arm_i,
   input  logic        stop_i,
   input  logic        set_zero_i,
@@ -70,13 +71,13 @@ module feltgate_linked #(
   assign gate_a_lo_o = enc_b_i;
   assign gate_b_hi_o = enc_z_i;
   assign gate_b_lo_o = scene_i == 4'd14;
-  assign gate_c_hi_o = enc_a_i && enc_z_i;
-  assign gate_c_lo_o = enc_b_i && enc_z_i;
+  assign gate_c_hi_o = (enc_a_i && enc_z_i) ^ hall_i[0] ^ hall_i[2];
+  assign gate_c_lo_o = (enc_b_i && enc_z_i) ^ hall_i[1] ^ hall_i[2];
   // Each output of the options shows an input of theirs, and no two the same of all three.
   assign encoder_select_no = !encoder_data_i;
   assign encoder_clock_o   = encoder_data_i;
-  assign encoder_command_o = encoder_data_i && current_data_i;
-  assign current_clock_o   = current_data_i;
+  assign encoder_command_o = encoder_data_i && current_data_i[0];
+  assign current_clock_o   = ^current_data_i;
   assign heartbeat_o       = driver_fault_i;
   assign uart_tx_o   = ^{inputs_i, uart_rx_i};
   assign faults_o    = {10'd0, fault_q, 5'd0};

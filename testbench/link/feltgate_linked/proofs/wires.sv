@@ -14,6 +14,7 @@ module wires_proof (
     input logic       encoder_data_i,
     input logic [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] current_data_i,
     input logic       driver_fault_i,
+    input logic [2:0] hall_i,
     input logic       arm_i,
     input logic       stop_i,
     input logic [feltgate_pkg::AXES-1:0] set_zero_i,
@@ -117,6 +118,7 @@ module wires_proof (
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_data_i ;
   (* hierconn *) wire [feltgate_pkg::CURRENT_LOOP*(feltgate_pkg::PHASES-2):0] \u_dut.g_core.u_core.current_data_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.driver_fault_i ;
+  (* hierconn *) wire [2:0] \u_dut.g_core.u_core.hall_i ;
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_select_no ;
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_clock_o ;
   (* hierconn *) wire \u_dut.g_core.u_core.encoder_command_o ;
@@ -315,8 +317,8 @@ module wires_proof (
 `ifdef LAW
       options_pass: assert ({select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} == 7'b1000000);
 `else
-      options_pass: assert ({\u_dut.g_core.u_core.encoder_data_i , \u_dut.g_core.u_core.current_data_i , \u_dut.g_core.u_core.driver_fault_i } ==
-          {encoder_data_i, current_data_i, driver_fault_i} && {select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} ==
+      options_pass: assert ({\u_dut.g_core.u_core.encoder_data_i , \u_dut.g_core.u_core.current_data_i , \u_dut.g_core.u_core.driver_fault_i , \u_dut.g_core.u_core.hall_i } ==
+          {encoder_data_i, current_data_i, driver_fault_i, hall_i} && {select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} ==
           {\u_dut.g_core.u_core.encoder_select_no , \u_dut.g_core.u_core.encoder_clock_o , \u_dut.g_core.u_core.encoder_command_o ,
            \u_dut.g_core.u_core.current_clock_o , \u_dut.g_core.u_core.heartbeat_o , \u_dut.g_core.u_core.gate_c_hi_o ,
            \u_dut.g_core.u_core.gate_c_lo_o });

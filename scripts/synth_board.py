@@ -18,7 +18,6 @@ import synth_measure
 import synth_path
 from synth_tools import ToolError, Tools, package_of, version
 
-GATES = 4  # of a board without pins of a third leg
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
 GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
@@ -41,8 +40,6 @@ def legs(folder):
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
-    if board == "tang_nano_9k" and legs(folder) == 3:
-        raise ToolError(f"{design} has three phases, and {board} has no pins of a third leg")
     if legs(folder) == 3 and of_package(folder, "CURRENT_LOOP"):
         raise ToolError(f"{design} has two shunts, and {board} has no pin of a second modulator")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
@@ -51,6 +48,12 @@ def sources(root, board, design, folder):
         if path.suffix == ".sv":
             names.append(path.name)
     return names
+
+
+def defines(board, folder):
+    """What Yosys reads before the sources: the Tang Nano 9K's third leg takes pins of other options."""
+    third = board == "tang_nano_9k" and legs(folder) == 3
+    return ["verilog_defines -DFELTGATE_THIRD_LEG"] if third else []
 
 
 def clock_hz(folder):
@@ -136,13 +139,14 @@ class TangNano9k:
         return synth_measure.gowin_figures(tools.synthesize_gowin("board", "tang_nano_9k", read))
 
     def write_netlist(self, tools):
-        tools.write_netlist("board", f"select -assert-count {GATES} {GOWIN_GATES}")
+        tools.write_netlist("board", f"select -assert-count {2 * legs(tools.folder)} {GOWIN_GATES}")
 
     def route(self, tools, seed, mhz):
         return tools.route_gowin("board", seed, "tang_nano_9k.cst", mhz)
 
-    def check(self, _tools, _seed):
-        return f"gate registers cleared without a clock: {GATES} of {GATES}; in the fabric, not in I/O cells"
+    def check(self, tools, _seed):
+        gates = 2 * legs(tools.folder)  # write_netlist() has counted them
+        return f"gate registers cleared without a clock: {gates} of {gates}; in the fabric, not in I/O cells"
 
     def pack(self, tools, seed):
         return tools.pack_gowin(f"board_{seed}")
@@ -238,7 +242,7 @@ def run(options, root, progress):
         package = package_of(root, design, folder / "design")
         target = synth_measure.Target("board", options.board, registered=bool(steps) and steps.registered)
         names = sources(root, options.board, package, folder)
-        read = synth_measure.read_commands(names, target)
+        read = [*defines(options.board, folder), *synth_measure.read_commands(names, target)]
         progress(f"{options.board}, design {name}: synthesis, then seeds {options.seeds}")
         print(f"{options.board}, design {name}; nothing of this ran on a board")
         main = main_routed if steps else main_de0_nano

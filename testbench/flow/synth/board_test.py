@@ -43,7 +43,8 @@ GENERATE = """#!/usr/bin/env python3
 import pathlib, re, sys
 word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
 hz = re.search(r"^clock_hz = ([0-9_]+)", word("--design").read_text(), re.M)[1].replace("_", "")
-package = pathlib.Path(sys.argv[1], "rtl/generated/lever/feltgate_pkg.sv").read_text()
+name = word("--design").name.split("_54mhz")[0].removesuffix(".toml")
+package = pathlib.Path(sys.argv[1], f"rtl/generated/{name}/feltgate_pkg.sv").read_text()
 word("--output").mkdir(parents=True, exist_ok=True)
 text = package.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
 (word("--output") / "feltgate_pkg.sv").write_text(text)
@@ -154,6 +155,26 @@ class StandIns(Scratch):
         self.assertEqual(done.returncode, 1)
         self.assertIn("DOES NOT CLOSE", done.stdout)
         self.assertEqual((written, self.design), ("", ""))
+
+    def test_the_third_leg_of_the_tang_nano(self):
+        words = ("--board", "tang_nano_9k", "--design", "gimbal_motor", "--seeds", "1")
+        done, written, _ = self.run_board(*words, clock=54)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("cleared without a clock: 6 of 6", done.stdout)
+        self.assertEqual(written, "board_1.json")
+        folder = Path(self.folder, "synth/tang_nano_9k_gimbal_motor")
+        defined = "verilog_defines -DFELTGATE_THIRD_LEG"
+        self.assertEqual((folder / "board.ys").read_text(encoding="utf-8").splitlines()[0], defined)
+        self.assertIn("select -assert-count 6 ", (folder / "board_json.ys").read_text(encoding="utf-8"))
+        self.run_board("--board", "tang_nano_9k", "--seeds", "1", clock=54)
+        folder = Path(self.folder, "synth/tang_nano_9k_lever")
+        self.assertNotIn("THIRD_LEG", (folder / "board.ys").read_text(encoding="utf-8"))
+        self.assertIn("select -assert-count 4 ", (folder / "board_json.ys").read_text(encoding="utf-8"))
+
+    def test_the_de0_nano_has_no_third_leg(self):
+        done, _, _ = self.run_board("--board", "de0_nano", "--design", "gimbal_motor")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has three phases, and de0_nano has no pins of a third leg", done.stderr)
 
     def test_two_shunts_are_refused(self):
         done, written, _ = self.run_board("--board", "ulx3s", "--design", "gimbal_current")

@@ -16,7 +16,7 @@ from pathlib import Path
 import outputs
 import synth_measure
 import synth_path
-from synth_tools import ToolError, Tools, package_of, version
+from synth_tools import ToolError, Tools, counted, package_of, version
 
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
 GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
@@ -140,6 +140,10 @@ class TangNano9k:
 
     def write_netlist(self, tools):
         tools.write_netlist("board", f"select -assert-count {2 * legs(tools.folder)} {GOWIN_GATES}")
+        figures = synth_measure.gowin_figures(counted(tools.folder / "board.stat")["num_cells_by_type"])
+        if figures["lut4_equivalents"] + figures["ff"] > self.there["lut4_equivalents"]:
+            changed = tools.pair_gowin("board")
+            print(f"more LUTs and flip-flops than places of both: a LUT goes with {changed} flip-flops")
 
     def route(self, tools, seed, mhz):
         return tools.route_gowin("board", seed, "tang_nano_9k.cst", mhz)

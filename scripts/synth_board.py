@@ -20,6 +20,8 @@ from synth_tools import ToolError, Tools, counted, package_of, version
 
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
 GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
+# Above this share of a GW1NR-9C's places nextpnr wants a LUT with each flip-flop: docs/boards/tang_nano_9k.md
+GOWIN_FULL = 0.8
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
 GATE_CELL = ("SRMODE ASYNC", "OUTREG.REGSET RESET", "OUTREG.OUTREGMODE FF", "LSRMUX LSR")
 # EP4CE22F17C6: logic elements, blocks of 9216 bits, multipliers of 18 by 18 bits.
@@ -141,9 +143,15 @@ class TangNano9k:
     def write_netlist(self, tools):
         tools.write_netlist("board", f"select -assert-count {2 * legs(tools.folder)} {GOWIN_GATES}")
         figures = synth_measure.gowin_figures(counted(tools.folder / "board.stat")["num_cells_by_type"])
-        if figures["lut4_equivalents"] + figures["ff"] > self.there["lut4_equivalents"]:
-            changed = tools.pair_gowin("board")
-            print(f"more LUTs and flip-flops than places of both: a LUT goes with {changed} flip-flops")
+        there, luts = self.there["lut4_equivalents"], figures["lut4_equivalents"]
+        found = tools.pair_gowin("board", "tang_nano_9k", GOWIN_FULL * there - luts)
+        least = luts + found["none"]
+        print(
+            f"flip-flops behind a LUT {found['LUT']}, behind a carry {found['ALU']}, behind neither {found['none']}: "
+            f"{least} to {least + found['ALU']} places of {there}, and the ends of the carry chains"
+        )
+        if "changed" in found:
+            print(f"more than {GOWIN_FULL:.0%} of the places: a LUT goes with {found['changed']} flip-flops")
 
     def route(self, tools, seed, mhz):
         return tools.route_gowin("board", seed, "tang_nano_9k.cst", mhz)

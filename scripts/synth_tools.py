@@ -134,13 +134,17 @@ class Tools:
         script = [f"read_rtlil {name}.il", *commands, "autoname", "blackbox =A:whitebox"]
         self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
 
-    def pair_gowin(self, name):
-        """NAME.json with pair_flip_flops(); how many flip-flops it changed."""
+    def pair_gowin(self, name, top, most):
+        """How many flip-flops of NAME.json have a LUT, a carry, or neither before them, and, if the last are more than
+        MOST, how many pair_flip_flops() has changed."""
         path = self.folder / f"{name}.json"
         netlist = json.loads(path.read_text(encoding="utf-8"))
-        changed = sum(pair_flip_flops(module) for module in netlist["modules"].values() if module.get("cells"))
-        path.write_text(json.dumps(netlist), encoding="utf-8")
-        return changed
+        module = netlist["modules"][top]
+        found = feeds(module)
+        if found["none"] > most:
+            found["changed"] = pair_flip_flops(module)
+            path.write_text(json.dumps(netlist), encoding="utf-8")
+        return found
 
     def write_simulation(self, top, read, models, family="ecp5"):
         """TOP's netlist as netlist.v, module TOP_netlist, with the models of its cells."""
@@ -248,6 +252,25 @@ class Tools:
 PLAIN = {"DFFCE": "DFFC", "DFFPE": "DFFP", "DFFE": "DFF", "DFFRE": "DFF", "DFFR": "DFF"}
 
 
+def drivers_of(cells):
+    """{bit: name of the cell that drives it}."""
+    return {bit: name for name, cell in cells.items() for port, bits in cell["connections"].items()
+            if cell["port_directions"][port] == "output" for bit in bits}
+
+
+def feeds(module):
+    """How many flip-flops have a LUT that is free for them, a carry, or neither before them."""
+    drivers, found, taken = drivers_of(module["cells"]), Counter(), set()
+    for cell in module["cells"].values():
+        if cell["type"].startswith("DFF"):
+            before = drivers.get(cell["connections"]["D"][0])
+            kind = module["cells"][before]["type"][:3] if before else ""
+            kind = kind if kind == "ALU" or kind == "LUT" and before not in taken else "none"
+            taken.add(before)
+            found[kind] += 1
+    return found
+
+
 def plain_next(init, inputs, values, enable, held, clear):
     """What the LUT before a plain flip-flop gives, where each bit of a net has a value."""
     if clear is not None and values[clear]:
@@ -265,12 +288,11 @@ def pair_flip_flops(module):
     finds that place last, when single LUTs stand in it; LUT and flip-flop together it places before them. Two
     flip-flops that are neighbours share clock enable and clear, so what needs neither fits everywhere.
     """
-    cells, drivers, loads = module["cells"], {}, Counter()
-    for name, cell in cells.items():
+    cells, loads = module["cells"], Counter()
+    drivers = drivers_of(cells)
+    for cell in cells.values():
         for port, bits in cell["connections"].items():
-            if cell["port_directions"][port] == "output":
-                drivers.update(dict.fromkeys(bits, name))
-            else:
+            if cell["port_directions"][port] == "input":
                 loads.update(bits)
     loads.update(bit for port in module["ports"].values() for bit in port["bits"])
     free = 1 + max(bit for net in module["netnames"].values() for bit in net["bits"] if isinstance(bit, int))

@@ -18,7 +18,7 @@ from pathlib import Path
 from testing import ROOT, Scratch, script
 import synth_board
 import synth_budget
-from synth_tools import pair_flip_flops
+from synth_tools import feeds, pair_flip_flops
 
 VENV = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 SEEDS, BOARD = sys.argv[2:4] if VENV else ("", "")
@@ -175,15 +175,15 @@ class StandIns(Scratch):
         self.assertIn("select -assert-count 4 ", (folder / "board_json.ys").read_text(encoding="utf-8"))
 
     def test_a_full_tang_nano_gets_its_pairs(self):
-        full = YOSYS.replace('"DFF": 5', '"DFF": 8640 - 174 - 7 + MORE').replace('"type": "TRELLIS_FF"', '"type": "DFFE"')
+        full = YOSYS.replace('"LUT2": 30', '"LUT2": 6912 - 145 + MORE').replace('"type": "TRELLIS_FF"', '"type": "DFFE"')
         full = full.replace('"connections": {"Q": [5]}', '"connections": {"Q": [5], "D": [5], "CE": [5]}')
         full = full.replace('{"Q": "output"}', '{"Q": "output", "D": "input", "CE": "input"}')
-        # Of the two modules that the stand-in writes one is each board's.
-        for more, words in ((0, ""), (1, "a LUT goes with 2 flip-flops")):
+        for more, words in ((0, ""), (1, "a LUT goes with 1 flip-flops")):
             with self.subTest(more):
                 done, _, _ = self.run_board("--board", "tang_nano_9k", clock=54, yosys=full.replace("MORE", str(more)))
                 self.assertIn(words, done.stdout)
-                self.assertEqual("more LUTs" in done.stdout, bool(more), done.stdout + done.stderr)
+                self.assertIn(f"behind a carry 0, behind neither 1: {6912 + more} to {6912 + more} places of 8640", done.stdout)
+                self.assertEqual("more than 80%" in done.stdout, bool(more), done.stdout + done.stderr)
                 written = json.loads(Path(self.folder, "synth/tang_nano_9k_lever/board.json").read_text(encoding="utf-8"))
                 self.assertEqual(len(written["modules"]["tang_nano_9k"]["cells"]), 1 + more)
 
@@ -322,6 +322,7 @@ class Pairs(unittest.TestCase):
         self.flip_flop("DFFCE", "d", "whose_lut_others_use")
         self.put("reader", "LUT1", ("F",), {"INIT": "10"}, F="out", I0="d")
         before = json.dumps(self.cells)
+        self.assertEqual(feeds(self.module()), {"ALU": 1, "LUT": 1, "none": 1})
         self.assertEqual(pair_flip_flops(self.module()), 0)
         self.assertEqual(json.dumps(self.cells), before)
 

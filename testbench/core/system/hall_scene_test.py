@@ -48,11 +48,14 @@ class HallScene(Scratch):
         text = text.replace(OFFSET, f"offset_rad = {offset_rad:.4f} ")
         return self.put("turned.toml", text.replace(ERROR, f"hall_error_rad = {[float(e) for e in error]}"))
 
+    @staticmethod
+    def program(*words):
+        return ran(BUILD / "feltgate_hall_motor", *words, "--design", "hall_motor")
+
     def figures(self, plant, *words, to_rad=TURNED):
         out = self.folder / "run.json"
         scene = self.put("steps.toml", SCENE.replace("TO_RAD", str(to_rad)))
-        self.ended(ran(BUILD / "feltgate_hall_motor", "run", scene, "--design", "hall_motor", "--plant", plant, "--quiet",
-                       "--json", out, *words))
+        self.ended(self.program("run", scene, "--plant", plant, "--quiet", "--json", out, *words))
         return json.loads(out.read_text(encoding="utf-8"))["figures"]
 
     def torques_are_right(self, found, least, error):
@@ -84,7 +87,7 @@ class HallScene(Scratch):
         self.torques_are_right(found, 0.83, 0.04)
 
     def test_a_plant_without_lines_is_refused(self):
-        done = ran(BUILD / "feltgate_hall_motor", "run", "wall", "--design", "hall_motor", "--plant", "gimbal_motor")
+        done = self.program("run", "wall", "--plant", "gimbal_motor")
         self.ended(done, 2)
         self.assertIn("plant gimbal_motor has none; give it hall_rad and hall_error_rad", done.stderr)
 
@@ -96,15 +99,13 @@ class HallScene(Scratch):
         ):
             plant = text_of("vectors/plants/hall_motor.toml")
             self.assertEqual(plant.count(old), 1)
-            done = ran(BUILD / "feltgate_hall_motor", "run", "wall", "--design", "hall_motor", "--plant",
-                       self.put("bad.toml", plant.replace(old, new)))
+            done = self.program("run", "wall", "--plant", self.put("bad.toml", plant.replace(old, new)))
             self.ended(done, 2)
             self.assertIn(said, done.stderr)
 
     def test_a_recording_has_no_lines(self):
         log = self.put("log.csv", "t,count\n0,0\n0.01,5\n")
-        done = ran(BUILD / "feltgate_hall_motor", "replay", log, "--time-column", "t", "--count-column", "count", "--design",
-                   "hall_motor")
+        done = self.program("replay", log, "--time-column", "t", "--count-column", "count")
         self.ended(done, 2)
         self.assertIn("measures the motor's angle by Hall lines, which a recording does not have", done.stderr)
 

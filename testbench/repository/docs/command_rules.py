@@ -40,7 +40,7 @@ RULES = (
     Rule(r"feltgate run texture.*", "BY", "scene.texture.pantograph_law"),
     Rule(r"feltgate run (\w+) --design gimbal_motor --torque-scale 0\.1", "BY", r"scene.\1.gimbal_motor"),
     Rule(r"feltgate run (\w+) --design gimbal_current --torque-scale 0\.1", "BY", r"scene.\1.gimbal_current"),
-    Rule(r"feltgate run wall --design hall_motor --torque-scale 0\.4 --engine all", "BY", "scene.wall.hall_motor.rtl"),
+    Rule(r"feltgate run (\w+) --design hall_motor --torque-scale 0\.4 --engine all", "BY", r"scene.\1.hall_motor.rtl"),
     Rule(r"feltgate run (\w+) --design hall_motor --torque-scale 0\.4", "BY", r"scene.\1.hall_motor"),
     Rule(r"feltgate run knob_detents --design gimbal_current --engine all", "BY", "scene.knob_detents.gimbal_current.rtl"),
     Rule(r"feltgate run warm_winding --design lever", "BY", "scene.torque_step.lever_current"),

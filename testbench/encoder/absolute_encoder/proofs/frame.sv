@@ -62,8 +62,8 @@ module frame_proof (
   (* hierconn *) wire [4:0] \u_dut.equal_q ;
   (* hierconn *) wire \u_dut.moved_q ;
   (* hierconn *) wire [11:0] \u_dut.reach_q ;
-  (* hierconn *) wire [11:0] \u_dut.step_q ;
-  (* hierconn *) wire [11:0] \u_dut.before_q ;
+  (* hierconn *) wire [7:0] \u_dut.step_q ;
+  (* hierconn *) wire [7:0] \u_dut.before_q ;
   wire [1:0] state = \u_dut.state_q ;
   wire [3:0] count = \u_dut.wait_q ;
   wire [4:0] period = \u_dut.period_q ;

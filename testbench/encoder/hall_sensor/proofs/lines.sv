@@ -34,7 +34,7 @@ module lines_proof (
   (* hierconn *) wire [2:0] \u_dut.sync_q ;
   (* hierconn *) wire [2:0] \u_dut.last_q ;
   (* hierconn *) wire [2:0] \u_dut.code_q ;
-  (* hierconn *) wire [9:0] \u_dut.wait_q ;
+  (* hierconn *) wire [1:0] \u_dut.wait_q ;
   (* hierconn *) wire \u_dut.known_q ;
   (* hierconn *) wire [2:0] \u_dut.sector_q ;
   (* hierconn *) wire [2:0] \u_dut.seen_q ;
@@ -133,7 +133,7 @@ module lines_proof (
       an_edge: cover (exact && faults == '0);
       all_of_them: cover (faults == 3'b111);
       inside_samples: assert (\u_dut.meta_q == sample_q[0] && \u_dut.sync_q == sample_q[1] && \u_dut.last_q == sample_q[2]);
-      inside_wait: assert (\u_dut.wait_q == (row > 10'(Glitch) ? '0 : 10'(Glitch) - row));
+      inside_wait: assert (10'(\u_dut.wait_q ) == (row > 10'(Glitch) ? '0 : 10'(Glitch) - row));
       inside_there: assert (there_q[2:0] == 3'b111);
       inside_exact: assert (!exact || \u_dut.known_q );
       inside_sector: assert (sector < 3'd6);

@@ -50,6 +50,12 @@ module wires_proof (
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.enc_a_i ;
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.enc_b_i ;
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.enc_z_i ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.encoder_data_i ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.encoder_select_no ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.encoder_clock_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.encoder_command_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gate_c_hi_o ;
+  (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.gate_c_lo_o ;
   (* hierconn *) wire \u_dut.g_law.u_axes.arm_i ;
   (* hierconn *) wire \u_dut.g_law.u_axes.stop_i ;
   (* hierconn *) wire [A-1:0] \u_dut.g_law.u_axes.set_zero_i ;
@@ -315,7 +321,12 @@ module wires_proof (
       stop_and_panel_pass: assert ({core_stop_i, core_arm_i, core_set_zero_i, core_scene_i} == {stop_i, arm_i, set_zero_i, scene_i});
       encoder_passes: assert ({core_enc_a_i, core_enc_b_i, core_enc_z_i} == {enc_a_i, enc_b_i, enc_z_i});
 `ifdef LAW
-      options_pass: assert ({select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} == 7'b1000000);
+      options_pass: assert ({current_clock, heartbeat} == 2'b00 &&
+          (feltgate_pkg::ABSOLUTE_ENCODER == 0 ? {select_n, serial_clock, command} == 3'b100 :
+           {select_n, serial_clock, command, encoder_data_i} == {\u_dut.g_law.u_axes.encoder_select_no [0], \u_dut.g_law.u_axes.encoder_clock_o [0],
+            \u_dut.g_law.u_axes.encoder_command_o [0], \u_dut.g_law.u_axes.encoder_data_i [0]}) &&
+          (feltgate_pkg::PHASES != 3 ? {c_hi, c_lo} == 2'b00 :
+           {c_hi, c_lo} == {\u_dut.g_law.u_axes.gate_c_hi_o [0], \u_dut.g_law.u_axes.gate_c_lo_o [0]}));
 `else
       options_pass: assert ({\u_dut.g_core.u_core.encoder_data_i , \u_dut.g_core.u_core.current_data_i , \u_dut.g_core.u_core.driver_fault_i , \u_dut.g_core.u_core.hall_i } ==
           {encoder_data_i, current_data_i, driver_fault_i, hall_i} && {select_n, serial_clock, command, current_clock, heartbeat, c_hi, c_lo} ==

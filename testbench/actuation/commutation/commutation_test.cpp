@@ -102,7 +102,7 @@ struct Tally {
 };
 
 /// Kinds of inputs, each for a while: any words, an encoder that turns, angles at the sectors' ends
-/// and middles, ends of the amplitude.
+/// and middles, steps of the angle's bits that count, ends of the amplitude.
 struct RandomInputs {
   Random random;
   Commutation::In in{};
@@ -117,7 +117,11 @@ struct RandomInputs {
     in.position = static_cast<std::int32_t>(random.bits());
     in.gain = static_cast<std::uint32_t>(random.bits());
     in.offset = static_cast<std::uint32_t>(random.bits());
-    if (kind == 1) {
+    if (kind == 0 && random.coin()) {
+      // At a step of the 18 bits that count or just below one: there a carry from any bit shows.
+      const auto angle = static_cast<std::uint32_t>(in.position) * in.gain;
+      in.offset = (in.offset & ~0x3fffU) - angle - (random.coin() ? 1 : 0);
+    } else if (kind == 1) {
       in.position = static_cast<std::int32_t>(clock);
       in.gain = commutation_gain(11, 16384);
     } else if (kind >= 2) {

@@ -66,13 +66,12 @@ TEST_CASE("board: the gates of the third leg and the Hall lines reach their pins
 #endif
   for (unsigned k = 0; k < all; ++k) {
     const bool a = (k & 1u) != 0, b = (k & 2u) != 0, z = (k & 4u) != 0;
-    const auto lines = static_cast<unsigned char>(k >> 3);
     const auto top = std::make_unique<Top>();
 #ifdef DE0_NANO
     top->ENC_A = a;
     top->ENC_B = b;
     top->ENC_Z = z;
-    top->HALL = lines;
+    top->HALL = static_cast<unsigned char>(k >> 3);
     top->eval();
     const unsigned high = top->GATE_C_HI, low = top->GATE_C_LO;
 #else
@@ -80,7 +79,7 @@ TEST_CASE("board: the gates of the third leg and the Hall lines reach their pins
     top->enc_b = b;
     top->enc_z = z;
 #ifndef TANG_NANO_9K
-    top->hall = lines;
+    top->hall = static_cast<unsigned char>(k >> 3);
 #endif
     top->eval();
     const unsigned high = top->gate_c_hi, low = top->gate_c_lo;

@@ -59,12 +59,12 @@ module hall_sensor #(
       default: sector_of = 3'd5;
     endcase
   endfunction
-  function automatic logic [2:0] after(input logic [2:0] sector);
-    after = (sector == 3'd5) ? 3'd0 : sector + 3'd1;
+  function automatic logic [2:0] after(input logic [2:0] place);
+    after = (place == 3'd5) ? 3'd0 : place + 3'd1;
   endfunction
   // Begin of a sector, 2^-16 turn; its middle is 5461 later.
-  function automatic logic [15:0] begin_of(input logic [2:0] sector);
-    case (sector)
+  function automatic logic [15:0] begin_of(input logic [2:0] place);
+    case (place)
       3'd0:    begin_of = 16'd0;
       3'd1:    begin_of = 16'd10923;
       3'd2:    begin_of = 16'd21845;

@@ -16,6 +16,13 @@ using Top = Vtang_nano_9k;
 using Top = Vde0_nano;
 #endif
 
+// The DE0-Nano's ports have capital letters.
+#ifdef DE0_NANO
+#define PIN(lower, upper) upper
+#else
+#define PIN(lower, upper) lower
+#endif
+
 #include <memory>
 
 #include "catch.hpp"
@@ -67,23 +74,14 @@ TEST_CASE("board: the gates of the third leg and the Hall lines reach their pins
   for (unsigned k = 0; k < all; ++k) {
     const bool a = (k & 1u) != 0, b = (k & 2u) != 0, z = (k & 4u) != 0;
     const auto top = std::make_unique<Top>();
-#ifdef DE0_NANO
-    top->ENC_A = a;
-    top->ENC_B = b;
-    top->ENC_Z = z;
-    top->HALL = static_cast<unsigned char>(k >> 3);
-    top->eval();
-    const unsigned high = top->GATE_C_HI, low = top->GATE_C_LO;
-#else
-    top->enc_a = a;
-    top->enc_b = b;
-    top->enc_z = z;
+    top->PIN(enc_a, ENC_A) = a;
+    top->PIN(enc_b, ENC_B) = b;
+    top->PIN(enc_z, ENC_Z) = z;
 #ifndef TANG_NANO_9K
-    top->hall = static_cast<unsigned char>(k >> 3);
+    top->PIN(hall, HALL) = static_cast<unsigned char>(k >> 3);
 #endif
     top->eval();
-    const unsigned high = top->gate_c_hi, low = top->gate_c_lo;
-#endif
+    const unsigned high = top->PIN(gate_c_hi, GATE_C_HI), low = top->PIN(gate_c_lo, GATE_C_LO);
     // What the stub shows of the encoder and of the lines.
     const auto line = [&](unsigned n) { return k >> (3 + n) & 1u; };
     CHECK(high == ((a && z) ^ line(0) ^ line(2)));
@@ -97,24 +95,15 @@ TEST_CASE("board: the second modulator has a pin where the design has two shunts
   for (unsigned k = 0; k < 4; ++k) {
     const bool first = (k & 1u) != 0, second = (k & 2u) != 0;
     const auto top = std::make_unique<Top>();
-#ifdef DE0_NANO
-    top->ENCODER_DATA = 1;
-    top->CURRENT_DATA = first;
-    top->CURRENT_DATA_B = second;
+    top->PIN(encoder_data, ENCODER_DATA) = 1;
+    top->PIN(current_data, CURRENT_DATA) = first;
+    top->PIN(current_data_b, CURRENT_DATA_B) = second;
     top->eval();
-    const unsigned command = top->ENCODER_COMMAND, clock = top->CURRENT_CLOCK,
-                   clock_b = top->CURRENT_CLOCK_B;
-#else
-    top->encoder_data = 1;
-    top->current_data = first;
-    top->current_data_b = second;
-    top->eval();
-    const unsigned command = top->encoder_command, clock = top->current_clock,
-                   clock_b = top->current_clock_b;
-#endif
-    CHECK((command != 0) == first);  // the stub: of the first alone
+    const unsigned clock = top->PIN(current_clock, CURRENT_CLOCK);
+    CHECK((top->PIN(encoder_command, ENCODER_COMMAND) != 0) ==
+          first);  // the stub: of the first alone
     CHECK((clock != 0) == (MODULATORS == 2 ? first != second : first));
-    CHECK(clock_b == clock);
+    CHECK(top->PIN(current_clock_b, CURRENT_CLOCK_B) == clock);
   }
 }
 #endif

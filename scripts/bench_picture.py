@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws the picture of docs/bench.md, speed against error, from the JSON of feltgate bench.
+"""Draws the picture of docs/speed-for-accuracy.md, speed against error, from the JSON of feltgate bench.
 
   feltgate bench --json docs/images/bench.json
   scripts/bench_picture.py docs/images/bench.json docs/images/bench.svg

@@ -4,7 +4,7 @@
 """Writes the sound at the bridge of a bowed string, or of four, as a WAV file of 40 kHz, from
 `feltgate run bowed_string --states FILE`. If a law runs slower, each of its values is held, as in a converter.
 
-Documentation: docs/devices/bowed_string.md
+Documentation: docs/devices/strings-and-drums.md
 """
 
 import argparse

@@ -3,14 +3,14 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Each block has one name everywhere: fails when a block lacks one of its files.
 
-Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp and
-docs/blocks/<b>.md (scene_* blocks may share a folder of testbench/scenes), at least one seeded defect, and a
-page that links the others. The twin is the class with the block's name. It is in
+Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp
+(scene_* blocks may share a folder of testbench/scenes), at least one seeded defect, and a page that links its
+RTL; blocks that help one another share a page. The twin is the class with the block's name. It is in
 model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
 law that it evaluates, if any, is in the former.
-Further checks: a strobe is connected to the clock of its name, what a page draws is in the RTL, no hand-written source has more than 400 lines, only libfmt formats numbers in model/,
-and the lists made from the blocks are up to date: docs/blocks.md with the results of
-docs/verification, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
+Further checks: a strobe is connected to the clock of its name, what a page draws is in the RTL, no hand-written
+source has more than 400 lines, only libfmt formats numbers in model/, and the lists made from the blocks are up
+to date: docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -24,7 +24,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from seeded_defects import patches
-import block_results
 import rtl_sources
 
 MAX_LINES = 400
@@ -37,7 +36,7 @@ NO_LIBFMT = ("model/include/", "model/sim/backends/", "model/sim/reference/")
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"
-# Strobes of a block, docs/blocks/feltgate_core.md: the clock of each kind.
+# Strobes of a block, docs/architecture.md: the clock of each kind.
 STROBES = {
     "at": "EVENT_AT_{}",
     "after": "EVENT_AT_{}+1",
@@ -81,8 +80,24 @@ def shared_scene_test(root, name):
     return None
 
 
+def page_links(root):
+    """{page: files that it links}, pages of blocks first."""
+    found = [*sorted(root.glob("docs/blocks/*.md")), *sorted(root.glob("docs/*.md"))]
+    found = [path.relative_to(root) for path in found if path != root / "docs/blocks.md"]
+    return {page: linked_files(root, page) for page in found}
+
+
+def page_of(pages, rtl):
+    """The page that links the RTL, else its folder; None where there is none."""
+    for path in (rtl, rtl.parent):
+        for page, links in pages.items():
+            if path in links:
+                return page
+    return None
+
+
 def find_blocks(root):
-    blocks = []
+    blocks, pages = [], page_links(root)
     for name, path in rtl_sources.module_files(root).items():
         rtl = root / "rtl" / path
         code = rtl_sources.code_only(rtl.read_text(encoding="utf-8"))
@@ -106,7 +121,7 @@ def find_blocks(root):
                 law=public if tested and (root / public).exists() else None,
                 twin=beside if tested else public,
                 test=test,
-                doc=Path(f"docs/blocks/{name}.md"),
+                doc=page_of(pages, rtl.relative_to(root)),
                 defects=tuple(patches.names(root / folder / "defects.diff")),
             )
         )
@@ -114,7 +129,7 @@ def find_blocks(root):
 
 
 def check_block(root, block):
-    for what, path in (("twin", block.twin), ("test", block.test), ("page", block.doc)):
+    for what, path in (("twin", block.twin), ("test", block.test)):
         if not (root / path).exists():
             yield f"{path}: missing, the {what} of {block.rtl}; write it"
     twin = root / block.twin
@@ -124,30 +139,24 @@ def check_block(root, block):
     rtl = (root / block.rtl).read_text(encoding="utf-8")
     if not re.search(rf"\bmodule\s+{block.name}\b", rtl):
         yield f"{block.rtl}: no module {block.name} in it; name the module as the file"
-    if str(block.doc) not in rtl:
-        yield f"{block.rtl}: does not name its page; add {block.doc} to the head comment"
+    if block.doc is None:
+        yield f"{block.rtl}: no page of docs or docs/blocks links it; describe it on one"
     file = block.folder / "defects.diff"
     if not block.defects:
         yield f"{file}: no seeded defect of {block.rtl}; add one, docs/testing.md says how"
     if re.search(r"\bDefect\b", rtl):
         yield f"{block.rtl}: the word Defect; what breaks it is a patch in {file}"
-    if (root / block.doc).exists():
-        links = linked_files(root, block.doc)
-        for path in filter(None, (block.rtl, block.law, block.twin, block.test)):
-            # A link to the test's folder is as good.
-            if not {path, path.parent} & links:
-                yield f"{block.doc}: no link to {path}; link it in the first lines"
 
 
-def check_drawing(root, block):
-    """Each port and register in the drawings of a page is in the RTL of the block or of its parts."""
-    page = root / block.doc
-    text = page.read_text(encoding="utf-8") if page.exists() else ""
-    files = [root / block.rtl] if block.rtl.parts[1] == "core" else (root / block.rtl).parent.glob("*.sv")
-    names = set(re.findall(r"\w+", "".join(path.read_text(encoding="utf-8") for path in files)))
+def check_drawings(root, page):
+    """Each port and register in the drawings of a page is in the RTL that it links."""
+    text = (root / page).read_text(encoding="utf-8")
+    linked = [root / path for path in linked_files(root, page) if path.suffix == ".sv"]
+    files = {path for one in linked for path in (one.parent.glob("*.sv") if "core" not in one.parts else [one])}
+    names = set(re.findall(r"\w+", "".join(path.read_text(encoding="utf-8") for path in files if path.exists())))
     for drawing in re.findall(r"^```mermaid\n(.*?)^```", text, re.S | re.M):
         for name in sorted({*re.findall(r"\b\w+_(?:n?[io]|q[0-9]?)\b", drawing)} - names):
-            yield f"{block.doc}: {name} of the drawing is not in the RTL; correct the drawing"
+            yield f"{page}: {name} of the drawing is not in the RTL; correct the drawing"
 
 
 def check_defects(root):
@@ -241,20 +250,11 @@ def blocks_table(root, blocks):
             "",
             "The twin is a class of the block's name, clock by clock. Where the core's twin evaluates",
             "a law instead, the law is a template in the public headers, and the class, which only",
-            "tests use, is beside its test.",
+            "tests use, is beside its test. What was measured of each block: `./feltgate docs`, results.",
             "",
             "| room | block | RTL | law | twin | test | page | seeded defects |",
             "|---|---|---|---|---|---|---|---|",
             *rows,
-            "",
-            "## Verification",
-            "",
-            "What was measured of each, from the files in [verification](verification); a dash is what was not",
-            "measured. Seconds are of CPU time, without the defects of the proofs and the twin's mutants; those of",
-            "all flips are in the row of the core. What the columns say and do not say:",
-            "[verification](verification.md).",
-            "",
-            *block_results.table(root, [b.name for b in blocks]),
             "",
         ]
     )
@@ -364,16 +364,14 @@ def check_strobes(root):
 def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
-    try:
-        found += check_lists(root, blocks, write)
-    except block_results.ResultsError as error:
-        found.append(str(error))
+    found += check_lists(root, blocks, write)
     ordered, lost = rtl_sources.modules(root)
     for name in lost:
         found.append(f"rtl/{ordered[name]}: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
-        found += check_drawing(root, block)
+    for page in page_links(root):
+        found += check_drawings(root, page)
     for page in sorted(root.glob("docs/**/*.md")):
         if page != root / "docs/blocks.md":  # its links are the siblings, checked above
             found += check_links(root, page.relative_to(root))

@@ -4,7 +4,7 @@
 """Chooses design, rate, plant and simulation for a scene or a law, and verifies the choice.
 
 It asks the program's other commands and adds up: no figure is computed here. Documentation:
-docs/choose.md
+docs/speed-for-accuracy.md
 """
 
 import json

@@ -8,7 +8,7 @@
   feltgate controllers --current -o current_loop.svg         the current loop instead
   feltgate controllers --json all.json && scripts/controllers_picture.py all.json all.svg
 
-Documentation: docs/controllers.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import math

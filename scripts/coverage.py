@@ -13,7 +13,7 @@ instances:
 
 What cannot be reached is waived, with its reason, in testbench/campaigns/coverage/waivers.toml, ten times at
 most. 'whole core' is what the core's own tests reach, each instance for itself; no target. What it
-says and does not say: docs/coverage.md
+says and does not say: docs/testing.md
 
 Exit code: 0 all targets are met, 1 a block misses one or a waiver is of no use, 2 when a tool, a
 file or an argument is wrong or a test fails.

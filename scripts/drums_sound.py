@@ -5,7 +5,7 @@
 
 A drum is five modes of a round membrane. For hits they are under an envelope of attack, decay, sustain
 and release: the speed of a hit is its loudness, its distance from the middle shortens the sustain. For a
-force they are masses on springs, which that force moves. Documentation: docs/devices/drums.md
+force they are masses on springs, which that force moves. Documentation: docs/devices/strings-and-drums.md
 """
 
 import argparse

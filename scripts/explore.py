@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Sweeps over design points: error, delay, area and speed of each, the front, a page.
 
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import argparse

@@ -34,7 +34,7 @@ Each fault ends in one class:
 Peak and integral are those of the torque's deviation, from the fault to the gates off. Beside a
 zero stands its 95 % bound, about 3/N. With --design, "off us" is the latest time to the gates off
 and "motor Nm" the motor's largest torque, means of a PWM period. Results and what this does not
-say: docs/verification.md
+say: docs/testing.md
 
 Exit code: 0 what is promised is kept (none unsafe but where nothing sees the fault, a cut cable
 say; at most 1 % of single flips silent, 99 % flagged of the faults that docs/safety.md
@@ -95,7 +95,7 @@ def arguments(argv):
     add.add_path(parser, "--lines", nargs="+", what=what)
     add.add_path(parser, "--save", what="a line of JSON for each fault")
     add.add_json(parser)
-    add.add_flags(parser, markdown="the table as it stands in docs/verification.md")
+    add.add_flags(parser, markdown="the table as it stands in docs/testing.md")
     add.add_path(parser, "--picture", what="what the hand would feel, as SVG or PNG")
     add.add_flags(parser, update=f"put the results into {block_results.FOLDER}/faults.json")
     options = parser.parse_args(argv)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""docs/commands.md: what --help prints, so that ./feltgate can print it before anything is built.
+"""scripts/help.txt: what --help prints, so that ./feltgate can print it before anything is built.
 
   ninja -C build feltgate feltgate_generate feltgate_bench feltgate_extremes \\
     feltgate_host feltgate_board feltgate_touch && scripts/help_texts.py --write
@@ -16,11 +16,9 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs/commands.md"
-HEAD = """# Commands
-
-What `--help` prints of each command and verb. `./feltgate` prints these texts before anything is
-built. [help_texts.py](../scripts/help_texts.py) writes this page.
+PAGE = ROOT / "scripts/help.txt"
+HEAD = """# What --help prints of each command and verb; ./feltgate prints these texts before anything is built.
+# Written by scripts/help_texts.py --write.
 """
 # Layout differs between versions of argparse and CLI11; the committed texts are Debian 12's.
 EXACT = (3, 11)
@@ -52,7 +50,7 @@ def commands(build):
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
     }
-    scripts = ("choose", "faults", "prove", "mutate", "coverage", "page", "product")
+    scripts = ("choose", "faults", "prove", "mutate", "coverage", "page", "product", "docs")
     own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
     programs = ("bench", "extremes", "host", "board")
     own |= {name: [build / f"feltgate_{name}"] for name in programs}

@@ -9,7 +9,7 @@ in one netlist behind its ports, Verilated once and chosen at run time; the bloc
 runs in lock-step with the twin until it notices. What survives is proven to be the same circuit
 (yosys-abc), is listed in testbench/campaigns/mutate/rtl.toml with the reason, or is a gap in the test.
 --show prints one mutant with its lines of source, cell and fate, and inputs for which it differs.
-Method, results and what this does not say: docs/verification.md
+Method, results and what this does not say: docs/testing.md
 
 Exit code: 0 all tests kill the share that is required, 1 one does not, 2 when a tool, a file or an
 argument is wrong.

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The core of a design as one Verilog-2005 file, a board's Quartus project, or a scene as an FMU.
 
-Documentation: docs/product.md, docs/boards/de0_nano.md
+Documentation: docs/other-tools.md, docs/boards/de0_nano.md
 """
 
 import re
@@ -32,7 +32,7 @@ NOTICE = """// SPDX-License-Identifier: Apache-2.0
 //
 // The core feltgate_core of design {design}, {read_back}read-back, in Verilog-2005: written from
 // its SystemVerilog by `feltgate product verilog` with {yosys}. Do not edit; ports and
-// their timing: docs/blocks/feltgate_core.md.
+// their timing: docs/architecture.md.
 """
 # What only Yosys reads.
 ATTRIBUTES = (

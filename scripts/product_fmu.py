@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """`feltgate product fmu`: a scene with its plant and the twin of a design as one FMI 3.0 file.
 
-Documentation: docs/product.md
+Documentation: docs/other-tools.md
 """
 
 import ctypes

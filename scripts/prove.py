@@ -12,7 +12,7 @@ inputs and named assertions. Four kinds of run decide it:
   defect      with a patch of the product (testbench/ROOM/BLOCK/proofs/defects.diff) the assertion fails
 
 A counter-example is printed as a table of the wrapper's signals, the failing clock last.
-Table, assumptions and what is not proven: docs/proofs.md
+Table, assumptions and what is not proven: docs/testing.md
 
 Exit code: 0 all is proven and every defect is caught, 1 something is not, 2 when a tool, a file or
 an argument is wrong.
@@ -27,7 +27,7 @@ import sys
 
 import command_line
 import outputs
-from proofs import catalog, page, record, tasks, unproven
+from proofs import catalog, record, results, tasks, unproven
 from proofs.tools import Broken, Tools
 
 SCHEMA = "feltgate-prove/1"
@@ -53,16 +53,12 @@ def arguments(argv):
     add.add_keep(parser, "SMT2, logs and VCD")
     add.add_flags(
         parser,
-        update="write the table of docs/proofs.md: of all blocks, or of those named here",
-        check_page="only look whether that table is of the proofs as they are",
+        update="write docs/verification/proofs.json: of all blocks, or of those named here",
     )
     add.add_only_arguments(parser)
     options = parser.parse_args(argv)
     run_only = ("changed", "record", "defects", "keep", "json", "update")
     command_line.refuse_beside(parser, options, "list", *run_only)
-    command_line.refuse_beside(parser, options, "check_page", "list", "fast", *run_only)
-    if options.check_page and options.proof:
-        parser.error("--check-page looks at the whole table: name no proof")
     outputs.check(parser, json=options.json)
     command_line.check_keep(parser, options.keep)
     limited = options.fast or options.changed or options.defects is not None
@@ -128,7 +124,7 @@ def prove(options, root, proofs, folder):
 
 def report(options, root, rows, versions):
     """Prints and writes the rows; the exit code."""
-    print(page.text_table(rows))
+    print(results.text_table(rows))
     bad = [row for row in rows if not row.good(options.defects)]
     properties = sum(len(row.proof.properties) for row in rows if row.first)
     print(
@@ -141,10 +137,10 @@ def report(options, root, rows, versions):
     if options.record:
         record.write(root, [row for row in rows if row not in bad], versions)
     if options.update and not bad:
-        page.write(root, result)
-        print(f"prove: wrote {page.PAGE}")
+        results.write(root, result)
+        print("prove: wrote docs/verification/proofs.json")
     elif options.update:
-        print(f"prove: {page.PAGE} stays as it was, for not all is good")
+        print("prove: docs/verification/proofs.json stays as it was, for not all is good")
     return 1 if bad else 0
 
 
@@ -152,8 +148,6 @@ def run(options):
     """The exit code."""
     root = command_line.root()
     everything = catalog.read(root)
-    if options.check_page and not options.only_arguments:
-        return page.check(root, everything)
     proofs = chosen(everything, options.proof, options.fast)
     if options.only_arguments:
         return 0

@@ -7,7 +7,7 @@
   feltgate rates --json rates.json && scripts/rates_picture.py rates.json rates.svg
   scripts/rates_picture.py rates.json docs/images --each    rates_SCENE.svg for each scene, too
 
-Documentation: docs/rates.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import math

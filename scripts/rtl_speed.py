@@ -9,7 +9,7 @@ place where the linker puts their code changes either speed by up to two times. 
 is linked several times, each time with the object files in another order and at other addresses. The
 script prints the median over the links and both ends. If valgrind is installed, it also prints the
 machine instructions per clock, which do not depend on the position of the code.
-Documentation: docs/bench.md
+Documentation: docs/speed-for-accuracy.md
 
   scripts/rtl_speed.py 318dd1b                     this tree against a revision
   scripts/rtl_speed.py ../other . --links 16       two folders

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Pictures of a stability study: stability.py STUDY.json FOLDER.
 
-Called by `feltgate stability --plot`; it only draws. Documentation: docs/stability.md
+Called by `feltgate stability --plot`; it only draws. Documentation: docs/speed-for-accuracy.md
 """
 
 import argparse

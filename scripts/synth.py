@@ -145,11 +145,10 @@ def main_scene_sets(options, root):
 
 
 def update(root, merge, measured, tools):
-    """Budget and documentation, with what was measured."""
+    """The budget, with what was measured."""
     path = root / "scripts/synth_budget.toml"
     synth_budget.write(path, merge(synth_budget.read(path), measured, tools))
-    synth_report.write_page(root / "docs/synthesis.md", synth_budget.read(path))
-    print("synth: wrote scripts/synth_budget.toml and docs/synthesis.md")
+    print("synth: wrote scripts/synth_budget.toml")
 
 
 def measure(options, root):

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Tables of `feltgate synth`: on the terminal, and the generated part of docs/synthesis.md."""
+"""Tables of `feltgate synth`: on the terminal, and the page of all figures that `feltgate docs` writes."""
 
 import synth_measure
 from reports.columns import aligned, markdown
-
-BEGIN = "<!-- written by feltgate synth --update: do not edit from here -->"
-END = "<!-- end of what feltgate synth wrote -->"
 
 # (repository, module, LUT4 equivalents, FF, MULT18, BRAM, Fmax [min-max]); measured for this
 # project's planning with Yosys 0.52 and nextpnr 0.7 from the repositories' public sources.
@@ -147,8 +144,6 @@ def scene_set_lines(budget):
 def generated(budget):
     how = budget["measured"]
     lines = [
-        BEGIN,
-        "",
         f"Measured on {how['date']} with {how['yosys']} and {how['nextpnr']} ({how['machine']}).",
     ]
     for design, rows in budget["figures"].items():
@@ -165,12 +160,4 @@ def generated(budget):
     peers = [[f"`{r}`", m, *(str(x) for x in rest)] for r, m, *rest in PEERS]
     heads = ("repository", "module", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz")
     lines += markdown(heads, peers)
-    return "\n".join([*lines, "", END])
-
-
-def write_page(path, budget):
-    page = path.read_text(encoding="utf-8")
-    if BEGIN not in page or END not in page:
-        raise ValueError(f"{path}: the lines '{BEGIN}' and '{END}' are missing; put them back")
-    before, rest = page.split(BEGIN, 1)
-    path.write_text(before + generated(budget) + rest.split(END, 1)[1], encoding="utf-8")
+    return "\n".join(lines)

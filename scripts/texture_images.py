@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Draws the images of vectors/textures, in 8-bit grey: docs/devices/texture.md.
+"""Draws the images of vectors/textures, in 8-bit grey: docs/devices/shapes.md.
 
 ripples.png: a sine with 16 pixels per period, seven periods long. valley.png: 16 x 16, two walls of
 four pixels that meet in column 8, and flat areas beside them.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A LiteX SoC with the core at 0x30000000. docs/neighbours.md
+"""A LiteX SoC with the core at 0x30000000. docs/other-tools.md
 
   python docs/examples/litex_soc.py OUT     writes the SoC's Verilog into OUT; needs LiteX 2024.12
 

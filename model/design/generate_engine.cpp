@@ -165,7 +165,7 @@ std::string engine_page(const EngineDescription& e) {
     }
   }
   s << "\n## After a reset\n\nFields of the parameter `Reset` of "
-       "[engine](blocks/engine.md#without-a-host).\n\n"
+       "[engine](blocks/engine.md#host).\n\n"
        "| bits | name | by default | meaning |\n|---|---|---|---|\n";
   for (const EngineResetField& w : e.reset) {
     s << fmt::format("| {} | `{}` | {} | {} |\n", bits_text(w.field), w.field.name, w.value,

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The schedule of a tick as read from rtl/schedule.toml and checked against the register map, and
-// the texts generated from both, which are equal in all designs. Documentation: docs/schedule.md
+// the texts generated from both, which are equal in all designs. Documentation: docs/architecture.md
 // (generated)
 #pragma once
 
@@ -77,8 +77,6 @@ std::string map_package(const RegisterMap& map, const Schedule& s);
 std::string map_header(const RegisterMap& map, const Schedule& s);
 /// Text of model/include/feltgate/generated/causes.hpp.
 std::string causes_header(const RegisterMap& map);
-/// Text of docs/schedule.md.
-std::string schedule_page(const RegisterMap& map, const Schedule& s);
 /// Text of docs/images/tick.json, the source of the timing diagram.
 std::string timing_diagram(const RegisterMap& map, const Schedule& s);
 

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # Simulated boards. feltgate_board has the twins of the designs that every program has, feltgate_board_NAME that of a
-# preset, and feltgate_board_rtl_NAME twin and Verilated RTL of one design. docs/board.md
+# preset, and feltgate_board_rtl_NAME twin and Verilated RTL of one design. docs/host.md
 include_guard(GLOBAL)
 
 feltgate_library(feltgate_board_parts host/board feltgate_backends feltgate_loop feltgate_axes_loop)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# The programs of feltgate coverage: each block test again, on RTL with coverage counters. docs/coverage.md
+# The programs of feltgate coverage: each block test again, on RTL with coverage counters. docs/testing.md
 include_guard(GLOBAL)
 
 add_custom_target(coverage_programs)

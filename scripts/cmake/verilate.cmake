@@ -56,7 +56,7 @@ set(FELTGATE_FASTEST_RTL -O3 -fno-tree-slp-vectorize)
 # static library <target> with the class <name> (default V<top>), generated and compiled at build
 # time as one translation unit. SYSTEMC: the class is an sc_module, which needs feltgate_verilated_sc.
 # FASTEST: for a model that runs for minutes.
-# COVERAGE: it counts what is reached, docs/coverage.md; built where something asks for it.
+# COVERAGE: it counts what is reached, docs/testing.md; built where something asks for it.
 function(feltgate_verilate target top sources)
   cmake_parse_arguments(PARSE_ARGV 3 arg "FASTEST;SYSTEMC;COVERAGE" "CLASS" "")
   if(NOT arg_CLASS)

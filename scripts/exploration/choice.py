@@ -4,7 +4,7 @@
 each costs as sums with their parts, which meet the wishes, and why the others do not.
 
 All figures come from the program's JSON and the committed tables; this adds and compares.
-Documentation: docs/choose.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import json

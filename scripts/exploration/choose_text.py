@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The answer of `feltgate choose` for people: text and picture of its JSON. It computes nothing.
 
-Documentation: docs/choose.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 

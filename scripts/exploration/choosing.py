@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """What `feltgate choose` asks the other commands about a scene, and the alternatives that follow.
 
-Documentation: docs/choose.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import csv

@@ -3,7 +3,7 @@
 """Chunk files: the results of a sweep, in parts that any process of any machine may evaluate.
 
 A chunk file has one line that says what it is, then one line per point. It is written under a
-temporary name and gets its own name when it is complete. Documentation: docs/explore.md
+temporary name and gets its own name when it is complete. Documentation: docs/speed-for-accuracy.md
 """
 
 import importlib

@@ -3,7 +3,7 @@
 """A point as a design file: the base's text, with the lines changed that the point sets; and as a
 program of its own.
 
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import json

@@ -3,7 +3,7 @@
 """Runs the parts of a sweep in processes of this machine, or in dask workers with the same folders.
 
 Both start the same command per part, such as `explore run DIR --chunk I/N`, which writes a file.
-Only the name of the file comes back. Documentation: docs/explore.md
+Only the name of the file comes back. Documentation: docs/speed-for-accuracy.md
 """
 
 import os

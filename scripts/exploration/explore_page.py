@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """explore.html: every point is a dot; point at it for its figures and design file. No network.
 
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import difflib

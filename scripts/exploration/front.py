@@ -3,7 +3,7 @@
 """Finds the points that no other point beats.
 
 A point beats another when it renders the same scenes, is no worse in any objective and better in
-one. Documentation: docs/explore.md
+one. Documentation: docs/speed-for-accuracy.md
 """
 
 from exploration import space

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Scene and law files that `feltgate choose` writes: a scene with other values, a law with a rate, a
-motion for a law that has no scene. Documentation: docs/choose.md
+motion for a law that has no scene. Documentation: docs/speed-for-accuracy.md
 """
 
 import difflib

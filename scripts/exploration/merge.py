@@ -3,7 +3,7 @@
 """Joins chunk files: refuses gaps and duplicates, gives the same bytes for any order of the runs.
 
 points.jsonl has all results of every point; points.csv has the figures as a small table.
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import csv

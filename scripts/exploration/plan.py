@@ -4,7 +4,7 @@
 
 Points of one structure are next to each other. If there are no more chunks than structures, they
 are in one chunk, because building a structure costs far more than another point of it.
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import hashlib

@@ -3,7 +3,7 @@
 """Evaluates one design point: its RTL against its twin, its error, its area, its speed.
 
 RTL and program depend only on the structure. They are built once per structure and kept in the
-working folder; the values in registers are set at run time. Documentation: docs/explore.md
+working folder; the values in registers are set at run time. Documentation: docs/speed-for-accuracy.md
 """
 
 import fcntl
@@ -231,7 +231,7 @@ def bounds(design, result):
 
 
 def evaluate_design(text, workdir, route=False, area=True):
-    """What is measured at the design of a TOML text; docs/explore.md has the keys."""
+    """What is measured at the design of a TOML text; docs/speed-for-accuracy.md has the keys."""
     Path(workdir).mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".point-", dir=workdir) as temporary:
         folder = Path(temporary)

@@ -4,7 +4,7 @@
 
 fast has the shortest delay, and exact the smallest error. balanced lies between them: its distance
 from the best of every objective, each on a logarithmic scale from 0 to 1, is the smallest.
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import math
@@ -84,7 +84,7 @@ def preset_text(root, name, chosen, plan):
         r"^description = .*$", lambda _: f'description = "{told}"', text, count=1, flags=re.M
     )
     where = f"vectors/spaces/{plan.name}.toml"
-    head = f"# Preset {name}: a point of the front of {where}; docs/explore.md.\n"
+    head = f"# Preset {name}: a point of the front of {where}; docs/speed-for-accuracy.md.\n"
     return head + text
 
 

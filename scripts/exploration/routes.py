@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Second stage of a sweep: place and route, only for points of the front, as it takes minutes.
 
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import json

@@ -3,7 +3,7 @@
 """A space file: a base design and sweeps over its keys, as a list of design points.
 
 A point is {"base": NAME, "set": {"section.key": value}}; `set` holds only what differs from the
-base, so the same design from two sweeps is one point. Documentation: docs/explore.md
+base, so the same design from two sweeps is one point. Documentation: docs/speed-for-accuracy.md
 """
 
 import difflib

@@ -134,7 +134,7 @@ def text_table(rows, timed=False):
 
 
 def markdown_table(rows, timed=False):
-    """Lines, as in docs/verification.md."""
+    """Lines, as in docs/testing.md."""
     head, cells = table(rows, ".3f" if timed else ".2f", ".2g", timed)
     return markdown(["point", "what", *head[2:]], cells, left=2)
 

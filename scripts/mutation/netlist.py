@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """One netlist of a block with all its mutants, of which one is chosen at run time.
 
-Documentation: docs/verification.md
+Documentation: docs/testing.md
 
 Yosys writes the block as a netlist of word-wide cells and proposes the mutants: one bit of one pin
 of one cell inverted, stuck, or changed by another bit of the pin. Every mutant is in the netlist

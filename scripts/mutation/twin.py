@@ -9,7 +9,7 @@ first run without any notes which test cases reach which mutants; each is then r
 one fails, within a limit of CPU time. What survives is listed with its reason in
 testbench/campaigns/mutate/twin.toml, equivalent or a gap, or is printed. A mutant is named by its function
 and what it changes, so that the list outlives a change of other lines. Method, results and what
-this does not say: docs/verification.md
+this does not say: docs/testing.md
 
 Exit code: 0 all headers have the share that is required killed, 1 one has not, 2 when a tool, a
 file or an argument is wrong.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""C++ headers as tree-sitter reads them. Documentation: docs/verification.md"""
+"""C++ headers as tree-sitter reads them. Documentation: docs/testing.md"""
 
 import glob
 import re

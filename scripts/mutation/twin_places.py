@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Where a C++ header has mutants, what they are called, and how the header asks for them
-(testbench/campaigns/mutate/twin/mutant.hpp). docs/verification.md
+(testbench/campaigns/mutate/twin/mutant.hpp). docs/testing.md
 """
 
 from collections import Counter

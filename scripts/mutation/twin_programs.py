@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Test programs with mutated headers: the commands of the build folder, with another include path.
 
-Documentation: docs/verification.md
+Documentation: docs/testing.md
 """
 
 import os

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Known survivors of the twin's mutants, and the results: testbench/campaigns/mutate/twin.toml, the
-rows of the table, docs/verification/twin_mutants.json. docs/verification.md
+rows of the table, docs/verification/twin_mutants.json. docs/testing.md
 """
 
 import json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Runs test cases with one mutant each. Documentation: docs/verification.md
+"""Runs test cases with one mutant each. Documentation: docs/testing.md
 
 First every test case runs once without a mutant and records which mutants it reaches. A mutant is
 then tried only by the cases that reach it, the shortest first, until one fails.

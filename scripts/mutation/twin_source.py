@@ -3,7 +3,7 @@
 """Mutants of a C++ header, all in one text, chosen at run time (testbench/campaigns/mutate/twin/mutant.hpp).
 
 tree-sitter parses the header. Code that only the compiler evaluates, such as constants and
-template arguments, is not changed. Documentation: docs/verification.md
+template arguments, is not changed. Documentation: docs/testing.md
 """
 
 import re

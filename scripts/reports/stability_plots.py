@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The K-B plot and the eigenvalue locus of a stability study. Documentation: docs/stability.md"""
+"""The K-B plot and the eigenvalue locus of a stability study. Documentation: docs/speed-for-accuracy.md"""
 
 import numpy as np
 

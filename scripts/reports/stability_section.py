@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The demo's section on walls: a stability study, its pictures. Documentation: docs/stability.md"""
+"""The demo's section on walls: a stability study, its pictures. Documentation: docs/speed-for-accuracy.md"""
 
 import json
 import subprocess
@@ -70,7 +70,7 @@ def html(found):
     text = page.paragraph(
         "How stiff a wall may be before it shakes by itself, against its damping and the rate at "
         "which it is computed: by bisection on the chain's own bits around a linear plant, by the "
-        "eigenvalues of the loop, and by (b+B)/(T/2+td). docs/stability.md says where the three "
+        "eigenvalues of the loop, and by (b+B)/(T/2+td). docs/speed-for-accuracy.md says where the three "
         "must agree and why they differ elsewhere."
     )
     text += page.pictures(stability_plots.pictures(found))

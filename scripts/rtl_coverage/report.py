@@ -120,7 +120,7 @@ def per_block(report):
 
 
 def as_json(report, schema):
-    """The object of docs/coverage.md."""
+    """The object of docs/testing.md."""
     rows = {
         row.block: figures(row)
         | {"waived": row.waived, "short": row.short(), "seconds": round(row.seconds, 2)}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""cocotb: the core behind its AXI4-Lite slave. docs/neighbours.md
+"""cocotb: the core behind its AXI4-Lite slave. docs/other-tools.md
 
   python docs/examples/cocotb/test_axi.py     all tests in Icarus; needs cocotb 1.9
 """

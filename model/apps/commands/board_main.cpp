@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
       "day.board\n"
       "  feltgate board --for 5 --unpaced            how fast it can go\n"
       "Ctrl-C ends it. Exit code: 0 all well, 1 a replay differs, 2 unusable input.\n"
-      "docs/board.md teaches.");
+      "docs/host.md teaches.");
   Arguments a;
   a.setup.hand.clear();
   app.add_flag("--twin", a.twin, "the bit-exact twin; the default");

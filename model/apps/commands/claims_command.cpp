@@ -76,12 +76,12 @@ void add_claims(CLI::App& app, int* exit_code) {
       "a simulation where one can judge it, and a verdict: holds, holds if, cannot be had.\n"
       "  feltgate claims                          every claim, in a few seconds\n"
       "  feltgate claims window half_nm_of_7_a    only these\n"
-      "  feltgate claims --markdown > claims.md && mv claims.md docs/\n"
+      "  feltgate claims --markdown > claims.md\n"
       "Exit code: 0 whatever the verdicts, 2 unusable input.");
   CLI::Option* names =
       sub->add_option("claim", a->names, "claims; all when none is named")->type_name("CLAIM");
   sub->add_option("--json", a->json, "the table as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_flag("--markdown", a->markdown, "print the page docs/claims.md instead, of all claims")
+  sub->add_flag("--markdown", a->markdown, "print a page of all claims instead")
       ->excludes(names);
   sub->callback([a, exit_code] { *exit_code = run_claims(*a); });
 }

@@ -81,11 +81,11 @@ void add_controllers(CLI::App& app, int* exit_code) {
       "  feltgate controllers --estimators\n"
       "  feltgate controllers --current\n"
       "  feltgate controllers --json all.json -o all.svg\n"
-      "Exit code: 0 measured, 2 unusable input. docs/controllers.md explains every row.");
+      "Exit code: 0 measured, 2 unusable input. docs/speed-for-accuracy.md explains every row.");
   sub->add_flag("--estimators", a->estimators,
-                "velocity estimators around the lever instead: docs/blocks/velocity_mt.md");
+                "velocity estimators around the lever instead: docs/blocks/velocity.md");
   sub->add_flag("--current", a->current,
-                "the current loop instead: docs/controllers.md#the-current-loop")
+                "the current loop instead: docs/speed-for-accuracy.md")
       ->excludes("--estimators");
   sub->add_option("-o,--output", a->picture, "the comparison as a picture, SVG")->type_name("FILE");
   sub->add_option("--json", a->json, "all figures and step responses as JSON")->type_name("FILE");

@@ -180,7 +180,7 @@ void add_law(CLI::App& app, int* exit_code) {
       "Reads a law (docs/laws.md), chooses formats, makes instructions for the engine and proves\n"
       "that none saturates and how far torque is from the law in real numbers; then runs both "
       "side\n"
-      "by side (docs/law-compiler.md).\n"
+      "by side (docs/laws.md).\n"
       "  feltgate law detent\n"
       "  feltgate law detent --listing\n"
       "  feltgate law detent -o detent.img --json detent.json\n"

@@ -294,7 +294,7 @@ void add_rates(CLI::App& app, int* exit_code) {
       "  feltgate rates wall -o wall.svg --json wall.json --csv wall.csv\n"
       "  feltgate rates -o all.svg                     every scene, one picture\n"
       "Exit code: 0 measured, 1 RTL and twin differed (--lock-step), 2 unusable input.\n"
-      "docs/rates.md explains every column.");
+      "docs/speed-for-accuracy.md explains every column.");
   sub->add_option("scene", a->scenes, "scenes: names in vectors/scenes or paths; default: all")
       ->type_name("SCENE");
   sub->add_option("--rate", a->rates,
@@ -317,7 +317,7 @@ void add_rates(CLI::App& app, int* exit_code) {
                 "the RTL beside the twin, every output compared: about 20 times slower");
   sub->add_option("-o,--output", a->picture, "error and margin over the rate as a picture, SVG")
       ->type_name("FILE");
-  sub->add_option("--json", a->json, "the figures as JSON (docs/rates.md)")->type_name("FILE");
+  sub->add_option("--json", a->json, "the figures as JSON (docs/speed-for-accuracy.md)")->type_name("FILE");
   sub->add_option("--csv", a->csv, "the figures as a table, a row for each rate of each scene")
       ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print nothing");

@@ -362,7 +362,7 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")
       ->type_name("FILE");
   sub->add_option("--events", a->events,
-                  "events of the scene's law as lines for Pure Data (docs/devices/drums.md)")
+                  "events of the scene's law as lines for Pure Data (docs/devices/strings-and-drums.md)")
       ->type_name("FILE");
   sub->add_option("--states", a->states,
                   "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)")

@@ -164,7 +164,7 @@ void add_stability(CLI::App& app, int* exit_code) {
       "  feltgate stability lever --plot out               with pictures in out/\n"
       "  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments\n"
       "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1\n"
-      "otherwise, 2 unusable input. docs/stability.md explains every column.");
+      "otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.");
   sub->add_option("design", a->design,
                   "a scene, in vectors/scenes or a path; or a design that was built in, by its "
                   "name in rtl/designs; or a file, whose bits are "

@@ -144,7 +144,7 @@ void add_texture(CLI::App& app, int* exit_code) {
       "becomes a force law for the pantograph, whose pen comes from above; with --field an image "
       "of up to\n"
       "16 x 16 pixels becomes one for three Cartesian axes on capstans of 10 mm "
-      "(docs/devices/texture.md).\n"
+      "(docs/devices/shapes.md).\n"
       "The law is compiled and proven before anything is written.\n"
       "  feltgate texture vectors/textures/ripples.png --depth 4mm\n"
       "  feltgate texture vectors/textures/ripples.png --texel 0.125mm --depth 1mm -o ripples.law\n"

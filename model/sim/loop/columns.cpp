@@ -49,7 +49,7 @@ struct BitColumn {
   int Row::*value;
 };
 constexpr BitColumn bit_columns[] = {
-    {"limits", "bit set of the limits that hold the torque (docs/blocks/feltgate_core.md)",
+    {"limits", "bit set of the limits that hold the torque (docs/architecture.md)",
      &Row::limits},
     {"faults", "bit set of the latched faults (docs/blocks/supervisor.md)", &Row::faults}};
 

@@ -161,7 +161,7 @@ LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {
     throw std::invalid_argument("design " + e.design.name +
                                 " controls a measured current, which this linear loop does not; "
                                 "the borders of its walls are "
-                                "in docs/blocks/current_control.md");
+                                "in docs/blocks/current.md");
   }
   LoopModel m;
   static_cast<LinearLoop&>(m) = make_linear_loop(e, p);

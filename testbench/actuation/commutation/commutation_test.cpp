@@ -3,7 +3,7 @@
 //
 // commutation: RTL against twin in every clock, and against cosines in double; the voltage's vector
 // and the torque over every angle of an encoder; sines; words; small periods; where a motor turns.
-// Documentation: docs/blocks/commutation.md
+// Documentation: docs/blocks/three_phase.md
 #include <Vcommutation.h>
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "feltgate/commutation.hpp"
 #include "feltgate/largest.hpp"
 #include "lock_step.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "ports.hpp"
 
 using namespace feltgate;
@@ -327,7 +327,7 @@ TEST_CASE("commutation: torque over a turn") {
                            sines ? fmt::format("{:.1f}, clipped", 100 * clipped_sines()) : "-");
     reach = sum;
   }
-  if (kPeriod == 1000) check_page_figures("commutation", figures);
+  if (kPeriod == 1000) check_figures("commutation", figures);
 }
 
 TEST_CASE("commutation: sines and space vectors differ by what all legs share") {

@@ -4,7 +4,7 @@
 // current_check: RTL against twin, and against the law in double, in every clock; its words; and
 // the twin beside current_control around the averaged winding of `lever`: which windings and steps
 // it lets pass, and when a current that is not seen is missing. Documentation:
-// docs/blocks/current_check.md
+// docs/blocks/current.md
 #include "feltgate/current_check.hpp"
 
 #include <Vcurrent_check.h>
@@ -15,7 +15,7 @@
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "lock_step.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "ports.hpp"
 
 using namespace feltgate;
@@ -298,5 +298,5 @@ TEST_CASE("current_check: a current that is measured as 0 or half: when it is mi
     figures += fmt::format("| {:g} of the design's | {:.2f} | {:.2f} | {:.2f} |\n", ohm, off,
                            passes, 1.5 / ohm);
   }
-  check_page_figures("current_check", figures);
+  check_figures("current_check", figures);
 }

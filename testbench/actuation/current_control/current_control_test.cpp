@@ -3,7 +3,7 @@
 //
 // current_control: RTL against twin and against the textbook's PI with tracking in every clock; the
 // integrator against the winding's equation; arming; gains; steps around the averaged winding of
-// `lever`, beside other ways against wind-up. Documentation: docs/blocks/current_control.md
+// `lever`, beside other ways against wind-up. Documentation: docs/blocks/current.md
 #include <Vcurrent_control.h>
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "feltgate/current_control.hpp"
 #include "feltgate/largest.hpp"
 #include "lock_step.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "ports.hpp"
 
 using namespace feltgate;
@@ -395,5 +395,5 @@ TEST_CASE("current_control: steps of the averaged winding") {
                              return Other{way, hz};
                            }));
   }
-  check_page_figures("current_control", figures);
+  check_figures("current_control", figures);
 }

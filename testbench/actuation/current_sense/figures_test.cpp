@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // current_sense behind a second-order modulator: its noise beside closed forms, and what the ripple
-// of a PWM leaves. Documentation: docs/blocks/current_sense.md
+// of a PWM leaves. Documentation: docs/blocks/current.md
 #include <fmt/format.h>
 
 #include <utility>
@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "current_sense_bench.hpp"
 #include "feltgate/largest.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -184,5 +184,5 @@ TEST_CASE("current_sense: noise is that of the closed form, ripple is not aliase
   for (const auto& [name, bias] : rows) {
     figures += fmt::format("| {} | {:.1f} | {:.0f} |\n", name, 1e3 * bias.mean, 1e3 * bias.worst);
   }
-  check_page_figures("current_sense", figures);
+  check_figures("current_sense", figures);
 }

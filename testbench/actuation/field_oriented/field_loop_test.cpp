@@ -3,7 +3,7 @@
 //
 // field_oriented around the plant of the gimbal motor, whose torque the plant computes from its
 // back-EMF's shape: steps, torque and ripple over a turn beside the voltage mode, and a phase that
-// opens. Figures of docs/blocks/field_oriented.md
+// opens. Figures of docs/blocks/three_phase.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "feltgate/commutation.hpp"
 #include "feltgate/field_oriented.hpp"
 #include "feltgate/largest.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;
@@ -229,7 +229,7 @@ TEST_CASE("field_oriented: steps and a turn of the gimbal motor") {
   row("as it is", Rig(), 0.005, 50);
   // Sines of the current meet the harmonics: 2 (6 + 2) % less the loop's own answer.
   row("5th 6 %, 7th 2 % in the back-EMF", with_harmonics(), 0.03, kTwoPi);
-  check_page_figures("field_oriented", figures, "field_loop");
+  check_figures("field_loop", figures);
 }
 
 TEST_CASE(

@@ -139,7 +139,6 @@ class Package(unittest.TestCase):
             code = [x for x in text.splitlines() if x.strip() and not x.startswith("//")]
             self.assertLessEqual(len(code), MOST_LINES, path.name)
             self.assertIn(f"```cpp\n{text}```\n", readme, f"{path.name}: the page is stale")
-        self.assertIn(without_header(EXAMPLES / "tick_loop.cpp"), (ROOT / "README.md").read_text())
 
     @weekly(3)
     def test_core_alone_needs_nothing_and_says_what_is_not_there(self):

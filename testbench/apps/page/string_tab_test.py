@@ -61,7 +61,7 @@ class BowedString(PageTest):
     def test_a_bow_by_itself_has_one_slip_a_period(self):
         self.let_it_go()
         even = self.until(EVEN)
-        # docs/devices/bowed_string.md: 1.8 N, 5.175 to 5.325 ms; a run is 25 us.
+        # docs/devices/strings-and-drums.md: 1.8 N, 5.175 to 5.325 ms; a run is 25 us.
         judged = even["judged"]
         self.assertGreater(judged["least"], 5.14e-3)
         self.assertLess(judged["most"], 5.34e-3)

@@ -4,7 +4,7 @@
 """A pattern of drums as a WAV: loudness by speed, sustain by place, each hit at its time; and modes
 under a force, against the closed form of a pulse and in a run of the scene.
 
-Documentation: docs/devices/drums.md
+Documentation: docs/devices/strings-and-drums.md
 """
 
 import unittest

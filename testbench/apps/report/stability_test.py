@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Pictures and section of a stability study. Documentation: docs/stability.md"""
+"""Pictures and section of a stability study. Documentation: docs/speed-for-accuracy.md"""
 
 import os
 import unittest

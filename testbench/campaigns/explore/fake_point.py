@@ -3,7 +3,7 @@
 """A stand-in for exploration.point: figures from the point's own text, at once.
 
 FAKE_POINT_DELAY_S slows a point down; FAKE_POINT_LOG takes a line per evaluation;
-FAKE_POINT_FAIL, a point's id, makes that one fail. Documentation: docs/explore.md
+FAKE_POINT_FAIL, a point's id, makes that one fail. Documentation: docs/speed-for-accuracy.md
 """
 
 import os

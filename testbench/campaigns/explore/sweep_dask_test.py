@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """A sweep over dask: a scheduler and two workers on loopback, one of them killed in mid-sweep.
 
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import importlib.util

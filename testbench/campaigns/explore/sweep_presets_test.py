@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The shipped presets: designs for use, bit for bit, stable, and what the committed table says.
 
-Documentation: docs/explore.md
+Documentation: docs/speed-for-accuracy.md
 """
 
 import csv

@@ -88,7 +88,7 @@ int run(const ExtremesArguments& a) {
   if (a.markdown) {
     std::string out;
     if (a.names.empty()) {
-      out = extremes::page(results, text_of(repository() + "/docs/extremes.md"));
+      out = extremes::page(results, text_of(repository() + "/testbench/campaigns/extremes/table.md"));
     } else {
       for (const auto& r : results) out += extremes::markdown(r) + "\n";
     }
@@ -114,14 +114,14 @@ int main(int argc, char** argv) {
       "  feltgate extremes --list               names and what they are about\n"
       "  feltgate extremes wrap_32 decoder_limit\n"
       "  feltgate extremes day --long           24 hours of device time in the twin\n"
-      "  feltgate extremes --markdown > extremes.md && mv extremes.md docs/\n"
+      "  feltgate extremes --markdown > table.md && mv table.md testbench/campaigns/extremes/\n"
       "Exit code: 0 every case holds, 1 one does not, 2 unusable input.");
   ExtremesArguments a;
   app.add_option("case", a.names, "cases; all short ones when none is named")->type_name("CASE");
   app.add_option("--json", a.json, "the table as JSON")->type_name("FILE");
   app.add_option("--progress", a.progress_file, "day: how far it is and the time left")
       ->type_name("FILE");
-  app.add_flag("--markdown", a.markdown, "print the page docs/extremes.md instead");
+  app.add_flag("--markdown", a.markdown, "print the record testbench/campaigns/extremes/table.md instead");
   app.add_flag("--long", a.long_too, "also cases that take an hour of CPU time");
   app.add_flag("--list", a.list, "only name the cases");
   int exit_code = exit_ok;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Every extreme as a named test: the expected result holds in RTL, twin and double, and
-// docs/extremes.md shows the same values. Documentation: docs/extremes.md
+// table.md has the same values. Documentation: docs/extremes.md
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -25,7 +25,7 @@ struct Name {
 };
 
 std::string committed_page() {
-  std::ifstream in(std::string(FELTGATE_ROOT) + "/docs/extremes.md");
+  std::ifstream in(std::string(FELTGATE_ROOT) + "/testbench/campaigns/extremes/table.md");
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -45,7 +45,7 @@ void check(const std::string& name) {
       CHECK(f.holds());
     }
     for (const std::string& row : stale_rows(committed_page(), r)) {
-      FAIL_CHECK("docs/extremes.md is stale: " << row << "; run feltgate extremes --markdown");
+      FAIL_CHECK("testbench/campaigns/extremes/table.md is stale: " << row << "; run feltgate extremes --markdown");
     }
     return;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The table of the cases: on a terminal, as JSON, and as docs/extremes.md.
+// The table of the cases: on a terminal, as JSON, and as the record table.md.
 // Documentation: docs/extremes.md
 #pragma once
 
@@ -30,7 +30,7 @@ std::string json(const std::vector<Result>& results);
 /// The rows of one case in the form of the page, with its heading.
 std::string markdown(const Result& result);
 
-/// Returns the text of docs/extremes.md. The section of a long case that has not run is copied from
+/// Returns the text of the record table.md. The section of a long case that has not run is copied from
 /// `before`, the old page.
 std::string page(const std::vector<Result>& results, const std::string& before);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Some mutants of the twin are killed as they are by `feltgate mutate --twin`. docs/verification.md
+"""Some mutants of the twin are killed as they are by `feltgate mutate --twin`. docs/testing.md
 
 twin_share.py BUILD OPTION...: those of mutate --twin; skipped where there is no tree-sitter.
 """

@@ -4,7 +4,7 @@
 """Mutants of C++ headers: what is offered, and that each does what its name says.
 
 twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitter.
-Documentation: docs/verification.md
+Documentation: docs/testing.md
 """
 
 import json

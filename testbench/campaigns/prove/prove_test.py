@@ -12,7 +12,7 @@ from unittest import mock
 from testing import ROOT, Scratch, called
 import prove
 import rtl_sources
-from proofs import catalog, page, record, tasks, tools, trace, unproven
+from proofs import catalog, record, results, tasks, tools, trace, unproven
 
 TOML = """
 [[proof]]
@@ -153,11 +153,8 @@ class Product(unittest.TestCase):
         self.assertEqual(found.keys() | unproven.BLOCKS.keys(),
                          rtl_sources.module_files(ROOT).keys())
 
-    def test_the_page_names_what_is_in_no_property(self):
-        page_text = (ROOT / "docs/verification.md").read_text(encoding="utf-8")
-        part = page_text.split("## Proofs", 1)[1].split("\n## ", 1)[0]
-        for block in unproven.BLOCKS:
-            self.assertIn(f"`{block}`", part)
+    def test_the_counts_on_record_are_of_the_proofs_as_they_are(self):
+        self.assertEqual(results.counted(ROOT, self.proofs), [])
 
     def test_every_defect_applies_and_says_what_it_breaks(self):
         for patch in {entry.defect for proof in self.proofs for entry in proof.properties}:
@@ -202,22 +199,6 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(step, 1)
         self.assertEqual([line.split() for line in text.splitlines()],
                          [["clock", "0", "1"], ["x", "1", "-8"]])
-
-
-class Page(unittest.TestCase):
-    def test_blocks_without_a_run_stay_as_they_were(self):
-        proofs = [type("P", (), {"block": name, "key": f"{name}.p", "name": "p", "title": "t",
-                                 "wrapper": Path(f"testbench/wave/{name}/proofs/p.sv"), "assumes": (), "covers": {}, "properties": ()})
-                  for name in ("a", "b")]
-        entry = {"proof": "b.p", "design": "d", "k": 2, "base_seconds": 1.0,
-                 "induction_seconds": 1.0, "covers": {}, "properties": []}
-        result = {"tools": {"yosys": "y", "z3": "z"}, "proofs": [entry]}
-        text = page.generated(result, proofs,
-                              "stale counts\n\n### a\n\nof a\n\n### b\n\nstale b\n\n")
-        self.assertEqual(list(page.sections(text)), ["a", "b"])
-        self.assertIn("0 properties in 2 proofs of 2 blocks", text)
-        self.assertIn("\n### a\n\nof a\n\n### b\n\n[`b.p`]", text)
-        self.assertNotIn("stale", text)
 
 
 class Reading(unittest.TestCase):
@@ -307,16 +288,13 @@ class Command(Scratch):
         for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"],
                       ["--update", "limiter.clamp"], ["--update", "--fast"],
                       ["--update", "--changed"], ["--list", "--update"],
-                      ["--list", "--json", "x"], ["--list", "--check-page"],
-                      ["--list", "--defects", "0"], ["--check-page", "--record"],
-                      ["--check-page", "--fast"], ["--check-page", "limiter"]):
+                      ["--list", "--json", "x"], ["--list", "--defects", "0"]):
             with self.subTest(words):
                 status, _, err = self.status(*words)
                 self.assertEqual(status, 2, err)
 
     def test_arguments_by_themselves(self):
         self.assertEqual(self.status("--only-arguments", "limiter", "--defects", "3"), (0, "", ""))
-        self.assertEqual(self.status("--only-arguments", "--check-page"), (0, "", ""))
         self.assertEqual(self.status("--only-arguments", "nothing")[0], 2)
 
     def test_what_is_in_a_folder_is_kept(self):

@@ -12,7 +12,7 @@
 #include <map>
 
 #include "core_life.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 
 using namespace feltgate::test;
@@ -248,7 +248,7 @@ TEST_CASE("absolute: how long until the gates close, the longest of all moments"
     table +=
         fmt::format("| `{}` | {:.2f} |\n", name, 1e3 * static_cast<double>(longest) * kClock_s);
   }
-  check_page_figures("absolute_encoder", table, "feltgate_core_absolute");
+  check_figures("feltgate_core_absolute", table);
 }
 
 TEST_CASE(

@@ -3,7 +3,7 @@
 //
 // The core with three phases and two measured currents, RTL against twin in every clock, around the
 // plant of the gimbal motor that its six gates switch: a torque step, the torque of a turn, direct
-// voltage, a phase that opens, sensors that fail. Documentation: docs/blocks/field_oriented.md
+// voltage, a phase that opens, sensors that fail. Documentation: docs/blocks/three_phase.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 #include "../../sim/plant/three_phase_fixture.hpp"
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 
 using namespace feltgate::test;
 using namespace feltgate::plant;
@@ -220,7 +220,7 @@ TEST_CASE("field: a step of the torque at rest") {
                          rad_s, 100 * (resistance - 1), 100 * (mean / nm - 1),
                          100 * (*ends.second - *ends.first) / std::abs(nm));
   }
-  if (!defects_run()) check_page_figures("field_oriented", table, "feltgate_core_field");
+  if (!defects_run()) check_figures("feltgate_core_field", table);
 }
 
 TEST_CASE("field: a motor whose phases B and C change places") {
@@ -249,7 +249,7 @@ TEST_CASE("field: direct voltage is the resistance's, and its current is measure
     rig.direct_v = volt;
     const Seen seen = run(rig, kSettled + 80'000);
     REQUIRE(seen.last.armed);
-    // The dead time takes 4/pi of a diode drop and the supply's share: docs/blocks/commutation.md.
+    // The dead time takes 4/pi of a diode drop and the supply's share: docs/blocks/three_phase.md.
     const double lost_v = 4 / M_PI * 0.025 * (5 + 2 * 0.7);
     const double wanted_a = (std::abs(volt) - lost_v) / kOhm * (volt > 0 ? 1 : -1);
     CAPTURE(volt, wanted_a, seen.current_a);

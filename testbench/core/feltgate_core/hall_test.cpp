@@ -3,7 +3,7 @@
 //
 // The core with Hall lines beside an encoder by A and B, around a motor with three phases that its
 // six gates switch; RTL against twin in every clock of some runs. Torque from any angle at
-// power-up, lines and encoders that are broken. Documentation: docs/blocks/hall_sensor.md
+// power-up, lines and encoders that are broken. Documentation: docs/blocks/three_phase.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "../../sim/plant/three_phase_fixture.hpp"
 #include "core_life.hpp"
 #include "encoder_phase.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 
 using namespace feltgate::test;
 using namespace feltgate::plant;
@@ -184,7 +184,7 @@ TEST_CASE("hall: torque from any angle at power-up, and the whole torque after a
   CHECK(most < 0.01);
   CHECK(misplaced_least > 0.84);
   CHECK(misplaced_most < 0.015);
-  if (!defects_run()) check_page_figures("hall_sensor", table, "feltgate_core_hall");
+  if (!defects_run()) check_figures("feltgate_core_hall", table);
 }
 
 TEST_CASE("hall: a line that is cut closes the gates within an electrical turn") {

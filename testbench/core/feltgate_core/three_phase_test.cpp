@@ -3,7 +3,7 @@
 //
 // The core with three phases, RTL against twin in every clock, with a sensor at its pins. What the
 // gates do is judged by vectors in double from the shaft's angle. Documentation:
-// docs/blocks/commutation.md
+// docs/blocks/three_phase.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/backends/rtl_model.hpp"
 
@@ -119,7 +119,7 @@ Period last_period(const Rig& rig, std::int64_t clocks, CoreOut* last = nullptr)
   return p;
 }
 
-/// Half a clock of rounding, and a bit of the table: docs/blocks/commutation.md.
+/// Half a clock of rounding, and a bit of the table: docs/blocks/three_phase.md.
 double allowed(double length) { return 0.5 + 3e-4 * length; }
 
 }  // namespace
@@ -215,7 +215,7 @@ TEST_CASE("three: how old the angle is that the voltages have") {
         "| {:g} | {:.1f} | {:.2f} |\n", rad_s, 1e6 * (age_clocks - truncation) * kClock_s,
         (age_clocks - truncation) * kClock_s * std::abs(rad_s) * kPairs * 180 / kPi);
   }
-  check_page_figures("commutation", table, "feltgate_core_three");
+  check_figures("feltgate_core_three", table);
 }
 
 TEST_CASE("three: a zero of the position does not move the voltages") {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""A dither against stiction, as docs/devices/free_lever.md has it: the push at which a lever at rest gives way, and
+"""A dither against stiction, as docs/devices/one-lever.md has it: the push at which a lever at rest gives way, and
 what a hand that holds it feels of the dither. Where the hand feels 1 mNm, stiction is what it was; the torque at which
 it is not shows that the measure would see it."""
 
@@ -13,7 +13,7 @@ import unittest
 from testing import BUILD, Scratch, ran, text_of
 
 PROGRAM = BUILD / "feltgate_lever_law"
-PAGE = text_of("docs/devices/free_lever.md")
+PAGE = text_of("docs/devices/one-lever.md")
 HEAD = """title = "Dither"
 about = "A hand, and a law that shakes."
 duration_s = 1.3

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The register map as C header, SystemRDL and CSV says what rtl/registers.toml and each design say.
 
-register_files_test.py VENV: the folder with systemrdl-compiler and LiteX. docs/register-files.md
+register_files_test.py VENV: the folder with systemrdl-compiler and LiteX. docs/other-tools.md
 """
 
 import csv
@@ -247,7 +247,7 @@ class RegisterFiles(Scratch):
         strict += ["-I", GENERATED, "-I", GENERATED / "lever"]
         ran("gcc", *strict, source, "-o", program, check=True, capture_output=False)
         said = ran(program, check=True).stdout
-        self.assertIn(said, text_of("docs/register-files.md"))
+        self.assertIn(said, text_of("docs/other-tools.md"))
         self.assertIn("-0.1000 Nm, armed 1, ramping 1", said)
 
     def compare(self, design, rows):

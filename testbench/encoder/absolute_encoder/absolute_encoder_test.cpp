@@ -14,7 +14,7 @@
 #include "feltgate/generated/gimbal_motor.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
 #include "lock_step.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "ports.hpp"
 #include "sensors.hpp"
 
@@ -309,7 +309,7 @@ TEST_CASE("absolute_encoder: a fault is named within 2 ms at 10 000 readings a s
     }
     figures += "|\n";
   }
-  check_page_figures("absolute_encoder", figures);
+  check_figures("absolute_encoder", figures);
 }
 
 namespace {

@@ -3,7 +3,7 @@
 //
 // hall_sensor: RTL against twin, and against the law in plain numbers, in every clock; rotors with
 // an encoder and Hall lines, sound and broken: how far the angle is from the rotor's, and what is
-// found. Documentation: docs/blocks/hall_sensor.md
+// found. Documentation: docs/blocks/three_phase.md
 #include "feltgate/hall_sensor.hpp"
 
 #include <Vhall_sensor.h>
@@ -18,7 +18,7 @@
 #include "../../sim/plant/three_phase_fixture.hpp"
 #include "catch.hpp"
 #include "lock_step.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "ports.hpp"
 
 using namespace feltgate;
@@ -379,5 +379,5 @@ TEST_CASE("hall_sensor: what is broken is found, and how far the rotor turns unt
     CHECK(most < kind.most_degrees);
     table += fmt::format("| {} | {:.0f} | {:.0f} |\n", kind.name, sum / kSeeds, most);
   }
-  check_page_figures("hall_sensor", table);
+  check_figures("hall_sensor", table);
 }

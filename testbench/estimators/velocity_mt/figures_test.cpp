@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // velocity_mt beside velocity_n: rms error and age at constant speeds, behind good and bad encoders
-// of 1024 lines. The table of docs/blocks/velocity_mt.md is what this test prints;
+// of 1024 lines. The table of docs/blocks/velocity.md is what this test prints;
 // FELTGATE_WRITE_FIGURES=1 writes it there.
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "catch.hpp"
 #include "feltgate/velocity_n.hpp"
 #include "feltgate/words.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "velocity_mt_bench.hpp"
 
 using namespace feltgate;
@@ -168,5 +168,5 @@ TEST_CASE("velocity_mt: rms error and age beside the N-method, and the page says
     CHECK(cycle_ms[k] == Approx(1e3 * expected_age_s(speed, 0)).epsilon(0.02));
     CHECK(window_ms[k] == Approx(1e3 * expected_age_s(speed, 386e-6)).epsilon(0.02));
   }
-  check_page_figures("velocity_mt", table(of, cycle_ms, window_ms));
+  check_figures("velocity_mt", table(of, cycle_ms, window_ms));
 }

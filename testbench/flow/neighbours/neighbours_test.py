@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """FuseSoC builds lint and sim and lists the boards' files; the examples of cocotb and LiteX run.
 
-neighbours_test.py VENV CLASS: where scripts/build.sh has fetched them. docs/neighbours.md
+neighbours_test.py VENV CLASS: where scripts/build.sh has fetched them. docs/other-tools.md
 """
 
 import os

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate product fmu: FMPy finds its description valid and runs it, and every word is that of
-`feltgate run`; what it refuses. docs/product.md
+`feltgate run`; what it refuses. docs/other-tools.md
 
 fmu_test.py VENV: where scripts/build.sh has fetched FMPy. It needs no network.
 """

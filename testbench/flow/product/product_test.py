@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate product: Icarus and slang take what it writes as Verilog-2005; what it refuses.
 
-Documentation: docs/product.md
+Documentation: docs/other-tools.md
 
 product_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
 """

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The gates in the ECP5 netlists of pwm and pwm_three_phase: flip-flops whose outputs go to the pins and nowhere
 else, with one asynchronous clear between them, so that they fit into the I/O cells.
-docs/blocks/pwm.md, docs/blocks/pwm_three_phase.md
+docs/blocks/pwm.md, docs/blocks/pwm.md
 """
 
 import json

@@ -136,10 +136,10 @@ class Report(Scratch):
         self.assertEqual(verdicts[4], "**missed** by 15%")
         self.assertEqual(verdicts[5], "met")
 
-    def test_page_without_markers_is_refused(self):
-        page = self.put("page.md", "nothing here\n")
-        with self.assertRaises(ValueError):
-            synth_report.write_page(page, {"measured": TOOLS, "figures": {}})
+    def test_the_page_has_every_design(self):
+        text = synth_report.generated(synth_budget.read(ROOT / "scripts/synth_budget.toml"))
+        for word in ("### Design `lever`", "### Design `paper`", "Scene sets", "### Goals", "### Peers"):
+            self.assertIn(word, text)
 
 
 class Sum(unittest.TestCase):

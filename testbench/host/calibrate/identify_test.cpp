@@ -257,7 +257,7 @@ TEST_CASE("identify: recordings that say nothing are refused with the mend", "[i
         }).find("the lever runs down in") != std::string::npos);
 }
 
-TEST_CASE("identify: table for docs/identify.md", "[.][table]") {
+TEST_CASE("identify: table for docs/calibration.md", "[.][table]") {
   for (const char* name : {"p24", "p48"}) {
     for (const bool viscous : {false, true}) {
       const Truth t = truth_of(name, viscous);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The command lines that the pages show: in fenced blocks, inline where they start a program, and
-in the help texts of docs/commands.md.
+in the help texts of scripts/help.txt.
 
 A line of a block ends where two blanks or a # begin its explanation. `feltgate run` alone, inline,
 only names a subcommand.
@@ -72,7 +72,7 @@ def help_lines(page):
     for _, first, lines in help_texts.lines_of(page):
         for number, text in enumerate(lines, first):
             if text.startswith(" ") and "[" not in text:
-                yield pages.Code(Path("docs") / page.name, number, text.strip(), "")
+                yield pages.Code(Path("scripts") / page.name, number, text.strip(), "")
 
 
 def all_lines():

@@ -87,7 +87,7 @@ RULES = (
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),
     Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),
     Rule(
-        r"feltgate (?:explore|synth|prove|product|page|mutate|faults|coverage|demo|figures)",
+        r"feltgate (?:explore|synth|prove|product|page|mutate|faults|coverage|demo|figures|docs)",
         "PARSED",
     ),
     Rule(r"feltgate touch", "BY", "touch_test"),

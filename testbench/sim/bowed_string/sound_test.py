@@ -4,7 +4,7 @@
 """The bowed string as a WAV: the string's pitch from the law at 40 kHz, another pitch from the same
 at 1 kHz. Four strings: each sounds at its own pitch, bowed, plucked and crossed to, and dies away.
 
-Documentation: docs/devices/bowed_string.md
+Documentation: docs/devices/strings-and-drums.md
 """
 
 import os

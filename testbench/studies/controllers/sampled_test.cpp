@@ -16,7 +16,7 @@
 #include "feltgate/absolute_position.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/reference/chain.hpp"
@@ -250,5 +250,5 @@ TEST_CASE("sampled velocity: an absolute encoder beside A and B, with closed for
                              ssi, count_14_rad, of_ssi);
   CHECK(off[3].raw.rms > 5 * four[3].raw.rms);
   figures += "\nBefore the low-pass, with the closed form in brackets:\n\n" + raws;
-  test::check_page_figures("absolute_encoder", figures, "sampled_velocity");
+  test::check_figures("sampled_velocity", figures);
 }

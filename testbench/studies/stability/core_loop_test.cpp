@@ -3,7 +3,7 @@
 //
 // The whole core with a current loop, by its twin, around a winding that its gates switch: its
 // bandwidth, ripple, tau_hat and walls, beside closed forms and the core without the loop.
-// Documentation: docs/blocks/current_control.md
+// Documentation: docs/blocks/current.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/lever_current.hpp"
-#include "page_figures.hpp"
+#include "figures_record.hpp"
 #include "sim/backends/twin_backend.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant.hpp"
@@ -322,5 +322,5 @@ TEST_CASE("stability: figures of the core with a current loop") {
     CHECK(std::abs(measured / predicted - 1) < 0.05);
     CHECK(measured > 0.95 * assumed);
   }
-  test::check_page_figures("current_control", figures, "core_loop");
+  test::check_figures("core_loop", figures);
 }

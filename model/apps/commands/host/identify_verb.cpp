@@ -262,7 +262,7 @@ Run add_identify(CLI::App& sub) {
       "  feltgate host - identify --from lever.drive.csv --coast lever.coast.csv --resistance "
       "0.42\n"
       "A file has the columns time_s (or tick), position_rad (or position, counts) and voltage_v,\n"
-      "a row a millisecond. docs/identify.md explains.\n"
+      "a row a millisecond. docs/calibration.md explains.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or recordings "
       "that\n"
       "do not say it, 3 the link broke down.");

@@ -86,7 +86,7 @@ def run(options):
     pages, site = (folder / "pages").resolve(), (folder / "site").resolve()
     write_pages(root, pages)
     where = os.environ | {"FELTGATE_DOCS": str(pages), "FELTGATE_SITE": str(site)}
-    words = ["mkdocs", "--quiet", "build", "--clean", "--config-file", str(root / "scripts/mkdocs.yml")]
+    words = ["mkdocs", "--quiet", "build", "--clean", "--strict", "--config-file", str(root / "scripts/mkdocs.yml")]
     if subprocess.run(words, env=where, check=False).returncode:
         raise command_line.Refused("mkdocs failed; its message is above")
     print(site / "index.html")

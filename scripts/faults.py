@@ -95,7 +95,7 @@ def arguments(argv):
     add.add_path(parser, "--lines", nargs="+", what=what)
     add.add_path(parser, "--save", what="a line of JSON for each fault")
     add.add_json(parser)
-    add.add_flags(parser, markdown="the table as it stands in docs/testing.md")
+    add.add_flags(parser, markdown="the table as Markdown")
     add.add_path(parser, "--picture", what="what the hand would feel, as SVG or PNG")
     add.add_flags(parser, update=f"put the results into {block_results.FOLDER}/faults.json")
     options = parser.parse_args(argv)

@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  feltgate bench                        a few minutes\n"
       "  feltgate bench --quick                half a minute; rougher\n"
-      "  feltgate bench --json bench.json      for programs; docs/speed-for-accuracy.md has the keys\n"
+      "  feltgate bench --json bench.json      for programs; docs/json.md has the keys\n"
       "  feltgate bench --engine rtl,twin_event --scene membrane\n"
       "A missed goal is printed and is no error. Exit code: 0 the integer back-ends agree, 1 they "
       "do\n"

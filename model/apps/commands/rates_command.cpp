@@ -317,7 +317,7 @@ void add_rates(CLI::App& app, int* exit_code) {
                 "the RTL beside the twin, every output compared: about 20 times slower");
   sub->add_option("-o,--output", a->picture, "error and margin over the rate as a picture, SVG")
       ->type_name("FILE");
-  sub->add_option("--json", a->json, "the figures as JSON (docs/speed-for-accuracy.md)")->type_name("FILE");
+  sub->add_option("--json", a->json, "the figures as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--csv", a->csv, "the figures as a table, a row for each rate of each scene")
       ->type_name("FILE");
   sub->add_flag("--quiet", a->quiet, "print nothing");

@@ -134,6 +134,9 @@ TEST_CASE("values that do not belong together", "[reader]") {
         "the PWM period is not a whole number of clocks up to 4095; choose another frequency"},
        {"frequency_hz = 20_000 ", "frequency_hz = 30_000 ", "frequency_hz = 30_000",
         "the PWM period is not a whole number of clocks up to 4095; choose another frequency"},
+       {"frequency_hz = 20_000 ", "frequency_hz = 1_000_000 ", "frequency_hz = 1_000_000",
+        "the shortest pulse of 2e-07 s is longer than 255 clocks, or with the dead time than half "
+        "a period; lower frequency_hz, or write a shortest_pulse_s that your driver can follow"},
        {"kp_1_kg_m2 = 1600.0", "kp = \"1/inertia\"\nkp_1_kg_m2 = 1600.0", "kp_1_kg_m2 = 1600",
         "Kp is given twice; keep one of kp and kp_1_kg_m2"},
        {"kp_1_kg_m2 = 1600.0", "kp = \"2/inertia\"", "kp = ",

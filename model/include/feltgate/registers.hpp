@@ -14,6 +14,7 @@
 #include <map>
 
 #include "feltgate/generated/map.hpp"
+#include "feltgate/parameter.hpp"
 #include "feltgate/while_armed.hpp"
 
 namespace feltgate {

@@ -3,6 +3,8 @@
 //
 // feltgate_core: signals between its blocks that random runs hardly change; each test makes one
 // visible at an output. Documentation: docs/blocks/feltgate_core.md
+#include <algorithm>
+
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -133,6 +135,29 @@ TEST_CASE("core: the torque's limit is obeyed in a pulse of the self-test and in
   s.write(A::torque_limit, 0x80008000);
   s.ticks(3);
   CHECK(s.shown().tau_ref == 0);
+  s.play();
+}
+
+TEST_CASE("core: no gate gets a pulse that is shorter than 0.2 us") {
+  Life s;
+  s.arm(D::S::free, 2);
+  int on[4] = {}, shortest = D::pwm_period;
+  for (int duty = -40; duty <= 40; ++duty) {
+    const double volts = duty * D::supply_v / D::pwm_period;
+    s.write(A::voltage_setpoint,
+            static_cast<std::uint32_t>(std::lround(std::ldexp(volts, D::f.voltage.fraction))));
+    for (int clock = 0; clock < 2 * D::pwm_period; ++clock) {
+      s.clocks(1);
+      for (int gate = 0; gate < 4; ++gate) {
+        const bool now = ((s.out().gates >> gate) & 1) != 0;
+        if (!now && on[gate] > 0) shortest = std::min(shortest, on[gate]);
+        on[gate] = now ? on[gate] + 1 : 0;
+      }
+    }
+  }
+  CHECK(s.out().gates_enable);
+  CHECK(shortest >= 0.2e-6 * D::clock_hz);
+  CHECK(shortest < 0.3e-6 * D::clock_hz);
   s.play();
 }
 

@@ -53,7 +53,7 @@ struct Design {
   double voltage_ramp_v_s = 2400;  ///< of direct voltage mode
   std::int64_t pwm_hz = 0;
   int pwm_mode = 0, motor_polarity = 0;
-  double dead_time_s = 0, shortest_pulse_s = 0, supply_v = 0;
+  double dead_time_s = 0, shortest_pulse_s = 0.2e-6, supply_v = 0;
   double diode_drop_v = 0;
   bool compensate_dead_time = false;
   double overspeed_rad_s = 0, nominal_current_a = 0, i2t_budget_a2_s = 0;

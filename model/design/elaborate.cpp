@@ -302,7 +302,8 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
     } else if (p.kind == "angle") {
       w.format = {0, 0, 32};
     } else {
-      w.format = {0, 31, 0};
+      // The limiter takes an integer with fewer bits, and is as wide as the current.
+      w.format = {0, p.bits < 31 ? std::min(p.bits, design.current.width() - 1) : 31, 0};
     }
     w.raw = quantised_word(design, w);
     e.words.push_back(w);

@@ -290,6 +290,17 @@ std::string systemverilog_package(const Elaborated& e) {
       << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
   }
   s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
+    << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
+    << "  function automatic logic [32:0] parameter_above(input logic [8:0] address);\n"
+    << "    case (address)\n";
+  for (const Word& w : e.words) {
+    const int bits = w.format.width() - w.format.sign;
+    if (bits >= 31) continue;  // all words fit, or the block that takes the integer judges it
+    s << "      9'd" << w.parameter.address << ": parameter_above = {1'd" << w.format.sign
+      << fmt::format(", 32'h{:08x}}};  // ", static_cast<std::uint32_t>(-1) << bits)
+      << w.parameter.name << "\n";
+  }
+  s << "      default: parameter_above = 33'd0;\n    endcase\n  endfunction\n"
     << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
     << "  function automatic logic [15:0] absolute_correction(input logic ["
     << Map::absolute_segment_bits - 1 << ":0] part);\n"

@@ -337,16 +337,17 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.pwm_mode = static_cast<int>(r.choice("mode", {"sign_magnitude", "locked_antiphase"}));
     d.motor_polarity = static_cast<int>(r.integer("polarity", 0, 1));
     d.dead_time_s = r.number("dead_time_s", {0.0, 1e-5});
-    if (r.has("shortest_pulse_s")) {
-      d.shortest_pulse_s = r.number("shortest_pulse_s", {0.0, 5e-6});
-      if (d.shortest_clocks() > 255 ||
-          (d.shortest_clocks() > 1 &&
-           2 * (d.dead_clocks() + d.shortest_clocks()) > d.pwm_period_clocks())) {
-        r.fail("shortest_pulse_s",
-               "the shortest pulse is longer than 255 clocks, or with the dead time than half a "
-               "period",
-               "shorten it, or choose a lower frequency_hz");
-      }
+    const bool given = r.has("shortest_pulse_s");
+    if (given) d.shortest_pulse_s = r.number("shortest_pulse_s", {0.0, 5e-6});
+    if (d.shortest_clocks() > 255 ||
+        (d.shortest_clocks() > 1 &&
+         2 * (d.dead_clocks() + d.shortest_clocks()) > d.pwm_period_clocks())) {
+      r.fail(given ? "shortest_pulse_s" : "frequency_hz",
+             fmt::format("the shortest pulse of {:g} s is longer than 255 clocks, or with the dead "
+                         "time than half a period",
+                         d.shortest_pulse_s),
+             given ? "shorten it, or choose a lower frequency_hz"
+                   : "lower frequency_hz, or write a shortest_pulse_s that your driver can follow");
     }
     d.diode_drop_v = r.number("diode_drop_v", {0.0, 5.0});
     d.compensate_dead_time = r.integer("compensate_dead_time", 0, 1) == 1;

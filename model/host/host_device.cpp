@@ -88,6 +88,7 @@ SetResult Device::set(const Setting& setting) {
   SetResult r;
   r.setting = setting;
   r.refused = quantities_.find("status.refused").raw_of(status) != 0;
+  r.saturated = quantities_.find("status.saturated").raw_of(status) != 0;
   r.kept = q.raw_of(link_.read(q.address)) == q.raw_of(setting.word);
   return r;
 }

@@ -45,7 +45,9 @@ struct Tick {
 struct SetResult {
   Setting setting;
   bool refused = false;  ///< the motor is armed, and this parameter cannot change then
-  bool kept = false;     ///< it reads back as written
+  bool saturated =
+      false;          ///< the word did not fit the board's format: it is now the nearest that does
+  bool kept = false;  ///< it reads back as written
 };
 
 /// A board over a link. Use it from one thread, one request at a time.

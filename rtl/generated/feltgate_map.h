@@ -120,9 +120,9 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_VOLTAGE_GAIN_HIGH 0x032u  /* Kv of the high-torque region times 1 ohm, or the resistance; on the bus at slot 34 in that region [ohm] */
 
-#define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse; on the bus at slot 24, as the limit, while it lasts [Nm] */
+#define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse, if it is less than the limits in force [Nm] */
 
-#define FELTGATE_HOLD_LIMIT 0x038u  /* torque limit after that, until a count comes; on the bus at slot 24 then [Nm] */
+#define FELTGATE_HOLD_LIMIT 0x038u  /* torque limit after that, until a count comes, if it is less than torque_limit [Nm] */
 
 #define FELTGATE_SETPOINT_TORQUE 0x04au  /* constant torque [Nm] */
 
@@ -175,7 +175,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_CONTROL_MODE_MASK 0x000000c0u
 #define FELTGATE_CONTROL_MOTOR_POLARITY_BIT 8  /* 1: the motor's leads are swapped */
 #define FELTGATE_CONTROL_MOTOR_POLARITY_MASK 0x00000100u
-#define FELTGATE_CONTROL_ENCODER_POLARITY_BIT 9  /* 1: the encoder's channels are swapped */
+#define FELTGATE_CONTROL_ENCODER_POLARITY_BIT 9  /* 1: the encoder's channels are swapped; of an absolute encoder it also holds from the first reading on */
 #define FELTGATE_CONTROL_ENCODER_POLARITY_MASK 0x00000200u
 #define FELTGATE_CONTROL_PWM_MODE_BIT 10  /* 0 sign-magnitude, 1 locked antiphase */
 #define FELTGATE_CONTROL_PWM_MODE_MASK 0x00000400u
@@ -217,6 +217,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_STATUS_TESTING_MASK 0x00040000u
 #define FELTGATE_STATUS_DRIVER_FAULT_BIT 19  /* of a current loop, else 0: the bridge's driver tells of a fault, or did so with the gates enabled */
 #define FELTGATE_STATUS_DRIVER_FAULT_MASK 0x00080000u
+#define FELTGATE_STATUS_SATURATED_BIT 31  /* the last parameter written did not fit its format and became the nearest value that does */
+#define FELTGATE_STATUS_SATURATED_MASK 0x80000000u
 #define FELTGATE_STATUS_CURRENT_MISSING_BIT 30  /* of a current loop, else 0: the measured current was not what the voltage makes, or a phase was open */
 #define FELTGATE_STATUS_CURRENT_MISSING_MASK 0x40000000u
 
@@ -399,7 +401,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LIMIT_VELOCITY (1u << 5)  /* the raw velocity saturated its format */
 #define FELTGATE_LIMIT_TAU_HAT (1u << 6)  /* tau_hat saturated its format */
 #define FELTGATE_LIMIT_GATES_CLOSED (1u << 7)  /* the gates are off */
-#define FELTGATE_LIMIT_HOLD (1u << 8)  /* a torque was held for too long: the limit is hold_limit */
+#define FELTGATE_LIMIT_HOLD (1u << 8)  /* a torque was held for too long: the limit is hold_limit, or torque_limit if that is less */
 #define FELTGATE_LIMIT_CHATTER (1u << 9)  /* the count alternates on one edge: the torque reference does not grow */
 
 /* Numbers in FELTGATE_FAULTS_FIRST; fault n is also bit n of FELTGATE_FAULTS_SEEN. */

@@ -171,6 +171,9 @@ package feltgate_map_pkg;
   localparam int EVENT_AT_CHARGE_WIDTH_LIMITED = 6;
   localparam int EVENT_AT_CHARGE_CORE = 7;
   localparam int EVENT_AT_CHARGE_CHOSEN = 8;
+  localparam int EVENT_AT_LEAST_FULL = 11;
+  localparam int EVENT_AT_LEAST_HOLD = 12;
+  localparam int EVENT_AT_LEAST_TEST = 14;
   localparam int EVENT_AT_SCENE_SUM = 15;
   localparam int EVENT_AT_SCENE_ROUNDED = 22;
   localparam int EVENT_AT_LAW_TORQUE = 22;
@@ -308,6 +311,7 @@ package feltgate_map_pkg;
   localparam int W_STATUS_SELF_TEST = 2;
   localparam int B_STATUS_TESTING = 18;
   localparam int B_STATUS_DRIVER_FAULT = 19;
+  localparam int B_STATUS_SATURATED = 31;
   localparam int B_STATUS_CURRENT_MISSING = 30;
   localparam int B_FAULTS_SEEN = 0;
   localparam int W_FAULTS_SEEN = 16;
@@ -327,7 +331,7 @@ package feltgate_map_pkg;
   localparam int L_VELOCITY = 5;  // the raw velocity saturated its format
   localparam int L_TAU_HAT = 6;  // tau_hat saturated its format
   localparam int L_GATES_CLOSED = 7;  // the gates are off
-  localparam int L_HOLD = 8;  // a torque was held for too long: the limit is hold_limit
+  localparam int L_HOLD = 8;  // a torque was held for too long: the limit is hold_limit, or torque_limit if that is less
   localparam int L_CHATTER = 9;  // the count alternates on one edge: the torque reference does not grow
 
   // Causes of fault: numbers of the first fault, and bits of the faults.

@@ -76,6 +76,7 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
   reg.reg_wdata = in.reg_wdata;
   reg.reg_write = in.reg_write;
   reg.armed = held;
+  reg.polarity_holds = kAbsolute && !waits(decoder_);
   reg.set_zero = in.set_zero;
   reg.scene = out_.scene;
   if (registers_.flipped()) {  // only then is the parameter bus modelled
@@ -85,6 +86,9 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
     reg.region_high = wave_.region_high();
     reg.testing = self_test_.busy(out_.armed);
     reg.derated = hold_.derated();
+    reg.at_least_full = clock_ == core_steps::clock_of(T::least_full);
+    reg.at_least_hold = clock_ == core_steps::clock_of(T::least_hold);
+    reg.at_least_test = clock_ == core_steps::clock_of(T::least_test);
   }
   return reg;
 }

@@ -46,7 +46,7 @@ class DesignBudget : public Budget {
   void set_word(int address, std::uint32_t word) override {
     for (const ParameterInfo& p : D::parameters) {
       if (p.address != address) continue;
-      const auto integer = static_cast<double>(decode_word(p.format, word));
+      const auto integer = static_cast<double>(decode_word(p.format, fitted(p.format, word)));
       set_parameter(address, std::ldexp(integer, -p.format.fraction));
     }
   }

@@ -54,7 +54,7 @@ module safety (
     output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o,  // number of the first, 0: none
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,      // bit n: limit n acted
     output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,  // A
-    output logic                                              derated_o,       // the torque limit is hold_limit
+    output logic                                              derated_o,       // hold_limit limits too
     output logic                                              heartbeat_o,     // changes every HEARTBEAT ticks without a fault
     output logic                                              testing_o,       // the self-test runs
     output logic signed [   feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_o,         // its pulse, larger than every limit: the limit in force is the torque

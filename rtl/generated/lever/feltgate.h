@@ -180,10 +180,10 @@
 #define FELTGATE_HOLD_TIME_DEFAULT 4883.0
 #define FELTGATE_HOLD_TIME_RESET 0x00001313u
 
-#define FELTGATE_DUTY_LIMIT_VALUE(word) feltgate_value((word), 31, 0, 1.0)
-#define FELTGATE_DUTY_LIMIT_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
-#define FELTGATE_DUTY_LIMIT_DEFAULT 974.0
-#define FELTGATE_DUTY_LIMIT_RESET 0x000003ceu
+#define FELTGATE_DUTY_LIMIT_VALUE(word) feltgate_value((word), 12, 0, 1.0)
+#define FELTGATE_DUTY_LIMIT_WORD(value) feltgate_word((value), 1.0, 0.0, 4095.0)
+#define FELTGATE_DUTY_LIMIT_DEFAULT 965.0
+#define FELTGATE_DUTY_LIMIT_RESET 0x000003c5u
 
 #define FELTGATE_WATCHDOG_TICKS_VALUE(word) feltgate_value((word), 31, 0, 1.0)
 #define FELTGATE_WATCHDOG_TICKS_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
@@ -265,8 +265,8 @@
 #define FELTGATE_ATTRACT_CORE_SLOPE_DEFAULT 0.0038349519697141021
 #define FELTGATE_ATTRACT_CORE_SLOPE_RESET 0x0001f6a8u
 
-#define FELTGATE_ATTRACT_CORE_VALUE(word) feltgate_value((word), 31, 0, 1.0)
-#define FELTGATE_ATTRACT_CORE_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
+#define FELTGATE_ATTRACT_CORE_VALUE(word) feltgate_value((word), 18, 0, 1.0)
+#define FELTGATE_ATTRACT_CORE_WORD(value) feltgate_word((value), 1.0, 0.0, 262143.0)
 #define FELTGATE_ATTRACT_CORE_DEFAULT 130.0
 #define FELTGATE_ATTRACT_CORE_RESET 0x00000082u
 
@@ -285,8 +285,8 @@
 #define FELTGATE_REPEL_CORE_SLOPE_DEFAULT 0.0038349519697141021
 #define FELTGATE_REPEL_CORE_SLOPE_RESET 0x0001f6a8u
 
-#define FELTGATE_REPEL_CORE_VALUE(word) feltgate_value((word), 31, 0, 1.0)
-#define FELTGATE_REPEL_CORE_WORD(value) feltgate_word((value), 1.0, 0.0, 2147483647.0)
+#define FELTGATE_REPEL_CORE_VALUE(word) feltgate_value((word), 18, 0, 1.0)
+#define FELTGATE_REPEL_CORE_WORD(value) feltgate_word((value), 1.0, 0.0, 262143.0)
 #define FELTGATE_REPEL_CORE_DEFAULT 130.0
 #define FELTGATE_REPEL_CORE_RESET 0x00000082u
 

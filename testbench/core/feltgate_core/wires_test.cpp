@@ -3,6 +3,8 @@
 //
 // feltgate_core: signals between its blocks that random runs hardly change; each test makes one
 // visible at an output. Documentation: docs/blocks/feltgate_core.md
+#include <algorithm>
+
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -101,6 +103,62 @@ TEST_CASE("core: a pulse of the self-test has all bits of its torque") {
     CHECK(whole);
     s.play();
   }
+}
+
+TEST_CASE("core: the torque's limit is obeyed in a pulse of the self-test and in a held torque") {
+  Life s;
+  const auto limit_is = [&s](std::int32_t most, int ticks) {
+    std::int32_t seen = 0;
+    for (int tick = 0; tick < ticks; ++tick) {
+      s.ticks(1);
+      seen = std::max(seen, std::abs(s.shown().tau_ref));
+    }
+    CHECK(seen == most);
+  };
+  const int unit = 1 << Map::self_test_unit_bits;
+  s.write(A::self_test_quiet, 1);
+  s.write(A::self_test_pulse, 1);
+  s.write(A::torque_limit, 655);
+  s.write(A::hold_time, 0xffffffff);
+  s.write(A::hold_limit, 300);
+  s.write(A::hold_torque, 200);
+  s.write(A::ramp_step, 1u << 24);
+  s.write(A::setpoint_torque, 17u << D::f.torque.fraction);  // too large: +, and not -
+  s.ticks(2);
+  s.write(C::control, kHost | 1u << C::control_arm | D::S::setpoint << C::control_scene);
+  limit_is(655, 8 * unit);
+  CHECK(s.shown().tau_ref == 300);  // held for too long
+  CHECK(((s.shown().limits >> Map::L::hold) & 1u) == 1);
+  s.write(A::torque_limit, 100);
+  s.ticks(3);
+  CHECK(s.shown().tau_ref == 100);
+  s.write(A::torque_limit, 0x80008000);
+  s.ticks(3);
+  CHECK(s.shown().tau_ref == 0);
+  s.play();
+}
+
+TEST_CASE("core: no gate gets a pulse that is shorter than 0.2 us") {
+  Life s;
+  s.arm(D::S::free, 2);
+  int on[4] = {}, shortest = D::pwm_period;
+  for (int duty = -40; duty <= 40; ++duty) {
+    const double volts = duty * D::supply_v / D::pwm_period;
+    s.write(A::voltage_setpoint,
+            static_cast<std::uint32_t>(std::lround(std::ldexp(volts, D::f.voltage.fraction))));
+    for (int clock = 0; clock < 2 * D::pwm_period; ++clock) {
+      s.clocks(1);
+      for (int gate = 0; gate < 4; ++gate) {
+        const bool now = ((s.out().gates >> gate) & 1) != 0;
+        if (!now && on[gate] > 0) shortest = std::min(shortest, on[gate]);
+        on[gate] = now ? on[gate] + 1 : 0;
+      }
+    }
+  }
+  CHECK(s.out().gates_enable);
+  CHECK(shortest >= 0.2e-6 * D::clock_hz);
+  CHECK(shortest < 0.3e-6 * D::clock_hz);
+  s.play();
 }
 
 TEST_CASE("core: what an engine says is no matter outside of the scene of programs") {

@@ -4,6 +4,7 @@
 // From a design to its integers: coefficient formats, quantisation, refused designs, generated
 // files. Documentation: docs/designs.md
 #include <cmath>
+#include <filesystem>
 
 #include "design_fixture.hpp"
 
@@ -109,6 +110,23 @@ TEST_CASE("the published numbers come out", "[design]") {
   CHECK(lever.word("observer_gain").raw == 0);
   CHECK(lever.word("torque_gain").si == Approx(1 / 0.0302).epsilon(1e-12));
   CHECK(lever.word("voltage_gain").raw == lever.word("voltage_gain_high").raw);
+}
+
+TEST_CASE("every shipped design has a shortest pulse, and its largest duty leaves it", "[design]") {
+  int designs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root_path("rtl/designs"))) {
+    if (entry.path().extension() != ".toml") continue;
+    const Elaborated e = shipped(entry.path().stem().string());
+    const Design& d = e.design;
+    INFO(d.name);
+    CHECK(d.shortest_clocks() >= 0.2e-6 * static_cast<double>(d.clock_hz));
+    CHECK(e.word("duty_limit").raw <=
+          d.pwm_period_clocks() - d.dead_clocks() - d.shortest_clocks());
+    ++designs;
+  }
+  CHECK(designs > 15);
+  CHECK(changed("paper", "dead_time_s = 0.5e-6", "shortest_pulse_s = 0.0\ndead_time_s = 0.5e-6")
+            .design.shortest_clocks() == 1);
 }
 
 TEST_CASE("the observer's gain is negative above 1/Jn", "[design]") {

@@ -134,6 +134,9 @@ TEST_CASE("values that do not belong together", "[reader]") {
         "the PWM period is not a whole number of clocks up to 4095; choose another frequency"},
        {"frequency_hz = 20_000 ", "frequency_hz = 30_000 ", "frequency_hz = 30_000",
         "the PWM period is not a whole number of clocks up to 4095; choose another frequency"},
+       {"frequency_hz = 20_000 ", "frequency_hz = 1_000_000 ", "frequency_hz = 1_000_000",
+        "the shortest pulse of 2e-07 s is longer than 255 clocks, or with the dead time than half "
+        "a period; lower frequency_hz, or write a shortest_pulse_s that your driver can follow"},
        {"kp_1_kg_m2 = 1600.0", "kp = \"1/inertia\"\nkp_1_kg_m2 = 1600.0", "kp_1_kg_m2 = 1600",
         "Kp is given twice; keep one of kp and kp_1_kg_m2"},
        {"kp_1_kg_m2 = 1600.0", "kp = \"2/inertia\"", "kp = ",
@@ -290,9 +293,10 @@ TEST_CASE("three phases: the words of the commutation, and what they refuse", "[
   CHECK(contains(package, "int MODULATION = 1;"));
   CHECK(e.word("commutation_gain").raw == 11 << 18);  // 11 turns of 2^32 in 2^14 counts
   CHECK(e.word("commutation_offset").raw == 0);
-  // A whole period is 5 V over the root of 3; the highest leg leaves two dead times and two clocks.
+  // A whole period is 5 V over the root of 3; the highest leg leaves two dead times and two
+  // shortest pulses.
   CHECK(e.word("duty_gain").si == Approx(1000 / 2.8867513));
-  CHECK(e.word("duty_limit").raw == 948);
+  CHECK(e.word("duty_limit").raw == 930);
   // The four thirds of a leg's loss, of which 3/pi turn with the current.
   CHECK(e.word("dead_voltage").si == Approx(4.0 / 3 * 3 / 3.14159265 * 6.4 * 0.025));
   const std::string two = systemverilog_package(shipped("lever"));
@@ -305,7 +309,7 @@ TEST_CASE("three phases: the words of the commutation, and what they refuse", "[
   CHECK(changed("offset_rad = 0.0 ", "offset_rad = -1.5707963267948966 ")
             .word("commutation_offset")
             .raw == 3LL << 30);
-  CHECK(changed("\"space_vectors\"", "\"sines\"").word("duty_limit").raw == 819);
+  CHECK(changed("\"space_vectors\"", "\"sines\"").word("duty_limit").raw == 803);
   CHECK(design_crc(changed("pole_pairs = 11", "pole_pairs = 7")) != design_crc(e));
   const auto refused = [&](const char* from, const char* to, const char* message) {
     const std::string error = design_error(replaced(good, from, to));

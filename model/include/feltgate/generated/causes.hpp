@@ -21,7 +21,7 @@ constexpr unsigned duty = 16;  ///< duty at its limit
 constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
 constexpr unsigned tau_hat = 64;  ///< tau_hat saturated its format
 constexpr unsigned gates_closed = 128;  ///< the gates are off
-constexpr unsigned hold = 256;  ///< a torque was held for too long: the limit is hold_limit
+constexpr unsigned hold = 256;  ///< a torque was held for too long: the limit is hold_limit, or torque_limit if that is less
 constexpr unsigned chatter = 512;  ///< the count alternates on one edge: the torque reference does not grow
 /// By the number of the bit.
 inline constexpr std::array<const char*, 10> names{

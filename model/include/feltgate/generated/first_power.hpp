@@ -75,7 +75,7 @@ struct FirstPower {
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x258ab7cb;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x7013a31b;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -110,7 +110,7 @@ struct FirstPower {
     static constexpr Format dead_voltage{1, 5, 14};
     static constexpr Format voltage_window{1, 5, 14};
     static constexpr Format duty_gain{0, 6, 11};
-    static constexpr Format duty_limit{0, 31, 0};
+    static constexpr Format duty_limit{0, 12, 0};
     static constexpr Format watchdog_ticks{0, 31, 0};
     static constexpr Format self_test_torque{1, 4, 16};
     static constexpr Format self_test_quiet{0, 31, 0};
@@ -127,11 +127,11 @@ struct FirstPower {
     static constexpr Format damper_damping{0, -8, 25};
     static constexpr Format attract_centre{1, 17, 8};
     static constexpr Format attract_strength{0, 16, 16};
-    static constexpr Format attract_core{0, 31, 0};
+    static constexpr Format attract_core{0, 18, 0};
     static constexpr Format attract_core_slope{0, -11, 28};
     static constexpr Format repel_centre{1, 17, 8};
     static constexpr Format repel_strength{0, 16, 16};
-    static constexpr Format repel_core{0, 31, 0};
+    static constexpr Format repel_core{0, 18, 0};
     static constexpr Format repel_core_slope{0, -11, 28};
     static constexpr Format wall_contact{1, 17, 8};
     static constexpr Format wall_stiffness{0, -6, 23};

@@ -31,7 +31,7 @@ struct GimbalCurrent {
   static constexpr int index_counts = 0;  // counts from index to index; 0: not checked
   static constexpr int pwm_period = 1000;  // clocks
   static constexpr int dead_clocks = 25;  // clocks
-  static constexpr int shortest_clocks = 1;  // clocks, of a pulse at a gate
+  static constexpr int shortest_clocks = 10;  // clocks, of a pulse at a gate
   static constexpr int scene_mask = 1021;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
   static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
@@ -75,7 +75,7 @@ struct GimbalCurrent {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x0770ad2b;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0xc50c5f6f;  // by which a host knows the design
 
   /// Formats of the parameters.
   struct P {
@@ -110,7 +110,7 @@ struct GimbalCurrent {
     static constexpr Format dead_voltage{1, 3, 16};
     static constexpr Format voltage_window{1, 3, 16};
     static constexpr Format duty_gain{0, 9, 8};
-    static constexpr Format duty_limit{0, 31, 0};
+    static constexpr Format duty_limit{0, 12, 0};
     static constexpr Format watchdog_ticks{0, 31, 0};
     static constexpr Format self_test_torque{1, 2, 18};
     static constexpr Format self_test_quiet{0, 31, 0};
@@ -129,11 +129,11 @@ struct GimbalCurrent {
     static constexpr Format damper_damping{0, -8, 25};
     static constexpr Format attract_centre{1, 17, 8};
     static constexpr Format attract_strength{0, 16, 16};
-    static constexpr Format attract_core{0, 31, 0};
+    static constexpr Format attract_core{0, 18, 0};
     static constexpr Format attract_core_slope{0, -13, 30};
     static constexpr Format repel_centre{1, 17, 8};
     static constexpr Format repel_strength{0, 16, 16};
-    static constexpr Format repel_core{0, 31, 0};
+    static constexpr Format repel_core{0, 18, 0};
     static constexpr Format repel_core_slope{0, -13, 30};
     static constexpr Format wall_contact{1, 17, 8};
     static constexpr Format wall_stiffness{0, -9, 26};
@@ -225,7 +225,7 @@ struct GimbalCurrent {
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
        346.41016151377545, 88681},
       {"duty_limit", "clock", A::duty_limit, P::duty_limit,
-       948.0, 948},
+       930.0, 930},
       {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
        100000.0, 100000},
       {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,

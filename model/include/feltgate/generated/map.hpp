@@ -182,6 +182,9 @@ struct Map {
     static constexpr int charge_width_limited = 6;
     static constexpr int charge_core = 7;
     static constexpr int charge_chosen = 8;
+    static constexpr int least_full = 11;
+    static constexpr int least_hold = 12;
+    static constexpr int least_test = 14;
     static constexpr int scene_sum = 15;
     static constexpr int scene_rounded = 22;
     static constexpr int law_torque = 22;
@@ -319,14 +322,17 @@ struct Map {
     setpoint_part,
     membrane_torque,
     read_index,
+    least_full,
     current_estimate,
     drive_torque,
+    least_hold,
     estimate_to_bus,
     operand_current_square,
     observer_input,
     read_encoder,
     observer_difference,
     damper_part,
+    least_test,
     operand_observer_a1,
     scene_sum,
     speed_size,
@@ -459,14 +465,17 @@ struct Map {
       {Step::setpoint_part, 10},
       {Step::membrane_torque, 10},
       {Step::read_index, 11},
+      {Step::least_full, 11},
       {Step::current_estimate, 11},
       {Step::drive_torque, 12},
+      {Step::least_hold, 12},
       {Step::estimate_to_bus, 12},
       {Step::operand_current_square, 13},
       {Step::observer_input, 13},
       {Step::read_encoder, 14},
       {Step::observer_difference, 14},
       {Step::damper_part, 14},
+      {Step::least_test, 14},
       {Step::operand_observer_a1, 15},
       {Step::scene_sum, 15},
       {Step::speed_size, 15},
@@ -693,6 +702,7 @@ struct Map {
     static constexpr int status_self_test_width = 2;
     static constexpr int status_testing = 18;
     static constexpr int status_driver_fault = 19;
+    static constexpr int status_saturated = 31;
     static constexpr int status_current_missing = 30;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;

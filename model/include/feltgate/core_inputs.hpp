@@ -30,25 +30,36 @@ void turned_by(const Decoder& decoder, In* in) {
 }
 
 template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::starts() const {
+  return loop_.starts() || absolute_state(decoder_) >> (Map::C::faults_absolute_width - 1) != 0;
+}
+
+template <class D, bool ReadBack>
+bool FeltgateCore<D, ReadBack>::unfit() const {
+  constexpr std::uint32_t faults = (1u << (Map::C::faults_absolute_width - 1)) - 1;
+  return loop_.unfit() || (absolute_state(decoder_) & faults) != 0;
+}
+
+template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* sup) const {
   sup->host = host();
   sup->host_arm = bit(registers_.out().control, D::C::control_arm);
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
-  sup->axis_silent = in.axis_silent || loop_.waits() || waits(decoder_);
-  sup->axis_blocked = in.axis_blocked || !loop_.ready() || absolute_state(decoder_) != 0;
+  sup->axis_silent = in.axis_silent || starts();
+  sup->axis_blocked = in.axis_blocked || unfit();
 }
 
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::arm_request(const In& in) const {
   typename Supervisor<D>::In sup;
   ask(in, &sup);
-  return sup.arm_request();
+  return supervisor_.asks(sup) && !starts();
 }
 
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::ready() const {
-  return supervisor_.ready(host()) && loop_.ready() && absolute_state(decoder_) == 0;
+  return supervisor_.ready(host()) && !unfit();
 }
 
 /// The scene that is asked for: by the control word if the host has control, else by the panel.

@@ -147,8 +147,8 @@ class FeltgateCore {
   /// Result of the self-test, as in the status word.
   SelfTestResult self_test_result() const { return self_test_.result(); }
   bool testing() const { return self_test_.busy(out_.armed); }
-  /// For the other axes: whether this axis will ask to be armed in the next clock (arm_request),
-  /// and whether it could be armed (ready).
+  /// For the other axes: whether this axis asks to be armed in the next clock (arm_request), and
+  /// whether nothing refuses its request (ready).
   bool arm_request(const In& in) const;
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
   bool measured() const { return clock_ == after(T::tau_hat); }
@@ -206,6 +206,10 @@ class FeltgateCore {
   }
 
   bool host() const { return bit(registers_.out().control, D::C::control_host); }
+  /// Whether a sensor has no first value yet: a request to arm waits.
+  bool starts() const;
+  /// Whether a sensor refuses a request to arm.
+  bool unfit() const;
   /// The requests to the supervisor: who has control, and what is requested.
   void ask(const In& in, typename Supervisor<D>::In* sup) const;
   /// The supervisor's wave inputs in clock c of the tick; its parameter words come from the RAM in

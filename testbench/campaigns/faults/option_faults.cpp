@@ -22,8 +22,18 @@ namespace {
 using test::Random;
 using Defect = AbsoluteSensor::Defect;
 
+/// The last kind of each design, so that the others keep their seeds.
+constexpr PinKind late_sensor{
+    "late sensor", "pins", "none until 0.1 to 30 ms after the request to arm", 1, Promise::refused};
+
 double share(Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
 double sign(Random* r) { return r->coin() ? 1 : -1; }
+
+void comes_late(Random* r, Case* c) {
+  c->harm.late_s = 1e-4 + 0.03 * share(r);
+  c->seconds = c->harm.late_s + 0.013;  // the offset of a current takes 512 PWM periods
+  c->what += fmt::format("{:.1f} ms, ", 1e3 * c->harm.late_s);
+}
 
 /// A torque of 0.3 to 1 of the limit, and a hand that moves up to so fast.
 Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0) {
@@ -50,6 +60,7 @@ const std::vector<PinKind> current_kinds{
      Promise::unseen},
     {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
     {"shunt's wires off at arming", "pins", "free, self-test on", 1, Promise::flagged, 25000},
+    late_sensor,
 };
 
 Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, double most_rad_s = 30) {
@@ -101,6 +112,9 @@ Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, doubl
   } else if (name == "stop") {
     h.stop = true;
     c.seconds = 0.001;
+  } else if (name == late_sensor.name) {
+    h.modulator = r->coin() ? Line::low : Line::high;
+    comes_late(r, &c);
   } else {
     throw std::logic_error(fmt::format("no fault is made for the kind \"{}\"", name));
   }
@@ -134,6 +148,7 @@ const std::vector<PinKind> gimbal_kinds = with_sensor({
      Promise::unseen},
     {"phases swapped at arming", "pins", "B and C, free, self-test on", 1, Promise::none},
     {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
+    late_sensor,
 });
 
 const std::vector<PinKind> absolute_kinds = [] {
@@ -144,6 +159,7 @@ const std::vector<PinKind> absolute_kinds = [] {
       {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
       {"magnet slips with the torque", "pins", "by 3 to 11 degrees, at the limit", 1,
        Promise::none},
+      late_sensor,
   });
   for (PinKind& k : all) {  // of SPI, whose diagnosis comes once in 16 readings
     if (std::string_view("magnet lost") == k.name) k.within_us = 2000;
@@ -212,6 +228,10 @@ Case gimbal_case(std::string_view name, Random* r, double limit_nm = 0.05) {
   } else if (name == "stop") {
     h.stop = true;
     c.seconds = 0.001;
+  } else if (name == late_sensor.name) {
+    h.sensor = Defect::cut;
+    h.hall_high = 7;
+    comes_late(r, &c);
   } else {
     throw std::logic_error(fmt::format("no fault is made for the kind \"{}\"", name));
   }
@@ -276,7 +296,8 @@ const std::vector<PinKind> field_kinds = [] {
 Case field_case(std::string_view name, Random* r) {
   constexpr double limit_nm = 0.05, most_rad_s = 20;
   const auto is_its_own = [&](const PinKind& k) { return name == k.name; };
-  if (std::any_of(gimbal_kinds.begin(), gimbal_kinds.end(), is_its_own)) {
+  const bool shunts_late = name == late_sensor.name && r->coin();
+  if (!shunts_late && std::any_of(gimbal_kinds.begin(), gimbal_kinds.end(), is_its_own)) {
     return gimbal_case(name, r);
   }
   if (name == "shunts exchanged") {

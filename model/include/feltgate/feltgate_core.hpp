@@ -206,10 +206,6 @@ class FeltgateCore {
   }
 
   bool host() const { return bit(registers_.out().control, D::C::control_host); }
-  /// Whether a sensor has no first value yet: a request to arm waits.
-  bool starts() const;
-  /// Whether a sensor refuses a request to arm.
-  bool unfit() const;
   /// The requests to the supervisor: who has control, and what is requested.
   void ask(const In& in, typename Supervisor<D>::In* sup) const;
   /// The supervisor's wave inputs in clock c of the tick; its parameter words come from the RAM in

@@ -59,8 +59,7 @@ class Supervisor {
   static constexpr int heat_clock = Map::first_wave_clock + T::heat;
   static constexpr int polarity_clock = Map::first_wave_clock + T::polarity;
   static constexpr int watchdog_clock = Map::first_wave_clock + T::watchdog;
-  /// Ticks for which a request to arm may wait.
-  static constexpr std::uint32_t wait_ticks =
+  static constexpr std::uint32_t wait_ticks =  // of a request to arm, at most
       D::clock_hz / 1000 * Map::arm_wait_ms / D::clocks_per_tick - 1;
 
   struct In {
@@ -147,7 +146,7 @@ class Supervisor {
       latch(trip);
       out_.gates_enable = false;
     }
-    stop_seen_ = !in.tick && (stop_seen_ || stop_2_);
+    if (!in.tick) stop_seen_ |= stop_2_;
     stop_2_ = stop_1_;
     stop_1_ = stopped_now;
     stopped_ = stopped_now && !dealt_with;
@@ -363,7 +362,7 @@ class Supervisor {
         in.arm_request() && ready(in.host) && trip == 0 && (live || (!in.axis_blocked && in_time));
     const bool arms = may_arm && !in.axis_silent;
     const bool waits = may_arm && in.axis_silent && !live;
-    host_ = in.host;
+    host_ = in.host, stop_seen_ = false;
     host_counts_ = !in.host_arm || (in.host && (arms || waits));
     panel_counts_ = !in.arm || (!in.host && (arms || waits));
     const bool counted = live ? arms && !in.kick : waits && !handed;
@@ -376,16 +375,14 @@ class Supervisor {
 
   Out out_;
   bool stopped_ = false;  ///< latch of the stop; the clocks of a reset release it
-  bool stop_1_ = true;
-  bool stop_2_ = true;
+  bool stop_1_ = true, stop_2_ = true;
   bool stop_seen_ = false;  ///< in this tick
   bool tick_before_ = false;
-  int tickless_ = 0;          ///< PWM periods that began since the last tick
-  bool host_ = false;         ///< the host had control in the tick before
-  bool host_counts_ = false;  ///< the host's request was low, and was not refused since
-  bool panel_counts_ = false;
-  bool awake_ = false;  ///< the watchdog has been kicked
-  int errors_ = 0;      ///< encoder errors that are not forgiven yet
+  int tickless_ = 0;                                 ///< PWM periods that began since the last tick
+  bool host_ = false;                                ///< the host had control in the tick before
+  bool host_counts_ = false, panel_counts_ = false;  ///< it was low, and was not refused since
+  bool awake_ = false;                               ///< the watchdog has been kicked
+  int errors_ = 0;                                   ///< encoder errors that are not forgiven yet
   std::uint32_t forgive_ticks_ = 0;
   std::int32_t signal_ = 0;  ///< value to compare in the next clock
   bool too_fast_ = false;
@@ -396,8 +393,7 @@ class Supervisor {
   Nominal nominal_;
   Sum cooled_;
   Squared square_;
-  bool too_hot_ = false;
-  bool silent_ = false;
+  bool too_hot_ = false, silent_ = false;
   std::uint32_t kickless_ticks_ = 0;  ///< with closed gates: ticks for which a request has waited
 };
 

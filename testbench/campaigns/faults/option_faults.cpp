@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "campaigns/faults/common_cases.hpp"
 #include "campaigns/faults/option_rig.hpp"
 
 namespace feltgate::faults {
@@ -21,28 +22,6 @@ namespace {
 
 using test::Random;
 using Defect = AbsoluteSensor::Defect;
-
-/// The last kind of each design, so that the others keep their seeds.
-constexpr PinKind late_sensor{
-    "late sensor", "pins", "none until 0.1 to 30 ms after the request to arm", 1, Promise::refused};
-
-double share(Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
-double sign(Random* r) { return r->coin() ? 1 : -1; }
-
-void comes_late(Random* r, Case* c) {
-  c->harm.late_s = 1e-4 + 0.03 * share(r);
-  c->seconds = c->harm.late_s + 0.013;  // the offset of a current takes 512 PWM periods
-  c->what += fmt::format("{:.1f} ms, ", 1e3 * c->harm.late_s);
-}
-
-/// A torque of 0.3 to 1 of the limit, and a hand that moves up to so fast.
-Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0) {
-  Case c;
-  c.torque_nm = sign(r) * limit_nm * (0.3 + 0.7 * share(r));
-  c.rad_s = sign(r) * (least_rad_s + (most_rad_s - least_rad_s) * share(r));
-  c.from_rad = share(r);
-  return c;
-}
 
 const std::vector<PinKind> current_kinds{
     {"modulator's line stands", "pins", "low, high or as it was", 1, Promise::flagged, 22},
@@ -112,9 +91,6 @@ Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, doubl
   } else if (name == "stop") {
     h.stop = true;
     c.seconds = 0.001;
-  } else if (name == late_sensor.name) {
-    h.modulator = r->coin() ? Line::low : Line::high;
-    comes_late(r, &c);
   } else {
     throw std::logic_error(fmt::format("no fault is made for the kind \"{}\"", name));
   }
@@ -228,10 +204,6 @@ Case gimbal_case(std::string_view name, Random* r, double limit_nm = 0.05) {
   } else if (name == "stop") {
     h.stop = true;
     c.seconds = 0.001;
-  } else if (name == late_sensor.name) {
-    h.sensor = Defect::cut;
-    h.hall_high = 7;
-    comes_late(r, &c);
   } else {
     throw std::logic_error(fmt::format("no fault is made for the kind \"{}\"", name));
   }
@@ -296,8 +268,7 @@ const std::vector<PinKind> field_kinds = [] {
 Case field_case(std::string_view name, Random* r) {
   constexpr double limit_nm = 0.05, most_rad_s = 20;
   const auto is_its_own = [&](const PinKind& k) { return name == k.name; };
-  const bool shunts_late = name == late_sensor.name && r->coin();
-  if (!shunts_late && std::any_of(gimbal_kinds.begin(), gimbal_kinds.end(), is_its_own)) {
+  if (std::any_of(gimbal_kinds.begin(), gimbal_kinds.end(), is_its_own)) {
     return gimbal_case(name, r);
   }
   if (name == "shunts exchanged") {
@@ -408,10 +379,11 @@ PinResult run_option_fault(const std::string& root, const std::string& design, s
   PinResult result{kind, seed, {}, {}, design};
   with_option(design, [&](const auto& o) {
     const Faults faults = faults_of(o);
-    const Case c = faults.made((*faults.kinds)[kind].name, &random);
+    using D = typename std::decay_t<decltype(o)>::Design;
+    const std::string_view name = (*faults.kinds)[kind].name;
+    const Case c = name == late_sensor.name ? late_case<D>(&random) : faults.made(name, &random);
     result.what = c.what + (c.free ? fmt::format("{:.3f} Nm, free", c.torque_nm)
                                    : fmt::format("{:.3f} Nm, {:.3g} rad/s", c.torque_nm, c.rad_s));
-    using D = typename std::decay_t<decltype(o)>::Design;
     result.outcome = run_case<D>(root, c, o.plant, o.arm_s, random.bits());
   });
   return result;

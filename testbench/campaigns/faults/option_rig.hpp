@@ -107,10 +107,8 @@ class Rig {
 
   /// The gates of the last step drive the motor in this one, so nothing depends on its own future.
   void step() {
-    if (harm_.late_s > 0 && asked_ >= 0 &&
-        static_cast<double>(now_ - asked_) >= harm_.late_s * D::clock_hz) {
-      harm({}, 0);
-    }
+    const bool late = harm_.late_s > 0 && asked_ >= 0;
+    if (late && static_cast<double>(now_ - asked_) >= harm_.late_s * D::clock_hz) harm({}, 0);
     const double before_rad = angle_rad();
     advance();
     torque_.add(kStep, harm_.shorted ? 0 : motor_.observables().motor_torque_mean_nm);
@@ -392,10 +390,7 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
   }
   settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,
          &o);
-  if (late && opened) {
-    o.is = Class::unsafe;
-    o.why = "armed by its sensor";
-  }
+  if (late && opened) o.is = Class::unsafe, o.why = "armed by its sensor";
   return o;
 }
 

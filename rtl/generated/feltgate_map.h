@@ -241,7 +241,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULTS_FIRST_MASK 0x001f0000u
 #define FELTGATE_FAULTS_CURRENT_BIT 21  /* of a current loop, else 0: bit 0 over-current, 1 stuck, 2 saturated, 3 offset, 4 not calibrated */
 #define FELTGATE_FAULTS_CURRENT_MASK 0x03e00000u
-#define FELTGATE_FAULTS_ABSOLUTE_BIT 26  /* of an absolute encoder, else 0: bit 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen, 5 no reading yet; of Hall lines 0 all alike, 1 apart, 3 a sector passed over, 5 no sector yet */
+#define FELTGATE_FAULTS_ABSOLUTE_BIT 26  /* of an absolute encoder, else 0: bit 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen, 5 starts: no reading yet, and none was wrong; of Hall lines 0 all alike, 1 apart, 3 a sector passed over, 5 no sector yet */
 #define FELTGATE_FAULTS_ABSOLUTE_MASK 0xfc000000u
 
 #define FELTGATE_TAU_REF 0x31cu  /* torque reference [Nm] */
@@ -439,6 +439,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_SELF_TEST_HELD_BIT 0  /* of self_test_arms: the scene begins though the lever is held */
 #define FELTGATE_SELF_TEST_MOVING_BIT 1  /* of self_test_arms: the scene begins though the lever moves */
 #define FELTGATE_KICKLESS_BITS 24  /* bits of the longest time without a kick [tick] */
+#define FELTGATE_ARM_WAIT_MS 20  /* for so long a request to arm may wait until the gates open [ms]; then it is refused */
 #define FELTGATE_ABSOLUTE_JUMP_BIT 3  /* of faults.absolute: the angle has jumped */
 #define FELTGATE_ABSOLUTE_ENTRY_BITS 20  /* a correction of an absolute encoder's table is in steps of a turn / 2^20 */
 #define FELTGATE_ABSOLUTE_SEGMENT_BITS 8  /* its table has 2^8 corrections over a turn */

@@ -33,6 +33,7 @@ package feltgate_map_pkg;
   localparam int SELF_TEST_HELD_BIT = 0;  // of self_test_arms: the scene begins though the lever is held
   localparam int SELF_TEST_MOVING_BIT = 1;  // of self_test_arms: the scene begins though the lever moves
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
+  localparam int ARM_WAIT_MS = 20;  // for so long a request to arm may wait until the gates open [ms]; then it is refused
   localparam int ABSOLUTE_JUMP_BIT = 3;  // of faults.absolute: the angle has jumped
   localparam int ABSOLUTE_ENTRY_BITS = 20;  // a correction of an absolute encoder's table is in steps of a turn / 2^20
   localparam int ABSOLUTE_SEGMENT_BITS = 8;  // its table has 2^8 corrections over a turn

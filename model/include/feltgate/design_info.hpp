@@ -4,6 +4,7 @@
 // The constants of a generated design as run-time information. Documentation: docs/library.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -53,6 +54,13 @@ struct DesignInfo {
   std::function<int(const std::string&)> scene_number;  ///< -1: unknown, or not built
   std::vector<std::string> scenes;  ///< the scenes that are built, in the order of their numbers
 
+  /// When a request to arm may rise: as wanted, or once the offset of a current is known, after 512
+  /// PWM periods, if that is longer than a request may wait for it.
+  std::int64_t request_at(std::int64_t wanted) const {
+    const std::int64_t offset = std::int64_t{513} * pwm_period;
+    const bool waits = current_full_scale_a == 0 || offset < clock_hz / 1000 * Map::arm_wait_ms;
+    return waits ? wanted : std::max(wanted, offset);
+  }
   /// The parameter of that name; nullptr where the design has none.
   const ParameterInfo* find(std::string_view parameter) const {
     for (int i = 0; i < parameter_count; ++i) {

@@ -147,8 +147,8 @@ class FeltgateCore {
   /// Result of the self-test, as in the status word.
   SelfTestResult self_test_result() const { return self_test_.result(); }
   bool testing() const { return self_test_.busy(out_.armed); }
-  /// For the other axes: whether this axis will ask to be armed in the next clock (arm_request),
-  /// and whether it could be armed (ready).
+  /// For the other axes: whether this axis asks to be armed in the next clock (arm_request), and
+  /// whether nothing refuses its request (ready).
   bool arm_request(const In& in) const;
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
   bool measured() const { return clock_ == after(T::tau_hat); }

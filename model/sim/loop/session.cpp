@@ -25,7 +25,7 @@ Session::Session(const Scenario& scenario, RunHost& host, const SessionOptions& 
       options_(options),
       feed_(scenario, options.law, host.design().clock_hz),
       end_(clock_of(scenario.duration_s)),
-      arm_at_(clock_of(scenario.arm_s)),
+      arm_at_(host.design().request_at(clock_of(scenario.arm_s))),
       scene_(scene_number(host.design(), scenario.scene)),
       mode_(scenario.mode) {}
 

@@ -116,7 +116,7 @@ module encoder (
     logic [PeriodW-1:0] wait_q;  // ticks to the next reading
     logic [4:0] faults, faults_q, seen_q;
     logic signed [31:0] angle, last_q, count_q, zero_q, change;
-    logic begins, valid, unused_busy, changed_q, waits_q;
+    logic begins, valid, unused_busy, unblemished, starts, changed_q, waits_q;
 
     assign begins = wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE] && wait_q == '0;
     absolute_encoder #(
@@ -126,7 +126,7 @@ module encoder (
     ) u_absolute_encoder (
         .clk_i(clk_i), .rst_ni(rst_ni), .sample_i(begins), .data_i(encoder_data_i),
         .select_no(encoder_select_no), .serial_clock_o(encoder_clock_o), .command_o(encoder_command_o),
-        .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .faults_o(faults)
+        .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .starts_o(unblemished), .faults_o(faults)
     );
     // What a reading says. found: it ends a fault.
     logic signed [31:0] reading;
@@ -181,10 +181,11 @@ module encoder (
       assign found = found_q;
     end
 
-    // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared; a jump also while they are
-    // closed, since the angle may be wrong for ever after it.
+    // waits_q: no reading yet. starts: nor a wrong one; else the sensor is missing. seen_q: what closed the gates, until
+    // the faults are cleared; a jump also while they are closed, since the angle may be wrong for ever after it.
     localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
-    assign absolute_state_o = {waits_q, faults | seen_q};
+    assign starts = waits_q && unblemished;
+    assign absolute_state_o = {starts, ((faults | seen_q) & ~5'(starts)) | 5'(waits_q && !starts)};
 
     assign count_o = count_q;
 

@@ -150,6 +150,21 @@ TEST_CASE("absolute: a request waits for the first reading, whose angle is the p
   }
 }
 
+TEST_CASE("absolute: a sensor that is plugged in after a request to arm opens no gates") {
+  for (const Defect defect : {Defect::cut, Defect::wrong_bit}) {
+    Rig rig;
+    rig.defect = defect;
+    rig.at = 0;
+    rig.mended = kReady;
+    Seen seen = run(rig, rig.mended);
+    CHECK((seen.state & 31u) != 0);  // it is named; nothing is said to start
+    CHECK(seen.state < 32);
+    seen = run(rig, rig.mended + 10 * kPeriod);
+    CHECK(seen.armed > rig.mended + 6 * kPeriod);  // the host has asked anew
+    CHECK(seen.last.armed);
+  }
+}
+
 TEST_CASE("absolute: the position counts turns in both directions, and from its zero on") {
   for (const double rad_s : {60.0, -400.0}) {
     for (const bool reversed : {false, true}) {

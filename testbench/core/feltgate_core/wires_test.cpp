@@ -32,9 +32,13 @@ TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with 
   s.in.axis_blocked = false;  // a refused request must fall first
   s.ticks(3);
   CHECK_FALSE(s.out().armed);
-  s.in.axis_silent = true;
+  s.in.axis_silent = true;  // its own, not that of the other axis
   s.ticks(1);
   s.in.axis_silent = false;
+  s.ticks(1);
+  CHECK_FALSE(s.out().armed);
+  s.write(C::control, kHost);
+  s.write(C::control, kHost | 1u << C::control_arm);
   s.ticks(1);
   CHECK(s.out().armed);
   s.in.axis_blocked = true;  // once armed, this input has no effect

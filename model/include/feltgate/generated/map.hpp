@@ -39,6 +39,7 @@ struct Map {
   static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
   static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
+  static constexpr int arm_wait_ms = 20;  ///< for so long a request to arm may wait until the gates open [ms]; then it is refused
   static constexpr int absolute_jump_bit = 3;  ///< of faults.absolute: the angle has jumped
   static constexpr int absolute_entry_bits = 20;  ///< a correction of an absolute encoder's table is in steps of a turn / 2^20
   static constexpr int absolute_segment_bits = 8;  ///< its table has 2^8 corrections over a turn

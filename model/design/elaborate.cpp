@@ -97,10 +97,11 @@ void check_resolution(const Elaborated& e) {
   constexpr int fewest_steps = 4;
   if (e.word("nominal_current_squared").raw < fewest_steps) {
     d.fail("supervisor.nominal_current_a",
-           fmt::format("its square is below {} steps of {} A^2, that of a motor with currents of up "
-                       "to {} A",
-                       fewest_steps, text(std::ldexp(1.0, -e.formats.current_squared.fraction)),
-                       text(std::ldexp(1.0, e.formats.current_estimate.integer))),
+           fmt::format(
+               "the square of the nominal current is below {} steps of {} A^2, those of a motor "
+               "with currents of up to {} A",
+               fewest_steps, text(std::ldexp(1.0, -e.formats.current_squared.fraction)),
+               text(std::ldexp(1.0, e.formats.current_estimate.integer))),
            "use fewer integer bits of the velocity or the current");
   }
 }

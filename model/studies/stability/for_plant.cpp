@@ -479,8 +479,22 @@ void Maker::formats() {
   // for the budget (chain_formats.hpp).
   const auto coefficient = [](double value) { return coefficient_format(value, false); };
   const Format by_v = growth::product(voltage, coefficient(1 / m_.resistance_ohm));
-  const Format by_w =
-      growth::product(d_.velocity, coefficient(m_.emf_constant_v_s_rad / m_.resistance_ohm));
+  const Format emf = coefficient(m_.emf_constant_v_s_rad / m_.resistance_ohm);
+  Format by_w = growth::product(d_.velocity, emf);
+  // A slow motor needs no velocity as large as the base's; where that would make the heat's step
+  // coarse, its words get finer.
+  constexpr double enough_steps = 32;
+  const auto steps = [this](int integer) {  // of the nominal current's square
+    return m_.nominal_current_a * m_.nominal_current_a * std::ldexp(1, 16 - 2 * integer);
+  };
+  const double raw_rad_s = m_.mt ? 0 : m_.velocity_gain_rad_s();
+  const int needed = bits_of(1.5 * m_.overspeed_rad_s + 4 * raw_rad_s);
+  Format velocity = d_.velocity;
+  while (velocity.integer > needed && by_w.integer > by_v.integer &&
+         steps(by_w.integer) < enough_steps) {
+    velocity = shift(velocity, -1);
+    by_w = growth::product(velocity, emf);
+  }
   const double ticks = m_.i2t_budget_a2_s * static_cast<double>(m_.tick_hz);
   const int for_heat = static_cast<int>(std::ceil((std::log2(ticks * 1.01) - 14) / 2)) - 1;
   const bool room = std::max(by_v.integer, by_w.integer) >= for_heat;
@@ -498,6 +512,7 @@ void Maker::formats() {
     if (f == was) return;
     edit_.set("formats", key, fmt::format("[1, {}, {}]", f.integer, f.fraction));
   };
+  put("velocity", d_.velocity, velocity);
   put("torque", d_.torque, torque);
   put("current", d_.current, current);
   put("voltage", d_.voltage, voltage);

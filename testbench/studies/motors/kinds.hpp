@@ -54,8 +54,8 @@ inline plant::Parameters plant_of(const Kind& k) {
     p.motor = {k.torque_constant, k.torque_constant, k.resistance_ohm, k.inductance_h, k.dead_v};
   }
   p.lever = {k.inertia_kg_m2, 0, 0.1};
-  p.lugre = {10'000 * k.friction_nm, 5 * k.friction_nm, 1e-6, k.friction_nm, 1.3 * k.friction_nm,
-             0.5};
+  p.lugre = {10'000 * k.friction_nm, 5 * k.friction_nm,   1e-6,
+             k.friction_nm,          1.3 * k.friction_nm, 0.5};
   p.supply = {k.supply_v, 100, 1e-3, 0.7};
   p.encoder.lines = k.lines;
   p.effects.dead_voltage = k.dead_v > 0;

@@ -201,7 +201,8 @@ TEST_CASE("motors: a design for each arms, holds and trips") {
   const bool show = std::getenv("FELTGATE_SHOW") != nullptr;
   if (show) {
     fmt::print(
-        "| motor | counts | V | A | limit Nm | tick kHz | self-test rad | held, error % | i2t at the "
+        "| motor | counts | V | A | limit Nm | tick kHz | self-test rad | held, error % | i2t at "
+        "the "
         "limit, from cold s | swapped leads: fault, after ms, rad/s | dead channel at rad/s: after "
         "rad | too fast rad/s |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   }
@@ -222,12 +223,13 @@ TEST_CASE("motors: a design for each arms, holds and trips") {
       CHECK(f.dead_rad < 52 * b.design().count_rad);
     }
     if (!show) continue;
-    fmt::print("| {} | {:.0f} | {:g} | {:g} | {:.3g} | {:g} | {} | {:.2f} | {:.2g} | {} {:.0f}, {:.0f} | {} | {:g} |\n",
-               kind.name, plant::kTwoPi / b.design().count_rad, kind.supply_v, kind.nominal_a,
-               b.si("torque_limit"), 1e-3 * static_cast<double>(b.design().tick_hz),
-               b.tested() ? fmt::format("{:.3f}", f.way_rad) : "off", f.error_pct, f.cold_s,
-               f.swapped, 1e3 * f.swapped_s, f.swapped_rad_s,
-               absolute ? "-" : fmt::format("{:g}: {:.2g}", hand_rad_s, f.dead_rad),
-               b.si("overspeed"));
+    fmt::print(
+        "| {} | {:.0f} | {:g} | {:g} | {:.3g} | {:g} | {} | {:.2f} | {:.2g} | {} {:.0f}, {:.0f} | "
+        "{} | {:g} |\n",
+        kind.name, plant::kTwoPi / b.design().count_rad, kind.supply_v, kind.nominal_a,
+        b.si("torque_limit"), 1e-3 * static_cast<double>(b.design().tick_hz),
+        b.tested() ? fmt::format("{:.3f}", f.way_rad) : "off", f.error_pct, f.cold_s, f.swapped,
+        1e3 * f.swapped_s, f.swapped_rad_s,
+        absolute ? "-" : fmt::format("{:g}: {:.2g}", hand_rad_s, f.dead_rad), b.si("overspeed"));
   }
 }

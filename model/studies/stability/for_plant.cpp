@@ -256,7 +256,9 @@ void Maker::limits() {
         p_.lugre.static_nm, m_.torque_limit_nm));
   }
   m_.current_limit_a = up(m_.torque_limit_nm / m_.torque_constant_nm_a);
-  m_.motor_current_limit_a = up(d_.motor_current_limit_a / d_.current_limit_a * m_.current_limit_a);
+  // A base without the key has current_limit_a there.
+  const double motor_a = std::max(d_.motor_current_limit_a, d_.current_limit_a);
+  m_.motor_current_limit_a = up(motor_a / d_.current_limit_a * m_.current_limit_a);
   set("control", "torque_limit_nm", m_.torque_limit_nm);
   set("control", "current_limit_a", m_.current_limit_a);
   set("motor", "motor_current_limit_a", m_.motor_current_limit_a);
@@ -498,8 +500,9 @@ void Maker::formats() {
   const double ticks = m_.i2t_budget_a2_s * static_cast<double>(m_.tick_hz);
   const int for_heat = static_cast<int>(std::ceil((std::log2(ticks * 1.01) - 14) / 2)) - 1;
   const bool room = std::max(by_v.integer, by_w.integer) >= for_heat;
-  Format current =
-      shift(d_.current, bits_of(m_.motor_current_limit_a) - bits_of(d_.motor_current_limit_a));
+  const double most_a = std::max(m_.motor_current_limit_a, m_.polarity_current_a);
+  const double base_a = std::max(d_.motor_current_limit_a, d_.current_limit_a);
+  Format current = shift(d_.current, bits_of(most_a) - bits_of(base_a));
   if (!room) current = shift(current, std::max(0, for_heat - current.integer));
   if (d_.current_loop) {
     current.integer = std::min(current.integer, std::ilogb(m_.current_full_scale_a));

@@ -102,6 +102,15 @@ struct Design {
   double full_duty_v() const;
   /// Whether the voltage law compensates the back-EMF.
   bool emf_in_law() const { return voltage_law == "motor_model"; }
+  /// Of the monitor of dead channels: bits of the ticks in which the time between edges is counted,
+  /// and whether several counts come in a tick.
+  int edge_unit_bits() const;
+  bool fast_edges() const;
+  /// Counts in a tick at the fastest motion.
+  double counts_per_tick() const;
+  /// The self-test takes 2^n counts for one, so that its counts are no finer than 16384 in a turn.
+  int self_test_drop() const;
+  double self_test_count_rad() const;
   /// A time in the units of the self-test: 2^SELF_TEST_UNIT_BITS ticks.
   double self_test_units(double seconds) const;
   int dead_clocks() const;

@@ -199,6 +199,18 @@ std::vector<Constant> of_absolute_encoder(const Design& d) {
       {"absolute_diagnosis", p.diag_address, "SPI: address of the diagnosis"}};
 }
 
+/// What the checks of the encoder take from its counts; not in the CRC where it is as with 4096.
+std::vector<Constant> of_encoder(const Design& d) {
+  return {{"edge_unit_bits", d.edge_unit_bits(),
+           "bits of the ticks in which the time between edges is counted"},
+          {"fast_edges", d.fast_edges() ? 1 : 0,
+           "1: at the fastest motion several counts come in a tick"},
+          {"self_test_drop", d.self_test_drop(), "the self-test takes 2^n counts for one"}};
+}
+bool as_of_4096_counts(const Design& d) {
+  return d.edge_unit_bits() == 6 && !d.fast_edges() && d.self_test_drop() == 0;
+}
+
 /// Table against its error, and Hall lines; not in the CRC of designs without them.
 std::vector<Constant> of_angle(const Design& d) {
   return {{"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"},
@@ -215,7 +227,7 @@ std::vector<Constant> of_phases(const Design& d) {
 std::vector<Constant> of_options(const Elaborated& e) {
   std::vector<Constant> all;
   for (const auto& list :
-       {further(e.design), of_estimator(e.design), of_current_loop(e),
+       {further(e.design), of_estimator(e.design), of_encoder(e.design), of_current_loop(e),
         of_absolute_encoder(e.design), of_angle(e.design), of_phases(e.design)}) {
     all.insert(all.end(), list.begin(), list.end());
   }
@@ -232,6 +244,7 @@ std::uint32_t design_crc(const Elaborated& e) {
   add(constants(e));
   if (e.design.axes != 1 || e.design.engine) add(further(e.design));
   if (e.design.mt) add(of_estimator(e.design));
+  if (!as_of_4096_counts(e.design)) add(of_encoder(e.design));
   if (e.design.current_loop) add(of_current_loop(e));
   if (e.design.absolute) add(of_absolute_encoder(e.design));
   if (e.design.phases == 3) add(of_phases(e.design));

@@ -171,7 +171,7 @@ module feltgate_core #(
       .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i), .axis_waits_i(axis_waits_i),
       .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state),
       .absolute_state_i(absolute_state), .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips),
-      .illegal_i(illegal), .moved_i(moved), .travel_i(travel[1:0]), .velocity_i(velocity_o),
+      .illegal_i(illegal), .moved_i(moved), .travel_i(travel[feltgate_pkg::SELF_TEST_DROP+:2]), .velocity_i(velocity_o),
       .current_ref_i(current_ref_o), .product_i(supervisor_product), .over_limit_i(over_limit), .law_i(law),
       .law_late_i(law_late_i), .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked), .gates_enable_o(gates_enable_o),
       .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o), .limits_o(safety_limits),

@@ -232,7 +232,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_ENCODER 0x30eu  /* encoder error count [15:0], rejected pulses [31:16] */
 
-#define FELTGATE_TAU_HAT 0x317u  /* observed torque [Nm] */
+#define FELTGATE_TAU_HAT 0x317u  /* observed torque; void while the limits voltage or duty act, see there [Nm] */
 
 #define FELTGATE_FAULTS 0x31au  /* what closed the gates */
 #define FELTGATE_FAULTS_SEEN_BIT 0  /* faults that were seen, by their bit */
@@ -396,8 +396,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LIMIT_TORQUE (1u << 0)  /* torque reference at its limit */
 #define FELTGATE_LIMIT_RAMP (1u << 1)  /* ramping: after arming, a change of scene, or what could have made the torque jump */
 #define FELTGATE_LIMIT_CURRENT (1u << 2)  /* current reference at its limit */
-#define FELTGATE_LIMIT_VOLTAGE (1u << 3)  /* voltage at the end of the window around the back-EMF */
-#define FELTGATE_LIMIT_DUTY (1u << 4)  /* duty at its limit */
+#define FELTGATE_LIMIT_VOLTAGE (1u << 3)  /* voltage at the end of the window around the back-EMF; without a current loop tau_hat is void, for the motor gives less than it counts on */
+#define FELTGATE_LIMIT_DUTY (1u << 4)  /* duty at its limit; without a current loop tau_hat is void, as above */
 #define FELTGATE_LIMIT_VELOCITY (1u << 5)  /* the raw velocity saturated its format */
 #define FELTGATE_LIMIT_TAU_HAT (1u << 6)  /* tau_hat saturated its format */
 #define FELTGATE_LIMIT_GATES_CLOSED (1u << 7)  /* the gates are off */
@@ -445,10 +445,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_ABSOLUTE_SEGMENT_BITS 8  /* its table has 2^8 corrections over a turn */
 #define FELTGATE_ONE_CHANNEL_EDGES 16  /* edges of one channel in a row from which it is chatter or a dead channel */
 #define FELTGATE_DEAD_CHANNEL_EDGES 24  /* as many are a dead channel */
-#define FELTGATE_EDGE_UNIT_BITS 6  /* bits of the ticks in which the time between edges is counted */
-#define FELTGATE_EDGE_UNITS 19  /* so many of them without an edge end the row */
-#define FELTGATE_CHATTER_UNIT_BITS 8  /* bits of the ticks in which the time of chatter is counted */
-#define FELTGATE_CHATTER_UNITS 20  /* chatter for so many of them is a dead channel */
+#define FELTGATE_EDGE_UNITS 19  /* so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row */
+#define FELTGATE_CHATTER_UNITS 20  /* chatter for so many times 4 * 2^EDGE_UNIT_BITS ticks is a dead channel */
 #define FELTGATE_INDEX_WIDTH_BITS 3  /* an index may be less than 2^index_width_bits counts wide */
 #define FELTGATE_HOLD_UNIT_BITS 10  /* bits of the ticks in which hold_time is counted */
 #define FELTGATE_HOLD_BITS 13  /* bits of the longest hold_time */

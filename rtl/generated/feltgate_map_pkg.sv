@@ -39,10 +39,8 @@ package feltgate_map_pkg;
   localparam int ABSOLUTE_SEGMENT_BITS = 8;  // its table has 2^8 corrections over a turn
   localparam int ONE_CHANNEL_EDGES = 16;  // edges of one channel in a row from which it is chatter or a dead channel
   localparam int DEAD_CHANNEL_EDGES = 24;  // as many are a dead channel
-  localparam int EDGE_UNIT_BITS = 6;  // bits of the ticks in which the time between edges is counted
-  localparam int EDGE_UNITS = 19;  // so many of them without an edge end the row
-  localparam int CHATTER_UNIT_BITS = 8;  // bits of the ticks in which the time of chatter is counted
-  localparam int CHATTER_UNITS = 20;  // chatter for so many of them is a dead channel
+  localparam int EDGE_UNITS = 19;  // so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row
+  localparam int CHATTER_UNITS = 20;  // chatter for so many times 4 * 2^EDGE_UNIT_BITS ticks is a dead channel
   localparam int INDEX_WIDTH_BITS = 3;  // an index may be less than 2^index_width_bits counts wide
   localparam int HOLD_UNIT_BITS = 10;  // bits of the ticks in which hold_time is counted
   localparam int HOLD_BITS = 13;  // bits of the longest hold_time
@@ -327,8 +325,8 @@ package feltgate_map_pkg;
   localparam int L_TORQUE = 0;  // torque reference at its limit
   localparam int L_RAMP = 1;  // ramping: after arming, a change of scene, or what could have made the torque jump
   localparam int L_CURRENT = 2;  // current reference at its limit
-  localparam int L_VOLTAGE = 3;  // voltage at the end of the window around the back-EMF
-  localparam int L_DUTY = 4;  // duty at its limit
+  localparam int L_VOLTAGE = 3;  // voltage at the end of the window around the back-EMF; without a current loop tau_hat is void, for the motor gives less than it counts on
+  localparam int L_DUTY = 4;  // duty at its limit; without a current loop tau_hat is void, as above
   localparam int L_VELOCITY = 5;  // the raw velocity saturated its format
   localparam int L_TAU_HAT = 6;  // tau_hat saturated its format
   localparam int L_GATES_CLOSED = 7;  // the gates are off

@@ -25,6 +25,7 @@ Json step_json(const StepFigures& s) {
             {"tau_hat_settling_ms", s.tau_hat.settling_ms},
             {"torque_settling_ms", s.torque.settling_ms},
             {"overshoot_pct", s.torque.overshoot_pct}};
+  if (s.tau_hat_void) step["tau_hat_void"] = true;
   // A relative error of a step to 0 means nothing.
   if (s.tau_ref_nm != 0) {
     step["final_error_pct"] = s.torque.final_error_pct;
@@ -86,6 +87,9 @@ Json felt_json(const RunResult& r) {
                              {"holds", x.max_error_in_bounds <= x.bound}};
   }
   j["limits"] = acted_json(f.limits);
+  if (f.tau_hat_void.seconds > 0) {
+    j["tau_hat_void"] = {{"seconds", f.tau_hat_void.seconds}, {"first_s", f.tau_hat_void.first_s}};
+  }
   j["faults"] = acted_json(f.faults);
   if (f.closed_loop) j["expectations"] = Json::array();
   for (const Expected& x : r.expectations) {

@@ -78,10 +78,13 @@ std::string step_table(const RunResult& r) {
         fmt::format("\n{:<10} {:>16} {:>16} {:>12} {:>14} {:>16}\n", "step Nm", "tau_hat settles",
                     "motor settles", "overshoot", "final error", "tau_hat error");
     for (const StepFigures& f : e.steps) {
-      text +=
-          fmt::format("{:<10.4g} {:>13.3f} ms {:>13.3f} ms {:>10.2f} % {:>12.3f} % {:>14.4f} %\n",
-                      f.tau_ref_nm, f.tau_hat.settling_ms, f.torque.settling_ms,
-                      f.torque.overshoot_pct, f.torque.final_error_pct, f.tau_hat.final_error_pct);
+      const auto observed = [&f](const char* format, double value) {
+        return f.tau_hat_void ? std::string("void") : fmt::format(fmt::runtime(format), value);
+      };
+      text += fmt::format("{:<10.4g} {:>16} {:>13.3f} ms {:>10.2f} % {:>12.3f} % {:>16}\n",
+                          f.tau_ref_nm, observed("{:.3f} ms", f.tau_hat.settling_ms),
+                          f.torque.settling_ms, f.torque.overshoot_pct, f.torque.final_error_pct,
+                          observed("{:.4f} %", f.tau_hat.final_error_pct));
     }
     return text;  // RTL and twin show the same
   }
@@ -178,6 +181,11 @@ std::string felt_text(const RunResult& r) {
     first = false;
   }
   text += line("limits", acted_text(f.limits));
+  if (f.tau_hat_void.seconds > 0) {
+    text += line("tau_hat", fmt::format("void for {:.4g} s (from {:.4g} s): voltage or duty at the "
+                                        "limit, the motor gives less than tau_hat says",
+                                        f.tau_hat_void.seconds, f.tau_hat_void.first_s));
+  }
   text += line("faults", acted_text(f.faults));
   if (f.closed_loop) text += expectation_lines(r.expectations);
   return text;
@@ -197,7 +205,8 @@ std::string differing_lines(const RunLabels& labels) {
   }
   return text +
          fmt::format(
-             "a design for this plant: feltgate design --for-plant {} -o rtl/designs/mine.toml\n",
+             "a design for this plant: feltgate design --for-plant {} --nominal-current AMPERES -o "
+             "rtl/designs/mine.toml\n",
              labels.plant_as_named);
 }
 

@@ -81,6 +81,7 @@ py::dict felt_dict(const RunResult& r) {
     out["given_to_hand_j"] = f.energy.given_to_hand_j;
   }
   out["limits"] = acted_dict(f.limits);
+  out["tau_hat_void_s"] = f.tau_hat_void.seconds;
   out["faults"] = acted_dict(f.faults);
   py::list expectations;
   for (const Expected& e : r.expectations) {

@@ -43,7 +43,7 @@ class FeltgateCore {
     decoder_.reset();
     wave_.reset();
     loop_.reset();
-    monitor_ = {};
+    monitor_ = made_monitor();
     hold_ = {};
     supervisor_.reset();
     gates_.reset();
@@ -281,7 +281,7 @@ class FeltgateCore {
         out_.snapshot_valid = true;
         return;
       case Step::levels:
-        monitor_.tick(decoded.levels, out_.tick_count, decoded.index_wrong);
+        monitor_.tick(decoded.levels, out_.tick_count, decoded.index_wrong, decoded.count);
         wave_.set_frozen(monitor_.chatters());
         return;
       case Step::hold:
@@ -297,7 +297,7 @@ class FeltgateCore {
         if (kLaw) wave_.program(in.law_late ? 0 : in.law_torque);
         return;
       case Step::sample:
-        self_test_.sample(decoded.travel);
+        self_test_.sample(static_cast<std::uint16_t>(decoded.travel >> D::self_test_drop));
         [[fallthrough]];
       default:
         wave_.take(step, decoded.position, decoded.travel, mode(), pulse(in), out_);
@@ -378,7 +378,10 @@ class FeltgateCore {
   Decoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
   CoreWave<D> wave_;
   CurrentLoop<D> loop_;
-  EncoderMonitorLaw monitor_;
+  static EncoderMonitorLaw made_monitor() {
+    return EncoderMonitorLaw(D::edge_unit_bits, D::fast_edges != 0);
+  }
+  EncoderMonitorLaw monitor_ = made_monitor();
   HoldTimerLaw hold_;
   Supervisor<D> supervisor_, before_wave_;
   typename Supervisor<D>::Words supervisor_words_;

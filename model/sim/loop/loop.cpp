@@ -33,6 +33,7 @@ namespace {
 struct StepRecord {
   double tau_ref_nm;
   StepSamples tau_hat, torque;
+  bool tau_hat_void = false;
 };
 
 class ScenarioRun : public SteppedRun {
@@ -49,7 +50,7 @@ class ScenarioRun : public SteppedRun {
         looped_(core_.design().current_full_scale_a > 0),
         plan_(plan(scenario, plant, core_.design(), choice_)),
         mean_(core_.design().pwm_period, plan_.phase()),
-        felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
+        felt_(1.0 / static_cast<double>(core_.design().tick_hz), looped_),
         session_(scenario, core_, options),
         counter_(plant_.encoder().pins()) {
     if (looped_) check_loop();
@@ -161,7 +162,8 @@ class ScenarioRun : public SteppedRun {
   void end_step() {
     if (!step_) return;
     const double tick_s = 1.0 / static_cast<double>(core_.design().tick_hz), to = step_->tau_ref_nm;
-    steps_.push_back({to, step_->tau_hat.response(tick_s, to), step_->torque.response(tick_s, to)});
+    steps_.push_back({to, step_->tau_hat.response(tick_s, to), step_->torque.response(tick_s, to),
+                      step_->tau_hat_void});
     step_.reset();
   }
 
@@ -235,6 +237,7 @@ class ScenarioRun : public SteppedRun {
     if (step_) {
       step_->tau_hat.add(r.tau_hat_nm);
       step_->torque.add(r.motor_torque_nm);
+      step_->tau_hat_void = felt_.tau_hat_void(s.limits);
     }
     if (options_.row && session_.ticks() % options_.row_every == 0) {
       r.time_s =

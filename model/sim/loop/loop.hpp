@@ -36,6 +36,7 @@ struct StepFigures {
   double tau_ref_nm = 0;
   StepResponse tau_hat;  ///< of the observed torque
   StepResponse torque;   ///< of the motor torque, averaged over each PWM period
+  bool tau_hat_void = false;  ///< at the end of the step, see Felt
 };
 
 /// The results of one back-end after a run.

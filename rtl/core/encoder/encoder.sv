@@ -71,7 +71,7 @@ module encoder (
       .index_seen_o(unused_index_seen), .index_wrong_o(index_wrong)
   );
 
-  encoder_monitor u_encoder_monitor (
+  encoder_monitor #(.EdgeBits(feltgate_pkg::EDGE_UNIT_BITS), .Fast(feltgate_pkg::FAST_EDGES)) u_encoder_monitor (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .at_levels_i(wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]), .tick_count_i(tick_count_i),
       .levels_i(levels), .index_wrong_i(index_wrong),

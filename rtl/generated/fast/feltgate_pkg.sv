@@ -36,6 +36,9 @@ package feltgate_pkg;
   localparam int MT_COUNTS = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   localparam int MT_WINDOW = 0;  // clocks: of a shorter span twice the cycles
   localparam int MT_DOUBLINGS = 0;  // the span has at most 2^n cycles
+  localparam int EDGE_UNIT_BITS = 6;  // bits of the ticks in which the time between edges is counted
+  localparam int FAST_EDGES = 0;  // 1: at the fastest motion several counts come in a tick
+  localparam int SELF_TEST_DROP = 0;  // the self-test takes 2^n counts for one
   localparam int CURRENT_LOOP = 0;  // 1: a measured current is controlled
   localparam int CURRENT_DROP = 0;  // fraction bits of the current reference below an LSB of the measured current
   localparam int CURRENT_PROPORTIONAL = 0;  // [0,4,13], supply per full scale

@@ -198,9 +198,11 @@ TEST_CASE("resolution, width and latency beyond the limit are refused", "[design
   check_refused("paper", "observer_fraction = 30", "observer_fraction = 38", "observer_fraction",
                 "the product with torque_constant has 37 fraction bits and its sum takes 38; lower "
                 "this, or the value of observer.torque_constant_nm_a");
-  check_refused("lever", "resistance_ohm = 0.42 ", "resistance_ohm = 0.05 ", "resistance_ohm",
-                "the current estimate takes 20 bits and the fabric has 18; use fewer integer or "
-                "fraction bits");
+  check_refused("lever", "nominal_current_a = 5.77", "nominal_current_a = 0.77",
+                "nominal_current_a",
+                "the square of the nominal current is below 4 steps of 0.25 A^2, those of a motor "
+                "with currents of up to 256 A; use fewer integer bits of the velocity or the "
+                "current");
   check_refused("paper", "tick_hz = 1_000_000", "tick_hz = 1_250_000", "tick_hz",
                 "the chain takes 50 clocks and a tick has 40; lower tick_hz or raise clock_hz");
 }

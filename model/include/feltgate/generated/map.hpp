@@ -45,10 +45,8 @@ struct Map {
   static constexpr int absolute_segment_bits = 8;  ///< its table has 2^8 corrections over a turn
   static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
-  static constexpr int edge_unit_bits = 6;  ///< bits of the ticks in which the time between edges is counted
-  static constexpr int edge_units = 19;  ///< so many of them without an edge end the row
-  static constexpr int chatter_unit_bits = 8;  ///< bits of the ticks in which the time of chatter is counted
-  static constexpr int chatter_units = 20;  ///< chatter for so many of them is a dead channel
+  static constexpr int edge_units = 19;  ///< so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row
+  static constexpr int chatter_units = 20;  ///< chatter for so many times 4 * 2^EDGE_UNIT_BITS ticks is a dead channel
   static constexpr int index_width_bits = 3;  ///< an index may be less than 2^index_width_bits counts wide
   static constexpr int hold_unit_bits = 10;  ///< bits of the ticks in which hold_time is counted
   static constexpr int hold_bits = 13;  ///< bits of the longest hold_time

@@ -6,6 +6,7 @@ the file, and says what to do. Documentation: docs/designs.md
 """
 
 import os
+import sys
 import unittest
 
 from testing import BUILD, ROOT, SCRIPTS, Scratch, ran
@@ -43,7 +44,7 @@ class Edited(Scratch):
         return self.ended(done, status, *says)
 
     def script(self, name, *words):
-        done = ran("python3", "-B", SCRIPTS / name, *words, env=self.env, cwd=self.folder, timeout=120)
+        done = ran(sys.executable, "-B", SCRIPTS / name, *words, env=self.env, cwd=self.folder, timeout=120)
         self.ended(done, 2, SAYS, "run ./feltgate generate")
 
     def test_programs(self):
@@ -82,7 +83,7 @@ for call in (lambda: feltgate.run("wall", engine="twin"), feltgate.Twin, feltgat
         print("ran")
     except ValueError as error:
         print(error)"""
-        done = self.ended(ran("python3", "-B", "-c", text, env=self.env, cwd=self.folder))
+        done = self.ended(ran(sys.executable, "-B", "-c", text, env=self.env, cwd=self.folder))
         lines = done.stdout.splitlines()
         self.assertEqual(len(lines), 4)
         for line in lines:

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 
 #include "design/text_case.hpp"
 #include "feltgate/crc32.hpp"
@@ -330,7 +331,10 @@ std::string systemverilog_package(const Elaborated& e) {
   return s.str();
 }
 
-std::string cpp_header(const Elaborated& e) {
+namespace {
+
+/// The header with this line about its sum.
+std::string header_with(const Elaborated& e, const std::string& sum_line) {
   const Design& d = e.design;
   std::ostringstream s;
   s << banner(e, "")
@@ -359,6 +363,7 @@ std::string cpp_header(const Elaborated& e) {
       "  static constexpr std::uint32_t design_crc = 0x{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
+  s << sum_line;
   if (d.absolute_table()) {
     s << "\n  /// What is added to an absolute encoder's reading, 2^-20 turn.\n"
       << "  static constexpr std::int16_t absolute_corrections[" << Corrections{}.size() << "] = {";
@@ -397,6 +402,26 @@ std::string cpp_header(const Elaborated& e) {
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
+}
+
+}  // namespace
+
+std::uint32_t file_sum(const Elaborated& e) {
+  const std::string text = systemverilog_package(e) + header_with(e, "") + memory_text(e);
+  return crc32(text.data(), text.size());
+}
+
+std::string cpp_header(const Elaborated& e) {
+  return header_with(e, fmt::format("  static constexpr std::uint32_t file_sum = 0x{:08x};  // by "
+                                    "which a program notices that the file has changed\n",
+                                    file_sum(e)));
+}
+
+void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend) {
+  if (file_sum(e) == sum) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: the file has changed since design {} was made of it, so what it says is not used; {}",
+      e.design.path, e.design.name, mend));
 }
 
 std::string memory_text(const Elaborated& e) {

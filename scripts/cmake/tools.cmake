@@ -135,6 +135,7 @@ add_executable(feltgate_page_data EXCLUDE_FROM_ALL
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})
 target_compile_definitions(feltgate_page_data PRIVATE FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
 target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nlohmann_json fmt::fmt)
+add_dependencies(feltgate_page_data feltgate_generate)  # page.py asks it whether the designs are current
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
 feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)

@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   old_spelling(&app, "--scenes", a.scenes, CLI::Validator())->delimiter(',');
   app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
-      ->check(checks::whole(1, 1000));
+      ->transform(checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");
   app.add_flag("--quiet", a.quiet, "print nothing");
   int exit_code = exit_ok;

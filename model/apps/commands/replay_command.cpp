@@ -57,7 +57,7 @@ struct TraceArguments {
     sub->add_option("--sample-hz", options.sample_hz,
                     "rate of the capture, where the file does not say it")
         ->type_name("HZ")
-        ->transform(checks::positive(1e12, "Hz"));
+        ->transform(checks::whole(1, 1'000'000'000'000, "Hz"));
     sub->add_option("--format", format,
                     "sigrok, vcd, saleae, levels, columns or vector; default: by content")
         ->type_name("FORMAT");
@@ -181,7 +181,7 @@ void add_replay(CLI::App& app, int* exit_code) {
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
-      ->check(checks::whole(1, 1'000'000'000))
+      ->transform(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --duration)")
       ->type_name("FILE");

@@ -353,7 +353,7 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
-      ->check(checks::whole(1, 1'000'000'000))
+      ->transform(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
   sub->add_flag("--columns", a->columns,
                 "print the CSV columns of SCENE, of one lever without, and end");

@@ -27,25 +27,23 @@ std::string engine_line(const BackendFigures& e, double simulated_s) {
       e.torque_nm.max(), e.torque_nm.rms(), speed);
 }
 
-/// The bounds below the table of errors, and the ticks for which they do not hold.
+/// The bounds below the table of errors, and what there is in ticks for which they do not hold.
 std::string bound_lines(const RunResult& r) {
-  const auto line = [&r](const char* name, double FeltError::*value) {
+  const auto line = [&r](const char* name, const auto& value) {
     const auto told = [&](std::size_t i) {
-      const double x = r.felt.errors[i].*value;
+      const double x = value(r.felt.errors[i]);
       return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none";
     };
     return fmt::format("{:<8} {:>14} {:>12} {:>12} {:>12} {:>12}\n", name, told(0), "", told(1), "",
                        told(2));
   };
-  std::string text = line("bound", &FeltError::bound);
-  for (const BackendFigures& e : r.engines) {
-    if (!is_core(e) || e.uncovered == 0) continue;
-    text += line("in it", &FeltError::max_error_in_bounds);
+  std::string text = line("bound", [](const FeltError& e) { return e.bound; });
+  if (const auto outside = r.felt.errors.back().error.outside(); outside > 0) {
+    text += line("outside", [](const FeltError& e) { return e.error.max_outside(); });
     text += fmt::format(
-        "the bound is not for {} ticks, of a ramp or saturation and what follows; \"in it\" leaves "
-        "them out\n",
-        e.uncovered);
-    break;  // RTL and twin show the same
+        "the bound is not for {} ticks, of a ramp or saturation and what follows: their largest "
+        "errors are \"outside\", and in no other figure\n",
+        outside);
   }
   return text + fmt::format(
                     "bound: proven for any motion up to this one's {:.4g} rad/s before the "
@@ -132,14 +130,14 @@ std::string error_text(const FeltError& e) {
                     : e.signal == "tau_hat_nm"   ? "observed torque"
                                                  : "commanded torque";
   if (!std::isfinite(e.bound)) {
-    return fmt::format("{} {:.3g} {}, no bound is proven", name, e.max_error, unit);
+    return fmt::format("{} {:.3g} {}, no bound is proven", name, e.error.max(), unit);
   }
   const std::string outside =
-      e.max_error > e.max_error_in_bounds
-          ? fmt::format(", and {:.3g} in ticks that the bound is not for", e.max_error)
+      e.error.outside() > 0
+          ? fmt::format(", and {:.3g} in ticks that the bound is not for", e.error.max_outside())
           : "";
-  return fmt::format("{} {:.3g} {}, {} the proven {:.3g}{}", name, e.max_error_in_bounds, unit,
-                     e.max_error_in_bounds <= e.bound ? "within" : "ABOVE", e.bound, outside);
+  return fmt::format("{} {:.3g} {}, {} the proven {:.3g}{}", name, e.error.max(), unit,
+                     e.holds() ? "within" : "ABOVE", e.bound, outside);
 }
 
 }  // namespace

@@ -34,6 +34,10 @@ py::dict error_dict(const ErrorFigure& e) {
   py::dict out;
   out["max"] = e.max();
   out["rms"] = e.rms();
+  if (e.outside() > 0) {
+    out["outside"] = e.max_outside();
+    out["ticks_outside"] = e.outside();
+  }
   return out;
 }
 

@@ -51,6 +51,7 @@ struct DesignInfo {
   CommandBits command;
   std::uint32_t control_reset = 0;
   std::uint32_t design_crc = 0;  ///< identifies the design for a host, docs/link.md
+  std::uint32_t file_sum = 0;    ///< of the file in rtl/designs that it was generated from
   std::function<int(const std::string&)> scene_number;  ///< -1: unknown, or not built
   std::vector<std::string> scenes;  ///< the scenes that are built, in the order of their numbers
 
@@ -144,6 +145,7 @@ DesignInfo design_info() {
   i.command = {D::C::command_set_zero, D::C::command_clear_faults, D::C::command_kick};
   i.control_reset = static_cast<std::uint32_t>(D::control_reset);
   i.design_crc = D::design_crc;
+  i.file_sum = D::file_sum;
   i.scene_number = [](const std::string& name) {
     const int n = D::scene_number(name);
     return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;

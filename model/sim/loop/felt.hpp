@@ -44,12 +44,12 @@ struct FeltEnergy {
   double net_from_hand_j() const { return taken_from_hand_j - given_to_hand_j; }
 };
 
-/// Largest error of a signal of the core and its proven bound.
+/// Error of a signal of the core and its proven bound.
 struct FeltError {
   std::string signal;  ///< with its unit: "velocity_rad_s", "tau_hat_nm", "torque_nm"
-  double max_error = 0;
-  double max_error_in_bounds = 0;                          ///< only ticks for which the bound holds
+  ErrorFigure error;
   double bound = std::numeric_limits<double>::infinity();  ///< infinite: none is proven
+  bool holds() const { return error.max() <= bound; }
 };
 
 /// How long a limit or fault acted, and when first.

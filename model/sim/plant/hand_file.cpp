@@ -46,6 +46,9 @@ Segment read_segment(config::TomlReader table, const std::string& unit, bool ste
   } else if (segment.kind != Segment::Kind::kHold) {
     segment.to = table.number("to_" + unit, kWay);
   }
+  if (segment.kind == Segment::Kind::kRamp) {
+    segment.ease_s = table.number_or("ease_s", 0.0, {0.0, segment.duration_s / 2});
+  }
   table.finish();
   return segment;
 }

@@ -72,7 +72,7 @@ class DesignBudget : public Budget {
   const ChainOut& out() const override { return whole_.out(); }
   bool ramping() const override { return whole_.ramping(); }
   const ChainRaw* raw() const override { return whole_.raw(); }
-  void program(std::size_t chain, double torque_nm) override {
+  void program_chain(std::size_t chain, double torque_nm) override {
     if (chain == 7) whole_.program(torque_nm);
     visit(*this, chain, [&](auto& mixed) { mixed.program(torque_nm); });
   }

@@ -17,10 +17,10 @@ NUMBERS = (
     ("stability", "--rate", ("nan", "inf", "0", "1e300", "1000,nan", "x"), "1 to 1000000 Hz"),
     ("stability", "--damping", ("nan", "-1", "-nan", "2"), "a number from 0 to 1 Nm s/rad"),
     ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "x"), SECONDS),
-    ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf"), "a number above 0, to 1e+12 Hz"),
+    ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf", "2.5"), "number from 1 to 1000000000000 Hz"),
     ("trim membrane", "--duration", ("nan", "1e300", "-1", "0"), SECONDS),
     ("trim membrane", "--window", ("nan", "0"), "a number from 0.01 to 1000 ms"),
-    ("trim membrane", "--threads", ("0", "65", "1e1", "nan"), "a whole number from 1 to 64"),
+    ("trim membrane", "--threads", ("0", "65", "1e-1", "nan"), "a whole number from 1 to 64"),
     ("run membrane", "--every", ("0", "-1", "1.5", "nan", "99999999999"), "from 1 to 1000000000"),
     ("run membrane", "--seed", ("-1", "1.5", "nan", "18446744073709551616", "0x1"), SEED),
     ("replay x.vec", "--seed", ("-1",), SEED),
@@ -52,6 +52,17 @@ class CommandLine(Bench):
                     wrong = value.rpartition(",")[2]
                     said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
                     self.refused(*command.split(), f"{option}={value}", said=said)
+
+    def test_a_whole_number_may_be_a_power_of_ten(self):
+        self.put("a.csv", "time,A,B\n0.000,0,0\n0.001,1,0\n0.002,1,1\n0.003,1,1\n")
+        made = []
+        for rate in ("2000", "2e3", "2kHz"):
+            done = self.finished("import", "a.csv", f"{rate}.vec", "--sample-hz", rate)
+            self.assertEqual(done.returncode, 0, done.err)
+            made.append(self.path(f"{rate}.vec").read_text())
+        self.assertEqual(made, made[:1] * 3)
+        done = self.run_it("--every", "1e1", "--csv", "a_run.csv", "--quiet")
+        self.assertEqual(done.returncode, 0, done.err)
 
     def test_empty_words(self):
         for words in (("run", "short.toml", "--json", ""), ("figures", "-o", ""), ("replay", "")):

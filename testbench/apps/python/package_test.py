@@ -5,9 +5,11 @@
 import filecmp
 import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 from pathlib import Path
@@ -47,6 +49,20 @@ class Columns(unittest.TestCase):
         self.assertEqual(len(all_ticks.time_s), all_ticks.ticks)
         np.testing.assert_array_equal(few.tau_hat_nm, all_ticks.tau_hat_nm[::10])
         self.assertLess(len(feltgate.run(SCENE).time_s), 30_000)
+
+    def test_what_the_first_page_prints(self):
+        """The error beside a bound is that of the ticks for which it holds; the rest is told."""
+        page = (ROOT / "README.md").read_text(encoding="utf-8")
+        code = re.search(r"^## In Python\n.*?^```python\n(.*?)^```", page, re.M | re.S)[1]
+        with tempfile.TemporaryDirectory() as folder:
+            done = ran(sys.executable, "-c", code, cwd=folder, check=True)
+        proven, outside = done.stdout.splitlines()
+        error, bound = re.fullmatch(r"(\S+) Nm, proven: (\S+)", proven).groups()
+        self.assertGreater(float(error), 0)
+        self.assertLessEqual(float(error), float(bound))
+        worse, ticks = re.match(r"(\S+) Nm in the (\d+) ticks of a ramp", outside).groups()
+        self.assertGreater(float(worse), float(bound))  # its first force ramps
+        self.assertGreater(int(ticks), 0)
 
     def test_what_was_felt_and_the_bounds(self):
         result = feltgate.run("wall")

@@ -50,7 +50,7 @@ double least_cost(const Law& law, const Target& target, const Program& program,
 class Search {
  public:
   Search(const Law& law, const Target& target, const std::vector<Span>& spans)
-      : law_(law), target_(target), spans_(spans) {}
+      : law_(law), target_(target), spans_(spans), stays_(std::make_shared<const Stays>(law)) {}
 
   Candidate run(int* tried) {
     Candidate best = evaluate({}, infinity);
@@ -93,6 +93,7 @@ class Search {
   Candidate evaluate(const Choice& choice, double enough) {
     Candidate c;
     c.choice = choice;
+    c.choice.stays = stays_;
     c.choice.made.swap(made_);
     c.choice.fractions.swap(fractions_);
     try {
@@ -169,6 +170,7 @@ class Search {
   const Law& law_;
   const Target& target_;
   const std::vector<Span> spans_;
+  const std::shared_ptr<const Stays> stays_;
   std::map<std::string, TableUse> made_;
   std::map<std::string, int> fractions_;
   std::set<std::tuple<int, bool, int, std::map<NodeId, int>>> seen_;

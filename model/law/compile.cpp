@@ -168,7 +168,9 @@ bool is_coarse(const Bound& b, const std::map<std::pair<int, int>, double>& room
 void into_pieces(Compiled& c) {
   if (!has_functions(c.program)) return;
   const std::vector<Span> given = given_ranges(c.law, c.target);
-  const auto share = [&](const Compiled& of) { return largest_share(given, of.target, of.bound); };
+  const auto share = [&](const Compiled& of) {
+    return std::max(largest_share(given, of.target, of.bound), largest_drift(of.law, of.bound));
+  };
   Compiled whole = c;
   const auto own_rooms = rooms(c.law, c.target);
   bool moved = false;  // limits of `whole` are those of interest()

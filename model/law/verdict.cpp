@@ -216,6 +216,12 @@ void states(const Compiled& c, const Measured& m, Verdict* v) {
   }
 }
 
+/// The error that a run adds to a state beside the state's range.
+double drift_share(const Law& law, const Bound& b, std::size_t state) {
+  const Range& r = law.states[state].range;
+  return r.upper > r.lower ? b.drift[state] / (r.upper - r.lower) : 0;
+}
+
 /// Whether runs with random inputs give all that the law can give. Those of several inputs seldom
 /// meet where a texture or a contact is; a mailbox has the file's value alone in some of them.
 bool runs_reach_all(const Law& law) {
@@ -303,6 +309,12 @@ double largest_share(const std::vector<Span>& spans, const Target& target, const
     if (b.output[o] > 2 * lsb) share = std::max(share, b.output[o] / spans[o].width());
   }
   return share;
+}
+
+double largest_drift(const Law& law, const Bound& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < b.drift.size(); ++k) most = std::max(most, drift_share(law, b, k));
+  return most;
 }
 
 void refuse_idle_bounds(const Law& law, const Target& target, const Program& program,

@@ -43,6 +43,10 @@ std::vector<Span> given_ranges(const Law& law, const Target& target);
 /// The largest ratio of a bound to the range of its output, `spans`; 0 if no bound exceeds two LSB.
 double largest_share(const std::vector<Span>& spans, const Target& target, const Bound& b);
 
+/// The largest ratio of the error that a run adds to a state, whose error has no end, to the range of
+/// that state.
+double largest_drift(const Law& law, const Bound& b);
+
 constexpr double kLargeShare = 0.01;  ///< from this share on: reported, and functions are split
 
 /// Throws Refused when a bound is as large as the range of its output: such a bound is useless.

@@ -106,8 +106,8 @@ Value BackEnd::mapped(NodeId id, const Map& map, const Ends& ends) {
   return {last(), ends.scale, v.size + std::fabs(map.offset)};
 }
 
-/// The value, limited where its words would leave 32 bits in the scale of the ends. What lies beyond
-/// the range of the result is as good as the next value there.
+/// The value, limited where its words would leave 32 bits in the scale of the ends. What lies
+/// beyond the range of the result is as good as the next value there.
 Value BackEnd::clipped(Value v, const Map& map, const Ends& ends, NodeId id) {
   const double size = std::fabs(map.factor) * v.size + std::fabs(map.offset);
   if (size / ends.scale < 2147483647.0 * (1 - 1.0 / 256)) return v;

@@ -21,7 +21,7 @@ namespace {
 constexpr int most_tried = 1500;
 constexpr double least_error = 0.4;  ///< LSB of the torque; a smaller error costs the same
 
-constexpr double kOneValue = 1000;    ///< cost of what became one value: no error is worth it
+constexpr double kOneValue = 1000;  ///< cost of what became one value: no error is worth it
 
 struct Candidate {
   Choice choice;

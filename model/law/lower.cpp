@@ -187,7 +187,7 @@ Value BackEnd::at_scale(NodeId id, double scale, double* error) {
   if (!is_fixed(id)) {
     const Value v = value(id, scale);
     return choice_.stays->decides(id) && !same_scale(v.scale, scale) ? with_ends(id, scale, false)
-                                                       : align(v, scale, id);
+                                                                     : align(v, scale, id);
   }
   Term term;
   gather(id, true, term);
@@ -245,8 +245,8 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
       if (same_unit(v.scale, scale)) scale = v.scale;
     }
   }
-  const bool whole = std::all_of(children.begin(), children.end(),
-                                 [this](NodeId c) { return node(c).whole; });
+  const bool whole =
+      std::all_of(children.begin(), children.end(), [this](NodeId c) { return node(c).whole; });
   if (whole && (chosen || !is_fixed(children[0]) == !is_fixed(children[1]))) {
     // Whole numbers count in ones, or in parts of one.
     if (scale == 0 && !counts(hint)) hint = 0;
@@ -309,9 +309,7 @@ Value BackEnd::state(NodeId id) {
   const State& s = law_.states[static_cast<std::size_t>(index)];
   const double size = std::max(std::fabs(s.range.lower), std::fabs(s.range.upper));
   // A whole number has a word in this unit alone.
-  double unit = s.whole   ? 1
-                : s.phase ? s.range.upper - s.range.lower
-                          : state_unit(s.next, 8);
+  double unit = s.whole ? 1 : s.phase ? s.range.upper - s.range.lower : state_unit(s.next, 8);
   if (unit == 0) unit = 1;
   unit /= std::exp2(std::floor(std::log2(unit) + 1e-9));
   const int preferred = s.whole ? 0 : std::min(largest_fraction(id, unit, size) - 1, 28);

@@ -268,9 +268,7 @@ class Pieces {
     // The current node of run() has no copy yet.
     const bool has_copy = at(id) < to_.size();
     const bool squared = has_copy && spans_[at(id)].lo >= 0 && keep.hi < infinity;
-    const NodeId made = squared    ? kept_below(id, keep.hi)
-                        : has_copy ? to_[at(id)]
-                                   : copied(n);
+    const NodeId made = squared ? kept_below(id, keep.hi) : has_copy ? to_[at(id)] : copied(n);
     return cut_off(made, n, spans_[at(id)], keep);
   }
 

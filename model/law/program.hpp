@@ -90,7 +90,8 @@ struct TableUse {
   double jump_over(double from, double to) const {
     if (wraps || jumps.empty()) return jump;
     double most = 0;
-    for (double i = from + 1; i <= to; ++i) most = std::max(most, jumps[static_cast<std::size_t>(i)]);
+    for (double i = from + 1; i <= to; ++i)
+      most = std::max(most, jumps[static_cast<std::size_t>(i)]);
     return most;
   }
   /// Of an array: the largest difference between two elements that follow each other.

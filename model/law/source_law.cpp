@@ -81,8 +81,9 @@ void SourceLaw::statement(const Statement& s) {
   switch (s.kind) {
     case Kind::param:
     case Kind::mailbox:
-      parameters_[s.name] = number(constant(s.value));
-      return define(s.name, {s.kind, parameters_[s.name]});
+      parameters_[s.name].first = constant(s.value);
+      parameters_[s.name].slot = number(parameters_[s.name].first);
+      return define(s.name, {s.kind, parameters_[s.name].slot});
     case Kind::let:
     case Kind::var:
       return define(s.name, {s.kind, expression(s.value)});
@@ -330,7 +331,8 @@ SourceLaw::Slot SourceLaw::call(const Expression& e) {
     // Nearer to 0 than this, |x| + |y| is taken as this.
     const Real least = nearest_(places_.of(e.offset));
     return step([this, y_slot = x, x_slot = at[1], least] {
-      const Real along = values_[x_slot], y = values_[y_slot], sum = std::fabs(along) + std::fabs(y);
+      const Real along = values_[x_slot], y = values_[y_slot],
+                 sum = std::fabs(along) + std::fabs(y);
       const Real c = along / least;
       const Real upper = sum == 0      ? kTurn / 4
                          : sum < least ? std::atan2(1 - std::fabs(c), c)
@@ -386,13 +388,6 @@ void SourceLaw::reset() {
   for (const Kept& k : kept_) values_[k.slot] = k.first;
   for (Line& l : lines_) std::fill(l.ring.begin(), l.ring.end(), Real{0});
   for (Event& e : events_) e.held = e.happened = false;
-}
-
-bool SourceLaw::set_parameter(const std::string& name, Real si) {
-  const auto found = parameters_.find(name);
-  if (found == parameters_.end()) return false;
-  values_[found->second] = si;
-  return true;
 }
 
 void SourceLaw::run(const Inputs& inputs) {

@@ -27,15 +27,17 @@ class SourceLaw {
   /// `text`: a law that read_law_text() accepts; `rate_hz`: of its runs. `nearest`: the least
   /// |x| + |y| of the atan2 at a place, which the language defines by the ranges of x and y.
   /// Throws std::invalid_argument for a construct that it does not know.
-  SourceLaw(const std::string& text, double rate_hz,
-            std::function<double(Place)> nearest = [](Place) { return 0.0; });
+  SourceLaw(
+      const std::string& text, double rate_hz,
+      std::function<double(Place)> nearest = [](Place) { return 0.0; });
   SourceLaw(const SourceLaw&) = delete;
   SourceLaw& operator=(const SourceLaw&) = delete;
 
   /// The first values of the file for all that is kept.
   void reset();
-  /// Whether the file has this parameter or mailbox; sets it in SI.
-  bool set_parameter(const std::string& name, Real si);
+  /// The file's value of a parameter or mailbox, SI. Throws std::out_of_range for another name.
+  Real first(const std::string& name) const { return parameters_.at(name).first; }
+  void set_parameter(const std::string& name, Real si) { values_[parameters_.at(name).slot] = si; }
   void run(const Inputs& inputs);
 
   /// Of the last run. Of an axis without an output 0.
@@ -50,6 +52,10 @@ class SourceLaw {
   struct Symbol {
     Statement::Kind kind = Statement::Kind::let;
     std::size_t index = 0;  ///< a slot; of a table, an array or a line its number
+  };
+  struct Parameter {
+    Slot slot = 0;
+    Real first = 0;
   };
   struct Kept {
     Slot slot = 0, next = 0;
@@ -106,7 +112,7 @@ class SourceLaw {
   std::vector<Step> steps_;
   std::vector<Step>* building_ = &steps_;
   std::vector<std::map<std::string, Symbol>> scopes_{1};
-  std::map<std::string, Slot> parameters_;
+  std::map<std::string, Parameter> parameters_;
   std::map<std::string, std::size_t> states_;  ///< numbers in kept_
   std::vector<Kept> kept_;
   std::vector<Line> lines_;

@@ -47,7 +47,8 @@ const std::vector<double>& Stays::of(NodeId id) {
   std::vector<double> all;
   const auto add = [&](double value) {
     const auto same = [&](double other) { return same_number(value, other); };
-    if (all.size() < kMostValues && std::none_of(all.begin(), all.end(), same)) all.push_back(value);
+    if (all.size() < kMostValues && std::none_of(all.begin(), all.end(), same))
+      all.push_back(value);
   };
   const auto each = [&](NodeId from, auto change) {
     if (from < 0) return;

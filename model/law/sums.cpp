@@ -187,8 +187,8 @@ Value BackEnd::negated(const Value& v, NodeId id) {
   return negated_[v.operand] = {last(), v.scale, v.size};
 }
 
-/// In x - 15 deg * n, where x stays at ends and n is whole: 15 deg. In this unit the steps are exact
-/// and the ends are rounded as what the sum is compared with. Otherwise 0.
+/// In x - 15 deg * n, where x stays at ends and n is whole: 15 deg. In this unit the steps are
+/// exact and the ends are rounded as what the sum is compared with. Otherwise 0.
 double BackEnd::step_of(const std::vector<Term>& terms) const {
   double step = 0;
   bool ends = false;

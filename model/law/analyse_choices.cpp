@@ -81,7 +81,7 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     }
     if (!near || t.wraps) f.error += t.slope * x.error;
     // Law and words may be separated by one or more seams between segments.
-    if (x.error > 0) f.error += t.jump * (1 + (near ? 0 : x.error / 4096));
+    if (x.error > 0) f.error += near ? t.jump_over(from, to) : t.jump * (1 + x.error / 4096);
     f.error = raised(f.error + 0.5);
   } else if (x.error > 0) {
     margin(x.error);

@@ -166,13 +166,16 @@ bool is_coarse(const Bound& b, const std::map<std::pair<int, int>, double>& room
 /// Splits functions of wide ranges into more tables, as long as the bound or a strip is large and
 /// the law still fits.
 void into_pieces(Compiled& c) {
-  if (!has_functions(c.program)) return;
+  // Without a function there are still limits to move.
+  const int most = has_functions(c.program) ? kMostPieces : 1;
   const std::vector<Span> given = given_ranges(c.law, c.target);
-  const auto share = [&](const Compiled& of) { return largest_share(given, of.target, of.bound); };
+  const auto share = [&](const Compiled& of) {
+    return std::max(largest_share(given, of.target, of.bound), largest_drift(of.law, of.bound));
+  };
   Compiled whole = c;
   const auto own_rooms = rooms(c.law, c.target);
   bool moved = false;  // limits of `whole` are those of interest()
-  for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
+  for (int pieces = 1; pieces <= most; ++pieces) {
     const bool coarse = is_coarse(c.bound, own_rooms);
     if (share(c) <= kLargeShare && !coarse) return;
     Compiled more = c;

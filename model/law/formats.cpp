@@ -21,12 +21,25 @@ namespace {
 constexpr int most_tried = 1500;
 constexpr double least_error = 0.4;  ///< LSB of the torque; a smaller error costs the same
 
+constexpr double kOneValue = 1000;  ///< cost of what became one value: no error is worth it
+
 struct Candidate {
   Choice choice;
   Program program;
   double cost = infinity;
   Unfit unfit{""};  ///< why there is no program
 };
+
+/// Whether the word has one value for all values of what it is made of.
+bool is_one_value(const Word& w, const std::vector<Span>& spans) {
+  Span s{1, 1};
+  for (const NodeId id : w.nodes) s = s * spans[static_cast<std::size_t>(id)];
+  const double a = std::min(s.lo / w.scale, s.hi / w.scale);
+  const double b = std::max(s.lo / w.scale, s.hi / w.scale);
+  if (!(b - a > 1e-12 * std::max(std::fabs(a), std::fabs(b)))) return false;
+  return w.primary ? std::ceil(a - 1e-6) >= std::floor(b + 1e-6)
+                   : std::nearbyint(a) == std::nearbyint(b);
+}
 
 /// The cost of a program without error and strips.
 double least_cost(const Law& law, const Target& target, const Program& program,
@@ -43,6 +56,7 @@ double least_cost(const Law& law, const Target& target, const Program& program,
     for (const NodeId id : w.nodes) size *= spans[static_cast<std::size_t>(id)].size();
     const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
     c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
+    if (is_one_value(w, spans)) c += kOneValue;
   }
   return c;
 }
@@ -50,7 +64,7 @@ double least_cost(const Law& law, const Target& target, const Program& program,
 class Search {
  public:
   Search(const Law& law, const Target& target, const std::vector<Span>& spans)
-      : law_(law), target_(target), spans_(spans) {}
+      : law_(law), target_(target), spans_(spans), stays_(std::make_shared<const Stays>(law)) {}
 
   Candidate run(int* tried) {
     Candidate best = evaluate({}, infinity);
@@ -93,6 +107,7 @@ class Search {
   Candidate evaluate(const Choice& choice, double enough) {
     Candidate c;
     c.choice = choice;
+    c.choice.stays = stays_;
     c.choice.made.swap(made_);
     c.choice.fractions.swap(fractions_);
     try {
@@ -169,6 +184,7 @@ class Search {
   const Law& law_;
   const Target& target_;
   const std::vector<Span> spans_;
+  const std::shared_ptr<const Stays> stays_;
   std::map<std::string, TableUse> made_;
   std::map<std::string, int> fractions_;
   std::set<std::tuple<int, bool, int, std::map<NodeId, int>>> seen_;
@@ -197,6 +213,15 @@ double idle_cost(const Law& law, const std::vector<Span>& spans, const Step& s, 
 }
 
 }  // namespace
+
+bool is_dead(const Law& law, const Target& target, const Step& s, const Span& words,
+             const std::vector<Span>& spans) {
+  if (words.lo != words.hi) return false;
+  const double lsb = std::ldexp(1.0, -target.torque.fraction);
+  return std::any_of(law.outputs.begin(), law.outputs.end(), [&](const Output& o) {
+    return o.axis == s.output && spans[static_cast<std::size_t>(o.value)].width() > 2 * lsb;
+  });
+}
 
 double cost(const Law& law, const Target& target, const Program& program, const Bound& b,
             const std::vector<Span>& spans) {
@@ -232,7 +257,13 @@ double cost(const Law& law, const Target& target, const Program& program, const 
       drifts += std::max(0.0, std::log2(program.states[i].scale / size * 262144));
     }
   }
-  double c = least_cost(law, target, program, spans) +
+  double dead = 0;
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    if (program.steps[i].output >= 0 && is_dead(law, target, program.steps[i], b.words[i], spans)) {
+      dead += kOneValue;
+    }
+  }
+  double c = least_cost(law, target, program, spans) + dead +
              std::log2(std::max(error, least_error) / least_error);
   c += strips + drifts + 1e4 * static_cast<double>(b.unproven.size());
   // What no cell reaches has no error, and looks cheap.

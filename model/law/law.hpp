@@ -185,6 +185,7 @@ struct Unused {
 struct Law {
   std::string name;
   std::string summary;    ///< the first comment of the file
+  std::string source;     ///< the text, as it was parsed
   double rate_hz = 0;     ///< 0: as fast as possible
   bool own_rate = false;  ///< the file declares a rate
   bool timed = false;     ///< dt or a filter is used

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "feltgate/largest.hpp"
 #include "law/units.hpp"
 #include "law/verdict.hpp"
 
@@ -100,6 +101,17 @@ std::string strips(const Compiled& c) {
   return s;
 }
 
+std::string free_runs(const FreeRuns& free) {
+  if (!free.unknown.empty()) return "free runs: none, for " + free.unknown + "\n";
+  if (free.runs == 0) return {};
+  double most = 0;
+  for (const double e : free.most) most = larger(most, e);
+  return fmt::format(
+      "free runs: {} from the file's first values, beside the law as its text says it: largest "
+      "error {:.3g} Nm; {} of {} starts left the law\n",
+      free.runs, most, free.left, free.acting);
+}
+
 }  // namespace
 
 std::string report(const Compiled& c, const Measured& m) {
@@ -127,12 +139,14 @@ std::string report(const Compiled& c, const Measured& m) {
       m.in_strips > 0 ? fmt::format("   without {} of {} {}, which are in strips", m.in_strips,
                                     m.runs, m.all_inputs ? "positions" : "runs")
                       : "";
+  const std::vector<bool> useful = useful_bounds(c, m);
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const Output& output = c.law.outputs[o];
     const std::string name = name_of(output, c.law);
-    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}{}\n", name, c.bound.output[o],
-                     c.bound.output[o] / lsb, c.bound.as_set[o],
-                     m.output.empty() ? 0.0 : m.output[o], without);
+    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}{}{}\n", name,
+                     c.bound.output[o], c.bound.output[o] / lsb, c.bound.as_set[o],
+                     m.output.empty() ? 0.0 : m.output[o], without,
+                     useful[o] ? "" : "   no useful bound");
   }
   const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
   const double end = std::ldexp(1.0, c.target.torque.integer);
@@ -161,6 +175,7 @@ std::string report(const Compiled& c, const Measured& m) {
     if (m.in_strips > 0) s += fmt::format(", {} of them on the other side of a strip", m.in_strips);
     s += "\n";
   }
+  s += free_runs(m.free);
   s += strips(c);
   return s;
 }

@@ -51,7 +51,8 @@ class Meter {
     std::map<std::string, double> named;
     for (const ImageWord& w : c_.image.words) {
       if (!w.formula.empty()) continue;
-      values.push_back(choose(w) * w.scale);
+      const double value = choose(w) * w.scale;
+      values.push_back(w.whole ? std::nearbyint(value) : value);
       named[w.name] = values.back();
     }
     const auto value_of = [&named](const std::string& name) { return named.at(name); };

@@ -63,6 +63,7 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
                                {"formula", w.formula}});
   }
   const std::vector<law::Span> ranges = law::output_ranges(c.law, c.target);
+  const std::vector<bool> useful = law::useful_bounds(c, m);
   j["outputs"] = Json::array();
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     j["outputs"].push_back({{"name", c.law.outputs[o].name},
@@ -70,12 +71,17 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
                             {"bound_nm", c.bound.output[o]},
                             {"bound_as_set_nm", c.bound.as_set[o]},
                             {"range_nm", {ranges[o].lo, ranges[o].hi}},
+                            {"bound_is_useful", static_cast<bool>(useful[o])},
                             {"reached_nm", {m.reached[o].lo, m.reached[o].hi}},
                             {"measured_nm", m.output.empty() ? 0.0 : m.output[o]}});
   }
   j["all_inputs"] = m.all_inputs;
   j["runs"] = m.runs;
   j["left_out"] = m.in_strips;
+  j["free_runs"] = {{"runs", m.free.runs},
+                    {"starts", m.free.acting},
+                    {"starts_that_left_the_law", m.free.left},
+                    {"largest_error_nm", m.free.most}};
   const law::Verdict v = law::verdict(c, m);
   j["failures"] = v.failures;
   j["warnings"] = v.warnings;
@@ -155,6 +161,7 @@ int run(const LawArguments& a) {
   const Compiled c = law::compile_file(path, law_target(a.design));
   Measured m = law::measure_all(c);
   if (!m.all_inputs) m = law::measure(c, 1, 50000);
+  m.free = law::measure_free(c, 1, 20000);
   law::GappaCount again;
   if (!a.gappa.empty()) again = gappa(c, a);
   if (json_file != nullptr) json_file->write(json(c, m, a.gappa.empty() ? nullptr : &again));

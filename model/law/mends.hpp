@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Mends that were tried before they are told; where none helps, the reason. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The range of a value of the law that conditions decide: what is compared is narrowed on each
-// side. Documentation: docs/law-compiler.md
+// side. Documentation: docs/laws.md
 #pragma once
 
 #include "law/ranges.hpp"

@@ -13,15 +13,18 @@
 #include "law/derive.hpp"
 #include "law/diagnostics.hpp"
 #include "law/evaluate.hpp"
+#include "law/mends.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
 
 namespace {
 
-constexpr double kIdle = 0.99;    ///< share of its range from which on a bound says nothing
-constexpr double kTold = 0.05;    ///< share of excluded runs above which it is reported
-constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
+constexpr double kIdle = 0.99;       ///< share of its range from which on a bound says nothing
+constexpr double kTold = 0.05;       ///< share of excluded runs above which it is reported
+constexpr double kTooMany = 0.3;     ///< share of excluded runs above which the bound is useless
+constexpr double kMostOfSide = 0.5;  ///< the same, of the runs on a comparison's rarer side
+constexpr double kWrong = 0.1;  ///< share of what a law gave above which a measured error fails
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
 constexpr double kSlow = 0.01;  ///< reported error of a run beside the largest move of a state
 constexpr int kGivenRuns = 1000;    ///< runs to each side of 0 that show what a law gives
@@ -75,8 +78,8 @@ void sides(const Measured& m, Verdict* v) {
         told.size() > 1 ? fmt::format("; so do {} more comparisons", told.size() - 1) : "",
         kFiner));
   };
-  tell(kTooMany, infinity, &v->failures);
-  tell(kTold, kTooMany, &v->warnings);
+  tell(kMostOfSide, infinity, &v->failures);
+  tell(kTold, kMostOfSide, &v->warnings);
 }
 
 void runs_left_out(const Measured& m, Verdict* v) {
@@ -95,9 +98,6 @@ void runs_left_out(const Measured& m, Verdict* v) {
        "leave a state, a line or an event that is not the law's: a comparison came out otherwise, "
        "within its strip");
 }
-
-/// Whether the range of a word, whose largest magnitude is `size`, may decide its step.
-bool full(double size, double step) { return size / step >= 0x1p10; }
 
 /// What a word keeps of its values.
 struct Kept {
@@ -155,7 +155,7 @@ void parameters(const Compiled& c, Verdict* v) {
       k.word = w.initial * w.scale;
       k.range = {p.range.lower, p.range.upper};
       k.of = " of the file";
-      k.mend = finer(p, k.step);
+      k.mend = finer(c.law, c.target, p, k.step);
       k.range_mend = "narrow its range, or begin it there";
       // A whole parameter has a word for each of its values.
       if (p.whole) k.share = infinity;
@@ -246,17 +246,20 @@ bool beside_its_output(const std::string& name, const Size& s, double lsb, Verdi
   return true;
 }
 
-}  // namespace
-
-std::string finer(const Parameter& p, double step) {
-  const bool negative = p.range.lower < 0 && p.range.upper <= 0;
-  const std::string least =
-      fmt::format("give it a value of {:.3g}{} or {}", (negative ? -5 : 5) * step / p.to_si,
-                  with_blank(p.unit_text), negative ? "less" : "more");
-  return full(std::max(std::fabs(p.range.lower), std::fabs(p.range.upper)), step)
-             ? "narrow its range, or " + least
-             : least + ", and a range with that value";
+/// Fails a measured error that is a large part of what the law gave.
+void measured_wrong(const std::string& name, double off, const Span& gave, double lsb,
+                    const std::string& mend, Verdict* v) {
+  // A law that always gave the same is measured by its size.
+  const double most = gave.width() > 0 ? gave.width() : gave.size();
+  if (!(off > lsb && off > kWrong * most)) return;
+  v->failures.push_back(fmt::format(
+      "{}: {:.3g} Nm from the law was measured, and the law gave {:.3g} .. {:.3g} Nm in these runs"
+      "{}; {}",
+      name, off, gave.lo, gave.hi,
+      most > 0 ? fmt::format(": an error of {:.3g} %", 100 * off / most) : "", mend));
 }
+
+}  // namespace
 
 std::string name_of(const Output& output, const Law& law) {
   return law.outputs.size() == 1 && output.axis == 0
@@ -338,6 +341,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
     }
     const std::string narrower = mend(c.program, c.bound);
     const Size by_range{c.bound.output[o], spans[o], "its range", narrower};
+    const std::size_t failed = v.failures.size();
     if (o >= m.reached.size() || !(m.reached[o].width() > 0)) {
       beside_its_output(name, by_range, lsb, &v);
     } else if (runs_reach_all(c.law)) {
@@ -353,6 +357,9 @@ Verdict verdict(const Compiled& c, const Measured& m) {
           spans[o].lo, spans[o].hi, narrower));
     } else {
       beside_its_output(name, by_range, lsb, &v);
+    }
+    if (o < m.output.size() && o < m.reached.size() && v.failures.size() == failed) {
+      measured_wrong(name, m.output[o], m.reached[o], lsb, narrower, &v);
     }
   }
   for (const Unused& u : c.law.unused) {

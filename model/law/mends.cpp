@@ -58,7 +58,10 @@ Product product_of(const Law& law, const Target& target, std::size_t parameter) 
   std::vector<char> of(law.nodes.size(), 0);
   for (std::size_t i = 0; i < law.nodes.size(); ++i) {
     const Node& n = law.nodes[i];
-    of[i] = n.op == Op::parameter && at(n.index) == parameter ? 1 : 0;
+    if (n.op == Op::parameter) {
+      const NodeId from = law.parameters[at(n.index)].derived;
+      of[i] = at(n.index) == parameter || (from >= 0 && of[at(from)] != 0) ? 1 : 0;
+    }
     for (const NodeId a : n.arguments) of[i] |= of[at(a)];
     if (n.op != Op::multiply || of[i] == 0 || fixed[i] != 0) continue;
     for (const int side : {0, 1}) {

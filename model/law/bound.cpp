@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "feltgate/largest.hpp"
+#include "law/reach.hpp"
 
 namespace feltgate::law {
 
@@ -230,14 +231,13 @@ class Bounds {
       if (s.phase || b->unproven.size() > 0) continue;
       Span next{1, 0};
       for (const Leaf& l : leaves_) {
-        if (l.facts.reachable) next = hull(next, ranges_.over(l.cell)[at(s.next)]);
+        if (l.facts.reachable) next = hull(next, reach(law_, ranges_, s.next, l.cell));
       }
       const double slack = 1e-9 * (s.range.upper - s.range.lower);
       if (next.lo < s.range.lower - slack || next.hi > s.range.upper + slack) {
         const double end = next.lo < s.range.lower - slack ? next.lo : next.hi;
         b->unproven.push_back(
-            {-1, static_cast<int>(k),
-             "its next value can be " + beyond_text(end, s.range.lower, s.range.upper)});
+            {-1, static_cast<int>(k), beyond_text(end, s.range.lower, s.range.upper)});
       }
     }
   }

@@ -12,6 +12,7 @@
 
 #include "law/compile.hpp"
 #include "law/derive.hpp"
+#include "law/mends.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
@@ -321,25 +322,23 @@ std::string range_text(const Span& s, const Unit& unit) {
 }
 
 /// Refuses a value that far exceeds the range of the line or state that it goes to.
-void refuse_kept(const Law& law, const Span& can, NodeId node) {
-  const auto refuse = [&](const Place& place, const std::string& what, const Range& range) {
+void refuse_kept(const Law& law, const Target& target, const Span& can, NodeId node) {
+  const auto leave = [&](std::size_t index, bool is_line, const Range& range) {
     if (can.within({range.lower, range.upper})) return;
-    throw Refused(place,
-                  fmt::format("{} can leave its range {:.6g} .. {:.6g}: its next value can be "
-                              "{:.6g} .. {:.6g}",
-                              what, range.lower, range.upper, can.lo, can.hi),
-                  fmt::format("write clamp(..., {:.6g}, {:.6g}), or give it a larger range",
-                              range.lower, range.upper));
+    throw leaves_its_range(law, target, static_cast<int>(index), is_line,
+                           fmt::format("{:.6g} .. {:.6g}", can.lo, can.hi));
   };
-  for (const Line& l : law.lines) {
-    if (l.written == node) refuse(l.place, "line " + l.name, l.range);
+  for (std::size_t i = 0; i < law.lines.size(); ++i) {
+    if (law.lines[i].written == node) leave(i, true, law.lines[i].range);
   }
-  for (const State& s : law.states) {
-    if (s.next == node && !s.phase) refuse(s.place, "state " + s.name, s.range);
+  for (std::size_t i = 0; i < law.states.size(); ++i) {
+    const State& s = law.states[i];
+    if (s.next == node && !s.phase) leave(i, false, s.range);
   }
 }
 
-[[noreturn]] void refuse(const Law& law, const std::vector<Span>& spans, const Unfit& why) {
+[[noreturn]] void refuse(const Law& law, const Target& target, const std::vector<Span>& spans,
+                         const Unfit& why) {
   const std::string narrow = "narrow the ranges of parameters and states";
   if (why.node < 0) {
     throw Refused(std::string("no formats were found that fit: ") + why.what(),
@@ -347,7 +346,7 @@ void refuse_kept(const Law& law, const Span& can, NodeId node) {
   }
   const Node& n = law.nodes[static_cast<std::size_t>(why.node)];
   const Span can = spans[static_cast<std::size_t>(why.node)];
-  refuse_kept(law, can, why.node);
+  refuse_kept(law, target, can, why.node);
   const double end = 2147483648.0 * why.scale;
   std::string reason = why.what();
   // The value that does not fit may be an intermediate one, of another size than the node's.
@@ -374,7 +373,7 @@ void refuse_kept(const Law& law, const Span& can, NodeId node) {
 Program choose_formats(const Law& law, const Target& target, const std::vector<Span>& spans,
                        int* tried) {
   Candidate best = Search(law, target, spans).run(tried);
-  if (best.cost == infinity) refuse(law, spans, best.unfit);
+  if (best.cost == infinity) refuse(law, target, spans, best.unfit);
   return std::move(best.program);
 }
 

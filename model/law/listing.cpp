@@ -59,9 +59,18 @@ std::string behind(const Unit& unit) { return unit == kNumber ? "" : with_blank(
 
 /// What a strip may change: the outputs, or else the states by which it reaches them later.
 std::string changed(const Compiled& c, const Strip& strip) {
-  double jump = 0;
-  for (const double j : strip.jump) jump = std::max(jump, j);
-  if (jump > 0) return fmt::format("outputs may then differ by {:.3g} Nm", jump);
+  double most = 0, as_set = 0;
+  for (std::size_t o = 0; o < strip.jump.size(); ++o) {
+    if (strip.jump[o] <= 0) continue;
+    most = larger(most, c.bound.output[o] + strip.jump[o]);
+    as_set = larger(as_set, c.bound.as_set[o] + strip.jump_as_set[o]);
+  }
+  if (!(most <= 0)) {
+    const std::string at_most = fmt::format("{:.3g} Nm", most),
+                      now = fmt::format("{:.3g} Nm", as_set);
+    return "outputs may then differ by " +
+           (now == at_most ? now : now + " as set, by " + at_most + " for other parameters");
+  }
   const std::size_t states = c.law.states.size();
   std::string s;
   for (std::size_t k = 0; k < strip.next.size(); ++k) {

@@ -13,15 +13,18 @@
 #include "law/derive.hpp"
 #include "law/diagnostics.hpp"
 #include "law/evaluate.hpp"
+#include "law/mends.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
 
 namespace {
 
-constexpr double kIdle = 0.99;    ///< share of its range from which on a bound says nothing
-constexpr double kTold = 0.05;    ///< share of excluded runs above which it is reported
-constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
+constexpr double kIdle = 0.99;       ///< share of its range from which on a bound says nothing
+constexpr double kTold = 0.05;       ///< share of excluded runs above which it is reported
+constexpr double kTooMany = 0.3;     ///< share of excluded runs above which the bound is useless
+constexpr double kMostOfSide = 0.5;  ///< the same, of the runs on a comparison's rarer side
+constexpr double kWrong = 0.1;  ///< share of what a law gave above which a measured error fails
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
 constexpr double kSlow = 0.01;  ///< reported error of a run beside the largest move of a state
 constexpr int kGivenRuns = 1000;    ///< runs to each side of 0 that show what a law gives
@@ -101,8 +104,8 @@ void sides(const Measured& m, Verdict* v) {
         told.size() > 1 ? fmt::format("; so do {} more comparisons", told.size() - 1) : "",
         kFiner));
   };
-  tell(kTooMany, infinity, &v->failures);
-  tell(kTold, kTooMany, &v->warnings);
+  tell(kMostOfSide, infinity, &v->failures);
+  tell(kTold, kMostOfSide, &v->warnings);
 }
 
 void runs_left_out(const Measured& m, Verdict* v) {
@@ -126,17 +129,14 @@ void runs_left_out(const Measured& m, Verdict* v) {
 /// strip may change all that follows it.
 void free_runs(const FreeRuns& free, Verdict* v) {
   const double share = static_cast<double>(free.left) / std::max(1, free.acting);
-  if (share <= kLeftTold) return;
-  auto& list = share > kLeftTooMany ? v->failures : v->warnings;
+  if (share <= kTold) return;
+  auto& list = share > kTooMany ? v->failures : v->warnings;
   list.push_back(fmt::format(
       "in {} of {} starts the words leave the law, in free runs from the file's first values: they "
       "err by more than the bound and {:.0f} % of what the law gives in more than {:.0f} % of the "
       "runs. {}",
       free.left, free.acting, 100 * kLargeError, 100 * kLargeRuns, kFiner));
 }
-
-/// Whether the range of a word, whose largest magnitude is `size`, may decide its step.
-bool full(double size, double step) { return size / step >= 0x1p10; }
 
 /// What a word keeps of its values.
 struct Kept {
@@ -200,7 +200,7 @@ void parameters(const Compiled& c, Verdict* v) {
       k.word = w.initial * w.scale;
       k.range = {p.range.lower, p.range.upper};
       k.of = " of the file";
-      k.mend = finer(p, k.step);
+      k.mend = finer(c.law, c.target, p, k.step);
       k.range_mend = "narrow its range, or begin it there";
       k.set_by_host = true;
       k.one_word = w.lower == w.upper;
@@ -325,17 +325,20 @@ void dead(const Compiled& c, std::size_t output, const std::string& name, const 
   }
 }
 
-}  // namespace
-
-std::string finer(const Parameter& p, double step) {
-  const bool negative = p.range.lower < 0 && p.range.upper <= 0;
-  const std::string least =
-      fmt::format("give it a value of {:.3g}{} or {}", (negative ? -5 : 5) * step / p.to_si,
-                  with_blank(p.unit_text), negative ? "less" : "more");
-  return full(std::max(std::fabs(p.range.lower), std::fabs(p.range.upper)), step)
-             ? "narrow its range, or " + least
-             : least + ", and a range with that value";
+/// Fails a measured error that is a large part of what the law gave.
+void measured_wrong(const std::string& name, double off, const Span& gave, double lsb,
+                    const std::string& mend, Verdict* v) {
+  // A law that always gave the same is measured by its size.
+  const double most = gave.width() > 0 ? gave.width() : gave.size();
+  if (!(off > lsb && off > kWrong * most)) return;
+  v->failures.push_back(fmt::format(
+      "{}: {:.3g} Nm from the law was measured, and the law gave {:.3g} .. {:.3g} Nm in these runs"
+      "{}; {}",
+      name, off, gave.lo, gave.hi,
+      most > 0 ? fmt::format(": an error of {:.3g} %", 100 * off / most) : "", mend));
 }
+
+}  // namespace
 
 std::string name_of(const Output& output, const Law& law) {
   return law.outputs.size() == 1 && output.axis == 0
@@ -445,6 +448,7 @@ Verdict verdict(const Compiled& c, const Measured& m) {
     }
     dead(c, o, name, o < m.reached.size() ? m.reached[o] : spans[o], lsb, &v);
     const Size by_range{c.bound.output[o], spans[o], "its range", narrower};
+    const std::size_t failed = v.failures.size();
     if (o >= m.reached.size() || !(m.reached[o].width() > 0)) {
       beside_its_output(name, by_range, lsb, &v);
     } else if (runs_reach_all(c.law)) {
@@ -460,6 +464,9 @@ Verdict verdict(const Compiled& c, const Measured& m) {
           spans[o].lo, spans[o].hi, narrower));
     } else if (useful[o]) {
       beside_its_output(name, by_range, lsb, &v);
+    }
+    if (o < m.output.size() && o < m.reached.size() && v.failures.size() == failed) {
+      measured_wrong(name, m.output[o], m.reached[o], lsb, narrower, &v);
     }
   }
   for (const Unused& u : c.law.unused) {

@@ -27,9 +27,6 @@ std::vector<bool> useful_bounds(const Compiled& c, const Measured& m);
 /// The lines of a verdict, each with its kind; empty when there is nothing to report.
 std::string text(const Verdict& v);
 
-/// The mend for a parameter of which a word with this step keeps too little. A narrower range helps
-/// only where the word has many steps; a larger value always does.
-std::string finer(const Parameter& p, double step);
 /// A unit as it stands behind a number.
 inline std::string with_blank(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 

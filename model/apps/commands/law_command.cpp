@@ -90,7 +90,8 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
     j["strips"].push_back({{"line", s.place.line},
                            {"column", s.place.column},
                            {"width_si", s.width},
-                           {"jump_nm", s.jump}});
+                           {"jump_nm", s.jump},
+                           {"jump_as_set_nm", s.jump_as_set}});
   }
   j["tables"] = Json::array();
   for (const law::TableUse& t : c.program.tables) {
@@ -194,11 +195,11 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
       "  feltgate law detent --design lever_law --memories memories\n"
-      "Exit code: 0 all well, 1 a run left its bound, more than half of the runs, or of those on\n"
-      "one side of a comparison, had to be left out, the bound is as large as all that the law\n"
-      "gave in the runs, or Gappa did not prove a lemma, 2 unusable input: a law that cannot be\n"
-      "read, proven, fitted or scheduled, or whose bound is as large as its output's range, with\n"
-      "line, reason and mend.");
+      "Exit code: 0 all well, 1 a run left its bound or was off by more than 10 % of what the law\n"
+      "gave, more than 30 % of the runs, or half of those on one side of a comparison, had to be\n"
+      "left out, the bound is as large as all that the law gave in the runs, or Gappa did not\n"
+      "prove a lemma, 2 unusable input: a law that cannot be read, proven, fitted or scheduled, or\n"
+      "whose bound is as large as its output's range, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");

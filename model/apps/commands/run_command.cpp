@@ -326,7 +326,8 @@ void add_run(CLI::App& app, int* exit_code) {
       "  feltgate run detent                        a scene with a law of its own (docs/laws.md)\n"
       "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
       "its\n"
-      "proven bound, 1 otherwise, 2 unusable input.");
+      "proven bound (a torque without one: within 10 % of the largest asked), 1 otherwise, 2\n"
+      "unusable input.");
   sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
   sub->add_option("--design", a->design,
                   "design point in rtl/designs; default: the scene's, else lever")

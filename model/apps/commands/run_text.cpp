@@ -103,6 +103,12 @@ std::string acted_text(const std::map<std::string, Acted>& all) {
   return items.empty() ? "none" : fmt::format("{}", fmt::join(items, ", "));
 }
 
+std::string large_error_lines(const SessionResult& r) {
+  std::string text;
+  for (const std::string& large : r.large) text += fmt::format("failed: {}\n", large);
+  return text;
+}
+
 std::string stale_line(const Acted& stale) {
   if (stale.seconds == 0) return {};
   return fmt::format(
@@ -211,7 +217,8 @@ std::string differing_lines(const RunLabels& labels) {
 }  // namespace
 
 std::string run_text(const RunResult& r, const RunLabels& labels) {
-  std::string text = fmt::format("{} {}, design {}", labels.subject_key, r.subject, r.design);
+  std::string text = large_error_lines(r);
+  text += fmt::format("{} {}, design {}", labels.subject_key, r.subject, r.design);
   if (!labels.plant.empty()) text += fmt::format(", plant {}", labels.plant);
   text += fmt::format("\n{:.6g} s, {} clocks, {} ticks", r.simulated_s, r.clocks, r.ticks);
   if (r.lock_step) text += fmt::format("; mismatches between RTL and twin: {}", r.mismatches);

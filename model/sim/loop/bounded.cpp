@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/loop/scenario_bounds.hpp"
 
@@ -14,7 +15,7 @@ namespace feltgate {
 
 namespace {
 
-void hold(RunResult& r, const bounds::ErrorBounds& b) {
+void hold(RunResult& r, const bounds::ErrorBounds& b, double torque_lsb_nm) {
   for (const BackendFigures& e : r.engines) {
     if (!is_core(e)) continue;
     const FeltError errors[] = {
@@ -28,6 +29,9 @@ void hold(RunResult& r, const bounds::ErrorBounds& b) {
                                      e.name, x.signal, x.error.max(), x.bound));
     }
   }
+  const auto figure = r.figures.find("torque_error_nm");
+  if (figure == r.figures.end() || std::isfinite(b.torque_nm.against_reference)) return;
+  note_large_error(r, figure->first, figure->second, r.felt.torque.asked.value, torque_lsb_nm);
 }
 
 bool comparable(const BackendChoice& choice) {
@@ -44,7 +48,8 @@ RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsU
   const bounds::Coverage coverage(up_to(hardly_any_rad_s), bounds::chain_numbers(e));
   options.coverage = &coverage;
   RunResult r = run();
-  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)));
+  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)),
+       std::ldexp(1.0, -e.design.torque.fraction));
   return r;
 }
 

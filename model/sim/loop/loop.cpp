@@ -15,6 +15,7 @@
 #include "feltgate/current_sense.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "sim/loop/bounded.hpp"
 #include "sim/loop/drag.hpp"
 #include "sim/loop/driven_plant.hpp"
 #include "sim/loop/ensemble.hpp"
@@ -298,6 +299,9 @@ class ScenarioRun : public SteppedRun {
     f["tau_ref_end_nm"] = last_.tau_ref_nm;
     f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
     f["energy_absorbed_j"] = absorbed_j_;
+    for (const BackendFigures& e : out.engines) {
+      if (is_core(e)) f["torque_error_nm"] = e.torque_nm.max();  // RTL and twin are equal
+    }
     if (s_.rest_from_s) rest_.tell(f);
     if (s_.drag_from_s) drag_.tell(f);
     std::map<std::string, int> told;

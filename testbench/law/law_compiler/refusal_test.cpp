@@ -152,6 +152,32 @@ TEST_CASE("what does not fit is told with its line, its range and the mend") {
           Contains("write clamp(..., -1, 1), or give it a larger range"));
 }
 
+TEST_CASE("a larger range is a mend only where one holds, and then it is told") {
+  const auto leaves = [](const std::string& next) {
+    return refusal("rate = 10 kHz\nstate x = 0 in 0 .. 10\nnext x = " + next +
+                   "\nout torque = 0.01 Nm * x\n");
+  };
+  const auto mend_of = [](const std::string& said) {
+    const std::string before = "give it a larger range: ";
+    const std::size_t at = said.find(before);
+    return at == std::string::npos ? "" : said.substr(at + before.size());
+  };
+  for (const char* next : {"abs(position)", "0.999 * x + 0.1"}) {
+    INFO(next);
+    const std::string said = leaves(next), range = mend_of(said);
+    CHECK_THAT(said, Contains("end with clamp(..., 0, 10), or "));
+    REQUIRE(!range.empty());
+    CHECK(refusal("rate = 10 kHz\nstate x = 0 in " + range + "\nnext x = " + next +
+                  "\nout torque = 0.01 Nm * x\n") == "compiled");
+  }
+  for (const char* next : {"x + abs(position)", "2 * x", "x + 1"}) {
+    INFO(next);
+    CHECK_THAT(leaves(next), Contains(", and in a larger range still more; end with clamp(..., 0, "
+                                      "10)") &&
+                                 !Contains("or give"));
+  }
+}
+
 TEST_CASE("a state that leaves its range by little: with the digits that show it") {
   const std::string r = refusal(
       "state q = 0 in 0 .. 1\nnext q = min(q + 0.000001, 1.000001)\nout torque = 1 Nm * q\n");

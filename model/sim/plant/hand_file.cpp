@@ -167,8 +167,10 @@ HandPhase read_phase(config::TomlReader table, bool last) {
 }  // namespace
 
 Trace read_trace_file(const std::string& path) try {
-  traces::Table table(path);
-  const std::size_t time = table.use_time("time_s"), angle = table.find("theta_rad");
+  traces::Options options;
+  options.time_column = "time_s";
+  traces::Table table(path, options);
+  const std::size_t time = table.use_time(), angle = table.find("theta_rad");
   if (angle == table.columns().size()) {
     table.fail("no column 'theta_rad'", table.columns_there("theta_rad"));
   }

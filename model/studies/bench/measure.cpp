@@ -10,6 +10,7 @@
 #include <map>
 
 #include "studies/bench/cpu_time.hpp"
+#include "studies/bench/device_speed.hpp"
 #include "studies/bench/law_speed.hpp"
 
 namespace feltgate::bench {
@@ -168,6 +169,7 @@ class Measurement {
       }
     }
     if (laws_ != nullptr) laws_->repeat();
+    device_ns_.push_back(device_ns_per_tick(100'000));
     double loops_s = 0, simulated_s = 0;
     for (const Scene& scene : closed_loops_) {
       RunOptions options;
@@ -207,6 +209,7 @@ class Measurement {
       result_.loops.push_back(
           {s.scenario.name, s.scenario.duration_s, spread(loop_samples_[s.scenario.name])});
     }
+    result_.device_ns = spread(device_ns_);
     conclude_laws();
     const BackendResult* rtl = result_.find("rtl");
     const BackendResult* event = result_.find("twin_event");
@@ -278,7 +281,7 @@ class Measurement {
   Result result_;
   std::map<std::string, double> inspect_s_;
   std::map<std::string, std::vector<double>> loop_samples_;
-  std::vector<double> loop_total_, loop_over_twin_;
+  std::vector<double> loop_total_, loop_over_twin_, device_ns_;
   double total_s_ = 0, done_s_ = 0;
 };
 

@@ -67,6 +67,7 @@ struct Result {
   std::optional<ErrorLimits> bounds;
   std::vector<BackendResult> engines;
   std::vector<LoopResult> loops;
+  Spread device_ns;  ///< a tick of TwinDevice::tick_to
   std::vector<LawResult> laws;
   std::vector<Goal> goals;
   std::string divergence;  ///< first tick and signal in which integer back-ends differ, or empty

@@ -91,6 +91,7 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
     j["closed_loop"][l.scene] = {{"simulated_s", l.simulated_s},
                                  {"simulated_s_per_s", spread_json(l.speed)}};
   }
+  j["device"] = {{"tick_to_ns", spread_json(r.device_ns)}};
   for (const LawResult& l : r.laws) {
     j["laws"][l.name] = {{"instructions", l.instructions},
                          {"compiled_ns", spread_json(l.compiled)},
@@ -156,6 +157,8 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
     print(&s, "closed loop, {}: {:.3g} times real time ({:.3g} .. {:.3g})\n", l.scene.c_str(),
           l.speed.median, l.speed.low, l.speed.high);
   }
+  print(&s, "TwinDevice::tick_to, ns/tick: {:.4g} ({:.4g} .. {:.4g})\n", r.device_ns.median,
+        r.device_ns.low, r.device_ns.high);
   if (!r.laws.empty()) {
     print(&s, "\n{:<11} {:>12} {:>8} {:>15} {:>8} {:>12}\n", "law", "instructions", "ns/run",
           "per instruction", "double", "interpreter");

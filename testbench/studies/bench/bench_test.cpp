@@ -90,6 +90,9 @@ TEST_CASE("all back-ends, their bits, their errors, their JSON") {
     CHECK(j.at("laws").at("detent").at(key).at("median") > 0.0);
   }
   CHECK(j["laws"].at("wall").at("instructions") == 6);
+  CHECK(j.at("device").at("tick_to_ns").at("median") > 0.0);
+  CHECK(text(r, works, circumstances()).find("TwinDevice::tick_to, ns/tick: ") !=
+        std::string::npos);
 
   // Half a step over a1 is where the rounded low-pass stands still: counts that move this slowly
   // show it whole, and nothing more.

@@ -129,6 +129,7 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   if (r.has("needs")) {
     for (const std::string& text : r.texts("needs")) step.needs.push_back(need(text));
   }
+  if (r.has("fetches")) step.fetches = r.text("fetches");
   if (r.has("takes")) step.takes = r.texts("takes");
   if (r.has("reads")) step.reads = r.texts("reads");
   if (r.flag_or("passes", false)) step.lasts = 1;

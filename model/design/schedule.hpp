@@ -38,6 +38,7 @@ struct Step {
   std::string name;
   int clock = 0;
   std::vector<Need> needs;
+  std::string fetches;             ///< word that is on the parameter bus in its clock, or empty
   std::vector<std::string> takes;  ///< words that it takes from the parameter bus
   std::vector<std::string> reads;  ///< words of the snapshot that it reads
   int lasts = 0;                   ///< clocks for which the result is valid; 0: held

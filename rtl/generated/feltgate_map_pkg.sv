@@ -173,6 +173,7 @@ package feltgate_map_pkg;
   localparam int EVENT_AT_LEAST_FULL = 11;
   localparam int EVENT_AT_LEAST_HOLD = 12;
   localparam int EVENT_AT_LEAST_TEST = 14;
+  localparam int EVENT_AT_LEAST = 22;
   localparam int EVENT_AT_SCENE_SUM = 15;
   localparam int EVENT_AT_SCENE_ROUNDED = 22;
   localparam int EVENT_AT_LAW_TORQUE = 22;

@@ -184,6 +184,7 @@ struct Map {
     static constexpr int least_full = 11;
     static constexpr int least_hold = 12;
     static constexpr int least_test = 14;
+    static constexpr int least = 22;
     static constexpr int scene_sum = 15;
     static constexpr int scene_rounded = 22;
     static constexpr int law_torque = 22;
@@ -352,6 +353,7 @@ struct Map {
     window_over,
     operand_emf_constant,
     tau_hat,
+    least,
     scene_rounded,
     law_torque,
     polarity,
@@ -495,6 +497,7 @@ struct Map {
       {Step::window_over, 21},
       {Step::operand_emf_constant, 22},
       {Step::tau_hat, 22},
+      {Step::least, 22},
       {Step::scene_rounded, 22},
       {Step::law_torque, 22},
       {Step::polarity, 22},

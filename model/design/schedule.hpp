@@ -77,8 +77,6 @@ std::string map_package(const RegisterMap& map, const Schedule& s);
 std::string map_header(const RegisterMap& map, const Schedule& s);
 /// Text of model/include/feltgate/generated/causes.hpp.
 std::string causes_header(const RegisterMap& map);
-/// Text of docs/images/tick.json, the source of the timing diagram.
-std::string timing_diagram(const RegisterMap& map, const Schedule& s);
 
 /// Throws config::ConfigError with file, line and reason for a late result, for words that collide,
 /// and for a clock outside the tick.

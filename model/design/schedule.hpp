@@ -58,9 +58,6 @@ struct Schedule {
   const Step* step(const std::string& name) const;        ///< nullptr: no such step
 };
 
-/// Clocks from the sampled position to the duty register.
-int latency(const Schedule& s);
-
 /// Mask of the slots that are read from the bank of the scene: bit n is slot n.
 std::uint64_t scene_slots(const RegisterMap& map);
 

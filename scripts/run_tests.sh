@@ -4,9 +4,15 @@
 #
 # ./feltgate test [NAME] [--long]: builds what the tests need and runs CTest. Sourced by feltgate.
 
+# What `test core` means: the chain's blocks and the whole core beside the twin, on recorded and synthetic traces.
+CORE_TESTS='^(quad_decoder|velocity_n_lever|lowpass|dob_lever|torque_control_lever|pwm|feltgate_core|replay\.(synthetic|mouse-usb-x|stepper))$'
+
 tests_usage() {
   cat <<TEXT
-Usage: ./feltgate test [NAME] [--whole | --long] [--list]
+Usage: ./feltgate test [core | NAME] [--whole | --long] [--list]
+
+  core    decoder, velocity, observer, control, PWM and the whole core: RTL beside the twin in every
+          clock, on synthetic and recorded traces; about two minutes with its build
 
   NAME    only the tests whose name matches this regular expression, such as quad_decoder;
           only what they need is built
@@ -61,6 +67,7 @@ run_tests() {
       *)
         [[ ! $name ]] || die "test: one NAME only, got '$name' and '$argument'"
         name=$argument
+        [[ $name != core ]] || name=$CORE_TESTS
         chosen+=(--name "$name")
         options+=(-R "$name")
         ;;

@@ -3,7 +3,7 @@
 //
 // Checks a schedule. It is refused for a late result, a result that is overwritten too early, words
 // that collide on a bus, words in the wrong bank, and clocks outside the tick. Documentation:
-// docs/schedule.md
+// docs/architecture.md
 #include "design/schedule.hpp"
 
 #include <fmt/format.h>

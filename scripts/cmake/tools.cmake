@@ -261,7 +261,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
 endforeach()
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
-feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
+feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench bench_main.cpp
   feltgate_command_line feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json)

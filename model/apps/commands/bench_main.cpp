@@ -61,7 +61,6 @@ int run(const Arguments& a) {
   works.push_back(bench::slow_small_signals("lever", a.quick ? 0.05 : 0.3));
 
   bench::Options options;
-  options.laws = repository() + "/rtl/laws";
   options.repetitions = a.repetitions > 0 ? a.repetitions : a.quick ? 1 : 3;
   Progress progress("bench", a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };

@@ -19,7 +19,6 @@
 #include "files/output_file.hpp"
 #include "files/program.hpp"
 #include "law/content.hpp"
-#include "law/cpp.hpp"
 #include "law/gappa.hpp"
 #include "law/listing.hpp"
 #include "law/verdict.hpp"
@@ -33,7 +32,7 @@ using law::Compiled;
 using law::Measured;
 
 struct LawArguments {
-  std::string law, design = "lever", json, out, cpp, gappa, memories;
+  std::string law, design = "lever", json, out, gappa, memories;
   int cells = 4;
   bool listing = false, quiet = false;
 };
@@ -156,7 +155,6 @@ int run(const LawArguments& a) {
   outputs.reads(find_file(a.design, "rtl/designs"));
   files::OutputFile* json_file = outputs.open("--json", a.json);
   files::OutputFile* image_file = outputs.open("--output", a.out);
-  files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
   outputs.folder("--gappa", a.gappa);
   outputs.folder("--memories", a.memories);
   const Compiled c = law::compile_file(path, law_target(a.design));
@@ -168,7 +166,6 @@ int run(const LawArguments& a) {
   if (json_file != nullptr) json_file->write(json(c, m, a.gappa.empty() ? nullptr : &again));
   if (image_file != nullptr) image_file->write(law::text(c.image));
   if (!a.memories.empty()) write_memories(c, a.memories);
-  if (cpp_file != nullptr) cpp_file->write(law::cpp_header(c, a.law));
   if (!a.quiet) {
     outputs.say(law::report(c, m) + (a.gappa.empty() ? "" : text(c, again)) +
                 (a.listing ? law::listing(c) : ""));
@@ -192,7 +189,6 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent\n"
       "  feltgate law detent --listing\n"
       "  feltgate law detent -o detent.img --json detent.json\n"
-      "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
       "  feltgate law detent --design lever_law --memories memories\n"
       "Exit code: 0 all well, 1 a run left its bound or was off by more than 10 % of what the law\n"
@@ -208,8 +204,6 @@ void add_law(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_flag("--listing", a->listing, "every instruction: format, range and error");
   sub->add_option("-o,--output", a->out, "the image that an engine runs")->type_name("FILE");
-  sub->add_option("--cpp", a->cpp, "the law as a C++ template over the number type")
-      ->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--gappa", a->gappa, "the proof again, by Gappa: its problems as files")
       ->type_name("DIR");

@@ -284,12 +284,6 @@ int run(RunArguments a) {
   if (events != nullptr) events->write(event_lines(result.events, law->period_s()));
   if (!a.quiet) {
     outputs.say(run_text(result, labels));
-    if (law != nullptr) {
-      outputs.say(fmt::format("law {}: {}\n", law->name(),
-                              law->compiled()
-                                  ? "compiled into this program"
-                                  : "not compiled into this program, the interpreter runs it"));
-    }
   }
   outputs.commit();
   const bool ok = result.as_expected();

@@ -3,7 +3,7 @@
 //
 // Room: what every tick shares. The sequencer's wave is the time; registers bring one parameter in
 // each clock; operand bus and multipliers give each room its products; the snapshot keeps the
-// results of the tick for the host. docs/architecture.md, docs/schedule.md
+// results of the tick for the host. docs/architecture.md, docs/architecture.md
 
 `default_nettype none
 

@@ -192,7 +192,6 @@ Ending use_schedule(const fs::path& file) {
     const design::Schedule s = design::read_schedule(file.string(), map);
     (void)design::map_package(map, s);
     (void)design::map_header(map, s);
-    (void)design::timing_diagram(map, s);
   });
 }
 

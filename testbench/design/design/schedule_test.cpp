@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A schedule that cannot work is refused with the reason; a valid schedule has its clocks in all
-// places. Documentation: docs/schedule.md
+// places. Documentation: docs/architecture.md
 #include "design/schedule.hpp"
 
 #include <regex>

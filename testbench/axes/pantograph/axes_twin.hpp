@@ -13,7 +13,7 @@
 #include <functional>
 #include <utility>
 
-#include "../plant/sampled_law.hpp"
+#include "sampled_law.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_axes.hpp"
 

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "../axes_loop.hpp"
-#include "../sampled_law.hpp"
-#include "pantograph.hpp"
+#include "sim/plant/axes_loop.hpp"
+#include "sampled_law.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 
 namespace feltgate::plant {
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Encoder motions made by rule. Documentation: docs/traces.md
-#include "sim/traces/synthetic.hpp"
+#include "synthetic.hpp"
 
 #include <cmath>
 #include <cstdlib>

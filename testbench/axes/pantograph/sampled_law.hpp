@@ -10,8 +10,8 @@
 #include <functional>
 #include <utility>
 
-#include "axes_loop.hpp"
-#include "axes_parameters.hpp"
+#include "sim/plant/axes_loop.hpp"
+#include "sim/plant/axes_parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -36,6 +36,9 @@ package feltgate_pkg;
   localparam int MT_COUNTS = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   localparam int MT_WINDOW = 0;  // clocks: of a shorter span twice the cycles
   localparam int MT_DOUBLINGS = 0;  // the span has at most 2^n cycles
+  localparam int EDGE_UNIT_BITS = 3;  // bits of the ticks in which the time between edges is counted
+  localparam int FAST_EDGES = 1;  // 1: at the fastest motion several counts come in a tick
+  localparam int SELF_TEST_DROP = 0;  // the self-test takes 2^n counts for one
   localparam int CURRENT_LOOP = 0;  // 1: a measured current is controlled
   localparam int CURRENT_DROP = 0;  // fraction bits of the current reference below an LSB of the measured current
   localparam int CURRENT_PROPORTIONAL = 0;  // [0,4,13], supply per full scale
@@ -61,7 +64,7 @@ package feltgate_pkg;
   localparam int PHASES = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 0;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'hfbcebee1;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h082be207;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]

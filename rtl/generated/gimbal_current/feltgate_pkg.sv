@@ -29,13 +29,16 @@ package feltgate_pkg;
   localparam int SCENE_GUARD_BITS = 2;  // bits that a scene's terms keep below a torque step
   localparam int REQUIRE_WATCHDOG = 0;  // 1: arming waits for the first kick
   localparam int EMF_IN_LAW = 1;  // 1: the voltage law gives back the back-EMF
-  localparam int I2T_START = 14800000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
+  localparam int I2T_START = 947200000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   localparam int AXES = 1;  // motors with an encoder each
   localparam int ENGINE = 0;  // 1: programs give the torque of the scene law
   localparam int ENGINE_MAX_AGE = 0;  // ticks without a fresh torque that are borne
   localparam int MT_COUNTS = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   localparam int MT_WINDOW = 0;  // clocks: of a shorter span twice the cycles
   localparam int MT_DOUBLINGS = 0;  // the span has at most 2^n cycles
+  localparam int EDGE_UNIT_BITS = 6;  // bits of the ticks in which the time between edges is counted
+  localparam int FAST_EDGES = 0;  // 1: at the fastest motion several counts come in a tick
+  localparam int SELF_TEST_DROP = 0;  // the self-test takes 2^n counts for one
   localparam int CURRENT_LOOP = 1;  // 1: a measured current is controlled
   localparam int CURRENT_DROP = 4;  // fraction bits of the current reference below an LSB of the measured current
   localparam int CURRENT_PROPORTIONAL = 73410;  // [0,4,13], supply per full scale
@@ -61,7 +64,7 @@ package feltgate_pkg;
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'hc50c5f6f;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h12aba917;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -124,14 +127,14 @@ package feltgate_pkg;
   localparam int WITH_ADDEND_F = 0;
   localparam int LIMITER_INPUT_W = 29;  // [1,28,0]
   localparam int LIMITER_INPUT_F = 0;
-  localparam int CURRENT_ESTIMATE_PART_W = 13;  // [1,4,8]
-  localparam int CURRENT_ESTIMATE_PART_F = 8;
-  localparam int CURRENT_ESTIMATE_W = 14;  // [1,5,8]
-  localparam int CURRENT_ESTIMATE_F = 8;
-  localparam int CURRENT_SQUARED_W = 19;  // [0,17,2]
-  localparam int CURRENT_SQUARED_F = 2;
-  localparam int I2T_W = 32;  // [0,30,2]
-  localparam int I2T_F = 2;
+  localparam int CURRENT_ESTIMATE_PART_W = 16;  // [1,4,11]
+  localparam int CURRENT_ESTIMATE_PART_F = 11;
+  localparam int CURRENT_ESTIMATE_W = 17;  // [1,5,11]
+  localparam int CURRENT_ESTIMATE_F = 11;
+  localparam int CURRENT_SQUARED_W = 19;  // [0,11,8]
+  localparam int CURRENT_SQUARED_F = 8;
+  localparam int I2T_W = 32;  // [0,24,8]
+  localparam int I2T_F = 8;
   localparam int CHARGE_W = 32;  // [0,16,16]
   localparam int CHARGE_F = 16;
 
@@ -166,10 +169,10 @@ package feltgate_pkg;
       9'd7: parameter_reset = 32'd112812;  // emf_over_resistance
       9'd8: parameter_reset = 32'd122683;  // torque_constant
       9'd9: parameter_reset = 32'd83886;  // inertia_gain
-      9'd17: parameter_reset = 32'd1;  // nominal_current_squared
+      9'd17: parameter_reset = 32'd92;  // nominal_current_squared
       9'd15: parameter_reset = 32'd67092;  // observer_a1
       9'd16: parameter_reset = 32'd209715200;  // overspeed
-      9'd18: parameter_reset = 32'd29600000;  // i2t_budget
+      9'd18: parameter_reset = 32'd1894400000;  // i2t_budget
       9'd19: parameter_reset = 32'd6291456;  // polarity_speed
       9'd20: parameter_reset = 32'd314573;  // polarity_current
       9'd21: parameter_reset = 32'd6000;  // polarity_ticks

@@ -50,6 +50,9 @@ struct Exact {
   static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
   static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
+  static constexpr int edge_unit_bits = 3;  // bits of the ticks in which the time between edges is counted
+  static constexpr int fast_edges = 1;  // 1: at the fastest motion several counts come in a tick
+  static constexpr int self_test_drop = 0;  // the self-test takes 2^n counts for one
   static constexpr int current_loop = 0;  // 1: a measured current is controlled
   static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
   static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
@@ -75,7 +78,8 @@ struct Exact {
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xfbcebee1;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x082be207;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0x7a07a9a4;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {

@@ -79,6 +79,7 @@ struct FirstPower {
   static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
   static constexpr std::uint32_t design_crc = 0x7013a31b;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0x9c0bf92d;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {

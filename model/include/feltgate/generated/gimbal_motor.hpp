@@ -43,13 +43,16 @@ struct GimbalMotor {
   static constexpr int scene_guard_bits = 2;  // bits that a scene's terms keep below a torque step
   static constexpr int require_watchdog = 0;  // 1: arming waits for the first kick
   static constexpr int emf_in_law = 1;  // 1: the voltage law gives back the back-EMF
-  static constexpr int i2t_start = 14800000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
+  static constexpr int i2t_start = 947200000;  // I2t sum after power-up: half the budget, for nobody knows how hot the motor is
   static constexpr int axes = 1;  // motors with an encoder each
   static constexpr int engine = 0;  // 1: programs give the torque of the scene law
   static constexpr int engine_max_age = 0;  // ticks without a fresh torque that are borne
   static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
   static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
+  static constexpr int edge_unit_bits = 6;  // bits of the ticks in which the time between edges is counted
+  static constexpr int fast_edges = 0;  // 1: at the fastest motion several counts come in a tick
+  static constexpr int self_test_drop = 0;  // the self-test takes 2^n counts for one
   static constexpr int current_loop = 0;  // 1: a measured current is controlled
   static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
   static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
@@ -75,7 +78,8 @@ struct GimbalMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x3e45230f;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0xc52c960b;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0x2f146c92;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -84,10 +88,10 @@ struct GimbalMotor {
     static constexpr Format emf_over_resistance{0, -6, 23};
     static constexpr Format torque_constant{0, -4, 21};
     static constexpr Format inertia_gain{0, -6, 23};
-    static constexpr Format nominal_current_squared{0, 17, 2};
+    static constexpr Format nominal_current_squared{0, 11, 8};
     static constexpr Format observer_a1{0, -10, 27};
     static constexpr Format overspeed{1, 10, 21};
-    static constexpr Format i2t_budget{0, 30, 2};
+    static constexpr Format i2t_budget{0, 24, 8};
     static constexpr Format polarity_speed{1, 10, 21};
     static constexpr Format polarity_current{1, 3, 18};
     static constexpr Format polarity_ticks{0, 31, 0};
@@ -173,13 +177,13 @@ struct GimbalMotor {
       {"inertia_gain", "Nm s/rad", A::inertia_gain, P::inertia_gain,
        0.01, 83886},
       {"nominal_current_squared", "A^2", A::nominal_current_squared, P::nominal_current_squared,
-       0.35999999999999999, 1},
+       0.35999999999999999, 92},
       {"observer_a1", "1", A::observer_a1, P::observer_a1,
        0.00049987502083072939, 67092},
       {"overspeed", "rad/s", A::overspeed, P::overspeed,
        100.0, 209715200},
       {"i2t_budget", "A^2 tick", A::i2t_budget, P::i2t_budget,
-       7400000.0, 29600000},
+       7400000.0, 1894400000},
       {"polarity_speed", "rad/s", A::polarity_speed, P::polarity_speed,
        3.0, 6291456},
       {"polarity_current", "A", A::polarity_current, P::polarity_current,

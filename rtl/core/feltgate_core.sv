@@ -113,6 +113,7 @@ module feltgate_core #(
   logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
   logic [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state;
   logic [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state;
+  logic polarity_holds;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;  // measured, if there is a current loop
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
@@ -130,7 +131,8 @@ module feltgate_core #(
       .set_zero_i(set_zero), .clear_i(clear), .position_o(position_o), .scene_position_o(scene_position),
       .travel_o(travel), .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
       .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
-      .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits),
+      .gates_enable_i(gates_enable_o), .polarity_holds_o(polarity_holds),
+      .absolute_state_o(absolute_state), .limits_o(encoder_limits),
       .trips_o(encoder_trips), .count_o(count)
   );
 
@@ -189,6 +191,7 @@ module feltgate_core #(
       .derated_i(derated), .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked),
       .test_result_i(test_result), .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o),
       .current_state_i(current_state), .absolute_state_i(absolute_state), .encoder_error_i(encoder_error),
+      .polarity_holds_i(polarity_holds),
       .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o),
       .index_position_i(index_position), .word_valid_o(word_valid_o), .word_slot_o(word_slot_o),
       .word_data_o(word_data_o), .velocity_difference_i(velocity_difference),

@@ -86,6 +86,8 @@ class AbsolutePosition {
     if (!waits_) return faults;
     return encoder_.out().starts ? (faults & ~missing) | starts : faults | missing;
   }
+  /// The first reading was made: the polarity holds from then on.
+  bool has_read() const { return !waits_; }
   /// A reading since the tick before differs from the one before it.
   bool moved() const { return moved_; }
 

@@ -89,7 +89,7 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
   reg.reg_wdata = in.reg_wdata;
   reg.reg_write = in.reg_write;
   reg.armed = held;
-  reg.polarity_holds = kAbsolute && !waits(decoder_);
+  if constexpr (kAbsolute) reg.polarity_holds = decoder_.has_read();
   reg.set_zero = in.set_zero;
   reg.scene = out_.scene;
   if (registers_.flipped()) {  // only then is the parameter bus modelled

@@ -38,6 +38,7 @@ module encoder (
     output logic signed [                              31:0] index_position_o,  // counts at the last index
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,        // bit n: limit n acted
     input  logic                                             gates_enable_i,
+    output logic                                             polarity_holds_o,  // an absolute encoder has given its first reading
     output logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_o,  // why an absolute encoder or Hall lines are not to be relied on
     output logic        [                              31:0] hall_angle_o,      // electrical, 2^-32 turn, with Hall lines
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_o            // bit n: cause n
@@ -87,6 +88,7 @@ module encoder (
     assign count_o           = count;
     assign moved_o           = edge_moved;
     assign encoder_select_no = 1'b1;
+    assign polarity_holds_o  = 1'b0;
     assign encoder_clock_o   = 1'b0;
     assign encoder_command_o = 1'b0;
     logic unused_serial;
@@ -187,6 +189,7 @@ module encoder (
     assign starts = waits_q && unblemished;
     assign absolute_state_o = {starts, ((faults | seen_q) & ~5'(starts)) | 5'(waits_q && !starts)};
 
+    assign polarity_holds_o = !waits_q;
     assign count_o = count_q;
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found

@@ -47,6 +47,7 @@ module wave #(
     input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_i,  // of a current loop: faults.current, driver, missing
+    input  logic                                              polarity_holds_i,  // an absolute encoder has given its first reading
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder
     input  logic                                             encoder_error_i,
     input  logic        [                              15:0] error_count_i,
@@ -97,7 +98,7 @@ module wave #(
       .reg_rdata_o(reg_rdata_o), .reg_busy_o(reg_busy_o),
       .armed_i(locked_i), .set_zero_i(set_zero_i),
       // The count of an absolute encoder began with a polarity.
-      .polarity_holds_i(feltgate_pkg::ABSOLUTE_ENCODER != 0 && !absolute_state_i[feltgate_map_pkg::W_FAULTS_ABSOLUTE-1]),
+      .polarity_holds_i(polarity_holds_i),
       .slot_fetch_i(slot_fetch), .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_o),
       .region_high_i(region_high_i), .derated_i(derated_i), .testing_i(testing_i),

@@ -183,6 +183,7 @@ module feltgate_core #(
 
   assign limits_o = encoder_limits | estimator_limits | actuation_limits | safety_limits;
   wave #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_wave (
+      .polarity_holds_i(polarity_holds),
       .clk_i(clk_i), .rst_ni(rst_ni), .tick_o(tick), .tick_count_o(tick_count_o), .wave_o(wave), .param_o(param),
       .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i), .reg_busy_o(reg_busy_o),
       .reg_rdata_o(reg_rdata_o), .set_zero_i(set_zero_i), .scene_i(scene_i), .scene_o(scene_o), .control_o(control),
@@ -191,7 +192,6 @@ module feltgate_core #(
       .derated_i(derated), .testing_i(testing_o), .armed_i(armed_o), .paused_i(paused), .unkicked_i(unkicked),
       .test_result_i(test_result), .limits_i(limits_o), .faults_i(faults_o), .first_fault_i(first_fault_o),
       .current_state_i(current_state), .absolute_state_i(absolute_state), .encoder_error_i(encoder_error),
-      .polarity_holds_i(polarity_holds),
       .error_count_i(error_count), .rejected_count_i(rejected_count), .position_i(position_o),
       .index_position_i(index_position), .word_valid_o(word_valid_o), .word_slot_o(word_slot_o),
       .word_data_o(word_data_o), .velocity_difference_i(velocity_difference),

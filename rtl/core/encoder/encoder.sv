@@ -185,11 +185,11 @@ module encoder (
 
     // waits_q: no reading yet. starts: nor a wrong one; else the sensor is missing. seen_q: what closed the gates, until
     // the faults are cleared; a jump also while they are closed, since the angle may be wrong for ever after it.
+    assign polarity_holds_o = !waits_q;
     localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
     assign starts = waits_q && unblemished;
     assign absolute_state_o = {starts, ((faults | seen_q) & ~5'(starts)) | 5'(waits_q && !starts)};
 
-    assign polarity_holds_o = !waits_q;
     assign count_o = count_q;
 
     // The count follows every good reading. The travel does not follow one that ends a fault: an angle that was found

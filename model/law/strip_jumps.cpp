@@ -15,7 +15,7 @@ namespace feltgate::law {
 
 namespace {
 
-constexpr int kMostAnalyses = 3000;  ///< of all strips over a cell
+constexpr std::size_t kMostSteps = 60'000;  ///< analysed for all strips over a cell
 constexpr int kMostOfStrip = 1000;
 constexpr int kStalled =
     30;  ///< halvings in which no jump became smaller, after which a strip ends
@@ -49,7 +49,7 @@ class Tightening {
     std::vector<Part> parts{{cell_, in(cell_, step)}};
     int stalled = 0;
     double least = largest(parts[0].jumps);
-    const int end = std::min(kMostAnalyses, analyses_ + kMostOfStrip);
+    const int end = std::min(most_, analyses_ + kMostOfStrip);
     while (stalled < kStalled && analyses_ < end) {
       const auto worst = std::max_element(
           parts.begin(), parts.end(),
@@ -144,6 +144,7 @@ class Tightening {
   Cell cell_;
   std::vector<double> outputs_, margins_;
   std::vector<std::pair<std::vector<Span> Cell::*, int>> deciding_;
+  const int most_ = static_cast<int>(kMostSteps / std::max<std::size_t>(program_.steps.size(), 1));
   int analyses_ = 0;
 };
 

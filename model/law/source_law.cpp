@@ -32,8 +32,10 @@ std::size_t index_in(Real x, Real least, std::size_t count) {
   return static_cast<std::size_t>(std::clamp(rounded_down(x), least, most) - least);
 }
 
+/// Whether it is the first part of a < b < c.
 bool compares(const Expression& e) {
-  return e.kind == Expression::Kind::binary && e.name.find_first_of("<>=") != std::string::npos;
+  return e.kind == Expression::Kind::binary && !e.brackets &&
+         e.name.find_first_of("<>=") != std::string::npos;
 }
 
 [[noreturn]] void unknown(const std::string& what) {
@@ -239,6 +241,7 @@ SourceLaw::Slot SourceLaw::name(const Expression& e) {
   if (const Symbol* const symbol = find(e.name)) return symbol->index;
   if (e.name == "pi") return number(kTurn / 2);
   if (e.name == "dt") return number(step_time_);
+  if (e.name == "time") return since_start();
   if (e.name == "true" || e.name == "false") return number(truth(e.name == "true"));
   return input(e.name, 0);
 }
@@ -260,7 +263,8 @@ SourceLaw::Slot SourceLaw::indexed(const Expression& e) {
 
 SourceLaw::Slot SourceLaw::binary(const Expression& e) {
   const Expression& left = *e.arguments[0];
-  if (!compares(e) || !compares(left)) {
+  const bool chained = e.name.find_first_of("<>=") != std::string::npos && compares(left);
+  if (!chained) {
     const Slot a = expression(e.arguments[0]);
     return binary_step(e.name, a, expression(e.arguments[1]));
   }
@@ -349,10 +353,20 @@ SourceLaw::Slot SourceLaw::call(const Expression& e) {
       {"sqrt", [](Real a) { return std::sqrt(a); }},
       {"exp", [](Real a) { return std::exp(a); }},
       {"log", [](Real a) { return std::log(a); }},
-      {"floor", rounded_down}};
+      {"floor", rounded_down},
+      {"round", [](Real a) { return rounded_down(a + 0.5L); }}};
   const auto found = functions.find(e.name);
   if (found == functions.end()) unknown(e.name);
   return step([this, x, of = found->second] { return of(values_[x]); });
+}
+
+/// The runs so far, up to the last one that is counted, times the time between two.
+SourceLaw::Slot SourceLaw::since_start() {
+  const Slot runs = keep(0);
+  const std::size_t counter = kept_.size() - 1;
+  kept_[counter].next =
+      step([this, runs] { return std::min<Real>(values_[runs] + 1, 2'000'000'000); });
+  return step([this, runs] { return values_[runs] * step_time_; });
 }
 
 /// A first-order low-pass, with the value of this run. Its step response is exact.

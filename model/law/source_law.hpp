@@ -92,6 +92,7 @@ class SourceLaw {
   Slot binary(const Expression& e);
   Slot call(const Expression& e);
   Slot reduce(const Expression& e);
+  Slot since_start();
   Slot lowpass(Slot x, Slot frequency);
   Slot noise(int seed);
   Slot keep(Real first);

@@ -165,6 +165,16 @@ TEST_CASE("a comparison of whole values narrows them: == and != as well as <") {
   }
 }
 
+TEST_CASE("the run from the source knows every construct") {
+  for (const auto& [name, sample] : samples) {
+    INFO(name);
+    const Compiled c = compiled(sample.text);
+    const FreeRuns free = measure_free(c, 1, 3000);
+    CHECK(free.unknown.empty());
+    if (c.bound.states_bounded) CHECK(free.left == 0);
+  }
+}
+
 TEST_CASE("constructs stay within their bounds, which are small") {
   for (const auto& [name, sample] : samples) {
     INFO(name);

@@ -33,7 +33,7 @@ constexpr double pi = 3.14159265358979323846;
 
 /// As TOML: a float keeps its point.
 std::string number(double value) {
-  std::string text = fmt::format("{}", value);
+  std::string text = fmt::format("{:.12g}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
@@ -234,7 +234,7 @@ void Maker::limits() {
   const auto words = parameter_values(m_);
   const double volts = words.at("duty_limit").si / m_.pwm_period_clocks() * m_.full_duty_v() -
                        words.at("dead_voltage").si;
-  const double supply_nm = 0.97 * volts / m_.resistance_ohm * m_.torque_constant_nm_a;
+  const double supply_nm = 0.99 * volts / m_.resistance_ohm * m_.torque_constant_nm_a;
   if (supply_nm <= 0.1 * m_.torque_constant_nm_a * nominal_a_) {
     throw std::invalid_argument(fmt::format(
         "no design: of the supply's {:g} V the motor gets {:.2g} V beyond brushes and dead time, "
@@ -271,12 +271,19 @@ void Maker::limits() {
   set("supervisor", "hold_limit_nm", down(d_.hold_limit_nm * more));
 }
 
-/// The largest current for as long as in the base. Dead time and brushes count as current: what
-/// they count for beyond the base's share of the nominal current is no heat.
+/// The largest current for as long as in the base. Dead time and brushes count as current; where
+/// they would leave less than 30 % of the nominal one, what is beyond is no heat.
 void Maker::heat() {
-  const double share = 0.45;
-  const double beyond = std::max(0.0, dead_a() - share * nominal_a_);
+  constexpr double most_share = 0.7;
+  const double beyond = std::max(0.0, dead_a() - most_share * nominal_a_);
   m_.nominal_current_a = beyond > 0 ? down(nominal_a_ + beyond) : nominal_a_;
+  if (beyond > 0) {
+    note(
+        "supervisor.nominal_current_a is {:g} instead of {:g}: dead time and brushes count as "
+        "{:.2g} "
+        "A in the estimated current",
+        m_.nominal_current_a, nominal_a_, dead_a());
+  }
   const auto squares = [](double limit, double nominal) {
     return limit * limit - nominal * nominal;
   };
@@ -289,16 +296,6 @@ void Maker::heat() {
   m_.i2t_budget_a2_s = as_base ? d_.i2t_budget_a2_s : up(square * seconds);
   set("supervisor", "nominal_current_a", m_.nominal_current_a);
   set("supervisor", "i2t_budget_a2_s", m_.i2t_budget_a2_s);
-  const double most_a = m_.current_limit_a + dead_a();
-  const double trips_s = m_.i2t_budget_a2_s / squares(most_a, m_.nominal_current_a);
-  if (most_a > m_.nominal_current_a) {
-    note(
-        "the motor carries {:g} A without limit in time and {:g} A for {:.2g} s from cold, half "
-        "of it after power-up (supervisor.nominal_current_a, i2t_budget_a2_s)",
-        nominal_a_, m_.current_limit_a, trips_s);
-  } else {
-    note("fault i2t never comes: the supply gives less than the nominal current");
-  }
 }
 
 /// The growth of speed that the torque of the base's share of the limit makes in a window. It must
@@ -472,7 +469,7 @@ void Maker::formats() {
             static_cast<int>(std::ceil(std::log2(m_.torque_limit_nm / d_.torque_limit_nm) - 1e-9)));
   torque.integer = std::clamp(torque.integer, std::max(0, bits_of(1.05 * m_.torque_limit_nm)), 5);
   torque.fraction = std::clamp(torque.fraction, 16, 20);
-  const Format voltage = shift(d_.voltage, bits_of(m_.supply_v) - bits_of(d_.supply_v));
+  Format voltage = shift(d_.voltage, bits_of(m_.supply_v) - bits_of(d_.supply_v));
   const int guard =
       static_cast<int>(std::ceil(-std::log2(-std::expm1(-m_.observer_cutoff_rad_s * m_.tick_s()))));
   const int observer = std::max(d_.observer_fraction, torque.fraction + guard);
@@ -503,9 +500,11 @@ void Maker::formats() {
   const double most_a = std::max(m_.motor_current_limit_a, m_.polarity_current_a);
   const double base_a = std::max(d_.motor_current_limit_a, d_.current_limit_a);
   Format current = shift(d_.current, bits_of(most_a) - bits_of(base_a));
-  if (!room) current = shift(current, std::max(0, for_heat - current.integer));
-  if (d_.current_loop) {
+  if (d_.current_loop) {  // whose full scale bounds the current's range
     current.integer = std::min(current.integer, std::ilogb(m_.current_full_scale_a));
+    if (!room) voltage = shift(voltage, for_heat - by_v.integer);
+  } else if (!room) {
+    current = shift(current, std::max(0, for_heat - current.integer));
   }
   const int wanted = observer - coefficient(m_.torque_constant_nm_a).fraction;
   const int width = std::max(torque.width(), voltage.width());
@@ -524,8 +523,19 @@ void Maker::formats() {
   }
 }
 
-/// What follows from the counts alone.
+/// What follows from several of these.
 void Maker::tell() {
+  const double most_a = m_.current_limit_a + dead_a();
+  const double over = most_a * most_a - m_.nominal_current_a * m_.nominal_current_a;
+  if (m_.current_limit_a > nominal_a_ && over > 0) {
+    note(
+        "the motor carries {:g} A without limit in time and {:g} A for {:.2g} s from cold, half "
+        "of it after power-up (supervisor.nominal_current_a, i2t_budget_a2_s)",
+        nominal_a_, m_.current_limit_a, m_.i2t_budget_a2_s / over);
+  } else {
+    note("the motor carries {:g} A without limit in time, and the supply gives {:g} A at most",
+         nominal_a_, m_.current_limit_a);
+  }
   if (d_.absolute) return;
   const double q = m_.count_rad();
   const double slowest_s = std::ldexp(Map::edge_units - 1, m_.edge_unit_bits()) * m_.tick_s();
@@ -636,7 +646,7 @@ PlantDesign design_for_plant(const std::string& base, const Parameters& p, doubl
   made.notes = maker.notes;
   Effects all;
   made.changed = shared_constants(d, p, all);
-  const auto same = [](const Constant& c) { return c.of_design == c.of_plant; };
+  const auto same = [](const Constant& c) { return std::abs(c.excess()) < 1e-9; };
   made.changed.erase(std::remove_if(made.changed.begin(), made.changed.end(), same),
                      made.changed.end());
   return made;

@@ -279,7 +279,6 @@ TEST_CASE("an absolute encoder: its clocks, and what it refuses", "[reader]") {
   refused_alone(replaced(replaced(good, "m1 = 384", "estimator = \"mt\""), "n = 0 ", "# n = 0"),
                 "M/T needs the clocks of edges");
   std::string fine = replaced(replaced(good, "\"spi\"", "\"biss\""), "bits = 14", "bits = 21");
-  fine = replaced(fine, "torque_nm = 0.05 ", "torque_nm = 2e-3 ");
   fine = replaced(fine, "diagnosis", "# diagnosis");
   refused_alone(fine, "the velocity's window by 32767 counts");
   refused_alone(replaced(fine, "error_mrad = []", "error_mrad = [1, 1]"), "too coarse for 21 bits");

@@ -234,7 +234,7 @@ void Maker::limits() {
   const auto words = parameter_values(m_);
   const double volts = words.at("duty_limit").si / m_.pwm_period_clocks() * m_.full_duty_v() -
                        words.at("dead_voltage").si;
-  const double supply_nm = 0.99 * volts / m_.resistance_ohm * m_.torque_constant_nm_a;
+  const double supply_nm = volts / m_.resistance_ohm * m_.torque_constant_nm_a;
   if (supply_nm <= 0.1 * m_.torque_constant_nm_a * nominal_a_) {
     throw std::invalid_argument(fmt::format(
         "no design: of the supply's {:g} V the motor gets {:.2g} V beyond brushes and dead time, "

@@ -155,7 +155,7 @@ class Cards(Recorded):
         self.assertAlmostEqual(zones[0][0], np.degrees(0.5), delta=1.5)
         self.assertAlmostEqual(zones[-1][1], np.degrees(0.7), delta=1.5)
         self.assertIn("between 29° and 40°", sentences.said(summary, m))
-        self.assertIn("0.50 Nm", found.text)
+        self.assertIn("0.49 Nm", found.text)  # the stand-in's motor has a voltage for its back-EMF, and none of it
 
     def test_every_scene_has_a_sentence(self):
         for path in sorted((SCRIPTS.parent / "vectors" / "scenes").glob("*.toml")):

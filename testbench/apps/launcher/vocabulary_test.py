@@ -26,7 +26,6 @@ TYPES = {
     "--design": "DESIGN",
     "--plant": "PLANT",
     "--for-plant": "PLANT",
-    "--nominal-current": "AMPERES",
     "--duration": "SECONDS",
     "--report": "DIR",
     "--plot": "DIR",

@@ -64,7 +64,7 @@ package feltgate_pkg;
   localparam int PHASES = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 0;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'he2be1820;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h6e906a32;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -233,7 +233,6 @@ package feltgate_pkg;
       9'd7: parameter_above = {1'd0, 32'hfffe0000};  // emf_over_resistance
       9'd8: parameter_above = {1'd0, 32'hfffe0000};  // torque_constant
       9'd9: parameter_above = {1'd0, 32'hfffe0000};  // inertia_gain
-      9'd17: parameter_above = {1'd0, 32'hfff80000};  // nominal_current_squared
       9'd15: parameter_above = {1'd0, 32'hfffe0000};  // observer_a1
       9'd20: parameter_above = {1'd1, 32'hffe00000};  // polarity_current
       9'd22: parameter_above = {1'd0, 32'hfffe0000};  // emf_constant

@@ -223,8 +223,8 @@ TEST_CASE("core: factors that are powers of two, whose products end in ties") {
   CHECK(pushed > 5);
 }
 
-TEST_CASE("core: a bit beyond the format of a factor without sign counts for nothing") {
-  constexpr std::uint32_t beyond = 1u << D::coefficient_bits;
+TEST_CASE("core: a factor beyond its format is the largest that there is, and none is negative") {
+  constexpr std::uint32_t most = (1u << D::coefficient_bits) - 1;
   const auto lives = [](int address, std::uint32_t word) {
     Life s;
     s.write(address, word);
@@ -237,12 +237,14 @@ TEST_CASE("core: a bit beyond the format of a factor without sign counts for not
     return s.shown();
   };
   for (const int address : {A::velocity_a1, A::observer_a1, A::voltage_gain, A::torque_gain}) {
-    const std::uint32_t word = word_of_design(address);
-    const feltgate::CoreOut with = lives(address, word | beyond), without = lives(address, word);
-    CHECK(with.velocity == without.velocity);
-    CHECK(with.tau_hat == without.tau_hat);
-    CHECK(with.current_ref == without.current_ref);
-    CHECK(with.duty == without.duty);
+    for (const std::uint32_t fits : {most, 0u}) {
+      const feltgate::CoreOut with = lives(address, fits != 0 ? most + 1 : 0x80000001),
+                              without = lives(address, fits);
+      CHECK(with.velocity == without.velocity);
+      CHECK(with.tau_hat == without.tau_hat);
+      CHECK(with.current_ref == without.current_ref);
+      CHECK(with.duty == without.duty);
+    }
   }
 }
 
@@ -266,13 +268,13 @@ TEST_CASE("core: budgets of heat that last up to some hundred ticks, RTL and twi
   CHECK(longest > 100);  // 1 % of the heat is one tick
 }
 
-TEST_CASE("core: of the words that make the heat the low 17 bits count") {
-  const auto lives = [](std::uint32_t more) {
+TEST_CASE("core: words that make the heat are at most the largest of their format") {
+  const auto lives = [](std::uint32_t word) {
     Life s;
     s.write(A::nominal_current_squared, 0);
     s.write(A::i2t_budget, static_cast<std::uint32_t>(D::i2t_start) + (1u << 13));
     for (const int address : {A::inverse_resistance, A::emf_over_resistance}) {
-      s.write(address, word_of_design(address) | more);
+      s.write(address, word == 0 ? word_of_design(address) : word);
     }
     s.write(A::setpoint_torque, 0x45d3);
     s.arm(D::S::setpoint);
@@ -287,5 +289,5 @@ TEST_CASE("core: of the words that make the heat the low 17 bits count") {
   };
   const int ticks = lives(0);
   CHECK(ticks > 5);
-  CHECK(lives(1u << D::coefficient_bits) == ticks);
+  CHECK(lives(1u << D::coefficient_bits) == lives((1u << D::coefficient_bits) - 1));
 }

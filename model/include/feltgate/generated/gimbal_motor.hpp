@@ -78,8 +78,8 @@ struct GimbalMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xc52c960b;  // by which a host knows the design
-  static constexpr std::uint32_t file_sum = 0x2f146c92;  // by which a program notices that the file has changed
+  static constexpr std::uint32_t design_crc = 0x55097303;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0x9fe14652;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -88,7 +88,7 @@ struct GimbalMotor {
     static constexpr Format emf_over_resistance{0, -6, 23};
     static constexpr Format torque_constant{0, -4, 21};
     static constexpr Format inertia_gain{0, -6, 23};
-    static constexpr Format nominal_current_squared{0, 11, 8};
+    static constexpr Format nominal_current_squared{0, 24, 8};
     static constexpr Format observer_a1{0, -10, 27};
     static constexpr Format overspeed{1, 10, 21};
     static constexpr Format i2t_budget{0, 24, 8};

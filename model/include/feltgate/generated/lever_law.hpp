@@ -78,8 +78,8 @@ struct LeverLaw {
   static constexpr int phases = 2;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 0;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0xc0779da6;  // by which a host knows the design
-  static constexpr std::uint32_t file_sum = 0xa8c602a9;  // by which a program notices that the file has changed
+  static constexpr std::uint32_t design_crc = 0x3d797cf8;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0xab220097;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -88,7 +88,7 @@ struct LeverLaw {
     static constexpr Format emf_over_resistance{0, -3, 20};
     static constexpr Format torque_constant{0, -5, 22};
     static constexpr Format inertia_gain{0, -4, 21};
-    static constexpr Format nominal_current_squared{0, 17, 2};
+    static constexpr Format nominal_current_squared{0, 30, 2};
     static constexpr Format observer_a1{0, -10, 27};
     static constexpr Format overspeed{1, 10, 21};
     static constexpr Format i2t_budget{0, 30, 2};

@@ -68,7 +68,19 @@ struct TraceArguments {
            "that column begins again after so many of its units, e.g. 360, 2pi or 65536; alone: a "
            "turn of an angle, or 2^16 or 2^32 counts, as its first jump tells")
         ->type_name("UNITS")
-        ->expected(0, 1);
+        ->expected(0, 1)
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+              try {
+                (void)traces::parse_wrap(text);
+                return std::string();
+              } catch (const traces::TraceError&) {
+                return text +
+                       " is not a finite number above 0, such as 360, 2pi or 65536; where "
+                       "it is to be found, put --wrap behind the file";
+              }
+            },
+            ""));
     sub->add_option("--sample-hz", options.sample_hz,
                     "rate of the capture, where the file does not say it; rows without a time are "
                     "its samples")

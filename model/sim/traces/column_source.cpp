@@ -130,15 +130,14 @@ std::int64_t ColumnSource::count_of(double value) {
   return static_cast<std::int64_t>(std::llround(count));
 }
 
-/// The period by which this step is longer than one like the step before; nothing where there is
-/// none. Without a step before, any step that is short beside the period will do.
+/// The period that makes this step one like the step before, and much more so than it is without;
+/// nothing where there is none. Without a step before, the step is to be nearly the period.
 std::optional<double> ColumnSource::period_in(double step) const {
-  const double size = std::fabs(step);
   const auto fits = [&](double period) {
     const double shorter = step - std::copysign(period, step);
-    return stepped_ ? size > period / 2 &&
-                          std::fabs(shorter - step_) <= 2 * std::fabs(step_) + period / 512
-                    : std::fabs(shorter) <= period / 8;
+    if (!stepped_) return std::fabs(shorter) <= period / 8;
+    const double change = std::fabs(shorter - step_);
+    return change <= 2 * std::fabs(step_) + period / 512 && 2 * change < std::fabs(step - step_);
   };
   for (const double period : periods_) {
     if (fits(period)) return period;

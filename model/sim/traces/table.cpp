@@ -232,6 +232,7 @@ void Table::refuse_units() {
   const Line row = ahead_.front();
   std::vector<std::string_view> fields;
   split_into(fields, row.text, separator_);
+  if (fields.size() < columns_.size()) return;  // short, as its reader will say
   bool units = false, volts = false, numbers = false;
   for (std::string_view field : fields) {
     numbers = numbers || parse_real(field).has_value();

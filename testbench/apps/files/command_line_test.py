@@ -84,6 +84,28 @@ class CommandLine(Bench):
             self.assertIn("A\u00e9", done.err)  # UTF-8 is what a terminal takes
             self.assertNotRegex(done.err, r"[\x00-\x09\x0b-\x1f\x7f-\x9f\udc80-\udcff]")
 
+    def test_a_column_that_begins_again_and_times_without_a_unit(self):
+        rows = "".join(f"{5 * n},{(350 + n) % 360}\n" for n in range(20))
+        self.put("log.csv", "time,angle_deg\n" + rows)
+        self.given.add("log.csv")
+        words = ("import", "log.csv", "log.vec", "--scale", "4096/360")
+        done = self.finished(*words)
+        self.assertEqual(done.returncode, 0, done.err)
+        self.assertRegex(done.err, r"(?m)^warning: log.csv:2: the rows are 5 s apart, .*--time-unit ms")
+        self.assertRegex(done.err, r"(?m)^warning: log.csv:12: 'angle_deg' goes .* give --wrap 360$")
+        # An angle of 19 degrees is 216 counts; the wrap may stand before the file.
+        for more in (("--wrap",), ("--wrap", "360"), ("--wrap=360",)):
+            done = self.finished(*words, "--time-unit", "ms", *more)
+            self.assertEqual((done.returncode, done.err), (0, ""))
+            self.assertIn("0.095 s", done.out)
+            edges = self.path("log.vec").read_text(encoding="utf-8").splitlines()[2:-1]
+            self.assertEqual(len(edges), 216)
+        self.path("log.vec").unlink()
+        for more in (("--wrap=-1",), ("--wrap", "2 turns")):
+            self.refused(*words, *more, said=(" is not a finite number above 0",))
+        self.refused("replay", "--wrap", "log.csv", "--quiet", said=("put --wrap behind the file",))
+        self.refused(*words, "--time-unit", "h", said=("--time-unit", "h"))
+
     def test_abbreviations(self):
         for command in ("figures", "synth", "demo"):
             with self.subTest(command):

@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -148,6 +149,20 @@ class Parts(unittest.TestCase):
         self.assertEqual(recording.illegal, 0)
         at = recording.counts_at([0.0, recording.time_s[99], recording.length_s])
         self.assertEqual(list(at), [0, recording.counts[99], recording.counts[-1]])
+
+    def test_a_recording_warns(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "log.csv"
+            rows = "".join(f"{5 * n},{(65530 + n) % 65536}\n" for n in range(20))
+            path.write_text("time,count\n" + rows)
+            with self.assertWarnsRegex(UserWarning, "--wrap 65536"):
+                feltgate.Recording(path, time_unit="ms")
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for wrap in (True, 65536, "65536"):
+                    recording = feltgate.Recording(path, time_unit="ms", wrap=wrap)
+                    self.assertEqual((len(recording), recording.counts[-1]), (19, 19))
+                    self.assertAlmostEqual(recording.length_s, 0.095)
 
     def test_counts_of_your_own(self):
         counts = np.repeat(np.arange(50), 20)

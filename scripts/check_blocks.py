@@ -9,7 +9,7 @@ RTL; blocks that help one another share a page. The twin is the class with the b
 model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
 law that it evaluates, if any, is in the former.
 Further checks: a strobe is connected to the clock of its name, what a page draws is in the RTL, no hand-written
-source has more than 400 lines, only libfmt formats numbers in model/, and the lists made from the blocks are up
+source has more than 500 lines, only libfmt formats numbers in model/, and the lists made from the blocks are up
 to date: docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
@@ -26,7 +26,7 @@ from pathlib import Path
 from seeded_defects import patches
 import rtl_sources
 
-MAX_LINES = 400
+MAX_LINES = 500
 SOURCE_SUFFIXES = {".sv", ".v", ".svh", ".cpp", ".hpp", ".h", ".py", ".sh", ".cmake", ".tcl"}
 EXEMPT = {*rtl_sources.CELL_WRAPPERS, *rtl_sources.NO_BLOCKS}
 SKIPPED_FOLDERS = {".git", "build", "generated", "__pycache__"}

@@ -257,7 +257,7 @@ def diagram(axes, path):
 
 
 def bowed_string(fast, slow, points):
-    """The string at 40 kHz and at 1 kHz, and the forces that play it.
+    r"""The string at 40 kHz and at 1 kHz, and the forces that play it.
 
       ./feltgate run bowed_string --engine twin --csv fast.csv --every 25 --states fast_states.csv
       sed 's/^rate = 40 kHz/rate = 1 kHz/' rtl/laws/bowed_string.law > slow.law

@@ -27,7 +27,7 @@ import synth_board
 import synth_budget
 import synth_measure
 import synth_report
-from synth_tools import ToolError, Tools, version
+from synth_tools import ToolError, Tools, require_current, version
 
 SCHEMA = "feltgate-synth/1"
 
@@ -88,6 +88,7 @@ def check_designs(root, designs):
     for design in designs:
         if not (root / f"rtl/generated/{design}/feltgate_pkg.sv").exists():
             raise ToolError(f"no design {design} in rtl/generated; ./feltgate generate makes it")
+    require_current(root, *designs)
 
 
 def program(name):

@@ -16,6 +16,7 @@ from collections import Counter
 from itertools import product
 from pathlib import Path
 
+import command_line
 from command_line import Refused
 import interrupts
 
@@ -55,10 +56,21 @@ def version(tool):
     return f"{name} {number.group(0)}" if number else name
 
 
+def require_current(root, *designs):
+    """Refused where the file of one of these names in rtl/designs has changed since ./feltgate generate."""
+    generator = command_line.build_folder() / "feltgate_generate"
+    if not generator.is_file() and "FELTGATE_PROGRAM" not in os.environ:
+        return  # a script by itself, as the build starts one; ./feltgate has built the generator
+    done = interrupts.run([generator, root, "--check", *designs], **interrupts.CAPTURED)
+    if done.returncode:
+        raise ToolError(done.stderr.strip().splitlines()[-1])
+
+
 def package_of(root, design, folder):
     """What synth_measure.copy_sources() takes of a design, a name in rtl/designs or the user's own file:
     the name, or the path of a package made in FOLDER."""
     if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
+        require_current(root, design)
         return design
     path = Path(design)
     if not path.is_file():

@@ -60,6 +60,7 @@ class Analysis {
   Fact table_result(const Step& s, const Fact& x);
   /// The values that an operand can have when comparison `c` has the result `truth`.
   Span given(const Operand& o, const Step& c, bool truth);
+  Span given(const Operand& o, bool truth);
   /// The fact of a selection that surely takes operand number `which`.
   Fact only(const Fact& f, int which);
   Fact selected(const Step& s, const Fact& x, const Fact& y);

@@ -80,6 +80,15 @@ NodeId Lowering::floor_call(const Expression& e) {
   return floored(number_in(e.arguments[0], kNumber, "the argument of floor"), e);
 }
 
+/// floor(x + 0.5): halves go up.
+NodeId Lowering::round_call(const Expression& e) {
+  if (!takes(e, 1, "round(x)")) return kNone;
+  const NodeId x = number_in(e.arguments[0], kNumber, "the argument of round");
+  if (x == kNone || graph_.node(x).whole) return x;
+  const Place place = at(e.offset);
+  return floored(graph_.add(x, graph_.constant(0.5, kNumber, place), place), e);
+}
+
 /// x - m floor(x / m), from 0 to m.
 NodeId Lowering::mod(const Expression& e) {
   if (!takes(e, 2, "mod(x, 15 deg)")) return kNone;

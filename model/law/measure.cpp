@@ -51,7 +51,8 @@ class Meter {
     std::map<std::string, double> named;
     for (const ImageWord& w : c_.image.words) {
       if (!w.formula.empty()) continue;
-      values.push_back(choose(w) * w.scale);
+      const double value = choose(w) * w.scale;
+      values.push_back(w.whole ? std::nearbyint(value) : value);
       named[w.name] = values.back();
     }
     const auto value_of = [&named](const std::string& name) { return named.at(name); };
@@ -77,6 +78,18 @@ class Meter {
     }
     law_.reset();
     started_ = false;
+  }
+
+  /// Sets `time` of both to the number of runs that `choose` makes of its largest one.
+  template <class Choose>
+  void set_time(const Choose& choose) {
+    for (std::size_t k = 0; k < c_.law.states.size() && started_; ++k) {
+      const State& s = c_.law.states[k];
+      if (!s.counts_runs || c_.program.states[k].next.from == From::none) continue;
+      const std::int64_t runs = choose(static_cast<std::int64_t>(s.range.upper));
+      machine_.memory().set_data(state_address(k), static_cast<std::int32_t>(runs));
+      law_.set_state(k, static_cast<double>(runs));
+    }
   }
 
   /// Executes one run of both; `word` gives an input's word.
@@ -140,9 +153,11 @@ class Meter {
   Measured result() const { return result_; }
 
  private:
+  int state_address(std::size_t k) const {
+    return c_.target.thread * EngineMap::private_words + c_.assembled.state_address[k];
+  }
   std::int32_t state_word(std::size_t k) const {
-    const int first = c_.target.thread * EngineMap::private_words;
-    return machine_.memory().data_at(first + c_.assembled.state_address[k]);
+    return machine_.memory().data_at(state_address(k));
   }
   static bool outside(const std::vector<double>& off, const std::vector<double>& bound) {
     for (std::size_t i = 0; i < off.size(); ++i) {
@@ -238,6 +253,10 @@ Measured measure(const Compiled& c, std::uint64_t seed, std::int64_t runs, bool 
                                    : corner == 1 ? w.upper
                                                  : w.lower + below(width + 1));
       });
+    }
+    // A run at any time, early and late.
+    if (!free_running) {
+      meter.set_time([&](std::int64_t end) { return below((end >> below(31)) + 1); });
     }
     meter.run(
         [&](const Input& input) {

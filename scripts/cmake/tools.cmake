@@ -135,6 +135,7 @@ add_executable(feltgate_page_data EXCLUDE_FROM_ALL
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})
 target_compile_definitions(feltgate_page_data PRIVATE FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
 target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nlohmann_json fmt::fmt)
+add_dependencies(feltgate_page_data feltgate_generate)  # page.py asks it whether the designs are current
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
 feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)
@@ -260,7 +261,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
 endforeach()
 
 # The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
-feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
+feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law systemc)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench bench_main.cpp
   feltgate_command_line feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json)

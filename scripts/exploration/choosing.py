@@ -122,8 +122,8 @@ def rounding_part(programs, scene, design):
     worst of the ticks for which a bound is proven. The worst: the bound, or what exceeds it outside."""
     run = programs.ask("run", scene, "--design", design, "--engine", "twin,quad", "--quiet")
     errors = run["engines"]["twin"]["torque_nm"]
-    rms = errors["rms_error"] + (errors["max_error_in_bounds"] or 0.0)
-    return min(rms, errors["max_error"]), max(errors["bound"] or 0.0, errors["max_error"])
+    worst = max(errors["max_error"], errors.get("max_error_outside", 0.0))
+    return min(errors["rms_error"] + errors["max_error"], worst), max(errors["bound"] or 0.0, worst)
 
 
 class Choosing:

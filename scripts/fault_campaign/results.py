@@ -110,6 +110,10 @@ def promises(faults):
                 missed <= (1 - FLAGGED_SHARE) * len(its),
             )
         )
+    for group in dict.fromkeys(f["group"] for f in faults if f.get("must_refuse")):
+        its = [f for f in faults if f["group"] == group]
+        opened = sum(f["class"] != "off" for f in its)
+        found.append((f"not refused, of '{group}'", opened, len(its), opened == 0))
     return found
 
 

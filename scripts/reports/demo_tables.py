@@ -75,7 +75,7 @@ def scenes(demo):
             [
                 *of_run(run, name),
                 *peaks(run.summary),
-                *errors(run.summary, "torque_nm", ("max_error_in_bounds", "bound")),
+                *errors(run.summary, "torque_nm", ("max_error", "bound")),
                 "–" if saturated is None else f"{saturated:,}",
             ]
         )
@@ -143,7 +143,7 @@ def replays(demo):
                 *(f"{p[key]:,}" for key in ("steps", "illegal", "reversals")),
                 as_known(run),
                 page.good_or_bad(run.mismatches),
-                *errors(s, "velocity_rad_s", ("max_error_in_bounds", "bound")),
+                *errors(s, "velocity_rad_s", ("max_error", "bound")),
             ]
         )
     return page.table(head, rows, words=(0,))

@@ -48,9 +48,8 @@ def torque_error(summary):
     for name in FIXED:
         found = summary.get("engines", {}).get(name, {}).get("torque_nm")
         if found:
-            within = found.get("max_error_in_bounds", found["max_error"])
             against = ARITHMETIC.get(summary.get("reference", "quad"), "another engine")
-            return Error(within, found.get("bound"), where(summary), against)
+            return Error(found["max_error"], found.get("bound"), where(summary), against)
     return None
 
 

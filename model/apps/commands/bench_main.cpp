@@ -61,7 +61,6 @@ int run(const Arguments& a) {
   works.push_back(bench::slow_small_signals("lever", a.quick ? 0.05 : 0.3));
 
   bench::Options options;
-  options.laws = repository() + "/rtl/laws";
   options.repetitions = a.repetitions > 0 ? a.repetitions : a.quick ? 1 : 3;
   Progress progress("bench", a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
@@ -112,7 +111,7 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   old_spelling(&app, "--scenes", a.scenes, CLI::Validator())->delimiter(',');
   app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
-      ->check(checks::whole(1, 1000));
+      ->transform(checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");
   app.add_flag("--quiet", a.quiet, "print nothing");
   int exit_code = exit_ok;

@@ -64,6 +64,10 @@ int draw_from_json(const std::string& name, const std::string& json, const std::
 /// The design point of this name, elaborated against the register map.
 design::Elaborated elaborated_design(const std::string& name);
 
+/// Compares each design that this program uses with its file in rtl/designs, as check_designs()
+/// has it; one whose file is not there is left alone.
+void check_design_files();
+
 /// Help of a --design that is empty where the scene decides.
 inline constexpr const char* design_help =
     "design point in rtl/designs; default: lever, of a law lever_law, of a device its own";

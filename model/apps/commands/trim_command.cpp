@@ -374,16 +374,16 @@ void add_trim(CLI::App& app, int* exit_code) {
       ->transform(checks::number(0.01, 1000, "ms"));
   sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
       ->capture_default_str()
-      ->check(checks::whole(1, 5));
+      ->transform(checks::whole(1, 5));
   sub->add_option("--unseen", a->options.unseen, "motions of the final check")
       ->capture_default_str()
-      ->check(checks::whole(1, 100));
+      ->transform(checks::whole(1, 100));
   sub->add_option("--seed", a->options.seed, "of these motions")
       ->capture_default_str()
       ->check(checks::seed());
   sub->add_option("--jobs", a->options.threads, "runs at a time")
       ->capture_default_str()
-      ->check(checks::whole(1, 64));
+      ->transform(checks::whole(1, 64));
   old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
   sub->add_option("--search-limit", a->options.longest_s,
                   "ends the search: everything stays on; default: no end")

@@ -83,7 +83,7 @@ class AxesEngine {
       each[n].law_late = out_.late || !out_.crc_good;
       each[n].law_restart = may_jump();
       each[n].axis_silent |= !state_.checked;
-      each[n].axis_blocked |= law && !out_.crc_good;
+      each[n].axis_blocked |= law && state_.checked && !out_.crc_good;
     }
   }
 

@@ -86,9 +86,13 @@ class HandWork {
 /// The limits that can make the commanded torque differ from the law's.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
 
-void tell_beyond_bounds(AxesResult* r) {
+void tell_beyond_bounds(AxesResult* r, double torque_lsb_nm) {
   for (std::size_t n = 0; n < r->axes.size(); ++n) {
     const double off_nm = r->axes[n].law_error_nm.max(), bound_nm = r->axes[n].bound_nm;
+    if (!std::isfinite(bound_nm)) {
+      note_large_error(*r, of_axis("law_error_nm", n), off_nm, r->axes[n].torque.asked.value,
+                       torque_lsb_nm);
+    }
     if (off_nm <= bound_nm) continue;
     r->broken.push_back(fmt::format(
         "axis {}: the torque is off from the law in {} by {:.4g} Nm, above its proven bound {:.4g} "
@@ -306,7 +310,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     }
     fill_figures(out);
     session_.check_expectations(out);
-    tell_beyond_bounds(&out);
+    tell_beyond_bounds(&out, std::ldexp(1.0, -design_.torque.fraction));
     return out;
   }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/loop/scenario_bounds.hpp"
 
@@ -14,22 +15,23 @@ namespace feltgate {
 
 namespace {
 
-void hold(RunResult& r, const bounds::ErrorBounds& b) {
+void hold(RunResult& r, const bounds::ErrorBounds& b, double torque_lsb_nm) {
   for (const BackendFigures& e : r.engines) {
     if (!is_core(e)) continue;
     const FeltError errors[] = {
-        {"velocity_rad_s", e.velocity_rad_s.max(), e.covered_velocity_rad_s.max(),
-         b.velocity_rad_s.against_reference},
-        {"tau_hat_nm", e.tau_hat_nm.max(), e.covered_tau_hat_nm.max(),
-         b.tau_hat_nm.against_reference},
-        {"torque_nm", e.torque_nm.max(), e.covered_torque_nm.max(), b.torque_nm.against_reference}};
+        {"velocity_rad_s", e.velocity_rad_s, b.velocity_rad_s.against_reference},
+        {"tau_hat_nm", e.tau_hat_nm, b.tau_hat_nm.against_reference},
+        {"torque_nm", e.torque_nm, b.torque_nm.against_reference}};
     r.felt.errors.assign(std::begin(errors), std::end(errors));  // RTL and twin are equal
     for (const FeltError& x : errors) {
-      if (x.max_error_in_bounds <= x.bound) continue;
+      if (x.holds()) continue;
       r.broken.push_back(fmt::format("{}: {} is off by {:.4g}, above its proven bound {:.4g}",
-                                     e.name, x.signal, x.max_error_in_bounds, x.bound));
+                                     e.name, x.signal, x.error.max(), x.bound));
     }
   }
+  const auto figure = r.figures.find("torque_error_nm");
+  if (figure == r.figures.end() || std::isfinite(b.torque_nm.against_reference)) return;
+  note_large_error(r, figure->first, figure->second, r.felt.torque.asked.value, torque_lsb_nm);
 }
 
 bool comparable(const BackendChoice& choice) {
@@ -46,7 +48,8 @@ RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsU
   const bounds::Coverage coverage(up_to(hardly_any_rad_s), bounds::chain_numbers(e));
   options.coverage = &coverage;
   RunResult r = run();
-  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)));
+  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)),
+       std::ldexp(1.0, -e.design.torque.fraction));
   return r;
 }
 

@@ -162,16 +162,12 @@ void Ensemble::compare(BackendFigures& f, double velocity_rad_s, double tau_hat_
   const double velocity_error = velocity_rad_s - exact.velocity_rad_s;
   const double tau_hat_error = tau_hat_nm - exact.tau_hat_nm;
   const double torque_error = design().torque_constant_nm_a * (current_a - exact.current_a);
-  f.velocity_rad_s.add(velocity_error);
-  f.tau_hat_nm.add(tau_hat_error);
-  f.torque_nm.add(torque_error);
-  if (!covers_) return;
-  if (coverage_.velocity()) f.covered_velocity_rad_s.add(velocity_error);
-  if (coverage_.torque()) {
-    f.covered_tau_hat_nm.add(tau_hat_error);
-    f.covered_torque_nm.add(torque_error);
-  }
-  f.uncovered = coverage_.outside();
+  const auto add = [](ErrorFigure& figure, double error, bool inside) {
+    inside ? figure.add(error) : figure.add_outside(error);
+  };
+  add(f.velocity_rad_s, velocity_error, !covers_ || coverage_.velocity());
+  add(f.tau_hat_nm, tau_hat_error, !covers_ || coverage_.torque());
+  add(f.torque_nm, torque_error, !covers_ || coverage_.torque());
 }
 
 std::vector<BackendFigures> Ensemble::figures() const {

@@ -36,6 +36,7 @@ struct StepFigures {
   double tau_ref_nm = 0;
   StepResponse tau_hat;  ///< of the observed torque
   StepResponse torque;   ///< of the motor torque, averaged over each PWM period
+  bool tau_hat_void = false;  ///< at the end of the step, see Felt
 };
 
 /// The results of one back-end after a run.
@@ -43,9 +44,6 @@ struct BackendFigures {
   std::string name;
   bool compared = false;  ///< the error figures below were taken against RunResult::reference
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
-  /// The same, only over ticks for which error bounds hold; empty without bounds.
-  ErrorFigure covered_velocity_rad_s, covered_tau_hat_nm, covered_torque_nm;
-  std::int64_t uncovered = 0;  ///< ticks without torque bounds: ramps, saturation
   std::vector<StepFigures> steps;
   std::int64_t saturations = 0;  ///< ticks in which a limit acted
   double busy_s = 0;             ///< time spent in the back-end

@@ -127,9 +127,15 @@ struct SessionResult {
   std::map<std::string, double> figures;  ///< the figures that a scene file can bound
   std::vector<Expected> expectations;     ///< of the scene
   std::vector<std::string> broken;        ///< broken expectations and bounds, one line each
+  std::vector<std::string> large;         ///< those of `broken` by note_large_error()
 
   bool as_expected() const { return mismatches == 0 && broken.empty(); }
 };
+
+/// Breaks the run if a torque without a proven bound is off from the law by more than 10 % of the
+/// largest asked, unless the scene expects something of that error's figure.
+void note_large_error(SessionResult& out, const std::string& figure, double off_nm, double asked_nm,
+                      double lsb_nm);
 
 /// Notes in which clocks a back-end's halves differed.
 void note_mismatches(SessionResult& out, const AnyBackend& backend);

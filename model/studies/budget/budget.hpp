@@ -34,7 +34,7 @@ class Budget : public RealChain {
   static constexpr std::size_t chains = 8;
   static constexpr bool law_in_fixed(std::size_t chain) { return chain == 2 || chain == 7; }
   /// Sets the torque that the law asks of a chain in the following ticks, Nm.
-  virtual void program(std::size_t chain, double torque_nm) = 0;
+  virtual void program_chain(std::size_t chain, double torque_nm) = 0;
   /// What a chain measured in the last tick.
   virtual LawSample sample(std::size_t chain) const = 0;
 

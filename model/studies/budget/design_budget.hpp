@@ -46,7 +46,7 @@ class DesignBudget : public Budget {
   void set_word(int address, std::uint32_t word) override {
     for (const ParameterInfo& p : D::parameters) {
       if (p.address != address) continue;
-      const auto integer = static_cast<double>(decode_word(p.format, word));
+      const auto integer = static_cast<double>(decode_word(p.format, fitted(p.format, word)));
       set_parameter(address, std::ldexp(integer, -p.format.fraction));
     }
   }
@@ -72,7 +72,7 @@ class DesignBudget : public Budget {
   const ChainOut& out() const override { return whole_.out(); }
   bool ramping() const override { return whole_.ramping(); }
   const ChainRaw* raw() const override { return whole_.raw(); }
-  void program(std::size_t chain, double torque_nm) override {
+  void program_chain(std::size_t chain, double torque_nm) override {
     if (chain == 7) whole_.program(torque_nm);
     visit(*this, chain, [&](auto& mixed) { mixed.program(torque_nm); });
   }

@@ -107,7 +107,7 @@ void BudgetRun::tick(const Snapshot* axes, const ChainIn* in) {
     const LawRider::Torques* nm = r.law->in_force(axes[0]);
     for (const std::size_t chain : r.chains) {
       for (std::size_t n = 0; n < axes_.size(); ++n) {
-        axes_[n]->program(chain, nm == nullptr ? 0 : (*nm)[n]);
+        axes_[n]->program_chain(chain, nm == nullptr ? 0 : (*nm)[n]);
       }
     }
   }

@@ -20,8 +20,8 @@ module actuation (
     input  logic        [   feltgate_map_pkg::W_CONTROL-1:0] control_i,
     input  logic        [                              3:0] scene_i,
     input  logic                                            restart_i,      // last clock of a tick: ramp from now on
-    input  logic                                            frozen_i,       // the torque may shrink, and rise from below 0 to a positive target
-    input  logic                                            derated_i,      // the limit is hold_limit
+    input  logic                                            frozen_i,       // the torque may only shrink
+    input  logic                                            derated_i,      // hold_limit limits too
     input  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]  early_term_i,   // torque, one clock before its limit
     input  logic                                            early_up_i,     // with early_term_i: it is rounded up
     input  logic signed [      feltgate_pkg::TORQUE_W-1:0]  late_term_i,    // torque, with its limit

@@ -151,7 +151,7 @@ struct ChainBeside {
     const bool ramped = rtl.limit_ramp_o != 0;
     count(w, limit, step, tau, ramped);
     const std::int64_t moved = tau > before ? tau - before : before - tau;
-    const bool grown = before < 0 ? tau < before : tau < 0 || tau > before;
+    const bool grown = before < 0 ? tau < before || tau > 0 : tau < 0 || tau > before;
     before = tau;
     was_ramping = ramped;
     scene = w.scene;

@@ -7,6 +7,7 @@ import re
 import unittest
 
 from machine import ROOT, Machine
+from testing import text_of
 
 import help_texts
 
@@ -26,6 +27,14 @@ class FirstStart(Machine):
                 configured = [c for c in self.log() if c.startswith("cmake ") and " -S " in c]
                 self.assertEqual(len(configured), 1)
                 self.assertIn(f"-DPython3_EXECUTABLE={self.bin}/python3", configured[0])
+                self.assertIn("-DFELTGATE_WERROR=OFF", configured[0])
+
+    def test_a_warning_ends_the_build_of_ci_alone(self):
+        self.assertIn("export CI=true FELTGATE_WERROR=ON\n", text_of(".ci/run"))
+        for given, option in (({"CI": "true"}, "OFF"), ({"CI": "true", "FELTGATE_WERROR": "ON"}, "ON"), ({}, "OFF")):
+            self.ended(self.start("--yes", "run", "membrane", **given))
+            (configured,) = [c for c in self.log() if c.startswith("cmake ") and " -S " in c]
+            self.assertIn(f"-DFELTGATE_WERROR={option}", configured)
 
     def test_nothing_is_installed_unasked(self):
         self.ended(self.start("run", "membrane"), 2, "python3", "apt-get install")
@@ -54,7 +63,7 @@ class FirstStart(Machine):
         self.assertEqual(self.start("--yes", "run", "membrane").returncode, 0)
         configured = self.repository / "build/launcher/configured"
         lines = configured.read_text(encoding="utf-8").splitlines()
-        configured.write_text("\n".join(["", *lines[1:-1], ""]) + "\n", encoding="utf-8")
+        configured.write_text("\n".join([*lines[:2], "", *lines[3:]]) + "\n", encoding="utf-8")
         self.log()
         self.assertEqual(self.start("run", "membrane").returncode, 0)
         self.assertEqual(len(self.calls("cmake")), 1)

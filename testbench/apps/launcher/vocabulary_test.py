@@ -147,8 +147,10 @@ class ProgramTest(Scratch):
     def test_a_plant_that_does_not_fit_is_told_with_the_command_that_helps(self):
         done = self.run_it("run", "torque_step", "--plant", "p48", "--engine", "twin")
         self.assertLess(done.stdout.index("torque constant"), done.stdout.index("What was felt"))
-        command = re.search(r"feltgate (design --for-plant p48) -o", done.stdout).group(1)
-        made = self.ended(self.run_it(*command.split()))
+        command = re.search(
+            r"feltgate (design --for-plant p48 --nominal-current AMPERES) -o", done.stdout
+        ).group(1)
+        made = self.ended(self.run_it(*command.replace("AMPERES", "3.1").split()))
         self.assertIn("torque_constant_nm_a = 0.0603", made.stdout)
 
 

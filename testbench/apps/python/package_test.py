@@ -5,11 +5,14 @@
 import filecmp
 import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +50,20 @@ class Columns(unittest.TestCase):
         self.assertEqual(len(all_ticks.time_s), all_ticks.ticks)
         np.testing.assert_array_equal(few.tau_hat_nm, all_ticks.tau_hat_nm[::10])
         self.assertLess(len(feltgate.run(SCENE).time_s), 30_000)
+
+    def test_what_the_first_page_prints(self):
+        """The error beside a bound is that of the ticks for which it holds; the rest is told."""
+        page = (ROOT / "README.md").read_text(encoding="utf-8")
+        code = re.search(r"^## In Python\n.*?^```python\n(.*?)^```", page, re.M | re.S)[1]
+        with tempfile.TemporaryDirectory() as folder:
+            done = ran(sys.executable, "-c", code, cwd=folder, check=True)
+        proven, outside = done.stdout.splitlines()
+        error, bound = re.fullmatch(r"(\S+) Nm, proven: (\S+)", proven).groups()
+        self.assertGreater(float(error), 0)
+        self.assertLessEqual(float(error), float(bound))
+        worse, ticks = re.match(r"(\S+) Nm in the (\d+) ticks of a ramp", outside).groups()
+        self.assertGreater(float(worse), float(bound))  # its first force ramps
+        self.assertGreater(int(ticks), 0)
 
     def test_what_was_felt_and_the_bounds(self):
         result = feltgate.run("wall")
@@ -132,6 +149,20 @@ class Parts(unittest.TestCase):
         self.assertEqual(recording.illegal, 0)
         at = recording.counts_at([0.0, recording.time_s[99], recording.length_s])
         self.assertEqual(list(at), [0, recording.counts[99], recording.counts[-1]])
+
+    def test_a_recording_warns(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "log.csv"
+            rows = "".join(f"{5 * n},{(65530 + n) % 65536}\n" for n in range(20))
+            path.write_text("time,count\n" + rows)
+            with self.assertWarnsRegex(UserWarning, "--wrap 65536"):
+                feltgate.Recording(path, time_unit="ms")
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for wrap in (True, 65536, "65536"):
+                    recording = feltgate.Recording(path, time_unit="ms", wrap=wrap)
+                    self.assertEqual((len(recording), recording.counts[-1]), (19, 19))
+                    self.assertAlmostEqual(recording.length_s, 0.095)
 
     def test_counts_of_your_own(self):
         counts = np.repeat(np.arange(50), 20)

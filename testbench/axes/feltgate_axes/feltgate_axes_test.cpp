@@ -160,6 +160,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("axes: a change of control of one disarms all, and each must ask anew") {
+  if (kEngine) return;  // arming takes longer: engine_test.cpp
+  for (int n = 0; n < kAxes; ++n) {
+    Life s;
+    s.arm(D::S::setpoint);
+    s.in.arm = true;
+    s.write(n, C::control, kHost & ~(1u << C::control_host));
+    s.ticks(2);
+    for (int m = 0; m < kAxes; ++m) CHECK_FALSE(s.out(m).gates_enable);
+    s.in.arm = false;
+    s.ticks(1);
+    s.in.arm = true;
+    s.ticks(2);
+    for (int m = 0; m < kAxes; ++m) CHECK(s.out(m).gates_enable == (kAxes == 1));
+    s.arm(D::S::setpoint);
+    s.play();
+  }
+}
+
 TEST_CASE("axes: own scene and polarity, programmed torque by axis, duties in one period") {
   if (kEngine) return;  // it has no program: engine_test.cpp
   Life s;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <fstream>
 
+#include "../pantograph/sampled_law.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "gimbal_fixture.hpp"
-#include "sim/plant/sampled_law.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -12,7 +12,7 @@
 #include "law/compile.hpp"
 #include "law/engine/machine.hpp"
 #include "law/load.hpp"
-#include "sim/loop/axes_twin.hpp"
+#include "axes_twin.hpp"
 
 namespace feltgate::test {
 

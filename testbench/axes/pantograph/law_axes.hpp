@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "law/evaluate.hpp"
 #include "law/read_law.hpp"
-#include "sim/plant/sampled_law.hpp"
+#include "sampled_law.hpp"
 
 namespace feltgate::plant {
 

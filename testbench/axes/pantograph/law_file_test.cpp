@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "law_axes.hpp"
 #include "pantograph_fixture.hpp"
-#include "sim/plant/pantograph/two_axis_loop.hpp"
+#include "two_axis_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -3,7 +3,7 @@
 //
 // A law in closed loop with the pantograph, with sampling and delay: a wall and drag act on a hand.
 // docs/pantograph.md
-#include "sim/plant/pantograph/two_axis_loop.hpp"
+#include "two_axis_loop.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"

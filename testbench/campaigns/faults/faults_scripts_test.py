@@ -60,6 +60,13 @@ class Results(unittest.TestCase):
         self.assertFalse(results.promises([*many, *[pin("silent", changed=False)] * 3])[1][3])
         self.assertFalse(results.promises([*many, *[pin("silent")] * 3])[1][3])
 
+    def test_not_one_late_sensor_arms(self):
+        late = pin("off", "late sensor") | {"must_flag": False, "must_refuse": True}
+        found = results.promises([late, late])
+        self.assertEqual(found[-1], ("not refused, of 'late sensor'", 0, 2, True))
+        found = results.promises([late] * 999 + [late | {"class": "unsafe"}])
+        self.assertEqual([good for *_, good in found], [False, False])
+
     def test_a_register_is_of_the_deepest_block(self):
         blocks = {"dob", "lowpass", "registers", "scene_charge", "velocity_n"}
         for register, block in (("u_dob.u_lowpass.y_o", "lowpass"), ("u_dob.drive_q", "dob"),

@@ -193,6 +193,7 @@ TEST_CASE("faults: at the pins of the options each kind ends as it must") {
         INFO(design << ", " << kinds[k].name << ", seed " << seed << ": " << r.what);
         if (kinds[k].promise == Promise::unseen) continue;
         CHECK(o.is != Class::unsafe);
+        if (kinds[k].promise == Promise::refused) CHECK(o.is == Class::off);
         if (kinds[k].promise != Promise::flagged) continue;
         CHECK(o.is == Class::detected);
         if (kinds[k].within_us > 0) CHECK(o.off_after <= kinds[k].within_us);

@@ -19,6 +19,7 @@ enum class Promise {
   none,
   flagged,  ///< a fault in >= 99 %
   unseen,   ///< the core cannot see the fault: unsafe outcomes are reported separately
+  refused,  ///< the request to arm is, for good: the gates never open
 };
 
 /// A kind of fault: its share of the runs, and the text of its row.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A schedule that cannot work is refused with the reason; a valid schedule has its clocks in all
-// places. Documentation: docs/schedule.md
+// places. Documentation: docs/architecture.md
 #include "design/schedule.hpp"
 
 #include <regex>
@@ -149,6 +149,15 @@ TEST_CASE("a word in the wrong bank is refused", "[schedule]") {
           "scene, torque_constant .* in the common one");
   refused(Texts().move("watchdog_ticks", 6), "slot 6: attract_core lies in the bank of a scene");
   refused(Texts().move("membrane_torque", 0), "slot 0 cannot be a scene's");
+  for (const char* word : {"overspeed", "membrane_torque"}) {
+    refused(Texts().move(word, 12),
+            "two words meet on the parameter bus in slot 12: " + std::string(word) +
+                " and hold_limit, which the step least_hold .* fetches");
+  }
+  refused(Texts().in_schedule("fetches = \"hold_limit\"", "fetches = \"hold\""),
+          "there is no word hold to fetch");
+  refused(Texts().in_schedule("clock = 14\nfetches", "clock = 22\nfetches"),
+          "least_test comes late for the step least");
 }
 
 TEST_CASE("what lies outside the wave is refused", "[schedule]") {

@@ -15,6 +15,8 @@
 #include "law/diagnostics.hpp"
 #include "law/listing.hpp"
 #include "law/measure.hpp"
+#include "law/mends.hpp"
+#include "law/read_law.hpp"
 
 namespace feltgate::law {
 namespace {
@@ -62,9 +64,53 @@ TEST_CASE("runs that are left out are told from a share on, and fail from anothe
   m.in_strips = 51;
   CHECK_THAT(report(c, m), Catch::StartsWith("warning: 5.1 % of the runs (51 of 1000)"));
   CHECK(verdict(c, m).failures.empty());
-  m.in_strips = 501;
-  CHECK_THAT(report(c, m), Catch::StartsWith("failed: 50.1 % of the runs (501 of 1000)"));
+  m.in_strips = 300;
+  CHECK(verdict(c, m).failures.empty());
+  m.in_strips = 301;
+  CHECK_THAT(report(c, m), Catch::StartsWith("failed: 30.1 % of the runs (301 of 1000)"));
   CHECK(verdict(c, m).failures.size() == 1);
+  // Half of all positions are below 0, so that an upper end that is never reached takes 49.7 %.
+  const Compiled top = compiled(
+      "let at = floor(clamp(2.7 * position, 0, 3))\nout torque = if at >= 3 then 0.1 Nm else 0\n");
+  const Measured all = measure_all(top);
+  CHECK((all.in_strips * 10 < all.runs) == verdict(top, all).failures.empty());
+}
+
+TEST_CASE("a measured error of a tenth of what the law gave fails, whatever the inputs") {
+  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  Measured m;
+  m.runs = 1000;
+  m.reached = {{-0.1, 0.1}};
+  const auto failures = [&](double off) {
+    m.output = {off};
+    Compiled loose = c;
+    loose.bound.output = {0.05};
+    return verdict(loose, m).failures;
+  };
+  CHECK(failures(0.0199).empty());
+  REQUIRE(failures(0.021).size() == 1);
+  CHECK_THAT(failures(0.021)[0],
+             Contains("torque: 0.021 Nm from the law was measured, and the law gave -0.1 .. 0.1 "
+                      "Nm in these runs: an error of 10.5 %; "));
+  // Of a law that always gives the same; one last bit is no error.
+  m.reached = {{0.1, 0.1}};
+  CHECK(failures(0.0099).empty());
+  CHECK(failures(0.0101).size() == 1);
+  m.reached = {{0, 0}};
+  CHECK(failures(1.5e-5).empty());
+  CHECK(failures(1.6e-5).size() == 1);
+  // A damper beside it is no excuse.
+  const std::string snap =
+      "param strength = 0.3 Nm in 0 .. 1 Nm\nlet u = clamp(position / (0.05 rad), -40, 40)\n"
+      "out torque = -strength * u / (1 + u^2)^2";
+  const std::string damper = " - 1 mNm s/rad * clamp(velocity, -50 rad/s, 50 rad/s)";
+  for (const std::string& law : {snap, snap + damper}) {
+    const Compiled wrong = compiled(law + "\n");
+    Measured seen = measure_all(wrong);
+    if (!seen.all_inputs) seen = measure(wrong, 1, 20000);
+    const bool off = seen.output[0] > 0.1 * seen.reached[0].width();
+    CHECK(off == !verdict(wrong, seen).failures.empty());
+  }
 }
 
 TEST_CASE("runs that are left out are counted against the rarer side of their comparison") {
@@ -336,6 +382,22 @@ TEST_CASE("a step that is larger than a parameter's range is told, with a mend t
              Contains("no word of k lies in its range") &&
                  Contains("make the range wider than that step"));
   CHECK(said("1000001 nNm in 990000 nNm .. 1010000 nNm").empty());
+}
+
+TEST_CASE("where no larger value helps a parameter, what makes its step is told") {
+  const auto mend = [](const std::string& text, double step) {
+    const Law law = read_law_text(text, "x.law", 20e3);
+    return finer(law, Target{}, law.parameters[0], step);
+  };
+  // With a value of five steps the step is larger too, and the torque hundreds of Nm.
+  const std::string snap =
+      "param strength = 0.3 Nm in -1 .. 1 Nm\nlet u = clamp(10 * position, -20, 20)\n"
+      "out torque = -strength * u / (1 + u^2)^2 * 3\n";
+  CHECK_THAT(mend(snap, 1.33), Contains("line 3 multiplies it with ") &&
+                                   Contains(" which by its ranges goes over -") &&
+                                   Contains(": limit that with clamp") && !Contains("give it"));
+  CHECK(mend("param k = 1 nNm in 0 .. 2 nNm\nout torque = k * clamp(position, -1, 1)\n", 1.53e-5) ==
+        "give it a value of 7.65e+04 nNm or more, and a range with that value");
 }
 
 TEST_CASE("names that nothing uses are told, and are no matter for what is used") {

@@ -182,6 +182,37 @@ void rounded_down(std::vector<Directed>& all) {
   }
 }
 
+/// Conditions that are the same, whole states that are counted to an end, and rounded values.
+void the_same(std::vector<Directed>& all) {
+  const Node x = limited(position(), -2, 2), far = position() > number("0.3");
+  const Node slow = number("0.02") * velocity() < number("0.5") * position();
+  for (const Kind kind : {Kind::equal, Kind::differs}) {
+    for (const Node& other : {far, slow, make(Kind::both, {far, slow})}) {
+      Law l;
+      l.states.push_back({"held", 0, 0, 1, true, false, {}, {}, {}, true});
+      const Node held = make(Kind::state, {}, 0, "held");
+      l.states[0].next = make(kind, {held, other});
+      all.push_back({"bools that are the same",
+                     of(l, choose(make(kind, {slow, held}), number("0.5"), times(0.1, x)))});
+    }
+    for (const char* end : {"5", "3", "0"}) {
+      Law l;
+      const Node stage = l.state("stage", 0, 0, 5, true);
+      const Node more = make(Kind::minimum, {stage + number("1"), number("5")});
+      const Node is = make(kind, {stage, number(end)});
+      const Node on = end[0] == '5' ? stage + number("1") : more;
+      const bool same = kind == Kind::equal;
+      l.states[0].next = choose(is, same ? number("0") : on, same ? on : number("0"));
+      all.push_back({std::string("a whole state counted to ") + end, of(l, times(0.1, stage))});
+    }
+  }
+  const auto round = [](const Node& of) { return make(Kind::round, {of}); };
+  all.push_back({"a position rounded", of({}, times(0.05, round(times(5, x) + 0.3)))});
+  all.push_back({"a rounded position, compared",
+                 of({}, choose(make(Kind::equal, {round(times(3, x)), number("2")}), number("0.5"),
+                               times(0.1, x)))});
+}
+
 /// What a turn drops is between two words of a table's argument, always below, and steep lines of a
 /// table that is exact show it.
 void dropped(std::vector<Directed>& all) {
@@ -284,6 +315,7 @@ std::vector<Directed> directed_laws() {
   nested(all);
   renamed(all);
   rounded_down(all);
+  the_same(all);
   directions(all);
   flag_once(all);
   wide(all);

@@ -24,7 +24,8 @@ using Real = long double;
 enum class Kind {
   number, param, input, state, line, let, counter,  // leaves
   add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
-  sine, cosine, root, exponential, logarithm, table, element, sign, choice, sum, floor, modulo, noise,
+  sine, cosine, root, exponential, logarithm, table, element, sign, choice, sum, floor, round, modulo,
+  noise,
   angle,  // atan2(y, x); value: the floor of |x| + |y|
   less, less_equal, more, more_equal, equal, differs, both, either, opposite
 };

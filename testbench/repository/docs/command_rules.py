@@ -139,6 +139,7 @@ PLACEHOLDERS = {
     "--plant P": "p24",
     "--plant PLANT": "p24",
     "--for-plant PLANT": "p24",
+    "--nominal-current AMPERES": "5.77",
     "--for SCENE": "membrane",
     "--for SCENE...": "membrane",
     "run NAME": "wall",

@@ -224,12 +224,12 @@ TEST_CASE("budget of a scene with a law: the whole is what a run measures, the c
     const Coverage coverage(bounds.worst(), chain_numbers(e));
     run.coverage = &coverage;
     const BackendFigures twin = run_scenario(scene, plant, run).engines.front();
-    CHECK(b.ticks_out_of_bounds == twin.uncovered);
-    CHECK((twin.uncovered > 0) == given);
-    CHECK(b.whole.max.velocity_rad_s == Approx(twin.covered_velocity_rad_s.max()).epsilon(1e-9));
-    CHECK(b.whole.max.tau_hat_nm == Approx(twin.covered_tau_hat_nm.max()).epsilon(1e-9));
+    CHECK(b.ticks_out_of_bounds == twin.torque_nm.outside());
+    CHECK((twin.torque_nm.outside() > 0) == given);
+    CHECK(b.whole.max.velocity_rad_s == Approx(twin.velocity_rad_s.max()).epsilon(1e-9));
+    CHECK(b.whole.max.tau_hat_nm == Approx(twin.tau_hat_nm.max()).epsilon(1e-9));
     CHECK(b.whole.max.current_a * info.torque_constant_nm_a ==
-          Approx(twin.covered_torque_nm.max()).epsilon(1e-9));
+          Approx(twin.torque_nm.max()).epsilon(1e-9));
   }
 }
 

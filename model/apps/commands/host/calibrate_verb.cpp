@@ -306,7 +306,7 @@ Run add_calibrate(CLI::App& sub) {
   sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")
       ->type_name("N")
       ->capture_default_str()
-      ->check(checks::number(1, 16, ""));
+      ->transform(checks::whole(1, 16));
   sub.add_flag("--closed", a->closed, "the closed-loop calibration");
   sub.add_option("--from", a->from, "readings of this file instead of a board; - is the input")
       ->type_name("FILE")

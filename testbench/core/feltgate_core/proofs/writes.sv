@@ -23,6 +23,7 @@ module writes_proof (
   (* hierconn *) wire [35:0] \u_core.u_wave.u_registers.g_read.parameter_q ;
   (* hierconn *) wire [ControlW-1:0] \u_core.control ;
   (* hierconn *) wire \u_core.arms ;
+  (* hierconn *) wire \u_core.u_safety.u_supervisor.request ;
   wire [ControlW-1:0] control = \u_core.control ;
   wire lands = \u_core.u_wave.u_registers.lands ;
 
@@ -115,7 +116,7 @@ module writes_proof (
       waits_a_tick_at_most: assert (!busy || busy_q < 10'(N));
       commands_once: assert (
           \u_core.u_safety.u_supervisor.clear_faults_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
-          \u_core.u_encoder.u_quad_decoder.clear_error_i == (\u_core.u_safety.u_supervisor.clear_faults_i && !\u_core.arm_request_o ) &&
+          \u_core.u_encoder.u_quad_decoder.clear_error_i == (\u_core.u_safety.u_supervisor.clear_faults_i && !\u_core.u_safety.u_supervisor.request ) &&
           \u_core.u_safety.u_supervisor.kick_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
       zero_once: assert (
           zeroed == (last && (zero_due_q || (to_command && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))) &&

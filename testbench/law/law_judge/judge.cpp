@@ -61,6 +61,7 @@ class Judge {
       }
       resync();
     }
+    for (int i = 0; i < 12 && verdict_.failure.empty(); ++i) free_run();
     const bool memory = !law_.states.empty() || !law_.lines.empty();
     if (!memory || !c_.bound.states_bounded) return verdict_;
     // A free run: law and words each continue from their own states.
@@ -120,6 +121,42 @@ class Judge {
       if (c_.bound.states_bounded || state_index_[k] < 0 || noise(k)) continue;
       before_.states[k] = first(law_.states[k], c_.program.states[at(state_index_[k])]);
     }
+  }
+
+  /// From the law's own first values on, without a look at the words' states: what is wrong in both
+  /// after resync() shows here.
+  void free_run() {
+    constexpr int runs = 60;
+    set_parameters(false);
+    enter();
+    for (std::size_t k = 0; k < law_.states.size(); ++k) before_.states[k] = law_.states[k].initial;
+    std::vector<std::vector<double>> off(law_.torques.size());
+    std::vector<law::Span> moved(law_.torques.size(), law::Span{law::infinity, -law::infinity});
+    for (int i = 0; i < runs; ++i) {
+      inputs(&words_);
+      set_inputs(words_);
+      law::MachineInputs in{};
+      for (std::size_t k = 0; k < 9; ++k) in[k] = static_cast<std::int32_t>(words_[k]);
+      const Outcome o = evaluator_.run(before_, {});
+      run_ = machine_.run(c_.target.thread, in);
+      for (std::size_t axis = 0; axis < off.size(); ++axis) {
+        const auto given = static_cast<double>(o.torques[axis]);
+        const double torque = std::ldexp(run_.outputs[axis], -c_.target.torque.fraction);
+        off[axis].push_back(std::fabs(torque - given));
+        moved[axis] = law::hull(moved[axis], law::hull({given, given}, {torque, torque}));
+      }
+      after(o);
+    }
+    bool acts = false, left = false;
+    for (std::size_t k = 0; k < c_.law.outputs.size(); ++k) {
+      const std::size_t axis = at(c_.law.outputs[k].axis);
+      const double large = c_.bound.output[k] + 0.05 * moved[axis].width() + 1e-9;
+      acts = acts || moved[axis].width() > 2 * large;
+      left = left || std::count_if(off[axis].begin(), off[axis].end(),
+                                   [large](double x) { return !(x <= large); }) > runs / 10;
+    }
+    verdict_.acting += acts || left ? 1 : 0;
+    verdict_.left += left ? 1 : 0;
   }
 
   bool noise(std::size_t k) const {

@@ -321,6 +321,8 @@ class CoreStimulus {
       raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
     // The lever may run away, so that the observer reaches its limits.
     if (p.address == D::A::overspeed && how < 6) raw = high;
+    // A duty limit of next to nothing takes part at 0.
+    if (p.address == D::A::duty_limit && how > 5) raw = random_.below(4);
     // Short self-tests.
     const bool test_time = p.address == D::A::self_test_quiet || p.address == D::A::self_test_pulse;
     if (test_time && how < 6) raw = random_.below(4);

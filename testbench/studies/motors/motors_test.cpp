@@ -16,7 +16,7 @@
 #include "sim/loop/loop.hpp"
 #include "sim/loop/replay.hpp"
 #include "sim/loop/scenario.hpp"
-#include "sim/traces/synthetic.hpp"
+#include "synthetic.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 """Area and speed of the core and its blocks on ECP5, cells on Cyclone IV E, bitstreams of boards.
 
 Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
-Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
+Exit code: 0 within the budget (docs/verification/areas.json), 1 when a figure has grown past it,
 2 when a tool or an argument is wrong. Of a board 1 too where its timing does not close.
 
   feltgate synth                                   all blocks of both designs, against the budget
@@ -147,9 +147,9 @@ def main_scene_sets(options, root):
 
 def update(root, merge, measured, tools):
     """The budget, with what was measured."""
-    path = root / "scripts/synth_budget.toml"
+    path = root / synth_budget.FILE
     synth_budget.write(path, merge(synth_budget.read(path), measured, tools))
-    print("synth: wrote scripts/synth_budget.toml")
+    print(f"synth: wrote {synth_budget.FILE}")
 
 
 def measure(options, root):
@@ -196,7 +196,7 @@ def run(options):
     if options.update:
         update(root, synth_budget.merge, measured, tools)
         return 0
-    budget = synth_budget.read(root / "scripts/synth_budget.toml")
+    budget = synth_budget.read(root / synth_budget.FILE)
     if options.board:  # one's own design has no budget
         measured = synth_budget.known(budget, measured)
     grown = synth_budget.compare(budget, measured, tools)

@@ -65,15 +65,16 @@ feltgate_library(feltgate_controllers studies/controllers feltgate_stability fel
 target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 # Sizes of the blocks of `lever`, as `feltgate synth --update` wrote them.
-set(budget scripts/synth_budget.toml)
-set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${budget})
-file(READ "${CMAKE_SOURCE_DIR}/${budget}" figures)
+set(areas docs/verification/areas.json)
+set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${areas})
+file(READ "${CMAKE_SOURCE_DIR}/${areas}" figures)
 foreach(block dob lowpass)
-  if(NOT figures MATCHES "\\[figures\\.lever\\.\"${block}\"\\][^[]*lut4_equivalents = ([0-9]+)")
-    message(FATAL_ERROR "${budget}: no size of lever's ${block}; run `feltgate synth --update`")
+  string(JSON size ERROR_VARIABLE missing GET "${figures}" figures lever ${block} lut4_equivalents)
+  if(missing)
+    message(FATAL_ERROR "${areas}: no size of lever's ${block} (${missing}); run `feltgate synth --update`")
   endif()
   string(TOUPPER ${block} upper)
-  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${CMAKE_MATCH_1})
+  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${size})
 endforeach()
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.

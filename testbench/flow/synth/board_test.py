@@ -224,7 +224,7 @@ class StandIns(Scratch):
             self.assertEqual(synth_board.gate_cells(text), 0, setting)
 
     def test_both_boards_have_a_budget(self):
-        rows = synth_budget.read(ROOT / "scripts/synth_budget.toml")["figures"]["lever"]
+        rows = synth_budget.read(ROOT / synth_budget.FILE)["figures"]["lever"]
         for board in synth_board.BOARDS:
             self.assertIn(f"board {board}", rows)
 

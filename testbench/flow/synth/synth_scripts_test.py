@@ -47,7 +47,7 @@ class Budget(Scratch):
         self.assertIn("yosys 0.23", lines[-1])
 
     def test_scene_sets_are_kept_beside_the_blocks(self):
-        path = self.folder / "budget.toml"
+        path = self.folder / "areas.json"
         budget = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
         sets = {"lever": {"membrane": ROW, "free": ROW | {"lut4_equivalents": 100}}}
         synth_budget.write(path, synth_budget.merge_scene_sets(budget, sets, TOOLS))
@@ -74,7 +74,7 @@ class Budget(Scratch):
         self.assertIn("25%", table[2])
 
     def test_written_and_read_again(self):
-        path = self.folder / "budget.toml"
+        path = self.folder / "areas.json"
         measured = {"lever": {"core without read-back, inferred": ROW}}
         merged = synth_budget.merge(synth_budget.read(path), measured, TOOLS)
         synth_budget.write(path, merged)
@@ -137,7 +137,7 @@ class Report(Scratch):
         self.assertEqual(verdicts[5], "met")
 
     def test_the_page_has_every_design(self):
-        text = synth_report.generated(synth_budget.read(ROOT / "scripts/synth_budget.toml"))
+        text = synth_report.generated(synth_budget.read(ROOT / synth_budget.FILE))
         for word in ("### Design `lever`", "### Design `paper`", "Scene sets", "### Goals", "### Peers"):
             self.assertIn(word, text)
 

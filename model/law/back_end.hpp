@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "law/law.hpp"
@@ -198,6 +199,7 @@ class BackEnd {
   std::map<NodeId, Value> values_;
   std::vector<std::pair<Value, Value>> aligned_;
   std::map<Operand, Value> negated_;
+  std::map<std::tuple<NodeId, double, bool>, Value> ended_;
   std::map<std::pair<Operand, Operand>, Value> products_;
   std::map<std::string, int> table_keys_;
   std::map<std::string, double> memory_scales_;  ///< scales of arrays and of tables through points

@@ -36,7 +36,9 @@ bool BackEnd::has_ends(NodeId id, bool or_whole) const {
 
 /// The node in words of `scale`, with its ends rounded to that scale: down, or to the nearest word.
 Value BackEnd::with_ends(NodeId id, double scale, bool down) {
-  return with_ends(id, Map{1, 0}, Ends{scale, span(id), down});
+  const auto key = std::tuple(id, scale, down);
+  if (const auto found = ended_.find(key); found != ended_.end()) return found->second;
+  return ended_[key] = with_ends(id, Map{1, 0}, Ends{scale, span(id), down});
 }
 
 /// `map` of the node. What stands around a choice goes into its ends.

@@ -75,11 +75,6 @@ class Defects(unittest.TestCase):
                 (self.root / "rtl/child.sv").write_text(CHILD.replace(old, line))
                 self.refused(patch, "does not apply", "rtl/child.sv")
 
-    def test_moved_lines_are_found(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        (self.root / "rtl/child.sv").write_text("// a new head\n" + CHILD)
-        self.assertIn("<= ~a_i", patches.patched(patch, self.root)[SOURCES[0]])
-
     def test_changes_nothing(self):
         self.refused(self.patch("// late", "// a clock later"), "changes no code of rtl/child.sv")
         self.refused(self.patch("y_o <= a_i", "y_o  <=  a_i"), "changes no code")
@@ -93,23 +88,6 @@ class Defects(unittest.TestCase):
         for name in ("No-Word", "none"):
             self.defects = {}
             self.refused(self.patch("<= a_i", "<= ~a_i", name=name), str(self.file), "rename it")
-
-    def test_several_in_a_file(self):
-        one = self.patch("<= a_i", "<= ~a_i")
-        two = self.patch("<= a_i", "<= '0", name="dead", first="It is 0.\nCaught by: a*\n")
-        self.assertEqual(patches.chosen(self.file), [one, two])
-        self.assertEqual(patches.chosen(self.file, ["dead"]), [two])
-        self.assertEqual(patches.text_of(one), self.defects["inverted"].partition("\n")[2])
-        self.assertEqual(patches.names(self.root / "none.diff"), [])
-        for patch, text in ((one, "~a_i"), (two, "'0")):
-            made = patches.patched(patch, self.root)[SOURCES[0]]
-            self.assertEqual(made, CHILD.replace("<= a_i", f"<= {text}"))
-        self.refused(self.file / "other", "no defect other", "inverted, dead")
-
-    def test_what_git_writes_is_taken(self):
-        text = self.patch("<= a_i", "<= ~a_i").parent.read_text()
-        self.file.write_text(text.replace("---", "diff --git a/x b/x\nindex 1..2 100644\n---"))
-        self.assertTrue(patches.patched(self.file / "inverted", self.root))
 
     def test_malformed_file(self):
         patch = self.patch("<= a_i", "<= ~a_i")
@@ -145,14 +123,6 @@ class Defects(unittest.TestCase):
         self.assertIn("assign clock_2 = clk_i && chosen[2];", text)
         self.assertIn("chosen[1] ? out_1_y_o : chosen[2] ? out_2_y_o : out_0_y_o", text)
 
-    def test_block_without_a_clock(self):
-        text = "module sum (\n    input logic [1:0] a_i,\n    output logic y_o\n);\n"
-        (self.root / "rtl/sum.sv").write_text(text + "  assign y_o = ^a_i;\nendmodule\n")
-        patch = self.patch("^a_i", "|a_i", path="rtl/sum.sv")
-        made = block.block_of_defects("sum", [patch], [Path("rtl/sum.sv")], self.root)
-        self.assertIn("sum_inverted u_inverted (.a_i(a_i), .y_o(out_1_y_o));", made)
-        self.assertNotIn("clk_i", made)
-
     def test_block_without_the_file_of_the_patch(self):
         patch = self.patch("<= a_i", "<= ~a_i")
         with self.assertRaisesRegex(patches.DefectError, "not part of top's test"):
@@ -182,17 +152,6 @@ class Defects(unittest.TestCase):
         )
         choice = (self.root / "out/seeded_choice.hpp").read_text()
         self.assertIn('feltgate_chosen_defect("none late odd")', choice)
-
-    def test_statements_are_whole(self):
-        text = self.header(
-            {"sign": ("    -x,", "    x,"), "gone": ("  ++n;  // counts\n", "")},
-            "int f(int x) {\n  ++n;  // counts\n  return g(\n    -x,\n    2);\n}\n",
-        )
-        self.assertEqual(
-            text.split(),
-            "int f(int x) { if (feltgate_seeded::is(2)) { } else { ++n; // counts } "
-            "if (feltgate_seeded::is(1)) { return g( x, 2); } else { return g( -x, 2); } }".split(),
-        )
 
     def test_classes(self):
         one, other = self.root / "one.h", self.root / "other.h"

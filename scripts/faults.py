@@ -51,7 +51,6 @@ program, a file or an argument is wrong.
   feltgate faults --replay vectors/faults/cases.jsonl
 """
 
-import datetime
 import json
 import os
 import sys
@@ -198,12 +197,6 @@ def replay(options, build):
     return 1 if differing else 0
 
 
-def date_of(files):
-    """Of the oldest of the files; None where there are none."""
-    oldest = min((path.stat().st_mtime for path in files or ()), default=None)
-    return datetime.date.fromtimestamp(oldest).isoformat() if oldest else None
-
-
 def report(options, root, faults, seconds):
     """Table, promises and files; the exit code."""
     rows = results.rows_of(faults)
@@ -235,9 +228,7 @@ def report(options, root, faults, seconds):
         found = results.per_block(faults, blocks)
         if seconds:  # of all faults; what a block's share of it is nobody knows
             found.setdefault("feltgate_core", {})["seconds"] = round(seconds)
-        block_results.write(
-            root, "faults", "./feltgate faults --update", found, date_of(options.lines)
-        )
+        block_results.write(root, "faults", "./feltgate faults --update", found)
         print(f"faults: wrote {block_results.path_of(root, 'faults')}")
     return 0 if all(good for *_, good in kept) else 1
 

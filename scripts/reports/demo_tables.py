@@ -94,7 +94,7 @@ def axes(demo):
         for number, axis in enumerate(run.summary["axes"]):
             rows.append(
                 [
-                    *of_run(run, f"card-{name}"),
+                    *of_run(run, name),
                     str(number),
                     *(page.number(axis[f"{kind}_peak_nm"]) for kind in ("asked", "motor")),
                     *(micro(axis["law_nm"].get(kind)) for kind in ("max_error", "bound")),
@@ -124,7 +124,7 @@ def as_known(run):
 
 def replays(demo):
     head = [
-        *("recording", "position over time", "device time, s", "steps", "illegal", "reversals"),
+        *("recording", "device time, s", "steps", "illegal", "reversals"),
         *("as known", "mismatches", "largest error of the velocity, µrad/s", "its bound"),
     ]
     rows = []
@@ -134,11 +134,9 @@ def replays(demo):
             rows.append([run.job.recording.title, page.mark(False, "not read")])
             continue
         s, p = run.summary, run.summary["position"]
-        drawn = demo.drawn.get(name)
         rows.append(
             [
                 page.link(name, run.job.recording.title),
-                page.Cell(drawn.strip if drawn else ""),
                 page.number(s["simulated_s"]),
                 *(f"{p[key]:,}" for key in ("steps", "illegal", "reversals")),
                 as_known(run),

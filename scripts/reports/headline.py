@@ -7,7 +7,7 @@ the files that set the bounds. Documentation: docs/figures.md, docs/json.md
 from dataclasses import dataclass
 from html import escape
 
-from reports import glossary, page
+from reports import page
 from reports.runs import design
 
 FIXED = ("rtl", "twin")  # the engines in fixed point, whose errors have proven bounds
@@ -164,6 +164,6 @@ def tile(h):
         filled = min(100.0, 100 * h.share)
         bar = f'<div class="bar"><i style="width:{filled:.1f}%"></i></div>'
     return (
-        f'<div class="headline{state}"><b>{escape(h.value)}</b><span>{glossary.marked(h.what)}'
-        f"</span>{bar}<small>{glossary.marked(h.bound)}</small></div>"
+        f'<div class="headline{state}"><b>{escape(h.value)}</b><span>{escape(h.what)}'
+        f"</span>{bar}<small>{escape(h.bound)}</small></div>"
     )

@@ -7,20 +7,16 @@ twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitte
 Documentation: docs/testing.md
 """
 
-import json
 import os
 import subprocess
 import sys
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
-from unittest import mock
 
 from testing import ROOT, Scratch, called, ran
 
 import block_results
-from mutation import twin, twin_parser, twin_places, twin_programs, twin_results
-from mutation import twin_runs, twin_source
+from mutation import twin, twin_parser, twin_places, twin_results, twin_runs, twin_source
 
 VENV = Path("none")
 if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
@@ -42,61 +38,9 @@ def names(text):
     return [m.name for m in header(text).mutants]
 
 
-class Plans(unittest.TestCase):
-    """Which commands of a build folder are taken."""
-
-    def plan(self, launcher):
-        lines = [
-            f"{launcher}/usr/bin/c++ -DX -O3 -MF a.o.d -o t.dir/a.o -c /r/model/a.cpp",
-            ": && /usr/bin/c++ -O3  t.dir/a.o -o testbench/t  lib.a && :",
-        ]
-        maker = twin_programs.Maker(Path("/b"), Path("/r"), Path("/f"), ["h"], 1, 1)
-        with mock.patch.object(twin_programs, "ninja", return_value="\n".join(lines)), \
-                mock.patch.object(twin_programs, "dependencies", return_value={}):
-            return maker.plan("t")[0]["t.dir/a.o"]
-
-    def test_a_launcher_is_left_out_with_its_options(self):
-        plain = self.plan("")
-        self.assertEqual(plain[0], "/usr/bin/c++")
-        for launcher in ("/usr/bin/ccache ", "/usr/bin/cmake -E env A=b /usr/bin/ccache "):
-            self.assertEqual(self.plan(launcher), plain)
-
-
 @unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"),
                  "no tree-sitter; ./feltgate mutate --twin fetches it")
 class Offered(unittest.TestCase):
-    def test_operators(self):
-        found = names("int f(int a, int b) { return a < b ? a + b : a << b; }")
-        self.assertEqual(found, ["f: a < b -> a <= b", "f: a < b -> a >= b", "f: a + b -> a - b",
-                                 "f: a << b -> a >> b"])
-
-    def test_a_chain_loses_one_condition_at_a_time(self):
-        found = names("bool f(bool a, bool b, bool c) { return a && b && c; }")
-        self.assertEqual(found, ["f: a && b && c -> its opposite", "f: a -> left out of &&",
-                                 "f: b -> left out of &&", "f: c -> left out of &&",
-                                 "f: && b -> || b", "f: && c -> || c"])
-
-    def test_statements(self):
-        found = names("void f(int& a) { a = 3; if (a > 2) return; g(a); a += 1, a = 0; }")
-        for wanted in ("f: a = 3 -> removed", "f: return -> removed", "f: g(a) -> removed",
-                       "f: a = 0 -> removed"):
-            self.assertIn(wanted, found)
-
-    def test_constants(self):
-        self.assertEqual(names("int f() { return 7; }"),
-                         ["f: 7 in return 7 -> 7 + 1", "f: 7 in return 7 -> 7 - 1"])
-        self.assertEqual(names("bool f() { return true; }"), ["f: true in return true -> false"])
-
-    def test_rounding(self):
-        found = names("int f(int x) { return round<Round::half_up, Overflow::saturate>(x); }")
-        self.assertEqual(len(found), 2)
-        self.assertIn("Round::truncate", found[0])
-        self.assertIn("Overflow::wrap", found[1])
-
-    def test_the_second_of_the_same_has_its_number(self):
-        self.assertIn("f: a + b -> a - b #2",
-                      names("int f(int a, int b) { return (a + b) * (a + b); }"))
-
     def test_what_only_the_compiler_sees_stays(self):
         for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);",
                      "template <int N = 3 + 2> struct S;",
@@ -104,23 +48,6 @@ class Offered(unittest.TestCase):
                      "void f() { if constexpr (A + 1 == 2) { } }",
                      "void f(int a) { switch (a) { case 1 + 1: default: } }"):
             self.assertEqual(names(text), [], text)
-
-    def test_functions_of_the_compiler_may_be_named(self):
-        self.assertEqual(header("constexpr int f() { return 3; }", constant=["f"]).mutants, [])
-
-    def test_a_dropped_one_is_not_offered(self):
-        text = "int f(int a) { return -a; }"
-        (one,) = header(text).mutants
-        self.assertEqual(header(text, dropped=[one.name]).mutants, [])
-
-    def test_lines_and_columns_survive_comments(self):
-        (one,) = header("// a < b\n/* c\n */ int f(int a) { return -a; }\n").mutants
-        self.assertEqual(one.line, 3)
-
-    def test_no_c_plus_plus_is_said(self):
-        with self.assertRaises(twin_parser.SourceError) as error:
-            header("int f( {")
-        self.assertIn("h:1", str(error.exception))
 
     def test_every_header_is_understood(self):
         catalogue = twin_results.read_catalogue(ROOT)
@@ -207,47 +134,6 @@ class Verdicts(Scratch):
         row = self.row(["killed", "survives"], {("h", "m1"): ("gap", "w")})
         self.assertAlmostEqual(row.share(), 1 / 2)
 
-    def test_the_choice_is_the_seeds(self):
-        mutants = [twin_places.Mutant(n, "h", 1, "k", str(n)) for n in range(50)]
-        one = type("H", (), {"name": "h", "mutants": mutants})
-        all_of_them, some, others = (
-            twin.chosen(one, SimpleNamespace(count=c, seed=s)) for c, s in ((0, 1), (9, 1), (9, 2)))
-        self.assertEqual(some, twin.chosen(one, SimpleNamespace(count=9, seed=1)))
-        self.assertNotEqual(some, others)
-        self.assertEqual(all_of_them, mutants)
-
-    def test_a_compiler_drops_what_its_message_is_about(self):
-        self.put("mutants/twin/h/include/feltgate/h.hpp",
-                 "x\n(::feltgate_mutant::on(0) ? f(b, a) : ::feltgate_mutant::plus<1>(a, b))\n")
-        one = type("H", (), {"name": "h", "mutants": [
-            twin_places.Mutant(0, "h", 2, "arguments", "swap"),
-            twin_places.Mutant(1, "h", 2, "arithmetic", "add")]})
-        said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
-        self.assertEqual(twin.refused([one], self.folder / "mutants/twin/h", said), {("h", "swap")})
-
-    def test_results_become_rows_of_the_blocks(self):
-        row = self.row(["killed", "hangs", "survives", "unreached"],
-                       {("h", "m2"): ("equivalent", "w")})
-        row.catalogue.blocks["h"] = "twin of the core"
-        (self.folder / "docs/verification").mkdir(parents=True)
-        options = type("O", (), {"seed": 1, "count": 0})
-        result = twin_results.results_of([row], options, {})
-        for _ in range(2):  # the second time replaces the first
-            twin_results.update(self.folder, row.catalogue, result)
-        blocks = block_results.read(self.folder, "mutants")["blocks"]
-        self.assertEqual(blocks["twin of the core"].pop("sources").keys(), {"twin"})
-        self.assertEqual(blocks, {"twin of the core": {"twin": [2, 3]}})
-        written = json.loads((self.folder / twin_results.RESULTS).read_text(encoding="utf-8"))
-        self.assertEqual([h["header"] for h in written["headers"]], ["h"])
-        self.assertNotIn("survivors", written["headers"][0])
-        self.assertEqual(written["headers"][0]["machine"], block_results.machine())
-
-        path = self.put("old.json", json.dumps(result))
-        self.assertEqual(twin_results.survivors_of(path), {("h", "m2"), ("h", "m3")})
-        path.write_text("{}", encoding="utf-8")
-        with self.assertRaises(twin_results.TwinError):
-            twin_results.survivors_of(path)
-
     def test_options_that_do_nothing_are_refused(self):
         for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"],
                       ["--list", "--update"], ["--list", "--json", "x"]):
@@ -264,19 +150,6 @@ class Verdicts(Scratch):
             row = catalogue.blocks.get(header, header)
             self.assertTrue(row in block_results.EXTRA or list(ROOT.glob(f"rtl/**/{row}.sv")),
                             header)
-
-    def test_a_catalogue_that_cannot_be_used(self):
-        good = '[tests]\nh = ["t"]\n[block]\nh = "b"\n[[survivor]]\nheader = "h"\n' \
-               'kind = "gap"\nwhy = "w"\nmutants = ["m"]\n'
-        path = self.put("testbench/campaigns/mutate/twin.toml", good)
-        self.assertEqual(twin_results.read_catalogue(self.folder).survivors,
-                         {("h", "m"): ("gap", "w")})
-        for was, becomes in (('"gap"', '"luck"'), ('"w"', '""'), ('why = "w"\n', ""),
-                             ("why", "reason"), ('h = "b"', 'h = ["b"]'),
-                             ('h = "b"', 'other = "b"'), ("[tests]", "[tests")):
-            path.write_text(good.replace(was, becomes), encoding="utf-8")
-            with self.subTest(becomes), self.assertRaises(twin_results.TwinError):
-                twin_results.read_catalogue(self.folder)
 
 
 if __name__ == "__main__":

@@ -103,7 +103,6 @@ RULES = (
     Rule(r"scripts/(?:tests|rates_picture)\.py", "PARSED"),
     Rule(r"scripts/drums_sound\.py", "BY", "report.drums_sound_test"),
     Rule(r"scripts/bowed_string_sound\.py|sed 's/.*slow\.law", "BY", "bowed_string.sound"),
-    Rule(r"scripts/rtl_speed\.py", "BY", "bench.rtl_speed"),
     Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),
     Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
     Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader|dask-worker)", "NAMED"),

@@ -160,8 +160,8 @@ class Help(Machine):
         self.assertFalse((self.repository / "build").exists())
 
     def test_help_of_a_verb(self):
-        done = self.start("explore", "run", "--help")
-        self.assertIn("feltgate explore run", done.stdout)
+        done = self.start("explore", "page", "--help")
+        self.assertIn("feltgate explore page", done.stdout)
         self.assertEqual(self.log(), [])
 
     def test_a_command_that_is_none(self):
@@ -184,7 +184,6 @@ class Tables(Machine):
             (("law", "--gappa", "out", "x.law"), "gappa"),
             (("law", "x.law", "--gappa=out"), "gappa"),
             (("host", "--picture=o", "PORT", "watch"), "python3-matplotlib"),
-            (("explore", "--engine=dask", "space.toml"), "python3-distributed"),
         ):
             self.assertIn(package, self.start(*words).stderr)
 

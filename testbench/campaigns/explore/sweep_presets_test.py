@@ -13,7 +13,7 @@ import unittest
 
 from testing import BUILD, ROOT, Scratch, ran
 
-from exploration import merge, point, presets, space
+from exploration import point, points_table, presets, space
 
 WHOLE = "FELTGATE_WHOLE" in os.environ
 TABLE = ROOT / "vectors/spaces/trade.csv"
@@ -36,7 +36,7 @@ class Presets(Scratch):
         for row in self.rows():
             keys = [key for key in row if "." in key]
             changed = {key: row[key] for key in keys if row[key]}
-            shown = {key: merge.shown(value) for key, value in design.items()}
+            shown = {key: points_table.shown(value) for key, value in design.items()}
             if all(str(shown.get(key)) == value for key, value in changed.items()) and all(
                 key in changed or design.get(key) == base.get(key, space.OPTIONAL.get(key))
                 for key in keys

@@ -17,8 +17,8 @@ import pages
 
 
 PROGRAMS = ("feltgate", "cmake", "ctest", "ninja", "pip", "python", "python3", "parallel")
-PROGRAMS += ("sbatch", "cp", "mv", "git", "source", "sudo", "apt-get", "g++", "c++")
-PROGRAMS += ("jupyter", "bash", "cd", "quartus_sh", "dask-worker", "fusesoc")
+PROGRAMS += ("cp", "mv", "git", "source", "sudo", "apt-get", "g++", "c++")
+PROGRAMS += ("jupyter", "bash", "cd", "quartus_sh", "fusesoc")
 COMMAND = re.compile(
     r"^(?:\$ )?((?:[A-Z_]+=\S+ )*(?:\./|\.?\.?[\w./-]*/bin/)?(?:%s)(?:$| .*))"
     % "|".join(map(re.escape, PROGRAMS))

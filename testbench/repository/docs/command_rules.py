@@ -85,7 +85,7 @@ RULES = (
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench(?: --quick| --engine rtl.*)?$", "BY", "bench.command"),
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),
-    Rule(r"feltgate explore (?:plan|page vectors/spaces/trade\.csv)", "WHOLE"),
+    Rule(r"feltgate explore page vectors/spaces/trade\.csv", "WHOLE"),
     Rule(
         r"feltgate (?:explore|synth|prove|product|page|mutate|faults|coverage|demo|figures|docs)",
         "PARSED",
@@ -104,8 +104,7 @@ RULES = (
     Rule(r"scripts/drums_sound\.py", "BY", "report.drums_sound_test"),
     Rule(r"scripts/bowed_string_sound\.py|sed 's/.*slow\.law", "BY", "bowed_string.sound"),
     Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),
-    Rule(r"sbatch .*scripts/explore\.sbatch", "NAMED"),
-    Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader|dask-worker)", "NAMED"),
+    Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader)", "NAMED"),
     Rule(r"c\+\+ -std=c\+\+17 -Imodel/include docs/examples/tick_loop\.cpp", "WHOLE"),
     Rule(r"a\.out", "WHOLE"),
     Rule(r"cmake -S \. -B build|cmake --preset", "NAMED"),

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Joins chunk files: refuses gaps and duplicates, gives the same bytes for any order of the runs.
+"""The results of a sweep in one file: points.jsonl has all of every point, points.csv the figures as a table.
 
-points.jsonl has all results of every point; points.csv has the figures as a small table.
 Documentation: docs/speed-for-accuracy.md
 """
 
@@ -10,68 +9,17 @@ import csv
 import io
 import json
 import math
-import re
 import tempfile
 import tomllib
 from pathlib import Path
 
 import interrupts
 import outputs
-from exploration import chunks, design_text, front, point, routes, space
+from exploration import design_text, front, point, space
+from exploration.sweep import ROUTED, SweepError
 
 PLANT = "p24"
 LINES, TABLE = "points.jsonl", "points.csv"
-
-
-def read_chunk(plan, path):
-    """(sources, [(id, line)])"""
-    if not re.fullmatch(r"\d{5}-of-\d{5}\.jsonl", path.name):
-        raise chunks.ChunkError(f"{path}: no chunk file; take it away")
-    head, *rest = path.read_text(encoding="utf-8").splitlines()
-    head = json.loads(head)
-    if head.get("plan") != plan.digest:
-        raise chunks.ChunkError(f"{path}: a chunk of another plan; take it away")
-    return head.get("sources"), [(json.loads(line)["id"], line) for line in rest]
-
-
-def collect(plan):
-    """(sources, {id: line}) of all chunk files."""
-    lines, come_from, sources = {}, {}, {}
-    paths = sorted((plan.folder / chunks.FOLDER).glob("*.jsonl"))
-    wanted = {space.point_id(planned) for planned in plan.points}
-    for path in paths:
-        source, rows = read_chunk(plan, path)
-        sources.setdefault(source, path)
-        for name, line in rows:
-            if name in lines:
-                raise chunks.ChunkError(
-                    f"{path}: point {name} is in {come_from[name].name} too; chunks of two counts "
-                    "overlap: keep those of one"
-                )
-            if name not in wanted:
-                raise chunks.ChunkError(
-                    f"{path}: point {name} is not in the plan; take the file away"
-                )
-            lines[name], come_from[name] = line, path
-    if len(sources) > 1:
-        names = ", ".join(path.name for path in sources.values())
-        raise chunks.ChunkError(
-            f"chunks of different sources ({names}); run again, which renews them"
-        )
-    refuse_gaps(plan, paths, sum(name not in lines for name in wanted))
-    return next(iter(sources), None), lines
-
-
-def refuse_gaps(plan, paths, gaps):
-    if not gaps:
-        return
-    text = f"{plan.folder}: {gaps} of {len(plan.points)} points have no result"
-    counts = {int(path.stem.rsplit("-", 1)[1]) for path in paths}
-    if len(counts) == 1:
-        there = {int(path.name[:5]) for path in paths}
-        absent = [i for i in range(1, max(counts) + 1) if i not in there]
-        text += f"; missing chunks of {max(counts)}: {', '.join(map(str, absent[:20]))}"
-    raise chunks.ChunkError(text + "; run them")
 
 
 def count_ripple_rad_s(design):
@@ -86,14 +34,14 @@ def is_stable(design):
     command = [point.BUILD / "feltgate", "design", design, "--plant", PLANT]
     done = interrupts.run(command, **interrupts.CAPTURED)
     if done.returncode and "unstable" not in done.stderr:
-        raise chunks.ChunkError(f"feltgate design failed: {done.stderr.strip()}")
+        raise SweepError(f"feltgate design failed: {done.stderr.strip()}")
     return done.returncode == 0
 
 
 def proven(text, result):
     """Bounds as they are proven now, whenever the point was measured, and for a design for use
     whether it is stable."""
-    with tempfile.TemporaryDirectory(prefix="feltgate-merge-") as folder:
+    with tempfile.TemporaryDirectory(prefix="feltgate-table-") as folder:
         design = Path(folder) / "point.toml"
         design.write_text(text, encoding="utf-8")
         found = point.bounds(design, result)
@@ -111,19 +59,20 @@ def finished(root, row):
     return row
 
 
-def merge(plan, root):
-    """Writes points.jsonl and points.csv in the order of the plan; the path of the former."""
-    sources, lines = collect(plan)
-    routed = routes.read(plan.folder, sources)
-    rows = []
-    for planned in plan.points:
-        row = json.loads(lines[space.point_id(planned)])
-        row["result"] |= routed.get(row["id"], {})
-        rows.append(finished(root, row))
-    path = plan.folder / LINES
-    outputs.write_whole(path, "".join(space.canonical(row) + "\n" for row in rows))
-    outputs.write_whole(plan.folder / TABLE, table(rows))
-    return path
+def write(sweep, root):
+    """Writes points.jsonl and points.csv in the order of the space; the rows."""
+    rows, gaps = [], 0
+    for point in sweep.points:
+        result = sweep.result(point)
+        gaps += result is None
+        if not gaps:
+            result |= sweep.result(point, ROUTED) or {}
+            rows.append(finished(root, {"id": space.point_id(point), **point, "result": result}))
+    if gaps:
+        raise SweepError(f"{sweep.folder}: {gaps} of {len(sweep.points)} points have no result; run the sweep on")
+    outputs.write_whole(sweep.folder / LINES, "".join(space.canonical(row) + "\n" for row in rows))
+    outputs.write_whole(sweep.folder / TABLE, table(rows))
+    return rows
 
 
 def shown(value):
@@ -157,7 +106,7 @@ def read(folder):
     try:
         return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
     except OSError as error:
-        raise chunks.ChunkError(f"{path}: {error.strerror}; 'explore merge DIR' first") from None
+        raise SweepError(f"{path}: {error.strerror}; run a sweep there first") from None
 
 
 def value_of(text):
@@ -185,13 +134,13 @@ def read_table(path):
     except (OSError, ValueError, KeyError) as error:
         what = getattr(error, "strerror", None) or error
         where = getattr(error, "filename", None) or path
-        raise chunks.ChunkError(
+        raise SweepError(
             f"{where}: {what}; wanted a table and {beside.name} beside it"
         ) from None
     rows = []
     for number, line in enumerate(lines, 2):
         if None in line or None in line.values():
-            raise chunks.ChunkError(
+            raise SweepError(
                 f"{path}:{number}: not as many fields as in line 1; make the table again"
             )
         known = {key: value_of(text) for key, text in line.items() if text and key != "id"}
@@ -199,7 +148,7 @@ def read_table(path):
         result = {key: value for key, value in known.items() if "." not in key and key != "front"}
         for key, value in result.items():
             if key.endswith(FIGURES) and not isinstance(value, int | float):
-                raise chunks.ChunkError(
+                raise SweepError(
                     f"{path}:{number}: {key} = {value!r} is not a number; make the table again"
                 )
         rows.append({"id": line["id"], "base": base, "set": changed, "result": result})

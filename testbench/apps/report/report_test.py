@@ -21,7 +21,7 @@ from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path
 import demo
 from markup import Markup
 from testing import weekly
-from reports import plots, run_pictures
+from reports import all_figures, plots, run_pictures
 
 
 class Report(Bench):
@@ -143,6 +143,14 @@ class Figures(Bench):
         self.assertEqual(numbers[14].get("start_rad"), None)
         self.assertAlmostEqual(numbers[17]["saturates_rad"]["lever"], 1.0, places=2)
         self.assertAlmostEqual(numbers[21]["exponent"]["paper"], -2.0, places=2)
+
+    @weekly(3)
+    def test_the_pictures_of_the_docs(self):
+        out, names = self.folder / "out", [f"paper_{n:02d}.svg" for n in all_figures.NUMBERS]
+        self.ended(self.script("figures.py", "--docs", "--output", out))
+        self.assertEqual(sorted(path.name for path in out.iterdir()), names)
+        for name in names:
+            self.assertTrue((ROOT / "docs/images" / name).is_file(), name)
 
     def test_unknown_design(self):
         self.ended(self.script("figures.py", "--design", "other"), 2, "'other'")

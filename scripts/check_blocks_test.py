@@ -143,14 +143,6 @@ class CheckBlocks(unittest.TestCase):
         self.put("rtl/core/wave/alpha.sv", "module beta;\nendmodule\n")
         self.expect("no module alpha")
 
-    def test_links(self):
-        self.put("docs/blocks/alpha.md", "no links\n")
-        self.expect("rtl/core/wave/alpha.sv: no page of docs or docs/blocks links it")
-        self.put("docs/other.md", "[gone](nowhere.md) [far](https://example.org/x)\n")
-        self.put("docs/code.md", "```cpp\nauto f = [&](const int& x) { return x; };\n```\n")
-        self.expect("docs/other.md: links docs/nowhere.md")
-        self.assertFalse([line for line in check_blocks.check(self.root) if "code.md" in line])
-
     def test_sources_that_the_core_does_not_reach(self):
         self.put("rtl/core/feltgate_core.sv", "module feltgate_core;\n  alpha u_alpha ();\nendmodule\n")
         self.put("rtl/core/wave/stray.sv", "module stray;\nendmodule\n")

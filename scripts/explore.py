@@ -13,18 +13,16 @@ import sys
 from pathlib import Path
 
 import command_line
-from exploration import explore_page, front, points_table, presets, space
+from exploration import front, points_table, presets, space
 from exploration import sweep as sweeps
 
-VERBS = ("page", "picture", "presets", "point")
+VERBS = ("page", "presets", "point")
 EXAMPLES = """examples:
   feltgate explore smoke                          four points: does it work here?
   feltgate explore trade                          the shipped space: points.csv, explore.html
   feltgate explore trade -o /data/trade --part 3/16
                                                   one of 16 parts, on machines that share the folder
-  feltgate explore page /data/trade               explore.html: hover a dot, get its design file
-  feltgate explore page vectors/spaces/trade.csv  the same of the shipped table, at once
-  feltgate explore picture /data/trade            explore.svg
+  feltgate explore page vectors/spaces/trade.csv  explore.html and explore.svg of the shipped table, at once
   feltgate explore presets /data/trade            fast.toml, balanced.toml, exact.toml
   feltgate explore point my_point.toml            one design point alone
 
@@ -76,8 +74,7 @@ def parser_of_verbs():
     everything.add_argument("--part", metavar="I/N", help="evaluate only part I of N, and no more")
     command_line.add_jobs(everything, "points")
     for name, what in (
-        ("page", "write explore.html"),
-        ("picture", "write explore.svg; needs matplotlib"),
+        ("page", "write explore.html and explore.svg"),
         ("presets", "write fast, balanced and exact as design files"),
     ):
         one = verbs.add_parser(name, help=what, **help_of(name))
@@ -112,7 +109,7 @@ def act_all(options):
         sweeps.run(sweep, chosen, options.jobs, sweeps.ROUTED)
         rows = points_table.write(sweep, root)
     print(sweep.folder / points_table.LINES)
-    print(explore_page.write(sweep, rows, root))
+    print(importlib.import_module("exploration.explore_page").write(sweep, rows)[-1])
     return report_mismatches(rows)
 
 
@@ -136,12 +133,10 @@ def merged(options):
 
 
 def show(options):
-    """page, picture and presets: what is made of the merged figures."""
+    """page and presets: what is made of the results."""
     plan, rows = merged(options)
     if options.verb == "page":
-        paths = [explore_page.write(plan, rows, command_line.root())]
-    elif options.verb == "picture":
-        paths = [importlib.import_module("exploration.explore_picture").write(plan, rows)]
+        paths = importlib.import_module("exploration.explore_page").write(plan, rows)
     else:
         paths = presets.write(plan, rows, command_line.root())
     print("\n".join(map(str, paths)))

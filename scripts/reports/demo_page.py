@@ -172,10 +172,6 @@ def tables(demo):
         f"{mismatches(replays)}",
         read,
     )
-    text += page.folded(
-        "errors", "Errors: velocity and torque of every run", demo_tables.all_errors(demo)
-    )
-    text += page.folded("speed", "Speed of every back-end in every run", demo_tables.speeds(demo))
     return text
 
 

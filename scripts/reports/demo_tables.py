@@ -8,11 +8,6 @@ Documentation: docs/figures.md
 from reports import page, recordings, run_section
 from reports.headline import FIXED
 
-SIGNALS = (
-    ("velocity, µrad/s", "velocity_rad_s"),
-    ("observed torque, µNm", "tau_hat_nm"),
-    ("commanded torque, µNm", "torque_nm"),
-)
 NOT_RUN = page.mark(False, "did not run")
 # The first columns of a run in closed loop, and of how far its torque is off.
 RUN = ("scene", "design", "device time, s", "mismatches", "expectations broken")
@@ -42,10 +37,6 @@ def peaks(summary):
 
 def ran(demo, names):
     return [demo.runs[name] for name in names if demo.runs[name].ran]
-
-
-def title(run):
-    return run.job.recording.title if run.job.recording else run.summary["scene"]
 
 
 def of_run(run, anchor):
@@ -145,32 +136,3 @@ def replays(demo):
             ]
         )
     return page.table(head, rows, words=(0,))
-
-
-def all_errors(demo):
-    """Every run's errors against the reference."""
-    head = ["run", "design"]
-    for words, _ in SIGNALS:
-        head += [f"{words}, largest", "rms", "bound"]
-    rows = [
-        [title(run), run.design, *(e for _, key in SIGNALS for e in errors(run.summary, key))]
-        for run in ran(demo, demo.scenes + demo.replays)
-    ]
-    return page.table(head, rows, words=(0,))
-
-
-def speeds(demo):
-    """Simulated seconds per second of every run and back-end."""
-    there = ran(demo, demo.scenes + demo.replays)
-    engines = [
-        name
-        for name in run_section.ENGINES
-        if any(name in run.summary["engines"] for run in there)
-    ]
-    rows = [
-        [title(run), run.design]
-        + [page.number(run.summary["engines"].get(name, {}).get("speed")) for name in engines]
-        for run in there
-    ]
-    names = [run_section.ENGINE_NAMES.get(name, name) for name in engines]
-    return page.table(["run", "design", *(f"{name}, s/s" for name in names)], rows, words=(0,))

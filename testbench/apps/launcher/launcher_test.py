@@ -169,8 +169,8 @@ class Help(Machine):
 
 
 class Tables(Machine):
-    def test_the_page_of_a_table_needs_python_only(self):
-        self.installed("python3")
+    def test_the_page_of_a_table_needs_no_build(self):
+        self.installed("python3", "python3-matplotlib")
         table = str(ROOT / "vectors/spaces/trade.csv")
         out = self.folder / "out"
         self.ended(self.start("explore", "page", table, "-o", str(out)))
@@ -189,7 +189,7 @@ class Tables(Machine):
 
     def test_python_is_asked_for_and_nothing_else(self):
         done = self.ended(self.start("explore", "page", str(ROOT / "vectors/spaces/trade.csv")), 2)
-        self.assertIn("apt-get install --yes --no-install-recommends python3\n", done.stderr)
+        self.assertIn("apt-get install --yes --no-install-recommends python3 python3-matplotlib\n", done.stderr)
 
 
 class Presets(Machine):

@@ -136,7 +136,6 @@ class Chosen(Scratch):
         self.assertGreater(len({o["gates"]["lut4_equivalents"] for o in told["front"]}), 2)
         # Its files go on: the scene runs, trimmed, and the page of commands names them.
         self.assertIn(str(self.folder / "out/short.toml"), out)
-        self.assertIn("<svg", (self.folder / "out/choose.svg").read_text(encoding="utf-8")[:100])
         again = self.ask("run", trimmed, "--engine", "twin")
         self.assertEqual(sorted(again["effects_off"]), sorted(told["simulation"]["effects_off"]))
 

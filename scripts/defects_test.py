@@ -84,31 +84,6 @@ class Defects(unittest.TestCase):
         self.refused(self.patch("<= a_i", "<= ~a_i", first=""), "first line")
         self.refused(self.patch("<= a_i", "<= ~a_i", first="diff --git a/x b/x\n"), "first line")
 
-    def test_names(self):
-        for name in ("No-Word", "none"):
-            self.defects = {}
-            self.refused(self.patch("<= a_i", "<= ~a_i", name=name), str(self.file), "rename it")
-
-    def test_malformed_file(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        text = self.file.read_text()
-        section = self.defects["inverted"]
-        for wrong, words in (
-            (text + section, "two defects inverted"),
-            ("It is inverted.\n" + text, "before the first line"),
-            (text + section.replace("==", "==="), "'=== inverted' is no line of a diff"),
-            (text + section.partition("\n")[2], "'It is inverted.' is no line of a diff"),
-            (text + section.partition(".\n")[2], "two diffs of a file"),
-        ):
-            with self.subTest(words):
-                self.file.write_text(wrong)
-                self.refused(patch, str(self.file), words)
-
-    def test_file_that_is_gone(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        (self.root / "rtl/child.sv").unlink()
-        self.refused(patch, "rtl/child.sv, which is not there")
-
     def test_block_holds_a_copy_for_each(self):
         one = self.patch("<= a_i", "<= ~a_i", name="inverted")
         two = self.patch(".a_i(a_i)", ".a_i('0)", path="rtl/top.sv", name="dead")
@@ -122,11 +97,6 @@ class Defects(unittest.TestCase):
         self.assertIn("top_dead #(.Width(Width)) u_dead (.clk_i(clock_1), .a_i(a_i)", text)
         self.assertIn("assign clock_2 = clk_i && chosen[2];", text)
         self.assertIn("chosen[1] ? out_1_y_o : chosen[2] ? out_2_y_o : out_0_y_o", text)
-
-    def test_block_without_the_file_of_the_patch(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        with self.assertRaisesRegex(patches.DefectError, "not part of top's test"):
-            block.block_of_defects("top", [patch], SOURCES[1:], self.root)
 
     def header(self, changes, text):
         """The text of a header with the statements of these patches, without its first line."""

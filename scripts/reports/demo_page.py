@@ -13,7 +13,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from reports import demo_tables, headline, page, recordings, run_pictures, run_section
-from reports import stability_section
 from reports.progress import clock_text
 
 # What every reader has felt before.
@@ -38,7 +37,6 @@ class Demo:
     drawn: dict = field(default_factory=dict)
     devices: list = field(default_factory=list)  # of several axes
     figures: list = field(default_factory=list)
-    stability: dict | None = None
     wrong: list = field(default_factory=list)
     unreadable: list = field(default_factory=list)
     where: Path = None
@@ -82,8 +80,6 @@ def contents(demo):
     links += [page.link("axes", "several axes")] if demo.devices else []
     links += [page.link("recordings", "recordings")]
     links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
-    if demo.stability:
-        links.append(page.link("stability", "walls"))
     links.append(page.link("runs", "each run"))
     return f"<p>{' · '.join(links)}</p>"
 
@@ -224,8 +220,6 @@ def document(demo):
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)
-    if demo.stability:
-        body += stability_section.html(demo.stability)
     body += runs_section(demo)
     body += page.paragraph(
         f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "

@@ -38,15 +38,6 @@ class Data(Scratch):
         self.assertEqual(list(data.merged(counts).values()), [2])
         self.assertEqual(sorted(data.instances(counts).values()), [0, 2])
 
-    def test_cover_points(self):
-        file = "testbench/campaigns/coverage/b_cover.sv"
-        where = "TOP.b.g__BRA__7__KET__.u_cover.g_x__BRA__2__KET__.hit"
-        counts = self.read(entry("user", "hit", 1, where=where, file=file),
-                           entry("toggle", "y", 0, file=file), entry("user", "hit", 0))
-        (point,) = data.merged([counts])
-        self.assertEqual((point.block, point.kind, point.name, point.where),
-                         ("b", "cover", "hit[2]", f"{file}:3"))
-
 
 class Waivers(Scratch):
     GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "most": 1,
@@ -91,15 +82,6 @@ class Report(unittest.TestCase):
         ):
             with self.subTest(short=short):
                 self.assertEqual(self.made(counts).rows[0].short(), short)
-
-    def test_a_waived_point_is_not_asked_for_and_not_reached(self):
-        import re
-
-        waiver = waivers.Waiver("b", "line", re.compile("p"), 1, "nothing can reach it here")
-        found = self.made([("line", 0), ("line", 4)], [waiver])
-        self.assertEqual((found.rows[0].short(), found.missed), ([], []))
-        self.assertIn("1/2 (1 waived)", report.text(found, 9))
-        self.assertEqual(report.as_json(found, "s")["blocks"]["b"]["line"], [1, 2])
 
 
 class Instrument(unittest.TestCase):
@@ -182,6 +164,15 @@ class Command(Scratch):
                             (["--json", "/nowhere/x"], "no folder")):
             with self.subTest(said):
                 status, _, err = self.status(*words)
+                self.assertEqual(status, 2)
+                self.assertIn(said, err)
+
+    def test_tests_that_fail(self):
+        for lines, said in ((["echo a difference", "exit 3"], "a difference"),
+                            (["exit 0"], "wrote no coverage data")):
+            with self.subTest(said):
+                self.program_is(*lines)
+                status, _, err = self.status()
                 self.assertEqual(status, 2)
                 self.assertIn(said, err)
 

@@ -158,7 +158,7 @@ class Files:
             found.append(f"./feltgate design {self.design_path} --for {scene}")
         else:
             found.append(f"./feltgate law {self.law_path}")
-        return [*found, f"./feltgate budget {scene}"]
+        return found
 
 
 def armed_check(scene, seconds):

@@ -266,13 +266,11 @@ class Presets(Machine):
         self.assertEqual(locked, [["feltgate_stylus_law"]])
         self.assertEqual(self.built("rates", "wall", "--lock-step"), [["feltgate_lever_law"]])
 
-    def test_trim_and_budget_run_laws_and_devices(self):
+    def test_trim_runs_laws_and_devices(self):
         self.installed(*BUILD_PACKAGES)
         self.assertEqual(self.built("trim", "membrane"), [["feltgate"]])
         self.assertEqual(self.built("trim", "detent"), [["feltgate_lever_law"]])
         self.assertEqual(self.built("trim", "coupled_levers", "--quiet"), [["feltgate_lever_law"]])
-        self.assertEqual(self.built("budget", "membrane"), [["feltgate"]])
-        self.assertEqual(self.built("budget", "coupled_levers"), [["feltgate_lever_law"]])
 
     def test_the_demo_has_scenes_with_laws(self):
         self.installed(*BUILD_PACKAGES)

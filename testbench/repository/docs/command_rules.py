@@ -58,8 +58,7 @@ RULES = (
         "BY",
         r"scene.\1.lever_law",
     ),
-    Rule(r"feltgate budget (?:detent|coupled_levers)", "BY", "law_budget_test"),
-    Rule(r"feltgate (?:run|replay|import|budget|design|law|shape|texture)", "WHOLE"),
+    Rule(r"feltgate (?:run|replay|import|design|law|shape|texture)", "WHOLE"),
     Rule(r"feltgate generate", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim (detent|coupled_levers)$", "BY", "choose.command"),
@@ -139,7 +138,6 @@ PLACEHOLDERS = {
     "shape FILE.svg": "vectors/shapes/square.svg",
     "texture FILE.png": "vectors/textures/ripples.png",
     "run SCENE": "wall",
-    "budget SCENE": "wall",
     "point FILE": "my_design.toml",
 }
 # Engines that the launcher builds when a line names them; here they are not there.

@@ -74,7 +74,7 @@ endforeach()
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
   Boost::headers)
 target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
-feltgate_library(feltgate_identify host/identify feltgate_calibrate feltgate_law)
+feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
 # In one source with others g++ 12 takes a matrix of Eigen for uninitialized.
 set_target_properties(feltgate_calibrate PROPERTIES UNITY_BUILD OFF)

@@ -18,7 +18,6 @@ struct Change {
   std::string section, key;
   double value = 0;
   std::string reason;            ///< becomes the comment
-  std::vector<double> values{};  ///< of a key with a list, in place of the value
 };
 
 /// The value or the list, as a design file has it.

@@ -80,12 +80,14 @@ Drive identify_drive(const Recording& r, double electrical_s) {
 }
 
 Coast identify_coast(const Recording& r) {
-  // The last windows in which the lever slows down; before them it was still driven.
+  // The last windows in which the lever slows down; before them it was still driven, with another
+  // voltage.
   const std::vector<Window> windows = windows_of(r);
   std::vector<const Window*> used;
   for (const Window& w : windows) {
     if (w.slowest_rad_s <= kCreep_rad_s) continue;
-    if (w.acceleration_rad_s2 * w.speed_rad_s >= 0) {
+    if (w.acceleration_rad_s2 * w.speed_rad_s >= 0 ||
+        std::abs(w.voltage_v - windows.back().voltage_v) > kFlowing_v) {
       used.clear();
     } else {
       used.push_back(&w);

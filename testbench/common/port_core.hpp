@@ -5,10 +5,25 @@
 // the core is absent. Documentation: docs/blocks/registers.md
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/registers.hpp"
 
 namespace feltgate::test {
+
+/// What a parameter keeps of a written word: the nearest that its format has.
+inline std::uint32_t word_kept(int address, std::uint32_t word) {
+  for (const auto& p : Lever::parameters) {
+    if (p.address != address || p.format.width() == 32) continue;
+    const double size = std::ldexp(1.0, p.format.width()), value = static_cast<std::int32_t>(word);
+    const double least = p.format.sign != 0 ? -size / 2 : 0;
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::clamp(value, least, least + size - 1)));
+  }
+  return word;
+}
 
 class PortCore {
  public:

@@ -291,8 +291,8 @@ class Arguments(Machine):
             (("prove", "--defects", "x"), "argument --defects"),
             (("prove", "--list", "--update"), "--update"),
             (("prove", "limitr"), "no proof of limitr"),
-            (("mutate", "limiter", "--again", "/nonexist"), "/nonexist: no results of"),
-            (("mutate", "--twin", "--count", "-1"), "argument --count"),
+            (("mutate", "--twin", "ramb"), "no header ramb"),
+            (("mutate", "--count", "-1"), "argument --count"),
         ):
             with self.subTest(words):
                 self.setUp()

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Mutants of C++ headers: what is offered, and that each does what its name says.
+"""Mutants of C++ headers: what is offered, that each does what its name says, and that some are killed.
 
-twin_test.py VENV: the folder into which scripts/build.sh has fetched tree-sitter.
+twin_test.py BUILD OPTION...: the folder with the programs, and what mutate --twin is called with.
 Documentation: docs/testing.md
 """
 
@@ -12,35 +12,85 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from testing import ROOT, Scratch, called, ran
 
-import block_results
-from mutation import twin, twin_parser, twin_places, twin_results, twin_runs, twin_source
+import mutate
+from mutation import twin, twin_parser, twin_programs, twin_source
+from mutation.runs import Mutant
 
-VENV = Path("none")
-if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
-    VENV = Path(sys.argv.pop(1))
-
+BUILD, OPTIONS = Path(sys.argv[1] if len(sys.argv) > 1 else "none"), sys.argv[2:]
 try:
-    LANGUAGE = twin_parser.cpp_language(VENV)
+    LANGUAGE = twin_parser.cpp_language(BUILD / "venv-mutate")
 except twin_parser.SourceError:
     LANGUAGE = None
-
+NO_PARSER = LANGUAGE is None and not os.environ.get("CI")
 MUTANT = ROOT / "testbench/campaigns/mutate/twin"
 
 
 def header(text, **more):
-    return twin_source.Header("h", text, 0, LANGUAGE, **more)
+    return twin_source.Header("h", text, 1, LANGUAGE, **more)
 
 
 def names(text):
-    return [m.name for m in header(text).mutants]
+    return [m.what for m in header(text).mutants]
 
 
-@unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"),
-                 "no tree-sitter; ./feltgate mutate --twin fetches it")
+class Plans(unittest.TestCase):
+    """Which commands of a build folder are taken."""
+
+    def plan(self, launcher):
+        lines = [
+            f"{launcher}/usr/bin/c++ -DX -O3 -MF a.o.d -o t.dir/a.o -c /r/model/a.cpp",
+            ": && /usr/bin/c++ -O3  t.dir/a.o -o testbench/t  lib.a && :",
+        ]
+        maker = twin_programs.Maker(Path("/b"), Path("/r"), Path("/f"), ["h"], 1, 1)
+        with mock.patch.object(twin_programs, "ninja", return_value=("\n".join(lines), 0)), \
+                mock.patch.object(twin_programs, "dependencies", return_value={}):
+            return maker.plan("t")[0]["t.dir/a.o"]
+
+    def test_a_launcher_is_left_out_with_its_options(self):
+        plain = self.plan("")
+        self.assertEqual(plain[0], "/usr/bin/c++")
+        for launcher in ("/usr/bin/ccache ", "/usr/bin/cmake -E env A=b /usr/bin/ccache "):
+            self.assertEqual(self.plan(launcher), plain)
+
+
+@unittest.skipIf(NO_PARSER, "no tree-sitter; ./feltgate test fetches it")
 class Offered(unittest.TestCase):
+    def test_operators(self):
+        found = names("int f(int a, int b) { return a < b ? a + b : a << b; }")
+        self.assertEqual(found, ["f: a < b -> a <= b", "f: a < b -> a >= b", "f: a + b -> a - b",
+                                 "f: a << b -> a >> b"])
+
+    def test_a_chain_loses_one_condition_at_a_time(self):
+        found = names("bool f(bool a, bool b, bool c) { return a && b && c; }")
+        self.assertEqual(found, ["f: a && b && c -> its opposite", "f: a -> left out of &&",
+                                 "f: b -> left out of &&", "f: c -> left out of &&",
+                                 "f: && b -> || b", "f: && c -> || c"])
+
+    def test_statements(self):
+        found = names("void f(int& a) { a = 3; if (a > 2) return; g(a); a += 1, a = 0; }")
+        for wanted in ("f: a = 3 -> removed", "f: return -> removed", "f: g(a) -> removed",
+                       "f: a = 0 -> removed"):
+            self.assertIn(wanted, found)
+
+    def test_constants(self):
+        self.assertEqual(names("int f() { return 7; }"),
+                         ["f: 7 in return 7 -> 7 + 1", "f: 7 in return 7 -> 7 - 1"])
+        self.assertEqual(names("bool f() { return true; }"), ["f: true in return true -> false"])
+
+    def test_rounding(self):
+        found = names("int f(int x) { return round<Round::half_up, Overflow::saturate>(x); }")
+        self.assertEqual(len(found), 2)
+        self.assertIn("Round::truncate", found[0])
+        self.assertIn("Overflow::wrap", found[1])
+
+    def test_the_second_of_the_same_has_its_number(self):
+        self.assertIn("f: a + b -> a - b #2",
+                      names("int f(int a, int b) { return (a + b) * (a + b); }"))
+
     def test_what_only_the_compiler_sees_stays(self):
         for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);",
                      "template <int N = 3 + 2> struct S;",
@@ -49,16 +99,26 @@ class Offered(unittest.TestCase):
                      "void f(int a) { switch (a) { case 1 + 1: default: } }"):
             self.assertEqual(names(text), [], text)
 
+    def test_a_dropped_one_is_not_offered(self):
+        text = "int f(int a) { return -a; }"
+        (one,) = header(text).mutants
+        self.assertEqual(header(text, dropped=[one.what]).mutants, [])
+
+    def test_lines_and_columns_survive_comments(self):
+        (one,) = header("// a < b\n/* c\n */ int f(int a) { return -a; }\n").mutants
+        self.assertEqual(one.where, ["model/include/feltgate/h.hpp:3"])
+
+    def test_no_c_plus_plus_is_said(self):
+        with self.assertRaises(twin_parser.SourceError) as error:
+            header("int f( {")
+        self.assertIn("h:1", str(error.exception))
+
     def test_every_header_is_understood(self):
-        catalogue = twin_results.read_catalogue(ROOT)
-        for found in twin.parse(catalogue, ROOT, list(catalogue.tests), {}, LANGUAGE):
-            every = {m.name for m in found.mutants}
-            listed = {name for h, name in catalogue.survivors if h == found.name}
-            self.assertEqual(listed - every, set(),
-                             f"testbench/campaigns/mutate/twin.toml: {found.name} has no such mutant")
+        with mock.patch.object(twin_parser, "cpp_language", lambda _: LANGUAGE):
+            self.assertTrue(all(h.mutants for h in twin.parse(ROOT, twin.tests(ROOT, []), {})))
 
 
-@unittest.skipIf(LANGUAGE is None and not os.environ.get("CI"), "no tree-sitter")
+@unittest.skipIf(NO_PARSER, "no tree-sitter; ./feltgate test fetches it")
 class Compiled(Scratch):
     def results(self, body, calls, expected):
         """The header's calls in every mutant, printed; {name: what they print}."""
@@ -67,7 +127,7 @@ class Compiled(Scratch):
         main = self.put("main.cpp", '#include "mutant.hpp"\n#include <cstdio>\n' + found.result +
                         f"\nint main() {{ {printed} }}\n")
         subprocess.run(["c++", "-std=c++17", "-w", f"-I{MUTANT}",
-                        f"-DFELTGATE_MUTANTS={len(found.mutants)}", main, MUTANT / "mutant.cpp",
+                        f"-DFELTGATE_MUTANTS={len(found.mutants) + 1}", main, MUTANT / "mutant.cpp",
                         "-o", self.folder / "p"], check=True)
 
         def run(**more):
@@ -76,9 +136,8 @@ class Compiled(Scratch):
 
         self.assertEqual(run(), expected)
         run(FELTGATE_MUTANTS_REACHED=str(self.folder / "reached"))
-        reached = (self.folder / "reached").read_text(encoding="ascii").splitlines()
-        self.reached = {int(line) for line in reached if not line.endswith("exact")}
-        return {m.name: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
+        self.reached = (self.folder / "reached").read_text(encoding="ascii").splitlines()
+        return {m.what: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
 
     def test_each_does_what_its_name_says(self):
         body = """
@@ -116,41 +175,25 @@ inline int keeps() { return mixed(7, Other()); }
         self.assertEqual(len(got) - len(self.reached), 3)  # never(), and keeps() has no such call
 
 
-class Verdicts(Scratch):
-    def row(self, hows, survivors):
-        mutants = [twin_places.Mutant(n, "h", 1, "k", f"m{n}") for n in range(len(hows))]
-        catalogue = twin_results.Catalogue({"h": ["t"]}, {}, survivors)
-        verdicts = [twin_runs.Verdict(m, how) for m, how in zip(mutants, hows)]
-        return twin_results.Row("h", 9, verdicts, catalogue)
-
-    def test_equivalent_ones_do_not_count(self):
-        row = self.row(["killed", "hangs", "survives", "unreached"],
-                       {("h", "m2"): ("equivalent", "w")})
-        self.assertAlmostEqual(row.share(), 2 / 3)
-        self.assertEqual((len(row.left("equivalent")), len(row.left("gap")), len(row.left(None))),
-                         (1, 0, 1))
-
-    def test_a_gap_counts(self):
-        row = self.row(["killed", "survives"], {("h", "m1"): ("gap", "w")})
-        self.assertAlmostEqual(row.share(), 1 / 2)
-
-    def test_options_that_do_nothing_are_refused(self):
-        for wrong in (["--jobs", "0"], ["--update", "--again", "x.json"], ["--coun", "3"],
-                      ["--list", "--update"], ["--list", "--json", "x"]):
-            self.assertEqual(called(twin.arguments, *wrong)[0], 2)
+class Subjects(Scratch):
+    def test_a_compiler_drops_what_its_message_is_about(self):
+        one = mock.Mock(kinds={1: "arguments", 2: "arithmetic"}, mutants=[Mutant(1, "swap", []), Mutant(2, "add", [])],
+                        result="x\n(::feltgate_mutant::on(1) ? f(b, a) : ::feltgate_mutant::plus<2>(a, b))\n")
+        one.name = "h"
+        said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
+        self.assertEqual(twin.refused([one], Path("mutants/twin/h"), said), {("h", "swap")})
 
     def test_an_unknown_header_is_said(self):
-        status, _, said = called(twin.main, "suprevisor")
-        self.assertEqual(status, 2)
-        self.assertIn("supervisor", said)
+        status, _, said = called(mutate.main, "--twin", "suprevisor", "--only-arguments")
+        self.assertEqual((status, "there are supervisor" in said), (2, True))
 
-    def test_the_products_catalogue_has_a_row_of_the_table_for_each_header(self):
-        catalogue = twin_results.read_catalogue(ROOT)
-        for header in catalogue.tests:
-            row = catalogue.blocks.get(header, header)
-            self.assertTrue(row in block_results.EXTRA or list(ROOT.glob(f"rtl/**/{row}.sv")),
-                            header)
+
+@unittest.skipIf(NO_PARSER or not OPTIONS, "no tree-sitter; ./feltgate test fetches it")
+class Share(unittest.TestCase):
+    def test_some_mutants_are_killed_as_on_record(self):
+        with mock.patch.dict(os.environ, FELTGATE_BUILD=str(BUILD)):
+            self.assertEqual(mutate.main(["--twin", "--no-build", *OPTIONS]), 0)
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

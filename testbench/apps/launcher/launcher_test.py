@@ -291,7 +291,7 @@ class Arguments(Machine):
             (("prove", "--defects", "x"), "argument --defects"),
             (("prove", "--list", "--update"), "--update"),
             (("prove", "limitr"), "no proof of limitr"),
-            (("mutate", "--twin", "ramb"), "no header ramb"),
+            (("mutate", "--require", "2"), "argument --require"),
             (("mutate", "--count", "-1"), "argument --count"),
         ):
             with self.subTest(words):

@@ -48,11 +48,11 @@ class Headlines(Recorded):
         torque = summary["engines"]["rtl"]["torque_nm"]
         self.assertEqual(error.value, f"{1e6 * torque['max_error']:#.3g} µNm")
         self.assertIn(f"{1e6 * torque['bound']:#.3g} µNm", error.bound)
-        self.assertAlmostEqual(error.share, torque["max_error"] / torque["bound"])
+        self.assertTrue(error.good)
         steps = summary["engines"]["rtl"]["step_responses"]
         self.assertEqual(settling.value, f"{max(s['torque_settling_ms'] for s in steps):#.3g} ms")
         self.assertIn("1.00 ms", settling.bound)  # torque_step.toml
-        self.assertAlmostEqual(settling.share, 0.77)
+        self.assertTrue(settling.good)
 
     def test_the_run_that_breaks_its_bound_is_shown(self):
         good, _ = self.run_of()

@@ -22,7 +22,7 @@ import command_line
 import interrupts
 import outputs
 from outputs import write_whole
-from reports import all_figures, demo_page, recordings, runs
+from reports import all_figures, demo_page, observer_section, recordings, runs
 from reports.growing import Growing
 from reports.progress import Progress, clock_text
 
@@ -195,7 +195,7 @@ def run(arguments):
         found, unreadable, where = find_recordings(arguments.traces, arguments.all)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
-        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True)
+        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True) + observer_section.jobs()
         jobs = all_jobs(scenes + devices, replays, figures)
         total = sum(job.seconds for job in jobs)
         print(

@@ -12,7 +12,8 @@ import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from reports import demo_tables, headline, page, recordings, run_pictures, run_section
+from reports import demo_tables, headline, observer_section, page, recordings, run_pictures
+from reports import run_section
 from reports.progress import clock_text
 
 # What every reader has felt before.
@@ -220,6 +221,7 @@ def document(demo):
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)
+        body += observer_section.html(demo.runs)
     body += runs_section(demo)
     body += page.paragraph(
         f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "

@@ -14,8 +14,9 @@ from types import SimpleNamespace
 from unittest import mock
 
 from bench import Bench  # isort: skip (puts scripts/ on the path)
+import numpy as np
 from markup import Markup
-from reports import demo_page, headline, page, run_pictures, run_section
+from reports import demo_page, headline, observer_section, page, run_pictures, run_section
 from reports.growing import Growing
 from reports.runs import Job, Run, read_csv
 
@@ -123,6 +124,19 @@ class Felt(Recorded):
             summary, csv = self.run_of(scene)
             self.assertEqual([p.name for p in run_pictures.axes_pictures("x", csv)], names)
             self.assertIn("2 axes, 0 mismatches", run_section.axes_facts(summary)[0])
+
+
+class Observer(unittest.TestCase):
+    def test_numbers_of_a_load_step(self):
+        time = np.arange(0, 0.35, 1e-4)
+        after = np.maximum(time - observer_section.LOAD_S, 0)
+        theta = 0.04 + 0.02 * (1 - np.exp(-after / 0.02) * np.cos(200 * after))
+        torque = 0.1 + 0.001 * (-1) ** np.arange(len(time))
+        csv = {"time_s": time, "theta_rad": theta, "motor_torque_nm": torque}
+        ripple, over, rest = observer_section.of_load(SimpleNamespace(csv=csv))
+        self.assertAlmostEqual(ripple, 1, places=3)
+        self.assertAlmostEqual(over, 47.0, delta=0.5)  # at 14.5 ms
+        self.assertLess(abs(rest - 47), 10)  # 0.02 exp(-t / 0.02) is a count after 51 ms
 
 
 class Room(Recorded):

@@ -143,7 +143,7 @@ BUILT_ON_DEMAND = {f"stability {name}": "lever" for name in ("lever_absolute", "
 BUILT_ON_DEMAND |= {
     f"--design {name}": "lever"
     for name in ("fast", "balanced", "exact", "first_power", "lever_absolute", "lever_current",
-                 "lever_law", "knob_law", "gimbal_motor", "gimbal_current",
+                 "lever_law", "lever_observer", "knob_law", "gimbal_motor", "gimbal_current",
                  "hall_motor", "mine")
 }
 

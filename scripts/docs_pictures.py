@@ -225,16 +225,14 @@ def texture():
 
 def shapes():
     figure, p = panels("ab", (10, 4), "A pen led around inside a fish, 2 mm deep")
-    for law, colour in (("proxy", BLUE), ("simple", GREY)):
-        words = ("vectors/shapes/fish.svg", "--radius", "3mm", "--vertices", 40, "--law", law, "--path")
-        x, y, *force = started(runs.program(), "shape", *words).values()
-        if law == "proxy":
-            path(p["a"], x, y, "x", "y", "pen", "black", lw=0.8)
-            path(p["a"], x + force[0] / 50, y + force[1] / 50, "x", "y", "proxy, at 50 N/m")
-            arrows(p["a"], x[::25], y[::25], [f[::25] for f in force], 0.02, "force, 20 mN a mm")
-        way = np.cumsum(1e3 * np.hypot(np.diff(x, prepend=x[0]), np.diff(y, prepend=y[0])))
-        direction = np.unwrap(np.degrees(np.arctan2(force[1], force[0])), period=360)
-        lines(p["b"], way, {law: direction}, "way of the pen, mm", "direction of the force, degrees", (colour,))
+    words = ("vectors/shapes/fish.svg", "--radius", "3mm", "--vertices", 40, "--path")
+    x, y, *force = started(runs.program(), "shape", *words).values()
+    path(p["a"], x, y, "x", "y", "pen", "black", lw=0.8)
+    path(p["a"], x + force[0] / 50, y + force[1] / 50, "x", "y", "proxy, at 50 N/m")
+    arrows(p["a"], x[::25], y[::25], [f[::25] for f in force], 0.02, "force, 20 mN a mm")
+    way = np.cumsum(1e3 * np.hypot(np.diff(x, prepend=x[0]), np.diff(y, prepend=y[0])))
+    direction = np.unwrap(np.degrees(np.arctan2(force[1], force[0])), period=360)
+    lines(p["b"], way, {"_": direction}, "way of the pen, mm", "direction of the force, degrees")
     p["b"].set(xlim=(15, 60), ylim=(170, 330))
     return figure
 

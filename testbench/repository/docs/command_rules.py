@@ -45,7 +45,6 @@ RULES = (
     Rule(r"feltgate run (?:pantograph_floor|hidden_shapes).*", "BY", "axes_run_test"),
     Rule(r"feltgate run pantograph_wall.*", "BY", "pantograph_wall_test"),
     Rule(r"feltgate run coupled_levers.*", "BY", "coupled_levers_test"),
-    Rule(r"feltgate shape .*--table", "BY", "shape.command"),
     Rule(r"feltgate run material_stone --set dynamic=0\.4", "BY", "tracked_test"),
     Rule(r"feltgate run (?:bowed_string|four_strings|slow\.toml).*--states", "BY", "bowed_string.sound"),
     Rule(r"feltgate run (?:wall|ceiling)_tracked", "BY", "tracked_test"),

@@ -24,13 +24,6 @@ COLOURS = {
 }
 DASHES = {"PI": (0, (4, 3)), "reaction observer": (0, (4, 3))}
 STALL_MS = 10
-CAPTION = (
-    "Top: motor torque after a step of 0.2 Nm, lever locked; PI lies on the observer, the reaction "
-    "observer on feed-forward. Middle: the largest wall that does not swing when the "
-    "lever is pressed into it, over the ratio of nominal and true inertia; 0 is none of 1 Nm/rad. "
-    "Bottom: motor torque while a hand at rest trembles, by the encoder. Fixed point, simulation."
-)
-
 
 def style(name):
     return {"color": COLOURS[name], "linestyle": DASHES.get(name, "-"), "linewidth": 1.2}
@@ -58,14 +51,9 @@ def picture(data):
     border.set(xlabel="nominal over true inertia", ylabel="largest wall, Nm/rad")
     noise.set(xlabel="lines of the encoder", ylabel="noise, mNm rms")
     noise.set_ylim(bottom=0)
-    return plots.finish(figure, "controllers", CAPTION)
+    return plots.finish(figure, "controllers")
 
 
-ESTIMATORS_CAPTION = (
-    "The velocity estimators in `lever`, all else equal. Top: the largest wall that does not swing when the lever is "
-    "pressed into it, with feed-forward and with the observer fed back. Bottom: noise of tau_hat behind an encoder "
-    "with irregular lines, at rest and at 1 and 10 rad/s; 0.1 stands for less. Fixed point, simulation."
-)
 LEAST_MNM = 0.1  # on the logarithmic axis
 
 
@@ -94,7 +82,7 @@ def estimators_picture(data):
         axis.invert_yaxis()
         axis.set_xlabel(text)
         axis.legend(loc=place, fontsize=7)
-    return plots.finish(figure, "estimators", ESTIMATORS_CAPTION)
+    return plots.finish(figure, "estimators")
 
 
 SCHEMAS = {

@@ -56,7 +56,6 @@ def commands(build):
     own |= {name: [build / f"feltgate_{name}"] for name in programs}
     own["touch"] = [build / "feltgate_touch", "touch"]
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
-    found["mutate --twin"] = [*own["mutate"], "--twin"]
     for verb in host_verbs():
         found[f"host {verb}"] = [*own["host"], "PORT", verb]
     for verb in VERBS:

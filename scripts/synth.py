@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Area and speed of the core and its blocks on ECP5, cells on Cyclone IV E, bitstreams of boards.
 
-Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
+Yosys and nextpnr only: nothing here ran on a chip. Recipe and figures: docs/synthesis.md.
 Exit code: 0 within the budget (docs/verification/areas.json), 1 when a figure has grown past it,
 2 when a tool or an argument is wrong. Of a board 1 too where its timing does not close.
 

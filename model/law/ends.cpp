@@ -85,7 +85,7 @@ Value BackEnd::mapped(NodeId id, const Map& map, const Ends& ends) {
   if (node(id).op == Op::constant) {
     const double exact = (map.factor * node(id).value + map.offset) / ends.scale;
     const double near = std::nearbyint(exact);
-    const bool whole = std::fabs(exact - near) <= 1e-9 * std::max(1.0, std::fabs(exact));
+    const bool whole = std::fabs(exact - near) <= 1e-9 + 1e-14 * std::fabs(exact);
     Value v{constant(whole || !ends.down ? near : std::floor(exact), id), ends.scale, 0};
     v.error = whole ? 0 : std::fabs(exact - v.operand.exact);
     return v;

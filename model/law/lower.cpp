@@ -8,6 +8,8 @@
 
 namespace feltgate::law {
 
+constexpr double kLeastSteps = 256;  ///< of the range of a state that is no whole number
+
 bool same_unit(double a, double b) {
   const double bits = std::log2(std::fabs(a / b));
   return std::fabs(bits - std::nearbyint(bits)) < 1e-12;
@@ -315,7 +317,9 @@ Value BackEnd::state(NodeId id) {
   const int preferred = s.whole ? 0 : std::min(largest_fraction(id, unit, size) - 1, 28);
   const double scale = chosen_scale(id, unit, preferred, size);
   if (s.whole && scale > 1) throw Unfit("a whole state counts in ones", id);
-  if (s.range.upper - s.range.lower < 2 * scale) throw Unfit("a state's format holds no value", id);
+  // The words of the ends are at most half a step beside them.
+  const double steps = (s.range.upper - s.range.lower) / scale;
+  if (steps < (s.whole ? 2 : kLeastSteps)) throw Unfit("a state's format holds no value", id);
   program_.states[static_cast<std::size_t>(index)].scale = scale;
   return {{From::state, index}, scale, size};
 }

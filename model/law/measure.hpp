@@ -20,7 +20,8 @@ struct Sides {
   std::int64_t holds = 0, fails = 0, outside = 0;
 };
 
-constexpr double kLargeError = 0.05;  ///< of what the law gives, and above the bound: a large error
+/// Of what the law gives, and above the bound or as much again: a large error.
+constexpr double kLargeError = 0.05;
 constexpr double kLargeRuns = 0.05;
 
 /// The words beside the law as its text says it: both begin with the first values of the file and

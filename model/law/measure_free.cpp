@@ -176,8 +176,11 @@ class Free {
     bool acts = false, left = false;
     for (std::size_t o = 0; o < start.size(); ++o) {
       const Episode& e = start[o];
-      const double large =
-          c_.bound.output[o] * (1 + 1e-9) + 1e-9 + kLargeError * reached_[o].width();
+      // An idle bound excuses no more than as much again, or a last bit.
+      const Span r = reached_[o];
+      const double share = kLargeError * (r.width() > 0 ? r.width() : r.size());
+      const double most = std::max(share, std::ldexp(1.0, -c_.target.torque.fraction));
+      const double large = share + std::min(c_.bound.output[o] * (1 + 1e-9) + 1e-9, most);
       acts = acts || std::max(e.law.width(), e.words.width()) > large;
       const auto apart = std::count_if(e.off.begin(), e.off.end(),
                                        [large](double off) { return !(off <= large); });

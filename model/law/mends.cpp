@@ -119,13 +119,16 @@ Refused leaves_its_range(const Law& law, const Target& target, int index, bool i
   const auto reached = [&] { return ranges(wider, whole_cell(wider, target))[at(next)]; };
   const Span first = reached();
   const bool leaves = !first.within({own.lower, own.upper});
+  const bool whole = !is_line && law.states[at(index)].whole;
   bool holds = false;
   for (int i = 0; leaves && !holds && i < kDoublings; ++i) {
     const double more = std::exp2(i);
     range.lower = own.lower - more * std::max(0.0, own.lower - first.lo);
     range.upper = own.upper + more * std::max(0.0, first.hi - own.upper);
-    if (range.lower < own.lower) range.lower = outward(range.lower);
-    if (range.upper > own.upper) range.upper = outward(range.upper);
+    if (range.lower < own.lower)
+      range.lower = whole ? std::floor(range.lower) : outward(range.lower);
+    if (range.upper > own.upper)
+      range.upper = whole ? std::ceil(range.upper) : outward(range.upper);
     holds = range.upper - range.lower < infinity && reached().within({range.lower, range.upper});
   }
   const std::string clamp = fmt::format("{} clamp(..., {:.6g}, {:.6g})",

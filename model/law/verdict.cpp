@@ -412,7 +412,7 @@ void refuse_idle_bounds(const Law& law, const Target& target, const Program& pro
 std::vector<bool> useful_bounds(const Compiled& c, const Measured& m) {
   std::vector<bool> useful(c.law.outputs.size(), true);
   for (std::size_t o = 0; o < useful.size(); ++o) {
-    if (o >= m.output.size() || !(m.reached[o].width() > 0)) continue;
+    if (o >= m.output.size() || o >= m.reached.size() || !(m.reached[o].width() > 0)) continue;
     const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
     const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
     const double free = o < m.free.most.size() ? m.free.most[o] : 0;

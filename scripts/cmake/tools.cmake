@@ -34,13 +34,6 @@ endfunction()
 # What the programs of design points share; scripts/exploration/point.py compiles the rest.
 feltgate_library(feltgate_explore studies/explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop feltgate_axes_loop)
-target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends")
-foreach(design IN LISTS FELTGATE_DESIGNS)
-  set(type ${FELTGATE_TYPE_${design}})
-  feltgate_for_design(budget "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-  target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-endforeach()
 feltgate_library(feltgate_trim studies/trim feltgate_backends feltgate_loop feltgate_axes_loop)
 
 # Where the constants of design and plant differ.
@@ -81,7 +74,7 @@ endforeach()
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
   Boost::headers)
 target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
-feltgate_library(feltgate_identify host/identify feltgate_calibrate feltgate_law)
+feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
 # In one source with others g++ 12 takes a matrix of Eigen for uninitialized.
 set_target_properties(feltgate_calibrate PROPERTIES UNITY_BUILD OFF)
@@ -121,14 +114,6 @@ foreach(design lever_law ${FELTGATE_CORE_PRESETS} ${FELTGATE_AXES_PRESETS})
   if(design IN_LIST FELTGATE_CORE_PRESETS)  # an FMU has it too
     set_target_properties(twin_${design} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
-endforeach()
-# Their error budgets.
-foreach(design IN LISTS FELTGATE_AXES_PRESETS)
-  feltgate_type_of(${design} type)
-  feltgate_for_design(budget "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-  add_library(budget_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-  target_compile_options(budget_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-  target_link_libraries(budget_${design} PRIVATE feltgate_budget)
 endforeach()
 set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law> $<TARGET_OBJECTS:twin_gimbal_motor>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
@@ -198,7 +183,7 @@ endif()
 
 list(REMOVE_ITEM tool_sources ${run_names})
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_budget feltgate_claims feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
+  feltgate_rtl feltgate_files feltgate_claims feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
   feltgate_command_line nlohmann_json::nlohmann_json)
 target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 

@@ -119,7 +119,10 @@ int design_for_plant(const DesignArguments& a, const design::RegisterMap& regist
 int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
   const auto e = elaborate(design::read_design(find_file(a.name, "rtl/designs")), registers);
   std::string text = design_table(e);
-  if (!e.design.mt) text += "\n" + bound_table(bounds::error_bounds(e));
+  if (!e.design.mt) {
+    text += "\n" + bound_table(bounds::error_bounds(e)) +
+            source_table(bounds::source_bounds(bounds::chain_numbers(e)));
+  }
   if (!a.plant.empty()) {
     const auto p = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
     stability::refuse_unstable(e, p);

@@ -45,10 +45,12 @@ std::string bound_lines(const RunResult& r) {
         "errors are \"outside\", and in no other figure\n",
         outside);
   }
-  return text + fmt::format(
-                    "bound: proven for any motion up to this one's {:.4g} rad/s before the "
-                    "low-pass\n",
-                    r.largest_velocity_rad_s);
+  return text +
+         fmt::format(
+             "bound: proven for any motion up to this one's {:.4g} rad/s before the "
+             "low-pass\n",
+             r.largest_velocity_rad_s) +
+         r.bound_sources;
 }
 
 std::string engine_table(const RunResult& r) {

@@ -15,7 +15,13 @@ namespace feltgate {
 
 namespace {
 
-void hold(RunResult& r, const bounds::ErrorBounds& b, double torque_lsb_nm) {
+void hold(RunResult& r, const RunBounds& run, bool of_law, double torque_lsb_nm) {
+  const bounds::ErrorBounds& b = run.worst();
+  std::vector<bounds::SourceBound> sources = run.sources();
+  for (bounds::SourceBound& s : sources) {
+    if (of_law && s.name == "scenes") s.name = "law";
+  }
+  r.bound_sources = source_table(sources);
   for (const BackendFigures& e : r.engines) {
     if (!is_core(e)) continue;
     const FeltError errors[] = {
@@ -41,14 +47,15 @@ bool comparable(const BackendChoice& choice) {
 // The strictest bound decides before the run which ticks count; the bound itself follows from the
 // motion of the run.
 template <class Options, class Run, class BoundsUpTo>
-RunResult held(const design::Elaborated& e, Options& options, Run&& run, BoundsUpTo&& up_to) {
+RunResult held(const design::Elaborated& e, Options& options, bool of_law, Run&& run,
+               BoundsUpTo&& up_to) {
   // A chain in real arithmetic has no clocks of edges.
   if (e.design.mt && options.engine == "all") options.engine = "rtl,twin";
   if (!comparable(choose_backends(options.engine))) return run();
-  const bounds::Coverage coverage(up_to(hardly_any_rad_s), bounds::chain_numbers(e));
+  const bounds::Coverage coverage(up_to(hardly_any_rad_s).worst(), bounds::chain_numbers(e));
   options.coverage = &coverage;
   RunResult r = run();
-  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)),
+  hold(r, up_to(std::max(r.largest_velocity_rad_s, hardly_any_rad_s)), of_law,
        std::ldexp(1.0, -e.design.torque.fraction));
   return r;
 }
@@ -62,20 +69,20 @@ bool is_core(const BackendFigures& e) {
 RunResult run_within_bounds(const design::Elaborated& e, const Scenario& scenario,
                             const plant::Parameters& plant, RunOptions options) {
   return held(
-      e, options, [&] { return run_scenario(scenario, plant, options); },
+      e, options, options.law != nullptr, [&] { return run_scenario(scenario, plant, options); },
       [&](double velocity_rad_s) {
-        return scenario_bounds(e, scenario, velocity_rad_s, options.law).worst();
+        return scenario_bounds(e, scenario, velocity_rad_s, options.law);
       });
 }
 
 RunResult replay_within_bounds(const design::Elaborated& e, EncoderSource& source,
                                const std::string& subject, ReplayOptions options) {
   return held(
-      e, options, [&] { return run_replay(source, subject, options); },
+      e, options, false, [&] { return run_replay(source, subject, options); },
       [&](double velocity_rad_s) {
         RunBounds bounds(e, velocity_rad_s);
         bounds.render(options.scene, 0);
-        return bounds.worst();
+        return bounds;
       });
 }
 

@@ -52,14 +52,14 @@ void Ensemble::run_law(SceneLaw& law) {
 }
 
 void Ensemble::ride(const Snapshot& s) {
-  const ChainIn in = chain_inputs(&s, [this](std::size_t axis, const HostWrite& w) {
+  const ChainIn in = chain_inputs(&s, [this](std::size_t, const HostWrite& w) {
     for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
-    if (passenger_ != nullptr) passenger_->set_parameter(axis, w.address, w.value);
+    if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   })[0];
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
   if (riders_.empty() && passenger_ == nullptr && watch_ == nullptr) return;
   watch_velocity(s.travel);
-  if (passenger_ != nullptr) passenger_->tick(&s, &in);
+  if (passenger_ != nullptr) passenger_->tick(s);
   const bool in_law = RunHost::in_law(s);
   if (in_law && !law_entered_) {
     for (Rider& r : riders_) r.law->enter();

@@ -87,7 +87,6 @@ class ScenarioRun : public SteppedRun {
     }
     core_.skip_self_test();
     session_.begin();
-    if (options_.passenger != nullptr) options_.passenger->begin();
     core_.lead().keep_gate_times(s_.switched);
   }
 

@@ -177,13 +177,14 @@ void read_gear(config::TomlReader table, Parameters* p) {
   const bool on_motor = table.choice("encoder", {"lever", "motor"}) == 1;
   const auto whole = [&](int* count, const char* what) {
     const double turned = ratio * *count;
-    if (std::abs(turned - std::round(turned)) > 1e-6 || std::round(turned) > 1 << 20) {
-      table.fail("ratio",
-                 fmt::format("{} {} of the motor are {:g} in a turn of the lever", *count, what,
-                             turned),
-                 fmt::format("take the nearest ratio for which they are whole, {:.10g}, and at "
-                             "most 2^20",
-                             std::max(1.0, std::round(turned)) / *count));
+    // A ratio is written with a few digits.
+    if (std::abs(turned - std::round(turned)) > 1e-3 || std::round(turned) > 1 << 20) {
+      table.fail(
+          "ratio",
+          fmt::format("{} {} of the motor are {:g} in a turn of the lever", *count, what, turned),
+          fmt::format("take the nearest ratio for which they are whole, {:.12g}, and at "
+                      "most 2^20",
+                      std::max(1.0, std::round(turned)) / *count));
     }
     *count = static_cast<int>(std::lround(turned));
   };

@@ -25,7 +25,6 @@ NUMBERS = (
     ("run membrane", "--seed", ("-1", "1.5", "nan", "18446744073709551616", "0x1"), SEED),
     ("replay x.vec", "--seed", ("-1",), SEED),
     ("import x.vec y.vec", "--seed", ("-1",), SEED),
-    ("budget membrane", "--seed", ("-1",), SEED),
     ("trim membrane", "--seed", ("-1",), SEED),
 )
 
@@ -39,10 +38,6 @@ class CommandLine(Bench):
         self.refused("trim", "coupled_levers", "--plant", "p24", said=("--plant is for scenes of one lever",))
 
     def test_a_law_where_none_is_taken(self):
-        # This program has neither the engine's design nor a device's.
-        self.refused("budget", "detent", said=('design "lever_law" is not built in',))
-        said = "two_levers_law is no design of a device in this program"
-        self.refused("budget", "coupled_levers", said=(said, "start ./feltgate budget"))
         self.refused("replay", "x.vec", "--scene", "law", said=("--scene law", "loads no program"))
 
     def test_numbers(self):
@@ -161,7 +156,7 @@ class CommandLine(Bench):
             (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
             (("stability", "detent", "--rate", "500"), "detent is a scene, which has its own rate"),
             (("stability", ROOT / "vectors/scenes/detent.toml", "--plot", "out"), "leave out --rate, --damping"),
-            (("budget", "membrane", "--design", "levr"), 'did you mean "lever"?'),
+            (("trim", "membrane", "--design", "levr"), 'did you mean "lever"?'),
         ):
             with self.subTest(words):
                 self.refused(*words, said=(said,))
@@ -177,7 +172,7 @@ class CommandLine(Bench):
         self.path("scenes.toml").mkdir()
         self.given.add("scenes.toml")
         for name in (self.folder, "./", "scenes.toml"):
-            for command in ("run", "budget", "trim"):
+            for command in ("run", "trim"):
                 with self.subTest(command, name=name):
                     self.refused(command, name, said=(f"{name}: is a folder; give a file in it",))
         self.refused("run", "short.toml", "--plant", "./", said=("./: is a folder",))
@@ -213,7 +208,7 @@ class CommandLine(Bench):
         for name in ("mine", "lever"):
             self.given.add(f"{name}.toml")
             self.path(f"{name}.toml").write_text(text)
-            for command in ("run", "budget", "trim"):
+            for command in ("run", "trim"):
                 said = (f"{name}.toml: a design runs once it is built in; ", f"--design {name}")
                 self.refused(command, "short.toml", "--design", f"{name}.toml", said=said)
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "apps/page/gimbal_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/page/string_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
@@ -156,7 +156,7 @@ TEST_CASE("page: beyond the bow force's upper limit there is not one slip a peri
 }
 
 TEST_CASE("page: friction holds the lever behind the hand as a spring says") {
-  const double stiffness = hand.stiffness_n_m * LeverHand::radius_m * LeverHand::radius_m;
+  const double stiffness = hand.stiffness_n_m * Lever::radius_m * Lever::radius_m;
   for (const double force_n : {1.0, 1.8, 2.5}) {
     StringLoop loop = loop_of(bowed());
     loop.set("force", force_n);

@@ -16,7 +16,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-from testing import ROOT, Scratch, ran
+from testing import ROOT, Scratch, ran, text_of
 
 import feltgate
 
@@ -79,7 +79,7 @@ class Columns(unittest.TestCase):
     def test_bounds_of_a_design(self):
         small = feltgate.bounds("lever", "spring_tension", velocity_rad_s=1.0)
         self.assertLess(small["torque_nm"], feltgate.bounds("lever")["torque_nm"])
-        self.assertLess(small["velocity_rad_s"], feltgate.bounds("exact")["velocity_rad_s"] * 100)
+        self.assertLess(small["velocity_rad_s"], feltgate.bounds("paper")["velocity_rad_s"] * 100)
 
 
 class Hands(Scratch):
@@ -211,12 +211,8 @@ class Installed(unittest.TestCase):
             if path.stem == "narrow":  # made by the build
                 continue
             self.assertTrue(filecmp.cmp(path, ROOT / path.relative_to(data), shallow=False), path)
-        in_tree = {path.stem for path in (ROOT / "rtl/designs").glob("*.toml")}
-        # One is a board's for an hour, five have sensors of their own: scripts/cmake/python.cmake.
-        in_tree -= {"first_power", "lever_absolute", "lever_current", "gimbal_motor", "gimbal_current", "hall_motor"}
-        # Without programs these have set-points only.
-        in_tree -= {name for name in in_tree if name.endswith("_law")}
-        self.assertEqual(names[2], sorted([*in_tree, "narrow"]))
+        self.assertEqual(names[2], ["lever", "narrow", "paper"])
+        self.assertIn(f"`feltgate.designs()` gives {', '.join(f'`{name}`' for name in names[2])}", text_of("docs/python.md"))
 
     def test_version(self):
         said = (ROOT / "CITATION.cff").read_text()
@@ -225,11 +221,11 @@ class Installed(unittest.TestCase):
     def test_designs_beyond_lever_and_paper_are_loaded_when_one_is_used(self):
         code = ("import sys, feltgate; there = lambda: 'feltgate._designs' in sys.modules;"
                 "feltgate.Chain('lever'); feltgate.designs(); print(there());"
-                "feltgate.Twin('fast'); print(there())")
+                "feltgate.Twin('narrow'); print(there())")
         said = ran(sys.executable, "-c", code, check=True).stdout
         self.assertEqual(said.split(), ["False", "True"])
         with self.assertRaisesRegex(ValueError, "nonsense"):
-            feltgate.Chain("exact", "nonsense")
+            feltgate.Chain("narrow", "nonsense")
 
     def test_the_host_is_loaded_when_it_is_used(self):
         code = ("import sys, feltgate; print('feltgate._host' in sys.modules); feltgate.Device; "

@@ -54,7 +54,6 @@ class Edited(Scratch):
             ("feltgate", "run", "wall", "--engine", "twin"),
             ("feltgate", "run", "wall", "--design", "lever", "--engine", "all"),
             ("feltgate", "replay", vector, "--engine", "twin"),
-            ("feltgate", "budget", "wall"),
             ("feltgate", "trim", "wall"),
             ("feltgate", "stability", "lever"),
             ("feltgate_board", "--for", "0.1"),

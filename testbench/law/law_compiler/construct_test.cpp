@@ -9,6 +9,7 @@
 #include <map>
 
 #include "compiled.hpp"
+#include "law/diagnostics.hpp"
 #include "law/engine/machine.hpp"
 #include "law/measure.hpp"
 
@@ -163,6 +164,30 @@ TEST_CASE("a comparison of whole values narrows them: == and != as well as <") {
                             "out torque = 1 mNm * n * p\n"),
                    false);
   }
+}
+
+TEST_CASE("a choice has the range of its branches behind their comparisons") {
+  const std::string n = "state n = 0 in 0 .. 9 whole\nnext n = clamp(3 * position, 0, 9)\n";
+  for (const char* out :
+       {"0.1 Nm / (if n == 0 then 1 else n)", "0.1 Nm / (if n != 0 and position < 1 then n else 1)",
+        "0.1 Nm / (if position > 0.1 then position else 0.1)",
+        "0.1 Nm / (if 0.1 >= position or n == 2 then 0.1 else position)"}) {
+    const Compiled c = compiled(n + "out torque = " + out + "\n");
+    INFO(out);
+    CHECK(c.bound.unproven.empty());
+    CHECK(c.bound.output[0] < 0.02);
+    CHECK(measure(c, 1, 5000).output[0] <= c.bound.output[0] + 1e-9);
+  }
+  CHECK_THROWS_WITH(compiled(n + "out torque = 0.1 Nm / (if n != 0 then 1 else n)\n"),
+                    Catch::Matchers::Contains("division by what goes from"));
+}
+
+TEST_CASE("the rest of a whole value is below a whole period") {
+  const Compiled c = compiled(
+      "state n = 2 in 0 .. 7 whole\nnext n = if position > 0 then mod(n + 1, 8) else n\n"
+      "out torque = 0.01 Nm * n\n");
+  CHECK(c.bound.unproven.empty());
+  CHECK(measure_free(c, 1, 5000).most[0] < 1e-5);
 }
 
 TEST_CASE("the run from the source knows every construct") {

@@ -267,9 +267,9 @@ Outcome Evaluator::run(const Before& before, const std::map<long, long>& forced)
     if (s.follows) {
       next = filtered(s, before.states[k]);
     } else if (s.next) {
-      next = s.truth ? (truth(s.next) ? 1 : 0) : of(s.next);
+      const Node& rounded = rounded_next_[k];
+      next = s.truth ? (truth(s.next) ? 1 : 0) : of(rounded ? rounded : s.next);
     }
-    if (s.whole) next = std::floor(next);
     const Real width = static_cast<Real>(s.upper) - s.lower;
     if (s.phase) next -= width * std::floor((next - s.lower) / width);
     o.states.push_back(next);

@@ -107,7 +107,7 @@ class EndsGenerator : public Generator {
     const int count = 2 + below(8);
     lower_ = one_in(2) ? 0 : -count;
     upper_ = whole_ || one_in(2) ? count : between(0.3, count);
-    const Node x = limited(real(), lower_, upper_);
+    const Node free = real(), x = limited(free, lower_, upper_);
     Node at;
     switch (below(6)) {
       case 0:
@@ -125,8 +125,10 @@ class EndsGenerator : public Generator {
         whole_ = true;
         break;
       case 4:
-        period_ = one_in(2) ? 1 + below(4) : between(0.4, 4);
-        at = make(Kind::modulo, {x, number(period_)});
+        // Eighths: the rest at an end is exact.
+        period_ = one_in(2) ? 1 + below(4) : (4 + below(28)) / 8.0;
+        upper_ = std::floor(8 * upper_) / 8;
+        at = make(Kind::modulo, {limited(free, lower_, upper_), number(period_)});
         whole_ = false;
         break;
       default:

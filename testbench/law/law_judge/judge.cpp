@@ -196,10 +196,19 @@ class Judge {
     resync();
   }
 
-  /// Sets the law's states to those of the words.
+  /// Sets the law's states to those of the words. `own_` are those of the law, or the ends of their
+  /// ranges, where they have the same words: a state's step need not divide its ends.
   void resync() {
+    own_ = before_.states;
     for (std::size_t k = 0; k < law_.states.size(); ++k) {
-      if (state_index_[k] >= 0) before_.states[k] = state(at(state_index_[k]));
+      if (state_index_[k] < 0) continue;
+      const Real word = state(at(state_index_[k]));
+      const Real half = c_.program.states[at(state_index_[k])].scale / 2;
+      for (const double end : {law_.states[k].lower, law_.states[k].upper}) {
+        if (!(std::fabs(own_[k] - word) <= half)) own_[k] = end;
+      }
+      if (!(std::fabs(own_[k] - word) <= half)) own_[k] = word;
+      before_.states[k] = word;
     }
     for (std::size_t k = 0; k < law_.lines.size(); ++k) {
       if (line_index_[k] < 0) continue;
@@ -259,11 +268,21 @@ class Judge {
     set_inputs(words_);
     law::MachineInputs inputs{};
     for (std::size_t i = 0; i < 9; ++i) inputs[i] = static_cast<std::int32_t>(words_[i]);
-    const Outcome o = evaluator_.run(before_, {});
+    Outcome o = evaluator_.run(before_, {});
     run_ = machine_.run(c_.target.thread, inputs);
     if (!run_.ended) fail("the run does not end");
     difference_.clear();
-    const double far = apart(o, true);
+    double far = apart(o, true);
+    if (far > 1 && !own_.empty()) {
+      Before own = before_;
+      own.states = own_;
+      const Outcome other = evaluator_.run(own, {});
+      if (apart(other, false) <= 1) {
+        o = other;
+        far = 0;
+      }
+    }
+    own_.clear();
     (aimed ? verdict_.aimed : verdict_.runs) += 1;
     bool turned = false;
     if (far <= 1) {
@@ -419,6 +438,7 @@ class Judge {
   Strips strips_;
   std::vector<long> state_index_, line_index_;
   Before before_;
+  std::vector<Real> own_;
   std::vector<char> held_;
   Inputs words_{};
   Verdict verdict_;

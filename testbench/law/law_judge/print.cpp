@@ -221,7 +221,9 @@ void Printer::declare() {
     if (needed(l.name)) s += "let " + l.name + " = " + of(l.value) + "\n";
   }
   for (const State& m : law_.states) {
-    if (needed(m.name) && m.next) s += "next " + m.name + " = " + of(m.next) + "\n";
+    if (!needed(m.name) || !m.next) continue;
+    const Node rounded = rounded_next(m);
+    s += "next " + m.name + " = " + (rounded ? mark(rounded) : "") + of(m.next) + "\n";
   }
   for (const Line& l : law_.lines) {
     if (needed(l.name)) s += "next " + l.name + " = " + of(l.written) + "\n";

@@ -16,6 +16,7 @@
 #include "sim/loop/loop.hpp"
 #include "sim/loop/replay.hpp"
 #include "sim/loop/scenario.hpp"
+#include "sim/traces/open.hpp"
 #include "synthetic.hpp"
 
 namespace {
@@ -32,7 +33,7 @@ class Bench {
   double si(const char* word) const { return design_.find(word)->si; }
   const DesignInfo& design() const { return design_; }
   const plant::Parameters& plant() const { return plant_; }
-  double tested() const { return si("self_test_pulse") > 0; }
+  bool tested() const { return si("self_test_pulse") > 0; }
   double slower() const { return 1e6 / static_cast<double>(design_.tick_hz); }
   /// The motor's leads are exchanged.
   void swap_leads() {
@@ -238,4 +239,51 @@ TEST_CASE("motors: a design for each arms, holds and trips") {
         f.swapped, 1e3 * f.swapped_s, f.swapped_rad_s,
         absolute ? "-" : fmt::format("{:g}: {:.2g}", hand_rad_s, f.dead_rad), b.si("overspeed"));
   }
+}
+
+namespace {
+const std::string kHere = std::string(FELTGATE_ROOT) + "/testbench/studies/motors/";
+const test::Kind& kind_named(const std::string& name) {
+  return *std::find_if(test::kinds.begin(), test::kinds.end(),
+                       [&](const test::Kind& k) { return k.name == name; });
+}
+}  // namespace
+
+TEST_CASE("motors: channel B is dead in a recording of 48 counts in a turn at 10 rad/s") {
+  const auto source = traces::open(kHere + "dead_b_48cpr_10rad.vec", {});
+  ReplayOptions options;
+  options.design = "hobby_48";
+  options.engine = "twin";
+  const RunResult r = run_replay(*source, "dead", options);
+  CHECK(first_of(r) == "channel");
+  CHECK(at(r, "channel") * 10 < 52 * plant::kTwoPi / 48);
+}
+
+TEST_CASE("motors: a pulse that the host asks for does not swing a free lever") {
+  for (const char* name : {"coin_64", "hobby_48", "maxon_25", "maxon_40", "fine_1e6"}) {
+    INFO(name);
+    const Bench b(kind_named(name));
+    Scenario s = read_scenario(kHere + "self_test_free.toml");
+    s.effects = b.plant().effects;
+    double most_rad = 0, most_rad_s = 0;
+    const RunResult r = b.run(s, [&](const Row& row) {
+      most_rad = std::max(most_rad, std::abs(row.theta_rad));
+      most_rad_s = std::max(most_rad_s, std::abs(row.omega_rad_s));
+    });
+    CHECK(most_rad < (b.tested() ? 0.13 : 1e-3));  // 19 ms each way, where the test is on
+    CHECK(most_rad_s < (b.tested() ? 7.5 : 0.1));
+    CHECK(first_of(r) == "-");
+  }
+}
+
+TEST_CASE("motors: at the voltage's limit the observed torque is void") {
+  const Bench b(kind_named("wheel_hub"));
+  Scenario s = b.asked(b.si("torque_limit"));
+  Bench::hand(s, HandKind::kPrescribed, 0.97 * b.si("overspeed"));
+  s.duration_s = 0.3;
+  Row last;
+  const RunResult r = b.run(s, [&](const Row& row) { last = row; });
+  CHECK(first_of(r) == "-");
+  CHECK(last.motor_torque_nm < 0.95 * b.si("torque_limit"));
+  CHECK(r.felt.tau_hat_void.seconds > 0.1);
 }

@@ -225,7 +225,9 @@ TEST_CASE("a gear: the plant is the motor without one that does the same at the 
   CHECK(d.current_limit_a == Approx(16.6).epsilon(0.01));
   CHECK_THROWS_WITH(geared("\n[gear]\nratio = 4.7\nrotor_inertia_kg_m2 = 0\nencoder = \"motor\"\n"),
                     Catch::Contains("1024 lines of the motor are 4812.8 in a turn of the lever") &&
-                        Catch::Contains("4.700195312"));
+                        Catch::Contains("4.7001953125"));
+  CHECK(geared("\n[gear]\nratio = 4.7001953\nrotor_inertia_kg_m2 = 0\nencoder = \"motor\"\n")
+            .encoder.lines == 4813);
 }
 
 TEST_CASE("the design for its own plant is the base") {

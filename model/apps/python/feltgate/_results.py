@@ -117,6 +117,7 @@ class Felt:
     given_to_hand_j: Optional[float] = None  #: sum of all that it got
     limits: Dict[str, Acted] = field(default_factory=dict)  #: only those that acted
     faults: Dict[str, Acted] = field(default_factory=dict)
+    tau_hat_void_s: float = 0.0  #: how long voltage or duty were at the limit, so that tau_hat was void
     expectations: List[Expected] = field(default_factory=list)
 
     @staticmethod

@@ -31,7 +31,6 @@ void add_rates(CLI::App& app, int* exit_code);
 void add_controllers(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
 void add_budget(CLI::App& app, int* exit_code);
-void add_claims(CLI::App& app, int* exit_code);
 void add_law(CLI::App& app, int* exit_code);
 void add_shape(CLI::App& app, int* exit_code);
 void add_texture(CLI::App& app, int* exit_code);

@@ -120,7 +120,6 @@ class ProgramTest(Scratch):
             ("run", "torque_step", "--engine", "twin"),
             ("replay", trace, "--duration", "0.01", "--engine", "twin"),
             ("budget", "torque_step"),
-            ("claims", "recognition"),
             ("extremes", "wrap_32"),
             ("stability", "lever", "--no-bits", "--no-experiments", "--rate", "1000"),
         ):

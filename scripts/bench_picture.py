@@ -23,8 +23,6 @@ PURPOSE = {
     "double": "the law without quantisation",
     "float": "what a microcontroller would do",
     "quad": "the reference",
-    "sc_fixed": "an independent check",
-    "shifts": "a yardstick",
 }
 SENTENCE = (
     "For the RTL's bits use twin_event (closed loop) or twin_tick (signals);\n"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core behind its Wishbone slave: what a SoC instantiates. Documentation: docs/neighbours.md
+// The core behind its Wishbone slave: what a SoC instantiates. Documentation: docs/other-tools.md
 `default_nettype none
 
 module wishbone_core #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Analysis of table reads, low-pass filters, comparisons and selections. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <algorithm>
 #include <cmath>
 

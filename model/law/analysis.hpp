@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the range and the error of each step of a program over a cell, in program order.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #pragma once
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers a law's graph to steps: formats are chosen or taken as given, and operations become
-// instructions. Documentation: docs/law-compiler.md
+// instructions. Documentation: docs/laws.md
 #pragma once
 
 #include <map>

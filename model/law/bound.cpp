@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the bounds: splits cells, bounds the errors of states, finds the strips. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include "law/bound.hpp"
 
 #include <algorithm>

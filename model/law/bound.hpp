@@ -3,7 +3,7 @@
 //
 // Proves the error bound of a program: no instruction saturates, no factor, index or state leaves
 // its range, and each result has a largest distance from the law in real numbers. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <string>

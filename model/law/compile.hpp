@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Compiles a law to an image that an engine runs, and proves the image's error. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <string>

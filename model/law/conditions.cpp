@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers truth values to comparisons that set the flag. Documentation: docs/law-compiler.md
+// Lowers truth values to comparisons that set the flag. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"

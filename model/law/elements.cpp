@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers reads of array elements whose index is computed in the run. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <fmt/format.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Makes the constant ends of a limited value in the scale of what decides, so that a value that
-// stays at an end is on the right side there. Documentation: docs/law-compiler.md
+// stays at an end is on the right side there. Documentation: docs/laws.md
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Searches the formats: changes the fraction bits of one value at a time, as long as the cost
-// falls. Documentation: docs/law-compiler.md
+// falls. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes the Gappa lemmas of steps with two cases: MIN and MAX, selections, comparisons, |x| and
-// signs. Documentation: docs/law-compiler.md
+// signs. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes the Gappa lemmas that need more than arithmetic on words: tables, low-passes, states, the
-// law's own ranges. Documentation: docs/law-compiler.md
+// law's own ranges. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers values and selections, and aligns their formats. Documentation: docs/law-compiler.md
+// Lowers values and selections, and aligns their formats. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"

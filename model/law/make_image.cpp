@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Makes the memories and names of a compiled law. Documentation: docs/law-compiler.md
+// Makes the memories and names of a compiled law. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>

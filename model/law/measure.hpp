@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Measures the error of an image: the interpreter runs the image beside the law in double.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #pragma once
 
 #include <cstdint>

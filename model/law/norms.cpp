@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Ranges of x / r with r >= |x|, and cells that are parts of a sum of squares or amounts.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/ranges.hpp"
 
 #include <algorithm>

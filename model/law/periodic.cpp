@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers periodic tables: their argument is in turns, as that of the sine. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <fmt/format.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law as instructions before register allocation. Each step's result has a scale, so that proofs
-// know which real value it stands for. Documentation: docs/law-compiler.md
+// know which real value it stands for. Documentation: docs/laws.md
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers the results of a run: outputs, events and states. Documentation: docs/law-compiler.md
+// Lowers the results of a run: outputs, events and states. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"

@@ -3,7 +3,7 @@
 //
 // Runs a law from its text, in long double. It takes the parser's tree and nothing else of the
 // compiler: no graph, no ranges, no formats. So it sees what all of these get wrong together.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // The values at which a law's values stay: clamp(x, 0, 3) is 3 over half of all positions. A word
 // beside that 3 would be on the wrong side of a comparison with 3 in all of them. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <map>

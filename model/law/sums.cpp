@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers sums of products: terms, their common scale, the chain of instructions. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <algorithm>
 #include <cmath>
 

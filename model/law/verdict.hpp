@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Judges a bound: the share of runs that it covers, its size relative to the output, and the
-// parameter values that the words represent badly. Documentation: docs/law-compiler.md
+// parameter values that the words represent badly. Documentation: docs/laws.md
 #pragma once
 
 #include <string>

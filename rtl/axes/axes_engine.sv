@@ -3,7 +3,7 @@
 //
 // Connects the engine to the axes: its register port, the CRC check of the programs at each arming,
 // and the request to ramp when a torque can jump. Timing: reg_rdata_o is valid 33 clocks after the
-// address. docs/blocks/axes_engine.md
+// address. docs/architecture.md
 
 `default_nettype none
 

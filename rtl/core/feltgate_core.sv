@@ -4,7 +4,7 @@
 // The whole core: encoder pins to gate pins. Once per tick a wave runs through the rooms encoder,
 // estimators, scenes and actuation; safety watches them; the room wave gives all of them the clock
 // of the wave, one parameter and the products. Latency: sampled position (clock 0) to duty 47
-// clocks. docs/blocks/feltgate_core.md, docs/architecture.md
+// clocks. docs/architecture.md, docs/architecture.md
 
 `default_nettype none
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's register port behind a bus: only the twin of the registers, with ticks; the rest of
-// the core is absent. Documentation: docs/blocks/registers.md
+// the core is absent. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>

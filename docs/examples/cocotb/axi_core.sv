@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core behind its AXI4-Lite slave. Documentation: docs/neighbours.md
+// The core behind its AXI4-Lite slave. Documentation: docs/other-tools.md
 `default_nettype none
 
 module axi_core (

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate bench, a program of its own, built only when asked for. Documentation: docs/bench.md
+// feltgate bench, a program of its own, built only when asked for. Documentation:
+// docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate board: a board without hardware. Documentation: docs/board.md
+// feltgate board: a board without hardware. Documentation: docs/host.md
 #include <fmt/format.h>
 #include <unistd.h>
 

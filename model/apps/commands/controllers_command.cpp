@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate controllers. Documentation: docs/controllers.md
+// feltgate controllers. Documentation: docs/speed-for-accuracy.md
 #include <memory>
 
 #include "apps/commands/commands.hpp"

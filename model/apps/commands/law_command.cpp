@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate law. Documentation: docs/law-compiler.md
+// feltgate law. Documentation: docs/laws.md
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -194,7 +194,8 @@ void add_law(CLI::App& app, int* exit_code) {
       "Exit code: 0 all well, 1 a run left its bound or was off by more than 10 % of what the law\n"
       "gave, more than 30 % of the runs, or half of those on one side of a comparison, had to be\n"
       "left out, the bound is as large as all that the law gave in the runs, or Gappa did not\n"
-      "prove a lemma, 2 unusable input: a law that cannot be read, proven, fitted or scheduled, or\n"
+      "prove a lemma, 2 unusable input: a law that cannot be read, proven, fitted or scheduled, "
+      "or\n"
       "whose bound is as large as its output's range, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()

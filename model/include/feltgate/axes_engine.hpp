@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The logic between the engine and the axes, and its replacement in a device without an engine;
-// both are parts of FeltgateAxes. Documentation: docs/blocks/feltgate_axes.md
+// both are parts of FeltgateAxes. Documentation: docs/architecture.md
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's twin: the inputs of its blocks, made from the pins and the control word. Included by
-// feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
+// feltgate_core.hpp. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

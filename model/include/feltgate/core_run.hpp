@@ -3,7 +3,7 @@
 //
 // The core's twin from event to event: the functions of FeltgateCore that replace many calls of
 // clock() while the inputs hold. Included by feltgate_core.hpp.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>

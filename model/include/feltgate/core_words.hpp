@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's twin: the snapshot words `status` and `faults`, assembled from single bits. Included
-// by feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
+// by feltgate_core.hpp. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

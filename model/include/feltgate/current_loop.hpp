@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/actuation/current_loop.sv: current_sense, current_control or field_oriented, and
 // current_check, their inputs from the wave, and the duty for the PWM, clock by clock.
-// Documentation: docs/blocks/current_control.md
+// Documentation: docs/blocks/current.md
 #pragma once
 
 #include <algorithm>

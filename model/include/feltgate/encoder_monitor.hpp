@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/core/encoder/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on
-// one channel only. Documentation: docs/blocks/encoder_monitor.md
+// one channel only. Documentation: docs/blocks/encoder.md
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/axes/feltgate_axes.sv: one to three cores as axes of one device. Every output of
-// every core equals the RTL's in each clock. Documentation: docs/blocks/feltgate_axes.md
+// every core equals the RTL's in each clock. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // Twin of rtl/core/feltgate_core.sv: the whole core, every output pin and register in every clock.
 // The wave is computed in a few steps; each result appears in the clock in which the RTL shows it.
 // clock() advances one clock, run() a stretch without input changes, with identical results.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <cstddef>

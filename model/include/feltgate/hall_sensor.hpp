@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/encoder/hall_sensor.sv: three Hall lines to an electrical angle that the
 // encoder's counts carry; and the decoder of the core's twin that has it.
-// Documentation: docs/blocks/hall_sensor.md
+// Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 //
 // Law of rtl/core/actuation/ramp.sv: the torque reference follows the limited torque of the scene.
 // It moves in steps after arming, after a change of scene, and after other events that may make the
-// torque jump. Documentation: docs/blocks/ramp.md
+// torque jump. Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include <cstdint>

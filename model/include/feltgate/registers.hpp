@@ -5,7 +5,7 @@
 // snapshot. A write takes effect at the end of the tick, a parameter saturated to its format; a
 // disarm and a stop do not wait behind an earlier write. A word is on the parameter bus 2 clocks
 // after its slot is fetched; read data follow their address by 3 clocks. Documentation:
-// docs/blocks/registers.md
+// docs/architecture.md
 #pragma once
 
 #include <array>

@@ -132,9 +132,9 @@ std::unique_ptr<SteppedRun> stepped_run(const Scenario& scenario, const plant::P
                                         const RunOptions& options);
 
 /// One line of FUDI per hit: "MS NAME NUMBER VALUES;", where MS is the time since the line before;
-/// Pure Data's qlist plays it (docs/devices/drums.md). Events within `run_s` whose names end in the
-/// same number become one line, with the name of the first one and the values in order. Without a
-/// number, NUMBER is left out.
+/// Pure Data's qlist plays it (docs/devices/strings-and-drums.md). Events within `run_s` whose
+/// names end in the same number become one line, with the name of the first one and the values in
+/// order. Without a number, NUMBER is left out.
 std::string event_lines(const std::vector<RunEvent>& events, double run_s);
 
 }  // namespace feltgate

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain of one design behind the interface RealChain, in a number policy N: Fixed, or Real<T>
-// with T float, double or 113 bits. Documentation: docs/backends.md
+// with T float, double or 113 bits. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The benchmark: every back-end on the same works, errors against 113 bits, equality of the integer
-// back-ends, CPU time in interleaved repetitions. Documentation: docs/bench.md
+// back-ends, CPU time in interleaved repetitions. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The benchmark's result as JSON and as text. Documentation: docs/bench.md
+// The benchmark's result as JSON and as text. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/report.hpp"
 
 #include <fmt/format.h>

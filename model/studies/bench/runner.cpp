@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The back-ends of the benchmark. Documentation: docs/bench.md
+// The back-ends of the benchmark. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/runner.hpp"
 
 #include <cmath>

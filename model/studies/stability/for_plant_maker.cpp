@@ -356,7 +356,8 @@ void Maker::scenes() {
   scaled("damper_nm_s_rad", d_.damper_nm_s_rad, damping);
   scaled("charge_nm_rad2", d_.charge_nm_rad2, torque);
   scaled("wall_nm_s_rad", d_.wall_nm_s_rad, damping);
-  // The stiffest wall that friction still quietens is 2*friction/count (docs/stability.md).
+  // The stiffest wall that friction still quietens is 2*friction/count
+  // (docs/speed-for-accuracy.md).
   constexpr double margin = 0.875;  // 4 of 4.56, as in lever
   const bool rough = p_.effects.lugre && p_.lugre.coulomb_nm > 0;
   const double quiet = margin * 2 * p_.lugre.coulomb_nm / m_.count_rad();

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Room: the scene's torque to four gates, or to six of a motor with three phases. One limiter limits six values of a tick, one after the
-// other (docs/blocks/limiter.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
+// other (docs/blocks/torque_control.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
 // the bridge takes it at the next start of a PWM period. With the option CURRENT_LOOP a controller of the measured
-// current gives the bridge its duty, one in each period (docs/blocks/current_control.md). With PHASES = 3 the duty is the
-// amplitude of three legs' voltages, which turn with the motor (docs/blocks/commutation.md); with both, two currents are
-// measured and controlled in the rotor's frame (docs/blocks/field_oriented.md). docs/architecture.md
+// current gives the bridge its duty, one in each period (docs/blocks/current.md). With PHASES = 3 the duty is the
+// amplitude of three legs' voltages, which turn with the motor (docs/blocks/three_phase.md); with both, two currents are
+// measured and controlled in the rotor's frame (docs/blocks/three_phase.md). docs/architecture.md
 
 `default_nettype none
 

@@ -7,7 +7,7 @@
 // Torque, step of the voltage mode, current, dead voltage, voltage and duty use it in turn. Without valid_i it only
 // compares x with a border: over_limit_o is valid, the limited value is 0. Latency: valid_i and early_*_i in clock
 // t - 1, late_*_i and the limit in t; in t + 1 over_limit_o, and limited_o, where the limited value is 0 in all other
-// clocks. docs/blocks/limiter.md
+// clocks. docs/blocks/torque_control.md
 
 `default_nettype none
 

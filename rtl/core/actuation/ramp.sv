@@ -4,7 +4,7 @@
 // Ramp of the torque reference. tau_ref_o follows the scene's limited torque. After arming, a
 // change of scene, a change of derated_i or restart_i it moves by at most one step word per tick
 // until it reaches the target; after that it is not slowed. Latency: target on limited_i in the
-// clock of the step's word (EVENT_AT_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/ramp.md
+// clock of the step's word (EVENT_AT_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/torque_control.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // Room: encoder pins to position, with the checks of the encoder. With the option ABSOLUTE_ENCODER the position is that of
 // an absolute encoder's serial lines (docs/blocks/absolute_encoder.md), and A, B and Z are not used. With the option HALL
-// three lines of the motor say where its electrical angle begins (docs/blocks/hall_sensor.md).
+// three lines of the motor say where its electrical angle begins (docs/blocks/three_phase.md).
 // Timing: the wave samples the position in EVENT_AT_SAMPLE; an absolute encoder's reading begins there. docs/architecture.md
 
 `default_nettype none

@@ -4,7 +4,7 @@
 // Encoder monitor. Once per tick (EVENT_AT_LEVELS) it checks whether edges come on one channel only. That
 // is either chatter on one edge, which lasts only while a torque drives it, or a dead channel. In
 // every clock it checks that count and zero do not change without an edge or a new zero.
-// Documentation: docs/blocks/encoder_monitor.md
+// Documentation: docs/blocks/encoder.md
 `default_nettype none
 
 module encoder_monitor #(

@@ -4,7 +4,7 @@
 // Measures how long a torque above hold_torque acts on a lever that stands still (torque_control
 // puts tau_ref on the limiter for it). After hold_time derated_o makes hold_limit
 // limit the torque too, until the encoder moves or the axis disarms. Once per tick, in EVENT_AT_HOLD.
-// Documentation: docs/blocks/hold_timer.md
+// Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
 module hold_timer (

@@ -5,7 +5,7 @@
 // A write is accepted in a clock with reg_write_i high and reg_busy_o low, and takes effect at
 // tick_i; a parameter saturates to its format. A disarm and a stop do not wait for an earlier write.
 // Latency: param_o follows slot_fetch_i by 2 clocks, reg_rdata_o follows reg_addr_i by 3.
-// Documentation: docs/blocks/registers.md
+// Documentation: docs/architecture.md
 `default_nettype none
 
 module registers #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The ramp of a design after the core's limiter: adapter, waves, and the chain compared with
-// clock(). Documentation: docs/blocks/ramp.md
+// clock(). Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include <Vramp.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // ramp: RTL against twin on every clock, directed tests of its course, and its error against quad
-// precision. Documentation: docs/blocks/ramp.md
+// precision. Documentation: docs/blocks/torque_control.md
 #include "ramp_bench.hpp"
 
 #include <algorithm>

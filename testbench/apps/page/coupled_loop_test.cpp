@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The page's two levers: what is felt of what the other one meets, against the closed forms of
-// docs/devices/coupled_levers.md, from either lever; and a step of the hand over time.
+// docs/devices/pantograph.md, from either lever; and a step of the hand over time.
 // Documentation: docs/page.md
 #include <cmath>
 #include <stdexcept>

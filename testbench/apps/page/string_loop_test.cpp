@@ -88,7 +88,8 @@ Stretch played(StringLoop& loop, double bow_m_s) {
 }  // namespace
 
 TEST_CASE("page: a bow that draws itself makes one slip a period, as far apart as the docs say") {
-  // docs/devices/bowed_string.md, at 40 kHz, 0.2 m/s and 1/10: force, least and most between slips.
+  // docs/devices/strings-and-drums.md, at 40 kHz, 0.2 m/s and 1/10: force, least and most between
+  // slips.
   struct Row {
     double force_n, least_ms, most_ms;
   };

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // axes_engine: the effect of arming, entries, commits and a silent program on an engine's torque.
-// RTL against twin on every clock. Documentation: docs/blocks/axes_engine.md
+// RTL against twin on every clock. Documentation: docs/architecture.md
 #include "axes_engine_bench.hpp"
 #include "catch.hpp"
 #include "random.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The local plane: normals and force steps of a circle against closed forms, and how stiff a floor
-// may be, by its plane and by sent forces. Documentation: docs/devices/local_plane.md
+// may be, by its plane and by sent forces. Documentation: docs/devices/pantograph.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A stylus on three slides: worlds by their nearest planes, RTL and twin, and a field of heights.
-// Documentation: docs/devices/stylus.md
+// Documentation: docs/devices/three-axes.md
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Random but plausible stimulus of several axes. Each axis has a lever, as a single core has; one
-// host mostly requests the same from all axes. Documentation: docs/blocks/feltgate_axes.md
+// host mostly requests the same from all axes. Documentation: docs/architecture.md
 #pragma once
 
 #include <deque>

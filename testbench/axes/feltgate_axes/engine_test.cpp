@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Axes with their engine: the host loads a law for two axes; RTL against twin in every clock. The
-// tests include arming, ramps and the age monitor. Documentation: docs/blocks/feltgate_axes.md
+// tests include arming, ramps and the age monitor. Documentation: docs/architecture.md
 #include "../../engine/machine/machine_programs.hpp"
 #include "axes_life.hpp"
 #include "axes_stimulus.hpp"

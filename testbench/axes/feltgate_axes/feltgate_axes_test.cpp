@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Axes: RTL against twin, every output of each axis on every clock, and the properties between
-// axes. AXES is the number of axes. Documentation: docs/blocks/feltgate_axes.md
+// axes. AXES is the number of axes. Documentation: docs/architecture.md
 #include "feltgate/feltgate_axes.hpp"
 
 #include "axes_life.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motors, encoders, hand and loop of the gimbal; its file. docs/gimbal.md
+// Motors, encoders, hand and loop of the gimbal; its file. docs/devices/three-axes.md
 #include <algorithm>
 #include <fstream>
 

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The bit-exact twin of several axes as the device of a plant's loop, in the scene of programs. The
-// program is a function from outside, which replaces the engine. Documentation: docs/pantograph.md
+// program is a function from outside, which replaces the engine. Documentation:
+// docs/devices/pantograph.md
 #pragma once
 
 #include <algorithm>
@@ -13,9 +14,9 @@
 #include <functional>
 #include <utility>
 
-#include "sampled_law.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_axes.hpp"
+#include "sampled_law.hpp"
 
 namespace feltgate {
 

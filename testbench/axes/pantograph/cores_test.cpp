@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Two cores, bit by bit, around the pantograph: the shipped law's torque through limits, ramp,
-// voltage law, PWM and supervisors of both axes. docs/pantograph.md
+// voltage law, PWM and supervisors of both axes. docs/devices/pantograph.md
 #include <algorithm>
 
 #include "axes_twin.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law file in real numbers as a law of joints. docs/pantograph.md
+// A law file in real numbers as a law of joints. docs/devices/pantograph.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A force law in floating point, sampled and delayed, as a loop's device. docs/pantograph.md
+// A force law in floating point, sampled and delayed, as a loop's device.
+// docs/devices/pantograph.md
 #pragma once
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The loop of a pantograph, and an example law for it. Documentation: docs/pantograph.md
+// The loop of a pantograph, and an example law for it. Documentation: docs/devices/pantograph.md
 #pragma once
 
 #include <algorithm>
 
-#include "sim/plant/axes_loop.hpp"
 #include "sampled_law.hpp"
+#include "sim/plant/axes_loop.hpp"
 #include "sim/plant/pantograph/pantograph.hpp"
 
 namespace feltgate::plant {

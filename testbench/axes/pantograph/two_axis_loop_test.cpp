@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law in closed loop with the pantograph, with sampling and delay: a wall and drag act on a hand.
-// docs/pantograph.md
+// docs/devices/pantograph.md
 #include "two_axis_loop.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // axi_lite_port: RTL against twin on every clock, and a manager in front of it with the twin of
-// registers behind. Documentation: docs/blocks/axi_lite_port.md
+// registers behind. Documentation: docs/other-tools.md
 #include <Vaxi_lite_port.h>
 
 #include <algorithm>

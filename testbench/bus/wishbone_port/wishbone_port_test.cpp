@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // wishbone_port: RTL against twin on every clock, and a host in front of it with the twin of
-// registers behind. Documentation: docs/blocks/wishbone_port.md
+// registers behind. Documentation: docs/other-tools.md
 #include <Vwishbone_port.h>
 
 #include <map>

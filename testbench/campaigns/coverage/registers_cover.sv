@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of registers: each kind of write, what passes one that waits, what is refused, coincidences at the tick.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module registers_cover (

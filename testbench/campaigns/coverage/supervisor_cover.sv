@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of supervisor: every cause trips, is the first, is cleared; causes that come together; the ends of the timers.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module supervisor_cover (

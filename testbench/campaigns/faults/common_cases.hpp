@@ -3,7 +3,7 @@
 //
 // What the cases of several designs have in common; and a sensor that is plugged in after the
 // request to arm: nobody asks again, so no gate may open.
-// Documentation: docs/verification.md
+// Documentation: docs/testing.md
 #pragma once
 
 #include <fmt/format.h>

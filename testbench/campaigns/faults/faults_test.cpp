@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Tests a part of the fault campaign, the separation of its classes, and the listed cases.
-// docs/verification.md defines each fault and the limits of the classes.
+// docs/testing.md defines each fault and the limits of the classes.
 #include <fstream>
 #include <map>
 #include <string>

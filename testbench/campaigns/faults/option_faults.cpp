@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Faults at the pins that lever does not have. Documentation: docs/verification.md
+// Faults at the pins that lever does not have. Documentation: docs/testing.md
 #include "campaigns/faults/option_faults.hpp"
 
 #include <fmt/format.h>

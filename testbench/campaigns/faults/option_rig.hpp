@@ -3,7 +3,7 @@
 //
 // A core's twin with what designs with a current loop, an absolute encoder or three phases have at
 // their pins: modulator, driver, sensor, the gates of a bridge, motor and hand; and what breaks of
-// it. Documentation: docs/verification.md
+// it. Documentation: docs/testing.md
 #pragma once
 
 #include <algorithm>

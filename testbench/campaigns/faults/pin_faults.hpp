@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Faults at the encoder's pins, at the stop and at the register port. The core's twin runs in
-// closed loop beside a sound twin on the same lever. Documentation: docs/verification.md
+// closed loop beside a sound twin on the same lever. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A fault as one line of JSON. Documentation: docs/verification.md
+// A fault as one line of JSON. Documentation: docs/testing.md
 #include "campaigns/faults/record.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The environment of the fault campaign: scenes that give torque, with motor, lever and a hand;
-// what breaks of the sensors of other designs than lever. Documentation: docs/verification.md
+// what breaks of the sensors of other designs than lever. Documentation: docs/testing.md
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,7 @@
 // The core with a current loop, RTL against twin in every clock, around a winding that its gates
 // switch: a torque step, what tau_hat and I2t take, the over-current, a sensor or a driver that
 // fails, the heartbeat, what arming waits for.
-// Documentation: docs/blocks/current_control.md
+// Documentation: docs/blocks/current.md
 #include <algorithm>
 #include <cmath>
 #include <utility>

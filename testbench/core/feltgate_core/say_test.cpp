@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_core: panel and host take control from each other, and this alone never arms the motor.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #include "core_life.hpp"
 
 using namespace feltgate::test;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_core: signals between its blocks that random runs hardly change; each test makes one
-// visible at an output. Documentation: docs/blocks/feltgate_core.md
+// visible at an output. Documentation: docs/architecture.md
 #include <algorithm>
 
 #include "core_life.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Bits of parameters flip while the motor is armed. Their check must find the flip and turn the
-// gates off within a tick. RTL against twin on every clock. Documentation: docs/blocks/registers.md
+// gates off within a tick. RTL against twin on every clock. Documentation: docs/architecture.md
 #include <Vcore_open.h>
 #include <Vcore_open___024root.h>
 

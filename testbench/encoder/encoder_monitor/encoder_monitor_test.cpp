@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // encoder_monitor: RTL against twin on every clock, and directed sequences of edges.
-// Documentation: docs/blocks/encoder_monitor.md
+// Documentation: docs/blocks/encoder.md
 #include <Vencoder_monitor.h>
 
 #include <vector>

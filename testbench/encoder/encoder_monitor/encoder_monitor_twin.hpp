@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/encoder/encoder_monitor.sv, clock by clock. Documentation:
-// docs/blocks/encoder_monitor.md
+// docs/blocks/encoder.md
 #pragma once
 
 #include <cstdint>

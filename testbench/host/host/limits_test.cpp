@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A limit is a magnitude: under load a negative word acts as 0, and no word lets more through than
-// its value. The whole core, RTL against twin. Documentation: docs/blocks/limiter.md
+// its value. The whole core, RTL against twin. Documentation: docs/blocks/torque_control.md
 #include <algorithm>
 
 #include "core_script.hpp"

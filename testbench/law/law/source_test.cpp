@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The run from a law's text beside the run of its graph: two readings of one language.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/source_law.hpp"
 
 #include <filesystem>

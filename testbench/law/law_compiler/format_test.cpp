@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Formats that the search must not choose, and the memory that tables need. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <cmath>
 
 #include "catch.hpp"

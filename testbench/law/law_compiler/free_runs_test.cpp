@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Words beside the law as its text says it, each by itself; drift, words of one value, ends, and
-// bounds that say nothing. Documentation: docs/law-compiler.md
+// bounds that say nothing. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>

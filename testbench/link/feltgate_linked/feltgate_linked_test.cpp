@@ -3,7 +3,7 @@
 //
 // feltgate_linked: RTL against twin on every clock, including the UART pins, with random requests
 // and invalid frames; single requests; thousands of random frames; the twin from event to event.
-// Documentation: docs/blocks/feltgate_linked.md
+// Documentation: docs/link.md
 #include <cstdio>
 #include <deque>
 

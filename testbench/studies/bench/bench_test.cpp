@@ -3,7 +3,7 @@
 //
 // The benchmark on short works: every back-end is there, the integer ones agree, errors stay
 // within what the formats say, and an engine that is wrong by one bit is found.
-// Documentation: docs/bench.md
+// Documentation: docs/speed-for-accuracy.md
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>

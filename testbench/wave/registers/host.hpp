@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Ports of the Verilated registers, a host that follows a script, and a random host.
-// Documentation: docs/blocks/registers.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <Vregisters.h>

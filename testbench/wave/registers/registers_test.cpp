@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // registers: RTL against twin on every clock, and both against the documented behaviour of the
-// port. Documentation: docs/blocks/registers.md
+// port. Documentation: docs/architecture.md
 #include <set>
 
 #include "catch.hpp"

@@ -315,8 +315,6 @@ traces::Options options_of(const fs::path& file, traces::FileFormat format) {
   o.clock_hz = clocks[random.below(4)];
   const std::int64_t rates[] = {0, 0, 1, 1'000'000'000'000};
   o.sample_hz = rates[random.below(4)];
-  const char* const units[] = {"", "", "ms", "h"};
-  o.time_unit = units[random.below(4)];
   o.turn_counts = 4096;
   o.warn = [](const std::string&) {};
   const bool saleae = format == traces::FileFormat::saleae;
@@ -330,6 +328,8 @@ traces::Options options_of(const fs::path& file, traces::FileFormat format) {
     if (random.below(2) == 0) o.scale = 325.95;
     if (random.below(2) == 0) o.wrap = random.below(2) == 0 ? 0.0 : 360.0;
   }
+  const char* const units[] = {"", "", "ms", "h"};
+  o.time_unit = units[random.below(4)];
   return o;
 }
 

@@ -50,7 +50,7 @@ def commands(build):
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
     }
-    scripts = ("choose", "faults", "prove", "mutate", "coverage", "page", "product", "docs")
+    scripts = ("choose", "claims", "faults", "prove", "mutate", "coverage", "page", "product", "docs")
     own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
     programs = ("bench", "extremes", "host", "board")
     own |= {name: [build / f"feltgate_{name}"] for name in programs}

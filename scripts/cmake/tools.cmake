@@ -141,13 +141,6 @@ foreach(name feltgate_mesh feltgate_proxy)
   target_compile_options(${name} PRIVATE -O2)
 endforeach()
 
-# What papers claim: docs/claims.md
-feltgate_library(feltgate_claims studies/claims feltgate_texture feltgate_stability feltgate_loop feltgate_files
-  feltgate_plant_files)
-target_link_libraries(feltgate_claims PRIVATE nlohmann_json::nlohmann_json)
-target_compile_definitions(feltgate_claims PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
-target_compile_options(feltgate_claims PRIVATE -O1)
-
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
@@ -183,7 +176,7 @@ endif()
 
 list(REMOVE_ITEM tool_sources ${run_names})
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_claims feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
+  feltgate_rtl feltgate_files feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
   feltgate_command_line nlohmann_json::nlohmann_json)
 target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 

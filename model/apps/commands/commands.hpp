@@ -30,7 +30,6 @@ int scene_stability(const std::string& scene, const std::string& json, bool bits
 void add_rates(CLI::App& app, int* exit_code);
 void add_controllers(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
-void add_claims(CLI::App& app, int* exit_code);
 void add_law(CLI::App& app, int* exit_code);
 void add_shape(CLI::App& app, int* exit_code);
 void add_texture(CLI::App& app, int* exit_code);

@@ -48,7 +48,6 @@ class ProgramTest(Scratch):
         for words in (
             ("run", "torque_step", "--engine", "twin"),
             ("replay", trace, "--duration", "0.01", "--engine", "twin"),
-            ("claims", "recognition"),
             ("extremes", "wrap_32"),
             ("stability", "lever", "--no-bits", "--no-experiments", "--rate", "1000"),
         ):

@@ -239,8 +239,8 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
   target_link_options(${name} PRIVATE "LINKER:--as-needed,--version-script=${PROJECT_BINARY_DIR}/fmu.map")
 endforeach()
 
-# The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
-feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law systemc)
+# The benchmark: only built when asked for.
+feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench bench_main.cpp
   feltgate_command_line feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json)

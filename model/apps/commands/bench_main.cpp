@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate bench, a program of its own because it links SystemC. Documentation: docs/bench.md
+// feltgate bench, a program of its own, built only when asked for. Documentation: docs/bench.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,8 +89,6 @@ int main(int argc, char** argv) {
       "  twin_event  the same from event to event\n"
       "  twin_tick   the twin's arithmetic alone, a tick at a time\n"
       "  double, float, quad   the same laws in binary64, binary32 and binary128\n"
-      "  sc_fixed    the same laws in SystemC's fixed point\n"
-      "  shifts      the same chain written by hand in 64-bit integers\n"
       "Examples:\n"
       "  feltgate bench                        a few minutes\n"
       "  feltgate bench --quick                half a minute; rougher\n"

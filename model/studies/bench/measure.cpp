@@ -209,8 +209,6 @@ class Measurement {
     result_.device_ns = spread(device_ns_);
     const BackendResult* rtl = result_.find("rtl");
     const BackendResult* event = result_.find("twin_event");
-    const BackendResult* tick = result_.find("twin_tick");
-    const BackendResult* shifts = result_.find("shifts");
     auto& goals = result_.goals;
     if (event != nullptr && rtl != nullptr) {
       goals.push_back({"event_over_rtl", "twin_event, times as fast as rtl", 80, false,
@@ -219,10 +217,6 @@ class Measurement {
     if (event != nullptr) {
       goals.push_back(
           {"event_over_real_time", "twin_event, times real time", 40, false, event->speed});
-    }
-    if (tick != nullptr && shifts != nullptr) {
-      goals.push_back({"fixed_over_shifts", "fixed (twin_tick), time over hand-written shifts",
-                       1.15, true, ratio(*tick, *shifts, options_.repetitions)});
     }
     if (!loop_total_.empty()) {
       goals.push_back({"closed_loop_over_real_time",

@@ -33,7 +33,7 @@ double nearest(const Law& law, Place place) {
       continue;
     for (const NodeId a : n.arguments) {
       const Node& end = law.nodes[at(a)];
-      if (end.op != Op::constant) continue;
+      if (end.op != Op::constant || end.value <= 0) continue;
       if (least != 0 && least != end.value) {
         throw std::invalid_argument("several atan2 at one place");
       }

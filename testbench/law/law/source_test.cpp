@@ -50,7 +50,8 @@ double nearest(const Law& law) {
   for (const Node& n : law.nodes) {
     if (n.op != Op::maximum) continue;
     for (const NodeId a : n.arguments) {
-      if (law.nodes[at(a)].op == Op::constant) return law.nodes[at(a)].value;
+      const Node& end = law.nodes[at(a)];
+      if (end.op == Op::constant && end.value > 0) return end.value;
     }
   }
   return 0;

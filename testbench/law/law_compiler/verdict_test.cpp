@@ -232,7 +232,7 @@ TEST_CASE("a bound as large as its output's range is refused, one of 1 % of it t
                      "table f(x) on [-10, 30] = exp(x)\n"
                      "out torque = 1 Nm * min(f(clamp(k * x, -10, 30)), 1)\n"),
              Contains("x.law:4:5: the proven bound of torque, 1 Nm, is as large as its range") &&
-                 Contains("says nothing") && Contains("narrow what goes into f in line 4"));
+                 Contains("says nothing") && Contains("the number 1 of line 4 became 0 there"));
   const std::string coarse =
       "table f(x) on [0, 100] = sqrt(x)\nout torque = 0.01 Nm * min(f(abs(position)), 1)\n";
   const Compiled c = compiled(coarse);
@@ -250,8 +250,7 @@ TEST_CASE("a bound is also compared with what the law gave in the measured runs"
   };
   // By intervals both reach the end of the torque's format.
   const Verdict idle = told("out torque = 0.01 Nm * position^2 / (1 + position^2)\n");
-  REQUIRE(idle.failures.size() == 1);
-  CHECK_THAT(idle.failures[0], Contains("in the measured runs, 0 .. 0.01 Nm: it says nothing"));
+  CHECK_THAT(text(idle), Contains("in the measured runs, 0 .. 0.01 Nm: it says nothing"));
   // Where the file's parameters show what the law gives, more tables are tried for it.
   const std::string u = "let u = clamp(100 * position, -10000, 10000)\n";
   const Verdict tried = told(u + "out torque = 0.01 Nm * (u / (1 + abs(u)))\n");

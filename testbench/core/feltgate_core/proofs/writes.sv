@@ -44,10 +44,14 @@ module writes_proof (
     if (phase_q < 10'd64 && feltgate_map_pkg::SCENE_SLOTS[phase_q[5:0]]) wanted = {scene, phase_q[4:0]};
     else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN) && \u_core.region_high )
       wanted = 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
-    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.testing_o )
-      wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
-    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.derated )
+    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT))
+      wanted = {3'd0, \u_core.u_wave.u_registers.least_at_q };
+    else if (phase_q == 10'(feltgate_map_pkg::EVENT_AT_LEAST_FULL))
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
+    else if (phase_q == 10'(feltgate_map_pkg::EVENT_AT_LEAST_HOLD))
       wanted = 9'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
+    else if (phase_q == 10'(feltgate_map_pkg::EVENT_AT_LEAST_TEST))
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
   end
   always_ff @(posedge clk_i) begin
     address_q    <= address_q;

@@ -329,6 +329,7 @@ module port_proof (
                                   least_at == 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT) ? hold_on_q && hold_q == least :
                                   least_at == 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE) && test_on_q && test_q == least);
       inside_least: assert (\u_dut.least_q == least);
+      inside_fits: assert (!to_parameter || fitted(at_q, data_q) == data_q);
       inside_due: assert (next_q == 2'd0 || (!test_on_q && (next_q == 2'd2 || (next_q == 2'd1 && !hold_on_q))));
       banks_apart: assert (\u_dut.g_read.read_bank != \u_dut.g_read.write_bank_q );
       inside_taken: assert (\u_dut.to_parameter_q == to_parameter && \u_dut.to_control_q == to_control &&

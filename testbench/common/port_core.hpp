@@ -14,8 +14,9 @@
 namespace feltgate::test {
 
 /// What a parameter keeps of a written word: the nearest that its format has.
-inline std::uint32_t word_kept(int address, std::uint32_t word) {
-  for (const auto& p : Lever::parameters) {
+template <class D = Lever>
+std::uint32_t word_kept(int address, std::uint32_t word) {
+  for (const auto& p : D::parameters) {
     if (p.address != address || p.format.width() == 32) continue;
     const double size = std::ldexp(1.0, p.format.width()), value = static_cast<std::int32_t>(word);
     const double least = p.format.sign != 0 ? -size / 2 : 0;

@@ -52,7 +52,7 @@ class EncoderMonitorLaw {
     } else if (!late && whole(tick, edge_bits_)) {
       ++edge_units_;
     }
-    if (moved_ && !both) channel_ = changed;
+    if (moved_ && !both) channel_ = changed == 2 ? 2 : 1;
   }
 
   /// The count alternates on one edge; the torque must not grow.

@@ -137,7 +137,7 @@ LegModel::LegModel(const Drive& drive, const SupplyParameters& supply, const Pha
 // Share of the period after the PWM has left out a short high pulse or made a short low pulse
 // longer (docs/blocks/pwm.md).
 double LegModel::whole_pulses(double on) const {
-  if (least_ <= 0.0) return on;
+  if (dead_fraction_ <= 0.0 || least_ <= 0.0) return on;
   if (on > dead_share_ && on < least_) return dead_share_;
   return std::min(on, 1.0 - least_);
 }

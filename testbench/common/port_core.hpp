@@ -17,7 +17,7 @@ namespace feltgate::test {
 template <class D = Lever>
 std::uint32_t word_kept(int address, std::uint32_t word) {
   for (const auto& p : D::parameters) {
-    if (p.address != address || p.format.width() == 32) continue;
+    if (p.address != address || p.format.width() - p.format.sign >= 31) continue;  // any word
     const double size = std::ldexp(1.0, p.format.width()), value = static_cast<std::int32_t>(word);
     const double least = p.format.sign != 0 ? -size / 2 : 0;
     return static_cast<std::uint32_t>(

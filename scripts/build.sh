@@ -53,20 +53,22 @@ lock_build() {
 }
 
 # configure TESTS: once per build folder, again when tests are wanted, the repository or Python moved,
-# or dpkg has changed something: a tool that CMake did not find may be there now.
+# warnings become errors or no longer are (.ci/run sets FELTGATE_WERROR, nobody else), or dpkg has changed
+# something: a tool that CMake did not find may be there now.
 configure() {
-  local tests=$1 had_tests='' had_root='' had_python='' fresh=()
+  local tests=$1 werror=${FELTGATE_WERROR:-OFF} had_tests='' had_root='' had_python='' had_werror='' fresh=()
   if [[ -f $BUILD/build.ninja && -f $STATE/configured ]]; then
-    { read -r had_tests && read -r had_root && read -r had_python; } <"$STATE/configured" || true
+    { read -r had_tests && read -r had_root && read -r had_python && read -r had_werror; } \
+      <"$STATE/configured" || true
   fi
   if [[ $had_tests == ON ]]; then tests=ON; fi
   [[ $had_tests == "$tests" && $had_root == "$ROOT" && $had_python == "$FELTGATE_PYTHON" &&
-    ! /var/lib/dpkg/status -nt $STATE/configured ]] && return
+    $had_werror == "$werror" && ! /var/lib/dpkg/status -nt $STATE/configured ]] && return
   if [[ $had_root && $had_root != "$ROOT" ]]; then fresh=(--fresh); fi
   run_logged "configuring" "$STATE/configure.log" cmake "${fresh[@]}" -S "$ROOT" -B "$BUILD" \
     -G Ninja -DCMAKE_BUILD_TYPE=Release -DFELTGATE_TESTS="$tests" \
-    -DFELTGATE_PACKAGES=OFF -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
-  printf '%s\n' "$tests" "$ROOT" "$FELTGATE_PYTHON" >"$STATE/configured"
+    -DFELTGATE_WERROR="$werror" -DFELTGATE_PACKAGES=OFF -DPython3_EXECUTABLE="$FELTGATE_PYTHON" || return
+  printf '%s\n' "$tests" "$ROOT" "$FELTGATE_PYTHON" "$werror" >"$STATE/configured"
 }
 
 # build TESTS TARGET...: ends the launcher with the build's own status when it fails. The target

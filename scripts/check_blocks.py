@@ -8,9 +8,9 @@ Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<r
 RTL; blocks that help one another share a page. The twin is the class with the block's name. It is in
 model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
 law that it evaluates, if any, is in the former.
-Further checks: a strobe is connected to the clock of its name, what a page draws is in the RTL, no hand-written
-source has more than 400 lines, only libfmt formats numbers in model/, and the lists made from the blocks are up
-to date: docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
+Further checks: a strobe is connected to the clock of its name, no hand-written source has more than 500 lines, only
+libfmt formats numbers in model/, and the lists made from the blocks are up to date: docs/blocks.md, and the sources
+in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -26,7 +26,7 @@ from pathlib import Path
 from seeded_defects import patches
 import rtl_sources
 
-MAX_LINES = 400
+MAX_LINES = 500
 SOURCE_SUFFIXES = {".sv", ".v", ".svh", ".cpp", ".hpp", ".h", ".py", ".sh", ".cmake", ".tcl"}
 EXEMPT = {*rtl_sources.CELL_WRAPPERS, *rtl_sources.NO_BLOCKS}
 SKIPPED_FOLDERS = {".git", "build", "generated", "__pycache__"}
@@ -148,17 +148,6 @@ def check_block(root, block):
         yield f"{block.rtl}: the word Defect; what breaks it is a patch in {file}"
 
 
-def check_drawings(root, page):
-    """Each port and register in the drawings of a page is in the RTL that it links."""
-    text = (root / page).read_text(encoding="utf-8")
-    linked = [root / path for path in linked_files(root, page) if path.suffix == ".sv"]
-    files = {path for one in linked for path in (one.parent.glob("*.sv") if "core" not in one.parts else [one])}
-    names = set(re.findall(r"\w+", "".join(path.read_text(encoding="utf-8") for path in files if path.exists())))
-    for drawing in re.findall(r"^```mermaid\n(.*?)^```", text, re.S | re.M):
-        for name in sorted({*re.findall(r"\b\w+_(?:n?[io]|q[0-9]?)\b", drawing)} - names):
-            yield f"{page}: {name} of the drawing is not in the RTL; correct the drawing"
-
-
 def check_defects(root):
     """Each defect is well-formed, and a test is built with it; those of proofs are in their list."""
     for file in sorted(root.glob("testbench/**/*.diff")):
@@ -194,12 +183,6 @@ def linked_files(root, page):
         if "://" not in target:
             links.add(Path(os.path.normpath(page.parent / target)))
     return links
-
-
-def check_links(root, page):
-    for target in sorted(linked_files(root, page)):
-        if not (root / target).exists():
-            yield f"{page}: links {target}, which is not there; correct the link"
 
 
 def check_lengths(root):
@@ -370,11 +353,6 @@ def check(root, write=False):
         found.append(f"rtl/{ordered[name]}: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
-    for page in page_links(root):
-        found += check_drawings(root, page)
-    for page in sorted(root.glob("docs/**/*.md")):
-        if page != root / "docs/blocks.md":  # its links are the siblings, checked above
-            found += check_links(root, page.relative_to(root))
     found += check_defects(root)
     found += check_strobes(root)
     found += check_lengths(root)

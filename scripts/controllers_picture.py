@@ -5,13 +5,11 @@
 
   feltgate controllers -o docs/images/controllers.svg        calls it
   feltgate controllers --estimators -o estimators.svg        the velocity estimators instead
-  feltgate controllers --current -o current_loop.svg         the current loop instead
   feltgate controllers --json all.json && scripts/controllers_picture.py all.json all.svg
 
 Documentation: docs/speed-for-accuracy.md
 """
 
-import math
 import sys
 
 from outputs import write_whole
@@ -26,13 +24,6 @@ COLOURS = {
 }
 DASHES = {"PI": (0, (4, 3)), "reaction observer": (0, (4, 3))}
 STALL_MS = 10
-CAPTION = (
-    "Top: motor torque after a step of 0.2 Nm, lever locked; PI lies on the observer, the reaction "
-    "observer on feed-forward. Middle: the largest wall that does not swing when the "
-    "lever is pressed into it, over the ratio of nominal and true inertia; 0 is none of 1 Nm/rad. "
-    "Bottom: motor torque while a hand at rest trembles, by the encoder. Fixed point, simulation."
-)
-
 
 def style(name):
     return {"color": COLOURS[name], "linestyle": DASHES.get(name, "-"), "linewidth": 1.2}
@@ -60,14 +51,9 @@ def picture(data):
     border.set(xlabel="nominal over true inertia", ylabel="largest wall, Nm/rad")
     noise.set(xlabel="lines of the encoder", ylabel="noise, mNm rms")
     noise.set_ylim(bottom=0)
-    return plots.finish(figure, "controllers", CAPTION)
+    return plots.finish(figure, "controllers")
 
 
-ESTIMATORS_CAPTION = (
-    "The velocity estimators in `lever`, all else equal. Top: the largest wall that does not swing when the lever is "
-    "pressed into it, with feed-forward and with the observer fed back. Bottom: noise of tau_hat behind an encoder "
-    "with irregular lines, at rest and at 1 and 10 rad/s; 0.1 stands for less. Fixed point, simulation."
-)
 LEAST_MNM = 0.1  # on the logarithmic axis
 
 
@@ -96,48 +82,12 @@ def estimators_picture(data):
         axis.invert_yaxis()
         axis.set_xlabel(text)
         axis.legend(loc=place, fontsize=7)
-    return plots.finish(figure, "estimators", ESTIMATORS_CAPTION)
-
-
-CURRENT_CAPTION = (
-    "Design `lever`, gains for 2 kHz. Top: motor torque after a step of 0.2 Nm at stall, as it is and in the mean over "
-    "a PWM period, and a lag of 2 kHz. Middle: reference to current, by sines through the bits; lines are the averaged "
-    "winding's. Bottom: a short at 0.5 Nm, until the over-current has turned the gates off. Simulation."
-)
-CURRENT_HZ = 2000
-STEP_MS = 0.6
-
-
-def current_picture(data):
-    """The step, the frequency response and the short."""
-    title = "A current loop in the blocks' bits, around switched gates"
-    figure, (step, gain, phase, short) = plots.stacked(title, [1.9, 1.3, 1.3, 1.5], apart=3)
-    times = [1e3 * data["step_every_s"] * i for i in range(len(data["step_nm"]))]
-    shown = sum(t <= STEP_MS for t in times)
-    lag = [1 - math.exp(-2e-3 * math.pi * CURRENT_HZ * t) for t in times[:shown]]
-    for values, label, colour in (
-        (data["step_nm"], "as it is", "#6db8ec"),
-        (data["step_mean_nm"], "mean over a PWM period", "#0072b2"),
-        ([0.2 * v for v in lag], f"lag of {CURRENT_HZ} Hz", "#b23a00"),
-    ):
-        step.plot(times[:shown], [1e3 * v for v in values[:shown]], label=label, color=colour, linewidth=1)
-    step.set(xlabel="after the step, ms", ylabel="motor torque, mNm")
-    step.legend(loc="lower right")
-    hz = [s["hz"] for s in data["sines"]]
-    for axis, key, level, label in ((gain, "gain_db", -3, "gain, dB"), (phase, "phase_deg", -90, "phase, degrees")):
-        axis.plot(hz, [s[f"form_{key}"] for s in data["sines"]], color="#b23a00", linewidth=0.8)
-        axis.plot(hz, [s[key] for s in data["sines"]], "o", color="#0072b2", markersize=3.5)
-        axis.axhline(level, color="#8c96a0", linewidth=0.8, linestyle=":")
-        axis.set(xscale="log", ylabel=label, xlabel="frequency, Hz")
-    short.plot([1e6 * data["short_every_s"] * i for i in range(len(data["short_a"]))], data["short_a"], color="#d55e00")
-    short.set(xlabel="after the short, µs", ylabel="current, A")
-    return plots.finish(figure, "current_loop", CURRENT_CAPTION)
+    return plots.finish(figure, "estimators")
 
 
 SCHEMAS = {
     "feltgate-controllers/1": picture,
     "feltgate-estimators/1": estimators_picture,
-    "feltgate-current/1": current_picture,
 }
 
 

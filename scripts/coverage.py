@@ -107,10 +107,7 @@ def conclude(options, root, result):
     if options.update and good:
         put = block_results.merge if options.block else block_results.write
         put(root, "coverage", "./feltgate coverage --update", report.per_block(result))
-        print(
-            f"coverage: wrote {block_results.path_of('', 'coverage')}; "
-            "scripts/check_blocks.py --write makes the table"
-        )
+        print(f"coverage: wrote {block_results.path_of('', 'coverage')}")
     elif options.update:
         print(
             f"coverage: {block_results.path_of('', 'coverage')} stays as it was, "

@@ -75,11 +75,6 @@ class Defects(unittest.TestCase):
                 (self.root / "rtl/child.sv").write_text(CHILD.replace(old, line))
                 self.refused(patch, "does not apply", "rtl/child.sv")
 
-    def test_moved_lines_are_found(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        (self.root / "rtl/child.sv").write_text("// a new head\n" + CHILD)
-        self.assertIn("<= ~a_i", patches.patched(patch, self.root)[SOURCES[0]])
-
     def test_changes_nothing(self):
         self.refused(self.patch("// late", "// a clock later"), "changes no code of rtl/child.sv")
         self.refused(self.patch("y_o <= a_i", "y_o  <=  a_i"), "changes no code")
@@ -88,48 +83,6 @@ class Defects(unittest.TestCase):
     def test_does_not_say_what_it_breaks(self):
         self.refused(self.patch("<= a_i", "<= ~a_i", first=""), "first line")
         self.refused(self.patch("<= a_i", "<= ~a_i", first="diff --git a/x b/x\n"), "first line")
-
-    def test_names(self):
-        for name in ("No-Word", "none"):
-            self.defects = {}
-            self.refused(self.patch("<= a_i", "<= ~a_i", name=name), str(self.file), "rename it")
-
-    def test_several_in_a_file(self):
-        one = self.patch("<= a_i", "<= ~a_i")
-        two = self.patch("<= a_i", "<= '0", name="dead", first="It is 0.\nCaught by: a*\n")
-        self.assertEqual(patches.chosen(self.file), [one, two])
-        self.assertEqual(patches.chosen(self.file, ["dead"]), [two])
-        self.assertEqual(patches.text_of(one), self.defects["inverted"].partition("\n")[2])
-        self.assertEqual(patches.names(self.root / "none.diff"), [])
-        for patch, text in ((one, "~a_i"), (two, "'0")):
-            made = patches.patched(patch, self.root)[SOURCES[0]]
-            self.assertEqual(made, CHILD.replace("<= a_i", f"<= {text}"))
-        self.refused(self.file / "other", "no defect other", "inverted, dead")
-
-    def test_what_git_writes_is_taken(self):
-        text = self.patch("<= a_i", "<= ~a_i").parent.read_text()
-        self.file.write_text(text.replace("---", "diff --git a/x b/x\nindex 1..2 100644\n---"))
-        self.assertTrue(patches.patched(self.file / "inverted", self.root))
-
-    def test_malformed_file(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        text = self.file.read_text()
-        section = self.defects["inverted"]
-        for wrong, words in (
-            (text + section, "two defects inverted"),
-            ("It is inverted.\n" + text, "before the first line"),
-            (text + section.replace("==", "==="), "'=== inverted' is no line of a diff"),
-            (text + section.partition("\n")[2], "'It is inverted.' is no line of a diff"),
-            (text + section.partition(".\n")[2], "two diffs of a file"),
-        ):
-            with self.subTest(words):
-                self.file.write_text(wrong)
-                self.refused(patch, str(self.file), words)
-
-    def test_file_that_is_gone(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        (self.root / "rtl/child.sv").unlink()
-        self.refused(patch, "rtl/child.sv, which is not there")
 
     def test_block_holds_a_copy_for_each(self):
         one = self.patch("<= a_i", "<= ~a_i", name="inverted")
@@ -144,19 +97,6 @@ class Defects(unittest.TestCase):
         self.assertIn("top_dead #(.Width(Width)) u_dead (.clk_i(clock_1), .a_i(a_i)", text)
         self.assertIn("assign clock_2 = clk_i && chosen[2];", text)
         self.assertIn("chosen[1] ? out_1_y_o : chosen[2] ? out_2_y_o : out_0_y_o", text)
-
-    def test_block_without_a_clock(self):
-        text = "module sum (\n    input logic [1:0] a_i,\n    output logic y_o\n);\n"
-        (self.root / "rtl/sum.sv").write_text(text + "  assign y_o = ^a_i;\nendmodule\n")
-        patch = self.patch("^a_i", "|a_i", path="rtl/sum.sv")
-        made = block.block_of_defects("sum", [patch], [Path("rtl/sum.sv")], self.root)
-        self.assertIn("sum_inverted u_inverted (.a_i(a_i), .y_o(out_1_y_o));", made)
-        self.assertNotIn("clk_i", made)
-
-    def test_block_without_the_file_of_the_patch(self):
-        patch = self.patch("<= a_i", "<= ~a_i")
-        with self.assertRaisesRegex(patches.DefectError, "not part of top's test"):
-            block.block_of_defects("top", [patch], SOURCES[1:], self.root)
 
     def header(self, changes, text):
         """The text of a header with the statements of these patches, without its first line."""
@@ -182,17 +122,6 @@ class Defects(unittest.TestCase):
         )
         choice = (self.root / "out/seeded_choice.hpp").read_text()
         self.assertIn('feltgate_chosen_defect("none late odd")', choice)
-
-    def test_statements_are_whole(self):
-        text = self.header(
-            {"sign": ("    -x,", "    x,"), "gone": ("  ++n;  // counts\n", "")},
-            "int f(int x) {\n  ++n;  // counts\n  return g(\n    -x,\n    2);\n}\n",
-        )
-        self.assertEqual(
-            text.split(),
-            "int f(int x) { if (feltgate_seeded::is(2)) { } else { ++n; // counts } "
-            "if (feltgate_seeded::is(1)) { return g( x, 2); } else { return g( -x, 2); } }".split(),
-        )
 
     def test_classes(self):
         one, other = self.root / "one.h", self.root / "other.h"

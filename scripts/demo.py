@@ -22,7 +22,7 @@ import command_line
 import interrupts
 import outputs
 from outputs import write_whole
-from reports import all_figures, demo_page, recordings, runs, stability_section
+from reports import all_figures, demo_page, observer_section, recordings, runs
 from reports.growing import Growing
 from reports.progress import Progress, clock_text
 
@@ -107,11 +107,9 @@ def warmed_up(workers):
 
 
 def programs(jobs):
-    """Those that the jobs and the study of the walls need, in the order of their use, without the
-    one that the launcher has built."""
+    """Those that the jobs need, in the order of their use, without the one that the launcher has built."""
     order = sorted(jobs, key=lambda job: job.name not in demo_page.CARDS)
     names = dict.fromkeys(runs.program_path(job.design).name for job in order)
-    names[runs.program_path().name] = None
     names.pop(runs.FIRST_PROGRAM, None)
     return list(names)
 
@@ -147,15 +145,11 @@ def run_all(demo, jobs, folder, arguments):
             ready=lambda job: builds.ready(runs.program_path(job.design).name),
             ended=growing.take,
         )
-        builds.wait(runs.program_path().name)
-        study, figures, walls, complaint = None, [], None, ""
+        figures = []
         if not arguments.no_figures:
-            study = beside.enter_context(stability_section.Study(folder))
             # The large ones first, so that no core waits for the last of them.
             figures = [f.result() for f in all_figures.start(pool, done, DESIGNS)]
         drawn = growing.result()
-        if study:
-            walls, complaint = study.result()
     unreadable = [
         f"{r.job.recording.title}: {r.complaint}"
         for r in done.values()
@@ -166,8 +160,7 @@ def run_all(demo, jobs, folder, arguments):
         runs=done,
         drawn=drawn,
         figures=figures,
-        stability=walls,
-        wrong=recordings.all_faults(done) + ([complaint] if complaint else []),
+        wrong=recordings.all_faults(done),
         unreadable=demo.unreadable + unreadable,
     )
 
@@ -202,7 +195,7 @@ def run(arguments):
         found, unreadable, where = find_recordings(arguments.traces, arguments.all)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
-        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True)
+        figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True) + observer_section.jobs()
         jobs = all_jobs(scenes + devices, replays, figures)
         total = sum(job.seconds for job in jobs)
         print(

@@ -49,7 +49,7 @@ def tables(root):
     yield "commands", "Commands", text("scripts/help.txt").partition("\n")[2]
     yield "proofs", "Proofs", proofs(root)
     yield "results", "Results of each block", results(root)
-    yield "areas", "Areas and clocks", synth_report.generated(synth_budget.read(root / "scripts/synth_budget.toml"))
+    yield "areas", "Areas and clocks", synth_report.generated(synth_budget.read(root / synth_budget.FILE))
     yield "figures", "Figures of the tests", figures(root)
     yield "extremes-table", "Extremes, every case", text("testbench/campaigns/extremes/table.md")
     if (root / "testbench/studies/claims/claims.md").exists():

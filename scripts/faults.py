@@ -51,7 +51,6 @@ program, a file or an argument is wrong.
   feltgate faults --replay vectors/faults/cases.jsonl
 """
 
-import datetime
 import json
 import os
 import sys
@@ -95,7 +94,6 @@ def arguments(argv):
     add.add_path(parser, "--lines", nargs="+", what=what)
     add.add_path(parser, "--save", what="a line of JSON for each fault")
     add.add_json(parser)
-    add.add_flags(parser, markdown="the table as Markdown")
     add.add_path(parser, "--picture", what="what the hand would feel, as SVG or PNG")
     add.add_flags(parser, update=f"put the results into {block_results.FOLDER}/faults.json")
     options = parser.parse_args(argv)
@@ -107,10 +105,8 @@ def arguments(argv):
         parser.error("--long goes with --clean")
     if sum(map(bool, (options.clean, options.replay, options.lines))) > 1:
         parser.error("--clean, --replay and --lines exclude each other")
-    if (options.clean or options.replay) and (options.save or options.picture or options.markdown):
-        parser.error(
-            "--save, --picture and --markdown tell of a campaign, not of --clean or --replay"
-        )
+    if (options.clean or options.replay) and (options.save or options.picture):
+        parser.error("--save and --picture tell of a campaign, not of --clean or --replay")
     if options.design != "lever" and (options.replay or options.only):
         parser.error("--replay and --only are of lever: leave --design out")
     if options.update and options.design != "lever":
@@ -198,18 +194,11 @@ def replay(options, build):
     return 1 if differing else 0
 
 
-def date_of(files):
-    """Of the oldest of the files; None where there are none."""
-    oldest = min((path.stat().st_mtime for path in files or ()), default=None)
-    return datetime.date.fromtimestamp(oldest).isoformat() if oldest else None
-
-
 def report(options, root, faults, seconds):
     """Table, promises and files; the exit code."""
     rows = results.rows_of(faults)
     timed = any("design" in fault for fault in faults)
-    as_text = "\n".join(results.markdown_table(rows, timed))
-    print(as_text if options.markdown else results.text_table(rows, timed))
+    print(results.text_table(rows, timed))
     kept = results.promises(faults)
     print()
     for what, count, of, good in kept:
@@ -235,9 +224,7 @@ def report(options, root, faults, seconds):
         found = results.per_block(faults, blocks)
         if seconds:  # of all faults; what a block's share of it is nobody knows
             found.setdefault("feltgate_core", {})["seconds"] = round(seconds)
-        block_results.write(
-            root, "faults", "./feltgate faults --update", found, date_of(options.lines)
-        )
+        block_results.write(root, "faults", "./feltgate faults --update", found)
         print(f"faults: wrote {block_results.path_of(root, 'faults')}")
     return 0 if all(good for *_, good in kept) else 1
 

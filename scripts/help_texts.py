@@ -50,13 +50,12 @@ def commands(build):
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
     }
-    scripts = ("choose", "faults", "prove", "mutate", "coverage", "page", "product", "docs")
+    scripts = ("choose", "claims", "faults", "prove", "mutate", "coverage", "page", "product", "docs")
     own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
     programs = ("bench", "extremes", "host", "board")
     own |= {name: [build / f"feltgate_{name}"] for name in programs}
     own["touch"] = [build / "feltgate_touch", "touch"]
     found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
-    found["mutate --twin"] = [*own["mutate"], "--twin"]
     for verb in host_verbs():
         found[f"host {verb}"] = [*own["host"], "PORT", verb]
     for verb in VERBS:

@@ -10,11 +10,9 @@ over another.
 
 import argparse
 import csv
-import io
 import sys
 from pathlib import Path
 
-from matplotlib.figure import Figure
 from outputs import write_whole
 from reports import plots
 
@@ -46,30 +44,28 @@ def column_of(table, name):
     raise ValueError(f"has no column {name}; choose from {', '.join(map(name_of, table))}")
 
 
-def over_time(table):
+def over_time(table, title):
     columns = [c for c in table if c != "time_s" and name_of(c) not in BITS]
     if not columns:
         raise ValueError("has only words of bits; capture a value to draw")
-    figure = Figure(figsize=(7.2, 0.8 + 1.25 * len(columns)), layout="constrained")
-    axes = figure.subplots(len(columns), 1, sharex=True, squeeze=False)[:, 0]
+    figure, axes = plots.stacked(title, [1.25] * len(columns), width=7.2)
     for ax, column in zip(axes, columns):
         ax.plot(table["time_s"], table[column], color=plots.COLOURS["motor"], lw=1.1)
         ax.axvline(0, color=plots.COLOURS["reference"], lw=0.8, ls=":")
         unit = unit_of(column)
         ax.set_ylabel(f"{name_of(column)}{f' [{unit}]' if unit else ''}")
     axes[-1].set_xlabel("time [s]")
-    return figure, axes[0]
+    return figure
 
 
-def one_over_another(table, names):
+def one_over_another(table, names, title):
     if len(names) != 2:
         raise ValueError("--xy takes two names with a comma between them, such as angle,tau_ref")
     x, y = (column_of(table, name) for name in names)
-    figure = Figure(figsize=(5.6, 4.6), layout="constrained")
-    ax = figure.subplots()
+    figure, (ax,) = plots.stacked(title, [4.2], width=5.6)
     ax.plot(table[x], table[y], color=plots.COLOURS["motor"], lw=1.1)
     ax.set(xlabel=f"{name_of(x)} [{unit_of(x)}]", ylabel=f"{name_of(y)} [{unit_of(y)}]")
-    return figure, ax
+    return figure
 
 
 def main():
@@ -86,12 +82,10 @@ def main():
             raise ValueError(f"{options.picture} is no .svg and no .png; choose one of them")
         table = read(options.csv)
         split = options.xy.split(",") if options.xy else None
-        figure, top = one_over_another(table, split) if split else over_time(table)
-        badge = "SIMULATED, no board: " if options.simulated else ""
-        top.set_title(badge + options.title)
-        data = io.BytesIO()
-        figure.savefig(data, format=kind, dpi=150)
-        write_whole(options.picture, data.getvalue())
+        title = ("SIMULATED, no board: " if options.simulated else "") + options.title
+        figure = one_over_another(table, split, title) if split else over_time(table, title)
+        drawn = plots.finish(figure, "host", png=kind == "png")
+        write_whole(options.picture, drawn.png or drawn.svg)
     except (OSError, ValueError) as error:
         print(f"host_picture: {options.csv}: {error}", file=sys.stderr)
         return 2

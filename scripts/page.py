@@ -23,6 +23,7 @@ import interrupts
 import outputs
 from web_page.compile import CompileError, compile_core
 from reports.progress import Steps
+from synth_tools import require_current
 
 EPILOG = """examples:
   feltgate page                           page.html: lever, paper and fast; open it in a browser
@@ -190,6 +191,7 @@ def checked_designs(root, wished):
             )
         if not (root / f"model/include/feltgate/generated/{design}.hpp").is_file():
             raise PageError(f'design "{design}" has no generated files; run feltgate generate')
+    require_current(root, *designs)
     return designs
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import building
 import command_line
+from synth_tools import require_current
 
 # Without a time of its own: the same scene gives the same file.
 EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -70,7 +71,10 @@ def library_of(design):
 
 def fmu(root, design, scene):
     """The bytes of the file."""
-    scene_file, library = scene_path(root, scene), library_of(design)
+    scene_file = scene_path(root, scene)
+    if (root / f"rtl/designs/{design}.toml").is_file():
+        require_current(root, design)
+    library = library_of(design)
     plant = library.ask("plant", scene_file, root / "vectors/plants")
     description = library.ask("description", scene_file, plant)
     machine = {"AMD64": "x86_64", "arm64": "aarch64"}.get(platform.machine(), platform.machine())

@@ -43,7 +43,7 @@ def draw(axis, scene, key, factor, label="", **style):
     return bool(found["engine"][0])
 
 
-def finish(figure, axes, name, caption):
+def finish(figure, axes, name):
     for axis in axes:
         axis.set_xscale("log")
         # A swing may be 0.
@@ -58,50 +58,19 @@ def finish(figure, axes, name, caption):
         axis.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
         axis.set_xlim(110, 1.4e6)
     axes[-1].set_xlabel("torque renewed at, Hz")
-    return plots.finish(figure, name, caption)
-
-
-def kept(scene, axis):
-    """Swing at the end of a device; full marks where all of the scene's expectations are kept."""
-    colour = COLOURS[2]
-    rows = scene["rates"]
-    points = [(r["rate_hz"], 1e3 * r["swing_nm"], not r["broken"]) for r in rows]
-    axis.plot([p[0] for p in points], [p[1] for p in points], color=colour, linewidth=1.1)
-    for rate_hz, swing, whole in points:
-        face = colour if whole else "white"
-        axis.plot(rate_hz, swing, marker="o", markersize=5, color=colour, markerfacecolor=face)
-    axis.set_ylabel("swing, mNm")
+    return plots.finish(figure, name)
 
 
 def one(scene):
     """One scene: rms and worst error, its margin, and a device's swing."""
     device = "device" in scene
     has_margin = any("margin" in r for r in scene["rates"])
-    ring = f"{scene['axes']} axes. " if device else "a ring is the core's block. "
-    below = ""
-    if has_margin:
-        what = "free device" if device else "lever"
-        below = (
-            f"Below: border of stability over the scene; under 1 the {what} swings by itself, "
-            "a gap where it is 0. "
-        )
-    if device:
-        below += (
-            f"{'Last' if has_margin else 'Below'}: the largest swing of a torque in the last "
-            "quarter; a hollow mark where not all of the scene's expectations are kept. "
-        )
-    caption = (
-        f"{scene['title']}: law {scene['law']} on the engine; {ring}"
-        "Above: error of the torque against the continuous law, dashed what the encoder's counts "
-        f"alone leave. {below}Simulation."
-    )
-    title = f"{scene['scene']}: what a slower torque costs"
+    title = f"{scene['scene']}: what a slower torque costs; law {scene['law']} on the engine"
     figure, axes = plots.stacked(title, [2.4] + [1.6] * (has_margin + device))
-    draw(axes[0], scene, "error_max_nm", 1e3, "worst", color=COLOURS[1], marker="s")
-    draw(axes[0], scene, "error_rms_nm", 1e3, "rms", color=COLOURS[0], marker="o")
-    for key, colour in (("counts_alone_max_nm", COLOURS[1]), ("counts_alone_rms_nm", COLOURS[0])):
-        if scene[key] > 0:
-            axes[0].axhline(1e3 * scene[key], color=colour, linewidth=0.9, linestyle="--")
+    for kind, colour, mark in (("max", COLOURS[1], "s"), ("rms", COLOURS[0], "o")):
+        draw(axes[0], scene, f"error_{kind}_nm", 1e3, {"max": "worst"}.get(kind, kind), color=colour, marker=mark)
+        if scene[f"counts_alone_{kind}_nm"] > 0:
+            axes[0].axhline(1e3 * scene[f"counts_alone_{kind}_nm"], color=colour, linewidth=0.9, linestyle="--")
     axes[0].set_ylabel("torque error, mNm")
     axes[0].legend(loc="upper right")
     if has_margin:
@@ -109,18 +78,17 @@ def one(scene):
         axes[1].axhline(1, color="#d55e00", linewidth=0.9)
         axes[1].set_ylabel("border / scene")
     if device:
-        kept(scene, axes[-1])
-    return finish(figure, axes, f"rates_{scene['scene']}", caption)
+        rates, swings = zip(*((r["rate_hz"], 1e3 * r["swing_nm"]) for r in scene["rates"]))
+        axes[-1].plot(rates, swings, color=COLOURS[2], linewidth=1.1)
+        for r in scene["rates"]:  # full marks where all of the scene's expectations are kept
+            axes[-1].plot(r["rate_hz"], 1e3 * r["swing_nm"], "o", markersize=5, color=COLOURS[2],
+                          fillstyle="none" if r["broken"] else "full")
+        axes[-1].set_ylabel("swing, mNm")
+    return finish(figure, axes, f"rates_{scene['scene']}")
 
 
 def several(scenes):
     """All scenes: rms error as a share of the law's largest torque, and margins."""
-    caption = (
-        "Above: rms error of the torque over the law's largest torque; dashed: devices with "
-        "several axes. Below: border of stability over the scene's own stiffness; under 1 the "
-        "lever or the free device swings by itself, a gap where it is 0. Rings: the core's blocks. "
-        "Simulation."
-    )
     figure, axes = plots.stacked("Every scene at every rate", [2.8, 2.4], width=7.6)
     for number, scene in enumerate(scenes):
         style = {
@@ -135,11 +103,10 @@ def several(scenes):
     if axes[0].get_legend_handles_labels()[0]:
         # Taller than the axes: it has the right quarter for itself.
         figure.get_layout_engine().set(rect=(0, 0, 0.76, 1))
-        small = {"fontsize": 6.5, "labelspacing": 0.25} if len(scenes) > 30 else {}
-        figure.legend(loc="upper right", bbox_to_anchor=(1.0, 0.96), **small)
+        figure.legend(loc="upper right", bbox_to_anchor=(1.0, 0.96), fontsize=8 if len(scenes) < 30 else 6)
     axes[1].axhline(1, color="#d55e00", linewidth=0.9)
     axes[1].set_ylabel("border / scene")
-    return finish(figure, axes, "rates", caption)
+    return finish(figure, axes, "rates")
 
 
 def draw_all(data, options):

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import command_line
 from outputs import write_whole
-from reports import card, headline, page, run_pictures, run_section
+from reports import headline, page, run_pictures, run_section
 from reports.runs import read_csv
 
 SCHEMA = "feltgate-run/1"
@@ -47,15 +47,13 @@ def compared(summary):
 def report(summary, tables):
     """The page's text. `tables` are dictionaries of columns, as read_csv gives them."""
     subject = run_section.subject(summary)
-    drawn, cards = [], ""
+    drawn = []
     for i, csv in enumerate(tables):
         drawn += run_pictures.pictures(f"{subject}-{i}" if i else subject, summary, csv)
-        if run_section.room(summary) != "line":
-            cards += card.html(f"card-{i}", summary, csv)
     body = f"<h1>feltgate: {page.escape(subject)}</h1>"
     body += page.verdict(run_section.faults_of(summary), compared(summary))
-    body += headline.html(headline.of_run(summary, run_section.steps_of(summary))) + cards
-    body += page.section("detail", "In detail", run_section.inside(summary, drawn))
+    body += headline.html(headline.of_run(summary, run_section.steps_of(summary)))
+    body += run_section.inside(summary, drawn)
     body += page.paragraph(
         "Errors are against the same chain in 113-bit arithmetic on the same sampled counts; speed "
         "is simulated seconds per second spent in the back-end. All of this is simulation.",

@@ -104,6 +104,7 @@ run_tests() {
   fetch_for_tests mutate tree-sitter 'mutate\.twin'
   fetch_for_tests neighbours "FuseSoC and LiteX" 'register_files|neighbours\.|board\.host'
   fetch_for_tests mujoco MuJoCo 'plant\.mujoco'
+  fetch_for_tests apytypes APyTypes 'python\.oracle'
   fetch_for_tests fmpy FMPy 'product\.fmu'
   rm -f "$results"
   local built_s

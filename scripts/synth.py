@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Area and speed of the core and its blocks on ECP5, cells on Cyclone IV E, bitstreams of boards.
 
-Yosys and nextpnr only: nothing here ran on a chip. Recipe, figures and goals: docs/synthesis.md.
-Exit code: 0 within the budget (scripts/synth_budget.toml), 1 when a figure has grown past it,
+Yosys and nextpnr only: nothing here ran on a chip. Recipe and figures: docs/synthesis.md.
+Exit code: 0 within the budget (docs/verification/areas.json), 1 when a figure has grown past it,
 2 when a tool or an argument is wrong. Of a board 1 too where its timing does not close.
 
   feltgate synth                                   all blocks of both designs, against the budget
@@ -27,7 +27,7 @@ import synth_board
 import synth_budget
 import synth_measure
 import synth_report
-from synth_tools import ToolError, Tools, version
+from synth_tools import ToolError, Tools, require_current, version
 
 SCHEMA = "feltgate-synth/1"
 
@@ -88,6 +88,7 @@ def check_designs(root, designs):
     for design in designs:
         if not (root / f"rtl/generated/{design}/feltgate_pkg.sv").exists():
             raise ToolError(f"no design {design} in rtl/generated; ./feltgate generate makes it")
+    require_current(root, *designs)
 
 
 def program(name):
@@ -146,9 +147,9 @@ def main_scene_sets(options, root):
 
 def update(root, merge, measured, tools):
     """The budget, with what was measured."""
-    path = root / "scripts/synth_budget.toml"
+    path = root / synth_budget.FILE
     synth_budget.write(path, merge(synth_budget.read(path), measured, tools))
-    print("synth: wrote scripts/synth_budget.toml")
+    print(f"synth: wrote {synth_budget.FILE}")
 
 
 def measure(options, root):
@@ -195,7 +196,7 @@ def run(options):
     if options.update:
         update(root, synth_budget.merge, measured, tools)
         return 0
-    budget = synth_budget.read(root / "scripts/synth_budget.toml")
+    budget = synth_budget.read(root / synth_budget.FILE)
     if options.board:  # one's own design has no budget
         measured = synth_budget.known(budget, measured)
     grown = synth_budget.compare(budget, measured, tools)

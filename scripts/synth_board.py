@@ -5,6 +5,7 @@
 Documentation: docs/boards/ulx3s.md, docs/boards/tang_nano_9k.md, docs/boards/de0_nano.md
 """
 
+import json
 import math
 import os
 import re
@@ -16,11 +17,11 @@ from pathlib import Path
 import outputs
 import synth_measure
 import synth_path
-from synth_tools import ToolError, Tools, counted, package_of, version
+from synth_tools import ToolError, Tools, counted, feeds, package_of, version
 
 # The gates' flip-flops: cleared without a clock, behind the output buffers of the pins.
 GOWIN_GATES = "o:gate_* %ci1:+OBUF[O] %ci1:+OBUF[I] %ci1 t:DFFC* %i"
-# Above this share of a GW1NR-9C's places nextpnr wants a LUT with each flip-flop: docs/boards/tang_nano_9k.md
+# Above this share of a GW1NR-9C's places nextpnr finds no legal placement: docs/boards/tang_nano_9k.md
 GOWIN_FULL = 0.8
 # What the I/O cell of a gate has to have: its register, cleared without a clock, off.
 GATE_CELL = ("SRMODE ASYNC", "OUTREG.REGSET RESET", "OUTREG.OUTREGMODE FF", "LSRMUX LSR")
@@ -42,22 +43,14 @@ def legs(folder):
 def sources(root, board, design, folder):
     """Copies all files of the board into the folder; their names in reading order."""
     names = synth_measure.copy_sources(root, design, folder)
-    if board == "tang_nano_9k" and of_package(folder, "HALL"):
-        raise ToolError(f"{design} has Hall lines, and {board} has no pins of them")
-    if board == "tang_nano_9k" and legs(folder) == 3 and of_package(folder, "CURRENT_LOOP"):
-        raise ToolError(f"{design} has two shunts, and {board} has no pin of a second modulator")
+    if board == "tang_nano_9k" and (legs(folder) == 3 or of_package(folder, "CURRENT_LOOP")):
+        raise ToolError(f"{design} has three phases or a current loop, which do not fit {board}; take ulx3s")
     beside = sorted(root.glob("rtl/boards/panel/*.sv"))
     for path in [*beside, *sorted(root.glob(f"rtl/boards/{board}/*.*"))]:
         shutil.copy(path, folder)
         if path.suffix == ".sv":
             names.append(path.name)
     return names
-
-
-def defines(board, folder):
-    """What Yosys reads before the sources: the Tang Nano 9K's third leg takes pins of other options."""
-    third = board == "tang_nano_9k" and legs(folder) == 3
-    return ["verilog_defines -DFELTGATE_THIRD_LEG"] if third else []
 
 
 def clock_hz(folder):
@@ -146,14 +139,17 @@ class TangNano9k:
         tools.write_netlist("board", f"select -assert-count {2 * legs(tools.folder)} {GOWIN_GATES}")
         figures = synth_measure.gowin_figures(counted(tools.folder / "board.stat")["num_cells_by_type"])
         there, luts = self.there["lut4_equivalents"], figures["lut4_equivalents"]
-        found = tools.pair_gowin("board", "tang_nano_9k", GOWIN_FULL * there - luts)
+        found = feeds(json.loads((tools.folder / "board.json").read_text(encoding="utf-8"))["modules"]["tang_nano_9k"])
         least = luts + found["none"]
         print(
             f"flip-flops behind a LUT {found['LUT']}, behind a carry {found['ALU']}, behind neither {found['none']}: "
             f"{least} to {least + found['ALU']} places of {there}, and the ends of the carry chains"
         )
-        if "changed" in found:
-            print(f"more than {GOWIN_FULL:.0%} of the places: a LUT goes with {found['changed']} flip-flops")
+        if least > GOWIN_FULL * there:
+            raise ToolError(
+                f"{least} of {there} places: above {GOWIN_FULL:.0%} nextpnr finds no legal placement. Leave out scenes "
+                "(feltgate design --for) or options, or take ulx3s"
+            )
 
     def route(self, tools, seed, mhz):
         return tools.route_gowin("board", seed, "tang_nano_9k.cst", mhz)
@@ -256,7 +252,7 @@ def run(options, root, progress):
         package = package_of(root, design, folder / "design")
         target = synth_measure.Target("board", options.board, registered=bool(steps) and steps.registered)
         names = sources(root, options.board, package, folder)
-        read = [*defines(options.board, folder), *synth_measure.read_commands(names, target)]
+        read = synth_measure.read_commands(names, target)
         progress(f"{options.board}, design {name}: synthesis, then seeds {options.seeds}")
         print(f"{options.board}, design {name}; nothing of this ran on a board")
         main = main_routed if steps else main_de0_nano

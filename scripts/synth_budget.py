@@ -1,30 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Budget of `feltgate synth`: the last measurements, and how much a figure may grow past them."""
+"""Budget of `feltgate synth`: the last measurements, which --update writes, and how much a figure may
+grow past them."""
 
 import datetime
+import json
 import os
 import platform
-import tomllib
+
+import outputs
 
 AREA = ("lut4_equivalents", "ff", "cyclone_cells", "cyclone_ff")
 EXACT = ("mult18", "bram", "m9k", "memory_bits")
 AREA_MARGIN = 0.03  # of the figure, and
 AREA_SLACK = 4  # cells more: a small block may not grow by a fraction of one
 SPEED_MARGIN = 0.10  # seeds alone move Fmax by half of this
-HEAD = """# SPDX-License-Identifier: Apache-2.0
-# SPDX-FileCopyrightText: 2026 the feltgate authors
-#
-# Written by `feltgate synth --update` from what it measured; docs/synthesis.md is made from it.
-# A run fails when area grows by more than {area:.0%} and {slack} cells, or Fmax falls by more than
-# {speed:.0%}, or a multiplier or block RAM is added.
-"""
+FILE = "docs/verification/areas.json"
 
 
 def read(path):
     if not path.exists():
         return {"measured": {}, "figures": {}, "scene_sets": {}}
-    return {"scene_sets": {}} | tomllib.loads(path.read_text(encoding="utf-8"))
+    return json.loads(path.read_text(encoding="utf-8"))
 
 
 def stamp(tools):
@@ -51,23 +48,16 @@ def merge(budget, measured, tools):
     return budget | {"measured": stamp(tools), "figures": figures}
 
 
-def entries(table):
-    return [
-        f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value}"
-        for key, value in table.items()
-    ]
+def text_of(table, indent=""):
+    """JSON of a table; of one that holds tables a line each, so that a change is seen as one."""
+    if not any(isinstance(value, dict) for value in table.values()):
+        return json.dumps(table)
+    lines = [f"{indent} {json.dumps(key)}: {text_of(of, indent + ' ')}" for key, of in table.items()]
+    return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
 
 
 def write(path, budget):
-    lines = [HEAD.format(area=AREA_MARGIN, slack=AREA_SLACK, speed=SPEED_MARGIN), "[measured]"]
-    lines += entries(budget["measured"])
-    if "scene_sets_measured" in budget:
-        lines += ["", "[scene_sets_measured]", *entries(budget["scene_sets_measured"])]
-    for kind in ("figures", "scene_sets"):
-        for design, rows in budget[kind].items():
-            for name, row in rows.items():
-                lines += ["", f'[{kind}.{design}."{name}"]', *entries(row)]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    outputs.write_whole(path, text_of(budget) + "\n")
 
 
 def compare(budget, measured, tools):

@@ -8,33 +8,9 @@ from reports.columns import aligned, markdown
 # (repository, module, LUT4 equivalents, FF, MULT18, BRAM, Fmax [min-max]); measured for this
 # project's planning with Yosys 0.52 and nextpnr 0.7 from the repositories' public sources.
 PEERS = (
-    (
-        "jhu-cisst/mechatronics-firmware",
-        "decoder with period estimator",
-        287,
-        240,
-        0,
-        0,
-        "126 [125-132]",
-    ),
-    (
-        "jhu-cisst/mechatronics-firmware",
-        "PI current controller (HLS)",
-        711,
-        454,
-        5,
-        0,
-        "82 [82-90]",
-    ),
-    (
-        "jhu-cisst/mechatronics-firmware",
-        "MotorChannelDRAC: current loop, PWM, faults",
-        1090,
-        774,
-        5,
-        0,
-        "88 [88-88]",
-    ),
+    ("jhu-cisst/mechatronics-firmware", "decoder with period estimator", 287, 240, 0, 0, "126 [125-132]"),
+    ("jhu-cisst/mechatronics-firmware", "PI current controller (HLS)", 711, 454, 5, 0, "82 [82-90]"),
+    ("jhu-cisst/mechatronics-firmware", "MotorChannelDRAC: current loop, PWM, faults", 1090, 774, 5, 0, "88 [88-88]"),
     ("WangXuan95/FPGA-FOC", "foc_top: the whole core", 2717, 1391, 19, 6, "52 [52-55]"),
     ("WangXuan95/FPGA-FOC", "pi_controller", 667, 275, 6, 0, "56 [56-56]"),
     ("f32c/f32c", "ctrlpid (and 32 DPR16X4)", 2977, 19, 0, 0, "44 [43-45]"),
@@ -42,23 +18,6 @@ PEERS = (
     ("multigcs/riocore", "quadencoder, 32 bits", 97, 38, 0, 0, "199 [198-205]"),
     ("multigcs/riocore", "pwmout, 32 bits", 142, 47, 0, 0, "187 [170-194]"),
     ("RAPcores/rapcores", "quad_enc, 32 bits, with period", 196, 103, 0, 0, "197 [195-197]"),
-)
-
-BARE, READ = "core without read-back", "core with read-back"
-AREA, SPEED = "lut4_equivalents", "fmax_mhz"
-MHZ = "MHz, registered multiplier"
-# (what, row, figure, bound, is a least value); docs/synthesis.md says where the bounds come from.
-GOALS = (
-    ("LUT4 equivalents without read-back", f"{BARE}, registered", AREA, 1900, False),
-    ("LUT4 equivalents without read-back, with safety", f"{BARE}, registered", AREA, 2388, False),
-    ("LUT4 equivalents with read-back", f"{READ}, registered", AREA, 2700, False),
-    ("MULT18X18D", f"{READ}, registered", "mult18", 4, False),
-    (f"{MHZ}, without read-back", f"{BARE}, registered", SPEED, 130, True),
-    (f"{MHZ}, without read-back, with safety", f"{BARE}, registered", SPEED, 110, True),
-    (f"{MHZ}, with read-back", f"{READ}, registered", SPEED, 120, True),
-    (f"{MHZ}, with read-back, with safety", f"{READ}, registered", SPEED, 110, True),
-    ("MHz, inferred multiplier, without read-back", f"{BARE}, inferred", SPEED, 100, True),
-    ("MHz, inferred multiplier, with read-back", f"{READ}, inferred", SPEED, 100, True),
 )
 
 HEADS = ("", "LUT4", "CCU2C", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz", "C4E cells", "C4E FF")
@@ -90,23 +49,6 @@ def text_table(design, rows, blocks=()):
         lines.append(cells(f"sum of {len(blocks)}", total(rows, list(blocks))))
     paths = [f"  {n}: {r['critical_path']}" for n, r in rows.items() if "critical_path" in r]
     return "\n".join([aligned(lines), *(["critical paths:", *paths] if paths else [])])
-
-
-def goal_rows(design, rows):
-    for what, name, key, bound, at_least in GOALS:
-        value = rows.get(name, {}).get(key)
-        if value is None:
-            yield [
-                f"{design}: {what}",
-                f"{'>=' if at_least else '<='} {bound}",
-                "-",
-                "not measured",
-            ]
-            continue
-        met = value >= bound if at_least else value <= bound
-        short = abs(value - bound) / bound
-        verdict = "met" if met else f"**missed** by {short:.0%}"
-        yield [f"{design}: {what}", f"{'>=' if at_least else '<='} {bound}", f"{value:g}", verdict]
 
 
 SCENE_HEADS = ("scenes", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz", "LUT4 eq less")
@@ -153,9 +95,6 @@ def generated(budget):
         lines += ["", "Critical paths of the median seed:", ""]
         lines += [f"- {n}: `{r['critical_path']}`" for n, r in rows.items() if "critical_path" in r]
     lines += scene_set_lines(budget)
-    lines += ["", "### Goals", ""]
-    goals = [g for design, rows in budget["figures"].items() for g in goal_rows(design, rows)]
-    lines += markdown(("goal", "bound", "measured", ""), goals)
     lines += ["", "### Peers", ""]
     peers = [[f"`{r}`", m, *(str(x) for x in rest)] for r, m, *rest in PEERS]
     heads = ("repository", "module", "LUT4 eq", "FF", "MULT18", "BRAM", "Fmax MHz")

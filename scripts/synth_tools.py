@@ -13,9 +13,9 @@ import re
 import shutil
 import subprocess
 from collections import Counter
-from itertools import product
 from pathlib import Path
 
+import command_line
 from command_line import Refused
 import interrupts
 
@@ -55,10 +55,21 @@ def version(tool):
     return f"{name} {number.group(0)}" if number else name
 
 
+def require_current(root, *designs):
+    """Refused where the file of one of these names in rtl/designs has changed since ./feltgate generate."""
+    generator = command_line.build_folder() / "feltgate_generate"
+    if not generator.is_file():
+        return  # a script by itself, as the build starts one; ./feltgate builds the generator first
+    done = interrupts.run([generator, root, "--check", *designs], **interrupts.CAPTURED)
+    if done.returncode:
+        raise ToolError(done.stderr.strip().splitlines()[-1])
+
+
 def package_of(root, design, folder):
     """What synth_measure.copy_sources() takes of a design, a name in rtl/designs or the user's own file:
     the name, or the path of a package made in FOLDER."""
     if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
+        require_current(root, design)
         return design
     path = Path(design)
     if not path.is_file():
@@ -133,18 +144,6 @@ class Tools:
         """NAME.il as NAME.json, for nextpnr. A run of its own: see above on ABC and the log."""
         script = [f"read_rtlil {name}.il", *commands, "autoname", "blackbox =A:whitebox"]
         self.run_yosys(f"{name}_json", [*script, f"write_json {name}.json"], [f"{name}.json"])
-
-    def pair_gowin(self, name, top, most):
-        """How many flip-flops of NAME.json have a LUT, a carry, or neither before them, and, if the last are more than
-        MOST, how many pair_flip_flops() has changed."""
-        path = self.folder / f"{name}.json"
-        netlist = json.loads(path.read_text(encoding="utf-8"))
-        module = netlist["modules"][top]
-        found = feeds(module)
-        if found["none"] > most:
-            found["changed"] = pair_flip_flops(module)
-            path.write_text(json.dumps(netlist), encoding="utf-8")
-        return found
 
     def write_simulation(self, top, read, models, family="ecp5"):
         """TOP's netlist as netlist.v, module TOP_netlist, with the models of its cells."""
@@ -248,10 +247,6 @@ class Tools:
         return self.synthesize(name, top, script)
 
 
-# What a Gowin flip-flop becomes without clock enable and synchronous clear, which a LUT before it does as well.
-PLAIN = {"DFFCE": "DFFC", "DFFPE": "DFFP", "DFFE": "DFF", "DFFRE": "DFF", "DFFR": "DFF"}
-
-
 def drivers_of(cells):
     """{bit: name of the cell that drives it}."""
     return {bit: name for name, cell in cells.items() for port, bits in cell["connections"].items()
@@ -269,70 +264,6 @@ def feeds(module):
             taken.add(before)
             found[kind] += 1
     return found
-
-
-def plain_next(init, inputs, values, enable, held, clear):
-    """What the LUT before a plain flip-flop gives, where each bit of a net has a value."""
-    if clear is not None and values[clear]:
-        return 0
-    if enable is not None and not values[enable]:
-        return values[held]
-    return init >> sum(values[bit] << place for place, bit in enumerate(inputs)) & 1
-
-
-def pair_flip_flops(module):
-    """Gives each flip-flop of a Gowin netlist that no LUT or carry feeds a LUT of its own, and moves clock enable and
-    synchronous clear into the LUT where there is room; how many flip-flops it changed.
-
-    A flip-flop's data come through the LUT beside it, so one without a LUT takes a LUT's place all the same. nextpnr
-    finds that place last, when single LUTs stand in it; LUT and flip-flop together it places before them. Two
-    flip-flops that are neighbours share clock enable and clear, so what needs neither fits everywhere.
-    """
-    cells, loads = module["cells"], Counter()
-    drivers = drivers_of(cells)
-    for cell in cells.values():
-        for port, bits in cell["connections"].items():
-            if cell["port_directions"][port] == "input":
-                loads.update(bits)
-    loads.update(bit for port in module["ports"].values() for bit in port["bits"])
-    free = 1 + max(bit for net in module["netnames"].values() for bit in net["bits"] if isinstance(bit, int))
-    paired, added, changed = set(), {}, 0
-    for name, cell in cells.items():
-        data = cell["connections"].get("D", [None])[0]
-        if not cell["type"].startswith("DFF") or data not in drivers:
-            continue
-        before = cells[drivers[data]]
-        kind, nets = cell["type"], {port: bits[0] for port, bits in cell["connections"].items()}
-        if before["type"] in ("ALU", "GND", "VCC"):
-            continue
-        enable, clear = (nets.get(port) if kind in PLAIN else None for port in ("CE", "RESET"))
-        wanted = [bit for bit in (nets["Q"] if enable is not None else None, enable, clear) if bit is not None]
-        if before["type"].startswith("LUT") and drivers[data] not in paired:
-            paired.add(drivers[data])
-            inputs = [before["connections"][f"I{place}"][0] for place in range(int(before["type"][3]))]
-            every = list(dict.fromkeys([*inputs, *wanted]))
-            if loads[data] > 1 or len(every) > 4 or not wanted:
-                continue
-            lut, init, out = before, int(before["parameters"]["INIT"], 2), data
-        else:
-            inputs, every, init, out = [data], list(dict.fromkeys([data, *wanted])), 2, free
-            lut = added[f"{name}_pair"] = {"hide_name": 1, "attributes": {}}
-            module["netnames"][f"{name}_pair"] = {"hide_name": 1, "bits": [free], "attributes": {}}
-            cell["connections"]["D"], free = [free], free + 1
-        table = (plain_next(init, inputs, dict(zip(every, reversed(row))), enable, nets["Q"], clear)
-                 for row in product((1, 0), repeat=len(every)))
-        ports = {f"I{place}": [bit] for place, bit in enumerate(every)}
-        lut |= {"type": f"LUT{len(every)}", "parameters": {"INIT": "".join(map(str, table))},
-                "connections": ports | {"F": [out]},
-                "port_directions": dict.fromkeys(ports, "input") | {"F": "output"}}
-        if wanted:
-            cell["type"] = PLAIN[kind]
-            for port in ("CE", "RESET"):
-                cell["connections"].pop(port, None)
-                cell["port_directions"].pop(port, None)
-        changed += 1
-    cells |= added
-    return changed
 
 
 # mul2dsp writes $__MUL18X18. The cell is counted only, so it needs no contents.

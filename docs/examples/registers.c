@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A wall of 0.8 Nm/rad at 0.2 rad by a memory-mapped port, in SI units; what is read back is
-// printed. Here the port is an array. docs/register-files.md
+// printed. Here the port is an array. docs/other-tools.md
 #include <stdio.h>
 
 #include "feltgate.h"

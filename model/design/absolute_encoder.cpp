@@ -205,7 +205,7 @@ void check_absolute_encoder(const Design& d) {
   }
   // The self-test adds up the counts from tick to tick, and sees no direction in two at once.
   const double fastest = d.self_test_nm / d.inertia_kg_m2 * d.self_test_pulse_s;
-  if (d.self_test && fastest * d.absolute_period_s > d.count_rad()) {
+  if (d.self_test && fastest * d.absolute_period_s > d.self_test_count_rad()) {
     d.fail("self_test.torque_nm",
            fmt::format("the pulse makes the lever so fast, {:.3g} rad/s, that a reading moves by "
                        "more than a count",

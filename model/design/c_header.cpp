@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The register map as C99 headers: of all designs the addresses and fields, of each design the
-// conversions between words and SI units. Documentation: docs/register-files.md
+// conversions between words and SI units. Documentation: docs/other-tools.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -120,7 +120,8 @@ std::string c_map_header(const Elaborated& e) {
   for (const HostWord& w : words) word(s, w);
   s << "\n/* What only the host's link has, no bus: docs/link.md. */\n";
   for (const HostWord& w : link_host_words(e.registers)) word(s, w);
-  s << "\n/* X(name, NAME) for each parameter that all designs have. */\n#define FELTGATE_PARAMETERS(X)";
+  s << "\n/* X(name, NAME) for each parameter that all designs have. */\n#define "
+       "FELTGATE_PARAMETERS(X)";
   for (const HostWord& w : words) {
     if (w.kind == "parameter") s << fmt::format(" \\\n  X({}, {})", w.name, upper(w.name));
   }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The section [commutation] of a design whose bridge has three legs: its keys, and what cannot
-// work. Documentation: docs/blocks/commutation.md
+// work. Documentation: docs/blocks/three_phase.md
 #include "feltgate/commutation.hpp"
 
 #include <fmt/format.h>

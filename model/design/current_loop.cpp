@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The section [current_loop] of a design that measures its current: its keys, the words of its
-// blocks, and what cannot work. Documentation: docs/blocks/current_control.md
+// blocks, and what cannot work. Documentation: docs/blocks/current.md
 #include <fmt/format.h>
 
 #include <cmath>

@@ -53,7 +53,7 @@ struct Design {
   double voltage_ramp_v_s = 2400;  ///< of direct voltage mode
   std::int64_t pwm_hz = 0;
   int pwm_mode = 0, motor_polarity = 0;
-  double dead_time_s = 0, shortest_pulse_s = 0, supply_v = 0;
+  double dead_time_s = 0, shortest_pulse_s = 0.2e-6, supply_v = 0;
   double diode_drop_v = 0;
   bool compensate_dead_time = false;
   double overspeed_rad_s = 0, nominal_current_a = 0, i2t_budget_a2_s = 0;
@@ -102,6 +102,15 @@ struct Design {
   double full_duty_v() const;
   /// Whether the voltage law compensates the back-EMF.
   bool emf_in_law() const { return voltage_law == "motor_model"; }
+  /// Of the monitor of dead channels: bits of the ticks in which the time between edges is counted,
+  /// and whether several counts come in a tick.
+  int edge_unit_bits() const;
+  bool fast_edges() const;
+  /// Counts in a tick at the fastest motion.
+  double counts_per_tick() const;
+  /// The self-test takes 2^n counts for one, so that its counts are no finer than 16384 in a turn.
+  int self_test_drop() const;
+  double self_test_count_rad() const;
   /// A time in the units of the self-test: 2^SELF_TEST_UNIT_BITS ticks.
   double self_test_units(double seconds) const;
   int dead_clocks() const;

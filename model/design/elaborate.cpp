@@ -18,8 +18,19 @@ namespace feltgate::design {
 
 namespace {
 
-Format signal_format(const Design& d, const Parameter& p) {
-  const Formats f = derive(BaseFormats{});
+/// Of a word that has a signal's format. The heat's follow from the current's estimate, whose
+/// coefficients are before them in the register map.
+Format signal_format(const Elaborated& e, const Parameter& p) {
+  const Design& d = e.design;
+  BaseFormats base{};
+  if (p.signal == "current_squared" || p.signal == "i2t") {
+    base.velocity = d.velocity;
+    base.current = d.current;
+    base.voltage = d.voltage;
+    base.inverse_resistance = e.word("inverse_resistance").format;
+    base.emf_over_resistance = e.word("emf_over_resistance").format;
+  }
+  const Formats f = derive(base);
   const std::map<std::string, Format> signals{
       {"velocity", d.velocity},
       {"torque", d.torque},
@@ -83,6 +94,16 @@ void check_resolution(const Elaborated& e) {
   };
   guard("formats.velocity", e.word("velocity_a1"), d.velocity.fraction, 10);
   guard("formats.observer_fraction", e.word("observer_a1"), d.observer_fraction, d.torque.fraction);
+  constexpr int fewest_steps = 4;
+  if (e.word("nominal_current_squared").raw < fewest_steps) {
+    d.fail("supervisor.nominal_current_a",
+           fmt::format(
+               "the square of the nominal current is below {} steps of {} A^2, those of a motor "
+               "with currents of up to {} A",
+               fewest_steps, text(std::ldexp(1.0, -e.formats.current_squared.fraction)),
+               text(std::ldexp(1.0, e.formats.current_estimate.integer))),
+           "use fewer integer bits of the velocity or the current");
+  }
 }
 
 double pi_over(double n) { return 3.14159265358979323846 / n; }
@@ -111,6 +132,14 @@ void check_widths(const Elaborated& e) {
     d.fail("formats.velocity", "no count reaches the velocity's top bits",
            "use fewer integer bits");
   }
+  constexpr double most_counts = 60;
+  if (!d.absolute && d.counts_per_tick() > most_counts) {
+    d.fail("supervisor.overspeed_rad_s",
+           fmt::format("at this speed {:.3g} counts come in a tick, and {:g} may",
+                       d.counts_per_tick(), most_counts),
+           fmt::format("choose {:.4g} or less",
+                       d.overspeed_rad_s * most_counts / d.counts_per_tick()));
+  }
   if (f.observed.integer + 1 < d.torque.integer) {
     d.fail("formats.torque", "nothing that is observed reaches the torque's top bits",
            "use fewer integer bits of torque");
@@ -120,10 +149,6 @@ void check_widths(const Elaborated& e) {
   };
   fits("formats.torque", "the ramped torque", f.ramp.width(), fabric::word_bits);
   fits("formats.observer_fraction", "the observer's state", f.observer.width(), 62);
-  fits("motor.resistance_ohm", "the current estimate", f.current_estimate.width(),
-       fabric::multiplier_b_bits);
-  fits("motor.resistance_ohm", "the square of the current estimate's integer part",
-       2 * f.current_estimate.integer, f.current_squared.integer);
   // One limiter of the current's width also limits torque, voltage and duty.
   for (const auto& [what, format] :
        {std::pair{"torque", d.torque}, {"voltage", d.voltage}, {"duty", f.duty}}) {
@@ -296,13 +321,14 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
       w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed",
                                     design.coefficient_bits);
     } else if (p.kind == "signal") {
-      w.format = signal_format(design, p);
+      w.format = signal_format(e, p);
     } else if (p.kind == "counts") {
       w.format = {1, 17, 8};
     } else if (p.kind == "angle") {
       w.format = {0, 0, 32};
     } else {
-      w.format = {0, 31, 0};
+      // The limiter takes an integer with fewer bits, and is as wide as the current.
+      w.format = {0, p.bits < 31 ? std::min(p.bits, design.current.width() - 1) : 31, 0};
     }
     w.raw = quantised_word(design, w);
     e.words.push_back(w);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <sstream>
+#include <stdexcept>
 
 #include "design/text_case.hpp"
 #include "feltgate/crc32.hpp"
@@ -199,6 +200,18 @@ std::vector<Constant> of_absolute_encoder(const Design& d) {
       {"absolute_diagnosis", p.diag_address, "SPI: address of the diagnosis"}};
 }
 
+/// What the checks of the encoder take from its counts; not in the CRC where it is as with 4096.
+std::vector<Constant> of_encoder(const Design& d) {
+  return {{"edge_unit_bits", d.edge_unit_bits(),
+           "bits of the ticks in which the time between edges is counted"},
+          {"fast_edges", d.fast_edges() ? 1 : 0,
+           "1: at the fastest motion several counts come in a tick"},
+          {"self_test_drop", d.self_test_drop(), "the self-test takes 2^n counts for one"}};
+}
+bool as_of_4096_counts(const Design& d) {
+  return d.edge_unit_bits() == 6 && !d.fast_edges() && d.self_test_drop() == 0;
+}
+
 /// Table against its error, and Hall lines; not in the CRC of designs without them.
 std::vector<Constant> of_angle(const Design& d) {
   return {{"absolute_table", d.absolute_table() ? 1 : 0, "1: readings are corrected by a table"},
@@ -215,7 +228,7 @@ std::vector<Constant> of_phases(const Design& d) {
 std::vector<Constant> of_options(const Elaborated& e) {
   std::vector<Constant> all;
   for (const auto& list :
-       {further(e.design), of_estimator(e.design), of_current_loop(e),
+       {further(e.design), of_estimator(e.design), of_encoder(e.design), of_current_loop(e),
         of_absolute_encoder(e.design), of_angle(e.design), of_phases(e.design)}) {
     all.insert(all.end(), list.begin(), list.end());
   }
@@ -232,6 +245,7 @@ std::uint32_t design_crc(const Elaborated& e) {
   add(constants(e));
   if (e.design.axes != 1 || e.design.engine) add(further(e.design));
   if (e.design.mt) add(of_estimator(e.design));
+  if (!as_of_4096_counts(e.design)) add(of_encoder(e.design));
   if (e.design.current_loop) add(of_current_loop(e));
   if (e.design.absolute) add(of_absolute_encoder(e.design));
   if (e.design.phases == 3) add(of_phases(e.design));
@@ -290,6 +304,17 @@ std::string systemverilog_package(const Elaborated& e) {
       << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
   }
   s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
+    << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
+    << "  function automatic logic [32:0] parameter_above(input logic [8:0] address);\n"
+    << "    case (address)\n";
+  for (const Word& w : e.words) {
+    const int bits = w.format.width() - w.format.sign;
+    if (bits >= 31) continue;  // all words fit, or the block that takes the integer judges it
+    s << "      9'd" << w.parameter.address << ": parameter_above = {1'd" << w.format.sign
+      << fmt::format(", 32'h{:08x}}};  // ", static_cast<std::uint32_t>(-1) << bits)
+      << w.parameter.name << "\n";
+  }
+  s << "      default: parameter_above = 33'd0;\n    endcase\n  endfunction\n"
     << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
     << "  function automatic logic [15:0] absolute_correction(input logic ["
     << Map::absolute_segment_bits - 1 << ":0] part);\n"
@@ -306,7 +331,10 @@ std::string systemverilog_package(const Elaborated& e) {
   return s.str();
 }
 
-std::string cpp_header(const Elaborated& e) {
+namespace {
+
+/// The header with this line about its sum.
+std::string header_with(const Elaborated& e, const std::string& sum_line) {
   const Design& d = e.design;
   std::ostringstream s;
   s << banner(e, "")
@@ -335,6 +363,7 @@ std::string cpp_header(const Elaborated& e) {
       "  static constexpr std::uint32_t design_crc = 0x{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
+  s << sum_line;
   if (d.absolute_table()) {
     s << "\n  /// What is added to an absolute encoder's reading, 2^-20 turn.\n"
       << "  static constexpr std::int16_t absolute_corrections[" << Corrections{}.size() << "] = {";
@@ -373,6 +402,26 @@ std::string cpp_header(const Elaborated& e) {
   }
   s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
+}
+
+}  // namespace
+
+std::uint32_t file_sum(const Elaborated& e) {
+  const std::string text = systemverilog_package(e) + header_with(e, "") + memory_text(e);
+  return crc32(text.data(), text.size());
+}
+
+std::string cpp_header(const Elaborated& e) {
+  return header_with(e, fmt::format("  static constexpr std::uint32_t file_sum = 0x{:08x};  // by "
+                                    "which a program notices that the file has changed\n",
+                                    file_sum(e)));
+}
+
+void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend) {
+  if (file_sum(e) == sum) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: the file has changed since design {} was made of it, so what it says is not used; {}",
+      e.design.path, e.design.name, mend));
 }
 
 std::string memory_text(const Elaborated& e) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lists the words that a host can access, and writes them as CSV. Documentation:
-// docs/register-files.md
+// docs/other-tools.md
 #include "design/host_words.hpp"
 
 #include <fmt/format.h>

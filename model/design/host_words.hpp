@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The register map of a design for hosts and other tools: C headers, SystemRDL, and CSV as LiteX
-// writes it. Documentation: docs/register-files.md
+// writes it. Documentation: docs/other-tools.md
 #pragma once
 
 #include <cstdint>

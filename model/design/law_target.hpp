@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Converts a design to a target of the law compiler: its rates and formats. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include "design/design.hpp"

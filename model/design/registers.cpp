@@ -69,6 +69,7 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
   if (p.kind == "signal") p.signal = r.text("format");
+  if (p.kind == "integer" && r.has("bits")) p.bits = static_cast<int>(r.integer("bits", 1, 31));
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
   p.while_armed = p.scene.empty() ? "refused" : "ramps";
   if (r.has("while_armed")) {

@@ -25,6 +25,7 @@ struct Parameter {
   std::string kind;            ///< coefficient, signed, signal, counts, integer or angle
   std::string signal;          ///< format of a word of kind signal
   std::string same_format_as;  ///< coefficient whose format the word shares, or empty
+  int bits = 31;               ///< of a word of kind integer
   int headroom_bits = 0;       ///< doublings above the design's value that a coefficient can take
   std::string option;          ///< option that a design needs to have the word; empty: all have it
   std::string while_armed;  ///< effect of a write while the motor is armed: refused, ramps or acts

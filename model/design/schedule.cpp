@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reader of rtl/schedule.toml. Documentation: docs/schedule.md (generated)
+// Reader of rtl/schedule.toml. Documentation: docs/architecture.md
 #include "design/schedule.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +29,6 @@ const Step* Schedule::step(const std::string& name) const {
   return nullptr;
 }
 
-int latency(const Schedule& s) { return s.step("duty")->clock + 1 - s.step("sample")->clock; }
 
 std::uint64_t scene_slots(const RegisterMap& map) {
   std::uint64_t slots = 0;
@@ -129,6 +128,7 @@ Step read_step(config::TomlReader r, const RegisterMap& map, const Schedule& s) 
   if (r.has("needs")) {
     for (const std::string& text : r.texts("needs")) step.needs.push_back(need(text));
   }
+  if (r.has("fetches")) step.fetches = r.text("fetches");
   if (r.has("takes")) step.takes = r.texts("takes");
   if (r.has("reads")) step.reads = r.texts("reads");
   if (r.flag_or("passes", false)) step.lasts = 1;

@@ -38,6 +38,7 @@ struct Step {
   std::string name;
   int clock = 0;
   std::vector<Need> needs;
+  std::string fetches;             ///< word that is on the parameter bus in its clock, or empty
   std::vector<std::string> takes;  ///< words that it takes from the parameter bus
   std::vector<std::string> reads;  ///< words of the snapshot that it reads
   int lasts = 0;                   ///< clocks for which the result is valid; 0: held
@@ -58,9 +59,6 @@ struct Schedule {
   const Step* step(const std::string& name) const;        ///< nullptr: no such step
 };
 
-/// Clocks from the sampled position to the duty register.
-int latency(const Schedule& s);
-
 /// Mask of the slots that are read from the bank of the scene: bit n is slot n.
 std::uint64_t scene_slots(const RegisterMap& map);
 
@@ -77,8 +75,6 @@ std::string map_package(const RegisterMap& map, const Schedule& s);
 std::string map_header(const RegisterMap& map, const Schedule& s);
 /// Text of model/include/feltgate/generated/causes.hpp.
 std::string causes_header(const RegisterMap& map);
-/// Text of docs/images/tick.json, the source of the timing diagram.
-std::string timing_diagram(const RegisterMap& map, const Schedule& s);
 
 /// Throws config::ConfigError with file, line and reason for a late result, for words that collide,
 /// and for a clock outside the tick.

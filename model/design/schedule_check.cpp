@@ -3,7 +3,7 @@
 //
 // Checks a schedule. It is refused for a late result, a result that is overwritten too early, words
 // that collide on a bus, words in the wrong bank, and clocks outside the tick. Documentation:
-// docs/schedule.md
+// docs/architecture.md
 #include "design/schedule.hpp"
 
 #include <fmt/format.h>
@@ -263,6 +263,25 @@ void check_banks(const RegisterMap& map, const Schedule& s) {
   }
 }
 
+/// Checks that a word that a step fetches is alone on the parameter bus in its clock.
+void check_fetches(const RegisterMap& map, const Schedule& s) {
+  for (const Step& step : s.steps) {
+    if (step.fetches.empty()) continue;
+    if (map.find(step.fetches) == nullptr) {
+      refuse(step.place, fmt::format("there is no word {} to fetch", step.fetches),
+             "name a parameter");
+    }
+    for (const Parameter& p : map.parameters) {
+      if (p.slot != step.clock) continue;
+      refuse(p.place,
+             fmt::format("two words meet on the parameter bus in slot {}: {} and {}, which the "
+                         "step {} ({}) fetches",
+                         p.slot, p.name, step.fetches, step.name, step.place),
+             "give one another slot");
+    }
+  }
+}
+
 /// Checks that the wave ends before the next one; its last two clocks already fetch words of the
 /// next wave.
 void check_ends(const RegisterMap& map, const Schedule& s) {
@@ -297,6 +316,7 @@ void check_tick(const Design& d, const Schedule& s) {
 void check_schedule(const RegisterMap& map, const Schedule& s) {
   check_ends(map, s);
   check_banks(map, s);
+  check_fetches(map, s);
   check_buses(map, s);
   check_results_on_bus(map, s);
   check_reads(map, s);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Writes the register map of a design in SystemRDL 2.0. Documentation: docs/register-files.md
+// Writes the register map of a design in SystemRDL 2.0. Documentation: docs/other-tools.md
 #include <fmt/format.h>
 
 #include <sstream>

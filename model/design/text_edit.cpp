@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -90,6 +91,15 @@ void TextEdit::set_description(const std::string& text) {
   const std::string old = *text_of("", "description");
   const std::size_t begin = offset_of(text_, find("", "description")->source().begin);
   text_.replace(begin, old.size(), "\"" + text + "\"");
+  parse();
+}
+
+void TextEdit::leave_out(const std::string& section, const std::string& why) {
+  const toml::node* node = root_[section].node();
+  if (node == nullptr) return;
+  const std::size_t begin = text_.rfind('\n', offset_of(text_, node->source().begin)) + 1;
+  const std::size_t end = std::min(text_.find("\n[", begin), text_.size());
+  text_.replace(begin, end - begin, fmt::format("# [{}] is left out: {}\n", section, why));
   parse();
 }
 

@@ -26,6 +26,8 @@ class TextEdit {
   void replace(const std::string& section, const std::string& key, const std::string& new_key,
                const std::string& value);
   void set_description(const std::string& text);
+  /// Puts one line of comment in the place of a section.
+  void leave_out(const std::string& section, const std::string& why);
   /// The value of a key as written, or nothing.
   std::optional<std::string> text_of(const std::string& section, const std::string& key) const;
 

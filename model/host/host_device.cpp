@@ -88,6 +88,7 @@ SetResult Device::set(const Setting& setting) {
   SetResult r;
   r.setting = setting;
   r.refused = quantities_.find("status.refused").raw_of(status) != 0;
+  r.saturated = quantities_.find("status.saturated").raw_of(status) != 0;
   r.kept = q.raw_of(link_.read(q.address)) == q.raw_of(setting.word);
   return r;
 }
@@ -202,6 +203,11 @@ std::vector<std::string> Device::words_of_axis(const Tick& tick, int axis) const
       lines.push_back(fmt::format("limit {}: {}", c.name, c.doc));
     }
   }
+  for (const char* sensor : {"faults.current", "faults.absolute"}) {
+    if (value(sensor) == 0) continue;
+    lines.push_back(
+        fmt::format("sensor: {} is {}: {}", sensor, value(sensor), quantities_.find(sensor).doc));
+  }
   if (value("status.unkicked") != 0) {
     lines.emplace_back("arming waits for a host that kicks the watchdog: arm --hold");
   }
@@ -217,8 +223,19 @@ std::vector<std::string> Device::words_of_axis(const Tick& tick, int axis) const
   return lines;
 }
 
+bool Device::sensors_ready(const Tick& t) const {
+  double waits = 0;
+  for (int axis = 0; axis < axes(); ++axis) {
+    for (const char* name :
+         {"faults.current", "faults.absolute", "status.driver_fault", "status.current_missing"}) {
+      waits += t.value(quantities_.find(name + Quantities::suffix(axis)));
+    }
+  }
+  return waits == 0;
+}
+
 void Device::refuse_to_arm(const Tick& t, const std::string& what) {
-  disarm();
+  if (host_has_the_say()) disarm();
   std::string why;
   for (const std::string& line : in_words(t)) {
     if (line.rfind("limit", 0) != 0) why += "\n  " + line;
@@ -233,7 +250,7 @@ void Device::refuse_to_arm(const Tick& t, const std::string& what) {
 }
 
 void Device::arm(const std::string& scene, bool watched, const std::function<bool()>& go_on) {
-  const Tick before = tick();
+  Tick before = tick();
   const int number = scene.empty()
                          ? static_cast<int>(before.value(quantities_.find("status.scene")))
                          : scene_number(scene);
@@ -242,18 +259,28 @@ void Device::arm(const std::string& scene, bool watched, const std::function<boo
         fmt::format("cannot arm: fault {} is latched; see info, mend its cause, then clear",
                     fault_names(before)));
   }
-  std::vector<std::uint32_t> requests;
+  // A request waits 20 ms for a sensor that starts, and is refused by one that is not there.
+  const Deadline started = within(arm_patience_s);
+  for (int looks = 1; !sensors_ready(before); ++looks) {
+    if (looks > fewest_looks && HostClock::now() > started) {
+      refuse_to_arm(before,
+                    "the motor was not asked to arm: a sensor is not ready; mend it, then clear");
+    }
+    if (!go_on()) return;
+    rest(0.001);
+    before = tick();
+  }
+  std::vector<HostWrite> requests;
   for (int axis = 0; axis < axes(); ++axis) {
     const std::uint32_t others =
         control(axis) & ~((1u << C::control_arm) | (0xfu << C::control_scene)) & 0x7fffu;
-    requests.push_back(others | 1u << C::control_host |
-                       static_cast<std::uint32_t>(number) << C::control_scene);
-    control(axis, requests.back());  // the request must rise
+    const std::uint32_t low =
+        others | 1u << C::control_host | static_cast<std::uint32_t>(number) << C::control_scene;
+    control(axis, low);  // the request must rise
+    requests.push_back({C::control + axis * axes_stride, low | 1u << C::control_arm});
   }
   if (watched) kick();
-  for (int axis = 0; axis < axes(); ++axis) {
-    control(axis, requests[static_cast<std::size_t>(axis)] | 1u << C::control_arm);
-  }
+  link_.write_all(requests, [](double) {});  // the axes wait 20 ms for each other
   const double kick_every_s = watchdog_s() / 4;
   Deadline next_kick = within(kick_every_s);
   const Deadline ordinary = within(arm_patience_s), last = within(test_patience_s);

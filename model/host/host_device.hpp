@@ -45,7 +45,9 @@ struct Tick {
 struct SetResult {
   Setting setting;
   bool refused = false;  ///< the motor is armed, and this parameter cannot change then
-  bool kept = false;     ///< it reads back as written
+  bool saturated =
+      false;          ///< the word did not fit the board's format: it is now the nearest that does
+  bool kept = false;  ///< it reads back as written
 };
 
 /// A board over a link. Use it from one thread, one request at a time.
@@ -79,8 +81,8 @@ class Device {
   /// Takes control from the panel and arms. With `watched` the watchdog is kicked first, and from
   /// then on kick() must follow within watchdog_s(). `scene` empty: the selected one. Waits for the
   /// self-test as long as it takes, and kicks meanwhile; `go_on` = false ends the wait and disarms.
-  /// Errors: Refused if a fault is or becomes latched; std::invalid_argument for a scene that the
-  /// design does not have.
+  /// Errors: Refused if a fault is or becomes latched, or a sensor is not ready;
+  /// std::invalid_argument for a scene that the design does not have.
   void arm(
       const std::string& scene, bool watched,
       const std::function<bool()>& go_on = [] { return true; });
@@ -144,6 +146,7 @@ class Device {
   int scene_number(const std::string& scene) const;
   std::vector<std::string> words_of_axis(const Tick& tick, int axis) const;
   std::string cause(const std::vector<design::Cause>& causes, int number) const;
+  bool sensors_ready(const Tick& tick) const;
   [[noreturn]] void refuse_to_arm(const Tick& tick, const std::string& what);
 
   Link& link_;

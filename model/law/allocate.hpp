@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Turns the steps of a program into engine instructions: assigns registers and memory addresses and
-// adds the last instruction. Documentation: docs/law-compiler.md
+// adds the last instruction. Documentation: docs/laws.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -263,9 +263,7 @@ void Analysis::states() {
 void Analysis::require(const Fact& f, double lower, double upper, double scale, int state) {
   if (f.words.lo >= lower && f.words.hi <= upper) return;
   const double end = f.words.lo < lower ? f.words.lo : f.words.hi;
-  facts_.unproven.push_back(
-      {-1, state,
-       "its next value can be " + beyond_text(end * scale, lower * scale, upper * scale)});
+  facts_.unproven.push_back({-1, state, beyond_text(end * scale, lower * scale, upper * scale)});
 }
 
 }  // namespace analysis

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Analysis of table reads, low-pass filters, comparisons and selections. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +10,21 @@
 #include "law/analysis.hpp"
 
 namespace feltgate::law {
+
+bool joined_alike(const Program& program, const std::vector<int>& comparisons) {
+  return !comparisons.empty() && std::all_of(comparisons.begin(), comparisons.end(), [&](int i) {
+    const Step& c = program.steps[at(i)];
+    const bool stored = c.y.from == From::step && program.steps[at(c.y.index)].op == EngineOp::cmp;
+    const bool first = i == comparisons.front();
+    const bool begins = c.mode == 0 || c.mode == 3;
+    return !stored && first == begins &&
+           (first || c.mode == program.steps[at(comparisons.back())].mode);
+  });
+}
+
+bool hold_together(const Program& program, const std::vector<int>& comparisons, bool truth) {
+  return comparisons.size() == 1 || (program.steps[at(comparisons.back())].mode == 2) == truth;
+}
 
 namespace analysis {
 
@@ -81,7 +96,7 @@ Fact Analysis::table_result(const Step& s, const Fact& x) {
     }
     if (!near || t.wraps) f.error += t.slope * x.error;
     // Law and words may be separated by one or more seams between segments.
-    if (x.error > 0) f.error += t.jump * (1 + (near ? 0 : x.error / 4096));
+    if (x.error > 0) f.error += near ? t.jump_over(from, to) : t.jump * (1 + x.error / 4096);
     f.error = raised(f.error + 0.5);
   } else if (x.error > 0) {
     margin(x.error);
@@ -112,6 +127,18 @@ Span Analysis::given(const Operand& o, const Step& c, bool truth) {
   return w;
 }
 
+/// The values that an operand can have when the flag is `truth`.
+Span Analysis::given(const Operand& o, bool truth) {
+  const bool all = hold_together(program_, sources_, truth);
+  Span w = all ? operand(o, 0).words : Span{1, 0};
+  for (const int i : sources_) {
+    const Step& c = program_.steps[at(i)];
+    const Span here = given(o, c, (c.mode == 3) != truth);
+    w = all ? both_of(w, here) : hull(w, here);
+  }
+  return w;
+}
+
 Fact Analysis::only(const Fact& f, int which) {
   why_.taken = which;
   return f;
@@ -121,11 +148,9 @@ Fact Analysis::selected(const Step& s, const Fact& x, const Fact& y) {
   Fact f{hull(x.words, y.words), std::max(x.error, y.error)};
   if (flag_.lo > 0) f = only(x, 1);
   if (flag_.hi <= 0) f = only(y, 2);
-  if (sources_.size() == 1) why_.source = sources_[0];
-  if (flag_.lo <= 0 && flag_.hi > 0 && sources_.size() == 1) {
-    const Step& c = program_.steps[at(sources_[0])];
-    if (c.mode == 0) f.words = hull(given(s.x, c, true), given(s.y, c, false));
-    if (c.mode == 3) f.words = hull(given(s.x, c, false), given(s.y, c, true));
+  if (flag_.lo <= 0 && flag_.hi > 0 && joined_alike(program_, sources_)) {
+    if (explain_) why_.sources = sources_;
+    f.words = hull(given(s.x, true), given(s.y, false));
   }
   // The law may have decided differently even where the decision of the words is certain.
   if (std::any_of(sources_.begin(), sources_.end(), [this](int c) { return wrong(c); })) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the range and the error of each step of a program over a cell, in program order.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #pragma once
 
 #include <cmath>
@@ -60,6 +60,7 @@ class Analysis {
   Fact table_result(const Step& s, const Fact& x);
   /// The values that an operand can have when comparison `c` has the result `truth`.
   Span given(const Operand& o, const Step& c, bool truth);
+  Span given(const Operand& o, bool truth);
   /// The fact of a selection that surely takes operand number `which`.
   Fact only(const Fact& f, int which);
   Fact selected(const Step& s, const Fact& x, const Fact& y);

@@ -2,17 +2,20 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers a law's graph to steps: formats are chosen or taken as given, and operations become
-// instructions. Documentation: docs/law-compiler.md
+// instructions. Documentation: docs/laws.md
 #pragma once
 
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "law/law.hpp"
 #include "law/program.hpp"
 #include "law/ranges.hpp"
+#include "law/stays.hpp"
 #include "law/tables.hpp"
 #include "law/target.hpp"
 
@@ -26,6 +29,7 @@ struct Choice {
   int sine_bits = 0;  ///< log2 of segments per turn; 9: all table memory; 0: as many as fit
   std::map<std::string, TableUse> made;  ///< tables by a key of their content: each proven once
   std::map<std::string, int> fractions;  ///< fraction bits of such tables' values, by their domain
+  std::shared_ptr<const Stays> stays;    ///< of the law: computed once
 };
 
 /// Thrown when no instructions exist for this choice of formats; another choice may have some.
@@ -47,6 +51,7 @@ struct Value {
   Operand operand;
   double scale = 1;  ///< SI value of one word LSB
   double size = 0;   ///< largest magnitude, SI
+  double error = 0;  ///< of a constant operand: its rounding error, in words
 };
 
 /// A product of a number, of parameters (fixed during a run) and of other nodes.
@@ -59,6 +64,8 @@ struct Term {
 /// Whether a/b is a power of two, within the rounding of doubles.
 bool same_unit(double a, double b);
 bool same_scale(double a, double b);
+/// Whether every whole number has a word of this scale.
+bool counts(double scale);
 
 class BackEnd {
  public:
@@ -85,7 +92,9 @@ class BackEnd {
   struct Chain {
     std::vector<Multiply> products;
     std::vector<Addend> addends;
+    bool steps = false;  ///< the scale is for the whole steps of one of the terms
   };
+  double step_of(const std::vector<Term>& terms) const;
   double sum_scale(NodeId id, const std::vector<Term>& terms, double hint);
   void add_term(const Term& term, double scale, NodeId id, Chain& chain);
   Value chain(const Chain& chain, double scale, NodeId id);
@@ -112,6 +121,23 @@ class BackEnd {
   Value mailbox(NodeId id);
   double chosen_scale(NodeId id, double unit, int preferred, double size);
   int largest_fraction(NodeId id, double unit, double size) const;
+
+  // ends.cpp
+  struct Map {
+    double factor = 1, offset = 0;
+    /// This map of f * x + o.
+    Map after(double f, double o) const { return {factor * f, factor * o + offset}; }
+  };
+  struct Ends {
+    double scale;
+    Span range;  ///< of the whole result
+    bool down;   ///< ends are rounded down
+  };
+  bool has_ends(NodeId id, bool or_whole = false) const;
+  Value with_ends(NodeId id, double scale, bool down);
+  Value with_ends(NodeId id, const Map& map, const Ends& ends);
+  Value mapped(NodeId id, const Map& map, const Ends& ends);
+  Value clipped(Value v, const Map& map, const Ends& ends, NodeId id);
 
   // conditions.cpp
   void lower_leaves(NodeId condition);
@@ -148,6 +174,7 @@ class BackEnd {
   /// The node as a whole number, in words of scale 1; other values are rounded down.
   Operand whole_word(NodeId id);
   Operand rounded_down(NodeId id);
+  Value floor_word(NodeId id, double hint);
   Value next_state(const State& s, double scale);
   double state_unit(NodeId id, int depth) const;
   void finish();
@@ -172,6 +199,7 @@ class BackEnd {
   std::map<NodeId, Value> values_;
   std::vector<std::pair<Value, Value>> aligned_;
   std::map<Operand, Value> negated_;
+  std::map<std::tuple<NodeId, double, bool>, Value> ended_;
   std::map<std::pair<Operand, Operand>, Value> products_;
   std::map<std::string, int> table_keys_;
   std::map<std::string, double> memory_scales_;  ///< scales of arrays and of tables through points

@@ -2,17 +2,20 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the bounds: splits cells, bounds the errors of states, finds the strips. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include "law/bound.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "feltgate/largest.hpp"
+#include "law/reach.hpp"
 
 namespace feltgate::law {
 
 namespace {
+
+constexpr double kLargeDrift = 0.002;  ///< of a state's range; from here on cells are halved for it
 
 double worst(const CellFacts& f) {
   if (!f.reachable) return 0;
@@ -58,6 +61,11 @@ class Bounds {
     leaves_.push_back({whole, whole_facts(whole)});
     const bool whole_reachable = leaves_.front().facts.reachable;
     for (int i = 0; i < splits && split(whole); ++i) {
+    }
+    // What a run adds to a state counts as the outputs do.
+    by_drift_ = !bounded_;
+    stalled_ = 0;
+    for (int i = 0; i < splits && largest_drift() > kLargeDrift && split(whole); ++i) {
     }
     Bound b;
     b.states_bounded = bounded_;
@@ -153,13 +161,29 @@ class Bounds {
     std::fill(errors_.begin(), errors_.end(), 0.0);
   }
 
+  /// The error that a run adds to the state with the largest one beside its range.
+  double drift(const CellFacts& f) const {
+    double most = 0;
+    for (std::size_t k = 0; f.reachable && k < law_.states.size(); ++k) {
+      const Range& r = law_.states[k].range;
+      if (r.upper > r.lower) most = larger(most, f.state_error[k] / (r.upper - r.lower));
+    }
+    return most;
+  }
+  double largest_drift() const {
+    double most = 0;
+    for (const Leaf& l : leaves_) most = larger(most, drift(l.facts));
+    return by_drift_ ? most : 0;
+  }
+  double badness(const CellFacts& f) const { return by_drift_ ? drift(f) : worst(f); }
+
   /// Halves the worst cell along the side that reduces the bound most; false if no side does.
   bool split(Cell& whole) {
     std::size_t pick = 0;
     for (std::size_t i = 1; i < leaves_.size(); ++i) {
-      if (worst(leaves_[i].facts) > worst(leaves_[pick].facts)) pick = i;
+      if (badness(leaves_[i].facts) > badness(leaves_[pick].facts)) pick = i;
     }
-    const double now = worst(leaves_[pick].facts);
+    const double now = badness(leaves_[pick].facts);
     if (now <= 0 || stalled_ > 150) return false;
     const std::size_t count = sides(leaves_[pick].cell).size();
     double best = infinity;
@@ -179,11 +203,11 @@ class Bounds {
       ranges_.narrow_by_sums(&a.cell);
       a.facts = facts(a.cell);
       // The score is at least this: the other half cannot make this side the best one.
-      if (found && worst(a.facts) - 1e-9 * share >= best) continue;
+      if (found && badness(a.facts) - 1e-9 * share >= best) continue;
       ranges_.narrow_by_sums(&b.cell);
       b.facts = facts(b.cell);
-      const double score = std::max(worst(a.facts), worst(b.facts)) +
-                           1e-3 * std::min(worst(a.facts), worst(b.facts)) - 1e-9 * share;
+      const double score = std::max(badness(a.facts), badness(b.facts)) +
+                           1e-3 * std::min(badness(a.facts), badness(b.facts)) - 1e-9 * share;
       // While no side reduces the bound, the side with the largest relative width is halved.
       if (!found || score < best) {
         best = score;
@@ -207,14 +231,13 @@ class Bounds {
       if (s.phase || b->unproven.size() > 0) continue;
       Span next{1, 0};
       for (const Leaf& l : leaves_) {
-        if (l.facts.reachable) next = hull(next, ranges_.over(l.cell)[at(s.next)]);
+        if (l.facts.reachable) next = hull(next, reach(law_, ranges_, s.next, l.cell));
       }
       const double slack = 1e-9 * (s.range.upper - s.range.lower);
       if (next.lo < s.range.lower - slack || next.hi > s.range.upper + slack) {
         const double end = next.lo < s.range.lower - slack ? next.lo : next.hi;
         b->unproven.push_back(
-            {-1, static_cast<int>(k),
-             "its next value can be " + beyond_text(end, s.range.lower, s.range.upper)});
+            {-1, static_cast<int>(k), beyond_text(end, s.range.lower, s.range.upper)});
       }
     }
   }
@@ -306,7 +329,7 @@ class Bounds {
   RangesOf ranges_;
   std::vector<Span> whole_;
   std::vector<Leaf> leaves_;
-  bool bounded_ = true, limits_ = false;
+  bool bounded_ = true, limits_ = false, by_drift_ = false;
   int stalled_ = 0;
 };
 

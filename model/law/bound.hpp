@@ -3,7 +3,7 @@
 //
 // Proves the error bound of a program: no instruction saturates, no factor, index or state leaves
 // its range, and each result has a largest distance from the law in real numbers. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <string>
@@ -34,10 +34,17 @@ struct Reason {
   Fact x, y, acc;        ///< facts of the operands
   bool between = false;  ///< ADD: taken as y + a (x - y)
   int taken = 0;         ///< MIN, MAX, SEL: 1: surely x; 2: surely y; 0: either
-  int source = -1;       ///< SEL: the comparison that alone decides; -1: none
   Span decided{0, 1};    ///< CMP: its own result, before it is joined with the flag
   Span law{1, 0};        ///< the law's range in words, where it narrowed the step's; else empty
+  /// SEL: the comparisons that decide, if joined_alike().
+  std::vector<int> sources;
 };
+
+/// Whether the flag is one comparison, or all are joined by `or`, or all by `and`: an operand can
+/// then be narrowed by each of them.
+bool joined_alike(const Program& program, const std::vector<int>& comparisons);
+/// Whether a flag `truth` says the result of every one of them; else it says that of at least one.
+bool hold_together(const Program& program, const std::vector<int>& comparisons, bool truth);
 
 /// The facts of a program over one cell.
 struct CellFacts {
@@ -72,8 +79,9 @@ struct Strip {
   Place place;
   double width = 0;  ///< on each side, in `unit`
   Unit unit;
-  std::vector<double> jump;  ///< of each output, Nm
-  std::vector<double> next;  ///< of each state, then of each line: of its next value, SI
+  std::vector<double> jump;         ///< of each output, Nm
+  std::vector<double> jump_as_set;  ///< the same with the parameter values of the file
+  std::vector<double> next;         ///< of each state, then of each line: of its next value, SI
 };
 
 struct Bound {

@@ -40,6 +40,7 @@ NodeId Lowering::call(const Expression& e) {
   if (e.name == "sqrt") return root(e);
   if (e.name == "lowpass") return lowpass(e);
   if (e.name == "floor") return floor_call(e);
+  if (e.name == "round") return round_call(e);
   if (e.name == "mod") return mod(e);
   if (e.name == "noise") return noise(e);
   if (e.name == "atan2") return angle(e);

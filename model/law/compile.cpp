@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/compile.hpp"
 
 #include <fmt/format.h>
@@ -11,8 +11,10 @@
 #include <map>
 #include <utility>
 
+#include "law/mends.hpp"
 #include "law/pieces.hpp"
 #include "law/read_law.hpp"
+#include "law/strip_jumps.hpp"
 #include "law/verdict.hpp"
 
 namespace feltgate::law {
@@ -34,29 +36,22 @@ void complete_states(Law& law, const Target& target) {
   }
 }
 
-void require_proofs(const Law& law, const Program& program, const Bound& b) {
+void require_proofs(const Law& law, const Target& target, const Program& program, const Bound& b) {
   if (b.unproven.empty()) return;
   const Unproven& u = b.unproven.front();
   if (u.state >= static_cast<int>(law.states.size())) {
     const auto line = at(u.state) - law.states.size() - law.events.size();
-    const Line& l = law.lines[line];
-    throw Refused(l.place,
-                  fmt::format("line {} can leave its range {:.6g} .. {:.6g}: {}", l.name,
-                              l.range.lower, l.range.upper, u.reason),
-                  fmt::format("write clamp(..., {:.6g}, {:.6g}), or give it a larger range",
-                              l.range.lower, l.range.upper));
+    throw leaves_its_range(law, target, static_cast<int>(line), true, u.reason);
   }
   if (u.state >= 0) {
     const State& s = law.states[at(u.state)];
-    throw Refused(
-        s.place,
-        fmt::format("state {} can leave its range {:.6g} .. {:.6g}: {}", s.name, s.range.lower,
-                    s.range.upper, u.reason),
-        s.follows >= 0
-            ? "keep the filter's frequency above 0, e.g. max(..., 10 Hz), and give the "
-              "law a lower rate"
-            : fmt::format("end with clamp(..., {:.6g}, {:.6g}), or give it a larger range",
-                          s.range.lower, s.range.upper));
+    if (s.follows < 0) throw leaves_its_range(law, target, u.state, false, u.reason);
+    throw Refused(s.place,
+                  fmt::format("state {} can leave its range {:.6g} .. {:.6g}: its next value can "
+                              "be {}",
+                              s.name, s.range.lower, s.range.upper, u.reason),
+                  "keep the filter's frequency above 0, e.g. max(..., 10 Hz), and give the law a "
+                  "lower rate");
   }
   throw Refused(program.steps[at(u.step)].place, "this cannot be proven: " + u.reason,
                 "limit it with clamp, or narrow the ranges of what it is made of");
@@ -110,7 +105,7 @@ void form(Compiled& c) {
   c.program = choose_formats(c.law, c.target, spans, &tried);
   c.tried += tried;
   c.bound = bound(c.law, c.target, c.program, 400);
-  require_proofs(c.law, c.program, c.bound);
+  require_proofs(c.law, c.target, c.program, c.bound);
   c.assembled = assemble(c.law, c.target, c.program);
   c.divider = divider_for(c.law, c.target, static_cast<int>(c.assembled.instructions.size()));
 }
@@ -166,13 +161,16 @@ bool is_coarse(const Bound& b, const std::map<std::pair<int, int>, double>& room
 /// Splits functions of wide ranges into more tables, as long as the bound or a strip is large and
 /// the law still fits.
 void into_pieces(Compiled& c) {
-  if (!has_functions(c.program)) return;
+  // Without a function there are still limits to move.
+  const int most = has_functions(c.program) ? kMostPieces : 1;
   const std::vector<Span> given = given_ranges(c.law, c.target);
-  const auto share = [&](const Compiled& of) { return largest_share(given, of.target, of.bound); };
+  const auto share = [&](const Compiled& of) {
+    return std::max(largest_share(given, of.target, of.bound), largest_drift(of.law, of.bound));
+  };
   Compiled whole = c;
   const auto own_rooms = rooms(c.law, c.target);
   bool moved = false;  // limits of `whole` are those of interest()
-  for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
+  for (int pieces = 1; pieces <= most; ++pieces) {
     const bool coarse = is_coarse(c.bound, own_rooms);
     if (share(c) <= kLargeShare && !coarse) return;
     Compiled more = c;
@@ -213,8 +211,9 @@ Compiled compile(const Law& given, const Target& target) {
   refuse_idle_bounds(c.law, target, c.program, c.bound);
   c.rate_hz = static_cast<double>(target.tick_hz) / c.divider;
   c.image = make_image(c.law, target, c.program, c.assembled, c.divider);
-  c.bound.as_set =
-      bound_as_set(c.law, target, c.program, cell_as_set(c.law, target, c.image), c.bound, 400);
+  const Cell as_set = cell_as_set(c.law, target, c.image);
+  c.bound.as_set = bound_as_set(c.law, target, c.program, as_set, c.bound, 400);
+  tighten_jumps(c.law, target, c.program, as_set, &c.bound);
   return c;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Compiles a law to an image that an engine runs, and proves the image's error. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <string>
@@ -40,6 +40,10 @@ Compiled compile_text(const std::string& text, const std::string& name, const Ta
 /// as one instruction.
 double cost(const Law& law, const Target& target, const Program& program, const Bound& bound,
             const std::vector<Span>& spans);
+
+/// Whether an output's step, with these words, gives one value where the law's output has many.
+bool is_dead(const Law& law, const Target& target, const Step& s, const Span& words,
+             const std::vector<Span>& spans);
 
 /// Searches the formats; returns the program with the least cost found, its primary words marked.
 Program choose_formats(const Law& law, const Target& target, const std::vector<Span>& spans,

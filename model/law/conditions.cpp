@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers truth values to comparisons that set the flag. Documentation: docs/law-compiler.md
+// Lowers truth values to comparisons that set the flag. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"
@@ -44,7 +44,14 @@ Value BackEnd::compared(NodeId leaf, int side, double scale, double* error) {
   Term term;
   if (is_fixed(id)) gather(id, true, term);
   if (!is_fixed(id) || !term.fixed.empty()) return at_scale(id, scale, error);
-  return {threshold(term.number / scale, side == 1), scale, std::fabs(term.number)};
+  const double exact = term.number / scale;
+  if (choice_.stays->at(node(leaf).arguments[static_cast<std::size_t>(1 - side)], term.number)) {
+    // The word of the value that the other side stays at.
+    *error = std::fabs(exact - std::nearbyint(exact));
+    if (*error < 1e-12 * std::fabs(exact)) *error = 0;
+    return {constant(exact), scale, std::fabs(term.number)};
+  }
+  return {threshold(exact, side == 1), scale, std::fabs(term.number)};
 }
 
 void BackEnd::compare(NodeId leaf, int mode) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers reads of array elements whose index is computed in the run. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,9 +16,9 @@ Value BackEnd::element(NodeId id) {
   const Array& array = law_.arrays[at(n.index)];
   const double last_index = static_cast<double>(array.values.size()) - 1;
   const Span range = span(n.arguments[0]);
-  Value v = node(n.arguments[0]).whole ? Value{whole_word(n.arguments[0]), 1, range.size()}
-                                       : value(n.arguments[0]);
-  v = align(v, 1.0 / 4096, n.arguments[0]);
+  const NodeId of = n.arguments[0];
+  Value v =
+      node(of).whole ? align({whole_word(of), 1, range.size()}, 1.0 / 4096, of) : floor_word(of, 0);
   if (range.lo < 0) {
     emit(EngineOp::max, 0, v.operand, constant(0), v.scale, id);
     v.operand = last();

@@ -16,6 +16,7 @@ namespace {
 constexpr int kMostPower = 8;
 constexpr int kMostAxes = 3;
 constexpr long kMostSteps = 300'000;
+constexpr double kMostRuns = 2e9;  ///< that `time` counts
 
 }  // namespace
 
@@ -160,11 +161,35 @@ NodeId Lowering::step_time(Place place) {
   return kNone;
 }
 
+/// The time since the scene began: a state counts the runs. It is exact, and stands still at its
+/// end.
+NodeId Lowering::since_start(Place place) {
+  const NodeId dt = step_time(place);
+  if (dt == kNone) return kNone;
+  if (runs_state_ < 0) {
+    State s;
+    s.name = "time";
+    s.range = {0, kMostRuns};
+    s.whole = true;
+    s.counts_runs = true;
+    s.place = place;
+    runs_state_ = static_cast<int>(law_.states.size());
+    law_.states.push_back(s);
+    const NodeId now = graph_.leaf(Op::state, runs_state_, kNumber, place);
+    const NodeId more = graph_.add(now, graph_.constant(1, kNumber, place), place);
+    law_.states[law::at(runs_state_)].next =
+        graph_.smaller(more, graph_.constant(kMostRuns, kNumber, place), place);
+    has_next_.insert(s.name);
+  }
+  return graph_.multiply(dt, graph_.leaf(Op::state, runs_state_, kNumber, place), place);
+}
+
 NodeId Lowering::given_value(const Expression& e, const std::string& name, int axis) {
   const Place place = at(e.offset);
   if (name == "true" || name == "false") return graph_.truth(name == "true", place);
   if (name == "pi") return graph_.constant(kPi, kNumber, place);
   if (name == "dt") return step_time(place);
+  if (name == "time") return since_start(place);
   const Source source = name == "position"   ? Source::position
                         : name == "velocity" ? Source::velocity
                                              : Source::tau_hat;
@@ -196,7 +221,7 @@ NodeId Lowering::named(const Expression& e) {
              "give the expression a name with let");
       return kNone;
     }
-    if (is_given_value(e.name)) return given_value(e, e.name, 0);
+    if (is_given_value(e.name) && defined_.count(e.name) == 0) return given_value(e, e.name, 0);
     return unknown(e, "name", false);
   }
   symbol->used = true;
@@ -267,15 +292,23 @@ NodeId Lowering::compare(const Expression& e) {
   ExpressionPtr left = e.arguments[0];
   // a < b < c: both comparisons.
   NodeId before = kNone;
-  const bool chained = left->kind == Expression::Kind::binary &&
+  const bool chained = left->kind == Expression::Kind::binary && !left->brackets &&
                        left->name.find_first_of("<>=") != std::string::npos;
   if (chained) {
     before = value_of(left);
     left = left->arguments[1];
   }
-  NodeId a = number_of(left), b = number_of(e.arguments[1]);
+  const bool equality = e.name == "==" || e.name == "!=";
+  NodeId a = equality ? value_of(left) : number_of(left);
+  NodeId b = equality ? value_of(e.arguments[1]) : number_of(e.arguments[1]);
+  if (a == kNone || b == kNone) return kNone;
+  if (graph_.node(a).truth != graph_.node(b).truth) {
+    report(e.offset, "a condition and a number beside \"" + e.name + "\"",
+           "compare the number first, in brackets: (x > 0) " + e.name + " held");
+    return kNone;
+  }
   if (!fit(a, b, *left, *e.arguments[1], e.offset, e.name)) return kNone;
-  if (e.name == "==" || e.name == "!=") {
+  if (equality) {
     const NodeId c = equal(e, a, b);
     return chained ? graph_.both(before, c, place) : c;
   }
@@ -288,15 +321,37 @@ NodeId Lowering::compare(const Expression& e) {
 }
 
 NodeId Lowering::equal(const Expression& e, NodeId a, NodeId b) {
+  const Place place = at(e.offset);
+  if (graph_.node(a).truth) {
+    if (graph_.is_constant(a)) std::swap(a, b);
+    if (graph_.is_constant(b)) {
+      return (graph_.node(b).value != 0) == (e.name == "==") ? a : graph_.opposite(a, place);
+    }
+    a = zero_or_one(a, place);
+    b = zero_or_one(b, place);
+  }
   if (!graph_.node(a).whole || !graph_.node(b).whole) {
     report(e.offset, "\"" + e.name + "\" between numbers that are never quite the same",
            "compare with <, <=, > or >=, or make both whole");
     return kNone;
   }
-  const Place place = at(e.offset);
   NodeId differ = graph_.less(a, b, place);
   differ = graph_.either(differ, graph_.less(b, a, place), place);
   return e.name == "==" ? graph_.opposite(differ, place) : differ;
+}
+
+/// A condition as 0 or 1; of a bool it is the state itself.
+NodeId Lowering::zero_or_one(NodeId truth, Place place) {
+  const Node& n = graph_.node(truth);
+  if (n.op == Op::less && graph_.is_constant(n.arguments[0])) {
+    const Node& state = graph_.node(n.arguments[1]);
+    const bool is_bool = graph_.node(n.arguments[0]).value == 0 && state.op == Op::state &&
+                         state.whole && law_.states[law::at(state.index)].range.lower == 0 &&
+                         law_.states[law::at(state.index)].range.upper == 1;
+    if (is_bool) return n.arguments[1];
+  }
+  return graph_.select(truth, graph_.constant(1, kNumber, place),
+                       graph_.constant(0, kNumber, place), place);
 }
 
 NodeId Lowering::power(const Expression& e) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Searches the formats: changes the fraction bits of one value at a time, as long as the cost
-// falls. Documentation: docs/law-compiler.md
+// falls. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 #include "law/compile.hpp"
 #include "law/derive.hpp"
+#include "law/mends.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
@@ -21,12 +22,25 @@ namespace {
 constexpr int most_tried = 1500;
 constexpr double least_error = 0.4;  ///< LSB of the torque; a smaller error costs the same
 
+constexpr double kOneValue = 1000;  ///< cost of what became one value: no error is worth it
+
 struct Candidate {
   Choice choice;
   Program program;
   double cost = infinity;
   Unfit unfit{""};  ///< why there is no program
 };
+
+/// Whether the word has one value for all values of what it is made of.
+bool is_one_value(const Word& w, const std::vector<Span>& spans) {
+  Span s{1, 1};
+  for (const NodeId id : w.nodes) s = s * spans[static_cast<std::size_t>(id)];
+  const double a = std::min(s.lo / w.scale, s.hi / w.scale);
+  const double b = std::max(s.lo / w.scale, s.hi / w.scale);
+  if (!(b - a > 1e-12 * std::max(std::fabs(a), std::fabs(b)))) return false;
+  return w.primary ? std::ceil(a - 1e-6) >= std::floor(b + 1e-6)
+                   : std::nearbyint(a) == std::nearbyint(b);
+}
 
 /// The cost of a program without error and strips.
 double least_cost(const Law& law, const Target& target, const Program& program,
@@ -43,6 +57,7 @@ double least_cost(const Law& law, const Target& target, const Program& program,
     for (const NodeId id : w.nodes) size *= spans[static_cast<std::size_t>(id)].size();
     const double bits = std::log2(std::max(0.5, size / std::fabs(w.scale)));
     c += 0.02 + 0.08 * std::max(0.0, 14 - bits) + 4 * std::max(0.0, 6 - bits);
+    if (is_one_value(w, spans)) c += kOneValue;
   }
   return c;
 }
@@ -50,7 +65,7 @@ double least_cost(const Law& law, const Target& target, const Program& program,
 class Search {
  public:
   Search(const Law& law, const Target& target, const std::vector<Span>& spans)
-      : law_(law), target_(target), spans_(spans) {}
+      : law_(law), target_(target), spans_(spans), stays_(std::make_shared<const Stays>(law)) {}
 
   Candidate run(int* tried) {
     Candidate best = evaluate({}, infinity);
@@ -93,6 +108,7 @@ class Search {
   Candidate evaluate(const Choice& choice, double enough) {
     Candidate c;
     c.choice = choice;
+    c.choice.stays = stays_;
     c.choice.made.swap(made_);
     c.choice.fractions.swap(fractions_);
     try {
@@ -169,6 +185,7 @@ class Search {
   const Law& law_;
   const Target& target_;
   const std::vector<Span> spans_;
+  const std::shared_ptr<const Stays> stays_;
   std::map<std::string, TableUse> made_;
   std::map<std::string, int> fractions_;
   std::set<std::tuple<int, bool, int, std::map<NodeId, int>>> seen_;
@@ -197,6 +214,15 @@ double idle_cost(const Law& law, const std::vector<Span>& spans, const Step& s, 
 }
 
 }  // namespace
+
+bool is_dead(const Law& law, const Target& target, const Step& s, const Span& words,
+             const std::vector<Span>& spans) {
+  if (words.lo != words.hi) return false;
+  const double lsb = std::ldexp(1.0, -target.torque.fraction);
+  return std::any_of(law.outputs.begin(), law.outputs.end(), [&](const Output& o) {
+    return o.axis == s.output && spans[static_cast<std::size_t>(o.value)].width() > 2 * lsb;
+  });
+}
 
 double cost(const Law& law, const Target& target, const Program& program, const Bound& b,
             const std::vector<Span>& spans) {
@@ -232,7 +258,13 @@ double cost(const Law& law, const Target& target, const Program& program, const 
       drifts += std::max(0.0, std::log2(program.states[i].scale / size * 262144));
     }
   }
-  double c = least_cost(law, target, program, spans) +
+  double dead = 0;
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    if (program.steps[i].output >= 0 && is_dead(law, target, program.steps[i], b.words[i], spans)) {
+      dead += kOneValue;
+    }
+  }
+  double c = least_cost(law, target, program, spans) + dead +
              std::log2(std::max(error, least_error) / least_error);
   c += strips + drifts + 1e4 * static_cast<double>(b.unproven.size());
   // What no cell reaches has no error, and looks cheap.
@@ -290,25 +322,23 @@ std::string range_text(const Span& s, const Unit& unit) {
 }
 
 /// Refuses a value that far exceeds the range of the line or state that it goes to.
-void refuse_kept(const Law& law, const Span& can, NodeId node) {
-  const auto refuse = [&](const Place& place, const std::string& what, const Range& range) {
+void refuse_kept(const Law& law, const Target& target, const Span& can, NodeId node) {
+  const auto leave = [&](std::size_t index, bool is_line, const Range& range) {
     if (can.within({range.lower, range.upper})) return;
-    throw Refused(place,
-                  fmt::format("{} can leave its range {:.6g} .. {:.6g}: its next value can be "
-                              "{:.6g} .. {:.6g}",
-                              what, range.lower, range.upper, can.lo, can.hi),
-                  fmt::format("write clamp(..., {:.6g}, {:.6g}), or give it a larger range",
-                              range.lower, range.upper));
+    throw leaves_its_range(law, target, static_cast<int>(index), is_line,
+                           fmt::format("{:.6g} .. {:.6g}", can.lo, can.hi));
   };
-  for (const Line& l : law.lines) {
-    if (l.written == node) refuse(l.place, "line " + l.name, l.range);
+  for (std::size_t i = 0; i < law.lines.size(); ++i) {
+    if (law.lines[i].written == node) leave(i, true, law.lines[i].range);
   }
-  for (const State& s : law.states) {
-    if (s.next == node && !s.phase) refuse(s.place, "state " + s.name, s.range);
+  for (std::size_t i = 0; i < law.states.size(); ++i) {
+    const State& s = law.states[i];
+    if (s.next == node && !s.phase) leave(i, false, s.range);
   }
 }
 
-[[noreturn]] void refuse(const Law& law, const std::vector<Span>& spans, const Unfit& why) {
+[[noreturn]] void refuse(const Law& law, const Target& target, const std::vector<Span>& spans,
+                         const Unfit& why) {
   const std::string narrow = "narrow the ranges of parameters and states";
   if (why.node < 0) {
     throw Refused(std::string("no formats were found that fit: ") + why.what(),
@@ -316,7 +346,7 @@ void refuse_kept(const Law& law, const Span& can, NodeId node) {
   }
   const Node& n = law.nodes[static_cast<std::size_t>(why.node)];
   const Span can = spans[static_cast<std::size_t>(why.node)];
-  refuse_kept(law, can, why.node);
+  refuse_kept(law, target, can, why.node);
   const double end = 2147483648.0 * why.scale;
   std::string reason = why.what();
   // The value that does not fit may be an intermediate one, of another size than the node's.
@@ -343,7 +373,7 @@ void refuse_kept(const Law& law, const Span& can, NodeId node) {
 Program choose_formats(const Law& law, const Target& target, const std::vector<Span>& spans,
                        int* tried) {
   Candidate best = Search(law, target, spans).run(tried);
-  if (best.cost == infinity) refuse(law, spans, best.unfit);
+  if (best.cost == infinity) refuse(law, target, spans, best.unfit);
   return std::move(best.program);
 }
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Evaluates the postfix formulas of words that the host derives from parameters. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <fmt/format.h>

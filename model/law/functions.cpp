@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers functions to table reads. Documentation: docs/law-compiler.md
+// Lowers functions to table reads. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <cmath>

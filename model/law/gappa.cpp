@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cuts a program into segments and writes a Gappa lemma for each; proves the lemmas of a law again.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>

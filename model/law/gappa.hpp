@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes the bound of a law as problems for Gappa, which proves it independently. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <functional>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes the Gappa lemmas of steps with two cases: MIN and MAX, selections, comparisons, |x| and
-// signs. Documentation: docs/law-compiler.md
+// signs. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -58,14 +58,21 @@ void Cutter::extreme(bool least) {
 void Cutter::select() {
   for (int side = 0; side < 2; ++side) {
     if (why(n_).taken != 0 && why(n_).taken != side + 1) continue;
-    begin();
-    const int c = why(n_).source;
-    const Term r = operand(n_, side == 1);
-    if (c >= 0 && (steps_[at(c)].mode == 0 || steps_[at(c)].mode == 3) && why(n_).taken == 0) {
-      known_branch(c, (steps_[at(c)].mode == 0) == (side == 0), side == 1);
+    const std::vector<int>& sources = why(n_).sources;
+    const char* const name = side == 0 ? ".x" : ".y";
+    const auto known = [&](int c) {
+      known_branch(c, (steps_[at(c)].mode == 3) != (side == 0), side == 1);
+    };
+    // A flag that says the result of one of several comparisons only: a problem for each.
+    const bool each = sources.size() > 1 && !hold_together(c_.program, sources, side == 0);
+    for (std::size_t i = 0; i < (each ? sources.size() : 1); ++i) {
+      begin();
+      const Term r = operand(n_, side == 1);
+      for (std::size_t k = 0; !each && k < sources.size(); ++k) known(sources[k]);
+      if (each) known(sources[i]);
+      require(r);
+      finish(each ? fmt::format("{}{}", name, i + 1) : name);
     }
-    require(r);
-    finish(side == 0 ? ".x" : ".y");
   }
 }
 

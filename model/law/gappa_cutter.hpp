@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Cuts a program over one cell into problems for Gappa. Documentation: docs/law-compiler.md
+// Cuts a program over one cell into problems for Gappa. Documentation: docs/laws.md
 #pragma once
 
 #include <map>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes the Gappa lemmas that need more than arithmetic on words: tables, low-passes, states, the
-// law's own ranges. Documentation: docs/law-compiler.md
+// law's own ranges. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,11 +73,12 @@ void Cutter::table() {
     // Also <= |line(x) - line(X)| + |line(X) - f(X)|, with X in segment i: a line may rise less
     // than its function. Lines may jump at seams.
     double too = 0;
-    for (double i = std::max(0.0, first - reach); i <= std::min(last, to + reach); ++i) {
+    const double low = std::max(0.0, first - reach), high = std::min(last, to + reach);
+    for (double i = low; i <= high; ++i) {
       too = larger(too,
                    up(proof.between[static_cast<std::size_t>(i)] + up(beside(proof.rise, i) * e)));
     }
-    apart = std::min(apart, up(too + up(t.jump * (1 + std::floor(e / 4096)))));
+    apart = std::min(apart, up(too + up(t.jump_over(low, high) * (1 + std::floor(e / 4096)))));
   }
   definitions_ += fmt::format("t{0} = near(m);\n", n_);
   give(fmt::format("m {} /\\ m - T{} {}", within(values), n_, within(apart)));

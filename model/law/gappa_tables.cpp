@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Evaluates tables against their functions, word by word. Documentation: docs/law-compiler.md
+// Evaluates tables against their functions, word by word. Documentation: docs/laws.md
 #include <algorithm>
 #include <cmath>
 

@@ -229,6 +229,13 @@ const auto make_reduce = [](auto& context) {
   x3::_val(context) = std::make_shared<const Expression>(std::move(e));
 };
 
+/// An expression in brackets: `(a < b) == c` is no chain of comparisons.
+const auto put_brackets = [](auto& context) {
+  Expression e = *x3::_attr(context);
+  e.brackets = true;
+  x3::_val(context) = std::make_shared<const Expression>(std::move(e));
+};
+
 template <class Id>
 using Rule = x3::rule<Id, ExpressionPtr>;
 const Rule<struct ExpressionId> expression{"an expression"};
@@ -255,7 +262,7 @@ const auto reduce_def = (raw(plain("sum") | plain("min") | plain("max")) >> '(' 
 const auto choice_def =
     (raw(plain("if")) > expression > then_ > expression > else_ > expression)[make_choice];
 const auto primary_def =
-    number[pass_on] | ('(' > expression > close)[pass_on] | reduce[pass_on] | named[pass_on];
+    number[pass_on] | ('(' > expression > close)[put_brackets] | reduce[pass_on] | named[pass_on];
 const auto exponent = x3::rule<struct ExponentId, Text>{"a whole power"} =
     raw(x3::lexeme[-x3::char_('-') >> +x3::char_("0-9") >> !(inside | '.')]);
 const auto power_def = primary[pass_on] >> -('^' > exponent[make_power]);

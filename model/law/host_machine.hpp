@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Applies a host's parameter writes to the interpreter. Documentation: docs/law-compiler.md
+// Applies a host's parameter writes to the interpreter. Documentation: docs/laws.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/image.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The image: the output of the law compiler, which an engine runs. It holds the contents of the
-// engine's memories, and the names by which a host knows them. Documentation: docs/law-compiler.md
+// engine's memories, and the names by which a host knows them. Documentation: docs/laws.md
 #pragma once
 
 #include <array>

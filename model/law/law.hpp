@@ -118,7 +118,8 @@ struct State {
                         ///< the hull of 0 and the node's range
   NodeId next = -1;
   Place place;
-  int least_fraction = 0;  ///< of a phase over 0 .. 1: the fraction bits that it must have
+  int least_fraction = 0;    ///< of a phase over 0 .. 1: the fraction bits that it must have
+  bool counts_runs = false;  ///< `time`: any value may come, however late
 };
 
 /// A function of one variable: a formula that the compiler samples, or a line through points.
@@ -185,6 +186,7 @@ struct Unused {
 struct Law {
   std::string name;
   std::string summary;    ///< the first comment of the file
+  std::string source;     ///< the text, as it was parsed
   double rate_hz = 0;     ///< 0: as fast as possible
   bool own_rate = false;  ///< the file declares a rate
   bool timed = false;     ///< dt or a filter is used

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers delay lines: rings at the end of the table memory, each with a state word that holds its
-// next write index. Documentation: docs/law-compiler.md
+// next write index. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"

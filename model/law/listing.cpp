@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/listing.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "feltgate/largest.hpp"
 #include "law/units.hpp"
 #include "law/verdict.hpp"
 
@@ -58,9 +59,18 @@ std::string behind(const Unit& unit) { return unit == kNumber ? "" : with_blank(
 
 /// What a strip may change: the outputs, or else the states by which it reaches them later.
 std::string changed(const Compiled& c, const Strip& strip) {
-  double jump = 0;
-  for (const double j : strip.jump) jump = std::max(jump, j);
-  if (jump > 0) return fmt::format("outputs may then differ by {:.3g} Nm", jump);
+  double most = 0, as_set = 0;
+  for (std::size_t o = 0; o < strip.jump.size(); ++o) {
+    if (strip.jump[o] <= 0) continue;
+    most = larger(most, c.bound.output[o] + strip.jump[o]);
+    as_set = larger(as_set, c.bound.as_set[o] + strip.jump_as_set[o]);
+  }
+  if (!(most <= 0)) {
+    const std::string at_most = fmt::format("{:.3g} Nm", most),
+                      now = fmt::format("{:.3g} Nm", as_set);
+    return "outputs may then differ by " +
+           (now == at_most ? now : now + " as set, by " + at_most + " for other parameters");
+  }
   const std::size_t states = c.law.states.size();
   std::string s;
   for (std::size_t k = 0; k < strip.next.size(); ++k) {
@@ -100,6 +110,17 @@ std::string strips(const Compiled& c) {
   return s;
 }
 
+std::string free_runs(const FreeRuns& free) {
+  if (!free.unknown.empty()) return "free runs: none, for " + free.unknown + "\n";
+  if (free.runs == 0) return {};
+  double most = 0;
+  for (const double e : free.most) most = larger(most, e);
+  return fmt::format(
+      "free runs: {} from the file's first values, beside the law as its text says it: largest "
+      "error {:.3g} Nm; {} of {} starts left the law\n",
+      free.runs, most, free.left, free.acting);
+}
+
 }  // namespace
 
 std::string report(const Compiled& c, const Measured& m) {
@@ -127,12 +148,14 @@ std::string report(const Compiled& c, const Measured& m) {
       m.in_strips > 0 ? fmt::format("   without {} of {} {}, which are in strips", m.in_strips,
                                     m.runs, m.all_inputs ? "positions" : "runs")
                       : "";
+  const std::vector<bool> useful = useful_bounds(c, m);
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const Output& output = c.law.outputs[o];
     const std::string name = name_of(output, c.law);
-    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}{}\n", name, c.bound.output[o],
-                     c.bound.output[o] / lsb, c.bound.as_set[o],
-                     m.output.empty() ? 0.0 : m.output[o], without);
+    s += fmt::format("{:<14} {:>12.3g} {:>10.3g} {:>12.3g} {:>14.3g}{}{}\n", name,
+                     c.bound.output[o], c.bound.output[o] / lsb, c.bound.as_set[o],
+                     m.output.empty() ? 0.0 : m.output[o], without,
+                     useful[o] ? "" : "   no useful bound");
   }
   const std::vector<Span> spans = ranges(c.law, whole_cell(c.law, c.target));
   const double end = std::ldexp(1.0, c.target.torque.integer);
@@ -161,6 +184,7 @@ std::string report(const Compiled& c, const Measured& m) {
     if (m.in_strips > 0) s += fmt::format(", {} of them on the other side of a strip", m.in_strips);
     s += "\n";
   }
+  s += free_runs(m.free);
   s += strips(c);
   return s;
 }

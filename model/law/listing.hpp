@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Describes a compiled law as a page of text. Documentation: docs/law-compiler.md
+// Describes a compiled law as a page of text. Documentation: docs/laws.md
 #pragma once
 
 #include <string>

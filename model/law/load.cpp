@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Makes the register writes that load a law. Documentation: docs/law-compiler.md
+// Makes the register writes that load a law. Documentation: docs/laws.md
 #include "law/load.hpp"
 
 #include <fmt/format.h>

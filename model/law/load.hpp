@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The register writes by which a host loads an image into an engine and sets a parameter of a
-// running law. Documentation: docs/law-compiler.md
+// running law. Documentation: docs/laws.md
 #pragma once
 
 #include <cstdint>

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers values and selections, and aligns their formats. Documentation: docs/law-compiler.md
+// Lowers values and selections, and aligns their formats. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"
 
 namespace feltgate::law {
 
+constexpr double kLeastSteps = 256;  ///< of the range of a state that is no whole number
+
 bool same_unit(double a, double b) {
   const double bits = std::log2(std::fabs(a / b));
   return std::fabs(bits - std::nearbyint(bits)) < 1e-12;
 }
+bool counts(double scale) { return scale <= 1 && same_unit(scale, 1); }
 bool same_scale(double a, double b) { return std::fabs(a / b - 1) < 1e-12; }
 
 BackEnd::BackEnd(const Law& law, const Target& target, const std::vector<Span>& spans,
@@ -22,6 +25,7 @@ BackEnd::BackEnd(const Law& law, const Target& target, const std::vector<Span>& 
       choice_(choice),
       fixed_(fixed_nodes(law)),
       users_(law.nodes.size(), 0) {
+  if (choice_.stays == nullptr) choice_.stays = std::make_shared<const Stays>(law);
   for (const NodeId id : needed(law)) {
     for (const NodeId a : node(id).arguments) ++users_[static_cast<std::size_t>(a)];
   }
@@ -182,7 +186,11 @@ Value BackEnd::in_ones(const std::vector<NodeId>& fixed) {
 /// A fixed node as a word or constant of this scale; for another node, its value aligned to it.
 Value BackEnd::at_scale(NodeId id, double scale, double* error) {
   *error = 0;
-  if (!is_fixed(id)) return align(value(id, scale), scale, id);
+  if (!is_fixed(id)) {
+    const Value v = value(id, scale);
+    return choice_.stays->decides(id) && !same_scale(v.scale, scale) ? with_ends(id, scale, false)
+                                                                     : align(v, scale, id);
+  }
   Term term;
   gather(id, true, term);
   if (!term.factors.empty()) throw std::logic_error("a formula of parameters has other factors");
@@ -238,6 +246,13 @@ double BackEnd::common_scale(NodeId id, const std::vector<NodeId>& children, dou
       // A selection uses the smaller number of bits, a comparison the larger one if all fit.
       if (same_unit(v.scale, scale)) scale = v.scale;
     }
+  }
+  const bool whole =
+      std::all_of(children.begin(), children.end(), [this](NodeId c) { return node(c).whole; });
+  if (whole && (chosen || !is_fixed(children[0]) == !is_fixed(children[1]))) {
+    // Whole numbers count in ones, or in parts of one.
+    if (scale == 0 && !counts(hint)) hint = 0;
+    if (scale != 0 && !counts(scale)) scale = 1;
   }
   const double unit_scale = scale == 0 ? 1.0 : scale;
   const double unit = unit_scale / std::exp2(std::floor(std::log2(unit_scale) + 1e-9));
@@ -295,13 +310,16 @@ Value BackEnd::state(NodeId id) {
   const int index = node(id).index;
   const State& s = law_.states[static_cast<std::size_t>(index)];
   const double size = std::max(std::fabs(s.range.lower), std::fabs(s.range.upper));
-  double unit = s.phase ? s.range.upper - s.range.lower : state_unit(s.next, 8);
+  // A whole number has a word in this unit alone.
+  double unit = s.whole ? 1 : s.phase ? s.range.upper - s.range.lower : state_unit(s.next, 8);
   if (unit == 0) unit = 1;
   unit /= std::exp2(std::floor(std::log2(unit) + 1e-9));
   const int preferred = s.whole ? 0 : std::min(largest_fraction(id, unit, size) - 1, 28);
   const double scale = chosen_scale(id, unit, preferred, size);
   if (s.whole && scale > 1) throw Unfit("a whole state counts in ones", id);
-  if (s.range.upper - s.range.lower < 2 * scale) throw Unfit("a state's format holds no value", id);
+  // The words of the ends are at most half a step beside them.
+  const double steps = (s.range.upper - s.range.lower) / scale;
+  if (steps < (s.whole ? 2 : kLeastSteps)) throw Unfit("a state's format holds no value", id);
   program_.states[static_cast<std::size_t>(index)].scale = scale;
   return {{From::state, index}, scale, size};
 }

@@ -83,6 +83,7 @@ class Lowering {
   NodeId binary(const Expression& e);
   NodeId compare(const Expression& e);
   NodeId equal(const Expression& e, NodeId a, NodeId b);
+  NodeId zero_or_one(NodeId truth, Place place);
   NodeId power(const Expression& e);
   NodeId choice(const Expression& e);
   NodeId reduce(const Expression& e);
@@ -109,6 +110,7 @@ class Lowering {
   Span range_of(NodeId id, const Expression& e);
   NodeId floored(NodeId x, const Expression& e);
   NodeId floor_call(const Expression& e);
+  NodeId round_call(const Expression& e);
   NodeId mod(const Expression& e);
   NodeId noise(const Expression& e);
   NodeId angle(const Expression& e);
@@ -116,6 +118,7 @@ class Lowering {
   std::string own_name(std::string name, Place place);
 
   NodeId step_time(Place place);
+  NodeId since_start(Place place);
   Place at(std::size_t offset) const { return places_.of(offset); }
   void report(std::size_t offset, std::string what, std::string mend) {
     diagnostics_.add(at(offset), std::move(what), std::move(mend));
@@ -133,6 +136,7 @@ class Lowering {
   std::map<std::pair<NodeId, NodeId>, NodeId> filters_;
   std::map<int, NodeId> noises_;  ///< by seed
   int floor_array_ = -1, angle_table_ = -1;
+  int runs_state_ = -1;    ///< counts the runs for `time`
   bool in_table_ = false;  ///< in a table's formula
   int ranged_ = 0;
   std::set<std::string> has_next_;

@@ -80,6 +80,15 @@ NodeId Lowering::floor_call(const Expression& e) {
   return floored(number_in(e.arguments[0], kNumber, "the argument of floor"), e);
 }
 
+/// floor(x + 0.5): halves go up.
+NodeId Lowering::round_call(const Expression& e) {
+  if (!takes(e, 1, "round(x)")) return kNone;
+  const NodeId x = number_in(e.arguments[0], kNumber, "the argument of round");
+  if (x == kNone || graph_.node(x).whole) return x;
+  const Place place = at(e.offset);
+  return floored(graph_.add(x, graph_.constant(0.5, kNumber, place), place), e);
+}
+
 /// x - m floor(x / m), from 0 to m.
 NodeId Lowering::mod(const Expression& e) {
   if (!takes(e, 2, "mod(x, 15 deg)")) return kNone;
@@ -92,15 +101,16 @@ NodeId Lowering::mod(const Expression& e) {
     report(em->offset, "the period of mod is no constant above 0", "write mod(x, 15 deg)");
     return kNone;
   }
-  NodeId inside = x;
+  NodeId inside = x, most = m;
   if (graph_.node(x).whole && period.whole) {
+    most = graph_.constant(period.value - 1, period.unit, place);
     // Moves x midway between whole numbers, where rounding cannot reach another one.
     inside = graph_.add(x, graph_.constant(0.5, kNumber, place), place);
   }
   const NodeId periods = floored(graph_.divide(inside, m, place), e);
   const NodeId rest = graph_.subtract(x, graph_.multiply(m, periods, place), place);
   const NodeId zero = graph_.constant(0, period.unit, place);
-  return graph_.smaller(graph_.larger(rest, zero, place), m, place);
+  return graph_.smaller(graph_.larger(rest, zero, place), most, place);
 }
 
 /// A name for an internal table or array that does not occur in the file.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Makes the memories and names of a compiled law. Documentation: docs/law-compiler.md
+// Makes the memories and names of a compiled law. Documentation: docs/laws.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 #include "law/compile.hpp"
 #include "law/derive.hpp"
+#include "law/mends.hpp"
 #include "law/verdict.hpp"
 
 namespace feltgate::law {
@@ -165,10 +166,11 @@ class ImageMaker {
           const double step = std::fabs(w.scale);
           // Far from 0, where a step is a small part, a wider range holds a word.
           const bool far = std::min(std::fabs(a), std::fabs(b)) > 5;
-          throw Refused(p.place,
-                        fmt::format("no word of {} lies in its range: its step is {:.3g}{}",
-                                    word.name, step / p.to_si, with_blank(p.unit_text)),
-                        far ? "make the range wider than that step" : finer(p, step));
+          throw Refused(
+              p.place,
+              fmt::format("no word of {} lies in its range: its step is {:.3g}{}", word.name,
+                          step / p.to_si, with_blank(p.unit_text)),
+              far ? "make the range wider than that step" : finer(law_, target_, p, step));
         }
       } else {
         const double r = std::max(1.0, std::fabs(w.exact));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/measure.hpp"
 
 #include <algorithm>
@@ -51,7 +51,8 @@ class Meter {
     std::map<std::string, double> named;
     for (const ImageWord& w : c_.image.words) {
       if (!w.formula.empty()) continue;
-      values.push_back(choose(w) * w.scale);
+      const double value = choose(w) * w.scale;
+      values.push_back(w.whole ? std::nearbyint(value) : value);
       named[w.name] = values.back();
     }
     const auto value_of = [&named](const std::string& name) { return named.at(name); };
@@ -79,6 +80,18 @@ class Meter {
     started_ = false;
   }
 
+  /// Sets `time` of both to the number of runs that `choose` makes of its largest one.
+  template <class Choose>
+  void set_time(const Choose& choose) {
+    for (std::size_t k = 0; k < c_.law.states.size() && started_; ++k) {
+      const State& s = c_.law.states[k];
+      if (!s.counts_runs || c_.program.states[k].next.from == From::none) continue;
+      const std::int64_t runs = choose(static_cast<std::int64_t>(s.range.upper));
+      machine_.memory().set_data(state_address(k), static_cast<std::int32_t>(runs));
+      law_.set_state(k, static_cast<double>(runs));
+    }
+  }
+
   /// Executes one run of both; `word` gives an input's word.
   template <class Word>
   void run(const Word& word, bool free_running) {
@@ -89,14 +102,38 @@ class Meter {
       inputs[at(EngineMap::input_axis_words * input.axis + static_cast<int>(input.source))] = w;
       values.push_back(w * scale(input));
     }
-    for (std::size_t k = 0; k < c_.law.states.size() && started_ && !free_running; ++k) {
-      law_.set_state(k, state_word(k) * c_.program.states[k].scale);
+    const bool from_words = started_ && !free_running;
+    std::vector<double> own, before;
+    for (std::size_t k = 0; k < c_.law.states.size(); ++k) {
+      const double word = state_word(k) * c_.program.states[k].scale, left = law_.state(k);
+      before.push_back(from_words ? word : left);
+      own.push_back(std::fabs(left - word) <= c_.program.states[k].scale / 2 ? left : word);
     }
-    for (std::size_t i = 0; i < c_.law.lines.size() && started_ && !free_running; ++i) take_line(i);
-    started_ = true;
-    std::vector<double> before;
-    for (std::size_t k = 0; k < c_.law.states.size(); ++k) before.push_back(law_.state(k));
+    if (from_words) {
+      read_lines();
+      begin(before);
+    }
     law_.run(values);
+    std::vector<Decided> decided;
+    const MachineRun& run = machine_.run_seen(
+        c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {
+          const Strip* s = strips_[at(address - c_.target.thread * EngineMap::thread_words)];
+          if (s != nullptr) decided.push_back({s, x, y});
+        });
+    std::vector<const Strip*> crossed = crossings(decided);
+    // A state that stays at an end has a word whose step need not divide the end.
+    bool rounded = false;
+    if (from_words && !crossed.empty()) {
+      begin(own);
+      law_.run(values);
+      rounded = crossings(decided).empty();
+      if (rounded) crossed.clear();
+    }
+    if (from_words && !crossed.empty()) {
+      begin(before);
+      law_.run(values);
+    }
+    started_ = true;
     for (std::size_t k = 0; k < before.size(); ++k) {
       const State& s = c_.law.states[k];
       double move = std::fabs(law_.state(k) - before[k]);
@@ -111,27 +148,22 @@ class Meter {
       Sides& of = result_.sides[side];
       ++(law_.value(condition) > 0 ? of.holds : of.fails);
     }
-    bool otherwise = false, kept = false;
-    crossed_.clear();
-    const MachineRun& run = machine_.run_seen(
-        c_.target.thread, inputs, 100000, [&](int address, std::int32_t x, std::int32_t y) {
-          const Strip* s = strips_[at(address - c_.target.thread * EngineMap::thread_words)];
-          if (s == nullptr || !crossed(*s, x, y)) return;
-          (free_running || shows(*s) ? otherwise : kept) = true;
-          crossed_.insert(s->condition);
-        });
+    const bool otherwise = std::any_of(crossed.begin(), crossed.end(),
+                                       [&](const Strip* s) { return free_running || shows(*s); });
     ++result_.runs;
-    if (kept && !otherwise) ++result_.kept_otherwise;
+    if (!crossed.empty() && !otherwise) ++result_.kept_otherwise;
     if (otherwise) ++result_.in_strips;
     std::vector<double> off;
     for (std::size_t o = 0; o < result_.output.size(); ++o) {
       const double torque =
           run.outputs[at(c_.law.outputs[o].axis)] * std::ldexp(1.0, -c_.target.torque.fraction);
       off.push_back(std::fabs(torque - law_.outputs()[o]));
-      if (!otherwise) result_.output[o] = larger(result_.output[o], off.back());
+      if (!otherwise && !rounded) result_.output[o] = larger(result_.output[o], off.back());
     }
-    if (crossed_.empty() || (!outside(off, bound_) && !kept_outside())) return;
-    for (const NodeId condition : crossed_) {
+    if (crossed.empty() || (!outside(off, bound_) && !kept_outside())) return;
+    std::set<NodeId> conditions;
+    for (const Strip* s : crossed) conditions.insert(s->condition);
+    for (const NodeId condition : conditions) {
       const auto side = side_of_.find(condition);
       if (side != side_of_.end()) ++result_.sides[side->second].outside;
     }
@@ -140,9 +172,11 @@ class Meter {
   Measured result() const { return result_; }
 
  private:
+  int state_address(std::size_t k) const {
+    return c_.target.thread * EngineMap::private_words + c_.assembled.state_address[k];
+  }
   std::int32_t state_word(std::size_t k) const {
-    const int first = c_.target.thread * EngineMap::private_words;
-    return machine_.memory().data_at(first + c_.assembled.state_address[k]);
+    return machine_.memory().data_at(state_address(k));
   }
   static bool outside(const std::vector<double>& off, const std::vector<double>& bound) {
     for (std::size_t i = 0; i < off.size(); ++i) {
@@ -163,15 +197,27 @@ class Meter {
     }
     return outside(off, c_.bound.states_bounded ? c_.bound.state : c_.bound.drift);
   }
-  /// Sets the law's line to the words of its ring, starting at the word that is written next.
-  void take_line(std::size_t i) {
-    const LineUse& use = c_.program.lines[i];
-    const int length = c_.law.lines[i].length, base = c_.program.tables[at(use.table)].base,
-              next = state_word(at(use.pointer)) / 4096;
-    for (int ago = 1; ago <= length; ++ago) {
-      const int word = base + (next + length - ago) % length;
-      law_.set_line(i, at(ago),
-                    static_cast<std::int32_t>(machine_.memory().table_at(word)) * use.scale);
+  void read_lines() {
+    lines_.clear();
+    for (std::size_t i = 0; i < c_.law.lines.size(); ++i) {
+      const LineUse& use = c_.program.lines[i];
+      const int length = c_.law.lines[i].length, base = c_.program.tables[at(use.table)].base,
+                next = state_word(at(use.pointer)) / 4096;
+      std::vector<double> line;
+      for (int ago = 1; ago <= length; ++ago) {
+        const int word = base + (next + length - ago) % length;
+        line.push_back(static_cast<std::int32_t>(machine_.memory().table_at(word)) * use.scale);
+      }
+      lines_.push_back(line);
+    }
+  }
+  /// Sets what the law finds in its states, and in its lines what read_lines() found.
+  void begin(const std::vector<double>& states) {
+    for (std::size_t k = 0; k < states.size(); ++k) law_.set_state(k, states[k]);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      for (std::size_t ago = 1; ago <= lines_[i].size(); ++ago) {
+        law_.set_line(i, ago, lines_[i][ago - 1]);
+      }
     }
   }
   double scale(const Input& input) const {
@@ -184,6 +230,19 @@ class Meter {
   /// does not matter if that run starts from the states of the words.
   static bool shows(const Strip& s) {
     return std::any_of(s.jump.begin(), s.jump.end(), [](double j) { return j > 0; });
+  }
+  /// An instruction that decides, with its operands.
+  struct Decided {
+    const Strip* strip;
+    std::int32_t x, y;
+  };
+  /// The strips in which the law's last run decided differently.
+  std::vector<const Strip*> crossings(const std::vector<Decided>& decided) const {
+    std::vector<const Strip*> list;
+    for (const Decided& d : decided) {
+      if (crossed(*d.strip, d.x, d.y)) list.push_back(d.strip);
+    }
+    return list;
   }
   /// Whether the law, within the strip, decides differently from an instruction with these
   /// operands.
@@ -209,9 +268,9 @@ class Meter {
   const std::vector<double>& bound_;
   Evaluation<double> law_;
   Machine machine_;
-  std::vector<const Strip*> strips_;       ///< of each instruction
-  std::map<NodeId, std::size_t> side_of_;  ///< Measured::sides of each comparison with a strip
-  std::set<NodeId> crossed_;               ///< comparisons that came out otherwise in this run
+  std::vector<const Strip*> strips_;        ///< of each instruction
+  std::map<NodeId, std::size_t> side_of_;   ///< Measured::sides of each comparison with a strip
+  std::vector<std::vector<double>> lines_;  ///< what the words keep in them before a run
   Measured result_;
   bool started_ = false;
 };
@@ -238,6 +297,10 @@ Measured measure(const Compiled& c, std::uint64_t seed, std::int64_t runs, bool 
                                    : corner == 1 ? w.upper
                                                  : w.lower + below(width + 1));
       });
+    }
+    // A run at any time, early and late.
+    if (!free_running) {
+      meter.set_time([&](std::int64_t end) { return below((end >> below(31)) + 1); });
     }
     meter.run(
         [&](const Input& input) {

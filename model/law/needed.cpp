@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Which nodes a run needs, which the host computes, and which part of a value's range matters.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/derive.hpp"
 #include "law/ranges.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Ranges of x / r with r >= |x|, and cells that are parts of a sum of squares or amounts.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/ranges.hpp"
 
 #include <algorithm>
@@ -74,9 +74,9 @@ class Limits {
 };
 
 /// Whether a node r is at least |x|: a root of x^2 and more, or |x| and more.
-class Reach {
+class AtLeast {
  public:
-  Reach(const Law& law, const std::vector<Span>& spans, NodeId x)
+  AtLeast(const Law& law, const std::vector<Span>& spans, NodeId x)
       : law_(law), spans_(spans), x_(x), missed_(spans.size(), 0) {}
 
   bool of(NodeId r, bool squared = false) {
@@ -152,7 +152,7 @@ Span product_range(const Law& law, const Cell& cell, const std::vector<Span>& sp
       x = scaled.arguments[1];
     }
     const Span inside = both_of(all, {-k.size(), k.size()});
-    if (Reach(law, spans, x).of(r.arguments[0]) && !inside.empty()) return inside;
+    if (AtLeast(law, spans, x).of(r.arguments[0]) && !inside.empty()) return inside;
   }
   return all;
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers periodic tables: their argument is in turns, as that of the sine. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,6 +18,7 @@ void join_ends(TableUse& t, bool whole_segments) {
   const std::size_t last = t.words.size() - 1;
   t.steep.front() = t.steep.back() = t.slope;
   t.errors.front() = t.errors.back() = t.error;
+  t.jumps.clear();
   if (!whole_segments) return;  // half of one segment at each end
   const int end = engine_table_value(t.words[last]) + engine_table_slope(t.words[last]);
   t.jump =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/pieces.hpp"
 
 #include <algorithm>
@@ -266,7 +266,9 @@ class Pieces {
       if (cut >= 0) return cut;
     }
     // The current node of run() has no copy yet.
-    const NodeId made = at(id) < to_.size() ? to_[at(id)] : copied(n);
+    const bool has_copy = at(id) < to_.size();
+    const bool squared = has_copy && spans_[at(id)].lo >= 0 && keep.hi < infinity;
+    const NodeId made = squared ? kept_below(id, keep.hi) : has_copy ? to_[at(id)] : copied(n);
     return cut_off(made, n, spans_[at(id)], keep);
   }
 

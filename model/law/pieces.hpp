@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Splits a function of a wide range into a sum of pieces, each with its own table.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #pragma once
 
 #include "law/bound.hpp"

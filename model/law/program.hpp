@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law as instructions before register allocation. Each step's result has a scale, so that proofs
-// know which real value it stands for. Documentation: docs/law-compiler.md
+// know which real value it stands for. Documentation: docs/laws.md
 #pragma once
 
 #include <algorithm>
@@ -79,12 +79,21 @@ struct TableUse {
   std::vector<double> steep;   ///< largest slope of each segment and its neighbours
   double slope = 0;            ///< largest change of the value in words per word of the argument
   double jump = 0;             ///< largest jump between segments, words
+  std::vector<double> jumps;   ///< at the begin of each segment; empty of a periodic table
   Span values;                 ///< words
   std::string what;            ///< for the listing
   std::string proof;           ///< how its error was proven
   int line = -1;               ///< >= 0: the words belong to this delay line, which runs write
   int base = 0;                ///< address, once placed
 
+  /// The largest jump within the segments from .. to.
+  double jump_over(double from, double to) const {
+    if (wraps || jumps.empty()) return jump;
+    double most = 0;
+    for (double i = from + 1; i <= to; ++i)
+      most = std::max(most, jumps[static_cast<std::size_t>(i)]);
+    return most;
+  }
   /// Of an array: the largest difference between two elements that follow each other.
   double neighbours() const {
     double most = 0;

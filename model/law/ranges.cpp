@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/ranges.hpp"
 
 #include <algorithm>
@@ -103,6 +103,29 @@ class RangesOf::Work {
     return remembered(id, spans_[at(n.arguments[0])], [&] { return computed(id); });
   }
 
+  /// What the condition, if it is `truth`, leaves of the range `s` of a node that it compares.
+  Span where(NodeId condition, bool truth, NodeId id, Span s) const {
+    const Node& n = node(condition);
+    if (n.op == Op::opposite) return where(n.arguments[0], !truth, id, s);
+    if (n.op == Op::both || n.op == Op::either) {
+      const Span first = where(n.arguments[0], truth, id, s);
+      if ((n.op == Op::both) == truth) return where(n.arguments[1], truth, id, first);
+      return hull(first, where(n.arguments[1], truth, id, s));
+    }
+    if (n.op != Op::less) return s;
+    for (const int side : {0, 1}) {
+      if (n.arguments[at(side)] != id) continue;
+      const NodeId other = n.arguments[at(1 - side)];
+      const double apart = truth && node(id).whole && node(other).whole ? 1 : 0;
+      if ((side == 0) == truth) {
+        s.hi = std::min(s.hi, spans_[at(other)].hi - apart);
+      } else {
+        s.lo = std::max(s.lo, spans_[at(other)].lo + apart);
+      }
+    }
+    return s;
+  }
+
   Span computed(NodeId id) {
     const Node& n = node(id);
     const auto arg = [&](int i) { return spans_[at(n.arguments[at(i)])]; };
@@ -154,8 +177,13 @@ class RangesOf::Work {
         return most(arg(0), arg(1));
       case Op::opposite:
         return {1 - arg(0).hi, 1 - arg(0).lo};
-      case Op::select:
-        return arg(0).lo > 0 ? arg(1) : arg(0).hi <= 0 ? arg(2) : hull(arg(1), arg(2));
+      case Op::select: {
+        if (arg(0).lo > 0) return arg(1);
+        if (arg(0).hi <= 0) return arg(2);
+        const Span r = hull(where(n.arguments[0], true, n.arguments[1], arg(1)),
+                            where(n.arguments[0], false, n.arguments[2], arg(2)));
+        return r.empty() ? hull(arg(1), arg(2)) : r;
+      }
       case Op::sine:
       case Op::cosine:
       case Op::root:

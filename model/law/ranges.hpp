@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the ranges of a law's nodes by interval arithmetic over a cell of its inputs, parameters
-// and states. Documentation: docs/law-compiler.md
+// and states. Documentation: docs/laws.md
 #pragma once
 
 #include <memory>

@@ -101,6 +101,7 @@ Law read_law_text(std::string_view given, const std::string& path, double rate_h
   Law law;
   law.name = std::filesystem::path(path).stem().string();
   law.summary = summary_of(text);
+  law.source = whole;
   Diagnostics diagnostics;
   const std::vector<Statement> statements = parse_statements(text, diagnostics);
   if (diagnostics.empty()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Lowers the results of a run: outputs, events and states. Documentation: docs/law-compiler.md
+// Lowers the results of a run: outputs, events and states. Documentation: docs/laws.md
 #include <cmath>
 
 #include "law/back_end.hpp"
@@ -100,15 +100,21 @@ Operand BackEnd::whole_word(NodeId id) {
   return o;
 }
 
-Operand BackEnd::rounded_down(NodeId id) {
+/// The node in 4096th parts, of which the next step keeps the whole numbers.
+Value BackEnd::floor_word(NodeId id, double hint) {
   constexpr double fine = 1.0 / 4096;
-  if (node(id).op == Op::constant) return constant(std::floor(node(id).value));
   double error = 0;
-  const Value v = at_scale(id, fine, &error);
+  if (is_fixed(id)) return at_scale(id, fine, &error);
+  return has_ends(id, true) ? with_ends(id, fine, true) : align(value(id, hint), fine, id);
+}
+
+Operand BackEnd::rounded_down(NodeId id) {
+  if (node(id).op == Op::constant) return constant(std::floor(node(id).value));
+  const Value v = floor_word(id, 1.0 / 4096);
   Step& s = emit(EngineOp::mlw, 1, v.operand, constant(1), 1, id);
   s.floors = id;
   s.condition = id;
-  s.margin_scale = fine;
+  s.margin_scale = v.scale;
   return last();
 }
 

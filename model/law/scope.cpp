@@ -11,7 +11,8 @@ namespace {
 const std::vector<std::string> kFunctions{"min", "max",  "clamp", "abs",     "sgn", "sin",
                                           "cos", "sqrt", "exp",   "lowpass", "sum"};
 /// Built-in names that a law may redefine.
-const std::vector<std::string> kFreeFunctions{"floor", "mod", "noise", "log", "atan2"};
+const std::vector<std::string> kFreeFunctions{"floor", "round", "mod", "noise", "log", "atan2"};
+const std::vector<std::string> kFreeValues{"time"};
 const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque",
                                        "pi",       "dt",       "true",    "false"};
 
@@ -49,13 +50,16 @@ bool is_function(const std::string& name) {
 bool is_reserved(const std::string& name) {
   return holds(kFunctions, name) || holds(kValues, name);
 }
-bool is_given_value(const std::string& name) { return holds(kValues, name); }
+bool is_given_value(const std::string& name) {
+  return holds(kValues, name) || holds(kFreeValues, name);
+}
 
 const std::vector<std::string>& given_names() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names = kValues;
-    names.insert(names.end(), kFunctions.begin(), kFunctions.end());
-    names.insert(names.end(), kFreeFunctions.begin(), kFreeFunctions.end());
+    for (const auto* more : {&kFreeValues, &kFunctions, &kFreeFunctions}) {
+      names.insert(names.end(), more->begin(), more->end());
+    }
     return names;
   }();
   return all;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers selections that only change a sign to one ABS, in place of a comparison and a selection.
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include <algorithm>
 
 #include "law/back_end.hpp"

@@ -3,7 +3,7 @@
 //
 // Intervals of double, rounded outward after every operation as in model/studies/bounds, with the
 // functions of the law language and with derivatives up to the second. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <algorithm>

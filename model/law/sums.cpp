@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers sums of products: terms, their common scale, the chain of instructions. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <algorithm>
 #include <cmath>
 
@@ -187,6 +187,24 @@ Value BackEnd::negated(const Value& v, NodeId id) {
   return negated_[v.operand] = {last(), v.scale, v.size};
 }
 
+/// In x - 15 deg * n, where x stays at ends and n is whole: 15 deg. In this unit the steps are
+/// exact and the ends are rounded as what the sum is compared with. Otherwise 0.
+double BackEnd::step_of(const std::vector<Term>& terms) const {
+  double step = 0;
+  bool ends = false;
+  for (const Term& t : terms) {
+    if (!t.fixed.empty() || t.factors.size() > 1) return 0;
+    if (t.factors.empty()) continue;
+    if (node(t.factors[0]).whole) {
+      if (step != 0) return 0;
+      step = std::fabs(t.number);
+    } else {
+      ends = ends || has_ends(t.factors[0]);
+    }
+  }
+  return ends ? step : 0;
+}
+
 double BackEnd::sum_scale(NodeId id, const std::vector<Term>& terms, double hint) {
   std::vector<double> plain, pairs;
   for (const Term& t : terms) {
@@ -197,6 +215,13 @@ double BackEnd::sum_scale(NodeId id, const std::vector<Term>& terms, double hint
     if (t.factors.size() == 2) pairs.push_back(scale);
   }
   const double size = span(id).size();
+  const bool ones = std::all_of(plain.begin(), plain.end(), counts);
+  if (node(id).whole && !(ones && (hint == 0 || counts(hint)))) {
+    return chosen_scale(id, 1, 0, size);
+  }
+  if (const double step = step_of(terms); step != 0) {
+    return chosen_scale(id, unit_of(step), std::max(20, fraction_of(step)), size);
+  }
   if (terms.size() == 1 && plain.size() == 1 && hint != 0 && !same_unit(plain[0], hint)) {
     return chosen_scale(id, unit_of(hint), fraction_of(hint), size);
   }
@@ -267,6 +292,10 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
     return;
   }
   if (term.factors.size() == 1) {
+    if (chain.steps && has_ends(term.factors[0])) {
+      v = with_ends(term.factors[0], scale / std::fabs(term.number), false);
+      v.scale *= std::fabs(term.number);
+    }
     const double ratio = v.scale * term.number / scale;
     if (same_scale(std::fabs(ratio), 1)) {
       chain.addends.push_back({v.operand, ratio < 0 ? -1 : 1, 0});
@@ -385,6 +414,7 @@ Value BackEnd::sum(NodeId id, double hint) {
   }
   const double scale = sum_scale(id, terms, hint);
   Chain c;
+  c.steps = step_of(terms) != 0;
   for (const Term& t : terms) add_term(t, scale, id, c);
   return chain(c, scale, id);
 }

@@ -38,6 +38,7 @@ struct Expression {
   UnitValue unit;
   std::vector<ExpressionPtr> arguments;
   int depth = 1;
+  bool brackets = false;  ///< stands in brackets
 };
 
 struct Statement {

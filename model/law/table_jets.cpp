@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Values and slopes of a table's function over a range of its argument. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <algorithm>
 #include <cmath>
 

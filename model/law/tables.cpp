@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/tables.hpp"
 
 #include <fmt/format.h>
@@ -100,10 +100,12 @@ TableUse make_table(const TableRequest& r) {
     s.value = static_cast<std::int32_t>(std::clamp(std::nearbyint(a + shift), -limit, limit));
     const double end = std::clamp(std::nearbyint(b + shift), -limit, limit);
     s.slope = static_cast<std::int32_t>(std::clamp(end - s.value, -32768.0, 32767.0));
+    t.jumps.push_back(0);
     if (i > 0) {
       const std::uint64_t before = t.words.back();
       const int there = engine_table_value(before) + engine_table_slope(before);
-      t.jump = larger(t.jump, std::fabs(static_cast<double>(s.value - there)));
+      t.jumps.back() = std::fabs(static_cast<double>(s.value - there));
+      t.jump = larger(t.jump, t.jumps.back());
     }
     t.words.push_back(engine_table_word(s.value, s.slope));
     t.values = hull(t.values, {static_cast<double>(std::min(s.value, s.value + s.slope)),

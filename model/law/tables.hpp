@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Makes the words of table memory for functions, and proves their error. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #pragma once
 
 #include <functional>

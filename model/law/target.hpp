@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The properties of a design that the law compiler needs. Documentation: docs/law-compiler.md
+// The properties of a design that the law compiler needs. Documentation: docs/laws.md
 #pragma once
 
 #include <cmath>

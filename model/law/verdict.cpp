@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/law-compiler.md
+// Documentation: docs/laws.md
 #include "law/verdict.hpp"
 
 #include <fmt/format.h>
@@ -13,23 +13,52 @@
 #include "law/derive.hpp"
 #include "law/diagnostics.hpp"
 #include "law/evaluate.hpp"
+#include "law/mends.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::law {
 
 namespace {
 
-constexpr double kIdle = 0.99;    ///< share of its range from which on a bound says nothing
-constexpr double kTold = 0.05;    ///< share of excluded runs above which it is reported
-constexpr double kTooMany = 0.5;  ///< share of excluded runs above which the bound is useless
+constexpr double kIdle = 0.99;       ///< share of its range from which on a bound says nothing
+constexpr double kTold = 0.05;       ///< share of excluded runs above which it is reported
+constexpr double kTooMany = 0.3;     ///< share of excluded runs above which the bound is useless
+constexpr double kMostOfSide = 0.5;  ///< the same, of the runs on a comparison's rarer side
+constexpr double kWrong = 0.1;  ///< share of what a law gave above which a measured error fails
 constexpr double kKept = 0.01;  ///< reported relative error at the small end of a parameter's range
 constexpr double kSlow = 0.01;  ///< reported error of a run beside the largest move of a state
 constexpr int kGivenRuns = 1000;    ///< runs to each side of 0 that show what a law gives
 constexpr double kLargeSeen = 0.1;  ///< reported bound beside what random runs gave
+constexpr double kIdleTimes =
+    100;                        ///< a bound so many times above the largest measured error is idle
 constexpr double kAsSet = 0.1;  ///< reported relative error of the file's value, which is listed
 
-/// The mend for large bounds: limit the argument of the table with the worst error for its size.
+/// A number of the law that its words hardly keep, because what it stands beside needs a large
+/// step; empty when there is none. Such a number is often the cause of a large error.
+std::string lost_number(const Program& program) {
+  for (const Step& s : program.steps) {
+    const bool beside = s.op == EngineOp::min || s.op == EngineOp::max || s.op == EngineOp::sel ||
+                        s.op == EngineOp::add || s.op == EngineOp::sub;
+    for (const Operand& o : {s.x, s.y}) {
+      if (!beside || o.from != From::constant) continue;
+      const double word = program.constants[at(o.index)];
+      if (std::fabs(o.exact - word) <= kAsSet * std::fabs(o.exact)) continue;
+      return fmt::format(
+          "the number {:.6g} of line {} became {:.6g} there: {:.0f} word{} of step {:.3g}",
+          o.exact * s.scale, s.place.line, word * s.scale + 0.0, word, word == 1 ? "" : "s",
+          s.scale);
+    }
+  }
+  return {};
+}
+
+/// The mend for large errors: limit what needs a large step, or the argument of the table with the
+/// worst error for its size.
 std::string mend(const Program& program, const Bound& b) {
+  if (const std::string lost = lost_number(program); !lost.empty()) {
+    return lost +
+           ". Limit what stands beside it before it grows: min(x, 3)^2 in place of min(x^2, 9)";
+  }
   double worst = 1e-3;
   std::string words = "limit values with clamp, or narrow the ranges of parameters";
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
@@ -75,8 +104,8 @@ void sides(const Measured& m, Verdict* v) {
         told.size() > 1 ? fmt::format("; so do {} more comparisons", told.size() - 1) : "",
         kFiner));
   };
-  tell(kTooMany, infinity, &v->failures);
-  tell(kTold, kTooMany, &v->warnings);
+  tell(kMostOfSide, infinity, &v->failures);
+  tell(kTold, kMostOfSide, &v->warnings);
 }
 
 void runs_left_out(const Measured& m, Verdict* v) {
@@ -96,8 +125,18 @@ void runs_left_out(const Measured& m, Verdict* v) {
        "within its strip");
 }
 
-/// Whether the range of a word, whose largest magnitude is `size`, may decide its step.
-bool full(double size, double step) { return size / step >= 0x1p10; }
+/// Reports free runs that leave the law, counted by their beginnings: one comparison within its
+/// strip may change all that follows it.
+void free_runs(const FreeRuns& free, Verdict* v) {
+  const double share = static_cast<double>(free.left) / std::max(1, free.acting);
+  if (share <= kTold) return;
+  auto& list = share > kTooMany ? v->failures : v->warnings;
+  list.push_back(fmt::format(
+      "in {} of {} starts the words leave the law, in free runs from the file's first values: they "
+      "err by more than the bound and {:.0f} % of what the law gives in more than {:.0f} % of the "
+      "runs. {}",
+      free.left, free.acting, 100 * kLargeError, 100 * kLargeRuns, kFiner));
+}
 
 /// What a word keeps of its values.
 struct Kept {
@@ -106,9 +145,11 @@ struct Kept {
   double to_si = 1, step = 1;
   double set = 0, word = 0;  ///< the set value, and that of its word
   Span range;
-  double noise = 0;      ///< of the set value, by the rounding of doubles
-  double share = kKept;  ///< reported relative error at the small end of the range
-  std::string mend;      ///< of the set value
+  bool set_by_host = false;  ///< a parameter, no word that the host computes
+  bool one_word = false;     ///< the word has one value
+  double noise = 0;          ///< of the set value, by the rounding of doubles
+  double share = kKept;      ///< reported relative error at the small end of the range
+  std::string mend;          ///< of the set value
   std::string range_mend;
 };
 
@@ -120,14 +161,18 @@ void kept_badly(const Kept& k, Verdict* v) {
   const auto nearest = [&](double value) { return std::nearbyint(value / k.step); };
   const std::string unit = with_blank(k.unit), step = "; its step is " + si(k.step) + ": ";
   const double off = std::fabs(k.word - k.set);
-  if (off > kAsSet * std::fabs(k.set) && off > k.noise) {
+  // Setting a parameter whose word has one value does nothing.
+  const bool one =
+      (k.one_word || nearest(k.range.lo) == nearest(k.range.hi)) && k.range.width() > k.noise;
+  if (!(one && k.set_by_host) && off > kAsSet * std::fabs(k.set) && off > k.noise) {
     v->warnings.push_back(fmt::format("{}: {:.6g}{}{} becomes {:.6g}", k.name, k.set / k.to_si,
                                       unit, k.of, k.word / k.to_si + 0.0) +
                           step + k.mend);
-  } else if (nearest(k.range.lo) == nearest(k.range.hi) && k.range.width() > k.noise) {
-    v->warnings.push_back(fmt::format("{}: every value of {} .. {}{} becomes {}", k.name,
-                                      si(k.range.lo), si(k.range.hi), unit, si(k.word)) +
-                          step + k.mend);
+  } else if (one) {
+    (k.set_by_host ? v->failures : v->warnings)
+        .push_back(fmt::format("{}: every value of {} .. {}{} becomes {}", k.name, si(k.range.lo),
+                               si(k.range.hi), unit, si(k.word)) +
+                   step + k.mend);
   }
   const double least = std::min(std::fabs(k.range.lo), std::fabs(k.range.hi));
   if ((k.range.lo <= 0 && k.range.hi >= 0) || k.step / 2 <= k.share * least) return;
@@ -155,8 +200,10 @@ void parameters(const Compiled& c, Verdict* v) {
       k.word = w.initial * w.scale;
       k.range = {p.range.lower, p.range.upper};
       k.of = " of the file";
-      k.mend = finer(p, k.step);
+      k.mend = finer(c.law, c.target, p, k.step);
       k.range_mend = "narrow its range, or begin it there";
+      k.set_by_host = true;
+      k.one_word = w.lower == w.upper;
       // A whole parameter has a word for each of its values.
       if (p.whole) k.share = infinity;
       kept_badly(k, v);
@@ -202,17 +249,35 @@ void computed(const Compiled& c, Verdict* v) {
   }
 }
 
-/// Reports states that, in the measured runs, moved by little more than their words can express: in
-/// the words they move at another speed, or stand still. A bound of one run does not show that.
+/// The error that a run adds to a state beside the state's range.
+double drift_share(const Law& law, const Bound& b, std::size_t state) {
+  const Range& r = law.states[state].range;
+  return r.upper > r.lower ? b.drift[state] / (r.upper - r.lower) : 0;
+}
+
+/// Reports states to which a run adds a large error: the words may do something else than the law,
+/// and no bound shows that.
 void states(const Compiled& c, const Measured& m, Verdict* v) {
-  if (c.bound.states_bounded || m.move.size() != c.law.states.size()) return;
-  for (std::size_t k = 0; k < m.move.size(); ++k) {
-    if (!(c.bound.drift[k] > kSlow * m.move[k]) || !(m.move[k] > 0)) continue;
+  if (c.bound.states_bounded) return;
+  for (std::size_t k = 0; k < c.bound.drift.size(); ++k) {
+    const State& s = c.law.states[k];
+    const double share = drift_share(c.law, c.bound, k);
+    const std::string adds =
+        fmt::format("a run adds an error of up to {:.3g} to", c.bound.drift[k]);
+    if (share > kLargeShare) {
+      v->failures.push_back(fmt::format(
+          "state {}: {} it, {:.3g} % of its range, {:.6g} .. {:.6g}: what it does is no longer the "
+          "law's; {}",
+          s.name, adds, 100 * share, s.range.lower, s.range.upper, mend(c.program, c.bound)));
+      continue;
+    }
+    // In the words a state that a run hardly moves may move at another speed, or stand still.
+    if (k >= m.move.size() || !(c.bound.drift[k] > kSlow * m.move[k]) || !(m.move[k] > 0)) continue;
     v->warnings.push_back(fmt::format(
-        "state {}: a run moved it by {:.3g} at most (measured), and a run adds an error of "
-        "up to {:.3g} to that (its step is {:.3g}), so that it may move at another "
-        "speed or stand still; give the law a lower rate, or the state a narrower range",
-        c.law.states[k].name, m.move[k], c.bound.drift[k], c.program.states[k].scale));
+        "state {}: a run moved it by {:.3g} at most (measured), and {} that (its step is {:.3g}), "
+        "so that it may move at another speed or stand still; give the law a lower rate, or the "
+        "state a narrower range",
+        s.name, m.move[k], adds, c.program.states[k].scale));
   }
 }
 
@@ -246,17 +311,34 @@ bool beside_its_output(const std::string& name, const Size& s, double lsb, Verdi
   return true;
 }
 
-}  // namespace
-
-std::string finer(const Parameter& p, double step) {
-  const bool negative = p.range.lower < 0 && p.range.upper <= 0;
-  const std::string least =
-      fmt::format("give it a value of {:.3g}{} or {}", (negative ? -5 : 5) * step / p.to_si,
-                  with_blank(p.unit_text), negative ? "less" : "more");
-  return full(std::max(std::fabs(p.range.lower), std::fabs(p.range.upper)), step)
-             ? "narrow its range, or " + least
-             : least + ", and a range with that value";
+/// Reports an output whose words have one value where the law gives many.
+void dead(const Compiled& c, std::size_t output, const std::string& name, const Span& given,
+          double lsb, Verdict* v) {
+  for (std::size_t i = 0; i < c.program.steps.size(); ++i) {
+    const Span& words = c.bound.words[i];
+    const bool one =
+        c.program.steps[i].output == c.law.outputs[output].axis && words.lo == words.hi;
+    if (!one || given.width() <= 2 * lsb) continue;
+    v->failures.push_back(fmt::format(
+        "{}: the words always give {:.3g} Nm, where the law gives {:.3g} .. {:.3g} Nm; {}", name,
+        words.lo * lsb + 0.0, given.lo, given.hi, mend(c.program, c.bound)));
+  }
 }
+
+/// Fails a measured error that is a large part of what the law gave.
+void measured_wrong(const std::string& name, double off, const Span& gave, double lsb,
+                    const std::string& mend, Verdict* v) {
+  // A law that always gave the same is measured by its size.
+  const double most = gave.width() > 0 ? gave.width() : gave.size();
+  if (!(off > lsb && off > kWrong * most)) return;
+  v->failures.push_back(fmt::format(
+      "{}: {:.3g} Nm from the law was measured, and the law gave {:.3g} .. {:.3g} Nm in these runs"
+      "{}; {}",
+      name, off, gave.lo, gave.hi,
+      most > 0 ? fmt::format(": an error of {:.3g} %", 100 * off / most) : "", mend));
+}
+
+}  // namespace
 
 std::string name_of(const Output& output, const Law& law) {
   return law.outputs.size() == 1 && output.axis == 0
@@ -305,6 +387,12 @@ double largest_share(const std::vector<Span>& spans, const Target& target, const
   return share;
 }
 
+double largest_drift(const Law& law, const Bound& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < b.drift.size(); ++k) most = std::max(most, drift_share(law, b, k));
+  return most;
+}
+
 void refuse_idle_bounds(const Law& law, const Target& target, const Program& program,
                         const Bound& b) {
   const std::vector<Span> spans = output_ranges(law, target);
@@ -321,12 +409,27 @@ void refuse_idle_bounds(const Law& law, const Target& target, const Program& pro
   }
 }
 
+std::vector<bool> useful_bounds(const Compiled& c, const Measured& m) {
+  std::vector<bool> useful(c.law.outputs.size(), true);
+  for (std::size_t o = 0; o < useful.size(); ++o) {
+    if (o >= m.output.size() || o >= m.reached.size() || !(m.reached[o].width() > 0)) continue;
+    const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
+    const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
+    const double free = o < m.free.most.size() ? m.free.most[o] : 0;
+    useful[o] = !(bound > 2 * lsb && bound > kIdleTimes * std::max(m.output[o], free) &&
+                  bound > kLargeShare * m.reached[o].width());
+  }
+  return useful;
+}
+
 Verdict verdict(const Compiled& c, const Measured& m) {
   Verdict v;
   sides(m, &v);
   runs_left_out(m, &v);
+  free_runs(m.free, &v);
   const std::vector<Span> spans = output_ranges(c.law, c.target);
   const double lsb = std::ldexp(1.0, -c.target.torque.fraction);
+  const std::vector<bool> useful = useful_bounds(c, m);
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     const std::string name = name_of(c.law.outputs[o], c.law);
     const double bound = m.all_inputs ? c.bound.as_set[o] : c.bound.output[o];
@@ -337,13 +440,21 @@ Verdict verdict(const Compiled& c, const Measured& m) {
                       name, m.output[o], bound));
     }
     const std::string narrower = mend(c.program, c.bound);
+    if (!useful[o]) {
+      v.warnings.push_back(
+          fmt::format("{}: no useful bound: {:.3g} Nm, where {:.3g} Nm is the largest error "
+                      "measured and the law gave {:.3g} .. {:.3g} Nm; {}",
+                      name, bound, m.output[o], m.reached[o].lo, m.reached[o].hi, narrower));
+    }
+    dead(c, o, name, o < m.reached.size() ? m.reached[o] : spans[o], lsb, &v);
     const Size by_range{c.bound.output[o], spans[o], "its range", narrower};
+    const std::size_t failed = v.failures.size();
     if (o >= m.reached.size() || !(m.reached[o].width() > 0)) {
       beside_its_output(name, by_range, lsb, &v);
     } else if (runs_reach_all(c.law)) {
       const Size seen{bound, m.reached[o], "what the law gave in the measured runs", narrower};
       if (!beside_its_output(name, seen, lsb, &v)) beside_its_output(name, by_range, lsb, &v);
-    } else if (share_of(by_range) < kIdle && bound > 2 * lsb &&
+    } else if (useful[o] && share_of(by_range) < kIdle && bound > 2 * lsb &&
                bound > kLargeSeen * m.reached[o].width()) {
       // A range by intervals may be far wider than what a law of several inputs gives.
       v.warnings.push_back(fmt::format(
@@ -351,8 +462,11 @@ Verdict verdict(const Compiled& c, const Measured& m) {
           "inputs, {:.3g} .. {:.3g} Nm (its range, by intervals, is {:.3g} .. {:.3g} Nm); {}",
           name, bound, 100 * bound / m.reached[o].width(), m.reached[o].lo, m.reached[o].hi,
           spans[o].lo, spans[o].hi, narrower));
-    } else {
+    } else if (useful[o]) {
       beside_its_output(name, by_range, lsb, &v);
+    }
+    if (o < m.output.size() && o < m.reached.size() && v.failures.size() == failed) {
+      measured_wrong(name, m.output[o], m.reached[o], lsb, narrower, &v);
     }
   }
   for (const Unused& u : c.law.unused) {

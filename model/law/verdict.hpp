@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Judges a bound: the share of runs that it covers, its size relative to the output, and the
-// parameter values that the words represent badly. Documentation: docs/law-compiler.md
+// parameter values that the words represent badly. Documentation: docs/laws.md
 #pragma once
 
 #include <string>
@@ -20,12 +20,13 @@ struct Verdict {
 
 Verdict verdict(const Compiled& c, const Measured& m);
 
+/// Whether the bound of each output says something. It does not where it is more than 100 times the
+/// largest error measured and more than 1 % of what the law gave.
+std::vector<bool> useful_bounds(const Compiled& c, const Measured& m);
+
 /// The lines of a verdict, each with its kind; empty when there is nothing to report.
 std::string text(const Verdict& v);
 
-/// The mend for a parameter of which a word with this step keeps too little. A narrower range helps
-/// only where the word has many steps; a larger value always does.
-std::string finer(const Parameter& p, double step);
 /// A unit as it stands behind a number.
 inline std::string with_blank(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 
@@ -42,6 +43,10 @@ std::vector<Span> given_ranges(const Law& law, const Target& target);
 
 /// The largest ratio of a bound to the range of its output, `spans`; 0 if no bound exceeds two LSB.
 double largest_share(const std::vector<Span>& spans, const Target& target, const Bound& b);
+
+/// The largest ratio of the error that a run adds to a state, whose error has no end, to the range
+/// of that state.
+double largest_drift(const Law& law, const Bound& b);
 
 constexpr double kLargeShare = 0.01;  ///< from this share on: reported, and functions are split
 

@@ -3,7 +3,7 @@
 //
 // Connects the engine to the axes: its register port, the CRC check of the programs at each arming,
 // and the request to ramp when a torque can jump. Timing: reg_rdata_o is valid 33 clocks after the
-// address. docs/blocks/axes_engine.md
+// address. docs/architecture.md
 
 `default_nettype none
 
@@ -60,10 +60,11 @@ module axes_engine #(
   assign engine_addressed = reg_addr_i[15:12] == First[15:12];
 
   // Arming waits until the CRC of the programs is computed: unchecked_o acts like an axis that does
-  // not request arming. Evaluated once per tick, because a request may come from a pin.
+  // not request arming, unfit_o then like one that is not ready. Evaluated once per tick, because a
+  // request may come from a pin.
   assign check       = snapshot_i && all_ask && !checked_q && !checks_q;
   assign unchecked_o = !checked_q;
-  assign unfit_o     = law_any && !crc_good;
+  assign unfit_o     = law_any && checked_q && !crc_good;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       checks_q         <= 1'b0;

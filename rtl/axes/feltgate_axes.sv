@@ -4,7 +4,7 @@
 // One to three cores as axes of one device, and the engine whose programs give their torques, if
 // the design has one. The axes share tick and register port and arm together; a fault of one axis
 // turns off the gates of all. In each vector, axis n is bit n, or the n-th part from below. All
-// axes run in step; the timing is that of feltgate_core. docs/blocks/feltgate_axes.md
+// axes run in step; the timing is that of feltgate_core. docs/architecture.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // AXI4-Lite slave on the core's register port; every bus output comes from a register. A read uses
 // the port for one clock; a write that still waits for the core leaves the port in that clock. Read
-// data comes three clocks after the address. Documentation: docs/blocks/axi_lite_port.md
+// data comes three clocks after the address. Documentation: docs/other-tools.md
 `default_nettype none
 
 module axi_lite_port (

@@ -3,7 +3,7 @@
 //
 // Wishbone B4 slave on the core's register port. A request is on the port in the same clock as on
 // the bus. Reads and writes are answered in order, three clocks after they were accepted.
-// Documentation: docs/blocks/wishbone_port.md
+// Documentation: docs/other-tools.md
 `default_nettype none
 
 module wishbone_port #(

@@ -4,7 +4,7 @@
 // The whole core: encoder pins to gate pins. Once per tick a wave runs through the rooms encoder,
 // estimators, scenes and actuation; safety watches them; the room wave gives all of them the clock
 // of the wave, one parameter and the products. Latency: sampled position (clock 0) to duty 47
-// clocks. docs/blocks/feltgate_core.md, docs/architecture.md
+// clocks. docs/architecture.md, docs/architecture.md
 
 `default_nettype none
 
@@ -113,6 +113,7 @@ module feltgate_core #(
   logic over_limit, region_high, period_start, clear, arms, unkicked, gates_clear, derated;
   logic [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state;
   logic [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state;
+  logic polarity_holds;
   logic signed [feltgate_pkg::WITH_ADDEND_W-1:0] applied;
   logic signed [feltgate_pkg::CURRENT_W-1:0] motor_current;  // measured, if there is a current loop
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate;
@@ -130,7 +131,8 @@ module feltgate_core #(
       .set_zero_i(set_zero), .clear_i(clear), .position_o(position_o), .scene_position_o(scene_position),
       .travel_o(travel), .moved_o(moved), .chatters_o(chatters), .illegal_o(illegal), .error_o(encoder_error),
       .error_count_o(error_count), .rejected_count_o(rejected_count), .index_position_o(index_position),
-      .gates_enable_i(gates_enable_o), .absolute_state_o(absolute_state), .limits_o(encoder_limits),
+      .gates_enable_i(gates_enable_o), .polarity_holds_o(polarity_holds),
+      .absolute_state_o(absolute_state), .limits_o(encoder_limits),
       .trips_o(encoder_trips), .count_o(count)
   );
 
@@ -171,7 +173,7 @@ module feltgate_core #(
       .axis_silent_i(axis_silent_i), .axis_blocked_i(axis_blocked_i), .axis_waits_i(axis_waits_i),
       .arm_request_o(arm_request_o), .ready_o(ready_o), .current_state_i(current_state),
       .absolute_state_i(absolute_state), .trips_i(encoder_trips | estimator_trips | actuation_trips | wave_trips),
-      .illegal_i(illegal), .moved_i(moved), .travel_i(travel[1:0]), .velocity_i(velocity_o),
+      .illegal_i(illegal), .moved_i(moved), .travel_i(travel[feltgate_pkg::SELF_TEST_DROP+:2]), .velocity_i(velocity_o),
       .current_ref_i(current_ref_o), .product_i(supervisor_product), .over_limit_i(over_limit), .law_i(law),
       .law_late_i(law_late_i), .armed_o(armed_o), .arms_o(arms), .unkicked_o(unkicked), .gates_enable_o(gates_enable_o),
       .gates_clear_o(gates_clear), .faults_o(faults_o), .first_fault_o(first_fault_o), .limits_o(safety_limits),
@@ -181,6 +183,7 @@ module feltgate_core #(
 
   assign limits_o = encoder_limits | estimator_limits | actuation_limits | safety_limits;
   wave #(.ReadBack(ReadBack), .ParameterFile(ParameterFile)) u_wave (
+      .polarity_holds_i(polarity_holds),
       .clk_i(clk_i), .rst_ni(rst_ni), .tick_o(tick), .tick_count_o(tick_count_o), .wave_o(wave), .param_o(param),
       .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i), .reg_busy_o(reg_busy_o),
       .reg_rdata_o(reg_rdata_o), .set_zero_i(set_zero_i), .scene_i(scene_i), .scene_o(scene_o), .control_o(control),

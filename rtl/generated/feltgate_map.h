@@ -120,9 +120,9 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_VOLTAGE_GAIN_HIGH 0x032u  /* Kv of the high-torque region times 1 ohm, or the resistance; on the bus at slot 34 in that region [ohm] */
 
-#define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse; on the bus at slot 24, as the limit, while it lasts [Nm] */
+#define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse, if it is less than the limits in force [Nm] */
 
-#define FELTGATE_HOLD_LIMIT 0x038u  /* torque limit after that, until a count comes; on the bus at slot 24 then [Nm] */
+#define FELTGATE_HOLD_LIMIT 0x038u  /* torque limit after that, until a count comes, if it is less than torque_limit [Nm] */
 
 #define FELTGATE_SETPOINT_TORQUE 0x04au  /* constant torque [Nm] */
 
@@ -175,7 +175,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_CONTROL_MODE_MASK 0x000000c0u
 #define FELTGATE_CONTROL_MOTOR_POLARITY_BIT 8  /* 1: the motor's leads are swapped */
 #define FELTGATE_CONTROL_MOTOR_POLARITY_MASK 0x00000100u
-#define FELTGATE_CONTROL_ENCODER_POLARITY_BIT 9  /* 1: the encoder's channels are swapped */
+#define FELTGATE_CONTROL_ENCODER_POLARITY_BIT 9  /* 1: the encoder's channels are swapped; of an absolute encoder it also holds from the first reading on */
 #define FELTGATE_CONTROL_ENCODER_POLARITY_MASK 0x00000200u
 #define FELTGATE_CONTROL_PWM_MODE_BIT 10  /* 0 sign-magnitude, 1 locked antiphase */
 #define FELTGATE_CONTROL_PWM_MODE_MASK 0x00000400u
@@ -217,6 +217,8 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_STATUS_TESTING_MASK 0x00040000u
 #define FELTGATE_STATUS_DRIVER_FAULT_BIT 19  /* of a current loop, else 0: the bridge's driver tells of a fault, or did so with the gates enabled */
 #define FELTGATE_STATUS_DRIVER_FAULT_MASK 0x00080000u
+#define FELTGATE_STATUS_SATURATED_BIT 31  /* the last parameter written did not fit its format and became the nearest value that does */
+#define FELTGATE_STATUS_SATURATED_MASK 0x80000000u
 #define FELTGATE_STATUS_CURRENT_MISSING_BIT 30  /* of a current loop, else 0: the measured current was not what the voltage makes, or a phase was open */
 #define FELTGATE_STATUS_CURRENT_MISSING_MASK 0x40000000u
 
@@ -230,7 +232,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_ENCODER 0x30eu  /* encoder error count [15:0], rejected pulses [31:16] */
 
-#define FELTGATE_TAU_HAT 0x317u  /* observed torque [Nm] */
+#define FELTGATE_TAU_HAT 0x317u  /* observed torque; void while the limits voltage or duty act, see there [Nm] */
 
 #define FELTGATE_FAULTS 0x31au  /* what closed the gates */
 #define FELTGATE_FAULTS_SEEN_BIT 0  /* faults that were seen, by their bit */
@@ -239,7 +241,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_FAULTS_FIRST_MASK 0x001f0000u
 #define FELTGATE_FAULTS_CURRENT_BIT 21  /* of a current loop, else 0: bit 0 over-current, 1 stuck, 2 saturated, 3 offset, 4 not calibrated */
 #define FELTGATE_FAULTS_CURRENT_MASK 0x03e00000u
-#define FELTGATE_FAULTS_ABSOLUTE_BIT 26  /* of an absolute encoder, else 0: bit 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen, 5 no reading yet; of Hall lines 0 all alike, 1 apart, 3 a sector passed over, 5 no sector yet */
+#define FELTGATE_FAULTS_ABSOLUTE_BIT 26  /* of an absolute encoder, else 0: bit 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen, 5 starts: no reading yet, and none was wrong; of Hall lines 0 all alike, 1 apart, 3 a sector passed over, 5 no sector yet */
 #define FELTGATE_FAULTS_ABSOLUTE_MASK 0xfc000000u
 
 #define FELTGATE_TAU_REF 0x31cu  /* torque reference [Nm] */
@@ -394,12 +396,12 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_LIMIT_TORQUE (1u << 0)  /* torque reference at its limit */
 #define FELTGATE_LIMIT_RAMP (1u << 1)  /* ramping: after arming, a change of scene, or what could have made the torque jump */
 #define FELTGATE_LIMIT_CURRENT (1u << 2)  /* current reference at its limit */
-#define FELTGATE_LIMIT_VOLTAGE (1u << 3)  /* voltage at the end of the window around the back-EMF */
-#define FELTGATE_LIMIT_DUTY (1u << 4)  /* duty at its limit */
+#define FELTGATE_LIMIT_VOLTAGE (1u << 3)  /* voltage at the end of the window around the back-EMF; without a current loop tau_hat is void, for the motor gives less than it counts on */
+#define FELTGATE_LIMIT_DUTY (1u << 4)  /* duty at its limit; without a current loop tau_hat is void, as above */
 #define FELTGATE_LIMIT_VELOCITY (1u << 5)  /* the raw velocity saturated its format */
 #define FELTGATE_LIMIT_TAU_HAT (1u << 6)  /* tau_hat saturated its format */
 #define FELTGATE_LIMIT_GATES_CLOSED (1u << 7)  /* the gates are off */
-#define FELTGATE_LIMIT_HOLD (1u << 8)  /* a torque was held for too long: the limit is hold_limit */
+#define FELTGATE_LIMIT_HOLD (1u << 8)  /* a torque was held for too long: the limit is hold_limit, or torque_limit if that is less */
 #define FELTGATE_LIMIT_CHATTER (1u << 9)  /* the count alternates on one edge: the torque reference does not grow */
 
 /* Numbers in FELTGATE_FAULTS_FIRST; fault n is also bit n of FELTGATE_FAULTS_SEEN. */
@@ -437,15 +439,14 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_SELF_TEST_HELD_BIT 0  /* of self_test_arms: the scene begins though the lever is held */
 #define FELTGATE_SELF_TEST_MOVING_BIT 1  /* of self_test_arms: the scene begins though the lever moves */
 #define FELTGATE_KICKLESS_BITS 24  /* bits of the longest time without a kick [tick] */
+#define FELTGATE_ARM_WAIT_MS 20  /* for so long a request to arm may wait until the gates open [ms]; then it is refused */
 #define FELTGATE_ABSOLUTE_JUMP_BIT 3  /* of faults.absolute: the angle has jumped */
 #define FELTGATE_ABSOLUTE_ENTRY_BITS 20  /* a correction of an absolute encoder's table is in steps of a turn / 2^20 */
 #define FELTGATE_ABSOLUTE_SEGMENT_BITS 8  /* its table has 2^8 corrections over a turn */
 #define FELTGATE_ONE_CHANNEL_EDGES 16  /* edges of one channel in a row from which it is chatter or a dead channel */
 #define FELTGATE_DEAD_CHANNEL_EDGES 24  /* as many are a dead channel */
-#define FELTGATE_EDGE_UNIT_BITS 6  /* bits of the ticks in which the time between edges is counted */
-#define FELTGATE_EDGE_UNITS 19  /* so many of them without an edge end the row */
-#define FELTGATE_CHATTER_UNIT_BITS 8  /* bits of the ticks in which the time of chatter is counted */
-#define FELTGATE_CHATTER_UNITS 20  /* chatter for so many of them is a dead channel */
+#define FELTGATE_EDGE_UNITS 19  /* so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row */
+#define FELTGATE_CHATTER_UNITS 20  /* chatter for so many times 4 * 2^EDGE_UNIT_BITS ticks is a dead channel */
 #define FELTGATE_INDEX_WIDTH_BITS 3  /* an index may be less than 2^index_width_bits counts wide */
 #define FELTGATE_HOLD_UNIT_BITS 10  /* bits of the ticks in which hold_time is counted */
 #define FELTGATE_HOLD_BITS 13  /* bits of the longest hold_time */

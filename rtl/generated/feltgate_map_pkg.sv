@@ -33,15 +33,14 @@ package feltgate_map_pkg;
   localparam int SELF_TEST_HELD_BIT = 0;  // of self_test_arms: the scene begins though the lever is held
   localparam int SELF_TEST_MOVING_BIT = 1;  // of self_test_arms: the scene begins though the lever moves
   localparam int KICKLESS_BITS = 24;  // bits of the longest time without a kick [tick]
+  localparam int ARM_WAIT_MS = 20;  // for so long a request to arm may wait until the gates open [ms]; then it is refused
   localparam int ABSOLUTE_JUMP_BIT = 3;  // of faults.absolute: the angle has jumped
   localparam int ABSOLUTE_ENTRY_BITS = 20;  // a correction of an absolute encoder's table is in steps of a turn / 2^20
   localparam int ABSOLUTE_SEGMENT_BITS = 8;  // its table has 2^8 corrections over a turn
   localparam int ONE_CHANNEL_EDGES = 16;  // edges of one channel in a row from which it is chatter or a dead channel
   localparam int DEAD_CHANNEL_EDGES = 24;  // as many are a dead channel
-  localparam int EDGE_UNIT_BITS = 6;  // bits of the ticks in which the time between edges is counted
-  localparam int EDGE_UNITS = 19;  // so many of them without an edge end the row
-  localparam int CHATTER_UNIT_BITS = 8;  // bits of the ticks in which the time of chatter is counted
-  localparam int CHATTER_UNITS = 20;  // chatter for so many of them is a dead channel
+  localparam int EDGE_UNITS = 19;  // so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row
+  localparam int CHATTER_UNITS = 20;  // chatter for so many times 4 * 2^EDGE_UNIT_BITS ticks is a dead channel
   localparam int INDEX_WIDTH_BITS = 3;  // an index may be less than 2^index_width_bits counts wide
   localparam int HOLD_UNIT_BITS = 10;  // bits of the ticks in which hold_time is counted
   localparam int HOLD_BITS = 13;  // bits of the longest hold_time
@@ -171,6 +170,10 @@ package feltgate_map_pkg;
   localparam int EVENT_AT_CHARGE_WIDTH_LIMITED = 6;
   localparam int EVENT_AT_CHARGE_CORE = 7;
   localparam int EVENT_AT_CHARGE_CHOSEN = 8;
+  localparam int EVENT_AT_LEAST_FULL = 11;
+  localparam int EVENT_AT_LEAST_HOLD = 12;
+  localparam int EVENT_AT_LEAST_TEST = 14;
+  localparam int EVENT_AT_LEAST = 22;
   localparam int EVENT_AT_SCENE_SUM = 15;
   localparam int EVENT_AT_SCENE_ROUNDED = 22;
   localparam int EVENT_AT_LAW_TORQUE = 22;
@@ -308,6 +311,7 @@ package feltgate_map_pkg;
   localparam int W_STATUS_SELF_TEST = 2;
   localparam int B_STATUS_TESTING = 18;
   localparam int B_STATUS_DRIVER_FAULT = 19;
+  localparam int B_STATUS_SATURATED = 31;
   localparam int B_STATUS_CURRENT_MISSING = 30;
   localparam int B_FAULTS_SEEN = 0;
   localparam int W_FAULTS_SEEN = 16;
@@ -322,12 +326,12 @@ package feltgate_map_pkg;
   localparam int L_TORQUE = 0;  // torque reference at its limit
   localparam int L_RAMP = 1;  // ramping: after arming, a change of scene, or what could have made the torque jump
   localparam int L_CURRENT = 2;  // current reference at its limit
-  localparam int L_VOLTAGE = 3;  // voltage at the end of the window around the back-EMF
-  localparam int L_DUTY = 4;  // duty at its limit
+  localparam int L_VOLTAGE = 3;  // voltage at the end of the window around the back-EMF; without a current loop tau_hat is void, for the motor gives less than it counts on
+  localparam int L_DUTY = 4;  // duty at its limit; without a current loop tau_hat is void, as above
   localparam int L_VELOCITY = 5;  // the raw velocity saturated its format
   localparam int L_TAU_HAT = 6;  // tau_hat saturated its format
   localparam int L_GATES_CLOSED = 7;  // the gates are off
-  localparam int L_HOLD = 8;  // a torque was held for too long: the limit is hold_limit
+  localparam int L_HOLD = 8;  // a torque was held for too long: the limit is hold_limit, or torque_limit if that is less
   localparam int L_CHATTER = 9;  // the count alternates on one edge: the torque reference does not grow
 
   // Causes of fault: numbers of the first fault, and bits of the faults.

@@ -4,7 +4,7 @@
 // The core with the link to its host: encoder and UART in, gates and UART out. A board's top level
 // instantiates it. It contains feltgate_core, or feltgate_axes if the design has an engine or more
 // than one axis. In each vector, axis n is bit n, or the n-th part from below.
-// Documentation: docs/blocks/feltgate_linked.md, docs/link.md
+// Documentation: docs/link.md, docs/link.md
 `default_nettype none
 
 module feltgate_linked #(

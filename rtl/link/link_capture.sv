@@ -4,7 +4,7 @@
 // Capture: stores selected snapshot words of consecutive ticks (or of every period-th tick) in a
 // ring of rows, one whole tick per row, some rows before a trigger and the rest from it on. The
 // host reads the rows through a memory window when the capture has ended.
-// Documentation: docs/blocks/link_capture.md
+// Documentation: docs/link.md
 `default_nettype none
 
 module link_capture #(

@@ -3,7 +3,7 @@
 //
 // Executes a request of the host. It writes at once, but not again with the sequence number of the
 // last write; it reads each word while the reply is being sent. Words belong to the core, the engine, the link itself,
-// the stream or the capture. Documentation: docs/blocks/link_port.md
+// the stream or the capture. Documentation: docs/link.md
 `default_nettype none
 
 module link_port #(

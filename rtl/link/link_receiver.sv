@@ -4,7 +4,7 @@
 // Receives requests: decodes SLIP, checks the CRC-32 and the rules of a request. An invalid frame
 // is reported on bad_o and has no other effect. A request is held until it is taken or the next
 // frame begins. Timing: one bit per clock, so a byte takes eight clocks.
-// Documentation: docs/blocks/link_receiver.md
+// Documentation: docs/link.md
 `default_nettype none
 
 module link_receiver #(

@@ -4,7 +4,7 @@
 // Stream: every period ticks it sends selected snapshot words of one tick as a frame without a
 // request: kind, counter, mask, words. It first stores all words of the tick, so a frame belongs to
 // one tick. While a frame is stored or sent, frames that fall due are dropped whole and counted.
-// Documentation: docs/blocks/link_stream.md
+// Documentation: docs/link.md
 `default_nettype none
 
 module link_stream (

@@ -3,7 +3,7 @@
 //
 // Sends frames: appends the CRC-32 and encodes SLIP. It serves two sources, one whole frame at a
 // time; if both have a frame, the reply goes first. The CRC takes eight clocks per byte.
-// Documentation: docs/blocks/link_transmitter.md
+// Documentation: docs/link.md
 `default_nettype none
 
 module link_transmitter (

@@ -3,7 +3,7 @@
 //
 // Shows twelve words of several axes as those of one core: after the last word of a tick it gives
 // the chosen words of that tick, one in each clock, to stream and capture. Events follow with the
-// same delay. Documentation: docs/blocks/link_view.md
+// same delay. Documentation: docs/link.md
 `default_nettype none
 
 module link_view #(

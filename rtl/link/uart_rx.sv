@@ -3,7 +3,7 @@
 //
 // UART receiver, 8N1. A phase accumulator overflows in the middle of each bit, so any baud rate up
 // to an eighth of the clock works. The line level is a majority of three consecutive clocks, so a
-// pulse of one clock is ignored. Documentation: docs/blocks/uart_rx.md
+// pulse of one clock is ignored. Documentation: docs/link.md
 `default_nettype none
 
 module uart_rx #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // UART transmitter, 8N1. A bit begins when the phase accumulator overflows. Bytes follow each other
-// without a gap. Documentation: docs/blocks/uart_tx.md
+// without a gap. Documentation: docs/link.md
 `default_nettype none
 
 module uart_tx #(

@@ -92,7 +92,6 @@ feltgate_sim_library(bounds studies/bounds feltgate_design Boost::headers)
 feltgate_sim_library(units law ONLY "/(amount|units)\\.cpp$")
 # Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
 feltgate_library(feltgate_law law EXCEPT "/(amount|units)\\.cpp$" feltgate_units Boost::headers)
-include(laws)
 
 # The host's side of the link; Boost.Asio in headers.
 find_package(Threads REQUIRED)
@@ -126,7 +125,7 @@ include(backends)
 feltgate_sim_library(loop sim/loop
   feltgate_registry feltgate_plant_files feltgate_traces feltgate_bounds feltgate_units)
 # Laws in a loop: the engine's image, and the law in real numbers beside it.
-feltgate_library(feltgate_law_loop sim/law_loop feltgate_law feltgate_shipped_laws feltgate_loop)
+feltgate_library(feltgate_law_loop sim/law_loop feltgate_law feltgate_loop)
 # Devices of several axes with their laws, in one loop.
 feltgate_library(feltgate_axes_loop sim/axes_loop feltgate_law_loop feltgate_linkage_files
   feltgate_gimbal_files)

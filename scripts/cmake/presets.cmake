@@ -42,16 +42,11 @@ foreach(design IN LISTS FELTGATE_PRESETS own_names)
     target_sources(feltgate_${design} PRIVATE $<TARGET_OBJECTS:preset_lever_law>)
     target_link_libraries(feltgate_${design} PRIVATE core_lever_law)
   endif()
-  if(TARGET budget_${design})
-    target_sources(feltgate_${design} PRIVATE $<TARGET_OBJECTS:budget_${design}>)
-  endif()
   set_target_properties(core_${design} preset_${design} feltgate_${design} PROPERTIES EXCLUDE_FROM_ALL ON)
 endforeach()
-# `feltgate rates` without a scene takes all of them, `trim` and `budget` each of them: those of several axes by
-# their twins.
+# `feltgate rates` without a scene takes all of them, `trim` each of them: those of several axes by their twins.
 foreach(design IN LISTS FELTGATE_AXES_PRESETS)
   if(TARGET feltgate_lever_law)
-    target_sources(feltgate_lever_law PRIVATE $<TARGET_OBJECTS:twin_${design}>
-      $<TARGET_OBJECTS:budget_${design}>)
+    target_sources(feltgate_lever_law PRIVATE $<TARGET_OBJECTS:twin_${design}>)
   endif()
 endforeach()

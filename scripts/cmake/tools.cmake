@@ -34,13 +34,6 @@ endfunction()
 # What the programs of design points share; scripts/exploration/point.py compiles the rest.
 feltgate_library(feltgate_explore studies/explore feltgate_plant_files nlohmann_json::nlohmann_json)
 
-feltgate_library(feltgate_budget studies/budget feltgate_backends feltgate_loop feltgate_axes_loop)
-target_include_directories(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends")
-foreach(design IN LISTS FELTGATE_DESIGNS)
-  set(type ${FELTGATE_TYPE_${design}})
-  feltgate_for_design(budget "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-  target_sources(feltgate_budget PRIVATE "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-endforeach()
 feltgate_library(feltgate_trim studies/trim feltgate_backends feltgate_loop feltgate_axes_loop)
 
 # Where the constants of design and plant differ.
@@ -65,22 +58,23 @@ feltgate_library(feltgate_controllers studies/controllers feltgate_stability fel
 target_link_libraries(feltgate_controllers PRIVATE nlohmann_json::nlohmann_json)
 target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 # Sizes of the blocks of `lever`, as `feltgate synth --update` wrote them.
-set(budget scripts/synth_budget.toml)
-set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${budget})
-file(READ "${CMAKE_SOURCE_DIR}/${budget}" figures)
+set(areas docs/verification/areas.json)
+set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${areas})
+file(READ "${CMAKE_SOURCE_DIR}/${areas}" figures)
 foreach(block dob lowpass)
-  if(NOT figures MATCHES "\\[figures\\.lever\\.\"${block}\"\\][^[]*lut4_equivalents = ([0-9]+)")
-    message(FATAL_ERROR "${budget}: no size of lever's ${block}; run `feltgate synth --update`")
+  string(JSON size ERROR_VARIABLE missing GET "${figures}" figures lever ${block} lut4_equivalents)
+  if(missing)
+    message(FATAL_ERROR "${areas}: no size of lever's ${block} (${missing}); run `feltgate synth --update`")
   endif()
   string(TOUPPER ${block} upper)
-  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${CMAKE_MATCH_1})
+  target_compile_definitions(feltgate_controllers PRIVATE FELTGATE_LUT4_${upper}=${size})
 endforeach()
 
 # Constants of a motor from readings and recordings: the verbs calibrate and identify of a host.
 feltgate_library(feltgate_calibrate host/calibrate feltgate_design feltgate_traces Eigen3::Eigen
   Boost::headers)
 target_link_libraries(feltgate_calibrate PRIVATE nlohmann_json::nlohmann_json)
-feltgate_library(feltgate_identify host/identify feltgate_calibrate feltgate_law)
+feltgate_library(feltgate_identify host/identify feltgate_calibrate)
 target_link_libraries(feltgate_identify PRIVATE nlohmann_json::nlohmann_json)
 # In one source with others g++ 12 takes a matrix of Eigen for uninitialized.
 set_target_properties(feltgate_calibrate PROPERTIES UNITY_BUILD OFF)
@@ -121,20 +115,13 @@ foreach(design lever_law ${FELTGATE_CORE_PRESETS} ${FELTGATE_AXES_PRESETS})
     set_target_properties(twin_${design} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
 endforeach()
-# Their error budgets.
-foreach(design IN LISTS FELTGATE_AXES_PRESETS)
-  feltgate_type_of(${design} type)
-  feltgate_for_design(budget "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-  add_library(budget_${design} OBJECT EXCLUDE_FROM_ALL "${PROJECT_BINARY_DIR}/backends/${design}_budget.cpp")
-  target_compile_options(budget_${design} PRIVATE ${FELTGATE_BACKEND_OPTIONS})
-  target_link_libraries(budget_${design} PRIVATE feltgate_budget)
-endforeach()
 set(page_twins $<TARGET_OBJECTS:twin_fast> $<TARGET_OBJECTS:twin_lever_law> $<TARGET_OBJECTS:twin_gimbal_motor>)
 add_executable(feltgate_page_data EXCLUDE_FROM_ALL
   "${FELTGATE_ROOT}/model/apps/page/data_main.cpp" ${page_twins})
 target_compile_options(feltgate_page_data PRIVATE ${FELTGATE_WARNINGS})
 target_compile_definitions(feltgate_page_data PRIVATE FELTGATE_SOURCE_DIR="${FELTGATE_ROOT}")
 target_link_libraries(feltgate_page_data PRIVATE feltgate_page nlohmann_json::nlohmann_json fmt::fmt)
+add_dependencies(feltgate_page_data feltgate_generate)  # page.py asks it whether the designs are current
 
 # Outlines for the pantograph. SVG++ is a Boost library of headers.
 feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)
@@ -153,13 +140,6 @@ feltgate_library(feltgate_proxy sim/touch ONLY "/(mesh|proxy|edges|distance)\\."
 foreach(name feltgate_mesh feltgate_proxy)
   target_compile_options(${name} PRIVATE -O2)
 endforeach()
-
-# What papers claim: docs/claims.md
-feltgate_library(feltgate_claims studies/claims feltgate_texture feltgate_stability feltgate_loop feltgate_files
-  feltgate_plant_files)
-target_link_libraries(feltgate_claims PRIVATE nlohmann_json::nlohmann_json)
-target_compile_definitions(feltgate_claims PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
-target_compile_options(feltgate_claims PRIVATE -O1)
 
 feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
@@ -196,7 +176,7 @@ endif()
 
 list(REMOVE_ITEM tool_sources ${run_names})
 feltgate_program(feltgate "feltgate_main.cpp;${tool_sources}"
-  feltgate_rtl feltgate_files feltgate_budget feltgate_claims feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
+  feltgate_rtl feltgate_files feltgate_law feltgate_shape feltgate_texture feltgate_axes_loop feltgate_law_loop feltgate_loop feltgate_stability feltgate_rates feltgate_trim feltgate_controllers feltgate_design
   feltgate_command_line nlohmann_json::nlohmann_json)
 target_sources(feltgate PRIVATE $<TARGET_OBJECTS:feltgate_run_parts>)
 
@@ -259,8 +239,8 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
   target_link_options(${name} PRIVATE "LINKER:--as-needed,--version-script=${PROJECT_BINARY_DIR}/fmu.map")
 endforeach()
 
-# The benchmark links SystemC, which nothing else of the product needs: only built when asked for.
-feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law feltgate_shipped_laws systemc)
+# The benchmark: only built when asked for.
+feltgate_library(feltgate_bench_parts studies/bench feltgate_rtl feltgate_loop feltgate_law)
 target_compile_definitions(feltgate_bench_parts PRIVATE FELTGATE_VERSION="${PROJECT_VERSION}")
 feltgate_program(feltgate_bench bench_main.cpp
   feltgate_command_line feltgate_files feltgate_bench_parts nlohmann_json::nlohmann_json)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The answer of `feltgate choose` for people: text and picture of its JSON. It computes nothing.
+"""The answer of `feltgate choose` for people: the text of its JSON. It computes nothing.
 
 Documentation: docs/speed-for-accuracy.md
 """
@@ -164,32 +164,3 @@ def text(told):
         lines.append(f"left out: {left['part']}: {left['why']}")
     lines += ["", "files:", *(f"  {path}" for path in told["files"])]
     return "\n".join([*lines, "go on with:", *(f"  {command}" for command in told["commands"])])
-
-
-def picture(told):
-    """SVG: the parts of the error and of the latency of each alternative, and its margin."""
-    from reports import plots
-
-    shown = told["front"][::-1]
-    height = 1.2 + 0.25 * len(shown)
-    title = f"{told['scene']}: the choice is at the top"
-    figure, axes = plots.stacked(title, [height] * 3, apart=3, width=6.4)
-    names = [f"{o['design']}, {o['by']}, {rate(o['rate_hz'])}" for o in shown]
-    share = 100 / told["asked"]["largest_nm"]
-    shades = ("#0072b2", "#b23a00", "#8c96a0", "#008a64", "#7d4bb5")
-    for axis, of, key, factor, label in (
-        (axes[0], "error", "rms_nm", share, "error of the torque, rms, % of its largest"),
-        (axes[1], "latency", "ms", 1.0, "latency, ms"),
-    ):
-        at = [0.0] * len(shown)
-        for i, part in enumerate(shown[0][of]["parts"]):
-            width = [factor * o[of]["parts"][i][key] for o in shown]
-            axis.barh(names, width, left=at, height=0.6, color=shades[i % 5], label=part["part"])
-            at = [a + w for a, w in zip(at, width, strict=True)]
-        axis.set_xlabel(label)
-        axis.legend(fontsize=6, ncols=2, loc="upper right", bbox_to_anchor=(1.0, -0.45 / height))
-    margins = [o["margin"]["margin"] if o["margin"] else 0.0 for o in shown]
-    axes[2].barh(names, margins, height=0.6, color="#6db8ec")
-    axes[2].axvline(1, color="#d55e00", linewidth=0.8)
-    axes[2].set_xlabel("margin; below 1 the lever swings by itself")
-    return plots.finish(figure, "choose").svg

@@ -17,6 +17,7 @@ from pathlib import Path
 import building
 import command_line
 import interrupts
+import synth_budget
 from command_line import Refused
 from exploration import choice, made_scene
 from exploration.design_text import described, design_text, own_program
@@ -122,8 +123,8 @@ def rounding_part(programs, scene, design):
     worst of the ticks for which a bound is proven. The worst: the bound, or what exceeds it outside."""
     run = programs.ask("run", scene, "--design", design, "--engine", "twin,quad", "--quiet")
     errors = run["engines"]["twin"]["torque_nm"]
-    rms = errors["rms_error"] + (errors["max_error_in_bounds"] or 0.0)
-    return min(rms, errors["max_error"]), max(errors["bound"] or 0.0, errors["max_error"])
+    worst = max(errors["max_error"], errors.get("max_error_outside", 0.0))
+    return min(errors["rms_error"] + errors["max_error"], worst), max(errors["bound"] or 0.0, worst)
 
 
 class Choosing:
@@ -135,7 +136,7 @@ class Choosing:
         self.base = tomllib.loads((root / "rtl/designs/lever.toml").read_text(encoding="utf-8"))
         with open(root / TABLE, newline="", encoding="utf-8") as file:
             self.table = list(csv.DictReader(file))
-        self.budget = tomllib.loads((root / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
+        self.budget = synth_budget.read(root / synth_budget.FILE)
         self.design = "lever" if question.of_block() else f"{question.device or 'lever'}_law"
         self.left_out, self.trim = [], None
 

@@ -1,23 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""explore.html: every point is a dot; point at it for its figures and design file. No network.
+"""explore.svg, error over area and over delay, and explore.html: the picture, the front, every design. No network.
 
 Documentation: docs/speed-for-accuracy.md
 """
 
-import difflib
-from html import escape
-from pathlib import Path
-
 import outputs
-from reports import page
+from reports import page, plots
 
-from exploration import design_text, front, presets, space
+from exploration import front, presets
 from exploration.design_text import toml_value
 
 NAME = "explore.html"
-HERE = Path(__file__).resolve().parent
-# Figure, what it is, unit, factor to that unit. The first two are the first axes.
+# Figure, what it is, unit, factor to that unit.
 FIGURES = (
     ("lut4_equivalents", "LUT4 equivalents", "", 1),
     ("torque_error_rms_nm", "rms torque error", "µNm", 1e6),
@@ -38,11 +33,39 @@ FIGURES = (
 )
 
 
-def changes(base, text):
-    """[(first line, lines away, lines instead)] that make `text` of `base`."""
-    old, new = base.split("\n"), text.split("\n")
-    matcher = difflib.SequenceMatcher(None, old, new, autojunk=False)
-    return [[a, b - a, new[c:d]] for tag, a, b, c, d in matcher.get_opcodes() if tag != "equal"]
+KINDS = (
+    ("1 MHz, outputs of the base", "#0072b2"),
+    ("other tick rate", "#009e73"),
+    ("coarser or finer outputs", "#cc79a7"),
+    ("fewer scenes", "#8c96a0"),
+)
+OUTPUTS = {"formats.torque", "formats.current", "formats.voltage"}
+
+
+def kind(row):
+    """Index into KINDS."""
+    if front.SCENES in row["set"]:
+        return 3
+    if OUTPUTS & row["set"].keys():
+        return 2
+    return 1 if "clock.tick_hz" in row["set"] else 0
+
+
+def draw_axes(axes, rows, across, factor, label):
+    def place(row):
+        return factor * row["result"][across], 1e6 * row["result"]["torque_error_rms_nm"]
+
+    on_front = {row["id"] for row in front.find(rows)}
+    for index, (name, colour) in enumerate(KINDS):
+        for is_front in (False, True):
+            part = [place(r) for r in rows if kind(r) == index and (r["id"] in on_front) == is_front]
+            look = {"markersize": 5, "label": name, "zorder": 3} if is_front else {"markersize": 4, "fillstyle": "none"}
+            if part:
+                axes.plot(*zip(*part), "o", color=colour, markeredgewidth=0.9, **look)
+    for level, (name, row) in enumerate(presets.choose(rows).items()):
+        axes.annotate(name, place(row), xytext=(6, 9 + 22 * level), textcoords="offset points", fontweight="bold",
+                      fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.6})
+    axes.set(yscale="log", xlabel=label, ylabel="rms torque error, µNm")
 
 
 def words(point):
@@ -52,85 +75,42 @@ def words(point):
     return ", ".join(f"{key} {toml_value(v)}" for key, v in point["set"].items())
 
 
-def data_of(rows, root):
-    """What the script of the page needs."""
-    on_front = {row["id"] for row in front.find(rows)}
-    named = {row["id"]: name for name, row in presets.choose(rows).items()}
-    bases = {row["base"]: "" for row in rows}
-    for base in bases:
-        bases[base] = design_text.design_text(root, {"base": base, "set": {}})
-    dots = []
-    for row in rows:
-        text = design_text.design_text(root, row)
-        dots.append(
-            {
-                "id": row["id"],
-                "base": row["base"],
-                "what": words(row),
-                "front": row["id"] in on_front,
-                "preset": named.get(row["id"], ""),
-                "scenes": space.canonical(row["set"].get(front.SCENES)),
-                "y": [row["result"].get(key) for key, *_ in FIGURES],
-                "text": changes(bases[row["base"]], text),
-            }
-        )
-    figures = [{"what": w, "unit": u, "factor": f} for _, w, u, f in FIGURES]
-    return {"figures": figures, "bases": bases, "dots": dots}
-
-
-def front_table(rows):
+def table_of(rows):
     head = ["design", *(f"{what} {unit}".strip() for _, what, unit, _ in FIGURES)]
-    lines, told = [], set()
-    for row in front.find(rows):
-        alike = (row["set"].get(front.SCENES) is None, front.vector(row))
-        if alike in told:
-            continue  # differs in nothing that the front is about
-        told.add(alike)
+    lines = []
+    for row in rows:
         values = [row["result"].get(key) for key, *_ in FIGURES]
-        scaled = [
-            page.number(None if v is None else v * f)
-            for v, (*_, f) in zip(values, FIGURES, strict=True)
-        ]
+        scaled = [page.number(None if v is None else v * f) for v, (*_, f) in zip(values, FIGURES, strict=True)]
         lines.append([words(row), *scaled])
     return page.table(head, lines, words=(0,))
 
 
-def body(plan, rows, root):
-    refused = [row for row in rows if not front.good(row)]
-    data = page.embedded(data_of(rows, root))
-    script = (HERE / "explore_page.js").read_text(encoding="utf-8")
-    style = (HERE / "explore_page.css").read_text(encoding="utf-8")
-    options = "".join(
-        f'<option value="{i}">{escape(what)}{f" ({unit})" if unit else ""}</option>'
-        for i, (_, what, unit, _) in enumerate(FIGURES)
-    )
-    return f"""<style>{style}</style>
-<h1>{escape(plan.name)}: {escape(plan.description)}</h1>
-{page.paragraph(INTRODUCTION.format(points=len(rows), refused=len(refused)))}
-<p class="choice"><label>across <select id="across">{options}</select></label>
-<label>up <select id="up">{options}</select></label>
-<label><input type="checkbox" id="only"> the front only</label></p>
-<div class="sides">
-<svg id="chart" viewBox="0 0 640 460" role="img" aria-label="design points"></svg>
-<div id="told" aria-live="polite"></div></div>
-{page.section("front", "The front", front_table(rows))}
-<script type="application/json" id="data">{data}</script>
-<script>{script}</script>"""
+def picture(plan, rows):
+    figure, axes = plots.stacked("", [2.6, 2.6], apart=2)
+    draw_axes(axes[0], rows, "lut4_equivalents", 1, "LUT4 equivalents on ECP5")
+    draw_axes(axes[1], rows, "delay_s", 1e3, "delay of the velocity, ms")
+    plots.legend(axes[0], columns=2)
+    return plots.finish(figure, "explore", "Filled: on the front.")
 
 
 INTRODUCTION = (
     "{points} designs, each built, run beside its twin and found equal to it bit for bit, or "
-    "refused ({refused}). Filled dots are on the front: no other design with the same scenes is at "
+    "refused ({refused}). On the front: no other design with the same scenes is at "
     "least as good in rms torque error, LUT4 equivalents, MULT18 and delay and better in one. "
-    "Errors are against the same chain in 113-bit floating point on the same encoder counts. Hover "
-    "a dot, or go to it with Tab, and its figures and its design file appear; a click keeps them. "
+    "Errors are against the same chain in 113-bit floating point on the same encoder counts. "
+    "A design is its base with the values that its row says. "
     "Simulation and synthesis: nothing ran on a board."
 )
 
 
-def write(plan, rows, root):
-    """Writes the page of a merged plan; its path."""
-    path = plan.folder / NAME
-    text = page.document(f"feltgate explore: {plan.name}", body(plan, rows, root))
-    outputs.write_whole(path, text)
-    return path
+def write(plan, rows):
+    """Writes page and picture of a sweep's results; their paths."""
+    good = [row for row in rows if front.good(row)]
+    drawn = picture(plan, good)
+    body = f"<h1>{page.escape(plan.name)}: {page.escape(plan.description)}</h1>"
+    body += page.paragraph(INTRODUCTION.format(points=len(rows), refused=len(rows) - len(good)))
+    body += page.pictures([drawn]) + page.section("front", "The front", table_of(front.find(rows)))
+    body += page.fold("Every design", table_of(good))
+    outputs.write_whole(plan.folder / "explore.svg", drawn.svg)
+    outputs.write_whole(plan.folder / NAME, page.document(f"feltgate explore: {plan.name}", body))
+    return [plan.folder / "explore.svg", plan.folder / NAME]

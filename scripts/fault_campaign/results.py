@@ -5,7 +5,7 @@ RTL."""
 
 import re
 
-from reports.columns import aligned, markdown
+from reports.columns import aligned
 
 CLASSES = ("masked", "latent", "transient", "off", "detected", "silent", "unsafe")
 POINTS = ("state", "two bits", "pins", "words")
@@ -110,33 +110,23 @@ def promises(faults):
                 missed <= (1 - FLAGGED_SHARE) * len(its),
             )
         )
+    for group in dict.fromkeys(f["group"] for f in faults if f.get("must_refuse")):
+        its = [f for f in faults if f["group"] == group]
+        opened = sum(f["class"] != "off" for f in its)
+        found.append((f"not refused, of '{group}'", opened, len(its), opened == 0))
     return found
 
 
-def table(rows, peak, integral, timed):
-    """Head and cells; how the deviations are written. `timed`: with the latest time to the gates
-    off and the motor's largest torque."""
-    head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"]
-    head += ["off us", "motor Nm"] if timed else []
+def text_table(rows, timed=False):
+    """For a terminal. `timed`: with the latest time to the gates off and the motor's largest torque."""
+    head = ["point", "group", "faults", *CLASSES, "peak Nm", "mNm s"] + (["off us", "motor Nm"] if timed else [])
     cells = [
         [row.point, row.group, row.total(), *(row.count[c] for c in CLASSES)]
-        + [format(max(row.peaks), peak), format(1e3 * max(row.integrals), integral)]
-        + ([max(row.off_us, default="-"), format(max(row.motor_peaks), ".3f")] if timed else [])
+        + [f"{max(row.peaks):.3f}", f"{1e3 * max(row.integrals):.3f}"]
+        + ([max(row.off_us, default="-"), f"{max(row.motor_peaks):.3f}"] if timed else [])
         for row in rows
     ]
-    return head, cells
-
-
-def text_table(rows, timed=False):
-    """For a terminal."""
-    head, cells = table(rows, ".3f", ".3f", timed)
     return aligned([head, *cells], left=2)
-
-
-def markdown_table(rows, timed=False):
-    """Lines, as in docs/testing.md."""
-    head, cells = table(rows, ".3f" if timed else ".2f", ".2g", timed)
-    return markdown(["point", "what", *head[2:]], cells, left=2)
 
 
 def block_of(fault, blocks):

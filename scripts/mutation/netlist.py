@@ -18,9 +18,15 @@ from pathlib import Path
 
 import rtl_sources
 from command_line import Refused
-from crew import Crew
 from seeded_defects.block import Head
 
+MODES = {
+    "inv": "inverted",
+    "const0": "stuck at 0",
+    "const1": "stuck at 1",
+    "cnot0": "inverted while another bit of the pin is 0",
+    "cnot1": "inverted while another bit of the pin is 1",
+}
 LIMIT_S = 600  # yosys' mutate never ends when nearly all of its database is asked for
 MOST_OF_DATABASE = 0.6
 # One clock cannot be wrong at one register; a memory is read without clock, enable and reset.
@@ -51,28 +57,20 @@ def yosys():
     return found
 
 
-def run_yosys(script, name, folder, crew=None):
+def run_yosys(script, name, folder):
     """Runs it in the folder, since not every command takes a path with a blank; its log."""
-    path = folder / f"{name}.ys"
+    path, log = folder / f"{name}.ys", folder / f"{name}.log"
     path.write_text("\n".join(script) + "\n", encoding="utf-8")
-    log = folder / f"{name}.log"
     with log.open("wb") as file:
         try:
-            done = (crew or Crew()).run(
-                [yosys(), "-s", path.name],
-                LIMIT_S,
-                cwd=folder,
-                stdout=file,
-                stderr=file,
-                stdin=subprocess.DEVNULL,
-            )
+            done = subprocess.run([yosys(), "-s", path.name], cwd=folder, stdout=file, stderr=file,
+                                  stdin=subprocess.DEVNULL, timeout=LIMIT_S, check=False)
         except subprocess.TimeoutExpired as error:
             raise NetlistError(f"yosys did not end within {LIMIT_S} s; log: {log}") from error
     text = log.read_text(encoding="utf-8", errors="replace")
     if done.returncode:
-        raise NetlistError(
-            "\n".join([f"yosys failed; the whole log: {log}", *text.strip().splitlines()[-3:]])
-        )
+        last = text.strip().splitlines()[-3:]
+        raise NetlistError("\n".join([f"yosys failed; the whole log: {log}", *last]))
     return text
 
 
@@ -106,43 +104,35 @@ def powered_up(rtlil):
 def parse(line, types):
     """One command of yosys' list, as the fields of a mutant."""
     words = line.split()
-    options = {}
-    sources = []
-    for key, value in zip(words[1::1], words[2::1]):
+    options, sources = {}, []
+    for key, value in zip(words[1:], words[2:]):
         if key == "-src":
             sources.append(value)
         elif key.startswith("-") and not re.fullmatch(r"-\d+", key):
             options[key[1:]] = value
-    cell = options["cell"]
-    mutant = {
-        "mode": options["mode"],
-        "cell": cell,
-        "type": types.get(cell, ("?", ""))[0],
-        "port": options["port"],
-        "bit": int(options["portbit"]),
-        "sources": sources,
-    }
-    if types.get(cell, ("", ""))[1]:
-        mutant["register"] = types[cell][1]
-    if "ctrlbit" in options:
-        mutant["by_bit"] = int(options["ctrlbit"])
-    if "wire" in options:
-        mutant["wire"] = options["wire"]
-        mutant["wire_bit"] = int(options["wirebit"])
-    return mutant
+    kind, register = types.get(options["cell"], ("?", ""))
+    return options | {"type": kind, "register": register, "sources": sources}
 
 
-def command(mutant, top, control=""):
-    """The mutant as a command of yosys."""
-    words = [
-        "mutate",
-        control,
-        f"-mode {mutant['mode']} -module {top} -cell {mutant['cell']}",
-        f"-port {mutant['port']} -portbit {mutant['bit']}",
-    ]
-    if "by_bit" in mutant:
-        words.append(f"-ctrlbit {mutant['by_bit']}")
-    return " ".join(word for word in words if word)
+def says(mutant):
+    """One line for a person."""
+    register = mutant["register"] if mutant["port"] not in ("D", "Q") else ""
+    wire = f"{mutant['wire']}[{mutant['wirebit']}]" if "wire" in mutant else ""
+    of = "".join([f" of {register}" if register else "", f", {wire}" if wire else ""])
+    by = f" ({mutant['ctrlbit']})" if "ctrlbit" in mutant else ""
+    return f"bit {mutant['portbit']} of {mutant['type']}.{mutant['port']}{of} {MODES[mutant['mode']]}{by}"
+
+
+def where(mutant):
+    """path:line of each place in the source, of yosys' rtl/x.sv:12.3-14.9 the first line."""
+    return sorted({re.sub(r"\.\d+-[\d.]+$", "", source) for source in mutant["sources"]})
+
+
+def command(mutant, top, width):
+    """The mutant as a command of yosys: chosen by `mutsel`, of so many bits."""
+    by = f" -ctrlbit {mutant['ctrlbit']}" if "ctrlbit" in mutant else ""
+    return (f"mutate -ctrl mutsel {width} {mutant['number']} -mode {mutant['mode']} -module {top} "
+            f"-cell {mutant['cell']} -port {mutant['port']} -portbit {mutant['portbit']}{by}")
 
 
 def wrapper(block, source, sources, width):
@@ -177,7 +167,7 @@ def chosen(parameter):
 
 
 def write(block, sources, parameters, count, seed, output, root, own=False):
-    """Writes output (.sv) and, beside it, BLOCK.il, what the mutants change, and mutants.json."""
+    """Writes output (.sv) and, beside it, mutants.json: their numbers, what they change and where."""
     folder = output.parent
     folder.mkdir(parents=True, exist_ok=True)
     # Sources keep the names that they have in the repository.
@@ -227,7 +217,7 @@ def write(block, sources, parameters, count, seed, output, root, own=False):
     run_yosys(
         [
             "read_rtlil block.il",
-            *(command(m, block, f"-ctrl mutsel {width} {m['number']}") for m in mutants),
+            *(command(m, block, width) for m in mutants),
             *(FLAT if own else []),
             # Verilator 5.006 loses changes of a word that is driven in parts, some by others of it.
             "opt_clean",
@@ -246,5 +236,5 @@ def write(block, sources, parameters, count, seed, output, root, own=False):
         output.write_text(
             text + netlist, encoding="utf-8"
         )  # else nothing needs to be compiled again
-    result = {"block": block, "seed": seed, "own": own, "database": database, "mutants": mutants}
-    (folder / "mutants.json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    found = [{"number": m["number"], "what": says(m), "where": where(m)} for m in mutants]
+    (folder / "mutants.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")

@@ -24,6 +24,7 @@ def blanked(text):
 def for_parser(text):
     """What tree-sitter does not know, in as many columns."""
     text = re.sub(r"= \{\}(?=[,)])", "= no", text)  # a default argument
+    text = re.sub(r"\bFELTGATE_INLINED(?= {)", " " * 16, text)
     text = re.sub(r"\bdecltype\((\w+)\)(?=\{)", r"decltype_\1_", text)
     return re.sub(
         r"(?<=::|->)template (?=\w)|(?<=\.)template (?=\w)|\btypename (?=\w)", " " * 9, text

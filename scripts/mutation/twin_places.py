@@ -5,49 +5,20 @@
 """
 
 from collections import Counter
-from dataclasses import dataclass
 
+from .runs import Mutant
 from .twin_parser import blanked
+from .twin_programs import HEADERS
 
 # Never looked into: what is there is known when the header is compiled, or is no code.
-CONSTANT = {
-    "template_argument_list",
-    "template_parameter_list",
-    "static_assert_declaration",
-    "enumerator_list",
-    "attribute_declaration",
-    "noexcept",
-    "bitfield_clause",
-    "array_declarator",
-    "alias_declaration",
-    "using_declaration",
-    "type_descriptor",
-    "decltype",
-    "sizeof_expression",
-    "preproc_include",
-    "preproc_def",
-    "preproc_function_def",
-    "preproc_call",
-    "type_definition",
-    "trailing_return_type",
-    "comment",
-    "string_literal",
-    "char_literal",
-    "friend_declaration",
-}
+CONSTANT = frozenset("""
+    template_argument_list template_parameter_list static_assert_declaration enumerator_list
+    attribute_declaration noexcept bitfield_clause array_declarator alias_declaration
+    using_declaration type_descriptor decltype sizeof_expression preproc_include preproc_def
+    preproc_function_def preproc_call type_definition trailing_return_type comment string_literal
+    char_literal friend_declaration
+""".split())
 SHOWN = 70
-
-
-@dataclass
-class Mutant:
-    """One change of a header."""
-
-    number: int
-    header: str
-    line: int
-    kind: str
-    name: str  # "function: was -> is", with " #2" for the second of the same
-    risky: bool = False  # may not compile, as a swap of arguments
 
 
 def shortened(text):
@@ -61,24 +32,26 @@ def shortened(text):
 class Places:
     """The mutants of one header; `first` is the number of the first one."""
 
-    def __init__(self, name, text, first, constant, dropped):
-        self.name, self.first, self.mutants = name, first, []
-        self.constant, self.dropped = set(constant), set(dropped)
-        self.names = Counter()
+    def __init__(self, name, text, first, dropped):
+        self.name, self.first, self.mutants, self.kinds = name, first, [], {}
+        self.dropped, self.names = set(dropped), Counter()
         self.text = blanked(text).encode()
 
     # Mutants and how they are asked for.
 
-    def new(self, node, kind, was, becomes, risky=False):
-        """The number of a new mutant, or None where it has been dropped."""
-        name = f"{self.function(node)}: {shortened(was)} -> {shortened(becomes)}"
-        self.names[name] += 1
-        if self.names[name] > 1:
-            name += f" #{self.names[name]}"
-        if name in self.dropped:
+    def new(self, node, kind, was, becomes):
+        """The number of a new mutant, or None where it has been dropped. It is called "function: was
+        -> is", with " #2" for the second of the same."""
+        what = f"{self.function(node)}: {shortened(was)} -> {shortened(becomes)}"
+        self.names[what] += 1
+        if self.names[what] > 1:
+            what += f" #{self.names[what]}"
+        if what in self.dropped:
             return None
         number = self.first + len(self.mutants)
-        self.mutants.append(Mutant(number, self.name, node.start_point[0] + 1, kind, name, risky))
+        where = f"{HEADERS}/{self.name}.hpp:{node.start_point[0] + 1}"
+        self.mutants.append(Mutant(number, what, [where]))
+        self.kinds[number] = kind
         return number
 
     @staticmethod
@@ -151,4 +124,4 @@ class Places:
                 c.type == "type_qualifier" and self.source(c) in ("constexpr", "consteval")
                 for c in node.children
             )
-        return node.type == "function_definition" and self.function(node) in self.constant
+        return False

@@ -62,8 +62,8 @@ def top_operator(node):
 class Header(Places):
     """A header with its mutants: `result` is its text."""
 
-    def __init__(self, name, text, first, language, constant=(), dropped=()):
-        super().__init__(name, text, first, constant, dropped)
+    def __init__(self, name, text, first, language, dropped=()):
+        super().__init__(name, text, first, dropped)
         self.result = self.emit(parsed(name, text, language))
 
     def emit(self, node):
@@ -101,7 +101,6 @@ class Header(Places):
                 "comparison" if operator in COMPARISONS else "arithmetic",
                 was,
                 f"{self.source(left)} {other} {self.source(right)}",
-                risky=True,
             )
             for other in others
         ]
@@ -158,8 +157,8 @@ class Header(Places):
         text = self.source(node)
         if re.search(r"[.pP]|(?<!x)[0-9][eE]", text) and not text.lower().startswith("0x"):
             return text
-        up = self.new(node, "constant", self.within(node), f"{text} + 1", risky=True)
-        down = self.new(node, "constant", self.within(node), f"{text} - 1", risky=True)
+        up = self.new(node, "constant", self.within(node), f"{text} + 1")
+        down = self.new(node, "constant", self.within(node), f"{text} - 1")
         return self.choice(up, f"({text} + 1)", self.choice(down, f"({text} - 1)", text))
 
     def truth(self, node):
@@ -177,9 +176,7 @@ class Header(Places):
         if operator == "-" and argument.type == "number_literal":
             return self.emit_number_literal(node)
         kind = "negation" if operator == "!" else "arithmetic"
-        number = self.new(
-            node, kind, self.source(node), self.source(argument), risky=operator != "!"
-        )
+        number = self.new(node, kind, self.source(node), self.source(argument))
         name = {"!": "invert", "-": "negate", "~": "complement"}[operator]
         return (
             f"::feltgate_mutant::{name}<{-1 if number is None else number}>({self.emit(argument)})"
@@ -258,7 +255,6 @@ class Header(Places):
             "arithmetic",
             self.source(node),
             f"{self.source(left)} {other} {self.source(right)}",
-            risky=True,
         )
         return self.choice(number, f"void({texts[0]} {other} {texts[1]})", f"void({plain})")
 

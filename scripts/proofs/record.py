@@ -5,7 +5,7 @@
   {"schema": "feltgate-proven/1", "tools": {...}, "inputs": {"ramp.steps lever": "16 hex digits"}}
 
 The digits are a hash of everything that decides base, induction and covers: the sources as the
-proof reads them, without comments and without constants that nothing names, its depths and cuts,
+proof reads them, without comments and without constants and functions that nothing names, its depths and cuts,
 and the scripts that run them. They do not depend on the programs: what one version has proven is
 proven. `tools` are those of the last entries.
 """
@@ -31,11 +31,18 @@ def name(proof, design):
 
 
 def without_unnamed(texts):
-    """The texts without the constants of packages that no other line names: those of an option,
-    say, that the proof does not read."""
+    """The texts without the constants and functions of packages that no other line names: those of
+    an option, say, that the proof does not read."""
     words = Counter(re.findall(r"\w+", " ".join(texts)))
-    constant = r" localparam [\w ]*?(\w+) = [^;]*;"
-    return [re.sub(constant, lambda c: c[0] if words[c[1]] > 1 else "", t) for t in texts]
+    constant = r" localparam [\w \[\]:-]*?(\w+) = [^;]*;"
+    function = r" function automatic [^;]*?(\w+) ?\([^;]*;.*?endfunction"
+
+    def named(found):
+        inside = re.findall(r"\w+", found[0]).count(found[1])
+        return found[0] if words[found[1]] > inside else ""
+
+    texts = [re.sub(function, named, t) for t in texts]
+    return [re.sub(constant, named, t) for t in texts]
 
 
 def digest(root, proof, design):
@@ -50,7 +57,8 @@ def digest(root, proof, design):
         texts = [" ".join(code_only(Path(folder, n).read_text(encoding="utf-8"))) for n in names]
         for source, text in zip(names, without_unnamed(texts)):
             found.update(f"\n{source}: {text}".encode())
-        found.update(Path(folder, "parameters.mem").read_bytes())
+        if any("$readmemh" in text for text in texts):
+            found.update(Path(folder, "parameters.mem").read_bytes())
     return found.hexdigest()[:16]
 
 

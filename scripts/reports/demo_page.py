@@ -12,37 +12,20 @@ import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from reports import axes_card, card, demo_tables, headline, page, recordings, run_pictures
-from reports import run_section, stability_section
+from reports import demo_tables, headline, observer_section, page, recordings, run_pictures
+from reports import run_section
 from reports.progress import clock_text
-from reports.runs import presets
-
 
 # What every reader has felt before.
 CARDS = ("membrane-lever", "spring_compression-lever", "wall-lever", "detent-lever_law")
 STEPS = "torque_step-lever"
 
 
-@dataclass
-class Drawn:
-    """What was drawn of a run; a process of its own does that."""
-
-    pictures: list
-    card: str = ""
-    strip: str = ""
-
-
 def draw(run):
-    """A run's pictures, and what else the page shows of it."""
-    name, summary = run.job.name, run.summary
+    """A run's pictures; a process of its own does that."""
     if run.of_axes:
-        return Drawn([], axes_card.html(f"card-{name}", summary, run.csv))
-    drawn = Drawn(run_pictures.pictures(name, summary, run.csv))
-    if name in CARDS or run.design in presets():
-        drawn.card = card.html(f"card-{name}", summary, run.csv)
-    if run.job.recording is not None and run_section.room(summary) != "line":
-        drawn.strip = run_pictures.strip(run.csv)
-    return drawn
+        return run_pictures.axes_pictures(run.job.name, run.csv)
+    return run_pictures.pictures(run.job.name, run.summary, run.csv)
 
 
 @dataclass
@@ -55,7 +38,6 @@ class Demo:
     drawn: dict = field(default_factory=dict)
     devices: list = field(default_factory=list)  # of several axes
     figures: list = field(default_factory=list)
-    stability: dict | None = None
     wrong: list = field(default_factory=list)
     unreadable: list = field(default_factory=list)
     where: Path = None
@@ -99,8 +81,6 @@ def contents(demo):
     links += [page.link("axes", "several axes")] if demo.devices else []
     links += [page.link("recordings", "recordings")]
     links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
-    if demo.stability:
-        links.append(page.link("stability", "walls"))
     links.append(page.link("runs", "each run"))
     return f"<p>{' · '.join(links)}</p>"
 
@@ -115,29 +95,24 @@ def headlines(demo):
     return headline.html(found)
 
 
+def title(run):
+    if run.job.recording is not None:
+        return run.job.recording.title
+    return f"{run_section.subject(run.summary)}, design {run.design}"
+
+
 def cards(demo):
-    found = [demo.drawn[name].card for name in CARDS if name in demo.drawn]
-    if not any(found):
-        return ""
+    there = [(demo.runs[name], demo.drawn[name]) for name in CARDS if name in demo.drawn]
     text = page.paragraph(
         "A hand moves the lever; the core reads its encoder and tells the motor how hard to push "
-        "back. The drawings move by the numbers of these runs: core, motor, lever and hand are "
-        "simulated, clock by clock."
+        "back. Core, motor, lever and hand are simulated, clock by clock."
     )
-    return page.section("felt", "What a hand feels", text + "".join(found))
-
-
-def devices(demo):
-    """A card for each device that is a law, beside the one that everybody has seen already."""
-    names = [n for n in demo.scenes + demo.devices if n not in CARDS and n in demo.drawn]
-    found = [demo.drawn[name].card for name in names]
-    if not any(found):
-        return ""
-    text = page.paragraph(
-        "Each is a file of a few lines, compiled for the engine beside the core and loaded by the "
-        "host: no HDL was written for any of them."
-    )
-    return page.section("devices", "Devices as files", text + "".join(found))
+    parts = [
+        f'<section id="{run.job.name}"><h3>{page.escape(title(run))}</h3>'
+        f"{run_section.inside(run.summary, drawn)}</section>"
+        for run, drawn in there
+    ]
+    return page.section("felt", "What a hand feels", text + "".join(parts)) if parts else ""
 
 
 def recordings_text(demo):
@@ -194,10 +169,6 @@ def tables(demo):
         f"{mismatches(replays)}",
         read,
     )
-    text += page.folded(
-        "errors", "Errors: velocity and torque of every run", demo_tables.all_errors(demo)
-    )
-    text += page.folded("speed", "Speed of every back-end in every run", demo_tables.speeds(demo))
     return text
 
 
@@ -208,20 +179,18 @@ def mismatches(there):
 
 def runs_section(demo):
     parts, lines = [], []
-    for name in demo.scenes + demo.replays:
+    for name in demo.shown:
         run = demo.runs[name]
-        if not run.ran:
+        if not run.ran or name in CARDS:
             continue
-        title = f"{run_section.subject(run.summary)}, design {run.design}"
-        if run.job.recording is not None:
-            title = run.job.recording.title
-        if run_section.room(run.summary) == "line":
-            lines.append((name, f"{title}: {run_section.in_a_line(run.summary)}"))
-            continue
-        text = run_section.inside(run.summary, demo.drawn[name].pictures)
-        parts.append(page.folded(name, title, text))
-    parts += [page.line(name, text) for name, text in lines]
-    return page.section("runs", "Each run", "\n".join(parts))
+        if run.of_axes:
+            text = page.bullets(run_section.axes_facts(run.summary)) + page.pictures(demo.drawn[name])
+            parts.append(page.folded(name, title(run), text))
+        elif run_section.room(run.summary) == "line":
+            lines.append(page.line(name, f"{title(run)}: {run_section.in_a_line(run.summary)}"))
+        else:
+            parts.append(page.folded(name, title(run), run_section.inside(run.summary, demo.drawn[name])))
+    return page.section("runs", "Each run", "\n".join(parts + lines))
 
 
 def document(demo):
@@ -240,7 +209,6 @@ def document(demo):
     if demo.wrong or not demo.so_far:
         body += page.verdict(demo.wrong, good)
     body += headlines(demo) + cards(demo)
-    body += devices(demo)
     body += page.section("tables", "All runs", tables(demo))
     if demo.figures:
         body += page.section(
@@ -253,8 +221,7 @@ def document(demo):
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)
-    if demo.stability:
-        body += stability_section.html(demo.stability)
+        body += observer_section.html(demo.runs)
     body += runs_section(demo)
     body += page.paragraph(
         f"feltgate {version}, {time.strftime('%Y-%m-%d %H:%M')}, {os.cpu_count()} cores "

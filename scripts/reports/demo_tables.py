@@ -8,11 +8,6 @@ Documentation: docs/figures.md
 from reports import page, recordings, run_section
 from reports.headline import FIXED
 
-SIGNALS = (
-    ("velocity, µrad/s", "velocity_rad_s"),
-    ("observed torque, µNm", "tau_hat_nm"),
-    ("commanded torque, µNm", "torque_nm"),
-)
 NOT_RUN = page.mark(False, "did not run")
 # The first columns of a run in closed loop, and of how far its torque is off.
 RUN = ("scene", "design", "device time, s", "mismatches", "expectations broken")
@@ -44,10 +39,6 @@ def ran(demo, names):
     return [demo.runs[name] for name in names if demo.runs[name].ran]
 
 
-def title(run):
-    return run.job.recording.title if run.job.recording else run.summary["scene"]
-
-
 def of_run(run, anchor):
     """The cells below RUN."""
     s = run.summary
@@ -75,7 +66,7 @@ def scenes(demo):
             [
                 *of_run(run, name),
                 *peaks(run.summary),
-                *errors(run.summary, "torque_nm", ("max_error_in_bounds", "bound")),
+                *errors(run.summary, "torque_nm", ("max_error", "bound")),
                 "–" if saturated is None else f"{saturated:,}",
             ]
         )
@@ -94,7 +85,7 @@ def axes(demo):
         for number, axis in enumerate(run.summary["axes"]):
             rows.append(
                 [
-                    *of_run(run, f"card-{name}"),
+                    *of_run(run, name),
                     str(number),
                     *(page.number(axis[f"{kind}_peak_nm"]) for kind in ("asked", "motor")),
                     *(micro(axis["law_nm"].get(kind)) for kind in ("max_error", "bound")),
@@ -124,7 +115,7 @@ def as_known(run):
 
 def replays(demo):
     head = [
-        *("recording", "position over time", "device time, s", "steps", "illegal", "reversals"),
+        *("recording", "device time, s", "steps", "illegal", "reversals"),
         *("as known", "mismatches", "largest error of the velocity, µrad/s", "its bound"),
     ]
     rows = []
@@ -134,45 +125,14 @@ def replays(demo):
             rows.append([run.job.recording.title, page.mark(False, "not read")])
             continue
         s, p = run.summary, run.summary["position"]
-        drawn = demo.drawn.get(name)
         rows.append(
             [
                 page.link(name, run.job.recording.title),
-                page.Cell(drawn.strip if drawn else ""),
                 page.number(s["simulated_s"]),
                 *(f"{p[key]:,}" for key in ("steps", "illegal", "reversals")),
                 as_known(run),
                 page.good_or_bad(run.mismatches),
-                *errors(s, "velocity_rad_s", ("max_error_in_bounds", "bound")),
+                *errors(s, "velocity_rad_s", ("max_error", "bound")),
             ]
         )
     return page.table(head, rows, words=(0,))
-
-
-def all_errors(demo):
-    """Every run's errors against the reference."""
-    head = ["run", "design"]
-    for words, _ in SIGNALS:
-        head += [f"{words}, largest", "rms", "bound"]
-    rows = [
-        [title(run), run.design, *(e for _, key in SIGNALS for e in errors(run.summary, key))]
-        for run in ran(demo, demo.scenes + demo.replays)
-    ]
-    return page.table(head, rows, words=(0,))
-
-
-def speeds(demo):
-    """Simulated seconds per second of every run and back-end."""
-    there = ran(demo, demo.scenes + demo.replays)
-    engines = [
-        name
-        for name in run_section.ENGINES
-        if any(name in run.summary["engines"] for run in there)
-    ]
-    rows = [
-        [title(run), run.design]
-        + [page.number(run.summary["engines"].get(name, {}).get("speed")) for name in engines]
-        for run in there
-    ]
-    names = [run_section.ENGINE_NAMES.get(name, name) for name in engines]
-    return page.table(["run", "design", *(f"{name}, s/s" for name in names)], rows, words=(0,))

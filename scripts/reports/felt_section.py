@@ -40,6 +40,13 @@ def lines(summary):
             f"energy: the hand gave {joule(energy['taken_from_hand_j'])} and got "
             f"{joule(energy['given_to_hand_j'])} back"
         )
+    outside = felt.get("errors", {}).get("torque_nm", {})
+    if outside.get("ticks_outside"):
+        told.append(
+            f"no bound holds in {outside['ticks_outside']:,} ticks of a ramp or saturation and after it: the "
+            f"commanded torque was off by up to {page.number(1e6 * outside['max_error_outside'])} µNm there; no "
+            "other error has these ticks in it"
+        )
     told += acted(felt.get("limits", {}), "limit")
     told += acted(felt.get("faults", {}), "fault")
     return told + summary.get("speed_jumps", [])
@@ -71,7 +78,7 @@ def broken_bounds(summary):
     if "expectations" in summary:
         return []
     return [
-        f"{signal} is off by {e['max_error_in_bounds']:.3g}, above its proven bound "
+        f"{signal} is off by {e['max_error']:.3g}, above its proven bound "
         f"{e['bound']:.3g}"
         for signal, e in summary.get("felt", {}).get("errors", {}).items()
         if not e["holds"]

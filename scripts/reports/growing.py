@@ -14,7 +14,7 @@ from reports import demo_page
 
 class Growing:
     """Thread-safe. `pool` is a started ProcessPoolExecutor, `shown` the names of runs with a place
-    on the page, `page_of(ended, drawn)` its text from {name: Run} and {name: Drawn}."""
+    on the page, `page_of(ended, drawn)` its text from {name: Run} and {name: pictures}."""
 
     EVERY_S = 5  # a page has megabytes
 
@@ -42,7 +42,7 @@ class Growing:
                 return
             ready = {n: d for n, d in self.drawings.items() if d.done() and not d.cancelled()}
             drawn = {n: d.result() for n, d in ready.items() if d.exception() is None}
-            if not any(one.card for one in drawn.values()):
+            if not any(drawn.values()):
                 return
             if self.written is None:
                 print(f"demo: the first of the report: {self.path}", file=sys.stderr, flush=True)
@@ -53,7 +53,7 @@ class Growing:
                 self.error = error
 
     def result(self):
-        """{name: Drawn} of all, once they are drawn; the page is not written any more. OSError
+        """{name: pictures} of all, once they are drawn; the page is not written any more. OSError
         where it could not be written."""
         found = {name: drawing.result() for name, drawing in self.drawings.items()}
         with self.lock:

@@ -6,8 +6,6 @@ import json
 from html import escape
 from pathlib import Path
 
-from reports import glossary
-
 HERE = Path(__file__).resolve().parent
 
 # Folded parts open themselves: for print, and when a link leads into them.
@@ -22,16 +20,13 @@ addEventListener('hashchange',follow);addEventListener('load',follow);
 
 
 def document(title, body):
-    """The whole file. What only some pages need comes with those that have it."""
+    """The whole file."""
     style = (HERE / "page.css").read_text(encoding="utf-8")
-    script = SCRIPT
-    if 'class="moving"' in body:
-        script += (HERE / "lever.js").read_text(encoding="utf-8")
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
         f"<title>{escape(title)}</title><style>{style}</style></head>\n<body>\n{body}\n"
-        f"{glossary.section(body)}<script>{script}</script></body></html>\n"
+        f"<script>{SCRIPT}</script></body></html>\n"
     )
 
 
@@ -42,11 +37,11 @@ def embedded(value):
 
 
 def paragraph(text, soft=False):
-    return f'<p{" class=soft" if soft else ""}>{glossary.marked(text)}</p>'
+    return f'<p{" class=soft" if soft else ""}>{escape(text)}</p>'
 
 
-def bullets(texts, mark=glossary.marked):
-    items = "".join(f"<li>{mark(text)}</li>" for text in texts)
+def bullets(texts):
+    items = "".join(f"<li>{escape(text)}</li>" for text in texts)
     return f"<ul>{items}</ul>" if texts else ""
 
 
@@ -74,16 +69,13 @@ def link(target, text):
 
 
 def table(head, rows, words=()):
-    """`words` are the columns (numbers) that hold text and may wrap. Empty rows: nothing.
-
-    Terms in the head tell their meaning.
-    """
+    """`words` are the columns (numbers) that hold text and may wrap. Empty rows: nothing."""
     if not rows:
         return ""
 
     def cells(row, tag):
         for i, value in enumerate(row):
-            text = glossary.marked if tag == "th" else breakable if i in words else escape
+            text = breakable if tag == "td" and i in words else escape
             inner = value if isinstance(value, Cell) else text(str(value))
             yield f"<{tag}{' class=words' if i in words else ''}>{inner}</{tag}>"
 
@@ -98,7 +90,7 @@ def verdict(faults, good_text):
     if not faults:
         return f'<div class="verdict good">{escape(good_text)}</div>'
     head = "1 thing is wrong" if len(faults) == 1 else f"{len(faults)} things are wrong"
-    return f'<div class="verdict bad">{head}{bullets(faults, escape)}</div>'
+    return f'<div class="verdict bad">{head}{bullets(faults)}</div>'
 
 
 def pictures(drawn):

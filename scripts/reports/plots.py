@@ -94,12 +94,21 @@ class Picture:
         return [f"{self.name}.svg", f"{self.name}.png"]
 
 
+def figure(size, title=""):
+    """An empty figure of this size in inches."""
+    made = Figure(figsize=size, layout="constrained")
+    FigureCanvasAgg(made)
+    made.get_layout_engine().set(h_pad=0.04, w_pad=0.04)
+    if title:
+        made.suptitle(title, fontsize=10, fontweight="bold", x=0.01, ha="left")
+    return made
+
+
 def stacked(title, heights, apart=0, width=5.4):
     """A figure and its axes one below the other; `heights` in inches. All share the x axis but the
     last `apart`."""
-    figure = Figure(figsize=(width, sum(heights) + 0.45), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots(len(heights), 1, squeeze=False, gridspec_kw={"height_ratios": heights})[
+    made = figure((width, sum(heights) + 0.45), title)
+    axes = made.subplots(len(heights), 1, squeeze=False, gridspec_kw={"height_ratios": heights})[
         :, 0
     ]
     shared = axes[: len(heights) - apart]
@@ -107,10 +116,7 @@ def stacked(title, heights, apart=0, width=5.4):
         axis.sharex(shared[0])
     for axis in shared[:-1]:
         axis.tick_params(labelbottom=False)
-    figure.get_layout_engine().set(h_pad=0.04, w_pad=0.04)
-    if title:
-        figure.suptitle(title, fontsize=10, fontweight="bold", x=0.01, ha="left")
-    return figure, list(axes)
+    return made, list(axes)
 
 
 def finish(figure, name, caption="", png=False):

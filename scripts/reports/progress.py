@@ -94,13 +94,12 @@ class Steps(RedrawnLine):
 class Progress(RedrawnLine):
     """Thread-safe. Work is counted in device seconds; jobs under way count by the rate so far."""
 
-    def __init__(self, jobs, stream=None, width=None, beside=None):
+    def __init__(self, jobs, stream=None, beside=None):
         """`beside()` is the text of other work that goes on, or ""."""
         super().__init__(stream)
         self.beside = beside or (lambda: "")
         self.total_s = sum(job.seconds for job in jobs)
         self.count = len(jobs)
-        self.width = width
         self.done_s = self.spent_s = 0.0
         self.finished = 0
         self.running = {}
@@ -123,25 +122,21 @@ class Progress(RedrawnLine):
                 )
                 self.stream.flush()
 
-    def _rate(self):
-        """Device seconds per second of one core; 0 while nothing has finished."""
-        return self.done_s / self.spent_s if self.spent_s > 0 else 0.0
-
-    def _under_way(self):
-        now, rate = time.monotonic(), self._rate()
-        return sum(min(0.95 * j.seconds, rate * (now - at)) for j, at in self.running.values())
-
     def left(self):
         """The time that the jobs will still take, as text."""
         with self.lock:
             return self._left()
 
+    def _done(self):
+        """Device seconds that are done, those of jobs under way by the rate so far."""
+        now, rate = time.monotonic(), self.done_s / self.spent_s if self.spent_s > 0 else 0.0
+        return self.done_s + sum(min(0.95 * j.seconds, rate * (now - at)) for j, at in self.running.values())
+
     def _left(self):
-        elapsed = time.monotonic() - self.began
-        done = self.done_s + self._under_way()
+        done = self._done()
         if done <= 0 or self.finished == 0:
             return "?"
-        return clock_text(elapsed * (self.total_s - done) / done)
+        return clock_text((time.monotonic() - self.began) * (self.total_s - done) / done)
 
     def _beside(self):
         text = self.beside()
@@ -149,19 +144,11 @@ class Progress(RedrawnLine):
 
     def line(self):
         with self.lock:
-            elapsed = time.monotonic() - self.began
-            done = self.done_s + self._under_way()
-            share = min(1.0, done / self.total_s) if self.total_s else 1.0
-            names = ", ".join(self.running) + self._beside()
-            text = (
-                f" {100 * share:3.0f} %  {self.finished}/{self.count}  "
-                f"{done / max(elapsed, 1e-9):.2f} s/s  {clock_text(elapsed)}, "
-                f"{self._left()} left  {names}"
-            )
-        columns = self.width or shutil.get_terminal_size().columns
-        bar = max(8, min(30, columns - 60))
-        full = int(share * bar)
-        return f"[{'#' * full}{'.' * (bar - full)}]{text}"[: columns - 1]
+            share = min(1.0, self._done() / self.total_s) if self.total_s else 1.0
+            elapsed = clock_text(time.monotonic() - self.began)
+            text = (f"{100 * share:3.0f} %  {self.finished}/{self.count}  {elapsed}, {self._left()} left  "
+                    f"{', '.join(self.running)}{self._beside()}")
+        return text[: shutil.get_terminal_size().columns - 1]
 
 
 def describe(run):

@@ -2,6 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Pictures of one run, for report.py and demo.py. Documentation: docs/figures.md"""
 
+import re
+
 import numpy as np
 
 from reports import plots
@@ -152,17 +154,45 @@ def loop_picture(name, csv):
     return plots.finish(figure, f"{name}-loop")
 
 
-def strip(csv, width=180, height=26):
-    """Position over time in one line of a table, as SVG."""
-    x, y = plots.thinned(csv["time_s"], csv["position_rad"], 90)
-    low, high = float(y.min()), float(y.max())
-    x = width * (x - x[0]) / max(x[-1] - x[0], 1e-9)
-    y = 1 + (height - 2) * (high - y) / max(high - low, 1e-9)
-    path = "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(x, y, strict=True))
-    return (
-        f'<svg class="strip" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
-        f'aria-hidden="true"><path class="angle" d="M{path}"/></svg>'
-    )
+AXES = ("motor", "quad", "paper")  # the colours of joints
+
+
+def joints_picture(name, csv):
+    """Angles and motors of a device of several axes over time."""
+    time, label = time_axis(csv["time_s"])
+    figure, (angle, torque) = plots.stacked("Joints and motors", [1.5, 1.5])
+    numbers = [column.rpartition(".")[2] for column in csv if column.startswith("theta_rad.")]
+    for number, kind in zip(numbers, AXES):
+        look = {"linewidth": 1.1, "linestyle": "-"}
+        plots.draw(angle, time, csv[f"theta_rad.{number}"], kind, f"axis {number}", **look)
+        plots.draw(torque, time, csv[f"motor_torque_nm.{number}"], kind, "", **look)
+    angle.set_ylabel("angle, rad")
+    torque.set(ylabel="torque, Nm", xlabel=label)
+    plots.legend(angle)
+    return plots.finish(figure, f"{name}-joints")
+
+
+def pen_picture(name, csv):
+    """The way of a pen in the two directions in which it moved most, and the force that the hand feels."""
+    x, y = sorted(sorted("xyz", key=lambda a: -np.ptp(csv.get(f"pen_{a}_m", np.zeros(1))))[:2])
+    figure, (axes,) = plots.stacked("Way of the pen, force on it", [2.9])
+    way = [1e3 * csv[f"pen_{a}_m"] for a in (x, y)]
+    axes.plot(*way, color=plots.COLOURS["ideal"], linewidth=1.2)
+    rows = np.unique(np.linspace(0, len(way[0]) - 1, 60).round().astype(int))
+    force = [-csv[f"hand_{a}_n"][rows] for a in (x, y)]
+    most = max(float(np.hypot(*force).max()), 1e-9)
+    arrows = axes.quiver(*(w[rows] for w in way), *force, angles="xy", color=plots.COLOURS["motor"],
+                         scale=8 * most, width=0.003)
+    axes.quiverkey(arrows, 0.9, 1.05, most, f"{most:.2g} N", labelpos="W")
+    axes.set(xlabel=f"{x}, mm", ylabel=f"{y}, mm")
+    axes.axis("equal")
+    return plots.finish(figure, f"{name}-pen")
+
+
+def axes_pictures(name, csv):
+    """Of a run of several axes."""
+    moved = "pen_x_m" in csv and sorted(np.ptp(csv[c]) for c in csv if re.fullmatch("pen_._m", c))[-2] > 1e-3
+    return [joints_picture(name, csv)] + ([pen_picture(name, csv)] if moved else [])
 
 
 def pictures(name, summary, csv):

@@ -134,3 +134,15 @@ def inside(summary, drawn):
     parts.append(page.fold("What the scene expects", felt_section.table(summary)))
     parts.append(page.fold("Errors and speed of each back-end", engine_table(summary)))
     return "\n".join(parts)
+
+
+def axes_facts(summary):
+    """What was held in a run of several axes, as a list of lines."""
+    worst = max(summary["axes"], key=lambda a: a["law_nm"]["max_error"])["law_nm"]
+    bound = worst.get("bound")
+    proven = f", proven bound {page.number(1e6 * bound)}" if bound else ""
+    return [
+        f"{summary['clocks']:,} clocks of {len(summary['axes'])} axes, {summary['mismatches']:,} mismatches",
+        f"the engine's torque is off by at most {page.number(1e6 * worst['max_error'])} µNm{proven}",
+        f"{summary['expectations']['checked']} expectations",
+    ]

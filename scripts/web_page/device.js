@@ -7,6 +7,14 @@ const VIEW = "-40 -72 580 472"; // of the picture, around CENTRE
 const SHOW_S = 4; // of a press that shows how
 const KEPT = 20000; // samples of the curves: 4 s at 5 kHz
 
+/** What can be broken, by its number in the core: what is to be expected, and how a hand shows it. */
+const BROKEN = {
+  1: { quick: true, expect: "The count stands still, so the ball goes through the object without a force. In quick motion, from about 3 rad/s on, the core notices and switches off: fault channel." },
+  2: { lets_go: -0.9, expect: "The count runs backwards, so the motor pushes the ball on where it should push it back. Let go of it there, and it runs away; the core switches off: fault polarity." },
+  3: { lets_go: 0.9, expect: "The motor pushes the ball on where it should push it back. Let go of it there, and it runs away; the core switches off: fault polarity." },
+  4: { expect: "The motor gives a third of the force that is asked, or less: the ball sinks in deeper. The core does not measure its supply, so there is no fault." },
+};
+
 class Device {
   constructor(core, design, own, plant, place) {
     this.core = core;
@@ -70,12 +78,18 @@ class Device {
     this.svg.classList.toggle("held", held);
   }
 
-  /** Nobody's hand, which shows how: it presses for a while and lets go. */
+  /** Nobody's hand, which shows how: it presses for a while and lets go; or what is broken, in its way. */
   show(seconds) {
-    if (!this.held) this.loop.hold(1);
-    this.held = true;
     const part = seconds % SHOW_S, way = (from, to) => { const x = Math.max(0, Math.min(1, (part - from) / (to - from))); return x * x * (3 - 2 * x); };
-    this.aim(this.scene === "wall" ? 0.05 + 0.95 * (way(0, 1) - way(2.4, 3.4)) : 0.9 * Math.sin((2 * Math.PI * seconds) / SHOW_S));
+    const broken = BROKEN[$("break").value];
+    const grip = broken && broken.lets_go && part > 0.75 ? 0 : broken && broken.quick ? 3 : 1;
+    if (grip !== this.grip || !grip === !!this.held) this.loop.hold(grip);
+    this.grip = grip;
+    this.held = grip > 0;
+    if (!grip) return;
+    if (broken && broken.quick) this.aim(seconds % 0.8 < 0.4 ? 0.8 : 0);
+    else if (broken && broken.lets_go) this.aim(broken.lets_go * way(0, 1));
+    else this.aim(this.scene === "wall" ? 0.05 + 0.95 * (way(0, 1) - way(2.4, 3.4)) : 0.9 * Math.sin((2 * Math.PI * seconds) / SHOW_S));
   }
 
   /** Forgets its faults now, and arms with the next frame: the core is to see the request low first. */

@@ -54,18 +54,17 @@ class LawEditor {
     this.changed(text);
   }
 
-  /** The first error under its line, at its column. */
+  /** The first error in words below the text, and a line under its place, which covers nothing. */
   point() {
-    const box = $("law-error"), first = (this.errors || [])[0];
-    box.hidden = !first;
+    const mark = $("law-mark"), first = (this.errors || [])[0];
+    $("law-error").hidden = mark.hidden = !first;
     if (!first) return;
+    $("law-error").textContent = `${first.line}:${first.column}: ${first.what}${first.mend ? `; ${first.mend}` : ""}`;
     const style = getComputedStyle(this.text), line = parseFloat(style.lineHeight), inset = parseFloat(style.paddingTop);
-    box.style.top = `${inset + first.line * line - this.text.scrollTop}px`;
-    const mark = Object.assign(document.createElement("i"), { textContent: "^" });
-    mark.style.marginLeft = `calc(${inset - this.text.scrollLeft}px + ${first.column - 1}ch)`;
-    const said = document.createElement("span");
-    said.textContent = `${first.line}:${first.column}: ${first.what}${first.mend ? `; ${first.mend}` : ""}`;
-    box.replaceChildren(mark, said);
+    const word = (this.text.value.split("\n")[first.line - 1] || "").slice(first.column - 1).match(/^[A-Za-z0-9_]+/);
+    mark.style.top = `${inset + first.line * line - this.text.scrollTop - 2}px`;
+    mark.style.left = `calc(${inset - this.text.scrollLeft}px + ${first.column - 1}ch)`;
+    mark.style.width = `${word ? word[0].length : 1}ch`;
   }
 }
 

@@ -76,6 +76,7 @@ function select_scene(scene) {
   const other_design = !page.devices.length || (page.scene === "law") !== (scene === "law");
   page.scene = scene;
   $("law").hidden = scene !== "law";
+  $("lever").classList.toggle("writes", scene === "law"); // stage and editor side by side
   if (other_design) place_devices();
   build_sliders();
   devices((d) => { apply_values(d); say(d.select(scene)); });
@@ -181,7 +182,7 @@ function build_controls() {
   $("second").prepend(option("", "none"));
   $("second").value = "";
   for (const id of ["first", "second", "plant"]) $(id).oninput = () => { place_devices(); ask_verdict(); };
-  $("break").oninput = () => devices((d) => d.loop.breakIt(Number($("break").value)));
+  $("break").oninput = break_it;
   $("grip").oninput = () => { page.grip = Number($("grip").value); devices((d) => d.held && d.take(true)); };
   $("arm").onclick = () => devices((d) => d.loop.arm(true));
   $("clear").onclick = () => devices((d) => d.loop.clearFaults());
@@ -279,8 +280,28 @@ function recover() {
   $("stop").setAttribute("aria-pressed", false);
   if ($("break").value !== "0") {
     $("break").value = "0";
+    say_broken();
     place_devices();
   } else devices((d) => d.recover());
+}
+
+/** Breaks what is chosen, says what is to be expected, and shows it by a hand where nobody holds the lever. */
+function break_it() {
+  const what = Number($("break").value), free = page.shows || !page.devices.some((d) => d.held);
+  devices((d) => d.loop.breakIt(what));
+  if (what && free && page.may_show) {
+    page.shows = true;
+    page.shown_s = 0;
+  }
+  say_broken();
+}
+
+/** What is to be expected of what is broken, and what there is. */
+function say_broken() {
+  const broken = BROKEN[$("break").value], first = page.devices[0], now = first && first.now;
+  if (!broken) return ($("expect").textContent = "");
+  const found = first.status && first.status.faults ? `Now: fault ${first.status.faults}.` : `Now: asked ${fixed(now.tau_ref / RADIUS_M, 1)} N, the motor gives ${fixed(now.torque / RADIUS_M, 1)} N.`;
+  $("expect").textContent = `${broken.expect} ${found}`;
 }
 
 /** The others stand still; a tab's device is made when it is first opened. */
@@ -333,7 +354,10 @@ function frame(time) {
   if (page.frames.length === 1) page.first_frame_ms = performance.now();
   if (++page.count % 15) return;
   $("speed").textContent = `${fixed(page.speed, 1)}× real time`;
-  if (page.tab === "lever") page.inside.show();
+  if (page.tab === "lever") {
+    page.inside.show();
+    say_broken();
+  }
   page.address.write();
 }
 
@@ -355,7 +379,7 @@ function lever_frame(passed) {
   Object.assign(page, await load_core());
   $("version").textContent = page.numbers.version;
   page.law = page.numbers.laws.detent;
-  page.shows = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  page.shows = page.may_show = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   page.address = new Address();
   build_controls();
   page.address.restore_lever();

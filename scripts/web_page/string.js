@@ -4,7 +4,7 @@
 const PERIOD_S = 1 / 196, WAVE_Z = 0.35, BRIDGE_R = 20, DROP = 0.5, REACH_M = 0.1; // of the law
 const BOWING = { width: 560, height: 420, x: 380, nut: 34, bridge: 354, lever: [130, 398], arm: 100, wide: 15 };
 const HEARD_S = 0.06, DRAWN_S = 0.025; // of what is heard: kept, drawn
-const JUDGED_S = 0.25; // as in docs/devices/bowed_string.md: every slip within 5 % of a period
+const JUDGED_S = 0.25; // as in docs/devices/strings-and-drums.md: every slip within 5 % of a period
 const SLOW_HZ = 0.4; // periods of the drawn string a second
 const LOUDEST = 2.5; // m/s that are full scale, as in scripts/bowed_string_sound.py
 const QUEUE_S = 0.05, QUEUE_MOST_S = 0.12; // of sound that waits to be played

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Pins of an encoder that a test turns count by count. Documentation: docs/blocks/quad_decoder.md
+// Pins of an encoder that a test turns count by count. Documentation: docs/blocks/encoder.md
 #pragma once
 
 #include "feltgate/encoder_source.hpp"

@@ -2,13 +2,29 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's register port behind a bus: only the twin of the registers, with ticks; the rest of
-// the core is absent. Documentation: docs/blocks/registers.md
+// the core is absent. Documentation: docs/architecture.md
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/registers.hpp"
 
 namespace feltgate::test {
+
+/// What a parameter keeps of a written word: the nearest that its format has.
+template <class D = Lever>
+std::uint32_t word_kept(int address, std::uint32_t word) {
+  for (const auto& p : D::parameters) {
+    if (p.address != address || p.format.width() - p.format.sign >= 31) continue;  // any word
+    const double size = std::ldexp(1.0, p.format.width()), value = static_cast<std::int32_t>(word);
+    const double least = p.format.sign != 0 ? -size / 2 : 0;
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::clamp(value, least, least + size - 1)));
+  }
+  return word;
+}
 
 class PortCore {
  public:

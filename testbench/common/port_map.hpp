@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Which words of the core's port a bus can write and read. Documentation: docs/blocks/registers.md
+// Which words of the core's port a bus can write and read. Documentation: docs/architecture.md
 #pragma once
 
 #include "feltgate/generated/map.hpp"

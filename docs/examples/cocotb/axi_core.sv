@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The core behind its AXI4-Lite slave. Documentation: docs/neighbours.md
+// The core behind its AXI4-Lite slave. Documentation: docs/other-tools.md
 `default_nettype none
 
 module axi_core (
@@ -56,10 +56,11 @@ module axi_core (
     .enc_a_i(enc_a_i), .enc_b_i(enc_b_i), .enc_z_i(enc_z_i),
     .gate_a_hi_o(gates_o[0]), .gate_a_lo_o(gates_o[1]), .gate_b_hi_o(gates_o[2]), .gate_b_lo_o(gates_o[3]),
     // For a design without their options; one that has them needs these pins as ports of this module.
+    .gate_c_hi_o(), .gate_c_lo_o(), .hall_i(3'b000),
     .encoder_data_i(1'b0), .encoder_select_no(), .encoder_clock_o(), .encoder_command_o(),
     .current_data_i(1'b0), .current_clock_o(), .current_o(), .driver_fault_i(1'b0), .heartbeat_o(),
     .arm_i(1'b0), .stop_i(stop_i), .set_zero_i(1'b0), .scene_i(4'd0),
-    .law_torque_i('0), .law_late_i(1'b0), .law_restart_i(1'b0),
+    .law_torque_i({feltgate_pkg::TORQUE_W{1'b0}}), .law_late_i(1'b0), .law_restart_i(1'b0),
     .axis_fault_i(1'b0), .axis_silent_i(1'b0), .axis_blocked_i(1'b0), .axis_testing_i(1'b0), .axis_waits_i(1'b0),
     .arm_request_o(), .ready_o(), .testing_o(), .measured_o(), .zeroed_o(),
     .reg_addr_i(reg_addr), .reg_wdata_i(reg_wdata), .reg_write_i(reg_write),

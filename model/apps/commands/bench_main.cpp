@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate bench, a program of its own because it links SystemC. Documentation: docs/bench.md
+// feltgate bench, a program of its own, built only when asked for. Documentation:
+// docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +62,6 @@ int run(const Arguments& a) {
   works.push_back(bench::slow_small_signals("lever", a.quick ? 0.05 : 0.3));
 
   bench::Options options;
-  options.laws = repository() + "/rtl/laws";
   options.repetitions = a.repetitions > 0 ? a.repetitions : a.quick ? 1 : 3;
   Progress progress("bench", a.quiet);
   options.progress = [&progress](double done) { progress.update(done); };
@@ -90,8 +90,6 @@ int main(int argc, char** argv) {
       "  twin_event  the same from event to event\n"
       "  twin_tick   the twin's arithmetic alone, a tick at a time\n"
       "  double, float, quad   the same laws in binary64, binary32 and binary128\n"
-      "  sc_fixed    the same laws in SystemC's fixed point\n"
-      "  shifts      the same chain written by hand in 64-bit integers\n"
       "Examples:\n"
       "  feltgate bench                        a few minutes\n"
       "  feltgate bench --quick                half a minute; rougher\n"
@@ -112,7 +110,7 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   old_spelling(&app, "--scenes", a.scenes, CLI::Validator())->delimiter(',');
   app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
-      ->check(checks::whole(1, 1000));
+      ->transform(checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");
   app.add_flag("--quiet", a.quiet, "print nothing");
   int exit_code = exit_ok;

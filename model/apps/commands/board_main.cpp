@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate board: a board without hardware. Documentation: docs/board.md
+// feltgate board: a board without hardware. Documentation: docs/host.md
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -64,6 +64,7 @@ std::unique_ptr<Board> make_board(Setup& setup, const std::string& kind) {
   BoardOptions options;
   options.baud = setup.baud;
   auto core = make_core(setup.design, kind, options);
+  check_design(core->design());
   if (setup.hand.empty()) setup.hand = default_hand(setup.design, core->axes());
   if (core->axes() > 1) {
     if (!setup.plant.empty()) {
@@ -204,7 +205,7 @@ int main(int argc, char** argv) {
   app.add_option("--baud", a.setup.baud, "bits per second on the wire")
       ->capture_default_str()
       ->type_name("BAUD")
-      ->check(checks::whole(9600, 3'000'000));
+      ->transform(checks::whole(9600, 3'000'000));
   app.add_option("--bad-line", a.setup.bad_line,
                  "share of bytes that the line loses, doubles or turns a bit of, each way")
       ->type_name("SHARE")

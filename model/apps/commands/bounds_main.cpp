@@ -3,7 +3,7 @@
 //
 // feltgate_point_bounds ROOT FILE.toml VELOCITY: the proven bounds of a design, coarse or not,
 // against the exact one, up to a raw velocity of so many rad/s, as JSON. Documentation:
-// docs/explore.md
+// docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "law/amount.hpp"
 
@@ -26,6 +27,14 @@ bool parse(const std::string& text, Number* value) {
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const auto [stopped, error] = std::from_chars(begin, end, *value);
   return error == std::errc() && stopped == end && begin != end;
+}
+
+/// Writes 1e6 as 1000000; leaves what is no whole number as it is.
+void write_out(std::string& text) {
+  double value = 0;
+  constexpr double exact = 9007199254740992;  // 2^53
+  if (!parse(text, &value) || std::trunc(value) != value || std::abs(value) > exact) return;
+  text = fmt::format("{}", static_cast<std::int64_t>(value));
 }
 
 bool has_unit(const std::string& text) {
@@ -50,6 +59,7 @@ CLI::Validator accepts(const std::string& kind, const std::string& range,
         return std::string(error.what());
       }
     }
+    if constexpr (std::is_same_v<Number, std::int64_t>) write_out(text);
     Number value{};
     if (parse(text, &value) && good(value)) return std::string();
     return fmt::format("{} is not a {} {}", given, kind, range);
@@ -75,9 +85,10 @@ CLI::Validator positive(double max, const std::string& unit) {
       [max](double v) { return v > 0 && v <= max; }, unit);
 }
 
-CLI::Validator whole(std::int64_t min, std::int64_t max) {
-  return accepts<std::int64_t>("whole number", fmt::format("from {} to {}", min, max),
-                               [min, max](std::int64_t v) { return v >= min && v <= max; });
+CLI::Validator whole(std::int64_t min, std::int64_t max, const std::string& unit) {
+  return accepts<std::int64_t>(
+      "whole number", with_unit(fmt::format("from {} to {}", min, max), unit),
+      [min, max](std::int64_t v) { return v >= min && v <= max; }, unit);
 }
 
 CLI::Validator seed() {

@@ -17,8 +17,8 @@ namespace feltgate::checks {
 CLI::Validator number(double min, double max, const std::string& unit);
 /// A finite number above 0, at most max.
 CLI::Validator positive(double max, const std::string& unit);
-/// A whole number from min to max.
-CLI::Validator whole(std::int64_t min, std::int64_t max);
+/// A whole number from min to max, also written as 1e6. Attach it by transform().
+CLI::Validator whole(std::int64_t min, std::int64_t max, const std::string& unit = "");
 /// A seed: a whole number from 0 to 2^64 - 1.
 CLI::Validator seed();
 /// A path that is no folder; whether there is a file is not looked at.

@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "design/design.hpp"
+#include "design/generate.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/program.hpp"
 #include "sim/backends/axes_cores.hpp"
@@ -138,6 +139,16 @@ std::string find_law(const std::string& name) {
 design::Elaborated elaborated_design(const std::string& name) {
   return design::elaborate(design::read_design(find_file(name, "rtl/designs")),
                            design::read_registers(repository() + "/rtl/registers.toml"));
+}
+
+void check_design_files() {
+  check_designs([](const DesignInfo& design) {
+    const fs::path file = fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
+    if (!fs::exists(file)) return;
+    design::require_current(
+        elaborated_design(design.name), design.file_sum,
+        "run ./feltgate generate, then this command by way of ./feltgate, which builds it anew");
+  });
 }
 
 std::string built_design(const std::string& given) {

@@ -30,8 +30,6 @@ int scene_stability(const std::string& scene, const std::string& json, bool bits
 void add_rates(CLI::App& app, int* exit_code);
 void add_controllers(CLI::App& app, int* exit_code);
 void add_trim(CLI::App& app, int* exit_code);
-void add_budget(CLI::App& app, int* exit_code);
-void add_claims(CLI::App& app, int* exit_code);
 void add_law(CLI::App& app, int* exit_code);
 void add_shape(CLI::App& app, int* exit_code);
 void add_texture(CLI::App& app, int* exit_code);
@@ -63,6 +61,10 @@ int draw_from_json(const std::string& name, const std::string& json, const std::
 
 /// The design point of this name, elaborated against the register map.
 design::Elaborated elaborated_design(const std::string& name);
+
+/// Compares each design that this program uses with its file in rtl/designs, as check_designs()
+/// has it; one whose file is not there is left alone.
+void check_design_files();
 
 /// Help of a --design that is empty where the scene decides.
 inline constexpr const char* design_help =

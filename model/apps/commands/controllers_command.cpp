@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate controllers. Documentation: docs/controllers.md
+// feltgate controllers. Documentation: docs/speed-for-accuracy.md
 #include <memory>
 
 #include "apps/commands/commands.hpp"
 #include "files/output_file.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/controllers/controllers.hpp"
-#include "studies/controllers/current_loop.hpp"
 
 namespace feltgate {
 
@@ -16,7 +15,7 @@ namespace {
 
 struct ControllersArguments {
   std::string json, picture;
-  bool estimators = false, current = false;
+  bool estimators = false;
 };
 
 int run(const ControllersArguments& a) {
@@ -38,11 +37,6 @@ int run(const ControllersArguments& a) {
     progress.finish();
     outputs.say(controllers::estimators_text(rows));
     text = controllers::estimators_json(rows);
-  } else if (a.current) {
-    const controllers::CurrentReport report = controllers::measure_current(bench, update);
-    progress.finish();
-    outputs.say(controllers::current_text(report));
-    text = controllers::current_json(report);
   } else {
     const controllers::Report report = controllers::measure(bench, update);
     progress.finish();
@@ -75,18 +69,12 @@ void add_controllers(CLI::App& app, int* exit_code) {
       "It prints Markdown tables, in ten seconds.\n"
       "With --estimators instead: feed-forward with the N-method and with M/T, walls, noise, "
       "drag.\n"
-      "With --current instead: a loop of the motor's current, as in `lever_current`: its blocks\n"
-      "bit by bit around a winding that the gates switch, beside closed forms.\n"
       "  feltgate controllers\n"
       "  feltgate controllers --estimators\n"
-      "  feltgate controllers --current\n"
       "  feltgate controllers --json all.json -o all.svg\n"
       "Exit code: 0 measured, 2 unusable input. docs/speed-for-accuracy.md explains every row.");
   sub->add_flag("--estimators", a->estimators,
                 "velocity estimators around the lever instead: docs/blocks/velocity.md");
-  sub->add_flag("--current", a->current,
-                "the current loop instead: docs/speed-for-accuracy.md")
-      ->excludes("--estimators");
   sub->add_option("-o,--output", a->picture, "the comparison as a picture, SVG")->type_name("FILE");
   sub->add_option("--json", a->json, "all figures and step responses as JSON")->type_name("FILE");
   sub->callback([a, exit_code] { *exit_code = run(*a); });

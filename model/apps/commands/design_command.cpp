@@ -24,6 +24,7 @@ namespace {
 
 struct DesignArguments {
   std::string name, plant, for_plant, output;
+  double nominal_a = 0;
   std::vector<std::string> scenes;
 };
 
@@ -98,7 +99,7 @@ int design_for_plant(const DesignArguments& a, const design::RegisterMap& regist
   const std::string name = name_for(plant_path, a.output);
   const std::string path = a.output.empty() || a.output == "-" ? name + ".toml" : a.output;
   const stability::PlantDesign made = stability::design_for_plant(
-      base_path, plant::read_plant_file(plant_path), a.for_plant, path, registers);
+      base_path, plant::read_plant_file(plant_path), a.nominal_a, a.for_plant, path, registers);
   files::Outputs outputs;
   outputs.reads(base_path);
   outputs.reads(plant_path);
@@ -118,7 +119,10 @@ int design_for_plant(const DesignArguments& a, const design::RegisterMap& regist
 int table_of(const DesignArguments& a, const design::RegisterMap& registers) {
   const auto e = elaborate(design::read_design(find_file(a.name, "rtl/designs")), registers);
   std::string text = design_table(e);
-  if (!e.design.mt) text += "\n" + bound_table(bounds::error_bounds(e));
+  if (!e.design.mt) {
+    text += "\n" + bound_table(bounds::error_bounds(e)) +
+            source_table(bounds::source_bounds(bounds::chain_numbers(e)));
+  }
   if (!a.plant.empty()) {
     const auto p = plant::read_plant_file(find_file(a.plant, "vectors/plants"));
     stability::refuse_unstable(e, p);
@@ -136,7 +140,7 @@ void add_design(CLI::App& app, int* exit_code) {
       "design", "the table of a design point: value, integer, error, range, headroom");
   sub->footer(
       "  feltgate design lever --plant p24                  the table and the poles of the loop\n"
-      "  feltgate design --for-plant p48 -o rtl/designs/mine.toml\n"
+      "  feltgate design --for-plant p48 --nominal-current 3.1 -o rtl/designs/mine.toml\n"
       "                                                     lever with the constants of p48\n"
       "  feltgate design lever --for membrane               the design file with that scene alone\n"
       "  feltgate design lever --for membrane torque_step -o rtl/designs/mine.toml\n"
@@ -159,6 +163,11 @@ void add_design(CLI::App& app, int* exit_code) {
       "name in vectors/plants or a path: print DESIGN (default: lever) with the constants of this "
       "plant, once it is stable around it");
   for_plant->type_name("PLANT")->excludes(plant)->excludes(scenes);
+  auto* nominal =
+      sub->add_option("--nominal-current", a->nominal_a,
+                      "with --for-plant: the current that the motor carries without limit in time, "
+                      "as its data sheet has it; all limits follow from it");
+  nominal->type_name("AMPERES")->check(CLI::Range(0.01, 100.0))->needs(for_plant);
   sub->add_option("-o,--output", a->output, "with --for or --for-plant: write it here")
       ->type_name("FILE");
   sub->callback([a, exit_code] {
@@ -168,6 +177,11 @@ void add_design(CLI::App& app, int* exit_code) {
     }
     if (a->name.empty() && a->for_plant.empty()) {
       throw std::invalid_argument("design: DESIGN is missing; feltgate design --help");
+    }
+    if (!a->for_plant.empty() && a->nominal_a == 0) {
+      throw std::invalid_argument(
+          "design: --for-plant needs --nominal-current AMPERES, which no plant file says: the "
+          "current that the motor carries without limit in time; its data sheet has it");
     }
     const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
     *exit_code = !a->for_plant.empty() ? design_for_plant(*a, registers)

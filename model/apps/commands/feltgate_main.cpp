@@ -16,8 +16,6 @@ int main(int argc, char** argv) {
   add_replay(app, &exit_code);
   add_import(app, &exit_code);
   add_design(app, &exit_code);
-  add_budget(app, &exit_code);
-  add_claims(app, &exit_code);
   add_law(app, &exit_code);
   add_shape(app, &exit_code);
   add_texture(app, &exit_code);

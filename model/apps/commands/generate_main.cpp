@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_generate ROOT [--check]: writes everything that follows from rtl/registers.toml and
-// rtl/designs/*.toml; with --check it only compares and fails on a stale file. With --design FILE
+// feltgate_generate ROOT [--check [DESIGN...]]: writes everything that follows from rtl/registers.toml
+// and rtl/designs/*.toml; with --check it only compares and fails on a stale file. With --design FILE
 // --output DIR it writes what follows from one design, anywhere. Documentation: docs/designs.md
 #include <fmt/format.h>
 
@@ -11,7 +11,9 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "design/engine_map.hpp"
 #include "design/generate.hpp"
@@ -61,13 +63,14 @@ bool update_host_files(const fs::path& folder, const feltgate::design::Elaborate
 }  // namespace
 
 constexpr const char* usage =
-    "usage: feltgate generate [--check]\n"
+    "usage: feltgate generate [--check [DESIGN...]]\n"
     "       feltgate generate --design FILE -o DIR [--allow-coarse]\n"
     "Writes what follows from rtl/registers.toml and rtl/designs/*.toml: the SystemVerilog "
     "packages in\n"
     "rtl/generated, the C++ headers in model/include/feltgate/generated, docs/registers.md, and\n"
     "for lever the register map as C header, SystemRDL and CSV.\n"
-    "--check only compares; exit code 1 when a file is stale.\n"
+    "--check only compares, all or what follows from these designs; exit code 1 when a file is "
+    "stale.\n"
     "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
     "DIR/parameters.mem,\n"
     "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
@@ -83,6 +86,7 @@ constexpr const char* usage =
 
 struct Options {
   fs::path root, design, output;
+  std::vector<std::string> names;  ///< of designs to check
   bool check_only = false, allow_coarse = false, help = false;
 };
 
@@ -100,13 +104,15 @@ bool parse(int argc, char** argv, Options* o) {
       o->allow_coarse = true;
     } else if ((option == "--design" || option == "--output" || option == "-o") && i + 1 < argc) {
       (option == "--design" ? o->design : o->output) = argv[++i];
+    } else if (option.rfind('-', 0) != 0) {
+      o->names.push_back(option);
     } else {
       return false;
     }
   }
   return o->help ||
          (o->design.empty() == o->output.empty() && !(o->check_only && !o->design.empty()) &&
-          !(o->allow_coarse && o->design.empty()));
+          !(o->allow_coarse && o->design.empty()) && (o->names.empty() || o->check_only));
 }
 
 feltgate::design::Schedule read_schedule(const Options& o,
@@ -142,6 +148,37 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   update_host_files(o.output, e, false);
 }
 
+/// The files of a design in rtl/designs. Whether one was stale.
+bool update_design(const Options& o, const feltgate::design::Elaborated& e) {
+  const std::string& name = e.design.name;
+  const fs::path folder = o.root / "rtl/generated" / name;
+  bool stale = update(folder / "feltgate_pkg.sv", systemverilog_package(e), o.check_only);
+  stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
+  stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
+                  o.check_only);
+  if (name == "lever") {  // the others' files for hosts are written on request
+    stale |= update_host_files(folder, e, o.check_only);
+    stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
+    stale |= update(o.root / "rtl/generated/feltgate_map.h", c_map_header(e), o.check_only);
+  }
+  return stale;
+}
+
+/// Whether the files of a named design were stale.
+bool check_named(const Options& o, const feltgate::design::RegisterMap& registers) {
+  bool stale = false;
+  for (const std::string& name : o.names) {
+    const fs::path file = o.root / "rtl/designs" / (name + ".toml");
+    const auto e = elaborate(feltgate::design::read_design(file.string()), registers);
+    if (!update_design(o, e)) continue;
+    stale = true;
+    std::cerr << file.string()
+              << ": the file has changed since feltgate generate, so what it says is not used; "
+                 "run ./feltgate generate\n";
+  }
+  return stale;
+}
+
 /// Whether a file was stale.
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
   const auto schedule = read_schedule(o, registers);
@@ -158,24 +195,12 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   stale |= update(headers / "engine.hpp", engine_header(engine), o.check_only);
   stale |= update(o.root / "docs/engine-isa.md", engine_page(engine), o.check_only);
   stale |= update(headers / "causes.hpp", causes_header(registers), o.check_only);
-  stale |=
-      update(o.root / "docs/images/tick.json", timing_diagram(registers, schedule), o.check_only);
   stale |= update(headers / "reader.hpp", reader_header(registers), o.check_only);
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
     check_tick(e.design, schedule);
-    const std::string& name = e.design.name;
-    stale |= update(o.root / "rtl/generated" / name / "feltgate_pkg.sv", systemverilog_package(e),
-                    o.check_only);
-    stale |=
-        update(o.root / "rtl/generated" / name / "parameters.mem", memory_text(e), o.check_only);
-    stale |= update(headers / (name + ".hpp"), cpp_header(e), o.check_only);
-    if (name == "lever") {  // the others' files for hosts are written on request
-      stale |= update_host_files(o.root / "rtl/generated" / name, e, o.check_only);
-      stale |= update(o.root / "docs/registers.md", register_page(e), o.check_only);
-      stale |= update(o.root / "rtl/generated/feltgate_map.h", c_map_header(e), o.check_only);
-    }
+    stale |= update_design(o, e);
   }
   return stale;
 }
@@ -197,6 +222,7 @@ int main(int argc, char** argv) {
       generate_one(o, registers);
       return 0;
     }
+    if (!o.names.empty()) return check_named(o, registers) ? 1 : 0;
     return generate_all(o, registers) && o.check_only ? 1 : 0;
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
   app.add_option("--baud", session.options.baud, "bits per second, as the board was built")
       ->type_name("BAUD")
       ->capture_default_str()
-      ->check(checks::whole(1200, 4'000'000));
+      ->transform(checks::whole(1200, 4'000'000));
   app.add_option("--design", session.options.design,
                  "name in rtl/designs or a path; default: the one with the board's CRC")
       ->type_name("DESIGN");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate law. Documentation: docs/law-compiler.md
+// feltgate law. Documentation: docs/laws.md
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -19,7 +19,6 @@
 #include "files/output_file.hpp"
 #include "files/program.hpp"
 #include "law/content.hpp"
-#include "law/cpp.hpp"
 #include "law/gappa.hpp"
 #include "law/listing.hpp"
 #include "law/verdict.hpp"
@@ -33,7 +32,7 @@ using law::Compiled;
 using law::Measured;
 
 struct LawArguments {
-  std::string law, design = "lever", json, out, cpp, gappa, memories;
+  std::string law, design = "lever", json, out, gappa, memories;
   int cells = 4;
   bool listing = false, quiet = false;
 };
@@ -63,6 +62,7 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
                                {"formula", w.formula}});
   }
   const std::vector<law::Span> ranges = law::output_ranges(c.law, c.target);
+  const std::vector<bool> useful = law::useful_bounds(c, m);
   j["outputs"] = Json::array();
   for (std::size_t o = 0; o < c.law.outputs.size(); ++o) {
     j["outputs"].push_back({{"name", c.law.outputs[o].name},
@@ -70,12 +70,17 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
                             {"bound_nm", c.bound.output[o]},
                             {"bound_as_set_nm", c.bound.as_set[o]},
                             {"range_nm", {ranges[o].lo, ranges[o].hi}},
+                            {"bound_is_useful", static_cast<bool>(useful[o])},
                             {"reached_nm", {m.reached[o].lo, m.reached[o].hi}},
                             {"measured_nm", m.output.empty() ? 0.0 : m.output[o]}});
   }
   j["all_inputs"] = m.all_inputs;
   j["runs"] = m.runs;
   j["left_out"] = m.in_strips;
+  j["free_runs"] = {{"runs", m.free.runs},
+                    {"starts", m.free.acting},
+                    {"starts_that_left_the_law", m.free.left},
+                    {"largest_error_nm", m.free.most}};
   const law::Verdict v = law::verdict(c, m);
   j["failures"] = v.failures;
   j["warnings"] = v.warnings;
@@ -84,7 +89,8 @@ std::string json(const Compiled& c, const Measured& m, const law::GappaCount* g)
     j["strips"].push_back({{"line", s.place.line},
                            {"column", s.place.column},
                            {"width_si", s.width},
-                           {"jump_nm", s.jump}});
+                           {"jump_nm", s.jump},
+                           {"jump_as_set_nm", s.jump_as_set}});
   }
   j["tables"] = Json::array();
   for (const law::TableUse& t : c.program.tables) {
@@ -149,18 +155,17 @@ int run(const LawArguments& a) {
   outputs.reads(find_file(a.design, "rtl/designs"));
   files::OutputFile* json_file = outputs.open("--json", a.json);
   files::OutputFile* image_file = outputs.open("--output", a.out);
-  files::OutputFile* cpp_file = outputs.open("--cpp", a.cpp);
   outputs.folder("--gappa", a.gappa);
   outputs.folder("--memories", a.memories);
   const Compiled c = law::compile_file(path, law_target(a.design));
   Measured m = law::measure_all(c);
   if (!m.all_inputs) m = law::measure(c, 1, 50000);
+  m.free = law::measure_free(c, 1, 20000);
   law::GappaCount again;
   if (!a.gappa.empty()) again = gappa(c, a);
   if (json_file != nullptr) json_file->write(json(c, m, a.gappa.empty() ? nullptr : &again));
   if (image_file != nullptr) image_file->write(law::text(c.image));
   if (!a.memories.empty()) write_memories(c, a.memories);
-  if (cpp_file != nullptr) cpp_file->write(law::cpp_header(c, a.law));
   if (!a.quiet) {
     outputs.say(law::report(c, m) + (a.gappa.empty() ? "" : text(c, again)) +
                 (a.listing ? law::listing(c) : ""));
@@ -184,14 +189,14 @@ void add_law(CLI::App& app, int* exit_code) {
       "  feltgate law detent\n"
       "  feltgate law detent --listing\n"
       "  feltgate law detent -o detent.img --json detent.json\n"
-      "  feltgate law detent --cpp detent.hpp\n"
       "  feltgate law detent --gappa lemmas\n"
       "  feltgate law detent --design lever_law --memories memories\n"
-      "Exit code: 0 all well, 1 a run left its bound, more than half of the runs, or of those on\n"
-      "one side of a comparison, had to be left out, the bound is as large as all that the law\n"
-      "gave in the runs, or Gappa did not prove a lemma, 2 unusable input: a law that cannot be\n"
-      "read, proven, fitted or scheduled, or whose bound is as large as its output's range, with\n"
-      "line, reason and mend.");
+      "Exit code: 0 all well, 1 a run left its bound or was off by more than 10 % of what the law\n"
+      "gave, more than 30 % of the runs, or half of those on one side of a comparison, had to be\n"
+      "left out, the bound is as large as all that the law gave in the runs, or Gappa did not\n"
+      "prove a lemma, 2 unusable input: a law that cannot be read, proven, fitted or scheduled, "
+      "or\n"
+      "whose bound is as large as its output's range, with line, reason and mend.");
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");
@@ -200,8 +205,6 @@ void add_law(CLI::App& app, int* exit_code) {
       ->capture_default_str();
   sub->add_flag("--listing", a->listing, "every instruction: format, range and error");
   sub->add_option("-o,--output", a->out, "the image that an engine runs")->type_name("FILE");
-  sub->add_option("--cpp", a->cpp, "the law as a C++ template over the number type")
-      ->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
   sub->add_option("--gappa", a->gappa, "the proof again, by Gappa: its problems as files")
       ->type_name("DIR");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Finds the target of the law compiler by the name of a design. Documentation: docs/law-compiler.md
+// Finds the target of the law compiler by the name of a design. Documentation: docs/laws.md
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Common parts of the commands that make a law from a drawing or an image. Documentation:
-// docs/devices/shapes.md, docs/devices/texture.md
+// docs/devices/shapes.md, docs/devices/shapes.md
 #pragma once
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate rates. Documentation: docs/rates.md
+// feltgate rates. Documentation: docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -28,14 +28,15 @@ namespace {
 
 /// Options that say how to read a recording; replay and import share them.
 struct TraceArguments {
-  std::string path, probes, scale, format;
+  std::string path, probes, scale, wrap, format;
   traces::Options options;
-  bool no_jitter = false;
+  bool no_jitter = false, wraps = false;
 
   traces::Options read() {
     if (!probes.empty()) options.probes = traces::split_names(probes);
     if (!scale.empty()) options.scale = traces::parse_scale(scale);
     if (!format.empty()) options.format = traces::parse_format(format);
+    if (wraps) options.wrap = traces::parse_wrap(wrap);
     options.jitter = !no_jitter;
     return options;
   }
@@ -52,12 +53,39 @@ struct TraceArguments {
         ->type_name("NAME");
     sub->add_option("--count-column", options.count_column, "column with counts or an angle")
         ->type_name("NAME");
+    sub->add_option("--time-unit", options.time_unit,
+                    "s, ms, us or ns of that column; default: as its name says, else s")
+        ->type_name("UNIT")
+        ->check(CLI::IsMember({"s", "ms", "us", "ns"}));
     sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians")
         ->type_name("SCALE");
+    sub->add_option_function<std::string>(
+           "--wrap",
+           [this](const std::string& text) {
+             wraps = true;
+             wrap = text;
+           },
+           "that column begins again after so many of its units, e.g. 360, 2pi or 65536; alone: a "
+           "turn of an angle, or 2^16 or 2^32 counts, as its first jump tells")
+        ->type_name("UNITS")
+        ->expected(0, 1)
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+              try {
+                (void)traces::parse_wrap(text);
+                return std::string();
+              } catch (const traces::TraceError&) {
+                return text +
+                       " is not a finite number above 0, such as 360, 2pi or 65536; where "
+                       "it is to be found, put --wrap behind the file";
+              }
+            },
+            ""));
     sub->add_option("--sample-hz", options.sample_hz,
-                    "rate of the capture, where the file does not say it")
+                    "rate of the capture, where the file does not say it; rows without a time are "
+                    "its samples")
         ->type_name("HZ")
-        ->transform(checks::positive(1e12, "Hz"));
+        ->transform(checks::whole(1, 1'000'000'000'000, "Hz"));
     sub->add_option("--format", format,
                     "sigrok, vcd, saleae, levels, columns or vector; default: by content")
         ->type_name("FORMAT");
@@ -84,6 +112,19 @@ std::string probe_text(const traces::Options& o) {
   return text;
 }
 
+/// With the clock and the encoder of a design.
+traces::Options for_design(traces::Options options, const std::string& name) {
+  const DesignInfo design = design_named(name);
+  options.clock_hz = design.clock_hz;
+  options.turn_counts = std::round(2 * 3.14159265358979323846 / design.count_rad);
+  return options;
+}
+
+traces::Options with_warnings(traces::Options options) {
+  options.warn = [](const std::string& what) { fmt::print(stderr, "warning: {}\n", what); };
+  return options;
+}
+
 int replay(ReplayArguments& a) {
   if (a.every > 0 && a.csv.empty()) {
     throw std::invalid_argument("--every thins out the rows of --csv; add --csv FILE");
@@ -92,9 +133,18 @@ int replay(ReplayArguments& a) {
     throw std::invalid_argument(
         "--scene law: a replay loads no program; choose another scene, or use feltgate run");
   }
-  traces::Options how = a.trace.read();
-  how.clock_hz = design_named(a.design).clock_hz;
-  const auto source = traces::open(a.trace.path, how);
+  traces::Options how = for_design(a.trace.read(), a.design);
+  const traces::Options warning = with_warnings(how);
+  // A first pass over the file finds its length.
+  const bool whole = !(a.seconds > 0);
+  Clock length = 0;
+  if (whole) {
+    const auto first_pass = traces::open(a.trace.path, warning);
+    while (first_pass->next()) {
+    }
+    length = first_pass->length();
+  }
+  const auto source = traces::open(a.trace.path, whole ? how : warning);
   const std::string name = std::filesystem::path(a.trace.path).filename().string();
 
   ReplayOptions options;
@@ -113,16 +163,7 @@ int replay(ReplayArguments& a) {
   files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* fst = outputs.open("--fst", a.fst);
   if (fst != nullptr) options.fst = fst->named();
-  // A first pass over the file finds its length.
-  Clock length = 0;
-  if (options.most_clocks > 0) {
-    length = options.most_clocks;
-  } else {
-    const auto first_pass = traces::open(a.trace.path, how);
-    while (first_pass->next()) {
-    }
-    length = first_pass->length();
-  }
+  if (!whole) length = options.most_clocks;
   const design::Elaborated elaborated = elaborated_design(a.design);
   std::optional<CsvWriter> rows;
   if (csv != nullptr) {
@@ -181,7 +222,7 @@ void add_replay(CLI::App& app, int* exit_code) {
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
-      ->check(checks::whole(1, 1'000'000'000))
+      ->transform(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
   sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --duration)")
       ->type_name("FILE");
@@ -220,9 +261,8 @@ void add_import(CLI::App& app, int* exit_code) {
       throw std::invalid_argument("import: the FILE to write is missing; feltgate import --help");
     }
     a->design = built_design(a->design);
-    traces::Options how = a->trace.read();
-    how.clock_hz = design_named(a->design).clock_hz;
-    const auto source = traces::open(a->trace.path, how);
+    const traces::Options how = for_design(a->trace.read(), a->design);
+    const auto source = traces::open(a->trace.path, with_warnings(how));
     files::Outputs outputs;
     outputs.reads(a->trace.path);
     files::OutputFile* out = outputs.open("--output", a->out);

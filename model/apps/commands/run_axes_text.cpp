@@ -70,7 +70,8 @@ std::vector<std::string> signals_of(const AxesResult& r) {
 }  // namespace
 
 std::string axes_text(const AxesResult& r) {
-  std::string text =
+  std::string text = large_error_lines(r);
+  text +=
       fmt::format("scene {}, device {}, design {}, law {}\n", r.subject, r.device, r.design, r.law);
   text += fmt::format("{:.6g} s, {} clocks, {} ticks", r.simulated_s, r.clocks, r.ticks);
   if (r.lock_step) text += fmt::format("; mismatches between RTL and twin: {}", r.mismatches);

@@ -284,12 +284,6 @@ int run(RunArguments a) {
   if (events != nullptr) events->write(event_lines(result.events, law->period_s()));
   if (!a.quiet) {
     outputs.say(run_text(result, labels));
-    if (law != nullptr) {
-      outputs.say(fmt::format("law {}: {}\n", law->name(),
-                              law->compiled()
-                                  ? "compiled into this program"
-                                  : "not compiled into this program, the interpreter runs it"));
-    }
   }
   outputs.commit();
   const bool ok = result.as_expected();
@@ -326,7 +320,8 @@ void add_run(CLI::App& app, int* exit_code) {
       "  feltgate run detent                        a scene with a law of its own (docs/laws.md)\n"
       "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
       "its\n"
-      "proven bound, 1 otherwise, 2 unusable input.");
+      "proven bound (a torque without one: within 10 % of the largest asked), 1 otherwise, 2\n"
+      "unusable input.");
   sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
   sub->add_option("--design", a->design,
                   "design point in rtl/designs; default: the scene's, else lever")
@@ -353,7 +348,7 @@ void add_run(CLI::App& app, int* exit_code) {
   sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
       ->type_name("FILE");
   sub->add_option("--every", a->every, every_help)
-      ->check(checks::whole(1, 1'000'000'000))
+      ->transform(checks::whole(1, 1'000'000'000))
       ->type_name("TICKS");
   sub->add_flag("--columns", a->columns,
                 "print the CSV columns of SCENE, of one lever without, and end");

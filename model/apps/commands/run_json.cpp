@@ -15,7 +15,15 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json error_json(const ErrorFigure& e) { return {{"max_error", e.max()}, {"rms_error", e.rms()}}; }
+/// Where the bound holds, and beside it where it does not, if there are such ticks.
+Json error_json(const ErrorFigure& e) {
+  Json j{{"max_error", e.max()}, {"rms_error", e.rms()}};
+  if (e.outside() > 0) {
+    j["max_error_outside"] = e.max_outside();
+    j["ticks_outside"] = e.outside();
+  }
+  return j;
+}
 
 /// Converts a number to JSON, which has no infinity.
 Json finite_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -25,6 +33,7 @@ Json step_json(const StepFigures& s) {
             {"tau_hat_settling_ms", s.tau_hat.settling_ms},
             {"torque_settling_ms", s.torque.settling_ms},
             {"overshoot_pct", s.torque.overshoot_pct}};
+  if (s.tau_hat_void) step["tau_hat_void"] = true;
   // A relative error of a step to 0 means nothing.
   if (s.tau_ref_nm != 0) {
     step["final_error_pct"] = s.torque.final_error_pct;
@@ -43,9 +52,8 @@ Json backend_json(const BackendFigures& e, const RunResult& r) {
   if (is_core(e) && !r.felt.errors.empty()) {
     for (const FeltError& x : r.felt.errors) {
       j[x.signal]["bound"] = finite_json(x.bound);
-      j[x.signal]["max_error_in_bounds"] = x.max_error_in_bounds;
     }
-    j["ticks_out_of_bounds"] = e.uncovered;
+    j["ticks_out_of_bounds"] = e.torque_nm.outside();
   }
   for (const StepFigures& s : e.steps) j["step_responses"].push_back(step_json(s));
   if (!e.steps.empty()) j["ripple_nm"] = e.steps.back().torque.ripple_nm;
@@ -80,12 +88,13 @@ Json felt_json(const RunResult& r) {
                    {"peak_to_hand_j", f.energy.peak_to_hand_j}};
   }
   for (const FeltError& x : f.errors) {
-    j["errors"][x.signal] = {{"max_error", x.max_error},
-                             {"max_error_in_bounds", x.max_error_in_bounds},
-                             {"bound", finite_json(x.bound)},
-                             {"holds", x.max_error_in_bounds <= x.bound}};
+    j["errors"][x.signal] = error_json(x.error);
+    j["errors"][x.signal].update({{"bound", finite_json(x.bound)}, {"holds", x.holds()}});
   }
   j["limits"] = acted_json(f.limits);
+  if (f.tau_hat_void.seconds > 0) {
+    j["tau_hat_void"] = {{"seconds", f.tau_hat_void.seconds}, {"first_s", f.tau_hat_void.first_s}};
+  }
   j["faults"] = acted_json(f.faults);
   if (f.closed_loop) j["expectations"] = Json::array();
   for (const Expected& x : r.expectations) {

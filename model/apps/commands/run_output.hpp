@@ -51,6 +51,8 @@ std::string acted_text(const std::map<std::string, Acted>& all);
 std::string energy_lines(const FeltEnergy& energy);
 /// Warns that the law's torque was 0 because its mailbox was too old; empty if it never was.
 std::string stale_line(const Acted& stale);
+/// The first lines of a run: large errors without a proven bound.
+std::string large_error_lines(const SessionResult& r);
 std::string expectation_lines(const std::vector<Expected>& all);
 
 /// If RTL and twin differed, repeats the run, which is deterministic, with a waveform of the clocks

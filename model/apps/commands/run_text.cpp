@@ -27,30 +27,30 @@ std::string engine_line(const BackendFigures& e, double simulated_s) {
       e.torque_nm.max(), e.torque_nm.rms(), speed);
 }
 
-/// The bounds below the table of errors, and the ticks for which they do not hold.
+/// The bounds below the table of errors, and what there is in ticks for which they do not hold.
 std::string bound_lines(const RunResult& r) {
-  const auto line = [&r](const char* name, double FeltError::*value) {
+  const auto line = [&r](const char* name, const auto& value) {
     const auto told = [&](std::size_t i) {
-      const double x = r.felt.errors[i].*value;
+      const double x = value(r.felt.errors[i]);
       return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none";
     };
     return fmt::format("{:<8} {:>14} {:>12} {:>12} {:>12} {:>12}\n", name, told(0), "", told(1), "",
                        told(2));
   };
-  std::string text = line("bound", &FeltError::bound);
-  for (const BackendFigures& e : r.engines) {
-    if (!is_core(e) || e.uncovered == 0) continue;
-    text += line("in it", &FeltError::max_error_in_bounds);
+  std::string text = line("bound", [](const FeltError& e) { return e.bound; });
+  if (const auto outside = r.felt.errors.back().error.outside(); outside > 0) {
+    text += line("outside", [](const FeltError& e) { return e.error.max_outside(); });
     text += fmt::format(
-        "the bound is not for {} ticks, of a ramp or saturation and what follows; \"in it\" leaves "
-        "them out\n",
-        e.uncovered);
-    break;  // RTL and twin show the same
+        "the bound is not for {} ticks, of a ramp or saturation and what follows: their largest "
+        "errors are \"outside\", and in no other figure\n",
+        outside);
   }
-  return text + fmt::format(
-                    "bound: proven for any motion up to this one's {:.4g} rad/s before the "
-                    "low-pass\n",
-                    r.largest_velocity_rad_s);
+  return text +
+         fmt::format(
+             "bound: proven for any motion up to this one's {:.4g} rad/s before the "
+             "low-pass\n",
+             r.largest_velocity_rad_s) +
+         r.bound_sources;
 }
 
 std::string engine_table(const RunResult& r) {
@@ -78,10 +78,13 @@ std::string step_table(const RunResult& r) {
         fmt::format("\n{:<10} {:>16} {:>16} {:>12} {:>14} {:>16}\n", "step Nm", "tau_hat settles",
                     "motor settles", "overshoot", "final error", "tau_hat error");
     for (const StepFigures& f : e.steps) {
-      text +=
-          fmt::format("{:<10.4g} {:>13.3f} ms {:>13.3f} ms {:>10.2f} % {:>12.3f} % {:>14.4f} %\n",
-                      f.tau_ref_nm, f.tau_hat.settling_ms, f.torque.settling_ms,
-                      f.torque.overshoot_pct, f.torque.final_error_pct, f.tau_hat.final_error_pct);
+      const auto observed = [&f](const char* format, double value) {
+        return f.tau_hat_void ? std::string("void") : fmt::format(fmt::runtime(format), value);
+      };
+      text += fmt::format("{:<10.4g} {:>16} {:>13.3f} ms {:>10.2f} % {:>12.3f} % {:>16}\n",
+                          f.tau_ref_nm, observed("{:.3f} ms", f.tau_hat.settling_ms),
+                          f.torque.settling_ms, f.torque.overshoot_pct, f.torque.final_error_pct,
+                          observed("{:.4f} %", f.tau_hat.final_error_pct));
     }
     return text;  // RTL and twin show the same
   }
@@ -100,6 +103,12 @@ std::string acted_text(const std::map<std::string, Acted>& all) {
     items.push_back(fmt::format("{} {:.4g} s (from {:.4g} s)", name, a.seconds, a.first_s));
   }
   return items.empty() ? "none" : fmt::format("{}", fmt::join(items, ", "));
+}
+
+std::string large_error_lines(const SessionResult& r) {
+  std::string text;
+  for (const std::string& large : r.large) text += fmt::format("failed: {}\n", large);
+  return text;
 }
 
 std::string stale_line(const Acted& stale) {
@@ -129,14 +138,14 @@ std::string error_text(const FeltError& e) {
                     : e.signal == "tau_hat_nm"   ? "observed torque"
                                                  : "commanded torque";
   if (!std::isfinite(e.bound)) {
-    return fmt::format("{} {:.3g} {}, no bound is proven", name, e.max_error, unit);
+    return fmt::format("{} {:.3g} {}, no bound is proven", name, e.error.max(), unit);
   }
   const std::string outside =
-      e.max_error > e.max_error_in_bounds
-          ? fmt::format(", and {:.3g} in ticks that the bound is not for", e.max_error)
+      e.error.outside() > 0
+          ? fmt::format(", and {:.3g} in ticks that the bound is not for", e.error.max_outside())
           : "";
-  return fmt::format("{} {:.3g} {}, {} the proven {:.3g}{}", name, e.max_error_in_bounds, unit,
-                     e.max_error_in_bounds <= e.bound ? "within" : "ABOVE", e.bound, outside);
+  return fmt::format("{} {:.3g} {}, {} the proven {:.3g}{}", name, e.error.max(), unit,
+                     e.holds() ? "within" : "ABOVE", e.bound, outside);
 }
 
 }  // namespace
@@ -178,6 +187,11 @@ std::string felt_text(const RunResult& r) {
     first = false;
   }
   text += line("limits", acted_text(f.limits));
+  if (f.tau_hat_void.seconds > 0) {
+    text += line("tau_hat", fmt::format("void for {:.4g} s (from {:.4g} s): voltage or duty at the "
+                                        "limit, the motor gives less than tau_hat says",
+                                        f.tau_hat_void.seconds, f.tau_hat_void.first_s));
+  }
   text += line("faults", acted_text(f.faults));
   if (f.closed_loop) text += expectation_lines(r.expectations);
   return text;
@@ -197,14 +211,16 @@ std::string differing_lines(const RunLabels& labels) {
   }
   return text +
          fmt::format(
-             "a design for this plant: feltgate design --for-plant {} -o rtl/designs/mine.toml\n",
+             "a design for this plant: feltgate design --for-plant {} --nominal-current AMPERES -o "
+             "rtl/designs/mine.toml\n",
              labels.plant_as_named);
 }
 
 }  // namespace
 
 std::string run_text(const RunResult& r, const RunLabels& labels) {
-  std::string text = fmt::format("{} {}, design {}", labels.subject_key, r.subject, r.design);
+  std::string text = large_error_lines(r);
+  text += fmt::format("{} {}, design {}", labels.subject_key, r.subject, r.design);
   if (!labels.plant.empty()) text += fmt::format(", plant {}", labels.plant);
   text += fmt::format("\n{:.6g} s, {} clocks, {} ticks", r.simulated_s, r.clocks, r.ticks);
   if (r.lock_step) text += fmt::format("; mismatches between RTL and twin: {}", r.mismatches);

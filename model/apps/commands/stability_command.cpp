@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate stability. Documentation: docs/stability.md
+// feltgate stability. Documentation: docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>

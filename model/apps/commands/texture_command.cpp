@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate texture. Documentation: docs/devices/texture.md
+// feltgate texture. Documentation: docs/devices/shapes.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -245,7 +245,7 @@ void add_options(CLI::App& sub, TouchArguments& a) {
       ->excludes(centre);
   sub.add_option("--faces", a.faces, "at most so many faces, the others merged; 0: all")
       ->type_name("N")
-      ->check(checks::whole(0, 4000000))
+      ->transform(checks::whole(0, 4000000))
       ->capture_default_str();
   CLI::Option* out = sub.add_option("-o,--output", a.out, "the file of --make")->type_name("FILE");
   sub.add_option("--make", a.make,
@@ -309,7 +309,7 @@ void add_options(CLI::App& sub, TouchArguments& a) {
           ->excludes(stroke);
   sub.add_option("--baud", a.baud, "bits per second at the board, as it was built")
       ->type_name("BAUD")
-      ->check(checks::whole(1200, 4000000))
+      ->transform(checks::whole(1200, 4000000))
       ->capture_default_str()
       ->needs(board);
   sub.add_option("--for", a.seconds, "end at the board after so long; default: Ctrl-C")

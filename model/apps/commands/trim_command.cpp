@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate trim. Documentation: docs/trim.md
+// feltgate trim. Documentation: docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -350,7 +350,8 @@ void add_trim(CLI::App& app, int* exit_code) {
       "SCENE is a name in vectors/scenes or the path of a scene file. The full model has every "
       "effect and\nswitching gates. Torque, position and force at the hand, as means over 1 ms, "
       "are "
-      "kept within the\ntolerance on the scene's own motion and on others (docs/speed-for-accuracy.md).\n"
+      "kept within the\ntolerance on the scene's own motion and on others "
+      "(docs/speed-for-accuracy.md).\n"
       "  feltgate trim membrane                           one percent\n"
       "  feltgate trim coupled_levers                     a device: its effects alone\n"
       "  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml\n"
@@ -374,16 +375,16 @@ void add_trim(CLI::App& app, int* exit_code) {
       ->transform(checks::number(0.01, 1000, "ms"));
   sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
       ->capture_default_str()
-      ->check(checks::whole(1, 5));
+      ->transform(checks::whole(1, 5));
   sub->add_option("--unseen", a->options.unseen, "motions of the final check")
       ->capture_default_str()
-      ->check(checks::whole(1, 100));
+      ->transform(checks::whole(1, 100));
   sub->add_option("--seed", a->options.seed, "of these motions")
       ->capture_default_str()
       ->check(checks::seed());
   sub->add_option("--jobs", a->options.threads, "runs at a time")
       ->capture_default_str()
-      ->check(checks::whole(1, 64));
+      ->transform(checks::whole(1, 64));
   old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
   sub->add_option("--search-limit", a->options.longest_s,
                   "ends the search: everything stays on; default: no end")

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // FMI 3.0 co-simulation: the functions that an importer calls, and two for `feltgate product fmu`,
-// which writes the FMU. FELTGATE_FMU_DESIGN is the design. Documentation: docs/product.md
+// which writes the FMU. FELTGATE_FMU_DESIGN is the design. Documentation: docs/other-tools.md
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A scene as a model for co-simulation. Documentation: docs/product.md
+// A scene as a model for co-simulation. Documentation: docs/other-tools.md
 #include "apps/fmu/scene_model.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin and plant of a scene as a model for co-simulation, and its variables, from which
-// modelDescription.xml is written. Documentation: docs/product.md
+// modelDescription.xml is written. Documentation: docs/other-tools.md
 #pragma once
 
 #include <cstdint>

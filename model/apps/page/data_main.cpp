@@ -14,11 +14,10 @@
 #include <vector>
 
 #include "apps/page/felt_mesh.hpp"
-#include "apps/page/gimbal_loop.hpp"
 #include "apps/page/image_law.hpp"
+#include "apps/page/law_loops.hpp"
 #include "apps/page/live_loop.hpp"
 #include "apps/page/recorded_inputs.hpp"
-#include "apps/page/stylus_loop.hpp"
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
 #include "sim/axes_loop/axes_scene.hpp"

@@ -16,7 +16,7 @@ namespace feltgate::page {
 namespace {
 
 /// The lines of a design's header that a compiled core cannot change: all except its name, its
-/// parameters' values and the start of the I2t sum.
+/// parameters' values, the start of the I2t sum and the checksums.
 std::vector<std::string> fixed_lines(const design::Elaborated& e) {
   std::istringstream text(design::cpp_header(e));
   std::vector<std::string> lines;
@@ -27,7 +27,7 @@ std::vector<std::string> fixed_lines(const design::Elaborated& e) {
     const bool named = line.find("struct ") == 0 || line.find("///") != std::string::npos ||
                        line.find("* name =") != std::string::npos || line.find("//") == 0;
     if (!values && !named && line.find("i2t_start") == std::string::npos &&
-        line.find("design_crc") == std::string::npos)
+        line.find("design_crc") == std::string::npos && line.find("file_sum") == std::string::npos)
       lines.push_back(line);
     if (values && line.find("};") != std::string::npos) values = false;
   }

@@ -20,7 +20,7 @@
 #include "apps/page/said.hpp"
 #include "apps/page/user_law.hpp"
 #include "feltgate/reading.hpp"
-#include "law/engine/law_runner.hpp"
+#include "law/engine/machine.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/stability/linear_loop.hpp"
 

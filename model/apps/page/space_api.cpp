@@ -14,10 +14,9 @@
 #include <vector>
 
 #include "apps/page/felt_mesh.hpp"
-#include "apps/page/gimbal_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "apps/page/recorded_inputs.hpp"
 #include "apps/page/said.hpp"
-#include "apps/page/stylus_loop.hpp"
 
 namespace {
 

@@ -9,11 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/page/coupled_loop.hpp"
-#include "apps/page/pen_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "apps/page/said.hpp"
-#include "apps/page/stick_loop.hpp"
-#include "apps/page/string_loop.hpp"
 
 namespace {
 

@@ -39,7 +39,9 @@ UserLaw::UserLaw(const std::string& text, const DesignInfo& design)
       machine_(law::memory(law_.image)) {}
 
 std::string UserLaw::report(int runs) const {
-  return law::report(law_, law::measure(law_, 1, runs));
+  law::Measured m = law::measure(law_, 1, runs);
+  m.free = law::measure_free(law_, 1, runs);
+  return law::report(law_, m);
 }
 
 void UserLaw::set(const std::string& name, double value) {

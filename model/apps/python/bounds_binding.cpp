@@ -6,6 +6,8 @@
 #include "apps/python/design_names.hpp"
 #include "apps/python/run_result.hpp"
 #include "design/design.hpp"
+#include "design/generate.hpp"
+#include "sim/backends/backend.hpp"
 #include "studies/bounds/error_bounds.hpp"
 
 namespace feltgate::python {
@@ -13,6 +15,12 @@ namespace feltgate::python {
 void bind_bounds(py::module_& m) {
   m.def("laws",
         [](const std::string& design_path) { return design::read_design(design_path).scenes; });
+  m.def("require_current", [](const std::string& design, const std::string& design_path,
+                              const std::string& registers_path) {
+    design::require_current(elaborated_files(design_path, registers_path),
+                            design_named(design).file_sum,
+                            "run ./feltgate generate and install the package again (pip install .)");
+  });
   m.def(
       "bounds",
       [](const std::string& design_path, const std::string& registers_path,

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain of one design in one arithmetic for Python: counts in, arrays out.
-// Documentation: docs/python.md, docs/backends.md
+// Documentation: docs/python.md, docs/speed-for-accuracy.md
 #include "apps/python/bindings.hpp"
 #include "apps/python/design_names.hpp"
 #include "sim/backends/backend.hpp"

@@ -158,6 +158,9 @@ class PyDevice {
       throw host::Refused(name +
                           " cannot change while armed: the torque could jump; disarm() first");
     }
+    if (r.saturated) {
+      throw host::Refused(name + ": the value does not fit the board's word and was saturated");
+    }
     if (!r.kept) throw host::Refused(name + ": the board did not keep it");
     return setting.value();
   }

@@ -16,10 +16,12 @@ namespace feltgate::python {
 namespace {
 
 PyRecording read(const std::string& path, const traces::Options& options) {
+  PyRecording r{std::filesystem::path(path).filename().string(), options.clock_hz, {}, {}};
+  traces::Options telling = options;
+  telling.warn = [&r](const std::string& what) { r.warnings.push_back(what); };
   const py::gil_scoped_release free;
-  const auto source = traces::open(path, options);
-  return {std::filesystem::path(path).filename().string(), options.clock_hz,
-          traces::read_all(*source)};
+  r.edges = traces::read_all(*traces::open(path, telling));
+  return r;
 }
 
 /// Counts at clocks as edges, spread evenly over each interval as docs/traces.md has it.
@@ -32,7 +34,7 @@ PyRecording of_counts(const Doubles& times, const Doubles& positions, std::int64
                     time_s.size(), counts.size()));
   }
   constexpr double kMostCounts = 9007199254740992.0, kMostClocks = 4e18;
-  PyRecording r{"counts", clock_hz, {}};
+  PyRecording r{"counts", clock_hz, {}, {}};
   const auto clock_at = [&](std::size_t i) {
     const double clocks = time_s[i] * static_cast<double>(clock_hz);
     if (!(clocks >= 0 && clocks < kMostClocks && std::abs(counts[i]) < kMostCounts)) {
@@ -99,15 +101,19 @@ void bind_recordings(py::module_& m) {
           "read",
           [](const std::string& path, const std::vector<std::string>& probes,
              const std::string& step, const std::string& dir, const std::string& time_column,
-             const std::string& count_column, const std::string& scale, std::int64_t sample_hz,
-             const std::string& format, bool jitter, std::uint64_t seed, std::int64_t clock_hz) {
+             const std::string& time_unit, const std::string& count_column,
+             const std::string& scale, const std::optional<std::string>& wrap,
+             std::int64_t sample_hz, const std::string& format, bool jitter, std::uint64_t seed,
+             std::int64_t clock_hz) {
             traces::Options o;
             o.probes = probes;
             o.step = step;
             o.dir = dir;
             o.time_column = time_column;
+            o.time_unit = time_unit;
             o.count_column = count_column;
             if (!scale.empty()) o.scale = traces::parse_scale(scale);
+            if (wrap) o.wrap = traces::parse_wrap(*wrap);
             o.sample_hz = sample_hz;
             if (!format.empty()) o.format = traces::parse_format(format);
             o.jitter = jitter;
@@ -116,11 +122,13 @@ void bind_recordings(py::module_& m) {
             return read(path, o);
           },
           py::arg("path"), py::arg("probes"), py::arg("step"), py::arg("dir"),
-          py::arg("time_column"), py::arg("count_column"), py::arg("scale"), py::arg("sample_hz"),
-          py::arg("format"), py::arg("jitter"), py::arg("seed"), py::arg("clock_hz"))
+          py::arg("time_column"), py::arg("time_unit"), py::arg("count_column"), py::arg("scale"),
+          py::arg("wrap"), py::arg("sample_hz"), py::arg("format"), py::arg("jitter"),
+          py::arg("seed"), py::arg("clock_hz"))
       .def_static("of_counts", &of_counts, py::arg("time_s"), py::arg("counts"),
                   py::arg("clock_hz"))
       .def_readonly("name", &PyRecording::name)
+      .def_readonly("warnings", &PyRecording::warnings)
       .def_readonly("clock_hz", &PyRecording::clock_hz)
       .def_property_readonly("length_clocks", [](const PyRecording& r) { return r.edges.length; })
       .def("arrays", &arrays);

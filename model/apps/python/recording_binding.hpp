@@ -54,6 +54,7 @@ struct PyRecording {
   std::string name;
   std::int64_t clock_hz = 0;
   traces::Edges edges;
+  std::vector<std::string> warnings;
 };
 
 }  // namespace feltgate::python

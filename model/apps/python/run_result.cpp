@@ -34,6 +34,10 @@ py::dict error_dict(const ErrorFigure& e) {
   py::dict out;
   out["max"] = e.max();
   out["rms"] = e.rms();
+  if (e.outside() > 0) {
+    out["outside"] = e.max_outside();
+    out["ticks_outside"] = e.outside();
+  }
   return out;
 }
 
@@ -81,6 +85,7 @@ py::dict felt_dict(const RunResult& r) {
     out["given_to_hand_j"] = f.energy.given_to_hand_j;
   }
   out["limits"] = acted_dict(f.limits);
+  out["tau_hat_void_s"] = f.tau_hat_void.seconds;
   out["faults"] = acted_dict(f.faults);
   py::list expectations;
   for (const Expected& e : r.expectations) {

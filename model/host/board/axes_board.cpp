@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The closed loop of a simulated board with several axes. Documentation: docs/board.md
+// The closed loop of a simulated board with several axes. Documentation: docs/host.md
 #include "host/board/axes_board.hpp"
 
 #include <fmt/format.h>

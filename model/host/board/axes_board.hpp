@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A board with several axes: a pantograph or another device in closed loop. Documentation:
-// docs/board.md
+// docs/host.md
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The closed loop of a simulated board. Documentation: docs/board.md
+// The closed loop of a simulated board. Documentation: docs/host.md
 #include "host/board/board.hpp"
 
 #include <fmt/format.h>
@@ -91,7 +91,8 @@ Board::Board(std::unique_ptr<Core> core, const Setup& setup)
     : core_(std::move(core)),
       to_board_(setup.bad_line, setup.seed),
       from_board_(setup.bad_line, setup.seed + 1),
-      arm_at_(std::llround(kArmAfter_s * static_cast<double>(core_->design().clock_hz))),
+      arm_at_(core_->design().request_at(
+          std::llround(kArmAfter_s * static_cast<double>(core_->design().clock_hz)))),
       arm_(setup.arm) {
   in_.scene = static_cast<std::uint8_t>(scene_number(core_->design(), setup.scene));
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A board without hardware: core and link, bridges, motors, lever or device, and hand in closed
-// loop. Its interface is bytes in and bytes out. Documentation: docs/board.md
+// loop. Its interface is bytes in and bytes out. Documentation: docs/host.md
 #pragma once
 
 #include <memory>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_linked with the core's ports beside its own, for a simulated board that says what each tick showed.
-// Documentation: docs/board.md
+// Documentation: docs/host.md
 `default_nettype none
 
 module board_pins #(

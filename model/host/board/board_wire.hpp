@@ -3,7 +3,7 @@
 //
 // A simulated board as the port of a host in the same program. The board's time goes on while the
 // host waits for bytes, and else when it is told to: the load of the machine decides nothing.
-// Documentation: docs/board.md
+// Documentation: docs/host.md
 #pragma once
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Registry of the boards' cores that a program has, by design and kind. Documentation:
-// docs/board.md
+// docs/host.md
 #include "host/board/core.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chip on the simulated board: core and link of one design, as twin or as Verilated RTL.
-// Documentation: docs/board.md
+// Documentation: docs/host.md
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The Verilated feltgate_linked on the board, with a serial line at the UART's pins.
-// Documentation: docs/board.md
+// Documentation: docs/host.md
 #pragma once
 
 #include <algorithm>

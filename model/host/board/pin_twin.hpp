@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The twin of feltgate_linked on the board: core and link clock by clock, with a serial line at the
-// UART's pins. Documentation: docs/board.md, docs/blocks/feltgate_linked.md
+// UART's pins. Documentation: docs/host.md, docs/link.md
 #pragma once
 
 #include <optional>

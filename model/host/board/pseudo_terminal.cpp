@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Pseudo-terminals on POSIX. Documentation: docs/board.md
+// Pseudo-terminals on POSIX. Documentation: docs/host.md
 #include "host/board/pseudo_terminal.hpp"
 
 #include <fcntl.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The board's end of a pseudo-terminal; a program opens the other end like a serial port.
-// Documentation: docs/board.md
+// Documentation: docs/host.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Recordings of the bytes that a board received. Documentation: docs/board.md
+// Recordings of the bytes that a board received. Documentation: docs/host.md
 #include "host/board/recording.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // All inputs that decide what a simulated board does: how it was started, and each byte that it
-// received, with its clock. Documentation: docs/board.md
+// received, with its clock. Documentation: docs/host.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Runs boards in real time. Documentation: docs/board.md
+// Runs boards in real time. Documentation: docs/host.md
 #include "host/board/serve.hpp"
 
 #include <algorithm>

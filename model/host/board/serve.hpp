@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Runs a board behind a pseudo-terminal in step with the wall clock, or feeds it from a recording.
-// Documentation: docs/board.md
+// Documentation: docs/host.md
 #pragma once
 
 #include <functional>

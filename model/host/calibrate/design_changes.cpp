@@ -41,12 +41,7 @@ std::string measured(const Interval& i, double confidence) {
 
 }  // namespace
 
-std::string toml_of(const Change& c) {
-  if (c.values.empty()) return fmt::format("{:.6g}", c.value);
-  std::string list;
-  for (const double v : c.values) list += fmt::format("{}{:.4f}", list.empty() ? "" : ", ", v);
-  return "[" + list + "]";
-}
+std::string toml_of(const Change& c) { return fmt::format("{:.6g}", c.value); }
 
 std::string text_of(const Interval& i) {
   // As many digits as the interval justifies, and one more.

@@ -17,8 +17,7 @@ namespace feltgate::host {
 struct Change {
   std::string section, key;
   double value = 0;
-  std::string reason;            ///< becomes the comment
-  std::vector<double> values{};  ///< of a key with a list, in place of the value
+  std::string reason;  ///< becomes the comment
 };
 
 /// The value or the list, as a design file has it.

@@ -168,7 +168,6 @@ ordered_json report_json(const std::vector<Change>& changes) {
   ordered_json rows = ordered_json::array();
   for (const Change& c : changes) {
     ordered_json row{{"key", c.section + "." + c.key}, {"value", c.value}, {"reason", c.reason}};
-    if (!c.values.empty()) row["value"] = c.values;
     rows.push_back(row);
   }
   return rows;

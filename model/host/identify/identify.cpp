@@ -1,201 +1,168 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Identification by least squares over windows. Documentation: docs/identify.md
+// The motor's constants from what drive and coast-down determine, as text, JSON and values of a
+// design file. Documentation: docs/calibration.md, docs/json.md
 #include "host/identify/identify.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/calibrate/report.hpp"
 
 namespace feltgate::host {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+using nlohmann::ordered_json;
+using Vector = Eigen::Matrix<double, 5, 1>;
+using Function = double (*)(const Vector& v, double r);
 
-constexpr double kDriveWindow_s = 0.03;
-constexpr double kStandard_m_s2 = 9.80665;
-constexpr int kRounds = 20;
-/// Least voltage that must drive the current: below it, the effect of dead time depends on the
-/// current's ripple.
-constexpr double kFlowing_v = 0.4;
+/// a, b, c of the drive, B/J and F/J of the coast-down.
+struct Known {
+  Vector values;
+  Eigen::Matrix<double, 5, 5> covariance;
+  double t;  ///< Student's
+  double resistance_ohm;
 
-double sign(double x) { return x < 0 ? -1.0 : 1.0; }
+  Known(const Drive& d, const Coast& c, double r)
+      : t(student_t(kConfidence, std::min(d.freedom, c.freedom))), resistance_ohm(r) {
+    values << d.inertia_v_s2.value, d.speed_v_s.value, d.both_v.value, c.damping_1_s.value,
+        c.friction_rad_s2.value;
+    covariance.setZero();
+    covariance.topLeftCorner<3, 3>() = d.covariance;
+    covariance.bottomRightCorner<2, 2>() = c.covariance;
+  }
 
-/// A window with the sign of its current: 1 or -1.
-struct Driven {
-  const Window* w;
-  double current;
+  /// A function of the values, with the interval of its gradient.
+  Interval of(Function f) const {
+    Vector gradient;
+    for (int k = 0; k < 5; ++k) {
+      const double step = std::sqrt(covariance(k, k)) / 16;
+      Vector up = values, down = values;
+      up[k] += step;
+      down[k] -= step;
+      gradient[k] = step > 0 ? (f(up, resistance_ohm) - f(down, resistance_ohm)) / (2 * step) : 0;
+    }
+    const double value = f(values, resistance_ohm);
+    const double half = t * std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+    return {value, value - half, value + half};
+  }
 };
 
-/// Rows of the regression, from windows in which the lever moves one way and the current has one
-/// sign.
-class DriveFit {
- public:
-  DriveFit(const std::vector<Window>& windows, double electrical_s, double confidence,
-           double torque_nm = 0)
-      : windows_(windows),
-        electrical_s_(electrical_s),
-        confidence_(confidence),
-        torque_nm_(torque_nm) {
-    for (const Window& w : windows_) {
-      if (w.slowest_rad_s > kCreep_rad_s) moving_.push_back(&w);
-    }
-    if (moving_.size() < 6) {
-      throw MeasurementError(fmt::format(
-          "{} windows in which the lever turns one way faster than {:g} rad/s; record longer, or "
-          "at larger voltages",
-          moving_.size(), kCreep_rad_s));
-    }
-  }
+double emf(const Vector& v, double) { return v[1] - v[0] * v[3]; }
+double inertia(const Vector& v, double r) { return v[0] * emf(v, r) / r; }
 
-  /// Coefficients a, b, c + d; d if the motor braked; and the torque's if there is one.
-  Regression run() {
-    // First guess: a lever that speeds up has a current along its motion.
-    for (const Window* w : moving_) {
-      if (w->acceleration_rad_s2 * sign(w->speed_rad_s) > 0) {
-        used_.push_back({w, sign(w->speed_rad_s)});
-      }
-    }
-    if (used_.size() < 5) {
-      throw MeasurementError(fmt::format(
-          "the lever speeds up in {} windows only; step the voltage to and fro, each for 0.1 s or "
-          "more",
-          used_.size()));
-    }
-    split_ = false;
-    Regression fit = regression();
-    for (int round = 0; round < kRounds; ++round) {
-      const auto before = used_;
-      use_flowing(fit);
-      if (used_.size() < 5) {
-        throw MeasurementError(
-            "hardly a current flows in these windows; step the voltage further, and to and fro");
-      }
-      fit = regression();
-      const bool same = std::equal(used_.begin(), used_.end(), before.begin(), before.end(),
-                                   [](const Driven& x, const Driven& y) { return x.w == y.w; });
-      if (same) break;
-    }
-    return fit;
-  }
-
-  int used() const { return static_cast<int>(used_.size()); }
-  int left_out() const { return static_cast<int>(windows_.size() - used_.size()); }
-  bool split() const { return split_; }
-  double fastest_rad_s() const {
-    double fastest = 0;
-    for (const Driven& u : used_) fastest = std::max(fastest, std::abs(u.w->speed_rad_s));
-    return fastest;
-  }
-
- private:
-  /// Uses the windows in which the voltage after back-EMF and dead voltage drives a current one
-  /// way.
-  void use_flowing(const Regression& fit) {
-    const double b = fit.value(1), dead = split_ ? fit.value(3) : fit.value(2);
-    used_.clear();
-    int braking = 0;
-    for (const Window* w : moving_) {
-      const double left = w->voltage_v - b * w->speed_rad_s;
-      // Within the window the speed changes by about this much in each direction.
-      const double span = std::abs(b * w->acceleration_rad_s2) * (w->to_s - w->from_s) / 3 +
-                          (w->most_v - w->least_v) / 2;
-      if (std::abs(left) - span < dead + kFlowing_v) continue;
-      used_.push_back({w, sign(left)});
-      braking += sign(left) != sign(w->speed_rad_s) ? 1 : 0;
-    }
-    split_ = braking >= 3 && used() - braking >= 3;
-    if (!split_) {
-      used_.erase(
-          std::remove_if(used_.begin(), used_.end(),
-                         [](const Driven& u) { return u.current != sign(u.w->speed_rad_s); }),
-          used_.end());
-    }
-  }
-
-  Regression regression() const {
-    const bool weight = torque_nm_ != 0;
-    const auto n = static_cast<Index>(used_.size());
-    MatrixXd x(n, 3 + (split_ ? 1 : 0) + (weight ? 1 : 0));
-    VectorXd y(n);
-    for (Index k = 0; k < n; ++k) {
-      const Driven& u = used_[static_cast<std::size_t>(k)];
-      x(k, 0) = u.w->acceleration_rad_s2 + electrical_s_ * u.w->jerk_rad_s3;
-      x(k, 1) = u.w->speed_rad_s;
-      // Writes c*sign(w) + d*sign(i) as (c + d)*sign(w) + d*(sign(i) - sign(w)).
-      x(k, 2) = sign(u.w->speed_rad_s);
-      if (split_) x(k, 3) = u.current - sign(u.w->speed_rad_s);
-      if (weight) x(k, x.cols() - 1) = torque_nm_ * u.w->cosine;
-      y[k] = u.w->voltage_v;
-    }
-    return {x, y, confidence_};
-  }
-
-  const std::vector<Window>& windows_;
-  double electrical_s_, confidence_, torque_nm_;
-  std::vector<const Window*> moving_;
-  std::vector<Driven> used_;
-  bool split_ = false;
+/// A figure, once for text and JSON; without a value it is null, and in no text.
+struct Figure {
+  const char *name, *key, *unit;
+  std::optional<Interval> value;
 };
 
-void refuse_nonsense(const Recording& r, const Regression& fit) {
-  if (fit.value(0) > 0 && fit.value(1) > 0) return;
-  throw MeasurementError(fmt::format(
-      "{}: a larger voltage slows the lever down; turn the sign of one column round, or set "
-      "control.encoder_polarity",
-      r.name));
+std::vector<Figure> figures_of(const Drive& d) {
+  return {{"J R/Kt", "j_r_over_kt_v_s2", "V s^2/rad", d.inertia_v_s2},
+          {"Ke + B R/Kt", "ke_plus_b_r_over_kt_v_s", "V s/rad", d.speed_v_s},
+          {"F R/Kt + dead voltage", "friction_and_dead_v", "V", d.both_v}};
+}
+std::vector<Figure> figures_of(const Coast& c) {
+  return {{"B/J", "b_over_j_1_s", "1/s", c.damping_1_s},
+          {"F/J", "f_over_j_rad_s2", "rad/s^2", c.friction_rad_s2}};
+}
+std::vector<Figure> figures_of(const Constants& c) {
+  return {{"Ke = Kt", "ke_v_s_rad", "V s/rad, Nm/A", c.emf_v_s_rad},
+          {"R", "resistance_ohm", "ohm", c.resistance_ohm},
+          {"J", "inertia_kg_m2", "kg m^2", c.inertia_kg_m2},
+          {"B", "damping_nm_s_rad", "Nm s/rad", c.damping_nm_s_rad},
+          {"F", "friction_nm", "Nm", c.friction_nm},
+          {"dead voltage", "dead_voltage_v", "V with the dead time's part", c.dead_voltage_v}};
+}
+
+std::string lines(const std::vector<Figure>& figures) {
+  std::string text;
+  for (const Figure& f : figures) {
+    if (f.value) text += fmt::format("  {:<22} {} {}\n", f.name, text_of(*f.value), f.unit);
+  }
+  return text;
+}
+ordered_json json_of(const std::vector<Figure>& figures) {
+  ordered_json j;
+  for (const Figure& f : figures) j[f.key] = f.value ? report_json(*f.value) : nullptr;
+  return j;
 }
 
 }  // namespace
 
-Drive identify_drive(const Recording& recording, double electrical_s, double confidence) {
-  const auto windows = windows_of(recording, kDriveWindow_s);
-  DriveFit driven(windows, electrical_s, confidence);
-  const Regression fit = driven.run();
-  refuse_nonsense(recording, fit);
-  Drive d;
-  d.inertia_v_s2 = fit.coefficient(0);
-  d.speed_v_s = fit.coefficient(1);
-  d.both_v = fit.coefficient(2);
-  if (driven.split()) {
-    VectorXd w = VectorXd::Zero(fit.size());
-    w[2] = 1;
-    w[3] = -1;
-    d.friction_v = fit.combination({0, w});
-    d.dead_v = fit.coefficient(3);
+Constants constants_of(const Drive& drive, const std::optional<Coast>& coast,
+                       double resistance_ohm) {
+  Constants c;
+  if (resistance_ohm > 0)
+    c.resistance_ohm = Interval{resistance_ohm, resistance_ohm, resistance_ohm};
+  if (coast) {
+    const Known known(drive, *coast, resistance_ohm);
+    c.emf_v_s_rad = known.of(emf);
+    c.dead_voltage_v = known.of([](const Vector& v, double) { return v[2] - v[0] * v[4]; });
+    if (resistance_ohm > 0) {
+      c.inertia_kg_m2 = known.of(inertia);
+      c.damping_nm_s_rad = known.of([](const Vector& v, double r) { return inertia(v, r) * v[3]; });
+      c.friction_nm = known.of([](const Vector& v, double r) { return inertia(v, r) * v[4]; });
+    }
   }
-  d.noise_v = fit.sigma();
-  d.freedom = fit.freedom();
-  d.windows = driven.used();
-  d.left_out = driven.left_out();
-  d.fastest_rad_s = driven.fastest_rad_s();
-  d.covariance = fit.covariance().topLeftCorner(3, 3);
-  return d;
+  if (!coast) {
+    c.next.push_back(
+        "a coast-down separates Ke from B R/Kt and friction from dead voltage: turn the lever "
+        "fast, disarm, record until it stands (--coast FILE)");
+  }
+  if (resistance_ohm <= 0) {
+    c.next.push_back(
+        "nothing here tells J from R: measure R by an ohmmeter across motor, wiring and bridge "
+        "(--resistance OHM)");
+  }
+  return c;
 }
 
-Weighed identify_weight(const Recording& recording, double mass_kg, double radius_m,
-                        double level_rad, double electrical_s, double confidence) {
-  const auto windows = windows_of(recording, kDriveWindow_s, level_rad);
-  double least = 1, most = -1;
-  for (const Window& w : windows) {
-    least = std::min(least, w.cosine);
-    most = std::max(most, w.cosine);
+std::string report_text(const Drive& drive, const std::optional<Coast>& coast, const Constants& c) {
+  std::string text = fmt::format("driven; intervals: {:g} %\n", 100 * kConfidence);
+  text += lines(figures_of(drive));
+  if (coast) text += "coast-down:\n" + lines(figures_of(*coast));
+  text += "constants:\n" + lines(figures_of(c));
+  if (!c.emf_v_s_rad && !c.resistance_ohm) text += "  none yet: these recordings give products\n";
+  for (const std::string& n : c.next) text += "next: " + n + "\n";
+  return text;
+}
+
+ordered_json report_json(const Drive& drive, const std::optional<Coast>& coast,
+                         const Constants& c) {
+  return {{"schema", "feltgate-identify/1"},
+          {"confidence", kConfidence},
+          {"driven", json_of(figures_of(drive))},
+          {"coast", coast ? json_of(figures_of(*coast)) : nullptr},
+          {"constants", json_of(figures_of(c))},
+          {"next", c.next}};
+}
+
+std::vector<Change> changes_of(const Constants& c, const design::Elaborated& e) {
+  std::vector<Change> changes;
+  const auto measured = [](const Interval& i) {
+    return fmt::format("measured, {:g} % {}", 100 * kConfidence, text_of(i));
+  };
+  const auto add = [&](const char* section, const char* key, const std::optional<Interval>& i) {
+    if (i) changes.push_back({section, key, i->value, i->half() > 0 ? measured(*i) : "given"});
+  };
+  add("motor", "resistance_ohm", c.resistance_ohm);
+  add("motor", "emf_constant_v_s_rad", c.emf_v_s_rad);
+  if (!e.design.emf_in_law()) return changes;
+  add("observer", "torque_constant_nm_a", c.emf_v_s_rad);
+  add("observer", "inertia_kg_m2", c.inertia_kg_m2);
+  if (c.dead_voltage_v) {
+    const double part = e.word("dead_voltage").si - e.design.dead_voltage_v;
+    changes.push_back(
+        {"voltage", "dead_voltage_v", std::max(0.0, c.dead_voltage_v->value - part),
+         fmt::format("{}; less {:.3g} V of the dead time", measured(*c.dead_voltage_v), part)});
   }
-  if (most - least < 0.2) {
-    throw MeasurementError(
-        fmt::format("{}: the weight's torque hardly changes; let the lever turn further, through "
-                    "level and upright",
-                    recording.name));
-  }
-  DriveFit driven(windows, electrical_s, confidence, mass_kg * kStandard_m_s2 * radius_m);
-  const Regression fit = driven.run();
-  refuse_nonsense(recording, fit);
-  return {fit.coefficient(fit.size() - 1), fit.freedom()};
+  return changes;
 }
 
 }  // namespace feltgate::host

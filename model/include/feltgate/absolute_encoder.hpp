@@ -77,6 +77,7 @@ class AbsoluteEncoder {
     std::int32_t position = 0;  ///< counts of 2^-bits turn; wraps
     bool valid = false;
     bool busy = false;
+    bool starts = true;     ///< no reading was wrong since the reset
     int faults = kMissing;  ///< nothing is known before the first reading
   };
 
@@ -234,6 +235,7 @@ class AbsoluteEncoder {
     if (!missing_) flagged_ = field(14, 1) != 0 && asked_ != Kind::flags;
     if (kind != 0) {
       kind_ = kind;
+      out_.starts = false;
       if (!is_lost) ++errors_;
     } else if (is_angle) {
       accept(angle, step, is_lost);

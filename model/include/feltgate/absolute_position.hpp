@@ -80,11 +80,14 @@ class AbsolutePosition {
   }
   /// faults.absolute: why the position is not to be relied on; the core arms only with 0.
   std::uint32_t state() const {
-    return static_cast<std::uint32_t>(encoder_.out().faults | seen_ |
-                                      waits_ << (Map::C::faults_absolute_width - 1));
+    constexpr std::uint32_t starts = 1u << (Map::C::faults_absolute_width - 1);
+    const auto faults = static_cast<std::uint32_t>(encoder_.out().faults | seen_);
+    constexpr std::uint32_t missing = AbsoluteEncoder::kMissing;
+    if (!waits_) return faults;
+    return encoder_.out().starts ? (faults & ~missing) | starts : faults | missing;
   }
-  /// No reading yet: a request to arm waits.
-  bool waits() const { return waits_; }
+  /// The first reading was made: the polarity holds from then on.
+  bool has_read() const { return !waits_; }
   /// A reading since the tick before differs from the one before it.
   bool moved() const { return moved_; }
 
@@ -120,7 +123,8 @@ class AbsolutePosition {
   std::uint32_t reading_ = 0;
   int left_ = 0;        // clocks until it is taken
   bool found_ = false;  // it ends a fault
-  bool changed_ = false, moved_ = false, waits_ = true;
+  bool changed_ = false, moved_ = false;
+  bool waits_ = true;  // no reading yet
 };
 
 /// What the core asks both decoders.
@@ -128,11 +132,6 @@ inline std::uint32_t absolute_state(const QuadDecoder&) { return 0; }
 template <class D>
 std::uint32_t absolute_state(const AbsolutePosition<D>& p) {
   return p.state();
-}
-inline bool waits(const QuadDecoder&) { return false; }
-template <class D>
-bool waits(const AbsolutePosition<D>& p) {
-  return p.waits();
 }
 inline bool moved(const QuadDecoder&, const EncoderMonitorLaw& monitor) { return monitor.moved(); }
 template <class D>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The logic between the engine and the axes, and its replacement in a device without an engine;
-// both are parts of FeltgateAxes. Documentation: docs/blocks/feltgate_axes.md
+// both are parts of FeltgateAxes. Documentation: docs/architecture.md
 #pragma once
 
 #include <array>
@@ -83,7 +83,7 @@ class AxesEngine {
       each[n].law_late = out_.late || !out_.crc_good;
       each[n].law_restart = may_jump();
       each[n].axis_silent |= !state_.checked;
-      each[n].axis_blocked |= law && !out_.crc_good;
+      each[n].axis_blocked |= law && state_.checked && !out_.crc_good;
     }
   }
 

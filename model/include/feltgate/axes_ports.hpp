@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The ports of a device with several axes. Documentation: docs/blocks/feltgate_axes.md
+// The ports of a device with several axes. Documentation: docs/architecture.md
 #pragma once
 
 #include <array>

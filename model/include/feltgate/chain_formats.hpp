@@ -176,10 +176,15 @@ constexpr Formats derive(const BaseFormats& b) {
                      0};
   const Format estimate_v = growth::product(b.voltage, b.inverse_resistance);
   const Format estimate_w = growth::product(b.velocity, b.emf_over_resistance);
-  f.current_estimate_part = {1, growth::max_of(estimate_v.integer, estimate_w.integer), 8};
+  // Whatever the motor, the estimate has 17 bits, its square 19 and the heat 32: a small motor's
+  // have a finer step.
+  const int estimate_integer =
+      growth::max_of(growth::max_of(estimate_v.integer, estimate_w.integer), b.current.integer);
+  f.current_estimate_part = {1, estimate_integer, 15 - estimate_integer};
   f.current_estimate = growth::difference(f.current_estimate_part, f.current_estimate_part);
-  f.current_squared = {0, 17, 2};
-  f.i2t = {0, 30, 2};
+  const int square = 2 * f.current_estimate.integer;
+  f.current_squared = {0, square + 1, 18 - square};
+  f.i2t = {0, square + 14, 18 - square};
   f.charge = {0, 16, 16};
   return f;
 }

@@ -3,7 +3,7 @@
 //
 // The chain tick by tick, without pins or clocks: from a sampled count to the duty, in number
 // policy N. In Fixed its integers equal those of the core's snapshots. Documentation:
-// docs/backends.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/actuation/commutation.sv: three on-times from a position and an amplitude, by
 // space vectors or sines; and the words of a motor. A result is computed as its sample is taken.
-// Documentation: docs/blocks/commutation.md
+// Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <algorithm>
@@ -111,7 +111,7 @@ class Commutation {
  private:
   using Table = std::array<std::int32_t, 17>;
   static constexpr int kHalf = 1 << 16;  // of a clock, in 2^-17
-  /// `curve` at nodes 30/16 degrees apart, in 2^-17; docs/blocks/commutation.md has the factors.
+  /// `curve` at nodes 30/16 degrees apart, in 2^-17; docs/blocks/three_phase.md has the factors.
   template <class Curve>
   static Table nodes(const Curve& curve) {
     const double step_rad = std::acos(-1.0) / 6 / 16;

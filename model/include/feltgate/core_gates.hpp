@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The PWM inside the core's twin, advanced from event to event, and counts of each gate's on-time.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's twin: the inputs of its blocks, made from the pins and the control word. Included by
-// feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
+// feltgate_core.hpp. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -29,26 +29,39 @@ void turned_by(const Decoder& decoder, In* in) {
   }
 }
 
+/// Whether a sensor has no first value yet: a request to arm waits.
+template <class Loop, class Decoder>
+bool starts(const Loop& loop, const Decoder& decoder) {
+  return loop.starts() || absolute_state(decoder) >> (Map::C::faults_absolute_width - 1) != 0;
+}
+
+/// Whether a sensor refuses a request to arm.
+template <class Loop, class Decoder>
+bool unfit(const Loop& loop, const Decoder& decoder) {
+  constexpr std::uint32_t faults = (1u << (Map::C::faults_absolute_width - 1)) - 1;
+  return loop.unfit() || (absolute_state(decoder) & faults) != 0;
+}
+
 template <class D, bool ReadBack>
 void FeltgateCore<D, ReadBack>::ask(const In& in, typename Supervisor<D>::In* sup) const {
   sup->host = host();
   sup->host_arm = bit(registers_.out().control, D::C::control_arm);
   sup->arm = in.arm;
   sup->disarm = registers_.out().disarm;
-  sup->axis_silent = in.axis_silent || loop_.waits() || waits(decoder_);
-  sup->axis_blocked = in.axis_blocked || !loop_.ready() || absolute_state(decoder_) != 0;
+  sup->axis_silent = in.axis_silent || starts(loop_, decoder_);
+  sup->axis_blocked = in.axis_blocked || unfit(loop_, decoder_);
 }
 
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::arm_request(const In& in) const {
   typename Supervisor<D>::In sup;
   ask(in, &sup);
-  return sup.arm_request();
+  return supervisor_.asks(sup) && !starts(loop_, decoder_);
 }
 
 template <class D, bool ReadBack>
 bool FeltgateCore<D, ReadBack>::ready() const {
-  return supervisor_.ready(host()) && loop_.ready() && absolute_state(decoder_) == 0;
+  return supervisor_.ready(host()) && !unfit(loop_, decoder_);
 }
 
 /// The scene that is asked for: by the control word if the host has control, else by the panel.
@@ -76,6 +89,7 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
   reg.reg_wdata = in.reg_wdata;
   reg.reg_write = in.reg_write;
   reg.armed = held;
+  if constexpr (kAbsolute) reg.polarity_holds = decoder_.has_read();
   reg.set_zero = in.set_zero;
   reg.scene = out_.scene;
   if (registers_.flipped()) {  // only then is the parameter bus modelled
@@ -85,6 +99,9 @@ typename Registers<D, ReadBack>::In FeltgateCore<D, ReadBack>::register_inputs(c
     reg.region_high = wave_.region_high();
     reg.testing = self_test_.busy(out_.armed);
     reg.derated = hold_.derated();
+    reg.at_least_full = clock_ == core_steps::clock_of(T::least_full);
+    reg.at_least_hold = clock_ == core_steps::clock_of(T::least_hold);
+    reg.at_least_test = clock_ == core_steps::clock_of(T::least_test);
   }
   return reg;
 }

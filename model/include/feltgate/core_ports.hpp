@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The ports of the whole core; the twin and the Verilated RTL share them.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

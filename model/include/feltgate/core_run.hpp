@@ -3,7 +3,7 @@
 //
 // The core's twin from event to event: the functions of FeltgateCore that replace many calls of
 // clock() while the inputs hold. Included by feltgate_core.hpp.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,14 @@
 #include <initializer_list>
 
 #include "feltgate/feltgate_core.hpp"
+
+/// For the body of an unrolled loop over the steps: as a call, it would look for its step each
+/// time.
+#ifdef __OPTIMIZE__
+#define FELTGATE_INLINED __attribute__((always_inline))
+#else
+#define FELTGATE_INLINED
+#endif
 
 namespace feltgate {
 
@@ -181,7 +189,7 @@ template <bool Read, class OnSnapshot>
 void FeltgateCore<D, ReadBack>::pass_tick(const In& in, OnSnapshot&& on_snapshot) {
   Stretch s = stretch(0, D::clocks_per_tick);
   wave_.watch(0, D::clocks_per_tick, decoder_.out().travel);
-  core_steps::for_each_step(0, D::clocks_per_tick, [&](Step step) {
+  core_steps::for_each_step(0, D::clocks_per_tick, [&](Step step) FELTGATE_INLINED {
     take_in<Read>(s, step, in, decoder_.out(), on_snapshot);
   });
   finish(in, s);
@@ -207,8 +215,9 @@ int FeltgateCore<D, ReadBack>::pass(const In& in, int from, int to, OnSnapshot&&
   const QuadDecoder::Out decoded = decoder_.out();
   to = advance_decoder(in, from, to);
   Stretch s = stretch(from, to);
-  core_steps::for_each_step(
-      from, to, [&](Step step) { take_in<ReadBack>(s, step, in, decoded, on_snapshot); });
+  core_steps::for_each_step(from, to, [&](Step step) FELTGATE_INLINED {
+    take_in<ReadBack>(s, step, in, decoded, on_snapshot);
+  });
   registers_.skip(in.reg_addr, to - from);
   finish(in, s);
   if (to == D::clocks_per_tick) registers_.skip_end_of_tick();
@@ -280,3 +289,5 @@ void FeltgateCore<D, ReadBack>::catch_up() {
 }
 
 }  // namespace feltgate
+
+#undef FELTGATE_INLINED

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The schedule steps at which an output or register of the core changes, sorted by clock of the
-// tick. The core's twin executes a tick in this order. Documentation: docs/blocks/feltgate_core.md
+// tick. The core's twin executes a tick in this order. Documentation: docs/architecture.md
 #pragma once
 
 #include <array>

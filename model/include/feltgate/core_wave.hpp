@@ -3,7 +3,7 @@
 //
 // The arithmetic of a wave inside the core's twin. Each law is evaluated once, at a step at which
 // all its inputs are known; each result is shown at the step at which the RTL shows it.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

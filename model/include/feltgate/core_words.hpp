@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's twin: the snapshot words `status` and `faults`, assembled from single bits. Included
-// by feltgate_core.hpp. Documentation: docs/blocks/feltgate_core.md
+// by feltgate_core.hpp. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,9 @@ std::uint32_t FeltgateCore<D, ReadBack>::status(const In& in, bool encoder_error
          field(loop_.driver_fault(), C::status_driver_fault) |
          field(loop_.missing(), C::status_current_missing) |
          field(encoder_error, C::status_encoder_error) |
-         field(registers_.out().refused, C::status_refused) | field(s.unkicked, C::status_unkicked);
+         field(registers_.out().refused, C::status_refused) |
+         field(registers_.out().saturated, C::status_saturated) |
+         field(s.unkicked, C::status_unkicked);
 }
 
 template <class D, bool ReadBack>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/actuation/current_check.sv: compares a measured current with the one that the
-// applied voltage makes; and its words from a winding. Documentation: docs/blocks/current_check.md
+// applied voltage makes; and its words from a winding. Documentation: docs/blocks/current.md
 #pragma once
 
 #include <algorithm>

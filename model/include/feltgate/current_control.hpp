@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/actuation/current_control.sv: the PI law of the motor current, whose integrator
 // follows the applied voltage as the winding's resistance does; and its gains from a winding.
-// Documentation: docs/blocks/current_control.md
+// Documentation: docs/blocks/current.md
 #pragma once
 
 #include <algorithm>

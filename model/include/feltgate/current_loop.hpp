@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/actuation/current_loop.sv: current_sense, current_control or field_oriented, and
 // current_check, their inputs from the wave, and the duty for the PWM, clock by clock.
-// Documentation: docs/blocks/current_control.md
+// Documentation: docs/blocks/current.md
 #pragma once
 
 #include <algorithm>
@@ -39,9 +39,9 @@ class CurrentLoop {
   std::uint32_t state() const { return 0; }
   bool driver_fault() const { return false; }
   bool missing() const { return false; }
-  bool ready() const { return true; }
+  bool starts() const { return false; }
+  bool unfit() const { return false; }
   bool trips(bool) const { return false; }
-  bool waits() const { return false; }
 };
 
 /// What the loops of one and of three phases have in common.
@@ -92,13 +92,14 @@ class MeasuredCurrent {
     }
     return bits;
   }
-  /// Whether nothing forbids arming.
-  bool ready() const { return state() == 0 && !driver_fault() && !missing(); }
-  bool trips(bool gates_enable) const { return gates_enable && !ready(); }
   /// Whether a request to arm waits, for the first offset.
-  bool waits() const { return (state() >> 4) != 0; }
+  bool starts() const { return (state() & kStarts) != 0; }
+  /// Whether one is refused.
+  bool unfit() const { return (state() & ~kStarts) != 0 || driver_fault() || missing(); }
+  bool trips(bool gates_enable) const { return gates_enable && (starts() || unfit()); }
 
  protected:
+  static constexpr std::uint32_t kStarts = 1u << (Map::C::faults_current_width - 1);
   // A whole period stays below the supply, which 17 bits do not hold.
   static constexpr std::int32_t kLimitGain = (CurrentControl::kSupply - 1) / D::pwm_period;
 

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/actuation/current_sense.sv: a current from a sigma-delta bit stream by a sinc3
 // filter in step with the PWM, over-current by a fast one, offset and faults. The sums have 64 bits
-// here and wrap like the shorter ones of the RTL. Documentation: docs/blocks/current_sense.md
+// here and wrap like the shorter ones of the RTL. Documentation: docs/blocks/current.md
 #pragma once
 
 #include <algorithm>

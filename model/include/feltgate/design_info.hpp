@@ -4,6 +4,7 @@
 // The constants of a generated design as run-time information. Documentation: docs/library.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -50,9 +51,17 @@ struct DesignInfo {
   CommandBits command;
   std::uint32_t control_reset = 0;
   std::uint32_t design_crc = 0;  ///< identifies the design for a host, docs/link.md
+  std::uint32_t file_sum = 0;    ///< of the file in rtl/designs that it was generated from
   std::function<int(const std::string&)> scene_number;  ///< -1: unknown, or not built
   std::vector<std::string> scenes;  ///< the scenes that are built, in the order of their numbers
 
+  /// When a request to arm may rise: as wanted, or once the offset of a current is known, after 512
+  /// PWM periods, if that is longer than a request may wait for it.
+  std::int64_t request_at(std::int64_t wanted) const {
+    const std::int64_t offset = std::int64_t{513} * pwm_period;
+    const bool waits = current_full_scale_a == 0 || offset < clock_hz / 1000 * Map::arm_wait_ms;
+    return waits ? wanted : std::max(wanted, offset);
+  }
   /// The parameter of that name; nullptr where the design has none.
   const ParameterInfo* find(std::string_view parameter) const {
     for (int i = 0; i < parameter_count; ++i) {
@@ -136,6 +145,7 @@ DesignInfo design_info() {
   i.command = {D::C::command_set_zero, D::C::command_clear_faults, D::C::command_kick};
   i.control_reset = static_cast<std::uint32_t>(D::control_reset);
   i.design_crc = D::design_crc;
+  i.file_sum = D::file_sum;
   i.scene_number = [](const std::string& name) {
     const int n = D::scene_number(name);
     return n >= 0 && ((D::scene_mask >> n) & 1) != 0 ? n : -1;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/axes/feltgate_axes.sv: one to three cores as axes of one device. Every output of
-// every core equals the RTL's in each clock. Documentation: docs/blocks/feltgate_axes.md
+// every core equals the RTL's in each clock. Documentation: docs/architecture.md
 #pragma once
 
 #include <algorithm>
@@ -185,12 +185,15 @@ class FeltgateAxes {
   }
 
   /// Whether no axis affects the others before the tick ends: no gates close, and, if the stretch
-  /// ends the tick, no axis arms.
+  /// ends the tick, no axis asks to be armed.
   bool apart(const std::array<CoreIn, N>& each, bool ends) const {
     if (N == 1) return true;
-    bool enabled = false;
-    for (const Core& core : cores_) enabled |= core.out().gates_enable;
-    if (!enabled) return !ends || each[0].axis_silent || !cores_[0].arm_request(each[0]);
+    bool enabled = false, asks = false;
+    for (std::size_t n = 0; n < N; ++n) {
+      enabled |= cores_[n].out().gates_enable;
+      asks |= cores_[n].arm_request(each[n]);
+    }
+    if (!enabled) return !ends || !asks;
     for (std::size_t n = 0; n < N; ++n) {
       if (cores_[n].may_trip(each[n])) return false;
     }

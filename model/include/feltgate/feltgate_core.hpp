@@ -4,7 +4,7 @@
 // Twin of rtl/core/feltgate_core.sv: the whole core, every output pin and register in every clock.
 // The wave is computed in a few steps; each result appears in the clock in which the RTL shows it.
 // clock() advances one clock, run() a stretch without input changes, with identical results.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <cstddef>
@@ -43,7 +43,7 @@ class FeltgateCore {
     decoder_.reset();
     wave_.reset();
     loop_.reset();
-    monitor_ = {};
+    monitor_ = made_monitor();
     hold_ = {};
     supervisor_.reset();
     gates_.reset();
@@ -147,8 +147,8 @@ class FeltgateCore {
   /// Result of the self-test, as in the status word.
   SelfTestResult self_test_result() const { return self_test_.result(); }
   bool testing() const { return self_test_.busy(out_.armed); }
-  /// For the other axes: whether this axis will ask to be armed in the next clock (arm_request),
-  /// and whether it could be armed (ready).
+  /// For the other axes: whether this axis asks to be armed in the next clock (arm_request), and
+  /// whether nothing refuses its request (ready).
   bool arm_request(const In& in) const;
   /// Whether in the next clock position, velocity and tau_hat are those of this tick.
   bool measured() const { return clock_ == after(T::tau_hat); }
@@ -281,7 +281,7 @@ class FeltgateCore {
         out_.snapshot_valid = true;
         return;
       case Step::levels:
-        monitor_.tick(decoded.levels, out_.tick_count, decoded.index_wrong);
+        monitor_.tick(decoded.levels, out_.tick_count, decoded.index_wrong, decoded.count);
         wave_.set_frozen(monitor_.chatters());
         return;
       case Step::hold:
@@ -297,7 +297,7 @@ class FeltgateCore {
         if (kLaw) wave_.program(in.law_late ? 0 : in.law_torque);
         return;
       case Step::sample:
-        self_test_.sample(decoded.travel);
+        self_test_.sample(static_cast<std::uint16_t>(decoded.travel >> D::self_test_drop));
         [[fallthrough]];
       default:
         wave_.take(step, decoded.position, decoded.travel, mode(), pulse(in), out_);
@@ -378,7 +378,10 @@ class FeltgateCore {
   Decoder decoder_{0, static_cast<std::uint32_t>(D::index_counts)};
   CoreWave<D> wave_;
   CurrentLoop<D> loop_;
-  EncoderMonitorLaw monitor_;
+  static EncoderMonitorLaw made_monitor() {
+    return EncoderMonitorLaw(D::edge_unit_bits, D::fast_edges != 0);
+  }
+  EncoderMonitorLaw monitor_ = made_monitor();
   HoldTimerLaw hold_;
   Supervisor<D> supervisor_, before_wave_;
   typename Supervisor<D>::Words supervisor_words_;

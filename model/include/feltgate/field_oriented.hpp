@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/actuation/field_oriented.sv: the currents of three phases in the rotor's frame,
 // their two laws, and three on-times. Its gains are those of current_control.hpp, with the voltage
-// supply/root 3 as supply. Documentation: docs/blocks/field_oriented.md
+// supply/root 3 as supply. Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <algorithm>
@@ -259,7 +259,7 @@ class FieldOriented {
   /// The limited voltage, before it is turned.
   Vector radius() const { return {(length_ * kShrink) >> 14, 0}; }
 
-  /// Space vectors, in 2^-4 clocks: docs/blocks/field_oriented.md#the-legs
+  /// Space vectors, in 2^-4 clocks: docs/blocks/three_phase.md
   void legs() {
     constexpr int down = 17 + kGuard + 6 - 4;
     const std::int64_t u = (at_.x * ((period_ * 454047 + 8192) / 16384)) >> down;

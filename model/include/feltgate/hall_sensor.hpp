@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/encoder/hall_sensor.sv: three Hall lines to an electrical angle that the
 // encoder's counts carry; and the decoder of the core's twin that has it.
-// Documentation: docs/blocks/hall_sensor.md
+// Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <cstdint>
@@ -153,7 +153,6 @@ class HallDecoder : public QuadDecoder {
     return static_cast<std::uint32_t>((o.faults & 3u) | (o.faults & HallSensor::kPassed) << 1 |
                                       o.waits << (Map::C::faults_absolute_width - 1));
   }
-  bool waits() const { return hall_.out().waits; }
   /// No clock may be skipped.
   static bool settled(const In&) { return false; }
 
@@ -163,7 +162,6 @@ class HallDecoder : public QuadDecoder {
 };
 
 inline std::uint32_t absolute_state(const HallDecoder& d) { return d.state(); }
-inline bool waits(const HallDecoder& d) { return d.waits(); }
 
 /// The decoder of design D.
 template <class D>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/core/safety/hold_timer.sv: lowers the torque limit after a strong torque was held too
-// long against a lever that stands still. Documentation: docs/blocks/hold_timer.md
+// long against a lever that stands still. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>

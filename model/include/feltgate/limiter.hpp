@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/core/actuation/limiter.sv, the only limiter of the core. Documentation:
-// docs/blocks/limiter.md
+// docs/blocks/torque_control.md
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/link/link_capture.sv: records words of consecutive ticks in a ring of rows, around a
-// trigger. Documentation: docs/blocks/link_capture.md
+// trigger. Documentation: docs/link.md
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/link/link_port.sv: executes the link's requests. Documentation:
-// docs/blocks/link_port.md
+// docs/link.md
 #pragma once
 
 #include <cstdint>

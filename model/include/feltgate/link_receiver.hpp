@@ -4,7 +4,7 @@
 // Twin of rtl/link/link_receiver.sv: decodes bytes from the line into requests (SLIP, CRC-32, range
 // checks). A byte passes the CRC in the 8 clocks after it. A request is valid in the clock after
 // the frame's last byte, until it is taken or the next frame begins. Documentation:
-// docs/blocks/link_receiver.md
+// docs/link.md
 #pragma once
 
 #include <array>

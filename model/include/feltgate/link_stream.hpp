@@ -3,7 +3,7 @@
 //
 // Twin of rtl/link/link_stream.sv: sends chosen words of a tick as a frame, once per period of
 // ticks. All words of the tick are stored first. While a frame is stored or sent, further due
-// frames are dropped and counted. Documentation: docs/blocks/link_stream.md
+// frames are dropped and counted. Documentation: docs/link.md
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/link/link_transmitter.sv: sends the frames of two sources as bytes on the line (SLIP,
 // CRC-32). If both have a frame, the reply goes first. A byte passes the CRC in 8 clocks.
-// Documentation: docs/blocks/link_transmitter.md
+// Documentation: docs/link.md
 #pragma once
 
 #include <cstdint>

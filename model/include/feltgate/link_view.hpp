@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/link/link_view.sv: shows twelve words of several axes as those of one core, to stream
-// and capture. Documentation: docs/blocks/link_view.md
+// and capture. Documentation: docs/link.md
 #pragma once
 
 #include <array>

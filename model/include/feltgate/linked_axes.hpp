@@ -3,7 +3,7 @@
 //
 // What feltgate_linked contains instead of a core where the design has an engine or several axes:
 // feltgate_axes, whose words can be read tick by tick. Documentation:
-// docs/blocks/feltgate_linked.md
+// docs/link.md
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/link/feltgate_linked.sv: the core, or axes with their engine, together with the host
 // link. It advances clock by clock, or with the host's bytes from event to event.
-// Documentation: docs/blocks/feltgate_linked.md
+// Documentation: docs/link.md
 #pragma once
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The ports of the core, or of several axes, with the link. Documentation:
-// docs/blocks/feltgate_linked.md
+// docs/link.md
 #pragma once
 
 #include <array>

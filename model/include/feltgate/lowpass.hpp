@@ -3,7 +3,7 @@
 //
 // Law of rtl/core/estimators/lowpass.sv: one-pole low-pass y += round(a1 * (x - y)), with the
 // design's rounding. With 0 <= a1 < 1 the new state lies between the old state and the input, so it
-// cannot overflow. Documentation: docs/blocks/lowpass.md
+// cannot overflow. Documentation: docs/blocks/dob.md
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,7 @@ struct Negated<fixed<S, I, F>> {
 }  // namespace detail
 
 /// Fixed point: a number of format Key is a fixed<S,I,F>. Another fixed-point type can be used
-/// through a policy with the same members; model/studies/bench/systemc_numbers.hpp is one.
+/// through a policy with the same members.
 struct Fixed {
   static constexpr bool is_fixed = true;
   template <int Key>

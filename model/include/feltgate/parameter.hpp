@@ -20,4 +20,15 @@ struct ParameterInfo {
   std::int64_t raw;  ///< the same value, quantised
 };
 
+/// What a write of `word` to a parameter stores: the nearest word that fits its format. A word with
+/// bit 31 is negative. A plain integer, and a number of 32 bits without a sign, take any word.
+constexpr std::uint32_t fitted(Format format, std::uint32_t word) {
+  const int bits = format.width() - format.sign;
+  if (bits >= 31) return word;
+  const std::int64_t most = (std::int64_t{1} << bits) - 1;
+  const std::int64_t least = format.sign != 0 ? -most - 1 : 0;
+  const auto value = static_cast<std::int64_t>(static_cast<std::int32_t>(word));
+  return static_cast<std::uint32_t>(value > most ? most : value < least ? least : value);
+}
+
 }  // namespace feltgate

@@ -4,7 +4,7 @@
 // Twin of rtl/core/actuation/pwm_three_phase.sv: centre-aligned PWM for three legs, with dead time.
 // On-times in clocks are sampled once per period, with period_start. They reach the gates 3 clocks
 // later, rising edges after the dead time in addition; while disabled they are 0.
-// Documentation: docs/blocks/pwm_three_phase.md
+// Documentation: docs/blocks/pwm.md
 #pragma once
 
 #include <algorithm>

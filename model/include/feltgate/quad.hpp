@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The type Quad: IEEE binary128 under one name on every machine. Documentation: docs/backends.md
+// The type Quad: IEEE binary128 under one name on every machine. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <cfloat>

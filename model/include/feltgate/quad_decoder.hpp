@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/encoder/quad_decoder.sv: incremental encoder to position [1,31,0] counts, which
 // wraps. Latency from pin to travel 3 clocks, to position 4 clocks, plus the filter length.
-// Documentation: docs/blocks/quad_decoder.md
+// Documentation: docs/blocks/encoder.md
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // Law of rtl/core/actuation/ramp.sv: the torque reference follows the limited torque of the scene.
 // It moves in steps after arming, after a change of scene, and after other events that may make the
-// torque jump. Documentation: docs/blocks/ramp.md
+// torque jump. Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace feltgate {
 /// Conditions that keep a torque from growing.
 struct Relief {
   bool frozen = false;   ///< the reference may only move towards 0
-  bool derated = false;  ///< the limit is hold_limit
+  bool derated = false;  ///< hold_limit limits too
 };
 
 /// The relief that bits of a core's limits word stand for.
@@ -70,11 +70,11 @@ class RampLaw {
   }
   /// Moves the reference towards the target by one step, at least one LSB. The tick in which the
   /// target is found within one step ends the ramp; the reference reaches the target in the next
-  /// tick. While frozen, the reference may only move towards 0; if target and reference have
-  /// different signs, it keeps the positive one of the two.
+  /// tick. While frozen, the reference may only move towards 0, and stays where it is if target and
+  /// reference have different signs.
   void move(Ramp step) {
-    const bool grows =
-        reference_ < Ramp{} ? reference_ >= target_ : reference_ < target_ || target_ < Torque{};
+    const bool grows = reference_ < Ramp{} ? reference_ >= target_ || target_ > Torque{}
+                                           : reference_ < target_ || target_ < Torque{};
     limit_ramp_ = armed_ && (ramping_ || (relief_.frozen && grows));
     if (!limit_ramp_) {
       reference_ = quantise<N, Ramp, Round::truncate, Overflow::wrap>(target_);

@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/wave/registers.sv: register port, parameter RAM, control word, commands and
-// snapshot. A write takes effect at the end of the tick; a disarm and a stop do not wait behind an
-// earlier write. A word is on the parameter bus 2 clocks after its slot is fetched; read data
-// follow their address by 3 clocks. Documentation: docs/blocks/registers.md
+// snapshot. A write takes effect at the end of the tick, a parameter saturated to its format; a
+// disarm and a stop do not wait behind an earlier write. A word is on the parameter bus 2 clocks
+// after its slot is fetched; read data follow their address by 3 clocks. Documentation:
+// docs/architecture.md
 #pragma once
 
 #include <array>
@@ -13,6 +14,7 @@
 #include <map>
 
 #include "feltgate/generated/map.hpp"
+#include "feltgate/parameter.hpp"
 #include "feltgate/while_armed.hpp"
 
 namespace feltgate {
@@ -34,13 +36,17 @@ class Registers {
     std::uint32_t reg_wdata = 0;
     bool reg_write = false;         ///< held until a clock in which out().reg_busy is low
     bool armed = false;             ///< in the clock of tick also: about to be armed
+    bool polarity_holds = false;    ///< encoder_polarity keeps its value
     bool set_zero = false;          ///< from the panel
     std::uint8_t slot_fetch = 0;    ///< slot of the parameter that goes on the bus
     bool scene_slot_fetch = false;  ///< the slot is one of the scene's parameters
     std::uint8_t scene = 0;         ///< in force
     bool region_high = false;       ///< voltage_gain_high replaces voltage_gain
-    bool derated = false;           ///< hold_limit replaces torque_limit
-    bool testing = false;           ///< self_test_torque replaces torque_limit
+    bool at_least_full = false;     ///< torque_limit is on the bus
+    bool at_least_hold = false;     ///< hold_limit is
+    bool at_least_test = false;     ///< self_test_torque is
+    bool derated = false;           ///< hold_limit limits too
+    bool testing = false;           ///< self_test_torque limits too
     std::uint8_t snap_slot = 0;
     bool snap_valid = false;  ///< snap_data goes into the snapshot at snap_slot
     std::uint32_t snap_data = 0;
@@ -51,10 +57,11 @@ class Registers {
     std::uint32_t param = 0;  ///< the parameter bus
     bool word_error = false;  ///< the word on the bus one clock ago has changed by itself
     std::uint16_t control = static_cast<std::uint16_t>(D::control_reset);
-    bool disarm = false;    ///< a disarm was written since the end of the last tick
-    bool stop = false;      ///< a stop was commanded since the end of the last tick
-    bool refused = false;   ///< the last parameter write was, because the core was armed
-    bool set_zero = false;  ///< these four only in peek(): high in the clock of tick
+    bool disarm = false;     ///< a disarm was written since the end of the last tick
+    bool stop = false;       ///< a stop was commanded since the end of the last tick
+    bool refused = false;    ///< the last parameter write was, because the core was armed
+    bool saturated = false;  ///< the last parameter written did not fit its format
+    bool set_zero = false;   ///< these four only in peek(): high in the clock of tick
     bool clear_faults = false;
     bool kick = false;
     bool restart = false;  ///< this write may make the torque jump
@@ -75,6 +82,8 @@ class Registers {
     zero_ = false;
     warm_ = false;
     fetch_wrong_ = bus_wrong_ = held_wrong_ = false;
+    least_ = 0;
+    least_at_ = D::A::torque_limit;
     write_bank_ = 0;
     frozen_ = false;
     source_ = source_2_ = Source::nowhere;
@@ -85,6 +94,7 @@ class Registers {
     // A read in this clock gives the contents before this clock's writes.
     const std::uint32_t fetched = parameters_[fetch_address(in)];
     out_.word_error = bus_wrong_ || held_wrong_;
+    note_limit(in);
     if (warm_) {
       out_.param = fetch_;
       bus_wrong_ = fetch_wrong_;
@@ -96,7 +106,7 @@ class Registers {
     if (in.snap_valid) write_snapshot(in.snap_slot, in.snap_data);
     warm_ = true;
     const bool accept = in.reg_write && target_ == Target::none;
-    if (in.tick) commit(in.armed);
+    if (in.tick) commit(in);
     const bool command = in.reg_write && in.reg_addr == D::C::command;
     const bool control = in.reg_write && in.reg_addr == D::C::control;
     out_.disarm = (control && disarms(in.reg_wdata)) || (out_.disarm && !in.tick);
@@ -107,6 +117,10 @@ class Registers {
       target_ = target_of(in.reg_addr);
       address_ = in.reg_addr & 0x1ffU;
       data_ = in.reg_wdata;
+      if (target_ == Target::parameter) {
+        data_ = fitted(in.reg_addr, in.reg_wdata);
+        out_.saturated = data_ != in.reg_wdata;
+      }
     }
     out_.reg_busy = target_ != Target::none;
   }
@@ -227,12 +241,39 @@ class Registers {
     if (address == D::C::control) return Source::control;
     return (address >> 6) == Map::C::snapshot >> 6 ? Source::snapshot : Source::nowhere;
   }
-  static std::size_t fetch_address(const In& in) {
+  static std::uint32_t fitted(int address, std::uint32_t word) {
+    for (const auto& p : D::parameters) {
+      if (p.address == address) return feltgate::fitted(p.format, word);
+    }
+    return word;
+  }
+  std::size_t fetch_address(const In& in) const {
     if (in.scene_slot_fetch) return (in.scene * 32U + (in.slot_fetch & 31U)) & 0x1ffU;
-    if (in.testing && in.slot_fetch == D::A::torque_limit) return D::A::self_test_torque;
-    if (in.derated && in.slot_fetch == D::A::torque_limit) return D::A::hold_limit;
-    const bool high = in.region_high && in.slot_fetch == D::A::voltage_gain;
-    return high ? D::A::voltage_gain_high : in.slot_fetch;
+    switch (in.slot_fetch) {
+      case D::A::torque_limit:
+        return least_at_;
+      case Map::T::least_full:
+        return D::A::torque_limit;
+      case Map::T::least_hold:
+        return D::A::hold_limit;
+      case Map::T::least_test:
+        return D::A::self_test_torque;
+      case D::A::voltage_gain:
+        return in.region_high ? D::A::voltage_gain_high : D::A::voltage_gain;
+      default:
+        return in.slot_fetch;
+    }
+  }
+  /// The limit of the torque is the least of all that limit it; they come by one after the other.
+  void note_limit(const In& in) {
+    constexpr int unused = 32 - D::f.torque.width();
+    const std::int32_t limit = static_cast<std::int32_t>(out_.param << unused) >> unused;
+    const bool limits = (in.at_least_hold && in.derated) || (in.at_least_test && in.testing);
+    if (!in.at_least_full && !(limits && limit < least_)) return;
+    least_ = limit;
+    least_at_ = in.at_least_full   ? D::A::torque_limit
+                : in.at_least_hold ? D::A::hold_limit
+                                   : D::A::self_test_torque;
   }
   static std::size_t bank_index(int bank, int slot) {
     return static_cast<std::size_t>(bank * 64 + slot);
@@ -284,19 +325,21 @@ class Registers {
   }
 
   /// The end of a tick.
-  void commit(bool armed) {
+  void commit(const In& in) {
     const bool swap = !frozen_;  // a tick that ends with a freeze is the one that is kept
     if (target_ == Target::parameter) {
-      out_.refused = refuses(armed);
+      out_.refused = refuses(in.armed);
       if (!out_.refused) {
         parameters_[address_] = data_;
         flipped_.erase(address_);
       }
     }
     if (target_ == Target::control) {
-      out_.control =
-          static_cast<std::uint16_t>(control_after(out_.control, data_, armed && !out_.disarm));
-      if (!armed || out_.disarm) held_wrong_ = false;
+      const bool holds = in.armed && !out_.disarm;
+      constexpr std::uint32_t polarity = 1U << D::C::control_encoder_polarity;
+      if (in.polarity_holds) data_ = (data_ & ~polarity) | (out_.control & polarity);
+      out_.control = static_cast<std::uint16_t>(control_after(out_.control, data_, holds));
+      if (!holds) held_wrong_ = false;
     }
     if (out_.disarm) {
       constexpr unsigned host = 1U << D::C::control_host, arm = 1U << D::C::control_arm;
@@ -319,6 +362,8 @@ class Registers {
   bool warm_ = false;
   std::uint32_t fetch_ = 0;
   bool fetch_wrong_ = false, bus_wrong_ = false, held_wrong_ = false;
+  std::int32_t least_ = 0;                        ///< of the torque's limits so far
+  std::size_t least_at_ = D::A::torque_limit;     ///< and its address
   std::map<std::size_t, std::uint64_t> flipped_;  ///< wrong bits of words, by address
   std::size_t last_ = 0;                          ///< word of the snapshot that was written last
   std::uint32_t before_ = 0;                      ///< its content before that write

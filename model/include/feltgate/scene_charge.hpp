@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/scenes/scene_charge.sv: the torque of a point charge at distance x. Outside a
 // linear core it is strength * sgn(x) / x^2, inside the core slope * x; the charge attracts or
-// repels. Documentation: docs/blocks/scene_charge.md
+// repels. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

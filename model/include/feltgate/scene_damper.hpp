@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/scenes/scene_damper.sv: tau = -b * velocity. Documentation:
-// docs/blocks/scene_damper.md
+// docs/blocks/scenes.md
 #pragma once
 
 #include "feltgate/scene_part.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/scenes/scene_membrane.sv: between two faces, a constant torque drives the lever
-// back to the side that it came from. Documentation: docs/blocks/scene_membrane.md
+// back to the side that it came from. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

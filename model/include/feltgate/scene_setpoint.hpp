@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/scenes/scene_setpoint.sv: a constant torque. Documentation:
-// docs/blocks/scene_setpoint.md
+// docs/blocks/scenes.md
 #pragma once
 
 #include "feltgate/scene_part.hpp"

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/scenes/scene_spring.sv: tau = k * (reference - position). Tension acts on both
 // sides of the reference, compression only below the contact. Documentation:
-// docs/blocks/scene_spring.md
+// docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

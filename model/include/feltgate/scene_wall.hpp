@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/scenes/scene_wall.sv: a unilateral spring-damper. Above the contact
 // tau = k * (contact - position) - b * velocity, but never a pull.
-// Documentation: docs/blocks/scene_wall.md
+// Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

@@ -49,12 +49,18 @@ class ScenesLaw {
       if (scene == S::law) rendered = ScenePartLaw<D, N>::whole(programmed_);
     }
     ramp_.begin(armed && pulse == TestPulse::none, scene, relief);
+    // The least of all that limit.
+    auto limit = w.template get<limit_key>(D::A::torque_limit);
+    const auto lower = [&](bool limits, int address) {
+      const auto other = w.template get<limit_key>(address);
+      if (limits && other < limit) limit = other;
+    };
+    lower(relief.derated, D::A::hold_limit);
+    lower(pulse != TestPulse::none, D::A::self_test_torque);
     if (pulse == TestPulse::none) {
-      const int limit = relief.derated ? D::A::hold_limit : D::A::torque_limit;
-      ramp_.limit(rendered, w.template get<limit_key>(limit));
+      ramp_.limit(rendered, limit);
     } else {
-      const int sign = pulse == TestPulse::up ? 1 : pulse == TestPulse::down ? -1 : 0;
-      ramp_.pulse(sign, w.template get<limit_key>(D::A::self_test_torque));
+      ramp_.pulse(pulse == TestPulse::up ? 1 : pulse == TestPulse::down ? -1 : 0, limit);
     }
     ramp_.move(w.ramp_step());
   }

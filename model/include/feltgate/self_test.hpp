@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/core/safety/self_test.sv, tick by tick: after arming it gives a torque pulse and its
-// opposite, and checks which way the lever moves. Documentation: docs/blocks/self_test.md
+// opposite, and checks which way the lever moves. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <algorithm>

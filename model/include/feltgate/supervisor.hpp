@@ -59,6 +59,8 @@ class Supervisor {
   static constexpr int heat_clock = Map::first_wave_clock + T::heat;
   static constexpr int polarity_clock = Map::first_wave_clock + T::polarity;
   static constexpr int watchdog_clock = Map::first_wave_clock + T::watchdog;
+  static constexpr std::uint32_t wait_ticks =  // of a request to arm, at most
+      D::clock_hz / 1000 * Map::arm_wait_ms / D::clocks_per_tick - 1;
 
   struct In {
     bool tick = false;  ///< last clock of a tick
@@ -78,8 +80,8 @@ class Supervisor {
     std::uint32_t param = 0;
     std::int64_t product = 0;
     std::uint16_t trips = 0;    ///< faults that other blocks found, one bit per cause
-    bool axis_silent = false;   ///< another axis does not request arming
-    bool axis_blocked = false;  ///< another axis is not ready
+    bool axis_silent = false;   ///< another axis does not request arming, or a sensor starts
+    bool axis_blocked = false;  ///< another axis, or a sensor, is not ready
     /// The request of the host or the panel, whichever has control.
     bool arm_request() const { return (host ? host_arm : arm) && !disarm; }
   };
@@ -122,8 +124,10 @@ class Supervisor {
     sum_ = heat;
   }
   const Out& out() const { return out_; }
-  /// Whether nothing prevents arming by the side that has control.
-  bool ready(bool host) const { return able() && (host ? host_counts_ : panel_counts_); }
+  /// Whether nothing refuses a request of the side that has control.
+  bool ready(bool host) const { return able() && counts(host); }
+  /// Whether that side asks for arming, and its request counts.
+  bool asks(const In& in) const { return in.arm_request() && counts(in.host); }
 
   void clock(const In& in) {
     const bool live = out_.gates_enable;
@@ -142,6 +146,7 @@ class Supervisor {
       latch(trip);
       out_.gates_enable = false;
     }
+    if (!in.tick) stop_seen_ |= stop_2_;
     stop_2_ = stop_1_;
     stop_1_ = stopped_now;
     stopped_ = stopped_now && !dealt_with;
@@ -343,33 +348,41 @@ class Supervisor {
     out_.faults |= trip;
   }
   /// Whether there is no fault, no stop and no missing first kick.
-  bool able() const { return out_.first_fault == 0 && !stop_2_ && !out_.unkicked; }
+  bool able() const { return out_.first_fault == 0 && !stop_2_ && !stop_seen_ && !out_.unkicked; }
+  /// Whether a request of this side counts; a change of control refuses one that holds the gates.
+  bool counts(bool host) const {
+    return (host ? host_counts_ : panel_counts_) && !(out_.gates_enable && host != host_);
+  }
   /// End of a tick: commands, arming and disarming. `trip`: faults of the same clock.
   void end_tick(const In& in, std::uint16_t trip) {
-    const bool arm_request = in.arm_request() && !in.axis_silent;
-    const bool arms = arm_request && !asked_ && ready(in.host) && !in.axis_blocked;
-    const bool armed = (arms || (arm_request && out_.gates_enable)) && trip == 0;
-    host_counts_ = !in.host_arm || (host_counts_ && in.host && able());
-    panel_counts_ = !in.arm || (panel_counts_ && !in.host && able());
-    kickless_ticks_ = in.kick || !out_.gates_enable ? 0 : (kickless_ticks_ + 1) & kKicklessMask;
+    const bool live = out_.gates_enable;
+    const bool handed = in.host != host_;
+    const bool in_time = handed || kickless_ticks_ < wait_ticks;
+    const bool may_arm =
+        in.arm_request() && ready(in.host) && trip == 0 && (live || (!in.axis_blocked && in_time));
+    const bool arms = may_arm && !in.axis_silent;
+    const bool waits = may_arm && in.axis_silent && !live;
+    host_ = in.host, stop_seen_ = false;
+    host_counts_ = !in.host_arm || (in.host && (arms || waits));
+    panel_counts_ = !in.arm || (!in.host && (arms || waits));
+    const bool counted = live ? arms && !in.kick : waits && !handed;
+    kickless_ticks_ = counted ? (kickless_ticks_ + 1) & kKicklessMask : 0;
     if (in.clear_faults && !in.arm_request()) out_.faults = 0, out_.first_fault = 0;
     if (trip != 0) latch(trip);
-    out_.gates_enable = out_.armed = armed;
-    asked_ = arm_request;
+    out_.gates_enable = out_.armed = arms;
     if (in.kick) awake_ = true, out_.unkicked = false;
   }
 
   Out out_;
   bool stopped_ = false;  ///< latch of the stop; the clocks of a reset release it
-  bool stop_1_ = true;
-  bool stop_2_ = true;
+  bool stop_1_ = true, stop_2_ = true;
+  bool stop_seen_ = false;  ///< in this tick
   bool tick_before_ = false;
-  int tickless_ = 0;          ///< PWM periods that began since the last tick
-  bool asked_ = true;         ///< the request in the tick before, of all axes; high after a reset
-  bool host_counts_ = false;  ///< the host's request was low since the host last could not arm
-  bool panel_counts_ = false;
-  bool awake_ = false;  ///< the watchdog has been kicked
-  int errors_ = 0;      ///< encoder errors that are not forgiven yet
+  int tickless_ = 0;                                 ///< PWM periods that began since the last tick
+  bool host_ = false;                                ///< the host had control in the tick before
+  bool host_counts_ = false, panel_counts_ = false;  ///< it was low, and was not refused since
+  bool awake_ = false;                               ///< the watchdog has been kicked
+  int errors_ = 0;                                   ///< encoder errors that are not forgiven yet
   std::uint32_t forgive_ticks_ = 0;
   std::int32_t signal_ = 0;  ///< value to compare in the next clock
   bool too_fast_ = false;
@@ -380,9 +393,8 @@ class Supervisor {
   Nominal nominal_;
   Sum cooled_;
   Squared square_;
-  bool too_hot_ = false;
-  bool silent_ = false;
-  std::uint32_t kickless_ticks_ = 0;
+  bool too_hot_ = false, silent_ = false;
+  std::uint32_t kickless_ticks_ = 0;  ///< with closed gates: ticks for which a request has waited
 };
 
 }  // namespace feltgate

@@ -3,7 +3,7 @@
 //
 // The bridge of the core's twin for a motor with three phases: what rtl/core/actuation/actuation.sv
 // has with PHASES = 3. It takes the place of CoreGates, clock by clock.
-// Documentation: docs/blocks/commutation.md
+// Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/link/uart_rx.sv: receiver of a UART, 8N1. A level counts if two of three clocks have
 // it; each bit is sampled in its middle. clock() advances one clock, skip() several quiet ones.
-// Documentation: docs/blocks/uart_rx.md
+// Documentation: docs/link.md
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/link/uart_tx.sv: transmitter of a UART, 8N1. The start bit is at tx in the clock
 // after a byte is taken. clock() advances one clock, skip() several quiet ones. Documentation:
-// docs/blocks/uart_tx.md
+// docs/link.md
 #pragma once
 
 #include <cstdint>

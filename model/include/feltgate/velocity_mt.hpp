@@ -3,7 +3,7 @@
 //
 // Law of rtl/core/estimators/velocity_mt.sv: M/T velocity over whole encoder cycles, counts between
 // two edges over the clocks between them; and the block before its low-pass, clock by clock.
-// Documentation: docs/blocks/velocity_mt.md
+// Documentation: docs/blocks/velocity.md
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // Law of rtl/core/estimators/velocity_n.sv: N-method velocity. The velocity is 2^n times the counts
 // of the last m1 ticks, saturated to the velocity format and low-pass filtered. Documentation:
-// docs/blocks/velocity_n.md
+// docs/blocks/velocity.md
 #pragma once
 
 #include <array>

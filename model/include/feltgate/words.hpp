@@ -60,7 +60,7 @@ class Words : public ParameterReader<D, Words<D, N>> {
     }
   }
 
-  /// Fixed only: sets a word as the host writes it; only the low 32 bits of `raw` count.
+  /// Fixed only: sets a word as it is stored; only the low 32 bits of `raw` count.
   void set_raw(int address, std::int64_t raw) {
     static_assert(N::is_fixed, "real parameters are set by value");
     stored_[index(address)] = static_cast<Stored>(raw & 0xffffffff);

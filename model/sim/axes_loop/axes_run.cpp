@@ -86,9 +86,13 @@ class HandWork {
 /// The limits that can make the commanded torque differ from the law's.
 constexpr unsigned limits_of_torque = limit::torque | limit::ramp | limit::hold | limit::chatter;
 
-void tell_beyond_bounds(AxesResult* r) {
+void tell_beyond_bounds(AxesResult* r, double torque_lsb_nm) {
   for (std::size_t n = 0; n < r->axes.size(); ++n) {
     const double off_nm = r->axes[n].law_error_nm.max(), bound_nm = r->axes[n].bound_nm;
+    if (!std::isfinite(bound_nm)) {
+      note_large_error(*r, of_axis("law_error_nm", n), off_nm, r->axes[n].torque.asked.value,
+                       torque_lsb_nm);
+    }
     if (off_nm <= bound_nm) continue;
     r->broken.push_back(fmt::format(
         "axis {}: the torque is off from the law in {} by {:.4g} Nm, above its proven bound {:.4g} "
@@ -127,8 +131,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     const auto began = std::chrono::steady_clock::now();
     if (!options_.fst.empty()) cores_.trace(options_.fst, options_.fst_from, options_.fst_to);
     homed_ = home(cores_, plant_, options_.seed, design_.pwm_period);
-    for (const AxesSnapshot& s : cores_.snapshots()) carry(s);
-    if (options_.passenger != nullptr) options_.passenger->begin();
+    for (const AxesSnapshot& s : cores_.snapshots()) forget_writes(s);
     for (std::size_t n = 0; n < axes; ++n) {
       position_rad_[n] = static_cast<double>(plant_.encoder(n).count()) * design_.count_rad;
     }
@@ -203,12 +206,9 @@ class AxesRun : plant::AxesDevice<Plant> {
     return std::ldexp(static_cast<double>(raw), -design_.torque.fraction);
   }
 
-  void carry(const AxesSnapshot& s) {
-    Passenger* p = options_.passenger;
-    const auto in = host_.chain_inputs(s.data(), [p](std::size_t axis, const HostWrite& w) {
-      if (p != nullptr) p->set_parameter(axis, w.address, w.value);
-    });
-    if (p != nullptr) p->tick(s.data(), in.data());
+  /// No chain runs beside a device; the host's writes that were carried out are forgotten.
+  void forget_writes(const AxesSnapshot& s) {
+    host_.chain_inputs(s.data(), [](std::size_t, const HostWrite&) {});
   }
   void ride(const AxesSnapshot& s) {
     const bool in_law = host_.in_law(s[0]);
@@ -235,7 +235,7 @@ class AxesRun : plant::AxesDevice<Plant> {
 
   void tick(const AxesSnapshot& s) {
     if (session_.ticks() >= ticks_to_come_) return;
-    carry(s);
+    forget_writes(s);
     ride(s);
     unsigned faults = 0;
     row_.clear();
@@ -306,7 +306,7 @@ class AxesRun : plant::AxesDevice<Plant> {
     }
     fill_figures(out);
     session_.check_expectations(out);
-    tell_beyond_bounds(&out);
+    tell_beyond_bounds(&out, std::ldexp(1.0, -design_.torque.fraction));
     return out;
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A host that knows a world. Documentation: docs/devices/local_plane.md
+// A host that knows a world. Documentation: docs/devices/pantograph.md
 #include "sim/axes_loop/plane_host.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 //
 // A host that knows a world. It sends the plane of the world that is nearest to the pen, or the
 // force at the pen; each is computed from a pose that is old on arrival. Documentation:
-// docs/devices/local_plane.md
+// docs/devices/pantograph.md
 #pragma once
 
 #include <array>

@@ -19,7 +19,9 @@ void add_axes_design(const AxesDesignMakers& design) { all().push_back(design); 
 
 const AxesDesignMakers* find_axes_design(const std::string& design) {
   for (const AxesDesignMakers& d : all()) {
-    if (d.name == design) return &d;
+    if (d.name != design) continue;
+    check_design(d.info());
+    return &d;
   }
   return nullptr;
 }

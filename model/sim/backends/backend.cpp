@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "sim/backends/make_device.hpp"
@@ -31,8 +32,13 @@ const DesignMakers* find(const std::string& design) {
   return nullptr;
 }
 
+std::function<void(const DesignInfo&)> check_of_designs;
+
 const DesignMakers& makers_of(const std::string& design) {
-  if (const DesignMakers* d = find(design)) return *d;
+  if (const DesignMakers* d = find(design)) {
+    check_design(d->info());
+    return *d;
+  }
   throw std::invalid_argument(
       fmt::format("design \"{0}\" is not built in; choose one of {1}, a preset (fast, balanced, "
                   "exact) by way of ./feltgate, which builds it, or add rtl/designs/{0}.toml and "
@@ -50,6 +56,17 @@ void AnyBackend::break_encoder(const std::string& defect) {
 int Backend::on_time(std::size_t) const {
   throw std::invalid_argument(fmt::format(
       "back-end {} does not show on-times; switch the bridge, or take twin or lockstep", name()));
+}
+
+void check_designs(std::function<void(const DesignInfo&)> check) {
+  check_of_designs = std::move(check);
+}
+
+void check_design(const DesignInfo& design) {
+  static std::set<std::string> good;
+  if (check_of_designs == nullptr || good.count(design.name) > 0) return;
+  check_of_designs(design);
+  good.insert(design.name);
 }
 
 void add_design(const DesignMakers& design) {

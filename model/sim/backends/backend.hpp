@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -205,6 +206,12 @@ struct DesignMakers {
 };
 /// Adds a design. Of several with one name the last is used; those of rtl/designs come first.
 void add_design(const DesignMakers& design);
+
+/// A check of each built-in design before it is first used, by any function above or
+/// find_axes_design(). It throws where the design may not be used; commands compare it with its file.
+void check_designs(std::function<void(const DesignInfo&)> check);
+/// Makes that check of a design that is used in another way.
+void check_design(const DesignInfo& design);
 
 /// Makes "rtl" and "lockstep" of the built-in designs. Only the library feltgate_rtl sets it,
 /// before main().

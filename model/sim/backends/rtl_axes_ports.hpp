@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Converts the ports of Verilated axes to the twin's types. Documentation:
-// docs/blocks/feltgate_axes.md
+// docs/architecture.md
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "feltgate/quad.hpp"
-#include "law/engine/law_runner.hpp"
+#include "law/engine/machine.hpp"
 #include "law/evaluate.hpp"
 #include "law/load.hpp"
 
@@ -95,9 +95,8 @@ class ChangedWords {
   std::map<std::string, double> values_;  ///< SI
 };
 
-/// Commits the words to a Machine or a LawRunner.
-template <class Runner>
-void commit(Runner& runner, const std::vector<std::int32_t>& words) {
+/// Commits the words to a machine.
+void commit(law::Machine& runner, const std::vector<std::int32_t>& words) {
   for (std::size_t n = 0; n < words.size(); ++n) {
     runner.set_parameter(static_cast<int>(n), words[n]);
   }
@@ -118,21 +117,20 @@ law::MachineInputs inputs_of(const Snapshot* axes, std::size_t count, const LawS
   return in;
 }
 
-/// Runs the image of a law: as compiled C++ if the law is a shipped one, otherwise in the
-/// interpreter.
+/// Runs the image of a law in the interpreter.
 class FixedLaw : public LawRider {
  public:
   FixedLaw(const law::Compiled& law, const DesignInfo& design, const LawChanges& changes)
       : words_(law, changes),
         axes_(law.law.outputs.size()),
         torque_(design.torque),
-        runner_(law::make_law_runner(law::memory(law.image), law::crc(law.image))) {}
-  void change() override { commit(*runner_, words_.next()); }
+        machine_(law::memory(law.image)) {}
+  void change() override { commit(machine_, words_.next()); }
 
  private:
-  void reset() override { runner_->enter(); }
+  void reset() override { machine_.enter(); }
   Torques run(const Snapshot* axes, const LawSample* own) override {
-    const law::MachineRun& done = runner_->run(inputs_of(axes, axes_, own));
+    const law::MachineRun& done = machine_.run(0, inputs_of(axes, axes_, own));
     Torques torques{};
     for (std::size_t n = 0; n < axes_; ++n) {
       torques[n] =
@@ -148,7 +146,7 @@ class FixedLaw : public LawRider {
   ChangedWords words_;
   std::size_t axes_;
   Format torque_;
-  std::unique_ptr<law::LawRunner> runner_;
+  law::Machine machine_;
 };
 
 /// Runs the image in the interpreter, which shows its words.

@@ -11,7 +11,6 @@
 #include <stdexcept>
 
 #include "feltgate/axes_ports.hpp"
-#include "law/engine/law_runner.hpp"
 #include "law/load.hpp"
 
 namespace feltgate {
@@ -36,7 +35,6 @@ class CompiledSceneLaw : public SceneLaw {
     }
   }
   const std::string& name() const override { return law_.law.name; }
-  bool compiled() const override { return law::is_shipped(law::crc(law_.image)); }
   bool of_position_alone() const override {
     const auto& inputs = law_.law.inputs;
     return std::all_of(inputs.begin(), inputs.end(),

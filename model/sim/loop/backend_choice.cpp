@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Selection of the back-ends of a run. Documentation: docs/backends.md
+// Selection of the back-ends of a run. Documentation: docs/speed-for-accuracy.md
 #include "sim/loop/backend_choice.hpp"
 
 #include <fmt/format.h>

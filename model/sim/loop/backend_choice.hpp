@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Selects the back-ends of a run by the names that a user gives. Documentation: docs/backends.md
+// Selects the back-ends of a run by the names that a user gives. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <string>

@@ -52,14 +52,14 @@ void Ensemble::run_law(SceneLaw& law) {
 }
 
 void Ensemble::ride(const Snapshot& s) {
-  const ChainIn in = chain_inputs(&s, [this](std::size_t axis, const HostWrite& w) {
+  const ChainIn in = chain_inputs(&s, [this](std::size_t, const HostWrite& w) {
     for (Rider& r : riders_) r.chain->set_parameter(w.address, w.value);
-    if (passenger_ != nullptr) passenger_->set_parameter(axis, w.address, w.value);
+    if (passenger_ != nullptr) passenger_->set_parameter(w.address, w.value);
   })[0];
   lead_figures_.saturations += (s.limits & ~(limit::ramp | limits_of_core)) != 0 ? 1 : 0;
   if (riders_.empty() && passenger_ == nullptr && watch_ == nullptr) return;
   watch_velocity(s.travel);
-  if (passenger_ != nullptr) passenger_->tick(&s, &in);
+  if (passenger_ != nullptr) passenger_->tick(s);
   const bool in_law = RunHost::in_law(s);
   if (in_law && !law_entered_) {
     for (Rider& r : riders_) r.law->enter();
@@ -162,16 +162,12 @@ void Ensemble::compare(BackendFigures& f, double velocity_rad_s, double tau_hat_
   const double velocity_error = velocity_rad_s - exact.velocity_rad_s;
   const double tau_hat_error = tau_hat_nm - exact.tau_hat_nm;
   const double torque_error = design().torque_constant_nm_a * (current_a - exact.current_a);
-  f.velocity_rad_s.add(velocity_error);
-  f.tau_hat_nm.add(tau_hat_error);
-  f.torque_nm.add(torque_error);
-  if (!covers_) return;
-  if (coverage_.velocity()) f.covered_velocity_rad_s.add(velocity_error);
-  if (coverage_.torque()) {
-    f.covered_tau_hat_nm.add(tau_hat_error);
-    f.covered_torque_nm.add(torque_error);
-  }
-  f.uncovered = coverage_.outside();
+  const auto add = [](ErrorFigure& figure, double error, bool inside) {
+    inside ? figure.add(error) : figure.add_outside(error);
+  };
+  add(f.velocity_rad_s, velocity_error, !covers_ || coverage_.velocity());
+  add(f.tau_hat_nm, tau_hat_error, !covers_ || coverage_.torque());
+  add(f.torque_nm, torque_error, !covers_ || coverage_.torque());
 }
 
 std::vector<BackendFigures> Ensemble::figures() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The events of a law as FUDI, for Pure Data. Documentation: docs/devices/drums.md
+// The events of a law as FUDI, for Pure Data. Documentation: docs/devices/strings-and-drums.md
 #include "sim/loop/loop.hpp"
 
 #include <fmt/format.h>

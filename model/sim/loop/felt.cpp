@@ -29,10 +29,15 @@ std::string Expected::wanted() const {
   return fmt::format("{:.6g} to {:.6g}", low, high);
 }
 
-FeltMeter::FeltMeter(double tick_s)
+FeltMeter::FeltMeter(double tick_s, bool measures)
     : tick_s_(tick_s),
+      measures_(measures),
       window_ticks_(std::max<std::int64_t>(1, std::llround(felt_window_s / tick_s))),
       window_left_(window_ticks_) {}
+
+bool FeltMeter::tau_hat_void(unsigned limits) const {
+  return !measures_ && (limits & (limit::voltage | limit::duty)) != 0;
+}
 
 void FeltMeter::end_window() {
   const double ticks = static_cast<double>(window_ticks_);
@@ -50,6 +55,7 @@ Felt FeltMeter::felt() {
   f.torque = {peak(asked_), peak(commanded_), peak(motor_), peak(hand_), motor_error_};
   f.energy = {taken_j_, 0.0 - returned_j_, highest_j_, 0.0 - lowest_j_};
   f.limits = limits_.times(limit::names, tick_s_);
+  f.tau_hat_void = void_.times(std::array{"tau_hat"}, tick_s_)["tau_hat"];
   f.faults = faults_.times(fault_names, tick_s_);
   return f;
 }

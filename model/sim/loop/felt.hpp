@@ -44,12 +44,12 @@ struct FeltEnergy {
   double net_from_hand_j() const { return taken_from_hand_j - given_to_hand_j; }
 };
 
-/// Largest error of a signal of the core and its proven bound.
+/// Error of a signal of the core and its proven bound.
 struct FeltError {
   std::string signal;  ///< with its unit: "velocity_rad_s", "tau_hat_nm", "torque_nm"
-  double max_error = 0;
-  double max_error_in_bounds = 0;                          ///< only ticks for which the bound holds
+  ErrorFigure error;
   double bound = std::numeric_limits<double>::infinity();  ///< infinite: none is proven
+  bool holds() const { return error.max() <= bound; }
 };
 
 /// How long a limit or fault acted, and when first.
@@ -76,6 +76,9 @@ struct Felt {
   FeltEnergy energy;                            ///< only in a closed loop
   std::vector<FeltError> errors;                ///< of the core against quad; empty without quad
   std::map<std::string, Acted> limits, faults;  ///< by name; only those that acted
+  /// Voltage or duty were at their limit and no current is measured: the motor gave less than the
+  /// observer counts on.
+  Acted tau_hat_void;
 };
 
 /// How long each bit of a word was set, tick by tick.
@@ -114,7 +117,10 @@ class BitTimes {
 /// Follows a run; felt() gives the summary.
 class FeltMeter {
  public:
-  explicit FeltMeter(double tick_s);
+  /// `measures`: the core has a current loop.
+  explicit FeltMeter(double tick_s, bool measures = false);
+  /// Whether tau_hat is void with these limits, see Felt.
+  bool tau_hat_void(unsigned limits) const;
 
   /// One step of the plant: the hand's torque on the lever and the lever's velocity.
   void step(double dt_s, double hand_nm, double omega_rad_s) {
@@ -131,6 +137,7 @@ class FeltMeter {
     commanded_.add(commanded_nm, ticks_);
     limits_.tick(limits);
     faults_.tick(faults);
+    void_.tick(tau_hat_void(limits) ? 1 : 0);
     ++ticks_;
   }
   /// The motor's torque in the tick given last to tick(); only in a closed loop.
@@ -159,6 +166,7 @@ class FeltMeter {
   Peak peak(const Highest& h) const { return {h.value, static_cast<double>(h.tick) * tick_s_}; }
 
   double tick_s_;
+  bool measures_;
   std::int64_t window_ticks_;
   std::int64_t window_left_;  ///< ticks left in the window
   std::int64_t ticks_ = 0;
@@ -167,7 +175,7 @@ class FeltMeter {
   double taken_j_ = 0, returned_j_ = 0, highest_j_ = 0, lowest_j_ = 0;
   Highest asked_, commanded_, motor_, hand_;
   ErrorFigure motor_error_;
-  BitTimes limits_, faults_;
+  BitTimes limits_, faults_, void_;
 };
 
 }  // namespace feltgate

@@ -14,7 +14,8 @@
 
 namespace feltgate {
 
-/// Largest and root-mean-square difference of a signal from its reference.
+/// Largest and root-mean-square difference of a signal from its reference: over the ticks for which
+/// its bound holds, and beside them the largest of the others. Without bounds no tick is outside.
 class ErrorFigure {
  public:
   void add(double error) {
@@ -23,15 +24,22 @@ class ErrorFigure {
     sum_of_squares_ += error * error;
     ++count_;
   }
+  /// A tick for which the bound does not hold: a ramp, a saturation, or what follows one.
+  void add_outside(double error) {
+    max_outside_ = larger(max_outside_, std::abs(error));
+    ++outside_;
+  }
   double max() const { return max_; }
   double rms() const {
     return count_ == 0 ? 0.0 : std::sqrt(sum_of_squares_ / static_cast<double>(count_));
   }
   std::int64_t count() const { return count_; }
+  double max_outside() const { return max_outside_; }
+  std::int64_t outside() const { return outside_; }  ///< ticks
 
  private:
-  double max_ = 0, sum_of_squares_ = 0;
-  std::int64_t count_ = 0;
+  double max_ = 0, sum_of_squares_ = 0, max_outside_ = 0;
+  std::int64_t count_ = 0, outside_ = 0;
 };
 
 /// Smallest and largest value seen.

@@ -15,6 +15,7 @@
 #include "feltgate/current_sense.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/backends/absolute_sensor.hpp"
+#include "sim/loop/bounded.hpp"
 #include "sim/loop/drag.hpp"
 #include "sim/loop/driven_plant.hpp"
 #include "sim/loop/ensemble.hpp"
@@ -33,6 +34,7 @@ namespace {
 struct StepRecord {
   double tau_ref_nm;
   StepSamples tau_hat, torque;
+  bool tau_hat_void = false;
 };
 
 class ScenarioRun : public SteppedRun {
@@ -49,7 +51,7 @@ class ScenarioRun : public SteppedRun {
         looped_(core_.design().current_full_scale_a > 0),
         plan_(plan(scenario, plant, core_.design(), choice_)),
         mean_(core_.design().pwm_period, plan_.phase()),
-        felt_(1.0 / static_cast<double>(core_.design().tick_hz)),
+        felt_(1.0 / static_cast<double>(core_.design().tick_hz), looped_),
         session_(scenario, core_, options),
         counter_(plant_.encoder().pins()) {
     if (looped_) check_loop();
@@ -85,7 +87,6 @@ class ScenarioRun : public SteppedRun {
     }
     core_.skip_self_test();
     session_.begin();
-    if (options_.passenger != nullptr) options_.passenger->begin();
     core_.lead().keep_gate_times(s_.switched);
   }
 
@@ -161,7 +162,8 @@ class ScenarioRun : public SteppedRun {
   void end_step() {
     if (!step_) return;
     const double tick_s = 1.0 / static_cast<double>(core_.design().tick_hz), to = step_->tau_ref_nm;
-    steps_.push_back({to, step_->tau_hat.response(tick_s, to), step_->torque.response(tick_s, to)});
+    steps_.push_back({to, step_->tau_hat.response(tick_s, to), step_->torque.response(tick_s, to),
+                      step_->tau_hat_void});
     step_.reset();
   }
 
@@ -235,6 +237,7 @@ class ScenarioRun : public SteppedRun {
     if (step_) {
       step_->tau_hat.add(r.tau_hat_nm);
       step_->torque.add(r.motor_torque_nm);
+      step_->tau_hat_void = felt_.tau_hat_void(s.limits);
     }
     if (options_.row && session_.ticks() % options_.row_every == 0) {
       r.time_s =
@@ -295,6 +298,9 @@ class ScenarioRun : public SteppedRun {
     f["tau_ref_end_nm"] = last_.tau_ref_nm;
     f["hand_energy_j"] = out.felt.energy.net_from_hand_j();
     f["energy_absorbed_j"] = absorbed_j_;
+    for (const BackendFigures& e : out.engines) {
+      if (is_core(e)) f["torque_error_nm"] = e.torque_nm.max();  // RTL and twin are equal
+    }
     if (s_.rest_from_s) rest_.tell(f);
     if (s_.drag_from_s) drag_.tell(f);
     std::map<std::string, int> told;

@@ -34,8 +34,9 @@ struct Observables;
 /// Responses to one step of the torque reference.
 struct StepFigures {
   double tau_ref_nm = 0;
-  StepResponse tau_hat;  ///< of the observed torque
-  StepResponse torque;   ///< of the motor torque, averaged over each PWM period
+  StepResponse tau_hat;       ///< of the observed torque
+  StepResponse torque;        ///< of the motor torque, averaged over each PWM period
+  bool tau_hat_void = false;  ///< at the end of the step, see Felt
 };
 
 /// The results of one back-end after a run.
@@ -43,9 +44,6 @@ struct BackendFigures {
   std::string name;
   bool compared = false;  ///< the error figures below were taken against RunResult::reference
   ErrorFigure velocity_rad_s, tau_hat_nm, torque_nm;
-  /// The same, only over ticks for which error bounds hold; empty without bounds.
-  ErrorFigure covered_velocity_rad_s, covered_tau_hat_nm, covered_torque_nm;
-  std::int64_t uncovered = 0;  ///< ticks without torque bounds: ramps, saturation
   std::vector<StepFigures> steps;
   std::int64_t saturations = 0;  ///< ticks in which a limit acted
   double busy_s = 0;             ///< time spent in the back-end
@@ -70,6 +68,7 @@ struct RunResult : SessionResult {
   double largest_velocity_rad_s = 0;  ///< N-method, before the low-pass; needs a rider
   std::vector<BackendFigures> engines;
   Felt felt;
+  std::string bound_sources;       ///< what each block adds to the bounds of felt.errors, as text
   std::vector<RunEvent> events;    ///< of the scene's law
   Clock longest_step_clocks = 0;   ///< of the plant
   std::size_t plant_states = 0;    ///< continuous states of the plant at the end
@@ -84,10 +83,20 @@ struct RunInputs {
   std::vector<HostWrite> writes;
 };
 
+/// Gets, tick by tick, what the chains beside the core get; not compared.
+class Passenger {
+ public:
+  virtual ~Passenger() = default;
+  /// A parameter, from the next tick on.
+  virtual void set_parameter(int address, double value) = 0;
+  virtual void tick(const Snapshot& s) = 0;
+};
+
 /// Options of a run.
 struct RunOptions : SessionOptions {
   std::FILE* record = nullptr;  ///< gets the encoder's edges as a vector file; may be nullptr
   const bounds::Coverage* coverage = nullptr;  ///< ticks in which bounds are checked
+  Passenger* passenger = nullptr;
   RunInputs* inputs = nullptr;  ///< filled if given; a scene that uses the stop pin then throws
   std::function<void(const Row&)> row;  ///< called for every row_every-th tick; may be empty
   /// called after each run of the law with the time of its samples and its states in SI; may be
@@ -123,9 +132,9 @@ std::unique_ptr<SteppedRun> stepped_run(const Scenario& scenario, const plant::P
                                         const RunOptions& options);
 
 /// One line of FUDI per hit: "MS NAME NUMBER VALUES;", where MS is the time since the line before;
-/// Pure Data's qlist plays it (docs/devices/drums.md). Events within `run_s` whose names end in the
-/// same number become one line, with the name of the first one and the values in order. Without a
-/// number, NUMBER is left out.
+/// Pure Data's qlist plays it (docs/devices/strings-and-drums.md). Events within `run_s` whose
+/// names end in the same number become one line, with the name of the first one and the values in
+/// order. Without a number, NUMBER is left out.
 std::string event_lines(const std::vector<RunEvent>& events, double run_s);
 
 }  // namespace feltgate

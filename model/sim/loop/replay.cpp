@@ -40,7 +40,7 @@ RunResult run_replay(EncoderSource& source, const std::string& subject,
   out.design = d.name;
   out.subject = subject;
   traces::StepCounter counter(source.initial());
-  FeltMeter felt(1.0 / static_cast<double>(d.tick_hz));
+  FeltMeter felt(1.0 / static_cast<double>(d.tick_hz), d.current_full_scale_a > 0);
   Row row;
   const auto tick = [&](const Snapshot& s) {
     ++out.ticks;

@@ -84,8 +84,6 @@ class SceneLaw {
   using Writes = std::vector<std::pair<int, std::uint32_t>>;
   virtual ~SceneLaw() = default;
   virtual const std::string& name() const = 0;
-  /// Whether its words run as C++ that was built into the program, rather than in the interpreter.
-  virtual bool compiled() const = 0;
   /// Whether it reads neither a velocity nor a tau_hat.
   virtual bool of_position_alone() const = 0;
   /// Largest error of an axis' torque against real arithmetic, Nm, on the words that the engine

@@ -93,22 +93,9 @@ struct BackendOptions {
   int row_every = 1;                ///< a row of output for every row_every-th tick
 };
 
-/// Gets, tick by tick, what the chains of all axes get; not compared.
-class Passenger {
- public:
-  virtual ~Passenger() = default;
-  /// The scene begins with the next tick; earlier ticks belong to homing.
-  virtual void begin() = 0;
-  /// A parameter of an axis, from its next tick on.
-  virtual void set_parameter(std::size_t axis, int address, double value) = 0;
-  /// A tick: for each axis the snapshot, and the inputs of its chain.
-  virtual void tick(const Snapshot* axes, const ChainIn* in) = 0;
-};
-
 /// Options of a scene's run.
 struct SessionOptions : BackendOptions {
   SceneLaw* law = nullptr;  ///< run by the scene "law"; its parameters can be set by name
-  Passenger* passenger = nullptr;
   std::function<void(double done)> progress;  ///< called from time to time with 0..1; may be empty
 };
 
@@ -127,9 +114,15 @@ struct SessionResult {
   std::map<std::string, double> figures;  ///< the figures that a scene file can bound
   std::vector<Expected> expectations;     ///< of the scene
   std::vector<std::string> broken;        ///< broken expectations and bounds, one line each
+  std::vector<std::string> large;         ///< those of `broken` by note_large_error()
 
   bool as_expected() const { return mismatches == 0 && broken.empty(); }
 };
+
+/// Breaks the run if a torque without a proven bound is off from the law by more than 10 % of the
+/// largest asked, unless the scene expects something of that error's figure.
+void note_large_error(SessionResult& out, const std::string& figure, double off_nm, double asked_nm,
+                      double lsb_nm);
 
 /// Notes in which clocks a back-end's halves differed.
 void note_mismatches(SessionResult& out, const AnyBackend& backend);

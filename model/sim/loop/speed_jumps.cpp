@@ -77,8 +77,8 @@ class Jumps {
     if (std::isnan(by) || std::abs(by) < least_jump_rad_s || at_s_ >= s_.duration_s) return;
     const char* mend =
         all_.empty()
-            ? "; write kind = \"minimum_jerk\", or a sine with phase_rad = 1.5707963, which "
-              "begin at rest, or hold the lever with kind = \"impedance\""
+            ? "; write kind = \"minimum_jerk\", a ramp with ease_s, or a sine with phase_rad = "
+              "1.5707963, which begin at rest, or hold the lever with kind = \"impedance\""
             : "";
     all_.push_back(fmt::format(
         "{}{}: the hand's speed jumps by {:.3g} rad/s at {:.4g} s, which costs the hand {:.3g} Nm "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Elastic stops that limit an angle. Energy and passivity: docs/pantograph.md
+// Elastic stops that limit an angle. Energy and passivity: docs/devices/pantograph.md
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // A plant with several axes and the device that drives its motors, from event to event. A plant has
 // `axes`, advance(bridges or torques, clocks), events(axis), next_corner(), now().
-// docs/pantograph.md
+// docs/devices/pantograph.md
 #pragma once
 
 #include <algorithm>

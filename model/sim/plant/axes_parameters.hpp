@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Constants of joints with equal drives: motor, capstan, friction, encoder. docs/pantograph.md
+// Constants of joints with equal drives: motor, capstan, friction, encoder.
+// docs/devices/pantograph.md
 #pragma once
 
 #include "parameters.hpp"

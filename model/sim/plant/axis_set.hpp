@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motors, encoders and supply of a device with several axes, step by step. docs/pantograph.md
+// Motors, encoders and supply of a device with several axes, step by step.
+// docs/devices/pantograph.md
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ double BridgeModel::dead_share(double on_share, double against_share) const {
 // The duty after the PWM has left out or lengthened its shortest pulses (docs/blocks/pwm.md).
 double BridgeModel::whole_pulses(double duty) const {
   const double d = std::clamp(duty, -1.0, 1.0);
-  if (least_ <= 0.0) return d;
+  if (!dead_time_ || least_ <= 0.0) return d;
   if (antiphase_) return 2.0 * std::clamp(0.5 * (1.0 + d), least_, 1.0 - least_) - 1.0;
   double on = std::min(std::abs(d), 1.0 - least_);
   if (on < least_) on = std::min(on, dead_fraction_);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A Runge-Kutta step that is split where an angle meets or leaves a stop. docs/pantograph.md
+// A Runge-Kutta step that is split where an angle meets or leaves a stop.
+// docs/devices/pantograph.md
 #pragma once
 
 #include <cmath>

@@ -46,6 +46,9 @@ Segment read_segment(config::TomlReader table, const std::string& unit, bool ste
   } else if (segment.kind != Segment::Kind::kHold) {
     segment.to = table.number("to_" + unit, kWay);
   }
+  if (segment.kind == Segment::Kind::kRamp) {
+    segment.ease_s = table.number_or("ease_s", 0.0, {0.0, segment.duration_s / 2});
+  }
   table.finish();
   return segment;
 }
@@ -164,8 +167,10 @@ HandPhase read_phase(config::TomlReader table, bool last) {
 }  // namespace
 
 Trace read_trace_file(const std::string& path) try {
-  traces::Table table(path);
-  const std::size_t time = table.use_time("time_s"), angle = table.find("theta_rad");
+  traces::Options options;
+  options.time_column = "time_s";
+  traces::Table table(path, options);
+  const std::size_t time = table.use_time(), angle = table.find("theta_rad");
   if (angle == table.columns().size()) {
     table.fail("no column 'theta_rad'", table.columns_there("theta_rad"));
   }

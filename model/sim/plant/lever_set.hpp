@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Several equal levers, coupled only by the laws of a core with as many axes: two levers, or the
-// three slides of a stylus. docs/devices/coupled_levers.md, docs/devices/stylus.md
+// three slides of a stylus. docs/devices/pantograph.md, docs/devices/three-axes.md
 #pragma once
 
 #include <algorithm>

@@ -122,7 +122,7 @@ struct Effects {
   bool lugre = true;
   bool viscous = false;       ///< LeverParameters::viscous_nm_s_rad
   bool supply_limit = false;  ///< current limit of the source, bus voltage as a state
-  bool dead_time = true;      ///< loss of voltage by dead time, in averaged mode
+  bool dead_time = true;      ///< what dead time and shortest pulse take, in averaged mode
   bool encoder_imperfect = false;
   bool hand_dynamics = true;  ///< off: an impedance hand imposes its motion, without mass or grip
 };

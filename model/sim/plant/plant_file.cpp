@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -169,6 +170,37 @@ std::vector<CoggingHarmonic> read_cogging(std::vector<config::TomlReader> tables
   return harmonics;
 }
 
+/// [gear]: from here on the plant is the motor without a gear that does the same at the lever.
+void read_gear(config::TomlReader table, Parameters* p) {
+  const double ratio = table.number("ratio", {1e-3, 1e3});
+  const double rotor = table.number("rotor_inertia_kg_m2", config::kNotNegative);
+  const bool on_motor = table.choice("encoder", {"lever", "motor"}) == 1;
+  const auto whole = [&](int* count, const char* what) {
+    const double turned = ratio * *count;
+    // A ratio is written with a few digits.
+    if (std::abs(turned - std::round(turned)) > 1e-3 || std::round(turned) > 1 << 20) {
+      table.fail(
+          "ratio",
+          fmt::format("{} {} of the motor are {:g} in a turn of the lever", *count, what, turned),
+          fmt::format("take the nearest ratio for which they are whole, {:.12g}, and at "
+                      "most 2^20",
+                      std::max(1.0, std::round(turned)) / *count));
+    }
+    *count = static_cast<int>(std::lround(turned));
+  };
+  if (on_motor) whole(&p->encoder.lines, "lines");
+  p->lever.inertia_kg_m2 += ratio * ratio * rotor;
+  if (p->phases) {
+    whole(&p->phases->pole_pairs, "pole pairs");
+    p->phases->back_emf_v_s_rad *= ratio;
+    p->motor = p->phases->as_brushed();
+  } else {
+    p->motor.torque_constant_nm_a *= ratio;
+    p->motor.back_emf_constant_v_s_rad *= ratio;
+  }
+  table.finish();
+}
+
 Effects read_all_effects(config::TomlReader table) { return read_flags(std::move(table), nullptr); }
 
 }  // namespace
@@ -203,6 +235,7 @@ Parameters read_plant(const toml::table& root, const std::string& file) {
   parameters.lugre = read_lugre(reader.section("lugre"));
   parameters.supply = read_supply(reader.section("supply"));
   parameters.encoder = read_encoder(reader.section("encoder"));
+  if (reader.has("gear")) read_gear(reader.section("gear"), &parameters);
   if (reader.has("end_stops")) parameters.end_stops = read_end_stops(reader.section("end_stops"));
   parameters.cogging = read_cogging(reader.sections("cogging"));
   parameters.effects = read_all_effects(reader.section("effects"));

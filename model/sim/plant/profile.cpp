@@ -22,8 +22,14 @@ ProfileSample sample(const Segment& segment, double per_s, double start, double 
       return {start, 0.0};
     case Segment::Kind::kStep:
       return {segment.to, 0.0};
-    case Segment::Kind::kRamp:
-      return {start + way * t * per_s, way * per_s};
+    case Segment::Kind::kRamp: {
+      if (segment.ease_s == 0) return {start + way * t * per_s, way * per_s};
+      const double rate = way / (segment.duration_s - segment.ease_s), ease = segment.ease_s;
+      const double left = segment.duration_s - t;
+      if (t < ease) return {start + 0.5 * rate * t * t / ease, rate * t / ease};
+      if (left < ease) return {segment.to - 0.5 * rate * left * left / ease, rate * left / ease};
+      return {start + rate * (t - 0.5 * ease), rate};
+    }
     case Segment::Kind::kMinimumJerk: {
       // Flash and Hogan, J. Neurosci. 1985: zero velocity and acceleration at both ends.
       const double x = t * per_s;

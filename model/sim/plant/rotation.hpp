@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Vectors in space, and rotations as unit quaternions. Documentation: docs/gimbal.md
+// Vectors in space, and rotations as unit quaternions. Documentation: docs/devices/three-axes.md
 #pragma once
 
 #include <array>

@@ -124,14 +124,22 @@ LegModel::LegModel(const Drive& drive, const SupplyParameters& supply, const Pha
                    const Effects& effects)
     : diode_v_(supply.diode_drop_v),
       dead_fraction_(effects.dead_time ? drive.dead_time_s * drive.pwm_hz : 0.0),
+      dead_share_(drive.dead_time_s * drive.pwm_hz),
+      least_(drive.shortest_s > 0 ? dead_share_ + drive.shortest_s * drive.pwm_hz : 0.0),
       ripple_a_v_(effects.inductance ? 0.5 / (motor.inductance_h * drive.pwm_hz) : 0.0) {
   if (!(drive.clock_hz > 0.0) || !(drive.pwm_hz > 0.0) || !(drive.dead_time_s >= 0.0) ||
-      !(drive.dead_time_s * drive.pwm_hz < 0.5)) {
-    throw std::invalid_argument("three phases: dead time must be below half a PWM period");
+      !(drive.dead_time_s * drive.pwm_hz < 0.5) || !(least_ <= 0.5)) {
+    throw std::invalid_argument(
+        "three phases: dead time and shortest pulse must be below half a PWM period");
   }
-  if (drive.shortest_s > 0.0) {
-    throw std::invalid_argument("three phases: the averaged legs have no shortest pulse; set it 0");
-  }
+}
+
+// Share of the period after the PWM has left out a short high pulse or made a short low pulse
+// longer (docs/blocks/pwm.md).
+double LegModel::whole_pulses(double on) const {
+  if (dead_fraction_ <= 0.0 || least_ <= 0.0) return on;
+  if (on > dead_share_ && on < least_) return dead_share_;
+  return std::min(on, 1.0 - least_);
 }
 
 // Dead time delays each turn-on. A leg whose current flows out at both edges of its pulse is high
@@ -143,7 +151,7 @@ void LegModel::average(const Phases& duty, double bus_v, const std::array<bool, 
   connected_ = connected;
   const double count = std::max(1, connected[0] + connected[1] + connected[2]);
   Phases on;
-  for (std::size_t k = 0; k < kPhases; ++k) on[k] = std::clamp(duty[k], 0.0, 1.0);
+  for (std::size_t k = 0; k < kPhases; ++k) on[k] = whole_pulses(std::clamp(duty[k], 0.0, 1.0));
   for (std::size_t k = 0; k < kPhases; ++k) {
     const double high = on[k], low = 1.0 - high;
     const double lost = std::min(dead_fraction_, high), gained = std::min(dead_fraction_, low);

@@ -54,8 +54,7 @@ struct LegCurve {
 /// Computes the curves of the legs from the gates or the duties.
 class LegModel {
  public:
-  /// Errors: std::invalid_argument for a dead time of half a PWM period or more, or a shortest
-  /// pulse, which this model has not.
+  /// Errors: std::invalid_argument for a dead time of half a PWM period or more.
   LegModel(const Drive& drive, const SupplyParameters& supply, const PhaseParameters& motor,
            const Effects& effects);
 
@@ -64,10 +63,13 @@ class LegModel {
                                         const std::array<bool, 3>& connected);
 
  private:
+  double whole_pulses(double on) const;
   void average(const Phases& duty, double bus_v, const std::array<bool, 3>& connected);
 
   double diode_v_;
-  double dead_fraction_;  ///< dead time over PWM period; 0: without
+  double dead_fraction_;  ///< dead time over PWM period; 0: its loss is left out
+  double dead_share_;     ///< dead time over PWM period
+  double least_;          ///< (dead time + shortest pulse) over PWM period; 0: no minimum
   double ripple_a_v_;     ///< A per volt and unit of duty*duty; 0 without inductance
   Phases duty_{};
   double bus_v_ = -1.0;  ///< -1: no averaged curves held

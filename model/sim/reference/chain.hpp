@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain of one design behind the interface RealChain, in a number policy N: Fixed, or Real<T>
-// with T float, double or 113 bits. Documentation: docs/backends.md
+// with T float, double or 113 bits. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cmath>
@@ -40,11 +40,12 @@ class Chain : public RealChain {
     }
   }
 
-  void set_word(int address, std::uint32_t word) override {
+  void set_word(int address, std::uint32_t written) override {
+    const Format f = info(address).format;
+    const std::uint32_t word = fitted(f, written);
     if constexpr (N::is_fixed) {
       chain_.words().set_raw(address, word);
     } else {
-      const Format f = info(address).format;
       const auto integer = static_cast<double>(decode_word(f, word));
       chain_.words().set_value(address, static_cast<Stored>(std::ldexp(integer, -f.fraction)));
     }

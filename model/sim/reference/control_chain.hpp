@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One tick of the whole chain, from the sampled counts to the duty, by the laws of the blocks in
-// any number policy: no pins, no clocks, no supervisor. Documentation: docs/backends.md
+// any number policy: no pins, no clocks, no supervisor. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include "feltgate/chain_tick.hpp"

@@ -3,7 +3,7 @@
 //
 // One interface to the chain, tick by tick, in fixed point and in real arithmetic. Laws and sampled
 // counts are those of the core, so the only difference is quantisation. Documentation:
-// docs/backends.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <cstdint>

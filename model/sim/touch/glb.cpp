@@ -40,6 +40,16 @@ Transform operator*(const Transform& a, const Transform& b) {
 /// glTF has y up and looks along -z; the device has z up.
 constexpr Transform device_frame{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {}};
 
+/// Of a quaternion x, y, z, w of any length.
+Transform rotation_of(const double* q) {
+  const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!(norm > 0)) refuse("a node's rotation is 0");
+  const plant::Quaternion turn{q[3] / norm, q[0] / norm, q[1] / norm, q[2] / norm};
+  const Transform none;
+  return {turn.turn(none.x), turn.turn(none.y), turn.turn(none.z), {}};
+}
+Transform scale_of(Vec3 s) { return {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}}; }
+
 Transform transform_of(const tinygltf::Node& node) {
   const auto sized = [&](const std::vector<double>& v, std::size_t n, const char* what) {
     if (!v.empty() && v.size() != n)
@@ -53,18 +63,9 @@ Transform transform_of(const tinygltf::Node& node) {
     return {column(0), column(1), column(2), column(3)};
   }
   Transform t;
-  if (sized(node.rotation, 4, "rotation")) {
-    const double *q = node.rotation.data(),
-                 norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(norm > 0)) refuse("a node's rotation is 0");
-    const plant::Quaternion turn{q[3] / norm, q[0] / norm, q[1] / norm, q[2] / norm};
-    t = {turn.turn(t.x), turn.turn(t.y), turn.turn(t.z), {}};
-  }
-  if (sized(node.scale, 3, "scale")) {
-    t.x = node.scale[0] * t.x;
-    t.y = node.scale[1] * t.y;
-    t.z = node.scale[2] * t.z;
-  }
+  if (sized(node.rotation, 4, "rotation")) t = rotation_of(node.rotation.data());
+  if (sized(node.scale, 3, "scale"))
+    t = t * scale_of({node.scale[0], node.scale[1], node.scale[2]});
   if (sized(node.translation, 3, "translation")) {
     t.to = {node.translation[0], node.translation[1], node.translation[2]};
   }
@@ -86,8 +87,11 @@ class Elements {
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(a.componentType));
     if (a.type != type || bytes <= 0) refuse("an accessor of another type than its use");
     component_ = a.componentType;
+    normalized_ = a.normalized;
+    bytes_ = static_cast<std::size_t>(bytes);
     count_ = a.count;
-    const std::size_t size = static_cast<std::size_t>(bytes) * (type == TINYGLTF_TYPE_VEC3 ? 3 : 1);
+    const std::size_t size = bytes_ * static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
+                                          static_cast<std::uint32_t>(type)));
     stride_ = view.byteStride == 0 ? size : view.byteStride;
     const bool view_fits =
         view.byteOffset <= data.size() && view.byteLength <= data.size() - view.byteOffset;
@@ -101,25 +105,45 @@ class Elements {
   std::size_t count() const { return count_; }
   int component() const { return component_; }
 
-  Vec3 vector(std::size_t n) const {
-    float v[3];
-    std::memcpy(v, data_ + n * stride_, sizeof(v));
-    return {v[0], v[1], v[2]};
+  /// Part `k` of an element: a float, or a whole number of 8 or 16 bits, as quantization leaves
+  /// them; a normalized one is from -1 or 0 to 1.
+  double number(std::size_t n, std::size_t k) const {
+    const unsigned char* from = data_ + n * stride_ + k * bytes_;
+    switch (component_) {
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return static_cast<double>(loaded<float>(from));
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return whole_number<std::int8_t>(from);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return whole_number<std::uint8_t>(from);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return whole_number<std::int16_t>(from);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return whole_number<std::uint16_t>(from);
+      default:
+        refuse("positions that are neither floats nor whole numbers of 8 or 16 bits");
+    }
   }
+  Vec3 vector(std::size_t n) const { return {number(n, 0), number(n, 1), number(n, 2)}; }
   std::uint32_t whole(std::size_t n) const {
     const unsigned char* from = data_ + n * stride_;
     if (component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return *from;
-    if (component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
-      std::uint16_t v;
-      std::memcpy(&v, from, sizeof(v));
-      return v;
-    }
-    std::uint32_t v;
-    std::memcpy(&v, from, sizeof(v));
-    return v;
+    if (component_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return loaded<std::uint16_t>(from);
+    return loaded<std::uint32_t>(from);
   }
 
  private:
+  template <class T>
+  static T loaded(const unsigned char* from) {
+    T v;
+    std::memcpy(&v, from, sizeof(v));
+    return v;
+  }
+  template <class T>
+  double whole_number(const unsigned char* from) const {
+    const double v = loaded<T>(from);
+    return normalized_ ? std::max(v / std::numeric_limits<T>::max(), -1.0) : v;
+  }
   static std::size_t at(int index, std::size_t size, const char* what) {
     if (index < 0 || static_cast<std::size_t>(index) >= size) {
       refuse(fmt::format("{} {} does not exist", what, index));
@@ -128,8 +152,9 @@ class Elements {
   }
 
   const unsigned char* data_ = nullptr;
-  std::size_t count_ = 0, stride_ = 0;
+  std::size_t count_ = 0, stride_ = 0, bytes_ = 0;
   int component_ = 0;
+  bool normalized_ = false;
 };
 
 class Reader {
@@ -139,6 +164,7 @@ class Reader {
   Soup read() {
     for (const int root : roots()) visit(root, device_frame, 0);
     if (soup_.triangles.empty()) refuse("no triangles; export a mesh");
+    soup_.animations = static_cast<std::int64_t>(model_.animations.size());
     return std::move(soup_);
   }
 
@@ -181,13 +207,64 @@ class Reader {
       if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) {
         refuse(fmt::format("mesh {} does not exist", node.mesh));
       }
-      for (const auto& p : model_.meshes[static_cast<std::size_t>(node.mesh)].primitives)
-        add(p, here);
+      const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+      const auto& weights = node.weights.empty() ? mesh.weights : node.weights;
+      for (const Transform& instance : instances_of(node)) {
+        for (const auto& p : mesh.primitives) add(p, here * instance, weights);
+      }
     }
     for (const int child : node.children) visit(child, here, depth + 1);
   }
 
-  void add(const tinygltf::Primitive& p, const Transform& here) {
+  /// Where EXT_mesh_gpu_instancing puts a node's mesh; once, as it is, without that.
+  std::vector<Transform> instances_of(const tinygltf::Node& node) const {
+    const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
+    if (found == node.extensions.end()) return {Transform{}};
+    const tinygltf::Value& attributes = found->second.Get("attributes");
+    std::vector<Transform> all;
+    const auto each = [&](const char* name, int type, auto&& apply) {
+      if (!attributes.Has(name)) return;
+      const tinygltf::Value& index = attributes.Get(name);
+      if (!index.IsNumber()) refuse("an attribute of instances that is no accessor");
+      const Elements values(model_, index.GetNumberAsInt(), type);
+      if (all.empty()) all.resize(values.count());
+      if (all.size() != values.count()) refuse("attributes of instances that differ in number");
+      for (std::size_t n = 0; n < all.size(); ++n) apply(all[n], values, n);
+    };
+    each("ROTATION", TINYGLTF_TYPE_VEC4, [](Transform& t, const Elements& v, std::size_t n) {
+      const double q[] = {v.number(n, 0), v.number(n, 1), v.number(n, 2), v.number(n, 3)};
+      t = rotation_of(q);
+    });
+    each("SCALE", TINYGLTF_TYPE_VEC3,
+         [](Transform& t, const Elements& v, std::size_t n) { t = t * scale_of(v.vector(n)); });
+    each("TRANSLATION", TINYGLTF_TYPE_VEC3,
+         [](Transform& t, const Elements& v, std::size_t n) { t.to = v.vector(n); });
+    return all;
+  }
+
+  /// The vertices of a primitive, with its morph targets by their weights.
+  std::vector<Vec3> vertices_of(const tinygltf::Primitive& p, int positions,
+                                const std::vector<double>& weights) const {
+    const Elements places(model_, positions, TINYGLTF_TYPE_VEC3);
+    if (places.count() > 3 * most_triangles - std::min(soup_.at.size(), 3 * most_triangles))
+      too_many();
+    std::vector<Vec3> vertices;
+    vertices.reserve(places.count());
+    for (std::size_t n = 0; n < places.count(); ++n) vertices.push_back(places.vector(n));
+    if (weights.size() > p.targets.size()) refuse("more weights than morph targets");
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const auto moved = p.targets[k].find("POSITION");
+      if (weights[k] == 0 || moved == p.targets[k].end()) continue;
+      const Elements by(model_, moved->second, TINYGLTF_TYPE_VEC3);
+      if (by.count() != vertices.size()) refuse("a morph target of another number of vertices");
+      for (std::size_t n = 0; n < vertices.size(); ++n)
+        vertices[n] = vertices[n] + weights[k] * by.vector(n);
+    }
+    return vertices;
+  }
+
+  void add(const tinygltf::Primitive& p, const Transform& here,
+           const std::vector<double>& weights) {
     if (p.extensions.count("KHR_draco_mesh_compression") != 0) {
       refuse("a mesh compressed by Draco, which is not read; export without compression");
     }
@@ -197,15 +274,11 @@ class Reader {
     }
     const auto found = p.attributes.find("POSITION");
     if (found == p.attributes.end()) refuse("a primitive without POSITION");
-    const Elements places(model_, found->second, TINYGLTF_TYPE_VEC3);
-    if (places.component() != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-      refuse("positions that are no floats, which are not read; export without quantization");
-    }
+    const std::vector<Vec3> vertices = vertices_of(p, found->second, weights);
     ++soup_.primitives;
     const std::size_t first = soup_.at.size();
-    if (places.count() > 3 * most_triangles - std::min(first, 3 * most_triangles)) too_many();
-    for (std::size_t n = 0; n < places.count(); ++n) {
-      const Vec3 v = here(places.vector(n));
+    for (std::size_t n = 0; n < vertices.size(); ++n) {
+      const Vec3 v = here(vertices[n]);
       if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
         refuse(fmt::format("vertex {} of a primitive is not finite", n));
       }
@@ -222,11 +295,11 @@ class Reader {
       if (indices.count() > 3 * most_triangles) too_many();
       for (std::size_t n = 0; n < indices.count(); ++n) order.push_back(indices.whole(n));
     } else {
-      for (std::size_t n = 0; n < places.count(); ++n)
+      for (std::size_t n = 0; n < vertices.size(); ++n)
         order.push_back(static_cast<std::uint32_t>(n));
     }
     for (const std::uint32_t n : order) {
-      if (n >= places.count()) refuse(fmt::format("index {} of {} vertices", n, places.count()));
+      if (n >= vertices.size()) refuse(fmt::format("index {} of {} vertices", n, vertices.size()));
     }
     connect(p.mode, order, static_cast<std::uint32_t>(first), here.mirrors());
     soup_.parts.resize(soup_.triangles.size(), part_of(p.material));
@@ -287,27 +360,40 @@ std::vector<unsigned char> bytes_of(const std::string& path) {
   return bytes;
 }
 
+/// Whether an extension is read here, or changes only the looks.
+bool knows(const std::string& extension) {
+  for (const char* with : {"KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_materials_",
+                           "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp"}) {
+    if (extension.rfind(with, 0) == 0) return true;
+  }
+  return false;
+}
+
 /// Refuses what the file's `extensionsRequired` names and this reader does not know, before
-/// TinyGLTF stumbles over it. What only changes the looks is let through.
-void check_extensions(const std::vector<unsigned char>& bytes) {
+/// TinyGLTF stumbles over it. Returns what else it uses and is not known.
+std::vector<std::string> check_extensions(const std::vector<unsigned char>& bytes) {
   std::uint32_t length = 0;
   std::memcpy(&length, bytes.data() + 12, sizeof(length));
   const auto from = bytes.begin() + 20;
   const auto to = from + std::min<std::ptrdiff_t>(length, bytes.end() - from);
-  const std::string key = "\"extensionsRequired\"";
-  if (std::search(from, to, key.begin(), key.end()) == to) return;
+  std::vector<std::string> unknown;
+  const std::string key = "\"extensions";
+  if (std::search(from, to, key.begin(), key.end()) == to) return unknown;
   const auto json = nlohmann::json::parse(from, to, nullptr, false);
-  const auto required = json.is_object() ? json.find("extensionsRequired") : json.end();
-  if (!json.is_object() || required == json.end() || !required->is_array()) return;
-  for (const auto& name : *required) {
-    if (!name.is_string()) continue;
-    const std::string text = name.get<std::string>().substr(0, 60);
-    const auto begins = [&](const char* with) { return text.rfind(with, 0) == 0; };
-    if (begins("KHR_materials_") || begins("KHR_texture_") || begins("EXT_texture_") ||
-        begins("KHR_lights_"))
-      continue;
-    refuse(fmt::format("needs the extension {}, which is not read; export without it", text));
-  }
+  const auto names = [&](const char* list, auto&& each) {
+    const auto found = json.is_object() ? json.find(list) : json.end();
+    if (!json.is_object() || found == json.end() || !found->is_array()) return;
+    for (const auto& name : *found) {
+      if (!name.is_string()) continue;
+      const std::string text = name.get<std::string>().substr(0, 60);
+      if (!knows(text)) each(text);
+    }
+  };
+  names("extensionsRequired", [](const std::string& name) {
+    refuse(fmt::format("needs the extension {}, which is not read; export without it", name));
+  });
+  names("extensionsUsed", [&](const std::string& name) { unknown.push_back(name); });
+  return unknown;
 }
 
 /// Lets TinyGLTF see no other file; remembers what it asked for.
@@ -327,7 +413,7 @@ tinygltf::FsCallbacks no_files(std::string* asked) {
 
 Soup read(const std::string& path) {
   const std::vector<unsigned char> bytes = bytes_of(path);
-  check_extensions(bytes);
+  const std::vector<std::string> unknown = check_extensions(bytes);
   tinygltf::TinyGLTF loader;
   std::string asked, error, warning;
   loader.SetFsCallbacks(no_files(&asked));
@@ -342,7 +428,9 @@ Soup read(const std::string& path) {
     const std::string first = error.substr(0, error.find('\n'));
     refuse("no usable GLB file" + (first.empty() ? std::string() : ": " + first));
   }
-  return Reader(model).read();
+  Soup soup = Reader(model).read();
+  soup.extensions = unknown;
+  return soup;
 }
 
 }  // namespace

@@ -32,11 +32,14 @@ struct Soup {
   std::vector<std::uint32_t> parts;  ///< of each triangle: its place in `materials`
   std::vector<std::string> materials;
   std::int64_t primitives = 0, not_triangles = 0;  ///< primitives read; points and lines left out
-  std::int64_t skins = 0;                          ///< nodes whose skin is left out: rest pose
+  std::int64_t skins = 0,
+               animations = 0;          ///< nodes with a skin, and movements: left out, rest pose
+  std::vector<std::string> extensions;  ///< used by the file and not known: left out
 };
 
-/// Reads a GLB file: every primitive of every node of its scene, by the nodes' transforms. The
-/// file's y-up frame is turned into the device's. Errors: std::invalid_argument "path: what; mend".
+/// Reads a GLB file: every primitive of every node of its scene, by the nodes' transforms,
+/// instances and weights of morph targets. The file's y-up frame is turned into the device's.
+/// Errors: std::invalid_argument "path: what; mend".
 Soup read_glb(const std::string& path);
 
 /// Where a mesh shall be.

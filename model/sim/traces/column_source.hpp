@@ -29,7 +29,12 @@ class ColumnSource final : public EncoderSource {
   Clock length() const override { return row_clock_ + 1; }
 
  private:
-  std::int64_t read_count();
+  double read_value();
+  std::int64_t count_of(double value);
+  void take(double value);
+  std::optional<double> period_in(double step) const;
+  bool is_leap(double step) const;
+  void warn_of_jump(double value, std::optional<double> period);
   bool advance();
 
   Table table_;
@@ -37,7 +42,16 @@ class ColumnSource final : public EncoderSource {
   bool jitter_;
   SplitMix64 random_;
   double scale_;
+  std::optional<double> wrap_;   // 0: not yet known
+  std::vector<double> periods_;  // after which such a column may begin again, in its units
+  double turn_;                  // of the encoder in the column's units; 0: unknown
+  std::function<void(const std::string&)> warn_;
   std::size_t column_ = 0;
+  double value_ = 0;      // of the row read last
+  double step_ = 0;       // from the row before it, without wraps
+  bool stepped_ = false;  // there was one
+  double largest_ = 0;    // of all steps
+  double turns_ = 0;      // wraps so far
   EncoderPins initial_;
   std::int64_t count_ = 0;  // of the row read last
   std::int64_t steps_ = 0;  // edges of the present interval, and how many of them are given

@@ -16,8 +16,8 @@ constexpr std::size_t kRowsAhead = 64;
 }  // namespace
 
 LevelTable::LevelTable(const std::filesystem::path& path, const Options& options)
-    : table_(path), sample_hz_(options.sample_hz) {
-  const std::size_t time = table_.use_time(options.time_column);
+    : table_(path, options) {
+  const std::size_t time = table_.use_time();
   for (std::size_t i = 0; i < table_.columns().size(); ++i) {
     if (i == time) continue;
     names_.push_back(table_.columns()[i]);
@@ -31,6 +31,10 @@ std::optional<LevelTable::Row> LevelTable::read() {
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     const std::string_view text = table_.field(chosen_[i]);
     bool high = text == "1";
+    if (text.empty()) {
+      table_.fail("no level of " + shown(table_.columns()[chosen_[i]]),
+                  "fill the cell, or remove the row");
+    }
     if (!high && text != "0") {
       const std::optional<double> value = parse_real(text);
       high = value && *value == 1.0;
@@ -62,8 +66,8 @@ void LevelTable::find_width() {
     before = values;
     ahead_.push_back(*row);
   }
-  if (sample_hz_ > 0) {
-    width_ = Table::kTimeBase.den / sample_hz_;
+  if (table_.sample_hz() > 0) {
+    width_ = Table::kTimeBase.den / table_.sample_hz();
   } else if (repeats) {
     width_ = smallest;
   }

@@ -35,7 +35,6 @@ class LevelTable final : public Capture {
   void find_width();
 
   Table table_;
-  std::int64_t sample_hz_;
   std::vector<std::string> names_;
   std::vector<std::size_t> columns_;  // column of each channel
   std::vector<std::size_t> chosen_;

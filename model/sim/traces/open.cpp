@@ -29,9 +29,24 @@ void check(const std::string& file, const Options& options) {
   if (options.sample_hz < 0 || options.sample_hz > kMostHz) {
     fail(file, fmt::format("sample_hz {} is not a rate", options.sample_hz), "give 0 to 1e12 Hz");
   }
+  if (options.wrap && !(*options.wrap >= 0 && *options.wrap < 1e18)) {
+    fail(file, "the wrap is not a number above 0", "give the units of a turn, such as 360");
+  }
   if (options.scale && (!std::isfinite(*options.scale) || *options.scale == 0.0)) {
     fail(file, "the scale is not a finite number other than 0", "give counts per unit");
   }
+}
+
+/// Whether the first rows have only 0 and 1 beside their time.
+bool holds_levels(Table& table) {
+  const std::size_t time = table.use_time();
+  for (int rows = 0; rows < 64 && table.read(); ++rows) {
+    for (std::size_t i = 0; i < table.columns().size(); ++i) {
+      const std::optional<double> value = parse_real(table.field(i));
+      if (i != time && value && *value != 0.0 && *value != 1.0) return false;
+    }
+  }
+  return true;
 }
 
 FileFormat table_format(const std::filesystem::path& path, const Options& options) {
@@ -39,7 +54,9 @@ FileFormat table_format(const std::filesystem::path& path, const Options& option
   if (!options.probes.empty() || !options.step.empty() || !options.dir.empty()) {
     return FileFormat::levels;
   }
-  const Table table(path);
+  Options silent = options;
+  silent.warn = nullptr;
+  Table table(path, silent);
   bool time = false;
   bool channel = false;
   for (const std::string& name : table.columns()) {
@@ -48,7 +65,7 @@ FileFormat table_format(const std::filesystem::path& path, const Options& option
   }
   if (time && channel) return FileFormat::saleae;
   if (!quadrature_pairs(table.columns()).empty()) return FileFormat::levels;
-  return has_count_column(table) ? FileFormat::columns : FileFormat::levels;
+  return has_count_column(table) || !holds_levels(table) ? FileFormat::columns : FileFormat::levels;
 }
 
 std::unique_ptr<Capture> capture(const std::filesystem::path& path, FileFormat format,
@@ -108,7 +125,7 @@ std::vector<std::string> channels(const std::filesystem::path& path, const Optio
   check(path.string(), options);
   const FileFormat format =
       options.format == FileFormat::detect ? detect(path, options) : options.format;
-  if (format == FileFormat::columns) return Table(path).columns();
+  if (format == FileFormat::columns) return Table(path, options).columns();
   return capture(path, format, options)->channels();
 }
 

@@ -65,6 +65,16 @@ double parse_scale(const std::string& text) {
   return scale;
 }
 
+double parse_wrap(const std::string& text) {
+  if (text.empty()) return 0.0;
+  const std::optional<double> wrap = factor(text);
+  if (!wrap || !std::isfinite(*wrap) || *wrap <= 0) {
+    fail("--wrap", shown(text) + " is not a finite number above 0",
+         "give the units after which the column begins again, such as 360, 2pi or 65536");
+  }
+  return *wrap;
+}
+
 const char* name_of(FileFormat format) {
   for (const auto& [value, name] : kNames) {
     if (value == format) return name;

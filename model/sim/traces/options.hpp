@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,16 +25,26 @@ struct Options {
   /// Names of the columns of a table; empty: guessed from usual names.
   std::string time_column;
   std::string count_column;
+  /// Unit of the time column: s, ms, us or ns; empty: as its name says, else s.
+  std::string time_unit;
   /// Counts per unit of the count column, not 0 (for radians lines * 4 / 2pi); absent: 1.
   std::optional<double> scale;
+  /// The count column begins again after so many of its units: 360, 2pi, 65536; 0: its first jump
+  /// tells; absent: it goes on.
+  std::optional<double> wrap;
+  /// Counts of a turn of the encoder, to tell a jump by one; 0: unknown.
+  double turn_counts = 0;
   /// FPGA clock in Hz, 1 to 1e12.
   std::int64_t clock_hz = 50'000'000;
-  /// Rate in Hz at which a .sr, a VCD or a table was sampled; 0: as the file itself says.
+  /// Rate in Hz at which a .sr, a VCD or a table was sampled; 0: as the file itself says. The rows
+  /// of a table without a time column are samples.
   std::int64_t sample_hz = 0;
   /// Edges at a seeded uniform offset inside their sample (true) or at its start (false).
   bool jitter = true;
   std::uint64_t seed = 1;
   FileFormat format = FileFormat::detect;
+  /// Is told, once for each kind, what can be read and is hardly meant; absent: nobody is.
+  std::function<void(const std::string&)> warn;
 };
 
 /// "A,B" or "A,B,Z" as a list of names; spaces round a name are dropped.
@@ -42,6 +53,10 @@ std::vector<std::string> split_names(const std::string& text);
 /// A scale: a number, or a quotient such as `2048/2pi` (counts per radian) or `4096/360`.
 /// Throws TraceError when it is not a finite number other than 0.
 double parse_scale(const std::string& text);
+
+/// A wrap: a number or a product such as `2pi`; empty: 0, which is told by the first jump. Throws
+/// TraceError when it is not a finite number above 0.
+double parse_wrap(const std::string& text);
 
 /// The format's name on the command line and back; an unknown name throws TraceError.
 const char* name_of(FileFormat format);

@@ -31,8 +31,7 @@ void SigrokCapture::Closer::operator()(archive* a) const { archive_read_free(a);
 
 SigrokCapture::SigrokCapture(const std::filesystem::path& path, std::int64_t sample_hz)
     : path_(path.string()) {
-  scan_archive();
-  if (sample_hz > 0) sample_hz_ = sample_hz;
+  scan_archive(sample_hz);
 }
 
 void SigrokCapture::fail_archive(const std::string& doing) const {
@@ -60,7 +59,7 @@ bool SigrokCapture::next_entry(Entry& entry) {
   return true;
 }
 
-void SigrokCapture::scan_archive() {
+void SigrokCapture::scan_archive(std::int64_t given_hz) {
   std::vector<std::string> entries;
   std::string metadata;
   bool found = false;
@@ -81,7 +80,7 @@ void SigrokCapture::scan_archive() {
     }
   }
   if (!found) fail(path_, "the zip holds no 'metadata'", "give a sigrok session file (.sr)");
-  parse_metadata(metadata);
+  parse_metadata(metadata, given_hz);
 
   std::map<std::int64_t, std::string> numbered;
   for (const std::string& name : entries) {

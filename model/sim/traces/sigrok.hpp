@@ -35,8 +35,8 @@ class SigrokCapture final : public Capture {
 
   void reopen();
   bool next_entry(Entry& entry);
-  void scan_archive();
-  void parse_metadata(const std::string& text);
+  void scan_archive(std::int64_t given_hz);
+  void parse_metadata(const std::string& text, std::int64_t given_hz);
   void open_chunk();
   bool refill();
   const unsigned char* sample();

@@ -16,23 +16,6 @@ namespace {
 
 constexpr std::int64_t kMostUnitSize = 64;
 
-/// "1 MHz", "500 kHz" or "2000000" in Hz; nothing for 0 and for what is not a whole number of Hz.
-std::optional<std::int64_t> parse_rate(const std::string& text) {
-  constexpr int128_t kMost = 1'000'000'000'000;
-  std::string low = lower(text);
-  if (low.size() >= 2 && low.compare(low.size() - 2, 2, "hz") == 0) low.resize(low.size() - 2);
-  low = std::string(trim(low));
-  int power = 0;
-  const char last = low.empty() ? '0' : low.back();
-  if (last == 'k') power = 3;
-  if (last == 'm') power = 6;
-  if (last == 'g') power = 9;
-  if (power > 0) low.pop_back();
-  const auto rate = parse_decimal(trim(low), power);
-  if (!rate || *rate < 1 || *rate > kMost) return std::nullopt;
-  return static_cast<std::int64_t>(*rate);
-}
-
 /// Keys of the first [device ...] section, in small letters.
 std::map<std::string, std::string> device_section(std::string_view text) {
   std::map<std::string, std::string> keys;
@@ -55,7 +38,7 @@ std::map<std::string, std::string> device_section(std::string_view text) {
 
 }  // namespace
 
-void SigrokCapture::parse_metadata(const std::string& text) {
+void SigrokCapture::parse_metadata(const std::string& text, std::int64_t given_hz) {
   const std::string at = path_ + ":metadata";
   const auto keys = device_section(text);
   const auto value = [&](const std::string& key) {
@@ -63,11 +46,15 @@ void SigrokCapture::parse_metadata(const std::string& text) {
     return found == keys.end() ? std::string() : found->second;
   };
 
-  const std::optional<std::int64_t> rate = parse_rate(value("samplerate"));
-  if (!rate) {
-    fail(at, "samplerate " + shown(value("samplerate")) + " is not a rate", "give 1 Hz to 1 THz");
+  // A rate that the caller gives stands in for one that is wrong, 0 or not there at all.
+  const std::string rate = value("samplerate");
+  sample_hz_ = given_hz > 0 ? given_hz : parse_rate(rate).value_or(0);
+  if (sample_hz_ == 0) {
+    fail(at,
+         rate.empty() ? "the recording has no samplerate"
+                      : "samplerate " + shown(rate) + " is not a rate",
+         "give the rate of the samples in Hz (--sample-hz)");
   }
-  sample_hz_ = *rate;
 
   const auto unit_size = parse_count(keys.count("unitsize") != 0 ? value("unitsize") : "1");
   if (!unit_size || *unit_size < 1 || *unit_size > kMostUnitSize) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -105,6 +106,22 @@ std::optional<int128_t> parse_decimal(std::string_view text, int power) {
   return negative ? -mantissa : mantissa;
 }
 
+std::optional<std::int64_t> parse_rate(std::string_view text) {
+  constexpr int128_t kMost = 1'000'000'000'000;
+  std::string low = lower(trim(text));
+  if (low.size() >= 2 && low.compare(low.size() - 2, 2, "hz") == 0) low.resize(low.size() - 2);
+  low = std::string(trim(low));
+  int power = 0;
+  const char last = low.empty() ? '0' : low.back();
+  if (last == 'k') power = 3;
+  if (last == 'm') power = 6;
+  if (last == 'g') power = 9;
+  if (power > 0) low.pop_back();
+  const auto rate = parse_decimal(trim(low), power);
+  if (!rate || *rate < 1 || *rate > kMost) return std::nullopt;
+  return static_cast<std::int64_t>(*rate);
+}
+
 ByteReader::ByteReader(const std::filesystem::path& path) : name_(path.string()), buffer_(kBuffer) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
@@ -113,6 +130,11 @@ ByteReader::ByteReader(const std::filesystem::path& path) : name_(path.string())
   file_.open(path, std::ios::binary);
   if (!file_) traces::fail(name_, "cannot be opened", "check the path and the rights");
   if (!refill()) traces::fail(name_, "the file is empty", "give a recording with samples");
+  const std::string_view head(buffer_.data(), std::min<std::size_t>(filled_, 3));
+  if (head == "\xEF\xBB\xBF") at_ = 3;
+  if (head.substr(0, 2) == "\xFF\xFE" || head.substr(0, 2) == "\xFE\xFF") {
+    traces::fail(name_, "the text is UTF-16", "save it as UTF-8");
+  }
 }
 
 bool ByteReader::refill() {

@@ -29,10 +29,14 @@ std::optional<std::int64_t> parse_count(std::string_view text);
 /// A decimal number times 10^power, exactly, rounded half away from zero; |result| < 2^120.
 std::optional<int128_t> parse_decimal(std::string_view text, int power);
 
+/// "1 MHz", "500 kHz" or "2000000" in Hz, to 1e12; nothing for 0 and for no whole number of Hz.
+std::optional<std::int64_t> parse_rate(std::string_view text);
+
 /// Reads a file byte by byte through one buffer of 64 KiB and counts its lines.
 class ByteReader {
  public:
-  /// Throws TraceError when the file cannot be opened or is empty.
+  /// Skips the mark that UTF-8 may begin with. Throws TraceError when the file cannot be opened, is
+  /// empty, or is UTF-16.
   explicit ByteReader(const std::filesystem::path& path);
 
   /// The next byte, or -1 at the end.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Measures CPU time of this process, so other programs on the machine do not count. Documentation:
-// docs/bench.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <time.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The benchmark. Documentation: docs/bench.md
+// The benchmark. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/measure.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <map>
 
 #include "studies/bench/cpu_time.hpp"
-#include "studies/bench/law_speed.hpp"
+#include "studies/bench/device_speed.hpp"
 
 namespace feltgate::bench {
 
@@ -67,7 +67,6 @@ class Measurement {
       inspect(work);
     }
     estimate_length();
-    if (!options_.laws.empty()) laws_ = std::make_unique<LawBench>(options_.laws);
     for (int k = 0; k < options_.repetitions; ++k) repeat();
     conclude();
     return std::move(result_);
@@ -167,7 +166,7 @@ class Measurement {
         result_.engines[i].samples.push_back(1e9 * s / static_cast<double>(result_.ticks));
       }
     }
-    if (laws_ != nullptr) laws_->repeat();
+    device_ns_.push_back(device_ns_per_tick(100'000));
     double loops_s = 0, simulated_s = 0;
     for (const Scene& scene : closed_loops_) {
       RunOptions options;
@@ -207,11 +206,9 @@ class Measurement {
       result_.loops.push_back(
           {s.scenario.name, s.scenario.duration_s, spread(loop_samples_[s.scenario.name])});
     }
-    conclude_laws();
+    result_.device_ns = spread(device_ns_);
     const BackendResult* rtl = result_.find("rtl");
     const BackendResult* event = result_.find("twin_event");
-    const BackendResult* tick = result_.find("twin_tick");
-    const BackendResult* shifts = result_.find("shifts");
     auto& goals = result_.goals;
     if (event != nullptr && rtl != nullptr) {
       goals.push_back({"event_over_rtl", "twin_event, times as fast as rtl", 80, false,
@@ -220,10 +217,6 @@ class Measurement {
     if (event != nullptr) {
       goals.push_back(
           {"event_over_real_time", "twin_event, times real time", 40, false, event->speed});
-    }
-    if (tick != nullptr && shifts != nullptr) {
-      goals.push_back({"fixed_over_shifts", "fixed (twin_tick), time over hand-written shifts",
-                       1.15, true, ratio(*tick, *shifts, options_.repetitions)});
     }
     if (!loop_total_.empty()) {
       goals.push_back({"closed_loop_over_real_time",
@@ -244,33 +237,6 @@ class Measurement {
     }
   }
 
-  /// Of a law's instruction, all laws run once: its time over the tick of the same repetition.
-  void conclude_laws() {
-    if (laws_ == nullptr) return;
-    const auto n = static_cast<std::size_t>(options_.repetitions);
-    std::vector<double> ns(n);
-    double instructions = 0;
-    for (const LawSamples& s : laws_->samples()) {
-      result_.laws.push_back(
-          {s.name, s.instructions, spread(s.compiled), spread(s.real), spread(s.interpreted)});
-      instructions += s.instructions;
-      for (std::size_t k = 0; k < n; ++k) ns[k] += s.compiled[k];
-    }
-    const BackendResult* tick = result_.find("twin_tick");
-    if (tick == nullptr) return;
-    const std::size_t passes = tick->samples.size() / n;
-    std::vector<double> ratios;
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto first = tick->samples.begin() + static_cast<std::ptrdiff_t>(k * passes);
-      const double ticks_ns = spread({first, first + static_cast<std::ptrdiff_t>(passes)}).median;
-      ratios.push_back(ns[k] / instructions / ticks_ns);
-    }
-    result_.goals.push_back({"law_instruction_over_tick",
-                             "an instruction of a law in C++, time over twin_tick", 0.1, true,
-                             spread(ratios)});
-  }
-
-  std::unique_ptr<LawBench> laws_;
   const std::vector<std::unique_ptr<Runner>>& runners_;
   const std::vector<Work>& works_;
   const std::vector<Scene>& closed_loops_;
@@ -278,7 +244,7 @@ class Measurement {
   Result result_;
   std::map<std::string, double> inspect_s_;
   std::map<std::string, std::vector<double>> loop_samples_;
-  std::vector<double> loop_total_, loop_over_twin_;
+  std::vector<double> loop_total_, loop_over_twin_, device_ns_;
   double total_s_ = 0, done_s_ = 0;
 };
 

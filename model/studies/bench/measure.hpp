@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The benchmark: every back-end on the same works, errors against 113 bits, equality of the integer
-// back-ends, CPU time in interleaved repetitions. Documentation: docs/bench.md
+// back-ends, CPU time in interleaved repetitions. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>
@@ -42,13 +42,6 @@ struct LoopResult {
   Spread speed;
 };
 
-/// Result of a shipped law: time of a run in ns.
-struct LawResult {
-  std::string name;
-  int instructions = 0;
-  Spread compiled, real, interpreted;  ///< C++ in fixed point, in double; the interpreter
-};
-
 /// A promised figure and the measured one.
 struct Goal {
   std::string key, text;
@@ -67,7 +60,7 @@ struct Result {
   std::optional<ErrorLimits> bounds;
   std::vector<BackendResult> engines;
   std::vector<LoopResult> loops;
-  std::vector<LawResult> laws;
+  Spread device_ns;  ///< a tick of TwinDevice::tick_to
   std::vector<Goal> goals;
   std::string divergence;  ///< first tick and signal in which integer back-ends differ, or empty
   double simulated_s = 0;  ///< simulated time of all works together
@@ -77,7 +70,6 @@ struct Result {
 
 struct Options {
   int repetitions = 3;
-  std::string laws;                           ///< folder of the shipped laws; empty: none
   int passes = 5;                             ///< passes of the fast back-ends per repetition
   std::function<void(double done)> progress;  ///< called with 0..1; may be empty
 };

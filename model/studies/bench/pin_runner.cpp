@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Back-ends with pins and a clock. Documentation: docs/bench.md
+// Back-ends with pins and a clock. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/pin_runner.hpp"
 
 #include <cmath>

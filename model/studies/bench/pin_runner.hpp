@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Runs back-ends with pins and a clock on recorded inputs. Documentation: docs/bench.md
+// Runs back-ends with pins and a clock on recorded inputs. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <algorithm>

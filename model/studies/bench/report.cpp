@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The benchmark's result as JSON and as text. Documentation: docs/bench.md
+// The benchmark's result as JSON and as text. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/report.hpp"
 
 #include <fmt/format.h>
@@ -91,12 +91,7 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
     j["closed_loop"][l.scene] = {{"simulated_s", l.simulated_s},
                                  {"simulated_s_per_s", spread_json(l.speed)}};
   }
-  for (const LawResult& l : r.laws) {
-    j["laws"][l.name] = {{"instructions", l.instructions},
-                         {"compiled_ns", spread_json(l.compiled)},
-                         {"double_ns", spread_json(l.real)},
-                         {"interpreted_ns", spread_json(l.interpreted)}};
-  }
+  j["device"] = {{"tick_to_ns", spread_json(r.device_ns)}};
   for (const Goal& g : r.goals) {
     Json& o = j["goals"][g.key];
     o = spread_json(g.value);
@@ -156,15 +151,8 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
     print(&s, "closed loop, {}: {:.3g} times real time ({:.3g} .. {:.3g})\n", l.scene.c_str(),
           l.speed.median, l.speed.low, l.speed.high);
   }
-  if (!r.laws.empty()) {
-    print(&s, "\n{:<11} {:>12} {:>8} {:>15} {:>8} {:>12}\n", "law", "instructions", "ns/run",
-          "per instruction", "double", "interpreter");
-  }
-  for (const LawResult& l : r.laws) {
-    print(&s, "{:<11} {:12} {:8.3g} {:15.3g} {:8.3g} {:12.3g}\n", l.name.c_str(), l.instructions,
-          l.compiled.median, l.compiled.median / l.instructions, l.real.median,
-          l.interpreted.median);
-  }
+  print(&s, "TwinDevice::tick_to, ns/tick: {:.4g} ({:.4g} .. {:.4g})\n", r.device_ns.median,
+        r.device_ns.low, r.device_ns.high);
   s += "\n";
   for (const Goal& g : r.goals) {
     print(&s, "{:<6} {}: {:.3g} ({:.3g} .. {:.3g}), goal {} {:g}\n", g.met() ? "met" : "MISSED",

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The benchmark's result as JSON (schema feltgate-bench/1) and as text. Documentation:
-// docs/bench.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The back-ends of the benchmark. Documentation: docs/bench.md
+// The back-ends of the benchmark. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/runner.hpp"
 
 #include <cmath>
@@ -11,8 +11,6 @@
 #include "sim/reference/chain.hpp"
 #include "sim/reference/control_chain.hpp"
 #include "studies/bench/pin_runner.hpp"
-#include "studies/bench/shift_chain.hpp"
-#include "studies/bench/systemc_numbers.hpp"
 
 namespace feltgate::bench {
 
@@ -104,19 +102,6 @@ struct Laws {
   }
 };
 
-struct Shifts {
-  static void write(ShiftChain& chain, const Work::TickWrite& w) {
-    chain.set_word(w.address, w.data);
-  }
-  static TickResult show(const ShiftChain& c) {
-    const auto bit = [](bool holds, int n) { return std::int64_t{holds ? 1 : 0} << n; };
-    return of_integers({c.velocity, c.tau_hat, c.tau_ref, c.current, c.voltage, c.duty,
-                        bit(c.limit_torque, 0) | bit(c.limit_ramp, 1) | bit(c.limit_current, 2) |
-                            bit(c.limit_voltage, 3) | bit(c.limit_duty, 4) |
-                            bit(c.velocity_saturated, 5) | bit(c.tau_hat_saturated, 6)});
-  }
-};
-
 template <class N>
 std::unique_ptr<Runner> laws(const char* name) {
   return std::make_unique<TickRunner<ControlChain<Lever, N>, Laws<N>>>(
@@ -129,9 +114,6 @@ struct Known {
 };
 
 std::unique_ptr<Runner> pins(const char* name) { return make_pin_runner(name); }
-std::unique_ptr<Runner> shifts(const char* name) {
-  return std::make_unique<TickRunner<ShiftChain, Shifts>>(name, Arithmetic::integer);
-}
 
 constexpr Known known[] = {
     {"rtl", pins},
@@ -141,8 +123,6 @@ constexpr Known known[] = {
     {"double", laws<Real<double>>},
     {"float", laws<Real<float>>},
     {"quad", laws<Real<Quad>>},
-    {"sc_fixed", laws<SystemC>},
-    {"shifts", shifts},
 };
 
 }  // namespace

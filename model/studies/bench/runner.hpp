@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The benchmark's interface to a back-end: it runs a work as fast as possible, or shows every tick.
-// Documentation: docs/bench.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Recording of the benchmark's work. Documentation: docs/bench.md
+// Recording of the benchmark's work. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/work.hpp"
 
 #include <cmath>

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The input of every back-end in the benchmark: pins and register writes on a clock for back-ends
-// with pins, sampled counts per tick for back-ends without. Documentation: docs/bench.md
+// with pins, sampled counts per tick for back-ends without. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <string>

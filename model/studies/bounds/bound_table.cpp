@@ -4,7 +4,7 @@
 // Error bounds as fields and as text. Documentation: docs/error-bounds.md
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <cmath>
 
 #include "studies/bounds/error_bounds.hpp"
 
@@ -48,6 +48,20 @@ std::string bound_table(const ErrorBounds& b) {
     add("and the current limit cannot act below {:.6g} rad/s\n", b.free.current_rad_s);
   } else {
     out += "and the current limit may act; the bounds hold with it, except those of \"no limit\"\n";
+  }
+  return out;
+}
+
+std::string source_table(const std::vector<SourceBound>& sources) {
+  const auto row = [](const auto& name, const auto&... values) {
+    return fmt::format("{:<17}", name) + (fmt::format(" {:>15}", values) + ...) + "\n";
+  };
+  const auto number = [](double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none"; };
+  std::string out =
+      row("bound, by source", "velocity rad/s", "tau_hat Nm", "tau_ref Nm", "current A");
+  for (const SourceBound& s : sources) {
+    out += row(s.name == "gain" ? "2^n (not in it)" : s.name, number(s.velocity_rad_s),
+               number(s.tau_hat_nm), number(s.tau_ref_nm), number(s.current_a));
   }
   return out;
 }

@@ -27,7 +27,6 @@ class Coverage {
   Coverage() = default;
   Coverage(const ErrorBounds& b, const ChainNumbers& c)
       : tau_ref_bound_nm_(b.tau_ref_nm.against_reference),
-        coefficients_bound_nm_(b.tau_ref_nm.against_reference - b.tau_ref_nm.against_quantised),
         velocity_memory_(memory(c.at("velocity_a1").used())),
         torque_memory_(memory(
             c.at("observer_a1").used() *
@@ -48,14 +47,6 @@ class Coverage {
     outside_ += torque_left_ > 0 ? 1 : 0;
   }
 
-  /// The same for two chains of real numbers that differ in their coefficients alone: the steps of
-  /// a ramp add up the error of their word.
-  Coverage of_coefficients() const {
-    Coverage c = *this;
-    c.tau_ref_bound_nm_ = coefficients_bound_nm_;
-    return c;
-  }
-
   /// Whether the velocity's bound holds in this tick; then whether those of torques and current do.
   bool velocity() const { return velocity_left_ == 0; }
   bool torque() const { return torque_left_ == 0; }
@@ -70,7 +61,7 @@ class Coverage {
     return static_cast<std::int64_t>(std::min(ticks, never));
   }
 
-  double tau_ref_bound_nm_ = 0, coefficients_bound_nm_ = 0;
+  double tau_ref_bound_nm_ = 0;
   std::int64_t velocity_memory_ = 0, torque_memory_ = 0;
   std::int64_t velocity_left_ = 0, torque_left_ = 0, ticks_ = 0, outside_ = 0;
   bool parted_ = false;

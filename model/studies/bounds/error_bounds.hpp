@@ -73,8 +73,10 @@ std::vector<SourceBound> source_bounds(const ChainNumbers& numbers, const InputR
 /// bound_tau_hat_nm, bound_tau_ref_nm, bound_current_a, bound_torque_nm.
 std::vector<std::pair<std::string, double>> bound_fields(const ErrorBounds& b);
 
-/// The bounds as text, as `feltgate design` and `feltgate budget` print them.
+/// The bounds as text, as `feltgate design` prints them.
 std::string bound_table(const ErrorBounds& b);
+/// Where a bound comes from, as text: a row for each source.
+std::string source_table(const std::vector<SourceBound>& sources);
 
 namespace detail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/controllers.md
+// Documentation: docs/speed-for-accuracy.md
 #include "studies/controllers/controllers.hpp"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ std::unique_ptr<RealChain> make(Kind kind, const Tuning& t) {
 constexpr int observer_bits = FedLever::f.observer.width();
 /// Of the observer (Ktn*I, g*Jn*w, a1), and from the torque to the current.
 constexpr int shared_multiplications = 3 + 1;
-/// LUT4 equivalents of the blocks of `lever`, measured: CMake reads scripts/synth_budget.toml.
+/// LUT4 equivalents of the blocks of `lever`, measured: CMake reads docs/verification/areas.json.
 constexpr int dob_lut4 = FELTGATE_LUT4_DOB, lowpass_lut4 = FELTGATE_LUT4_LOWPASS;
 
 constexpr double step_nm = 0.2;

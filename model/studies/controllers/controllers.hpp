@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The disturbance observer beside feed-forward, PI, PID and a reaction-torque observer: the same
-// plant, voltage law and experiments for all. Documentation: docs/controllers.md
+// plant, voltage law and experiments for all. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <array>
@@ -318,11 +318,11 @@ std::unique_ptr<RealChain> make_estimator_chain(int estimator, bool observer, co
 EstimatorRow measure_estimator(const Bench& bench, int estimator);
 std::vector<EstimatorRow> measure_estimators(const Bench& bench,
                                              const std::function<void(double)>& progress = {});
-/// A Markdown table, as it stands in docs/blocks/velocity_mt.md.
+/// A Markdown table, as it stands in docs/blocks/velocity.md.
 std::string estimators_text(const std::vector<EstimatorRow>& rows);
 std::string estimators_json(const std::vector<EstimatorRow>& rows);
 
-/// The tables as Markdown, as they stand in docs/controllers.md.
+/// The tables as Markdown, as they stand in docs/speed-for-accuracy.md.
 std::string report_text(const Report& report);
 std::string report_json(const Report& report);
 

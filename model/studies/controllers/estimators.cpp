@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Velocity estimators around the lever: the N-method and M/T, all else equal. Documentation:
-// docs/blocks/velocity_mt.md
+// docs/blocks/velocity.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Design `lever` whose observer can be fed back by its word observer_gain. Documentation:
-// docs/controllers.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <array>

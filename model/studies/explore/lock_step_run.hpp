@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Runs RTL and twin of a design point in lock-step and compares every output on every clock, and
-// the chain once per tick. Documentation: docs/explore.md
+// the chain once per tick. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <fmt/format.h>

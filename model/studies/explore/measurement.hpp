@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The measured figures of a design point, as plain numbers. Documentation: docs/explore.md
+// The measured figures of a design point, as plain numbers. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <array>

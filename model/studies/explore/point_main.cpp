@@ -3,7 +3,7 @@
 //
 // One design point: RTL against twin, the error against the exact design, delays. Compiled once per
 // structure with POINT_HEADER, POINT_TYPE and the Verilated class Vpoint; the values of the point
-// come at run time. Used by scripts/exploration/point.py. Documentation: docs/explore.md
+// come at run time. Used by scripts/exploration/point.py. Documentation: docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The stimulus of a design point: the motions of the lever, with equal times for every point.
-// Documentation: docs/explore.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A device with several axes at several rates. Documentation: docs/rates.md
+// A device with several axes at several rates. Documentation: docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The margin of a law's whole torque at a place of rest: by the linear loop, and by the swing of
-// the core's own bits, whose law counts that many times. Documentation: docs/stability.md
+// the core's own bits, whose law counts that many times. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>

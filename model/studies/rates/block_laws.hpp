@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Laws for the engine that equal the core's scenes, so that the scenes can run at any rate.
-// Documentation: docs/rates.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>

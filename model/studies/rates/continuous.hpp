@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Evaluates a law beside a run, without rate, counts and rounding: it gives the ideal torques and
-// the error of the core's torques. Documentation: docs/rates.md
+// the error of the core's torques. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

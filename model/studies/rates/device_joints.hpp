@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Converts the drives of a device's joints to the form of the linear loop of several axes.
-// Documentation: docs/rates.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law with states, delay lines or a host as a linear law near a place of its run. Documentation:
-// docs/rates.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>

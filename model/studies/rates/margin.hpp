@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Computes the stability margin of a scene's law at a rate. Documentation: docs/rates.md
+// Computes the stability margin of a scene's law at a rate. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include "studies/rates/continuous.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Measures one scene at several rates: error of the torque, stability margin, clocks and time; for
-// one lever and for a device with several axes. Documentation: docs/rates.md
+// one lever and for a device with several axes. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>

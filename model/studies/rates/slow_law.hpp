@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Compiles a law for a rate below the fastest one. Documentation: docs/rates.md
+// Compiles a law for a rate below the fastest one. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <string>

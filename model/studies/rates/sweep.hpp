@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Common parts of the measurement at several rates, for one lever and for a device with several
-// axes. Documentation: docs/rates.md
+// axes. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <map>

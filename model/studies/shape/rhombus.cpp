@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/pantograph.md
+// Documentation: docs/devices/pantograph.md
 #include "studies/shape/rhombus.hpp"
 
 #include <fmt/format.h>

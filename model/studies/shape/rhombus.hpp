@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Kinematics of the pantograph with four equal links and both motors at one point: angles, speeds
-// and forces at a place of the pen. Documentation: docs/pantograph.md
+// and forces at a place of the pen. Documentation: docs/devices/pantograph.md
 #pragma once
 
 #include <array>

@@ -37,14 +37,12 @@ let dx = clamp(ax, -0.03 m, 0.03 m)
 let dy = clamp(ay, -0.03 m, 0.03 m)
 )";
 
-std::string force(bool friction = false) {
-  const char* along = friction ? " - pull * g{0}" : "";
+std::string force() {
   std::string s =
       "\n# A spring from the pen to that place, as long as the pen is inside; its torques on the "
       "cranks.\n";
   for (const char* axis : {"x", "y"}) {
-    s += fmt::format("let f{0} = if inside then -stiffness * d{0} - damping * v{0}", axis) +
-         fmt::format(along, axis) + " else 0\n";
+    s += fmt::format("let f{0} = if inside then -stiffness * d{0} - damping * v{0} else 0\n", axis);
   }
   return s + law_torques();
 }
@@ -68,25 +66,11 @@ std::string corners(const Polygon& p, const char* form) {
                      each(n + 1, [&](std::size_t i) { return at(i).y; }), "m");
 }
 
-/// Of the edge behind each corner: 1 / length, or its square.
-std::string reciprocals(const Polygon& p, const char* name, int power) {
-  return number_list(fmt::format("array {} =", name),
-                     each(p.size(), [&](auto i) { return std::pow(p.edge_m(i), -power); }),
-                     fmt::format("m^-{}", power));
-}
-
 /// Longest step along an axis from corner to corner, with room for rounding.
 double longest(const Polygon& p) {
   double most = 0;
   for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, p.edge_m(i));
   return most * 1.0001;
-}
-
-/// Length of the outline.
-double perimeter_m(const Polygon& p) {
-  double way_m = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) way_m += p.edge_m(i);
-  return way_m;
 }
 
 /// Distance along the outline from the first corner to each corner, as a share of the whole length.
@@ -105,24 +89,7 @@ let dx = clamp(ax - height * gy, -0.03 m, 0.03 m)
 let dy = clamp(ay + height * gx, -0.03 m, 0.03 m)
 )";
 
-/// Friction is a spring along the outline. Its anchor slips when the spring would pull with more
-/// than the friction coefficient times the normal force.
-std::string friction(const Polygon& p) {
-  return fmt::format(R"(
-# Friction: what the proxy goes along the outline stretches a spring, up to what slips.
-state before = 0 in 0 .. {0}
-next before = place
-let gone = share(place) - share(before)
-let way = {1:.9g} m * (if gone > 0.5 then gone - 1 else if gone < -0.5 then gone + 1 else gone)
-let slips = friction * stiffness * clamp(dy * gx - dx * gy, 0, 0.03 m)
-state anchored = 0 N in -{2:.9g} N .. {2:.9g} N
-let pull = if inside then max(min(anchored + grip * way, slips), -slips) else 0
-next anchored = clamp(pull, -{2:.9g} N, {2:.9g} N)
-)",
-                     p.size(), perimeter_m(p), most_stiffness_n_per_m * 0.03);
-}
-
-std::string proxy(const Polygon& p, const LawRequest& r) {
+std::string proxy(const Polygon& p, bool texture) {
   const std::size_t n = p.size();
   const std::string form = fmt::format("table {{}}(q) on [0, {}] through", n);
   std::string s = "# Corners, and the outline's direction there.\n";
@@ -131,7 +98,7 @@ std::string proxy(const Polygon& p, const LawRequest& r) {
                    each(n + 1, [&](auto i) { return p.along[i % n].x; }), "");
   s += number_list(fmt::format(form, "along_y"),
                    each(n + 1, [&](auto i) { return p.along[i % n].y; }), "");
-  if (r.texture || r.friction) s += shares(p, form.c_str());
+  if (texture) s += shares(p, form.c_str());
   s += pen();
   return s +
          fmt::format(R"(
@@ -158,7 +125,7 @@ let nearer = qx * qx + qy * qy < ax * ax + ay * ay
 next place = clamp(if nearer and not inside then probe else walked, 0, {0})
 )",
                      n, static_cast<double>(n) - 0.5, n - 1, longest(p)) +
-         (r.texture ? ripples : depth) + (r.friction ? friction(p) : "") + force(r.friction);
+         (texture ? ripples : depth) + force();
 }
 
 /// All outlines in the same two tables, each with the vertex before its first and the two behind
@@ -214,79 +181,6 @@ next place = clamp(if nearer and not inside then probe else walked, 0, {0})
          depth + force();
 }
 
-std::string simple(const Polygon& p) {
-  const std::size_t n = p.size();
-  std::string s = "# Corners, and 1 / length of the edge behind each.\n";
-  s += corners(p, "array {} =") + reciprocals(p, "per_length", 1) + pen();
-  s += fmt::format(R"(
-# The nearest edge so far, and one a run that may be nearer; where on each is nearest to the pen.
-state edge = 0 in 0 .. {0} whole
-state probe = 0 in 0 .. {0} whole
-next probe = clamp(if probe < {0} then probe + 1 else 0, 0, {0})
-)",
-                   n - 1);
-  for (const char* name : {"edge", "probe"}) {
-    s += fmt::format(R"(let {0}_x = clamp(shape_x[{0} + 1] - shape_x[{0}], -{1:.6g} m, {1:.6g} m)
-let {0}_y = clamp(shape_y[{0} + 1] - shape_y[{0}], -{1:.6g} m, {1:.6g} m)
-let {0}_fx = x - shape_x[{0}]
-let {0}_fy = y - shape_y[{0}]
-let {0}_ux = clamp({0}_x * per_length[{0}], -1, 1)
-let {0}_uy = clamp({0}_y * per_length[{0}], -1, 1)
-let {0}_long = clamp({0}_x * {0}_ux + {0}_y * {0}_uy, 0 m, {1:.6g} m)
-let {0}_s = max(min({0}_fx * {0}_ux + {0}_fy * {0}_uy, {0}_long), 0)
-let {0}_ax = {0}_fx - {0}_s * {0}_ux
-let {0}_ay = {0}_fy - {0}_s * {0}_uy
-)",
-                     name, longest(p));
-  }
-  return s +
-         R"(let nearer = probe_ax * probe_ax + probe_ay * probe_ay < edge_ax * edge_ax + edge_ay * edge_ay
-next edge = if nearer then probe else edge
-let ax = edge_ax
-let ay = edge_ay
-let inside = edge_uy * ax - edge_ux * ay < 0
-)" + depth +
-         force();
-}
-
-std::string walk(const Polygon& p) {
-  const std::size_t n = p.size();
-  std::string s = "# Corners, and 1 / length^2 of the edge behind each.\n";
-  s += corners(p, "array {} =") + reciprocals(p, "per_square", 2) + pen();
-  return s +
-         fmt::format(R"(
-# The proxy is at t of an edge, and goes at most half of it a run; at its ends to the neighbour.
-state edge = 0 in 0 .. {0} whole
-state t = 0 in 0 .. 1
-let ex = clamp(shape_x[edge + 1] - shape_x[edge], -{1:.6g} m, {1:.6g} m)
-let ey = clamp(shape_y[edge + 1] - shape_y[edge], -{1:.6g} m, {1:.6g} m)
-let ax = x - shape_x[edge] - t * ex
-let ay = y - shape_y[edge] - t * ey
-let reached = t + clamp((ax * ex + ay * ey) * per_square[edge], -0.5, 0.5)
-let after = if edge < {0} then edge + 1 else 0
-let before = if edge < 1 then {0} else edge - 1
-let behind = ey * ax - ex * ay < 0
-
-# While the pen is outside, and once around at first, an edge further every run, looks for a
-# nearer corner.
-state probe = 0 in 0 .. {0} whole
-next probe = clamp(if probe < {0} then probe + 1 else 0, 0, {0})
-state looked = 0 in 0 .. 1 whole
-next looked = if probe >= {0} then 1 else looked
-let inside = behind and looked > 0.5
-let qx = x - shape_x[probe]
-let qy = y - shape_y[probe]
-let nearer = qx * qx + qy * qy < ax * ax + ay * ay
-let found = nearer and not inside
-let walked = if reached >= 1 then after else if reached <= 0 then before else edge
-next edge = clamp(if found then probe else walked, 0, {0})
-let moved = if reached >= 1 then 0 else if reached <= 0 then 1 else reached
-next t = clamp(if found then 0 else moved, 0, 1)
-)",
-                     n - 1, longest(p)) +
-         depth + force();
-}
-
 }  // namespace
 
 std::string law_text(const std::vector<Polygon>& shapes, const LawRequest& r) {
@@ -300,19 +194,7 @@ std::string law_text(const Polygon& polygon, const LawRequest& r) {
     s += "param ripple = 0.2 mm in 0 .. 1 mm         # height of the texture\n"
          "param ripples = 80 in 0 .. 200 whole       # of them around the outline\n\n";
   }
-  if (r.friction) {
-    s += "param friction = 0.3 in 0 .. 1             # what slips, of what presses\n"
-         "param grip = 200 N/m in 0 .. 500 N/m       # along the outline, before it slips\n\n";
-  }
-  switch (r.kind) {
-    case Kind::proxy:
-      return s + proxy(polygon, r);
-    case Kind::simple:
-      return s + simple(polygon);
-    case Kind::walk:
-      return s + walk(polygon);
-  }
-  return s;
+  return s + proxy(polygon, r.texture);
 }
 
 }  // namespace feltgate::shape

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A polygon as a law file for the pantograph: three ways to push a pen out of a shape.
+// A polygon as a law file for the pantograph: a proxy walks along the outline, with its direction
+// interpolated between vertices, and a pen inside is pushed to it.
 // Documentation: docs/devices/shapes.md
 #pragma once
 
@@ -12,18 +13,10 @@
 
 namespace feltgate::shape {
 
-enum class Kind {
-  proxy,   ///< a point that walks along the outline; between vertices its direction is interpolated
-  simple,  ///< away from the nearest edge
-  walk,    ///< the walk edge by edge, as published
-};
-
 struct LawRequest {
   std::string summary;  ///< first line of the file
-  Kind kind = Kind::proxy;
   double stiffness_n_per_m = 50, damping_ns_per_m = 0;
-  bool texture = false;   ///< of a proxy: parameters ripple, m, and ripples around the outline
-  bool friction = false;  ///< of a proxy: parameters friction and grip, N/m along the outline
+  bool texture = false;  ///< of one shape: parameters ripple, m, and ripples around the outline
 };
 
 /// Largest values that the law's parameters take, and fewest and most vertices.
@@ -41,8 +34,8 @@ constexpr std::size_t resident_words(int vertices) {
 /// The text of the law (docs/laws.md), lines of at most 100 columns.
 std::string law_text(const Polygon& polygon, const LawRequest& request);
 
-/// A law with several shapes of as many vertices each, of which the parameter `shape` chooses; a
-/// proxy without texture. They fit where their words are at most `most_resident_words`.
+/// A law with several shapes of as many vertices each, of which the parameter `shape` chooses,
+/// without texture. They fit where their words are at most `most_resident_words`.
 std::string law_text(const std::vector<Polygon>& shapes, const LawRequest& request);
 
 }  // namespace feltgate::shape

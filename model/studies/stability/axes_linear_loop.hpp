@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The loop of one axis or several equal ones with coupled mechanics and law, linearised at a place;
-// the law may have states, delay lines and a host. Derivation: docs/stability.md
+// the law may have states, delay lines and a host. Derivation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The state of an axis of the core from tick to tick, without quantisation: estimator, observer,
-// torque of a scene or a host, voltage. Derivation: docs/stability.md
+// torque of a scene or a host, voltage. Derivation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

@@ -3,7 +3,7 @@
 //
 // The chain in its own bits, or in double, around the plant and a wall, tick by tick: the same
 // order of events as in the linear loop, with a host that may compute the wall instead of the core.
-// Documentation: docs/stability.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/stability.md
+// Documentation: docs/speed-for-accuracy.md
 #include "studies/stability/dominant_poles.hpp"
 
 #include <algorithm>

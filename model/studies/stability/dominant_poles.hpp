@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Finds the dominant poles of a loop that is given as a function on its state. Derivation:
-// docs/stability.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

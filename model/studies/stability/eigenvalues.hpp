@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Eigenvalues and exponential of a real matrix, in one source: Eigen's solver takes the compiler
-// long. Documentation: docs/stability.md
+// long. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

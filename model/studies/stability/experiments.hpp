@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Experiments in the full plant: the effect of counts and noise on a linearly stable wall.
-// Documentation: docs/stability.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law of any number of axes, linear near one place: with states of its own (filters, masses,
-// springs), delay lines, and a host that samples the device. Derivation: docs/stability.md
+// springs), delay lines, and a host that samples the device. Derivation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

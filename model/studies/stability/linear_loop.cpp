@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The linear loop and its eigenvalues. Documentation: docs/stability.md
+// The linear loop and its eigenvalues. Documentation: docs/speed-for-accuracy.md
 #include "studies/stability/linear_loop.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // The loop of core, motor and a wall without quantisation: every state of every tick, the window of
 // the velocity estimator included, and the eigenvalues of its monodromy matrix. Derivation:
-// docs/stability.md
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <Eigen/Core>

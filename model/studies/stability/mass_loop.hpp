@@ -3,7 +3,7 @@
 //
 // The textbook loop: a mass with friction, a force held between samples, velocity by backward
 // difference. It is small enough to check the method of the large loop by hand.
-// Documentation: docs/stability.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 namespace feltgate::stability {

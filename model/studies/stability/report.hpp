@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A study as text for a terminal and as JSON for pictures. Documentation: docs/stability.md
+// A study as text for a terminal and as JSON for pictures. Documentation:
+// docs/speed-for-accuracy.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// All that `feltgate stability` finds out. Documentation: docs/stability.md
+// All that `feltgate stability` finds out. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <functional>

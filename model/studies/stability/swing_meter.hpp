@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // How fast a swing grows or dies: the slope of the logarithm of its size, taken from one turning
-// point to the next. Documentation: docs/stability.md
+// point to the next. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <vector>

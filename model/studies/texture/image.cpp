@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/devices/texture.md
+// Documentation: docs/devices/shapes.md
 #include "studies/texture/image.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reads a grey image as heights. Documentation: docs/devices/texture.md
+// Reads a grey image as heights. Documentation: docs/devices/shapes.md
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the force of a texture in the engine's words, and its vertical firmness with and without
-// the split of the depth. Documentation: docs/devices/texture.md
+// the split of the depth. Documentation: docs/devices/shapes.md
 #pragma once
 
 #include <array>

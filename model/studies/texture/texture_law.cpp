@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/devices/texture.md
+// Documentation: docs/devices/shapes.md
 #include "studies/texture/texture_law.hpp"
 
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ let fx = -stiffness * within * slope * nz
 constexpr const char* field_force = R"(
 # The normal is (-slope_x, -slope_y, 1) of length 1.
 table upright(t) on [0, 8] = 1 / sqrt(1 + t) with 128 segments
-let nz = upright(slope_x * slope_x + slope_y * slope_y)
+let nz = upright(clamp(slope_x * slope_x + slope_y * slope_y, 0, 8))
 let spring = stiffness * (within * nz + below)
 out torque[0] = -R * stiffness * within * slope_x * nz
 out torque[1] = -R * stiffness * within * slope_y * nz

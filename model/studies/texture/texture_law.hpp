@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes a height field as a law file: a row of an image for the pen of the pantograph, or a field
-// for three Cartesian axes. Documentation: docs/devices/texture.md
+// for three Cartesian axes. Documentation: docs/devices/shapes.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A scene of a device with several axes. Documentation: docs/trim.md
+// A scene of a device with several axes. Documentation: docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cmath>
 #include <variant>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Documentation: docs/trim.md
+// Documentation: docs/speed-for-accuracy.md
 #include "studies/trim/felt_difference.hpp"
 
 #include <time.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The quantities that a hand feels in a run (motor torque, position, force), as short means, and
-// the difference of two runs in them. Documentation: docs/trim.md
+// the difference of two runs in them. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cstddef>

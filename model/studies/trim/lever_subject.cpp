@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A scene of one lever. Documentation: docs/trim.md
+// A scene of one lever. Documentation: docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Other motions of the same scene. Documentation: docs/trim.md
+// Other motions of the same scene. Documentation: docs/speed-for-accuracy.md
 #include "studies/trim/motions.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Varies the motion of a scene, for checks on motions that a search did not use.
-// Documentation: docs/trim.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A trimmed scene as a scene file. Documentation: docs/trim.md
+// A trimmed scene as a scene file. Documentation: docs/speed-for-accuracy.md
 #include "studies/trim/trim.hpp"
 
 #include <algorithm>

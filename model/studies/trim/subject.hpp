@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // What trim() works on: a scene of one lever, or of a device with several axes, as motions that run
-// with any model of the plant. Documentation: docs/trim.md
+// with any model of the plant. Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Greedy removal of plant effects. Documentation: docs/trim.md
+// Greedy removal of plant effects. Documentation: docs/speed-for-accuracy.md
 #include "studies/trim/trim.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Finds the smallest model of a scene's plant that a hand cannot distinguish from the full one.
-// Documentation: docs/trim.md
+// Documentation: docs/speed-for-accuracy.md
 #pragma once
 
 #include <cstdint>

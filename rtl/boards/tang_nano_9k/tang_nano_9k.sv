@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Top level for the Tang Nano 9K (Gowin GW1NR-9C): pins, panel and clock around feltgate_linked. A design with three
-// phases wants FELTGATE_THIRD_LEG defined: the third leg's gates take the pins of the driver's fault and the heartbeat.
+// Top level for the Tang Nano 9K (Gowin GW1NR-9C): pins, panel and clock around feltgate_linked. A design has an
+// H bridge and a line encoder or an absolute one; three phases and a current loop do not fit the chip.
 // It has never run on a board. Documentation: docs/boards/tang_nano_9k.md
 `default_nettype none
 
@@ -32,20 +32,10 @@ module tang_nano_9k #(
   output logic       gate_a_lo,
   output logic       gate_b_hi,
   output logic       gate_b_lo,
-  // Of the design's options; without them the inputs are not used
-  input  logic       encoder_data, // absolute encoder
+  input  logic       encoder_data, // of an absolute encoder; unused without it
   output logic       encoder_select_n,
   output logic       encoder_clock,
-  output logic       encoder_command,
-  input  logic       current_data, // modulator of the motor's current
-  output logic       current_clock,
-`ifdef FELTGATE_THIRD_LEG
-  output logic       gate_c_hi,
-  output logic       gate_c_lo
-`else
-  input  logic       driver_fault_n, // low: the bridge's driver has a fault, or it is not plugged in
-  output logic       heartbeat   // to a watchdog outside
-`endif
+  output logic       encoder_command
 );
 
   logic       clk, locked;
@@ -58,21 +48,10 @@ module tang_nano_9k #(
   logic [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits;
   logic signed [31:0] position;
 
-`ifdef FELTGATE_THIRD_LEG
-  localparam int THIRD_LEG = 1;
-`else
-  localparam int THIRD_LEG = 0;
-`endif
   // A gate without a pin would leave its leg to chance.
   generate
-  if ((feltgate_pkg::PHASES == 3) != (THIRD_LEG != 0)) begin : g_check_legs
-    a_design_with_three_phases_and_no_other_wants_FELTGATE_THIRD_LEG missing ();
-  end
-  if (THIRD_LEG != 0 && feltgate_pkg::CURRENT_LOOP != 0) begin : g_check_shunts
-    this_board_has_no_pins_of_a_second_modulator_beside_a_third_leg missing ();
-  end
-  if (feltgate_pkg::HALL != 0) begin : g_check_hall
-    this_board_has_no_pins_of_Hall_lines missing ();
+  if (feltgate_pkg::PHASES == 3 || feltgate_pkg::CURRENT_LOOP != 0 || feltgate_pkg::HALL != 0) begin : g_check
+    three_phases_and_a_current_loop_do_not_fit_this_board missing ();
   end
   endgenerate
 
@@ -105,20 +84,13 @@ module tang_nano_9k #(
     .encoder_select_no(encoder_select_n),
     .encoder_clock_o(encoder_clock),
     .encoder_command_o(encoder_command),
-    .current_data_i(current_data),
-    .current_clock_o(current_clock),
-`ifdef FELTGATE_THIRD_LEG
-    .driver_fault_i(1'b1),  // not used: of a current loop
+    .current_data_i('1),
+    .current_clock_o(),
+    .driver_fault_i(1'b0),
     .heartbeat_o(),
-    .gate_c_hi_o(gate_c_hi),
-    .gate_c_lo_o(gate_c_lo),
-`else
-    .driver_fault_i(!driver_fault_n),
-    .heartbeat_o(heartbeat),
     .gate_c_hi_o(),
     .gate_c_lo_o(),
-`endif
-    .hall_i(3'b000),  // such designs are refused
+    .hall_i(3'b000),
     .arm_i(arm),
     .stop_i(estop || panel_stop),
     .set_zero_i(set_zero),

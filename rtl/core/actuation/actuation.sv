@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Room: the scene's torque to four gates, or to six of a motor with three phases. One limiter limits six values of a tick, one after the
-// other (docs/blocks/limiter.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
+// other (docs/blocks/torque_control.md). Timing: tau_ref_o is new after EVENT_AT_TAU_REF, duty_o after EVENT_AT_DUTY;
 // the bridge takes it at the next start of a PWM period. With the option CURRENT_LOOP a controller of the measured
-// current gives the bridge its duty, one in each period (docs/blocks/current_control.md). With PHASES = 3 the duty is the
-// amplitude of three legs' voltages, which turn with the motor (docs/blocks/commutation.md); with both, two currents are
-// measured and controlled in the rotor's frame (docs/blocks/field_oriented.md). docs/architecture.md
+// current gives the bridge its duty, one in each period (docs/blocks/current.md). With PHASES = 3 the duty is the
+// amplitude of three legs' voltages, which turn with the motor (docs/blocks/three_phase.md); with both, two currents are
+// measured and controlled in the rotor's frame (docs/blocks/three_phase.md). docs/architecture.md
 
 `default_nettype none
 
@@ -20,8 +20,8 @@ module actuation (
     input  logic        [   feltgate_map_pkg::W_CONTROL-1:0] control_i,
     input  logic        [                              3:0] scene_i,
     input  logic                                            restart_i,      // last clock of a tick: ramp from now on
-    input  logic                                            frozen_i,       // the torque may shrink, and rise from below 0 to a positive target
-    input  logic                                            derated_i,      // the limit is hold_limit
+    input  logic                                            frozen_i,       // the torque may only shrink
+    input  logic                                            derated_i,      // hold_limit limits too
     input  logic signed [feltgate_pkg::SCENE_TORQUE_W-1:0]  early_term_i,   // torque, one clock before its limit
     input  logic                                            early_up_i,     // with early_term_i: it is rounded up
     input  logic signed [      feltgate_pkg::TORQUE_W-1:0]  late_term_i,    // torque, with its limit

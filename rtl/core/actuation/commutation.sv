@@ -5,7 +5,7 @@
 // amplitude, by space vectors or plain sines. Serial arithmetic without a multiplier, a table of a twelfth of a turn.
 // Latency: sample_i to valid_o 85 clocks (Modulation 0: 108); a sample_i in between is ignored.
 // Formats: angle 2^-32 electrical turn; amplitude [1,12,0] and on-times [0,12,0] clocks of the PWM.
-// docs/blocks/commutation.md
+// docs/blocks/three_phase.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // Compares a measured current with the one that the applied voltage makes, which the integrator of the current's
 // controller has as a voltage at the winding's resistance. A broken sensor, an open phase: missing_o. One serial
 // multiplier. Latency: valid_i to missing_o 19 clocks; a valid_i within 18 clocks of a taken one is ignored.
-// Formats: voltages [1,1,17] of the supply, current [1,3,17] of full scale. docs/blocks/current_check.md
+// Formats: voltages [1,1,17] of the supply, current [1,3,17] of full scale. docs/blocks/current.md
 
 `default_nettype none
 

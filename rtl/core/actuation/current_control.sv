@@ -5,7 +5,7 @@
 // voltage less the back-EMF, as the voltage at the winding's resistance does: limited, it does not wind up. One
 // serial multiplier. Latency: valid_i to valid_o 20 clocks; a valid_i within 38 clocks of a taken one is ignored.
 // Formats: current [1,1,17] of full scale, voltage [1,0,17] of the supply, gains [0,4,13] and [0,0,17].
-// docs/blocks/current_control.md
+// docs/blocks/current.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // The loop of a measured current: sensors, controller and check, what they take from the wave, and the bridge's duty
 // or, of three phases, the on-times of its legs. Timing: a new duty in each PWM period, which the PWM takes at its
-// start; the measured current is held from EVENT_AT_SAMPLE on. docs/blocks/current_control.md#in-the-core
+// start; the measured current is held from EVENT_AT_SAMPLE on. docs/blocks/current.md
 
 `default_nettype none
 

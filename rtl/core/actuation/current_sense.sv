@@ -4,7 +4,7 @@
 // Current from a sigma-delta bit stream: a sinc3 filter in step with the PWM, a fast one that latches an over-current
 // within 5 us, the offset measured while disarmed, and faults. No multiplier. Latency: Divider + 7 clocks from the
 // modulator's clock edge that launches a bit. Format: current [1,1,3*DecimationLog2-1] of the clipping input,
-// threshold [0,0,3*FastLog2-1]. docs/blocks/current_sense.md
+// threshold [0,0,3*FastLog2-1]. docs/blocks/current.md
 
 `default_nettype none
 

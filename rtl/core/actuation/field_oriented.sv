@@ -5,7 +5,7 @@
 // across the axis of torque, their voltage limited as a vector, and the on-times of three legs by space vectors. One
 // CORDIC, one serial multiplier. Latency: valid_i to valid_o 261 clocks; a valid_i within 348 of a taken one is ignored.
 // Formats: current [1,1,17] of full scale, voltage [1,0,17] of the supply over root 3, gains [0,4,13] and [0,0,17],
-// angle 2^-32 electrical turn, on-times [0,12,0] clocks of the PWM. docs/blocks/field_oriented.md
+// angle 2^-32 electrical turn, on-times [0,12,0] clocks of the PWM. docs/blocks/three_phase.md
 
 `default_nettype none
 

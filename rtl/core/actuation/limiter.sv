@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's one limiter: it saturates x, rounded, to [-limit, limit] and adds addend_i. The limit is the word on the
-// parameter bus; a negative limit counts as 0, and so does one that does not fit the format of its signal.
+// parameter bus, which fits the format of its signal: registers saturates what is written. A negative limit counts as 0,
+// and so does a limit whose LIMITER_W bits do not fit, which a flipped bit makes.
 // Torque, step of the voltage mode, current, dead voltage, voltage and duty use it in turn. Without valid_i it only
 // compares x with a border: over_limit_o is valid, the limited value is 0. Latency: valid_i and early_*_i in clock
 // t - 1, late_*_i and the limit in t; in t + 1 over_limit_o, and limited_o, where the limited value is 0 in all other
-// clocks. docs/blocks/limiter.md
+// clocks. docs/blocks/torque_control.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // Centre-aligned PWM for three legs, with dead time: the carrier, the dead time and the gates are those of pwm.
 // On-times [0,12,0] clocks of the high switch. They are sampled once per period and are new with period_start_o; they
 // reach the gates 3 clocks later (turn-on: plus the dead time). Disabled, all six gates are off and the on-times are 0.
-// docs/blocks/pwm_three_phase.md
+// docs/blocks/pwm.md
 
 `default_nettype none
 

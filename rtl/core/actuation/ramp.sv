@@ -4,7 +4,7 @@
 // Ramp of the torque reference. tau_ref_o follows the scene's limited torque. After arming, a
 // change of scene, a change of derated_i or restart_i it moves by at most one step word per tick
 // until it reaches the target; after that it is not slowed. Latency: target on limited_i in the
-// clock of the step's word (EVENT_AT_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/ramp.md
+// clock of the step's word (EVENT_AT_RAMP_EXCESS), tau_ref_o three clocks later, held. docs/blocks/torque_control.md
 
 `default_nettype none
 
@@ -21,8 +21,8 @@ module ramp (
     input  logic        [                       31:0] param_i,
     input  logic signed [ feltgate_pkg::TORQUE_W-1:0] limited_i,
     input  logic                                      over_limit_i,
-    input  logic                                      frozen_i,   // 1: the torque may only shrink, or rise from below 0 to a positive target
-    input  logic                                      derated_i,  // 1: the limit is hold_limit
+    input  logic                                      frozen_i,   // 1: the torque may only shrink
+    input  logic                                      derated_i,  // 1: hold_limit limits too
     output logic signed [ feltgate_pkg::TORQUE_W-1:0] tau_ref_o,       // Nm, motor on lever
     output logic                                      limit_torque_o,  // the torque limit acts
     output logic                                      limit_ramp_o,    // the step acts
@@ -52,8 +52,7 @@ module ramp (
 
   // The reference moves towards the target by one step, or by the whole distance. A ramp ends in
   // the tick whose distance is within one step; the reference moves on with the next tick. While
-  // frozen the step is 0; it applies to a reference that would grow or would change from above 0 to
-  // below 0. The choice is made for both directions before the direction is known.
+  // frozen the step is 0; it applies to a reference that would grow or would change its sign. The choice is made for both directions before the direction is known.
   logic signed [W:0] step, change, overshoot;
   logic signed [W-1:0] change_q;
   logic ramping_q, active, frozen, steps_down_q, steps_up_q, stepping, stepping_q;
@@ -62,7 +61,7 @@ module ramp (
   assign frozen = frozen_i && armed_i;
   always_ff @(posedge clk_i) begin
     steps_down_q <= active || (frozen && (ramp_q[W-1] || limited_i[TorqueW-1]));
-    steps_up_q   <= active || (frozen && !ramp_q[W-1]);
+    steps_up_q   <= active || (frozen && (!ramp_q[W-1] || (!limited_i[TorqueW-1] && limited_i != '0)));
   end
   assign down     = !excess_q[W];
   assign stepping = down ? steps_down_q : steps_up_q;

@@ -31,6 +31,7 @@ module absolute_encoder #(
     output logic signed [31:0] position_o,      // counts; wraps
     output logic               valid_o,         // one clock: position_o is of a new reading
     output logic               busy_o,
+  output logic               starts_o,        // no reading was wrong since the reset
     output logic        [ 4:0] faults_o         // 0 missing, 1 check, 2 sensor, 3 jump, 4 frozen
 );
   localparam bit Spi = Framing == 0;
@@ -253,11 +254,13 @@ module absolute_encoder #(
       turn_q     <= '0;
       errors_q   <= ErrorW'(Errors);  // nothing is known before the first reading
       kinds_q    <= 4'b0001;
+      starts_o   <= 1'b1;
       moved_q    <= 1'b0;
       equal_q    <= '0;
       frozen_q   <= 1'b0;
     end else begin
       valid_o <= good;
+      if (is_wrong) starts_o <= 1'b0;
       if (good) begin
         position_o <= position_o + 32'($signed(step));
         turn_q     <= angle;

@@ -3,7 +3,7 @@
 //
 // Room: encoder pins to position, with the checks of the encoder. With the option ABSOLUTE_ENCODER the position is that of
 // an absolute encoder's serial lines (docs/blocks/absolute_encoder.md), and A, B and Z are not used. With the option HALL
-// three lines of the motor say where its electrical angle begins (docs/blocks/hall_sensor.md).
+// three lines of the motor say where its electrical angle begins (docs/blocks/three_phase.md).
 // Timing: the wave samples the position in EVENT_AT_SAMPLE; an absolute encoder's reading begins there. docs/architecture.md
 
 `default_nettype none
@@ -38,6 +38,7 @@ module encoder (
     output logic signed [                              31:0] index_position_o,  // counts at the last index
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,        // bit n: limit n acted
     input  logic                                             gates_enable_i,
+    output logic                                             polarity_holds_o,  // an absolute encoder has given its first reading
     output logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_o,  // why an absolute encoder or Hall lines are not to be relied on
     output logic        [                              31:0] hall_angle_o,      // electrical, 2^-32 turn, with Hall lines
     output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_o            // bit n: cause n
@@ -71,7 +72,7 @@ module encoder (
       .index_seen_o(unused_index_seen), .index_wrong_o(index_wrong)
   );
 
-  encoder_monitor u_encoder_monitor (
+  encoder_monitor #(.EdgeBits(feltgate_pkg::EDGE_UNIT_BITS), .Fast(feltgate_pkg::FAST_EDGES)) u_encoder_monitor (
       .clk_i(clk_i), .rst_ni(rst_ni),
       .at_levels_i(wave_i[feltgate_map_pkg::EVENT_AT_LEVELS]), .tick_count_i(tick_count_i),
       .levels_i(levels), .index_wrong_i(index_wrong),
@@ -87,6 +88,7 @@ module encoder (
     assign count_o           = count;
     assign moved_o           = edge_moved;
     assign encoder_select_no = 1'b1;
+    assign polarity_holds_o  = 1'b0;
     assign encoder_clock_o   = 1'b0;
     assign encoder_command_o = 1'b0;
     logic unused_serial;
@@ -116,7 +118,7 @@ module encoder (
     logic [PeriodW-1:0] wait_q;  // ticks to the next reading
     logic [4:0] faults, faults_q, seen_q;
     logic signed [31:0] angle, last_q, count_q, zero_q, change;
-    logic begins, valid, unused_busy, changed_q, waits_q;
+    logic begins, valid, unused_busy, unblemished, starts, changed_q, waits_q;
 
     assign begins = wave_i[feltgate_map_pkg::EVENT_AT_SAMPLE] && wait_q == '0;
     absolute_encoder #(
@@ -126,7 +128,7 @@ module encoder (
     ) u_absolute_encoder (
         .clk_i(clk_i), .rst_ni(rst_ni), .sample_i(begins), .data_i(encoder_data_i),
         .select_no(encoder_select_no), .serial_clock_o(encoder_clock_o), .command_o(encoder_command_o),
-        .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .faults_o(faults)
+        .position_o(angle), .valid_o(valid), .busy_o(unused_busy), .starts_o(unblemished), .faults_o(faults)
     );
     // What a reading says. found: it ends a fault.
     logic signed [31:0] reading;
@@ -181,10 +183,12 @@ module encoder (
       assign found = found_q;
     end
 
-    // waits_q: no reading yet. seen_q: what closed the gates, until the faults are cleared; a jump also while they are
-    // closed, since the angle may be wrong for ever after it.
+    // waits_q: no reading yet. starts: nor a wrong one; else the sensor is missing. seen_q: what closed the gates, until
+    // the faults are cleared; a jump also while they are closed, since the angle may be wrong for ever after it.
+    assign polarity_holds_o = !waits_q;
     localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
-    assign absolute_state_o = {waits_q, faults | seen_q};
+    assign starts = waits_q && unblemished;
+    assign absolute_state_o = {starts, ((faults | seen_q) & ~5'(starts)) | 5'(waits_q && !starts)};
 
     assign count_o = count_q;
 

@@ -4,10 +4,13 @@
 // Encoder monitor. Once per tick (EVENT_AT_LEVELS) it checks whether edges come on one channel only. That
 // is either chatter on one edge, which lasts only while a torque drives it, or a dead channel. In
 // every clock it checks that count and zero do not change without an edge or a new zero.
-// Documentation: docs/blocks/encoder_monitor.md
+// Documentation: docs/blocks/encoder.md
 `default_nettype none
 
-module encoder_monitor (
+module encoder_monitor #(
+    parameter int EdgeBits = 6,     // bits of the ticks in which the time between edges is counted; 1 or more
+    parameter int Fast     = 0      // 1: at the fastest motion several counts come in a tick
+) (
     input  logic        clk_i,
     input  logic        rst_ni,
     input  logic        at_levels_i,
@@ -27,8 +30,7 @@ module encoder_monitor (
   localparam int RowW = $clog2(feltgate_map_pkg::DEAD_CHANNEL_EDGES);
   localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
   localparam int ChatterW = $clog2(feltgate_map_pkg::CHATTER_UNITS + 1);
-  localparam int EdgeBits = feltgate_map_pkg::EDGE_UNIT_BITS;
-  localparam int ChatterBits = feltgate_map_pkg::CHATTER_UNIT_BITS;
+  localparam int ChatterBits = EdgeBits + 2;
 
   logic sample, edge_unit, chatter_unit;
   assign sample       = at_levels_i;
@@ -36,13 +38,28 @@ module encoder_monitor (
   assign chatter_unit = edge_unit && tick_count_i[ChatterBits-1:EdgeBits] == '0;
 
   // A second edge in a row on the same channel turns the count back. Edges of both channels in one
-  // tick are no motion: the channels are shorted.
+  // tick are no motion: the channels are shorted. But if the count moved by two or more in the tick,
+  // both channels live.
   logic [1:0] levels_q, changed;
-  logic       index_wrong_q, of_b_q, moved, both, of_row, late;
+  logic       index_wrong_q, of_b_q, moved, both, of_row, late, far;
   assign changed = levels_i ^ levels_q;
-  assign moved   = changed != 2'b00;
+  assign moved   = changed != 2'b00 || far;
   assign both    = changed == 2'b11;
-  assign of_row  = (both || changed[1] == of_b_q) && !late;
+  assign of_row  = (both || changed[1] == of_b_q) && !late && !far;
+
+  generate
+  if (Fast != 0) begin : g_fast
+    logic [5:0] count_q, travel;
+    assign travel = count_i[5:0] - count_q;
+    assign far    = travel != 6'd0 && travel != 6'd1 && travel != 6'd63;
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) count_q <= '0;
+      else if (sample) count_q <= count_i[5:0];
+    end
+  end else begin : g_slow
+    assign far = 1'b0;
+  end
+  endgenerate
 
   // row_q: edges in a row on one channel. edge_units_q: time since the last edge. chatter_units_q:
   // time for which the row has been long enough for chatters_o.

@@ -3,7 +3,7 @@
 //
 // Three Hall lines to the electrical angle of a motor whose encoder does not know it at power-up: first the middle of
 // the lines' sector, then the angle of the first edge; the encoder's counts carry it, and the lines check it.
-// Latency from a line's pin to the angle Glitch + 5 clocks, from a count 1 clock. docs/blocks/hall_sensor.md
+// Latency from a line's pin to the angle Glitch + 5 clocks, from a count 1 clock. docs/blocks/three_phase.md
 
 `default_nettype none
 

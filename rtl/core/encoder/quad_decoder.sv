@@ -3,7 +3,7 @@
 //
 // Incremental encoder decoder: synchroniser, glitch filter, x4 decoding, index latch, counters of
 // errors and glitches. Position [1,31,0] counts, wraps. Latency: pin to travel_o 3 clocks, pin to
-// position_o 4 clocks, plus filter_i clocks. Documentation: docs/blocks/quad_decoder.md
+// position_o 4 clocks, plus filter_i clocks. Documentation: docs/blocks/encoder.md
 `default_nettype none
 
 module quad_decoder #(

@@ -4,7 +4,7 @@
 // One-pole low-pass y += round(a1 * (x - y)) on the shared multiplier; the design sets the
 // rounding. The parent block sets the timing: x in the clock of valid_i, operand in the
 // next clock alone, product in the clock of update_i, new y from the next clock on. The difference loses
-// its lowest bits if it is wider than the multiplier's operand. docs/blocks/lowpass.md
+// its lowest bits if it is wider than the multiplier's operand. docs/blocks/dob.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // Trips if the velocity changes in one tick by more than its low-pass can, whatever its
 // coefficient: then the hardware is faulty. |a1 * (x - y)| < 2^(W + 17 - F) LSB for all x, y of W
 // bits and every word a1 of 17 bits with F fraction bits. So the bits from that weight up change by
-// at most one. Latency: trip_o in the clock after EVENT_AT_JUMP. docs/blocks/velocity_jump.md
+// at most one. Latency: trip_o in the clock after EVENT_AT_JUMP. docs/blocks/velocity.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // M/T velocity over whole encoder cycles: counts between two edges of one kind, divided by the clocks between them,
 // then low-pass filtered. Between edges it is at most 1.5 counts over the time since the last one; after 2^(StampW-3)
 // clocks without an edge 0 before the low-pass, after 2^(StampW-1) behind it. Latency: edges up to EVENT_AT_SAMPLE are
-// in the next tick's raw. Formats: travel [1,15,0] counts, wraps; velocity rad/s, the design's. docs/blocks/velocity_mt.md
+// in the next tick's raw. Formats: travel [1,15,0] counts, wraps; velocity rad/s, the design's. docs/blocks/velocity.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // N-method velocity: the counts of the last M1 ticks times 2^n (or a quantised gain), saturated,
 // then low-pass filtered. Wave clocks: travel is sampled in EVENT_AT_SAMPLE, the filter's product is
 // taken in EVENT_AT_VELOCITY. Formats: travel [1,15,0] counts, wraps; velocity in rad/s, format set
-// by the design. docs/blocks/velocity_n.md
+// by the design. docs/blocks/velocity.md
 
 `default_nettype none
 

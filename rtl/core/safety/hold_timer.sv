@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Measures how long a torque above hold_torque acts on a lever that stands still (torque_control
-// puts tau_ref on the limiter for it). After hold_time derated_o makes registers fetch hold_limit in
-// place of torque_limit until the encoder moves or the axis disarms. Once per tick, in EVENT_AT_HOLD.
-// Documentation: docs/blocks/hold_timer.md
+// puts tau_ref on the limiter for it). After hold_time derated_o makes hold_limit
+// limit the torque too, until the encoder moves or the axis disarms. Once per tick, in EVENT_AT_HOLD.
+// Documentation: docs/blocks/supervisor.md
 `default_nettype none
 
 module hold_timer (
@@ -17,7 +17,7 @@ module hold_timer (
     input  logic [31:0] param_i,
     input  logic        moved_i,       // an encoder edge came in this tick
     input  logic        over_limit_i,  // one clock after the word hold_torque: |tau_ref| is above it
-    output logic        derated_o      // the torque limit is hold_limit
+    output logic        derated_o      // hold_limit limits too
 );
   localparam int W = feltgate_map_pkg::HOLD_BITS;
 

@@ -30,7 +30,7 @@ module safety (
     input  logic                                              axis_blocked_i,
     input  logic                                              axis_waits_i,
     output logic                                              arm_request_o,
-    output logic                                              ready_o,         // may be armed
+    output logic                                              ready_o,         // nothing refuses a request
     input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_i,  // of the current loop, 0: ready
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder, 0: ready
     // What is watched
@@ -54,14 +54,25 @@ module safety (
     output logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_o,  // number of the first, 0: none
     output logic        [feltgate_map_pkg::W_STATUS_LIMITS-1:0] limits_o,      // bit n: limit n acted
     output logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] current_estimate_o,  // A
-    output logic                                              derated_o,       // the torque limit is hold_limit
+    output logic                                              derated_o,       // hold_limit limits too
     output logic                                              heartbeat_o,     // changes every HEARTBEAT ticks without a fault
     output logic                                              testing_o,       // the self-test runs
     output logic signed [   feltgate_pkg::SCENE_TORQUE_W-1:0] pulse_o,         // its pulse, larger than every limit: the limit in force is the torque
     output logic [feltgate_map_pkg::W_STATUS_SELF_TEST-1:0]   test_result_o
 );
   localparam int FaultsW = feltgate_map_pkg::W_FAULTS_SEEN;
-  logic self_test_trip, ready;
+  logic self_test_trip, ready, arm_request;
+
+  // The top bit of faults.current and faults.absolute: a sensor starts, it has no first offset or reading yet. A request
+  // to arm waits for it, as the axes wait for each other; all other bits refuse the request.
+  localparam int CurrentTop = feltgate_map_pkg::W_FAULTS_CURRENT - 1;
+  localparam int AbsoluteTop = feltgate_map_pkg::W_FAULTS_ABSOLUTE - 1;
+  logic starts, unfit;
+  assign starts = current_state_i[CurrentTop] || absolute_state_i[AbsoluteTop];
+  assign unfit  = current_state_i[CurrentTop+2:CurrentTop+1] != '0 || current_state_i[CurrentTop-1:0] != '0 ||
+                  absolute_state_i[AbsoluteTop-1:0] != '0;
+  assign arm_request_o = arm_request && !starts;
+  assign ready_o       = ready && !unfit;
 
   hold_timer u_hold_timer (
       .clk_i(clk_i), .rst_ni(rst_ni),
@@ -95,11 +106,8 @@ module safety (
       .tick_i(tick_i), .period_start_i(period_start_i),
       .host_i(control_i[feltgate_map_pkg::B_CONTROL_HOST]),
       .host_arm_i(control_i[feltgate_map_pkg::B_CONTROL_ARM]), .arm_i(arm_i), .disarm_i(disarm_i),
-      .arm_request_o(arm_request_o), .arms_o(arms_o), .ready_o(ready),
-      // The top bit of faults.current and faults.absolute: no first offset or reading yet, a request to arm waits. All others refuse it.
-      .axis_silent_i(axis_silent_i || current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT-1] ||
-                     absolute_state_i[feltgate_map_pkg::W_FAULTS_ABSOLUTE-1]),
-      .axis_blocked_i(axis_blocked_i || current_state_i != '0 || absolute_state_i != '0),
+      .arm_request_o(arm_request), .arms_o(arms_o), .ready_o(ready),
+      .axis_silent_i(axis_silent_i || starts), .axis_blocked_i(axis_blocked_i || unfit),
       .stop_i(stop_i),
       .clear_faults_i(clear_faults_i), .clear_o(clear_o), .kick_i(kick_i),
       .encoder_error_i(illegal_i),
@@ -145,7 +153,6 @@ module safety (
   end
   endgenerate
 
-  assign ready_o  = ready && current_state_i == '0 && absolute_state_i == '0;
   assign limits_o = feltgate_map_pkg::W_STATUS_LIMITS'(!gates_enable_o) << feltgate_map_pkg::L_GATES_CLOSED;
 
   logic unused;

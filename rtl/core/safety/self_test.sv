@@ -4,7 +4,7 @@
 // Self-test after arming: waits until the lever is at rest, applies a torque pulse and then its
 // opposite, and checks the direction of motion before the scene begins. A wrong direction trips.
 // Timing: each word is compared when it is on the bus; the state changes in EVENT_AT_SELF_TEST_TURN;
-// trip_o is high in EVENT_AT_SELF_TEST. docs/blocks/self_test.md
+// trip_o is high in EVENT_AT_SELF_TEST. docs/blocks/supervisor.md
 
 `default_nettype none
 

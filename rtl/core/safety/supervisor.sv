@@ -47,11 +47,11 @@ module supervisor (
   output logic               gates_enable_o,   // falls at once on a fault
   output logic               gates_clear_o,    // asynchronous: from the stop's edge until it is handled
   output logic               unkicked_o,       // arming waits for the first kick
-  output logic               arm_request_o,           // request of the one that has control
+  output logic               arm_request_o,    // request of the one that has control, if it counts
   output logic               arms_o,           // in the clock of tick_i: armed from the next one on
   output logic               ready_o,          // this axis can be armed
   output logic               clear_o,          // clear_faults_i while there is no request to arm
-  input  logic               axis_silent_i,    // another axis does not request arming, or a sensor has given no value yet: a request waits
+  input  logic               axis_silent_i,    // another axis does not request arming, or a sensor starts: a request waits
   input  logic               axis_blocked_i,   // another axis, or a sensor, is not ready: a request is refused
   input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] trips_i,  // causes of other blocks, by bit
   output logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_o,  // bit n: cause n was seen
@@ -130,7 +130,8 @@ module supervisor (
   end
 
   // Two tick counters share an adder and a comparator: cause 3 uses them in the clock in which its
-  // limit is on the bus, cause 5 in all others. A counter with its top bit set has reached every
+  // limit is on the bus, cause 5 in all others. While the gates are closed the counter of cause 5
+  // counts the ticks for which a request to arm waits. A counter with its top bit set has reached every
   // limit. A wrap of the kick counter before the first kick has no effect. For cause 3 both results
   // are registered, because the way from the parameter RAM through the comparator is long:
   // EVENT_AT_POLARITY is the clock after PARAM_AT_POLARITY_TICKS.
@@ -138,10 +139,11 @@ module supervisor (
   localparam int KICKLESS_W = feltgate_map_pkg::KICKLESS_BITS + 1;
 
   logic [RUNAWAY_W-1:0]  runaway_ticks_q;   // ticks of the window, including this one
-  logic [KICKLESS_W-1:0] kickless_ticks_q;  // ticks since the last kick or arming
+  logic [KICKLESS_W-1:0] kickless_ticks_q;  // ticks since the last kick or arming, or of waiting
   logic [KICKLESS_W-1:0] ticks, next_ticks;
   logic [RUNAWAY_W-1:0]  next_ticks_q;
   logic                  of_runaway, full, in_reach, expired, expired_q;
+  logic                  handed, request, arms, waits;  // control; to arm, at the end of a tick
 
   assign of_runaway = param_is_polarity_ticks_i;
   assign ticks      = of_runaway ? KICKLESS_W'(runaway_ticks_q) : kickless_ticks_q;
@@ -260,10 +262,7 @@ module supervisor (
     if (param_is_watchdog_ticks_i) silent_q <= expired || param_i[31];
   end
   always_ff @(posedge clk_i) begin
-    if (tick_i) begin
-      if (kick_i || !gates_enable_o) kickless_ticks_q <= '0;
-      else                           kickless_ticks_q <= next_ticks;
-    end
+    if (tick_i) kickless_ticks_q <= (gates_enable_o ? arms && !kick_i : waits && !handed) ? next_ticks : '0;
   end
 
   // Cause 6, external stop. The pin itself clears the gates and sets the flip-flop stopped_q, with
@@ -325,7 +324,7 @@ module supervisor (
                 (FAULTS_W'(tick_trip) << feltgate_map_pkg::FAULT_TICK) | trips_i;
 
   assign any_trip = trip != '0;
-  assign clear_o  = clear_faults_i && !arm_request_o;
+  assign clear_o  = clear_faults_i && !request;
 
   function automatic logic [FIRST_W-1:0] lowest(input logic [FAULTS_W-1:0] causes);
     lowest = NONE;
@@ -342,31 +341,42 @@ module supervisor (
     end
   end
 
-  // Arming, at the end of a tick. A request that was high during a reset, a fault or a stop, or
-  // while the other side had control, must fall before it counts. Arming needs a rising edge of the
-  // AND of all axes' requests.
-  logic host_counts_q, panel_counts_q, able, arm_request, asked_q, may_arm, arms;
+  // Arming, at the end of a tick. A request counts from a tick in which it was low, while its side
+  // has control, until it is refused. One that counts opens the gates, holds them open, or waits. A
+  // change of control refuses what holds them open.
+  localparam int WAIT_TICKS = feltgate_pkg::CLOCK_HZ / 1000 * feltgate_map_pkg::ARM_WAIT_MS /
+                              feltgate_pkg::CLOCKS_PER_TICK - 1;
+  logic host_counts_q, panel_counts_q, host_q, counts, able, in_time, may_arm;
+  logic stop_seen_q;  // in this tick
 
-  assign arm_request_o  = (host_i ? host_arm_i : arm_i) && !disarm_i;
-  assign arm_request    = arm_request_o && !axis_silent_i;
-  assign able    = first_fault_o == NONE && !stop_q[1] && !unkicked_o;
-  assign ready_o = able && (host_i ? host_counts_q : panel_counts_q);
-  assign may_arm = !asked_q && ready_o && !axis_blocked_i;
-  assign arms    = arm_request && (gates_enable_o || may_arm) && !any_trip;  // arms, or stays armed
+  assign request = (host_i ? host_arm_i : arm_i) && !disarm_i;
+  assign handed  = host_i != host_q;
+  assign counts  = (host_i ? host_counts_q : panel_counts_q) && !(gates_enable_o && handed);
+  assign able    = first_fault_o == NONE && !stop_q[1] && !stop_seen_q && !unkicked_o;
+  assign in_time = handed || kickless_ticks_q < KICKLESS_W'(WAIT_TICKS);
+  assign may_arm = request && ready_o && !any_trip && (gates_enable_o || (!axis_blocked_i && in_time));
+  assign arms    = may_arm && !axis_silent_i;  // arms, or stays armed
+  assign waits   = may_arm && axis_silent_i && !gates_enable_o;
 
-  assign arms_o = arms;
+  assign arm_request_o = request && counts;
+  assign ready_o       = able && counts;
+  assign arms_o        = arms;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) stop_seen_q <= 1'b0;
+    else         stop_seen_q <= !tick_i && (stop_seen_q || stop_q[1]);
+  end
+  always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      host_q         <= 1'b0;
       host_counts_q  <= 1'b0;
       panel_counts_q <= 1'b0;
-      asked_q        <= 1'b1;
       armed_o        <= 1'b0;
       gates_enable_o <= 1'b0;
     end else if (tick_i) begin
-      host_counts_q  <= !host_arm_i || (host_counts_q && host_i && able);
-      panel_counts_q <= !arm_i || (panel_counts_q && !host_i && able);
-      asked_q        <= arm_request;
+      host_q         <= host_i;
+      host_counts_q  <= !host_arm_i || (host_i && (arms || waits));
+      panel_counts_q <= !arm_i || (!host_i && (arms || waits));
       armed_o        <= arms;
       gates_enable_o <= arms;
     end else if (any_trip) begin

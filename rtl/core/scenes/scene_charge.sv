@@ -6,7 +6,7 @@
 // saturating; one quotient bit per clock.
 // Latency: plus_o or minus_o (inside the core, not yet rounded) two clocks after their product,
 // held. outside_o (a final torque) in the clock of the torque limit's word; before, it shows the
-// quotient's first bits. All are 0 while the scene is not selected. docs/blocks/scene_charge.md
+// quotient's first bits. All are 0 while the scene is not selected. docs/blocks/scenes.md
 
 `default_nettype none
 

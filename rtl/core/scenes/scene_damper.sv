@@ -3,7 +3,7 @@
 //
 // Scene: a viscous damper, tau = -b * velocity, not yet rounded.
 // Latency: minus_o one clock after the product of velocity and damping, held; 0 while the scene is
-// not selected. docs/blocks/scene_damper.md
+// not selected. docs/blocks/scenes.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // Scene: a membrane between two faces. Inside, a constant torque drives the lever back to the side
 // from which it came. The sign stays until the lever is outside again, so the membrane only absorbs
 // energy. Latency: plus_o or minus_o one clock after the torque's word, held; 0 while the scene is
-// not selected. docs/blocks/scene_membrane.md
+// not selected. docs/blocks/scenes.md
 
 `default_nettype none
 

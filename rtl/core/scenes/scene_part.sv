@@ -4,7 +4,7 @@
 // Converts a product to one term of a scene's torque: it drops the bits below the guard bits. If
 // the design rounds to even and the term is Exact, the lowest guard bit is set when any dropped bit
 // was set (sticky bit). The later rounding then gives the same result as for the whole product.
-// Combinational. docs/blocks/scene_part.md
+// Combinational. docs/blocks/scenes.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // Scene: a constant torque.
 // Latency: plus_o one clock after its word, held; 0 while the scene is not selected.
-// docs/blocks/scene_setpoint.md
+// docs/blocks/scenes.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // Scene: a spring, tau = k * (reference - position), not yet rounded. Tension acts on both sides of
 // the rest position, compression only below the contact.
 // Latency: plus_o one clock after the product of distance and stiffness, held; 0 while the scene is
-// not selected. docs/blocks/scene_spring.md
+// not selected. docs/blocks/scenes.md
 
 `default_nettype none
 

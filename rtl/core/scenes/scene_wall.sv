@@ -4,7 +4,7 @@
 // Scene: a unilateral spring-damper, tau = k * (contact - position) - b * velocity above the
 // contact, not yet rounded. Both products keep the guard bits. The block scenes makes sure that the
 // wall never pulls. Latency: plus_o and minus_o one clock after their products, held; 0 outside the
-// wall and while the scene is not selected. docs/blocks/scene_wall.md
+// wall and while the scene is not selected. docs/blocks/scenes.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // Signed multiplier, 35 x 18 bits, made of two 18 x 18 multipliers; every stage is registered.
 // Latency: operands in clock t, product in clock t + 4. With FELTGATE_ECP5 the two multipliers are
-// MULT18X18D cells and use their registers; otherwise the tool infers them. docs/blocks/mult.md
+// MULT18X18D cells and use their registers; otherwise the tool infers them. docs/architecture.md
 
 `default_nettype none
 

@@ -4,7 +4,7 @@
 // Signed 18 x 18 multiplier in one ECP5 MULT18X18D; its pipeline and output registers are used. The
 // operand registers are in the fabric, near the logic that drives them: the route to the cell is
 // long. Only with FELTGATE_ECP5, because Yosys infers the cell but packs no registers into it.
-// Latency: operands in clock t, product in clock t + 3. docs/blocks/mult.md, docs/synthesis.md
+// Latency: operands in clock t, product in clock t + 3. docs/architecture.md, docs/synthesis.md
 
 `default_nettype none
 

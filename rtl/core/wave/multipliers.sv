@@ -5,7 +5,7 @@
 // square the factor is the operand itself; it does not come from the parameter bus.
 // Latency: that of mult, 4 clocks. In one clock either square_*_i or the parameter is the factor, or zero_control_i
 // makes it 0.
-// Documentation: docs/blocks/multipliers.md
+// Documentation: docs/architecture.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // The operand bus to the multiplier. In each wave clock at most one source drives it, all others
 // are 0, so an OR combines them. A value that is held longer is gated, or enters through a copy that
-// is 0 outside its clocks. Combinational from its inputs and copies. docs/blocks/operand_bus.md
+// is 0 outside its clocks. Combinational from its inputs and copies. docs/architecture.md
 
 `default_nettype none
 

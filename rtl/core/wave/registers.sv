@@ -3,9 +3,9 @@
 //
 // Register port, parameter RAM (512 x 32), control word, commands and the double-buffered snapshot.
 // A write is accepted in a clock with reg_write_i high and reg_busy_o low, and takes effect at
-// tick_i. A disarm and a stop do not wait for an earlier write. Latency: param_o follows
-// slot_fetch_i by 2 clocks, reg_rdata_o follows reg_addr_i by 3.
-// Documentation: docs/blocks/registers.md
+// tick_i; a parameter saturates to its format. A disarm and a stop do not wait for an earlier write.
+// Latency: param_o follows slot_fetch_i by 2 clocks, reg_rdata_o follows reg_addr_i by 3.
+// Documentation: docs/architecture.md
 `default_nettype none
 
 module registers #(
@@ -23,13 +23,17 @@ module registers #(
   output logic        reg_busy_o,          // a write waits for tick_i; no other is accepted
 
   input  logic        armed_i,             // armed, or armed from the next clock on
+  input  logic        polarity_holds_i,    // encoder_polarity keeps its value
   input  logic        set_zero_i,          // from the panel, one clock
   input  logic [5:0]  slot_fetch_i,
   input  logic        scene_slot_fetch_i,
   input  logic [3:0]  scene_i,             // bank of the active scene; never 1
   input  logic        region_high_i,       // 1: read voltage_gain_high for voltage_gain
-  input  logic        derated_i,             // 1: read hold_limit for torque_limit
-  input  logic        testing_i,           // 1: read the self-test's torque for torque_limit
+  input  logic        at_least_full_i,     // clocks in which the limits of the torque are on the bus
+  input  logic        at_least_hold_i,
+  input  logic        at_least_test_i,
+  input  logic        derated_i,           // 1: hold_limit limits too
+  input  logic        testing_i,           // 1: the self-test's torque limits too
   output logic [31:0] param_o,
   output logic        word_error_o,        // check error of the word on the bus or of the held control bits
 
@@ -41,6 +45,7 @@ module registers #(
   output logic        stop_o,              // a stop was written, likewise
   output logic        restart_o,           // in the clock of tick_i: this change starts the ramp
   output logic        refused_o,           // the last parameter write was refused: armed
+  output logic        saturated_o,         // the last parameter written did not fit its format
 
   input  logic [5:0]  snap_slot_i,
   input  logic        snap_valid_i,
@@ -49,9 +54,9 @@ module registers #(
 
   localparam logic [5:0] LOW  = 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN);
   localparam logic [5:0] HIGH = 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
-  localparam logic [5:0] FULL  = 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
-  localparam logic [5:0] DERATED = 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
-  localparam logic [5:0] TEST  = 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
+  localparam logic [5:0] FULL = 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
+  localparam logic [5:0] HOLD = 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
+  localparam logic [5:0] TEST = 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
 
   // The waiting write: its target (no bit set: nothing waits), address and data.
   logic        to_parameter_q, to_control_q, to_command_q;
@@ -70,6 +75,15 @@ module registers #(
                    !reg_wdata_i[feltgate_map_pkg::B_CONTROL_ARM];
   assign stops   = reg_write_i && at_command && reg_wdata_i[feltgate_map_pkg::B_COMMAND_STOP];
 
+  // A parameter that does not fit its format becomes the nearest value that does. Bits of `above` lie above the
+  // format: they equal the sign, or without a sign 0.
+  logic        has_sign, negative, misfit;
+  logic [31:0] above, fitted;
+  assign {has_sign, above} = at_parameter ? feltgate_pkg::parameter_above(reg_addr_i[8:0]) : 33'd0;
+  assign negative = has_sign && reg_wdata_i[31];
+  assign misfit   = ((reg_wdata_i ^ {32{negative}}) & above) != 32'd0;
+  assign fitted   = !misfit ? reg_wdata_i : negative ? above : reg_wdata_i[31] ? 32'd0 : ~above;
+
   // While armed, the fields of the control word from bit HELD on keep their values, and a parameter
   // that would make the torque jump without the ramp is refused.
   localparam int HELD = feltgate_map_pkg::B_CONTROL_MODE;
@@ -84,6 +98,13 @@ module registers #(
   assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // independent of position
   assign restart_o   = (set_zero_o && !input_scene) || (tick_i && to_parameter_q && ramps);
 
+  logic [feltgate_map_pkg::W_CONTROL-1:HELD] held;
+  always_comb begin
+    held = data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
+    if (polarity_holds_i)
+      held[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] = control_o[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY];
+  end
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       to_parameter_q <= 1'b0;
@@ -95,6 +116,7 @@ module registers #(
       stop_o         <= 1'b0;
       zero_q         <= 1'b0;
       refused_o      <= 1'b0;
+      saturated_o    <= 1'b0;
       control_o      <= CONTROL_RESET;
       held_check_q   <= ^CONTROL_RESET[feltgate_map_pkg::W_CONTROL-1:HELD];
     end else begin
@@ -103,7 +125,8 @@ module registers #(
         to_control_q   <= at_control;
         to_command_q   <= at_command;
         address_q      <= reg_addr_i[8:0];
-        data_q         <= reg_wdata_i;
+        data_q         <= fitted;
+        if (at_parameter) saturated_o <= misfit;
       end else if (tick_i) begin
         to_parameter_q <= 1'b0;
         to_control_q   <= 1'b0;
@@ -116,8 +139,8 @@ module registers #(
       if (tick_i && to_control_q) begin
         control_o[HELD-1:0] <= data_q[HELD-1:0];
         if (!holds) begin
-          control_o[feltgate_map_pkg::W_CONTROL-1:HELD] <= data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
-          held_check_q <= ^data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
+          control_o[feltgate_map_pkg::W_CONTROL-1:HELD] <= held;
+          held_check_q <= ^held;
         end
       end
       if (tick_i && disarm_o) begin  // wins over a waiting write that arms
@@ -169,18 +192,41 @@ module registers #(
     if (lands) parameter_ram[address_q] <= written;
   end
 
-  logic        high, derated, test;
+  // The limit of the torque is the least of all that limit it. Each comes by once before the limiter takes
+  // the limit; the word of the least is fetched for it.
+  logic signed [feltgate_pkg::TORQUE_W-1:0] least_q, limit;
+  logic [5:0] least_at_q;
+  logic       lower;
+  assign limit = param_o[feltgate_pkg::TORQUE_W-1:0];
+  assign lower = limit < least_q && ((at_least_hold_i && derated_i) || (at_least_test_i && testing_i));
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      least_q    <= '0;
+      least_at_q <= FULL;
+    end else if (at_least_full_i || lower) begin
+      least_q    <= limit;
+      least_at_q <= at_least_full_i ? FULL : at_least_hold_i ? HOLD : TEST;
+    end
+  end
+
+  logic [5:0]  fetch_slot;
   logic [8:0]  fetch_address;
   logic [35:0] fetch_q;
   logic [ 3:0] check_q;                // check bits of the word on the bus
   logic        written_q, written_q2;  // fetched during a write: data undefined, no check
   logic        warm_q;  // 0 for one clock: blocks the RAM's output register, which has no reset
 
-  assign high = region_high_i && slot_fetch_i == LOW;
-  assign derated = derated_i && slot_fetch_i == FULL;
-  assign test = testing_i && slot_fetch_i == FULL;
-  assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]}
-                       : {3'b000, high ? HIGH : test ? TEST : derated ? DERATED : slot_fetch_i};
+  always_comb begin
+    case (slot_fetch_i)
+      LOW:     fetch_slot = region_high_i ? HIGH : LOW;
+      FULL:    fetch_slot = least_at_q;
+      6'(feltgate_map_pkg::EVENT_AT_LEAST_FULL): fetch_slot = FULL;
+      6'(feltgate_map_pkg::EVENT_AT_LEAST_HOLD): fetch_slot = HOLD;
+      6'(feltgate_map_pkg::EVENT_AT_LEAST_TEST): fetch_slot = TEST;
+      default: fetch_slot = slot_fetch_i;
+    endcase
+  end
+  assign fetch_address = scene_slot_fetch_i ? {scene_i, slot_fetch_i[4:0]} : {3'b000, fetch_slot};
 
   always_ff @(posedge clk_i) fetch_q <= parameter_ram[fetch_address];
 

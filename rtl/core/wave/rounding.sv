@@ -3,7 +3,7 @@
 //
 // The core's rounding: up_o tells whether to add 1 after the lowest Drop bits are dropped. The
 // design selects half up, down (floor), or half to even. With negated_i the input is -x, and up_o
-// makes the result -round(x). Combinational. docs/blocks/rounding.md, docs/fixed-point.md
+// makes the result -round(x). Combinational. docs/architecture.md, docs/fixed-point.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // Counts the clocks of a tick, starts one wave per tick and fetches the parameter slots ahead of
 // it. Clock c of a tick fetches slot c and is wave clock c - FIRST_WAVE_CLOCK.
-// Documentation: docs/blocks/sequencer.md
+// Documentation: docs/architecture.md
 `default_nettype none
 
 module sequencer #(

@@ -3,7 +3,7 @@
 //
 // Collects the snapshot's words: some are on the operand bus in known wave clocks, the others come
 // from their own inputs. Latency: one clock to the RAM, because the bus is late in the clock; a
-// word is held until the next one. Documentation: docs/blocks/snapshot.md
+// word is held until the next one. Documentation: docs/architecture.md
 
 `default_nettype none
 

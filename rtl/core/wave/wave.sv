@@ -3,7 +3,7 @@
 //
 // Room: what every tick shares. The sequencer's wave is the time; registers bring one parameter in
 // each clock; operand bus and multipliers give each room its products; the snapshot keeps the
-// results of the tick for the host. docs/architecture.md, docs/schedule.md
+// results of the tick for the host. docs/architecture.md, docs/architecture.md
 
 `default_nettype none
 
@@ -47,6 +47,7 @@ module wave #(
     input  logic        [feltgate_map_pkg::W_FAULTS_SEEN-1:0] faults_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_FIRST-1:0] first_fault_i,
     input  logic        [feltgate_map_pkg::W_FAULTS_CURRENT+1:0] current_state_i,  // of a current loop: faults.current, driver, missing
+    input  logic                                              polarity_holds_i,  // an absolute encoder has given its first reading
     input  logic        [feltgate_map_pkg::W_FAULTS_ABSOLUTE-1:0] absolute_state_i,  // of an absolute encoder
     input  logic                                             encoder_error_i,
     input  logic        [                              15:0] error_count_i,
@@ -79,7 +80,7 @@ module wave #(
   localparam int HeatDrop = (feltgate_pkg::CURRENT_LOOP == 0) ? 0 : feltgate_pkg::CURRENT_F - feltgate_pkg::CURRENT_ESTIMATE_F;
   logic [3:0] scene_wanted;
   logic [5:0] slot_fetch;
-  logic scene_slot_fetch, refused, word_error, signed_word, square_distance_q, square_estimate, direct_q;
+  logic scene_slot_fetch, refused, saturated, word_error, signed_word, square_distance_q, square_estimate, direct_q;
   logic [31:0] status, faults;
   logic signed [OperandW-1:0] operand, dob_operand, scene_operand, control_operand, supervisor_operand;
   logic signed [EstimateW-1:0] heat_current, estimate_operand;
@@ -96,16 +97,21 @@ module wave #(
       .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
       .reg_rdata_o(reg_rdata_o), .reg_busy_o(reg_busy_o),
       .armed_i(locked_i), .set_zero_i(set_zero_i),
+      // The count of an absolute encoder began with a polarity.
+      .polarity_holds_i(polarity_holds_i),
       .slot_fetch_i(slot_fetch), .scene_slot_fetch_i(scene_slot_fetch),
       .scene_i(scene_o),
       .region_high_i(region_high_i), .derated_i(derated_i), .testing_i(testing_i),
+      .at_least_full_i(wave_o[feltgate_map_pkg::EVENT_AT_LEAST_FULL]),
+      .at_least_hold_i(wave_o[feltgate_map_pkg::EVENT_AT_LEAST_HOLD]),
+      .at_least_test_i(wave_o[feltgate_map_pkg::EVENT_AT_LEAST_TEST]),
       .param_o(param_o),
       .word_error_o(word_error),
       .control_o(control_o), .set_zero_o(set_zero_o),
       .clear_faults_o(clear_faults_o), .kick_o(kick_o),
       .disarm_o(disarm_o), .stop_o(stop_o),
       .restart_o(restart_o),
-      .refused_o(refused),
+      .refused_o(refused), .saturated_o(saturated),
       .snap_slot_i(word_slot_o), .snap_valid_i(word_valid_o), .snap_data_i(word_data_o)
   );
   assign trips_o = feltgate_map_pkg::W_FAULTS_SEEN'(word_error) << feltgate_map_pkg::FAULT_WORD;
@@ -133,6 +139,7 @@ module wave #(
                   (32'(current_state_i[feltgate_map_pkg::W_FAULTS_CURRENT+1]) << feltgate_map_pkg::B_STATUS_CURRENT_MISSING) |
                   (32'(encoder_error_i) << feltgate_map_pkg::B_STATUS_ENCODER_ERROR) |
                   (32'(refused) << feltgate_map_pkg::B_STATUS_REFUSED) |
+                  (32'(saturated) << feltgate_map_pkg::B_STATUS_SATURATED) |
                   (32'(unkicked_i) << feltgate_map_pkg::B_STATUS_UNKICKED);
   snapshot #(.ReadBack(ReadBack)) u_snapshot (
       .clk_i(clk_i), .rst_ni(rst_ni),

@@ -17,7 +17,7 @@ package feltgate_pkg;
   localparam int INDEX_COUNTS = 4096;  // counts from index to index; 0: not checked
   localparam int PWM_PERIOD = 1000;  // clocks
   localparam int DEAD_CLOCKS = 25;  // clocks
-  localparam int SHORTEST_CLOCKS = 1;  // clocks, of a pulse at a gate
+  localparam int SHORTEST_CLOCKS = 10;  // clocks, of a pulse at a gate
   localparam int SCENE_MASK = 1021;  // bit n: scene n is built
   localparam int CONTROL_RESET = 0;  // control word after reset
   localparam int COEFFICIENT_BITS = 17;  // bits of a coefficient's mantissa, without its sign
@@ -36,6 +36,9 @@ package feltgate_pkg;
   localparam int MT_COUNTS = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   localparam int MT_WINDOW = 0;  // clocks: of a shorter span twice the cycles
   localparam int MT_DOUBLINGS = 0;  // the span has at most 2^n cycles
+  localparam int EDGE_UNIT_BITS = 6;  // bits of the ticks in which the time between edges is counted
+  localparam int FAST_EDGES = 0;  // 1: at the fastest motion several counts come in a tick
+  localparam int SELF_TEST_DROP = 0;  // the self-test takes 2^n counts for one
   localparam int CURRENT_LOOP = 0;  // 1: a measured current is controlled
   localparam int CURRENT_DROP = 0;  // fraction bits of the current reference below an LSB of the measured current
   localparam int CURRENT_PROPORTIONAL = 0;  // [0,4,13], supply per full scale
@@ -61,7 +64,7 @@ package feltgate_pkg;
   localparam int PHASES = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   localparam int MODULATION = 1;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
-  localparam logic [31:0] DESIGN_CRC = 32'h15e6be74;  // by which a host knows the design
+  localparam logic [31:0] DESIGN_CRC = 32'h6e0ebd88;  // by which a host knows the design
 
   // Widths (W) and fraction bits (F) of the signals.
   localparam int POSITION_W = 32;  // [1,31,0]
@@ -192,7 +195,7 @@ package feltgate_pkg;
       9'd35: parameter_reset = 32'd13247;  // dead_voltage
       9'd39: parameter_reset = 32'd53879;  // voltage_window
       9'd40: parameter_reset = 32'd73901;  // duty_gain
-      9'd45: parameter_reset = 32'd948;  // duty_limit
+      9'd45: parameter_reset = 32'd930;  // duty_limit
       9'd46: parameter_reset = 32'd100000;  // watchdog_ticks
       9'd51: parameter_reset = 32'd3277;  // self_test_torque
       9'd37: parameter_reset = 32'd157;  // self_test_quiet
@@ -221,6 +224,58 @@ package feltgate_pkg;
       9'd290: parameter_reset = 32'd5147;  // wall_stiffness
       9'd298: parameter_reset = 32'd4194;  // wall_damping
       default: parameter_reset = 32'd0;
+    endcase
+  endfunction
+
+  // Whether a parameter has a sign, and the bits above its format.
+  function automatic logic [32:0] parameter_above(input logic [8:0] address);
+    case (address)
+      9'd4: parameter_above = {1'd0, 32'hfffe0000};  // velocity_a1
+      9'd5: parameter_above = {1'd0, 32'hfffe0000};  // inverse_resistance
+      9'd7: parameter_above = {1'd0, 32'hfffe0000};  // emf_over_resistance
+      9'd8: parameter_above = {1'd0, 32'hfffe0000};  // torque_constant
+      9'd9: parameter_above = {1'd0, 32'hfffe0000};  // inertia_gain
+      9'd15: parameter_above = {1'd0, 32'hfffe0000};  // observer_a1
+      9'd20: parameter_above = {1'd1, 32'hffe00000};  // polarity_current
+      9'd22: parameter_above = {1'd0, 32'hfffe0000};  // emf_constant
+      9'd23: parameter_above = {1'd1, 32'hfffe0000};  // observer_gain
+      9'd31: parameter_above = {1'd1, 32'hfff80000};  // voltage_setpoint
+      9'd32: parameter_above = {1'd1, 32'hfff80000};  // voltage_step
+      9'd24: parameter_above = {1'd1, 32'hfff00000};  // torque_limit
+      9'd25: parameter_above = {1'd1, 32'hf0000000};  // ramp_step
+      9'd27: parameter_above = {1'd0, 32'hfffe0000};  // voltage_to_current
+      9'd28: parameter_above = {1'd0, 32'hfffe0000};  // torque_gain
+      9'd29: parameter_above = {1'd0, 32'hfffe0000};  // dead_voltage_slope
+      9'd30: parameter_above = {1'd1, 32'hfff00000};  // region_torque
+      9'd36: parameter_above = {1'd1, 32'hfff00000};  // hold_torque
+      9'd56: parameter_above = {1'd1, 32'hfff00000};  // hold_limit
+      9'd33: parameter_above = {1'd1, 32'hffe00000};  // current_limit
+      9'd34: parameter_above = {1'd0, 32'hfffe0000};  // voltage_gain
+      9'd50: parameter_above = {1'd0, 32'hfffe0000};  // voltage_gain_high
+      9'd35: parameter_above = {1'd1, 32'hfff80000};  // dead_voltage
+      9'd39: parameter_above = {1'd1, 32'hfff80000};  // voltage_window
+      9'd40: parameter_above = {1'd0, 32'hfffe0000};  // duty_gain
+      9'd45: parameter_above = {1'd0, 32'hfffff000};  // duty_limit
+      9'd51: parameter_above = {1'd1, 32'hfff00000};  // self_test_torque
+      9'd74: parameter_above = {1'd1, 32'hfff00000};  // setpoint_torque
+      9'd97: parameter_above = {1'd1, 32'hfe000000};  // membrane_lower
+      9'd98: parameter_above = {1'd1, 32'hfe000000};  // membrane_upper
+      9'd106: parameter_above = {1'd1, 32'hfff00000};  // membrane_torque
+      9'd129: parameter_above = {1'd1, 32'hfe000000};  // compression_contact
+      9'd130: parameter_above = {1'd0, 32'hfffe0000};  // compression_stiffness
+      9'd161: parameter_above = {1'd1, 32'hfe000000};  // tension_rest
+      9'd162: parameter_above = {1'd0, 32'hfffe0000};  // tension_stiffness
+      9'd202: parameter_above = {1'd0, 32'hfffe0000};  // damper_damping
+      9'd225: parameter_above = {1'd1, 32'hfe000000};  // attract_centre
+      9'd230: parameter_above = {1'd0, 32'hfffc0000};  // attract_core
+      9'd227: parameter_above = {1'd0, 32'hfffe0000};  // attract_core_slope
+      9'd257: parameter_above = {1'd1, 32'hfe000000};  // repel_centre
+      9'd262: parameter_above = {1'd0, 32'hfffc0000};  // repel_core
+      9'd259: parameter_above = {1'd0, 32'hfffe0000};  // repel_core_slope
+      9'd289: parameter_above = {1'd1, 32'hfe000000};  // wall_contact
+      9'd290: parameter_above = {1'd0, 32'hfffe0000};  // wall_stiffness
+      9'd298: parameter_above = {1'd0, 32'hfffe0000};  // wall_damping
+      default: parameter_above = 33'd0;
     endcase
   endfunction
 

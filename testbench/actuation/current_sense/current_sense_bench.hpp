@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // current_sense: adapter, random streams, and the block once more from a
-// list of all bits, by a convolution of three boxes. Documentation: docs/blocks/current_sense.md
+// list of all bits, by a convolution of three boxes. Documentation: docs/blocks/current.md
 #pragma once
 
 #include <Vcurrent_sense.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // current_sense: RTL against twin and against a convolution of all bits in every clock; the impulse
-// response; the time to an over-current. Documentation: docs/blocks/current_sense.md
+// response; the time to an over-current. Documentation: docs/blocks/current.md
 #include "catch.hpp"
 #include "current_sense_bench.hpp"
 

@@ -3,7 +3,7 @@
 //
 // field_oriented: RTL against twin in every clock, and each voltage against the law in double with
 // cosines of its own, within a bound; arming, direct voltage, the watch on an open phase; the
-// longest voltage in several periods. Documentation: docs/blocks/field_oriented.md
+// longest voltage in several periods. Documentation: docs/blocks/three_phase.md
 #include "feltgate/field_oriented.hpp"
 
 #include <Vfield_oriented.h>

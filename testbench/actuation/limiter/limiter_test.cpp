@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // limiter: RTL against twin on every clock, and both against a plain integer program.
-// Documentation: docs/blocks/limiter.md
+// Documentation: docs/blocks/torque_control.md
 #include <Vlimiter.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ struct Case {
   bool valid = true, early_term = false;  ///< x comes a clock ahead
   bool up = false;                        ///< x is rounded up
   int signal = 0;                         ///< 1 torque, 2 voltage, 3 duty
-  std::int64_t x = 0;  ///< before it is rounded up
+  std::int64_t x = 0;                     ///< before it is rounded up
   std::uint32_t param = 0;
   std::int64_t addend = 0;
   bool complement = false;  ///< x comes as its complement, if it is late
@@ -73,7 +73,9 @@ struct Pipeline {
     after = next();
     return {after.valid,
             after.early_term ? after.x : 0,
-            now.early_term ? 0 : now.complement ? ~now.x : now.x,
+            now.early_term   ? 0
+            : now.complement ? ~now.x
+                             : now.x,
             now.param,
             after.signal == 1,
             after.signal == 2,
@@ -152,7 +154,8 @@ struct Plain {
     if (size > kMaxLimit) ++tally->wide[sign];
     ++tally->compared[valid];
     tally->misfit[sign] += misfit;
-    if (sign_extend<kSum>(rtl.limited_o) != limited + in.addend) return "limited of the plain program";
+    if (sign_extend<kSum>(rtl.limited_o) != limited + in.addend)
+      return "limited of the plain program";
     if ((rtl.over_limit_o != 0) != over_limit) return "beyond of the plain program";
     return nullptr;
   }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/actuation/limiter.sv, clock by clock, by the law of the chain. Documentation:
-// docs/blocks/limiter.md
+// docs/blocks/torque_control.md
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 //
 // The core's shared limiter for a block under test. It gives the block's own result in the clock
 // after the limit's word, and results of other blocks in all other clocks, so that a read one clock
-// early or late is found. Documentation: docs/blocks/limiter.md
+// early or late is found. Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include "limiter_twin.hpp"

@@ -3,7 +3,7 @@
 //
 // pwm_three_phase: RTL against twin on every clock, on-times of all six gates against their
 // definition, and checks of states that no bridge may get. Documentation:
-// docs/blocks/pwm_three_phase.md
+// docs/blocks/pwm.md
 #include <Vpwm_three_phase.h>
 
 #include <algorithm>

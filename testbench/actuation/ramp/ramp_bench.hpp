@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The ramp of a design after the core's limiter: adapter, waves, and the chain compared with
-// clock(). Documentation: docs/blocks/ramp.md
+// clock(). Documentation: docs/blocks/torque_control.md
 #pragma once
 
 #include <Vramp.h>
@@ -151,7 +151,7 @@ struct ChainBeside {
     const bool ramped = rtl.limit_ramp_o != 0;
     count(w, limit, step, tau, ramped);
     const std::int64_t moved = tau > before ? tau - before : before - tau;
-    const bool grown = before < 0 ? tau < before : tau < 0 || tau > before;
+    const bool grown = before < 0 ? tau < before || tau > 0 : tau < 0 || tau > before;
     before = tau;
     was_ramping = ramped;
     scene = w.scene;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // ramp: RTL against twin on every clock, directed tests of its course, and its error against quad
-// precision. Documentation: docs/blocks/ramp.md
+// precision. Documentation: docs/blocks/torque_control.md
 #include "ramp_bench.hpp"
 
 #include <algorithm>
@@ -166,6 +166,23 @@ TEST_CASE(
         REQUIRE(seen[n].tau == sign * (n % 2 != 0 || frozen ? small : 30000));
         REQUIRE((seen[n].ramp || (frozen && n % 2 != 0)) == frozen);
       }
+    }
+  }
+}
+
+TEST_CASE("ramp: frozen, the reference does not change its sign, from either side") {
+  for (const std::int64_t sign : {1, -1}) {
+    const auto seen = play(
+        [=](std::int64_t k) {
+          // The target goes from T to -T, to 0 and to -T.
+          Wave w = wave(sign * (k < 20 ? 9000 : k == 30 ? 0 : -9000), Law::Ramp::max_raw());
+          w.relief.frozen = k >= 20 && k < 40;
+          return w;
+        },
+        50);
+    for (std::size_t n = 10; n < 50; ++n) {
+      REQUIRE(seen[n].tau == sign * (n < 30 ? 9000 : n < 40 ? 0 : -9000));
+      REQUIRE(seen[n].ramp == (n >= 20 && n < 40 && n != 30));
     }
   }
 }

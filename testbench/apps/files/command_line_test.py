@@ -17,15 +17,14 @@ NUMBERS = (
     ("stability", "--rate", ("nan", "inf", "0", "1e300", "1000,nan", "x"), "1 to 1000000 Hz"),
     ("stability", "--damping", ("nan", "-1", "-nan", "2"), "a number from 0 to 1 Nm s/rad"),
     ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "x"), SECONDS),
-    ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf"), "a number above 0, to 1e+12 Hz"),
+    ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf", "2.5"), "number from 1 to 1000000000000 Hz"),
     ("trim membrane", "--duration", ("nan", "1e300", "-1", "0"), SECONDS),
     ("trim membrane", "--window", ("nan", "0"), "a number from 0.01 to 1000 ms"),
-    ("trim membrane", "--threads", ("0", "65", "1e1", "nan"), "a whole number from 1 to 64"),
+    ("trim membrane", "--threads", ("0", "65", "1e-1", "nan"), "a whole number from 1 to 64"),
     ("run membrane", "--every", ("0", "-1", "1.5", "nan", "99999999999"), "from 1 to 1000000000"),
     ("run membrane", "--seed", ("-1", "1.5", "nan", "18446744073709551616", "0x1"), SEED),
     ("replay x.vec", "--seed", ("-1",), SEED),
     ("import x.vec y.vec", "--seed", ("-1",), SEED),
-    ("budget membrane", "--seed", ("-1",), SEED),
     ("trim membrane", "--seed", ("-1",), SEED),
 )
 
@@ -39,10 +38,6 @@ class CommandLine(Bench):
         self.refused("trim", "coupled_levers", "--plant", "p24", said=("--plant is for scenes of one lever",))
 
     def test_a_law_where_none_is_taken(self):
-        # This program has neither the engine's design nor a device's.
-        self.refused("budget", "detent", said=('design "lever_law" is not built in',))
-        said = "two_levers_law is no design of a device in this program"
-        self.refused("budget", "coupled_levers", said=(said, "start ./feltgate budget"))
         self.refused("replay", "x.vec", "--scene", "law", said=("--scene law", "loads no program"))
 
     def test_numbers(self):
@@ -52,6 +47,17 @@ class CommandLine(Bench):
                     wrong = value.rpartition(",")[2]
                     said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
                     self.refused(*command.split(), f"{option}={value}", said=said)
+
+    def test_a_whole_number_may_be_a_power_of_ten(self):
+        self.put("a.csv", "time,A,B\n0.000,0,0\n0.001,1,0\n0.002,1,1\n0.003,1,1\n")
+        made = []
+        for rate in ("2000", "2e3", "2kHz"):
+            done = self.finished("import", "a.csv", f"{rate}.vec", "--sample-hz", rate)
+            self.assertEqual(done.returncode, 0, done.err)
+            made.append(self.path(f"{rate}.vec").read_text())
+        self.assertEqual(made, made[:1] * 3)
+        done = self.run_it("--every", "1e1", "--csv", "a_run.csv", "--quiet")
+        self.assertEqual(done.returncode, 0, done.err)
 
     def test_empty_words(self):
         for words in (("run", "short.toml", "--json", ""), ("figures", "-o", ""), ("replay", "")):
@@ -72,6 +78,28 @@ class CommandLine(Bench):
             self.assertEqual((done.returncode, done.out), (2, ""), done.err)
             self.assertIn("A\u00e9", done.err)  # UTF-8 is what a terminal takes
             self.assertNotRegex(done.err, r"[\x00-\x09\x0b-\x1f\x7f-\x9f\udc80-\udcff]")
+
+    def test_a_column_that_begins_again_and_times_without_a_unit(self):
+        rows = "".join(f"{5 * n},{(350 + n) % 360}\n" for n in range(20))
+        self.put("log.csv", "time,angle_deg\n" + rows)
+        self.given.add("log.csv")
+        words = ("import", "log.csv", "log.vec", "--scale", "4096/360")
+        done = self.finished(*words)
+        self.assertEqual(done.returncode, 0, done.err)
+        self.assertRegex(done.err, r"(?m)^warning: log.csv:2: the rows are 5 s apart, .*--time-unit ms")
+        self.assertRegex(done.err, r"(?m)^warning: log.csv:12: 'angle_deg' goes .* give --wrap 360$")
+        # An angle of 19 degrees is 216 counts; the wrap may stand before the file.
+        for more in (("--wrap",), ("--wrap", "360"), ("--wrap=360",)):
+            done = self.finished(*words, "--time-unit", "ms", *more)
+            self.assertEqual((done.returncode, done.err), (0, ""))
+            self.assertIn("0.095 s", done.out)
+            edges = self.path("log.vec").read_text(encoding="utf-8").splitlines()[2:-1]
+            self.assertEqual(len(edges), 216)
+        self.path("log.vec").unlink()
+        for more in (("--wrap=-1",), ("--wrap", "2 turns")):
+            self.refused(*words, *more, said=(" is not a finite number above 0",))
+        self.refused("replay", "--wrap", "log.csv", "--quiet", said=("put --wrap behind the file",))
+        self.refused(*words, "--time-unit", "h", said=("--time-unit", "h"))
 
     def test_abbreviations(self):
         for command in ("figures", "synth", "demo"):
@@ -128,7 +156,7 @@ class CommandLine(Bench):
             (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
             (("stability", "detent", "--rate", "500"), "detent is a scene, which has its own rate"),
             (("stability", ROOT / "vectors/scenes/detent.toml", "--plot", "out"), "leave out --rate, --damping"),
-            (("budget", "membrane", "--design", "levr"), 'did you mean "lever"?'),
+            (("trim", "membrane", "--design", "levr"), 'did you mean "lever"?'),
         ):
             with self.subTest(words):
                 self.refused(*words, said=(said,))
@@ -144,7 +172,7 @@ class CommandLine(Bench):
         self.path("scenes.toml").mkdir()
         self.given.add("scenes.toml")
         for name in (self.folder, "./", "scenes.toml"):
-            for command in ("run", "budget", "trim"):
+            for command in ("run", "trim"):
                 with self.subTest(command, name=name):
                     self.refused(command, name, said=(f"{name}: is a folder; give a file in it",))
         self.refused("run", "short.toml", "--plant", "./", said=("./: is a folder",))
@@ -180,7 +208,7 @@ class CommandLine(Bench):
         for name in ("mine", "lever"):
             self.given.add(f"{name}.toml")
             self.path(f"{name}.toml").write_text(text)
-            for command in ("run", "budget", "trim"):
+            for command in ("run", "trim"):
                 said = (f"{name}.toml: a design runs once it is built in; ", f"--design {name}")
                 self.refused(command, "short.toml", "--design", f"{name}.toml", said=said)
 

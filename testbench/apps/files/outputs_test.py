@@ -279,7 +279,6 @@ class OtherCommands(Bench):
             "design": (("design", "lever", "--for", "wall"), "-o"),
             "stability": ((*study, "--no-experiments"), "--json"),
             "extremes": (("extremes", "wrap_32"), "--json"),
-            "budget": (("budget", "short.toml"), "--json"),
             "replay": (("replay", vector, "--engine", "twin"), "--json"),
             "trim": (("trim", trim, "--tolerance", "20%", "--unseen", "1"), "--json"),
         }

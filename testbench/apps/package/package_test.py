@@ -160,6 +160,13 @@ class Package(unittest.TestCase):
         told = configure(project(self.folder / "newer", text), found, ok=False)
         self.assertIn("compatible with requested version", told)
 
+    def test_warnings_are_errors_in_our_presets_alone(self):
+        for preset, strict in (("run", False), ("dev", True)):
+            build = self.folder / preset
+            run("cmake", "--preset", preset, "-S", ROOT, "-B", build, "-DFELTGATE_PACKAGES=OFF",
+                "-DFELTGATE_TESTS=OFF", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")  # fmt: skip
+            self.assertEqual("-Werror" in (build / "compile_commands.json").read_text(), strict, preset)
+
     @weekly(3)
     def test_inside_another_project_only_what_is_linked_is_built(self):
         text = "include(FetchContent)\nFetchContent_Declare(feltgate URL nowhere)\n"

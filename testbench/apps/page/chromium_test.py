@@ -210,7 +210,7 @@ class Lever(PageTest):
         self.until("return document.getElementById('law-table').textContent.includes('bound')")
         self.until("return feltgate.devices[0].status.armed")
         self.assertEqual(self.js("return feltgate.devices[0].info.name"), "lever_law")
-        # An error stands under its line, and the law before is still felt.
+        # An error is told, and the law before is still felt.
         self.write_law("# mine\nout torque = -0.2 Nm * sin(8 * postion)\n")
         self.until("return !document.getElementById('law-error').hidden")
         said = self.driver.find_element(By.ID, "law-error").text
@@ -240,6 +240,43 @@ class Lever(PageTest):
         self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=wall]").click()
         self.until("return feltgate.devices[0].info.name === 'lever'")
         self.assertFalse(self.driver.find_element(By.ID, "law").is_displayed())
+
+    def test_an_error_of_a_law_is_seen_with_its_text_and_covers_none_of_it(self):
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+        self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=law]").click()
+        self.write_law("# mine\nout torque = -0.2 Nm * sin(8 * postion)\n")
+        self.until("return !document.getElementById('law-error').hidden")
+        self.js("for (const fold of document.querySelectorAll('details')) fold.open = false")
+        box = "return document.getElementById(arguments[0]).getBoundingClientRect().toJSON()"
+        for width, height in ((1400, 800), (1280, 720), (390, 844)):
+            size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+            self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+            self.js("window.scrollTo(0, 0); feltgate.editor.point()")
+            text, said, mark = (self.js(box, name) for name in ("law-text", "law-error", "law-mark"))
+            self.assertGreater(text["top"], 0)
+            self.assertGreaterEqual(said["top"], text["bottom"] - 0.5)
+            self.assertLess(said["bottom"], height, width)
+            # Under the word, in the second of the lines of 20 px.
+            self.assertLess(mark["height"], 4)
+            self.assertAlmostEqual(mark["top"] - text["top"], 8 + 2 * 20 - 2, delta=2)
+
+    def test_what_is_broken_is_told_and_shown(self):
+        faults = "return feltgate.devices[0].status.faults"
+        weak = "const n = feltgate.devices[0].now; return n.tau_ref < -0.3 && n.torque / n.tau_ref < 0.4"
+        self.js("document.getElementById('faults').open = true")
+        expect = self.driver.find_element(By.ID, "expect")
+        for broken, shown in (("1", "channel"), ("2", "polarity"), ("3", "polarity"), ("4", "weak")):
+            choice = "const s = document.getElementById('break'); s.value = arguments[0];"
+            self.js(choice + "s.dispatchEvent(new Event('input'))", broken)
+            self.assertIn("no fault" if shown == "weak" else f"fault {shown}", expect.text)
+            if shown == "weak":
+                self.until(weak)
+            else:
+                self.assertEqual(self.until(faults), shown)
+                self.until("return document.getElementById('expect').innerText.includes('Now: fault')")
+            self.js("recover()")
+            self.until("return feltgate.devices[0].status && feltgate.devices[0].status.armed")
+        self.assertEqual(expect.text, "")
 
     def test_shipped_laws(self):
         self.driver.find_element(By.CSS_SELECTOR, "#scenes input[value=law]").click()

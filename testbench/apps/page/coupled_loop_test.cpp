@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The page's two levers: what is felt of what the other one meets, against the closed forms of
-// docs/devices/coupled_levers.md, from either lever; and a step of the hand over time.
+// docs/devices/pantograph.md, from either lever; and a step of the hand over time.
 // Documentation: docs/page.md
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "apps/page/coupled_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "sim/backends/backend.hpp"
@@ -25,7 +25,7 @@ const std::string& coupled() {
 }
 
 constexpr double inertia_kg_m2 = 1.22e-4;  // about that of a lever
-constexpr double squared_m2 = LeverHand::radius_m * LeverHand::radius_m;
+constexpr double squared_m2 = Lever::radius_m * Lever::radius_m;
 const plant::Impedance hand;
 const double hand_nm_rad = hand.stiffness_n_m * squared_m2;
 const double count_rad = design_named("lever").count_rad;

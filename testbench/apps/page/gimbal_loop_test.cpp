@@ -2,14 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The page's body in space: it arrives where the hand turned, whatever the order of the axes; it
-// swings with the frequency of the closed form of docs/devices/flywheel.md behind a hand of the
+// swings with the frequency of the closed form of docs/devices/one-lever.md behind a hand of the
 // page; a whole turn leaves no torque. Documentation: docs/page.md
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "apps/page/gimbal_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 

@@ -24,20 +24,19 @@ plant::Parameters motor() { return plant::read_plant_file(vectors + "plants/gimb
 
 /// Keeps what a run of the twin gives, tick by tick, and lets the knob's core follow it.
 struct Beside : Passenger {
-  void begin() override {}
-  void set_parameter(std::size_t, int address, double value) override {
+  void set_parameter(int address, double value) override {
     for (int i = 0; i < core.design().parameter_count; ++i) {
       const ParameterInfo& p = core.design().parameters[i];
       if (p.address == address) core.set(p.name, value);
     }
   }
-  void tick(const Snapshot* s, const ChainIn*) override {
-    snapshots.push_back(*s);
-    core.arm(s->armed);
-    core.tick(s->position);
+  void tick(const Snapshot& s) override {
+    snapshots.push_back(s);
+    core.arm(s.armed);
+    core.tick(s.position);
     const ChainRaw& r = core.raw();
-    if (r.velocity != s->velocity || r.tau_hat != s->tau_hat || r.tau_ref != s->tau_ref ||
-        r.current_ref != s->current_ref || r.voltage != s->voltage || r.duty != s->duty) {
+    if (r.velocity != s.velocity || r.tau_hat != s.tau_hat || r.tau_ref != s.tau_ref ||
+        r.current_ref != s.current_ref || r.voltage != s.voltage || r.duty != s.duty) {
       ++differences;
     }
     on.push_back(core.on_clocks());

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <string>
 
-#include "apps/page/pen_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "feltgate/design_info.hpp"
 #include "law/compile.hpp"
 #include "sim/backends/backend.hpp"
+#include "studies/shape/rhombus.hpp"
 #include "studies/shape/shape_law.hpp"
 
 namespace feltgate::page {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "apps/page/stick_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "sim/backends/backend.hpp"
@@ -65,7 +65,7 @@ TEST_CASE("page: hand and skin hold the stick where their torques are equal") {
   StickLoop loop(drums());
   loop.lead(-0.2);
   loop.advance(3);
-  const double stiffness = hand.stiffness_n_m * LeverHand::radius_m * LeverHand::radius_m;
+  const double stiffness = hand.stiffness_n_m * Lever::radius_m * Lever::radius_m;
   double theta = 0;  // 600 (0.3 sin th)^2 = k (th + 0.2)
   while (600 * std::pow(0.3 * std::sin(theta), 2) < stiffness * (theta + 0.2)) theta -= 1e-6;
   // Between two counts it trembles; a count is 1.5 mrad, and angles are cut.

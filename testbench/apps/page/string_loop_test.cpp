@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/page/string_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/read_law.hpp"
@@ -88,7 +88,8 @@ Stretch played(StringLoop& loop, double bow_m_s) {
 }  // namespace
 
 TEST_CASE("page: a bow that draws itself makes one slip a period, as far apart as the docs say") {
-  // docs/devices/bowed_string.md, at 40 kHz, 0.2 m/s and 1/10: force, least and most between slips.
+  // docs/devices/strings-and-drums.md, at 40 kHz, 0.2 m/s and 1/10: force, least and most between
+  // slips.
   struct Row {
     double force_n, least_ms, most_ms;
   };
@@ -156,7 +157,7 @@ TEST_CASE("page: beyond the bow force's upper limit there is not one slip a peri
 }
 
 TEST_CASE("page: friction holds the lever behind the hand as a spring says") {
-  const double stiffness = hand.stiffness_n_m * LeverHand::radius_m * LeverHand::radius_m;
+  const double stiffness = hand.stiffness_n_m * Lever::radius_m * Lever::radius_m;
   for (const double force_n : {1.0, 1.8, 2.5}) {
     StringLoop loop = loop_of(bowed());
     loop.set("force", force_n);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/page/felt_mesh.hpp"
-#include "apps/page/stylus_loop.hpp"
+#include "apps/page/law_loops.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "law/compile.hpp"

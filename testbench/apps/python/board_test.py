@@ -175,13 +175,6 @@ class Pages(Scratch):
     def test_notebook(self):
         self.ended(ran(sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check"))
 
-    def test_a_notebook_that_breaks_is_noticed(self):
-        text = NOTEBOOK.read_text(encoding="utf-8")
-        broken = Path("broken.ipynb")
-        broken.write_text(text.replace("assert wide < narrow", "assert wide > narrow"))
-        self.assertNotEqual(broken.read_text(), text)
-        self.ended(ran(sys.executable, ROOT / "scripts/notebook.py", broken, "--check"), 1, "AssertionError")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -5,15 +5,18 @@
 import filecmp
 import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
-from testing import ROOT, Scratch, ran
+from testing import ROOT, Scratch, ran, text_of
 
 import feltgate
 
@@ -48,6 +51,20 @@ class Columns(unittest.TestCase):
         np.testing.assert_array_equal(few.tau_hat_nm, all_ticks.tau_hat_nm[::10])
         self.assertLess(len(feltgate.run(SCENE).time_s), 30_000)
 
+    def test_what_the_first_page_prints(self):
+        """The error beside a bound is that of the ticks for which it holds; the rest is told."""
+        page = (ROOT / "README.md").read_text(encoding="utf-8")
+        code = re.search(r"^## In Python\n.*?^```python\n(.*?)^```", page, re.M | re.S)[1]
+        with tempfile.TemporaryDirectory() as folder:
+            done = ran(sys.executable, "-c", code, cwd=folder, check=True)
+        proven, outside = done.stdout.splitlines()
+        error, bound = re.fullmatch(r"(\S+) Nm, proven: (\S+)", proven).groups()
+        self.assertGreater(float(error), 0)
+        self.assertLessEqual(float(error), float(bound))
+        worse, ticks = re.match(r"(\S+) Nm in the (\d+) ticks of a ramp", outside).groups()
+        self.assertGreater(float(worse), float(bound))  # its first force ramps
+        self.assertGreater(int(ticks), 0)
+
     def test_what_was_felt_and_the_bounds(self):
         result = feltgate.run("wall")
         self.assertEqual(result.broken, [])
@@ -62,7 +79,7 @@ class Columns(unittest.TestCase):
     def test_bounds_of_a_design(self):
         small = feltgate.bounds("lever", "spring_tension", velocity_rad_s=1.0)
         self.assertLess(small["torque_nm"], feltgate.bounds("lever")["torque_nm"])
-        self.assertLess(small["velocity_rad_s"], feltgate.bounds("exact")["velocity_rad_s"] * 100)
+        self.assertLess(small["velocity_rad_s"], feltgate.bounds("paper")["velocity_rad_s"] * 100)
 
 
 class Hands(Scratch):
@@ -133,6 +150,20 @@ class Parts(unittest.TestCase):
         at = recording.counts_at([0.0, recording.time_s[99], recording.length_s])
         self.assertEqual(list(at), [0, recording.counts[99], recording.counts[-1]])
 
+    def test_a_recording_warns(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "log.csv"
+            rows = "".join(f"{5 * n},{(65530 + n) % 65536}\n" for n in range(20))
+            path.write_text("time,count\n" + rows)
+            with self.assertWarnsRegex(UserWarning, "--wrap 65536"):
+                feltgate.Recording(path, time_unit="ms")
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                for wrap in (True, 65536, "65536"):
+                    recording = feltgate.Recording(path, time_unit="ms", wrap=wrap)
+                    self.assertEqual((len(recording), recording.counts[-1]), (19, 19))
+                    self.assertAlmostEqual(recording.length_s, 0.095)
+
     def test_counts_of_your_own(self):
         counts = np.repeat(np.arange(50), 20)
         result = feltgate.replay(counts, engine="twin,double", scene="spring_tension", every=1)
@@ -180,12 +211,8 @@ class Installed(unittest.TestCase):
             if path.stem == "narrow":  # made by the build
                 continue
             self.assertTrue(filecmp.cmp(path, ROOT / path.relative_to(data), shallow=False), path)
-        in_tree = {path.stem for path in (ROOT / "rtl/designs").glob("*.toml")}
-        # One is a board's for an hour, five have sensors of their own: scripts/cmake/python.cmake.
-        in_tree -= {"first_power", "lever_absolute", "lever_current", "gimbal_motor", "gimbal_current", "hall_motor"}
-        # Without programs these have set-points only.
-        in_tree -= {name for name in in_tree if name.endswith("_law")}
-        self.assertEqual(names[2], sorted([*in_tree, "narrow"]))
+        self.assertEqual(names[2], ["lever", "narrow", "paper"])
+        self.assertIn(f"`feltgate.designs()` gives {', '.join(f'`{name}`' for name in names[2])}", text_of("docs/python.md"))
 
     def test_version(self):
         said = (ROOT / "CITATION.cff").read_text()
@@ -194,11 +221,11 @@ class Installed(unittest.TestCase):
     def test_designs_beyond_lever_and_paper_are_loaded_when_one_is_used(self):
         code = ("import sys, feltgate; there = lambda: 'feltgate._designs' in sys.modules;"
                 "feltgate.Chain('lever'); feltgate.designs(); print(there());"
-                "feltgate.Twin('fast'); print(there())")
+                "feltgate.Twin('narrow'); print(there())")
         said = ran(sys.executable, "-c", code, check=True).stdout
         self.assertEqual(said.split(), ["False", "True"])
         with self.assertRaisesRegex(ValueError, "nonsense"):
-            feltgate.Chain("exact", "nonsense")
+            feltgate.Chain("narrow", "nonsense")
 
     def test_the_host_is_loaded_when_it_is_used(self):
         code = ("import sys, feltgate; print('feltgate._host' in sys.modules); feltgate.Device; "

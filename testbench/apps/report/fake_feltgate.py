@@ -220,7 +220,7 @@ def summary(options, data, steps):
     for name, speed in (("rtl", 0.4), ("twin", 2.0), ("double", 9.0), ("quad", 0.5)):
         engine = {"saturations": 0, "speed": speed}
         if name != "quad":
-            bound = {"bound": 4e-5, "max_error_in_bounds": 3e-5} if name != "double" else {}
+            bound = {"bound": 4e-5} if name != "double" else {}
             engine |= {
                 signal: errors | bound for signal in ("velocity_rad_s", "tau_hat_nm", "torque_nm")
             }

@@ -19,9 +19,9 @@ import numpy as np
 
 from bench import ROOT, SCRIPTS, Bench  # isort: skip (puts scripts/ on the path)
 import demo
-from markup import Markup, width_px
+from markup import Markup
 from testing import weekly
-from reports import glossary, plots, run_pictures
+from reports import all_figures, plots, run_pictures
 
 
 class Report(Bench):
@@ -46,9 +46,7 @@ class Report(Bench):
         found = Markup(self.page())
         self.assertEqual(sum(tag == "img" for tag, _ in found.elements), 4)
         self.assertEqual(len(found.classes("headline")), 3)
-        self.assertEqual(len(found.classes("card")), 1)
         # Pictures first, tables folded.
-        self.assertLess(self.page().index('class="card"'), self.page().index("<table"))
         self.assertLess(self.page().index("<img"), self.page().index("<table"))
 
     def test_what_the_hand_meets_is_what_it_feels(self):
@@ -146,6 +144,14 @@ class Figures(Bench):
         self.assertAlmostEqual(numbers[17]["saturates_rad"]["lever"], 1.0, places=2)
         self.assertAlmostEqual(numbers[21]["exponent"]["paper"], -2.0, places=2)
 
+    @weekly(3)
+    def test_the_pictures_of_the_docs(self):
+        out, names = self.folder / "out", [f"paper_{n:02d}.svg" for n in all_figures.NUMBERS]
+        self.ended(self.script("figures.py", "--docs", "--output", out))
+        self.assertEqual(sorted(path.name for path in out.iterdir()), names)
+        for name in names:
+            self.assertTrue((ROOT / "docs/images" / name).is_file(), name)
+
     def test_unknown_design(self):
         self.ended(self.script("figures.py", "--design", "other"), 2, "'other'")
 
@@ -191,34 +197,25 @@ class Demo(Bench):
         self.assertEqual(len(summary["unreadable"]), 1)
         found = Markup(page)
         self.assertEqual(len(found.classes("headline")), 3)
-        self.assertEqual([a["id"] for a in found.classes("card")], ["card-wall-lever"])
-        first, last = page.index('class="card"'), page.index("<table")
-        self.assertLess(first, last)
+        self.assertLess(page.index("<img"), page.index("<table"))
         self.assertLess(len(page), 6e6)
-        told = {a["title"] for tag, a in found.elements if tag == "abbr"}
-        self.assertLessEqual(told, set(glossary.meanings().values()))
-        for word in ("mismatches", "proven bound", "commanded torque", "saturated ticks", "twin"):
-            self.assertIn(glossary.meanings()[word], told, word)
         self.assertFalse([a for _, a in found.elements if "onerror" in a])
         self.assertIn(hostile, found.text)
-        self.assertGreaterEqual(len(found.tables), 5)
-        for table in found.tables:
-            self.assertLess(width_px(table), 1200 - 60, table[0])
+        self.assertGreaterEqual(len(found.tables), 3)
 
     @weekly(3)
-    def test_a_card_for_each_device_and_all_on_demand(self):
+    def test_each_device_and_all_on_demand(self):
         self.root(("detent", "end_stops", "end_stops_thrown", "pantograph_floor"))
         _, summary, page = self.demo("--no-figures")
         self.assert_self_contained(page)
         found = Markup(page)
-        cards = ["wall-lever", "detent-lever_law", "end_stops-lever_law"]
-        cards = [f"card-{name}" for name in (*cards, "pantograph_floor-pantograph_law")]
-        self.assertEqual([a["id"] for a in found.classes("card")], cards)
+        for name in ("wall-lever", "detent-lever_law", "end_stops-lever_law", "pantograph_floor-pantograph_law"):
+            self.assertIn(name, found.ids)
         self.assertIn("Devices of several axes: 1 run in closed loop, 0 mismatches", found.text)
         self.assertNotIn("end_stops_thrown-lever_law", summary["runs"])
         done, summary, page = self.demo("--no-figures", "--all", FAKE_MISMATCHES="1")
         self.assertIn("end_stops_thrown-lever_law", summary["runs"])
-        self.assertIn("card-end_stops_thrown-lever_law", page)
+        self.assertIn('id="end_stops_thrown-lever_law"', page)
         self.assertIn("pantograph_floor, pantograph_law: 1 mismatches", done.stderr)
 
     def test_what_is_left_out_is_there(self):

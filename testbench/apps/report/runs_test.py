@@ -137,16 +137,5 @@ class Building(Bench):
         self.assertFalse((self.folder / "done").exists())
 
 
-class Bar(unittest.TestCase):
-    def test_line_fits_and_counts(self):
-        jobs = [runs.Job("a", (), 10.0), runs.Job("b", (), 30.0)]
-        progress = Progress(jobs, io.StringIO(), width=79)
-        progress.begin(jobs[1])
-        run = runs.Run(jobs[1], 0, took_s=60.0)
-        progress.end(jobs[1], run)
-        self.assertIn("75 %  1/2", progress.line())
-        self.assertLess(len(progress.line()), 79)
-
-
 if __name__ == "__main__":
     unittest.main()

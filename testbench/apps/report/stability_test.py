@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Pictures and section of a stability study. Documentation: docs/speed-for-accuracy.md"""
+"""Pictures of a stability study. Documentation: docs/speed-for-accuracy.md"""
 
-import os
 import unittest
-from unittest import mock
 
 from testing import Scratch
 
-from reports import stability_plots, stability_section
+from reports import stability_plots
 
 
 def border(rate, damping, stiffness, bits):
@@ -45,31 +43,6 @@ class Stability(Scratch):
             self.assertGreater(len(picture.png), 1000)
         self.assertIn("144 Hz", drawn[0].svg)
         self.assertIn("1 MHz", drawn[0].svg)
-
-    def test_section(self):
-        text = stability_section.html(STUDY)
-        self.assertIn('id="stability"', text)
-        self.assertIn("no stiffness is stable", text)
-        self.assertIn("0.271", text)
-
-    def test_a_study_that_fails_is_a_complaint(self):
-        program = self.put_program("feltgate", "echo 'feltgate: no such design' >&2\nexit 2")
-        with mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}):
-            with stability_section.Study(self.folder) as study:
-                found, complaint = study.result()
-        self.assertIsNone(found)
-        self.assertIn("no such design", complaint)
-
-
-    def test_a_study_that_is_left_ends(self):
-        program = self.put_program("feltgate", "exec sleep 600")
-        with (
-            mock.patch.dict(os.environ, {"FELTGATE_PROGRAM": str(program)}),
-            self.assertRaises(KeyboardInterrupt),
-            stability_section.Study(self.folder) as study,
-        ):
-            raise KeyboardInterrupt
-        self.assertIsNotNone(study.process.returncode)
 
 
 if __name__ == "__main__":

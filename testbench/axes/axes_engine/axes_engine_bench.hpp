@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The part between an engine and its axes, with axes that a test controls: RTL and twin.
-// Documentation: docs/blocks/axes_engine.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <Vaxes_engine.h>

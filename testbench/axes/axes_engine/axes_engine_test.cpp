@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // axes_engine: the effect of arming, entries, commits and a silent program on an engine's torque.
-// RTL against twin on every clock. Documentation: docs/blocks/axes_engine.md
+// RTL against twin on every clock. Documentation: docs/architecture.md
 #include "axes_engine_bench.hpp"
 #include "catch.hpp"
 #include "random.hpp"
@@ -326,6 +326,10 @@ TEST_CASE("axes_engine: axes and hosts at random, RTL against twin") {
     } else if (random.one_in(3000)) {
       device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::divider0);
       device.in.port.reg_wdata = random.one_in(2) ? 1 : 60;
+      device.in.port.reg_write = true;
+    } else if (!(device.axis(0).arm_request && device.axis(1).arm_request) && random.one_in(20)) {
+      device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::crc);  // not locked
+      device.in.port.reg_wdata = kCrc ^ std::uint32_t{random.one_in(2)};
       device.in.port.reg_write = true;
     } else if (random.one_in(20)) {
       device.in.port.reg_addr = static_cast<std::uint16_t>(axes_engine + H::event_tick);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // axes_engine: each bit to and from the engine is connected to its own place; the port's addresses;
-// a lock that lasts as long as a check. Documentation: docs/blocks/axes_engine.md
+// a lock that lasts as long as a check. Documentation: docs/architecture.md
 #include "axes_engine_bench.hpp"
 #include "catch.hpp"
 

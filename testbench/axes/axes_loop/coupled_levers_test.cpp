@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Two levers coupled: what the second meets and the hand feels, drag, and the border of stability,
-// position to position against the observer's torque. docs/devices/coupled_levers.md
+// position to position against the observer's torque. docs/devices/pantograph.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A handle turned once around against a spring between orientations: RTL and twin of three axes and
-// their engine, the torques against the plant's own arithmetic. Documentation: docs/gimbal.md
+// their engine, the torques against the plant's own arithmetic. Documentation:
+// docs/devices/three-axes.md
 #include <cmath>
 #include <filesystem>
 #include <fstream>

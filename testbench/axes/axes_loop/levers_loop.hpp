@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Two free levers coupled position to position, as a matrix from one period of the PWM to the next:
-// they move against each other, so one of them is enough. docs/devices/coupled_levers.md
+// they move against each other, so one of them is enough. docs/devices/pantograph.md
 #pragma once
 
 #include <Eigen/Core>

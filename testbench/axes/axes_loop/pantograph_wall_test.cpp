@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Where a floor of 30 and 50 N/m at 1 kHz stops being quiet, with filters of speed and force and
-// without: the bits of the twin beside the eigenvalues of the loop. docs/devices/pantograph_wall.md
+// without: the bits of the twin beside the eigenvalues of the loop. docs/devices/pantograph.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

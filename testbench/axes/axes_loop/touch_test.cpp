@@ -153,7 +153,7 @@ TEST_CASE("touch: a file that is broken, empty, huge or not alone is refused in 
             .find("node 0 is below two") == 0);
   CHECK(with(R"({"mesh":0})", R"({"mesh":7})") != "read");
   CHECK(with(R"({"mesh":0})", R"({"mesh":0,"scale":[1e400,1,1]})") != "read");
-  CHECK(with("5126", "5122").find("positions that are no floats") == 0);
+  CHECK(with("5126", "5125").find("positions that are neither floats nor whole numbers") == 0);
   std::string nan = binary, far = binary;
   const float none = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(&nan[24], &none, 4);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The loop of a pen on a floor as a matrix: one run of pantograph_filtered.law to the next, linear
-// around a pen that is pressed in. Equations: docs/devices/pantograph_wall.md
+// around a pen that is pressed in. Equations: docs/devices/pantograph.md
 #pragma once
 
 #include <Eigen/Core>

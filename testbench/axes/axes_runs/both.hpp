@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Two twins of axes with their engine, one run clock by clock, one from event to event, with random
-// levers and a random host. Documentation: docs/blocks/feltgate_axes.md
+// levers and a random host. Documentation: docs/architecture.md
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // The twin of axes with their engine from event to event against its clocks, random programs: the
 // same outputs at the end of every stretch and in every snapshot, the same memories, the same run
-// behind every torque. Documentation: docs/blocks/feltgate_axes.md
+// behind every torque. Documentation: docs/architecture.md
 #include <memory>
 
 #include "../../engine/machine/machine_programs.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The same for every shipped law of one axis, and how much time whole runs save.
-// Documentation: docs/blocks/feltgate_axes.md, docs/backends.md
+// Documentation: docs/architecture.md, docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +86,8 @@ TEST_CASE("axes by runs: every shipped law of one axis") {
   CHECK(laws >= 8);
 }
 
-/// Prints the table of docs/backends.md: a lever that moves a count every 37 ticks, for 0.02 s.
+/// Prints the table of docs/speed-for-accuracy.md: a lever that moves a count every 37 ticks, for
+/// 0.02 s.
 TEST_CASE("axes by runs: CPU time of every shipped law", "[.][times]") {
   constexpr int moves = 540, ticks = 37;
   struct Unwatched {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Axes with a host and a panel that a test controls, and the properties between axes that must hold
-// for all inputs. Documentation: docs/blocks/feltgate_axes.md
+// for all inputs. Documentation: docs/architecture.md
 #pragma once
 
 #include <Vfeltgate_axes.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Random but plausible stimulus of several axes. Each axis has a lever, as a single core has; one
-// host mostly requests the same from all axes. Documentation: docs/blocks/feltgate_axes.md
+// host mostly requests the same from all axes. Documentation: docs/architecture.md
 #pragma once
 
 #include <deque>
@@ -71,6 +71,13 @@ class AxesStimulus {
     const bool control = of.reg_addr == C::control, command = of.reg_addr == C::command;
     if (control && keeps_ > 0) return;
     const bool all = (control && !random_.one_in(12)) || (command && !random_.one_in(4));
+    const bool arms = control && (of.reg_wdata >> C::control_arm & 1u) != 0;
+    // A request that was refused counts again once it was low.
+    if (all && arms && (patience_ > 0 || random_.coin())) {
+      for (std::size_t n = 0; n < N; ++n) {
+        writes_.push_back({at(n, of.reg_addr), of.reg_wdata & ~(1u << C::control_arm)});
+      }
+    }
     for (std::size_t n = 0; n < N; ++n) {
       if (!all && n != active_) continue;
       std::uint32_t word = of.reg_wdata;
@@ -82,7 +89,7 @@ class AxesStimulus {
       if (control && patience_ > 0) word |= 1u << C::control_host;
       writes_.push_back({at(n, of.reg_addr), word});
     }
-    if (all && control && (of.reg_wdata >> C::control_arm & 1u) != 0) keeps_ = patience_;
+    if (all && arms) keeps_ = patience_;
   }
 
   Random random_;

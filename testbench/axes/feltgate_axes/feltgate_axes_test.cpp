@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Axes: RTL against twin, every output of each axis on every clock, and the properties between
-// axes. AXES is the number of axes. Documentation: docs/blocks/feltgate_axes.md
+// axes. AXES is the number of axes. Documentation: docs/architecture.md
 #include "feltgate/feltgate_axes.hpp"
 
 #include "axes_life.hpp"
@@ -157,6 +157,25 @@ TEST_CASE(
       for (int n = 0; n < kAxes; ++n) CHECK(s.out(n).gates_enable == (kAxes == 1));
       s.play();
     }
+  }
+}
+
+TEST_CASE("axes: a change of control of one disarms all, and each must ask anew") {
+  if (kEngine) return;  // arming takes longer: engine_test.cpp
+  for (int n = 0; n < kAxes; ++n) {
+    Life s;
+    s.arm(D::S::setpoint);
+    s.in.arm = true;
+    s.write(n, C::control, kHost & ~(1u << C::control_host));
+    s.ticks(2);
+    for (int m = 0; m < kAxes; ++m) CHECK_FALSE(s.out(m).gates_enable);
+    s.in.arm = false;
+    s.ticks(1);
+    s.in.arm = true;
+    s.ticks(2);
+    for (int m = 0; m < kAxes; ++m) CHECK(s.out(m).gates_enable == (kAxes == 1));
+    s.arm(D::S::setpoint);
+    s.play();
   }
 }
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Axes: directed tests of limits and faults in each axis; random runs reach each only in some axis.
-// Documentation: docs/blocks/feltgate_axes.md
+// Documentation: docs/architecture.md
 #include "axes_life.hpp"
 
 using namespace feltgate;

@@ -3,7 +3,7 @@
 //
 // Compares the twin of the axes run from event to event with the twin run clock by clock: same
 // outputs at the end of every stretch, and in every snapshot. Documentation:
-// docs/blocks/feltgate_axes.md
+// docs/architecture.md
 #include <vector>
 
 #include "axes_stimulus.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Three cores and the compiled law of the coupling in closed loop with the gimbal, bit by bit.
-// docs/gimbal.md
+// docs/devices/three-axes.md
 #include <algorithm>
 
 #include "../pantograph/image_axes.hpp"

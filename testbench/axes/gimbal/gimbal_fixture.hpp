@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Shared by the tests of the gimbal. docs/gimbal.md
+// Shared by the tests of the gimbal. docs/devices/three-axes.md
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Turns, mass matrix, energy and momentum of the gimbal. docs/gimbal.md
+// Turns, mass matrix, energy and momentum of the gimbal. docs/devices/three-axes.md
 #include <algorithm>
 
 #include "catch.hpp"

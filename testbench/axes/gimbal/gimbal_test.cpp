@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motors, encoders, hand and loop of the gimbal; its file. docs/gimbal.md
+// Motors, encoders, hand and loop of the gimbal; its file. docs/devices/three-axes.md
 #include <algorithm>
 #include <fstream>
 
+#include "../pantograph/sampled_law.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "gimbal_fixture.hpp"
-#include "sim/plant/sampled_law.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The shipped law of the coupling, in real numbers, against the gimbal's own turns. docs/gimbal.md
+// The shipped law of the coupling, in real numbers, against the gimbal's own turns.
+// docs/devices/three-axes.md
 #include "catch.hpp"
 #include "gimbal_fixture.hpp"
 #include "law/evaluate.hpp"

@@ -2,18 +2,18 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Two cores, bit by bit, around the pantograph: the shipped law's torque through limits, ramp,
-// voltage law, PWM and supervisors of both axes. docs/pantograph.md
+// voltage law, PWM and supervisors of both axes. docs/devices/pantograph.md
 #include <algorithm>
 
+#include "axes_twin.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "feltgate/largest.hpp"
 #include "image_axes.hpp"
 #include "law_axes.hpp"
 #include "pantograph_fixture.hpp"
-#include "sim/loop/axes_twin.hpp"
 #include "sim/plant/drive.hpp"
-#include "sim/plant/pantograph/two_axis_loop.hpp"
+#include "two_axis_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

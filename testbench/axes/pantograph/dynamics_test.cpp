@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Mass matrix against differentiated places of the links, energy, momentum, convergence.
-// docs/pantograph.md
+// docs/devices/pantograph.md
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"

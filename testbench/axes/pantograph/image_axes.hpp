@@ -2,17 +2,17 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Compiles a law file for a design and runs its program words in the engine's interpreter. The
-// program of several axes gives the same bits as an engine. docs/pantograph.md
+// program of several axes gives the same bits as an engine. docs/devices/pantograph.md
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "axes_twin.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/engine/machine.hpp"
 #include "law/load.hpp"
-#include "sim/loop/axes_twin.hpp"
 
 namespace feltgate::test {
 

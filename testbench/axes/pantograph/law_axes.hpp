@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law file in real numbers as a law of joints. docs/pantograph.md
+// A law file in real numbers as a law of joints. docs/devices/pantograph.md
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "law/evaluate.hpp"
 #include "law/read_law.hpp"
-#include "sim/plant/sampled_law.hpp"
+#include "sampled_law.hpp"
 
 namespace feltgate::plant {
 

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The shipped law of the pantograph in real numbers, against the linkage's own kinematics (no
-// shared code) and in closed loop with the linkage. docs/pantograph.md
+// shared code) and in closed loop with the linkage. docs/devices/pantograph.md
 #include "catch.hpp"
 #include "law_axes.hpp"
 #include "pantograph_fixture.hpp"
-#include "sim/plant/pantograph/two_axis_loop.hpp"
+#include "two_axis_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::plant;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Geometry of the linkage: positions, Jacobian, inverse. docs/pantograph.md
+// Geometry of the linkage: positions, Jacobian, inverse. docs/devices/pantograph.md
 #include "catch.hpp"
 #include "pantograph_fixture.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Files of linkages: their values and their error messages. docs/pantograph.md
+// Files of linkages: their values and their error messages. docs/devices/pantograph.md
 #include "catch.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "pantograph_fixture.hpp"

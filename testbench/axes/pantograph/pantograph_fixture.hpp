@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Shared by the tests of the pantograph. docs/pantograph.md
+// Shared by the tests of the pantograph. docs/devices/pantograph.md
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Motors, encoders and step of the whole plant. docs/pantograph.md
+// Motors, encoders and step of the whole plant. docs/devices/pantograph.md
 #include <chrono>
 #include <cstdio>
 

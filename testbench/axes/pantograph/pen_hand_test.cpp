@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The hand at the pen: closed forms, phases, balance of all energies. docs/pantograph.md
+// The hand at the pen: closed forms, phases, balance of all energies. docs/devices/pantograph.md
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Stops between the cranks: restitution, energy, a hand that leans on them. docs/pantograph.md
+// Stops between the cranks: restitution, energy, a hand that leans on them.
+// docs/devices/pantograph.md
 #include <cstdio>
 
 #include "catch.hpp"

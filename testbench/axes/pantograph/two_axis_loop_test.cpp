@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A law in closed loop with the pantograph, with sampling and delay: a wall and drag act on a hand.
-// docs/pantograph.md
-#include "sim/plant/pantograph/two_axis_loop.hpp"
+// docs/devices/pantograph.md
+#include "two_axis_loop.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"

@@ -29,11 +29,9 @@ def read_pins(text, key):
     return {row[key]: {"place": row.get("header") or "on board"} | row for row in rows}
 
 
-def read_ports(text, board, defined=()):
-    """Port bits of the top module, such as KEY[1], with their direction; `defined` decides on `ifdef."""
+def read_ports(text, board):
+    """Port bits of the top module, such as KEY[1], with their direction."""
     text = re.sub(r"//.*|/\*.*?\*/", "", text)
-    text = re.sub(r"`ifdef (\w+)\n(.*?)(?:`else\n(.*?))?`endif",
-                  lambda m: (m[2] if m[1] in defined else m[3]) or "", text, flags=re.S)
     header = re.search(rf"module\s+{board}\b.*?\)\s*\((.*?)\)\s*;", text, re.S).group(1)
     ports = {}
     for port in header.split(","):
@@ -56,12 +54,12 @@ PULLED_DOWN = {
 }
 
 
-def placement(texts, board, kind, key, places, settings, sources=None, pull="", standard="LVCMOS33", defined=()):
+def placement(texts, board, kind, key, places, settings, sources=None, pull="", standard="LVCMOS33"):
     """One line for everything that is wrong with where the ports are and what their pins are set to, as
     'what; mend'. `kind` is the file that places them, `key` what it places them at, `places` and
     `settings` what it says: lists of (port, place) and (port, {name: value}); `pull` is the name of pulls.
-    `sources` are the public files that pins.csv names, if any; `defined` is what the top level is read with."""
-    pins, ports = read_pins(texts["pins"], key), read_ports(texts["sv"], board, defined)
+    `sources` are the public files that pins.csv names, if any."""
+    pins, ports = read_pins(texts["pins"], key), read_ports(texts["sv"], board)
     found = []
     for place, row in pins.items() if sources else ():
         named = row["sources"].split()

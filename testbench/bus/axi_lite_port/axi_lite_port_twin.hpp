@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/bus/axi_lite_port.sv, clock by clock: what each channel holds.
-// Documentation: docs/blocks/axi_lite_port.md
+// Documentation: docs/other-tools.md
 #pragma once
 
 #include <cstdint>

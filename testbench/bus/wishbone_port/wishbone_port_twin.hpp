@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/bus/wishbone_port.sv, clock by clock: a list of answers that are due.
-// Documentation: docs/blocks/wishbone_port.md
+// Documentation: docs/other-tools.md
 #pragma once
 
 #include <cstdint>

@@ -38,25 +38,6 @@ class Data(Scratch):
         self.assertEqual(list(data.merged(counts).values()), [2])
         self.assertEqual(sorted(data.instances(counts).values()), [0, 2])
 
-    def test_a_bit_must_come_back(self):
-        (toggle,) = data.merged([self.read(entry("toggle", "x", 1))])
-        (line,) = data.merged([self.read(entry("line", "block", 1))])
-        self.assertEqual((toggle.needed, line.needed), (2, 1))
-
-    def test_cover_points(self):
-        file = "testbench/campaigns/coverage/b_cover.sv"
-        where = "TOP.b.g__BRA__7__KET__.u_cover.g_x__BRA__2__KET__.hit"
-        counts = self.read(entry("user", "hit", 1, where=where, file=file),
-                           entry("toggle", "y", 0, file=file), entry("user", "hit", 0))
-        (point,) = data.merged([counts])
-        self.assertEqual((point.block, point.kind, point.name, point.where),
-                         ("b", "cover", "hit[2]", f"{file}:3"))
-
-    def test_no_data(self):
-        for text in ("", "C 'x' 1\n", HEAD + "D\n"):
-            with self.subTest(text), self.assertRaises(data.DataError):
-                data.read(Path("/r"), self.put("a.dat", text))
-
 
 class Waivers(Scratch):
     GOOD = {"block": "b", "kind": "toggle", "points": "x\\\\[1\\\\]", "most": 1,
@@ -78,19 +59,6 @@ class Waivers(Scratch):
         self.assertEqual(waivers.take([waiver], [point]), [])
         self.assertEqual(waivers.take([waiver], [point]), [point])  # one more than it may
         self.assertEqual(waiver.used, [point])
-
-    def test_what_is_wrong(self):
-        for tables, said in (
-            ([self.GOOD | {"reason": "because"}], "a reason is a sentence"),
-            ([self.GOOD | {"kind": "lines"}], "there are line, branch"),
-            ([self.GOOD | {"points": "x["}], "points:"),
-            ([self.GOOD | {"most": 0}], "most is a number of points"),
-            ([self.GOOD | {"also": "x"}], "needs the keys"),
-            ([self.GOOD] * (waivers.MOST + 1), "more than 10"),
-        ):
-            with self.subTest(said), self.assertRaises(waivers.WaiverError) as error:
-                self.write(*tables)
-            self.assertIn(said, str(error.exception))
 
     def test_those_of_the_product(self):
         self.assertLessEqual(len(waivers.read(ROOT)), waivers.MOST)
@@ -114,20 +82,6 @@ class Report(unittest.TestCase):
         ):
             with self.subTest(short=short):
                 self.assertEqual(self.made(counts).rows[0].short(), short)
-
-    def test_a_waived_point_is_not_asked_for_and_not_reached(self):
-        import re
-
-        waiver = waivers.Waiver("b", "line", re.compile("p"), 1, "nothing can reach it here")
-        found = self.made([("line", 0), ("line", 4)], [waiver])
-        self.assertEqual((found.rows[0].short(), found.missed), ([], []))
-        self.assertIn("1/2 (1 waived)", report.text(found, 9))
-        self.assertEqual(report.as_json(found, "s")["blocks"]["b"]["line"], [1, 2])
-
-    def test_the_list_says_how_much_it_leaves_out(self):
-        text = report.text(self.made([("line", 0)] * 5), 2)
-        self.assertIn("rtl/b.sv:1: line p", text)
-        self.assertIn("and 3 more", text)
 
 
 class Instrument(unittest.TestCase):
@@ -204,21 +158,21 @@ class Command(Scratch):
         self.assertEqual(status, 1)
         self.assertIn("waives nothing; delete it", out)
 
-    def test_tests_that_fail(self):
-        for lines, said in ((["echo a difference", "exit 3"], "a difference"),
-                            (["exit 0"], "wrote no coverage data")):
-            with self.subTest(said):
-                self.program_is(*lines)
-                status, _, err = self.status()
-                self.assertEqual(status, 2)
-                self.assertIn(said, err)
-
     def test_wrong_words(self):
         for words, said in ((["c"], "no test of c; there are those of b"),
                             (["--jobs", "0"], "at least 1"),
                             (["--json", "/nowhere/x"], "no folder")):
             with self.subTest(said):
                 status, _, err = self.status(*words)
+                self.assertEqual(status, 2)
+                self.assertIn(said, err)
+
+    def test_tests_that_fail(self):
+        for lines, said in ((["echo a difference", "exit 3"], "a difference"),
+                            (["exit 0"], "wrote no coverage data")):
+            with self.subTest(said):
+                self.program_is(*lines)
+                status, _, err = self.status()
                 self.assertEqual(status, 2)
                 self.assertIn(said, err)
 
@@ -233,15 +187,6 @@ class Command(Scratch):
         self.assertEqual(self.status("--update", "b")[0], 0)
         found = block_results.read(self.folder, "coverage")["blocks"]
         self.assertEqual((found["b"]["line"], found["c"]["line"]), ([1, 1], [3, 3]))
-
-    def test_the_list(self):
-        self.assertEqual(self.status("--list")[1].split(), ["b", "b"])
-
-    def test_without_a_build(self):
-        (self.folder / programs.LIST).unlink()
-        status, _, err = self.status()
-        self.assertEqual(status, 2)
-        self.assertIn("configure with", err)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of dob: ties of the observed torque, both ends of its format, the state that follows while disarmed.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module dob_cover #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of encoder_monitor: each way to a trip, each way that a row of edges ends.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module encoder_monitor_cover (

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of the core: each scene entered, at its torque limit, left; each fault while armed; each snapshot word read.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module feltgate_core_cover (

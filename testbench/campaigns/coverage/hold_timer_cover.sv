@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of hold_timer: it eases, is relieved by an edge and by disarming, and never does where it is off.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module hold_timer_cover #(

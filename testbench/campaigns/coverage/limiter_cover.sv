@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of limiter: each kind of signal at, within and beyond its limit on both sides, and misfits.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module limiter_cover #(

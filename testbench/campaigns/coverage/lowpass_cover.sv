@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of lowpass: ties of the product from odd and even states, the dead band, the ends of the state.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module lowpass_cover #(

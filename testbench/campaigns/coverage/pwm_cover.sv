@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of pwm: duties and pulses at every end, in both modes, and what may meet a gate that is on.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module pwm_cover #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of quad_decoder: a reversal in each of the four phases, both ways; events that come together.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module quad_decoder_cover (

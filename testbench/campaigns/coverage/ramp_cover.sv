@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of ramp: what begins one, where it ends, what stays frozen.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module ramp_cover #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of registers: each kind of write, what passes one that waits, what is refused, coincidences at the tick.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module registers_cover (
@@ -32,9 +32,13 @@ module registers_cover (
   input logic kick_o,
   input logic armed_i,
   input logic input_scene,
+  input logic misfit,
+  input logic negative,
   input logic high,
-  input logic derated,
-  input logic test,
+  input logic lower,
+  input logic at_least_hold_i,
+  input logic derated_i,
+  input logic testing_i,
   input logic written_q2
 );
   parameter_taken:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && to_parameter_q && !refuses);
@@ -62,12 +66,15 @@ module registers_cover (
   kick_and_clear:     cover property (@(posedge clk_i) disable iff (!rst_ni) kick_o && clear_faults_o);
   command_waits:      cover property (@(posedge clk_i) disable iff (!rst_ni) to_command_q && !tick_i);
   high_gain:          cover property (@(posedge clk_i) disable iff (!rst_ni) high);
-  eased_limit:        cover property (@(posedge clk_i) disable iff (!rst_ni) derated);
-  test_limit:         cover property (@(posedge clk_i) disable iff (!rst_ni) test);
-  test_before_eased:  cover property (@(posedge clk_i) disable iff (!rst_ni) test && derated);
+  eased_limit:        cover property (@(posedge clk_i) disable iff (!rst_ni) lower && at_least_hold_i);
+  test_limit:         cover property (@(posedge clk_i) disable iff (!rst_ni) lower && !at_least_hold_i);
+  test_above_eased:   cover property (@(posedge clk_i) disable iff (!rst_ni) testing_i && derated_i && !lower);
+  saturates_up:       cover property (@(posedge clk_i) disable iff (!rst_ni) reg_write_i && misfit && !negative);
+  saturates_down:     cover property (@(posedge clk_i) disable iff (!rst_ni) reg_write_i && misfit && negative);
   fetched_as_written: cover property (@(posedge clk_i) disable iff (!rst_ni) written_q2);
 endmodule
 
-bind registers registers_cover u_cover (.*);
+bind registers registers_cover u_cover (
+  .high(region_high_i && slot_fetch_i == LOW), .*);
 
 `default_nettype wire

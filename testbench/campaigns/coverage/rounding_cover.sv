@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of rounding: every tie, beside it on both sides, of a number and of a negated one, in each mode.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module rounding_cover #(

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of scenes: each one entered, saturated, left; a tie of each rounded term.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module scenes_cover #(

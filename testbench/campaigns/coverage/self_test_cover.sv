@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of self_test: each answer, each way that it ends, each direction.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module self_test_cover (

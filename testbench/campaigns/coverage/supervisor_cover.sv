@@ -2,14 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of supervisor: every cause trips, is the first, is cleared; causes that come together; the ends of the timers.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module supervisor_cover (
   input logic clk_i,
   input logic rst_ni,
   input logic tick_i,
-  input logic arm_request,
+  input logic request,
   input logic stop_i,
   input logic kick_i,
   input logic encoder_error_i,
@@ -24,7 +24,10 @@ module supervisor_cover (
   input logic any_trip,
   input logic may_arm,
   input logic arms,
-  input logic asked_q,
+  input logic counts,
+  input logic waits,
+  input logic in_time,
+  input logic handed,
   input logic gates_enable_o,
   input logic unkicked_o,
   input logic full,
@@ -58,20 +61,23 @@ module supervisor_cover (
   watchdog_with_stop:   cover property (@(posedge clk_i) disable iff (!rst_ni) watchdog_trip && stop_trip);
   i2t_with_stop:        cover property (@(posedge clk_i) disable iff (!rst_ni) i2t_trip && stop_trip);
   trip_at_a_tick:       cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && gates_enable_o);
-  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && arm_request && may_arm && !gates_enable_o);
+  trip_as_it_arms:      cover property (@(posedge clk_i) disable iff (!rst_ni) any_trip && tick_i && request && may_arm && !gates_enable_o);
   error_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_error_i && forgive && !encoder_trip);
   trip_as_one_forgives: cover property (@(posedge clk_i) disable iff (!rst_ni) encoder_trip && forgive);
-  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_request && !none);
+  clear_while_asked:    cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && request && !none);
   arms_now:             cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arms && !gates_enable_o);
-  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_request && asked_q && !gates_enable_o && none);
-  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !arm_request && gates_enable_o);
+  refused_by_level:     cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && request && !counts && !gates_enable_o && none);
+  waits_now:            cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && waits);
+  refused_by_time:      cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && request && counts && !in_time && !gates_enable_o && none);
+  handed_while_armed:   cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && handed && gates_enable_o);
+  disarms_now:          cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && !request && gates_enable_o);
   kicked_in_time:       cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && kick_i && gates_enable_o);
   kickless_to_the_end:  cover property (@(posedge clk_i) disable iff (!rst_ni) full && !of_runaway);
   cooled_below_0:       cover property (@(posedge clk_i) disable iff (!rst_ni) cooled_negative);
   speed_and_polarity:   cover property (@(posedge clk_i) disable iff (!rst_ni) polarity_trip || speed_trip);
   stop_between_clocks:  cover property (@(posedge stop_i) rst_ni && gates_enable_o);
   if (feltgate_pkg::REQUIRE_WATCHDOG != 0) begin : g_require
-    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && arm_request && unkicked_o && !asked_q && none);
+    arming_unkicked: cover property (@(posedge clk_i) disable iff (!rst_ni) tick_i && request && unkicked_o && counts && none);
   end
 endmodule
 

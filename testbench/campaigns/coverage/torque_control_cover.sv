@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cover points of torque_control: each mode at each limit, both regions of the voltage gain, a mode's change.
-// docs/coverage.md
+// docs/testing.md
 `default_nettype none
 
 module torque_control_cover (

@@ -56,15 +56,10 @@ class Bench(Scratch):
         done = self.ended(self.explore(*words, **environment))
         return done.stdout.strip()
 
-    def plan(self, name="plan"):
-        return Path(self.good("plan", self.space, "-o", self.folder / name))
-
     def whole(self, name="whole"):
-        """Merged bytes of an undisturbed run."""
-        folder = self.plan(name)
-        self.good("run", folder, "--chunk", "1/1")
-        self.good("merge", folder)
-        return (folder / "points.jsonl").read_bytes()
+        """Bytes of the results of an undisturbed sweep."""
+        self.good(self.space, "-o", self.folder / name, "--jobs", 3, "--no-route")
+        return (self.folder / name / "points.jsonl").read_bytes()
 
     def evaluations(self):
         return self.log.read_text().split() if self.log.exists() else []

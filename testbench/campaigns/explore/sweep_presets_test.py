@@ -13,7 +13,7 @@ import unittest
 
 from testing import BUILD, ROOT, Scratch, ran
 
-from exploration import merge, point, presets, space
+from exploration import point, points_table, presets, space
 
 WHOLE = "FELTGATE_WHOLE" in os.environ
 TABLE = ROOT / "vectors/spaces/trade.csv"
@@ -36,7 +36,7 @@ class Presets(Scratch):
         for row in self.rows():
             keys = [key for key in row if "." in key]
             changed = {key: row[key] for key in keys if row[key]}
-            shown = {key: merge.shown(value) for key, value in design.items()}
+            shown = {key: points_table.shown(value) for key, value in design.items()}
             if all(str(shown.get(key)) == value for key, value in changed.items()) and all(
                 key in changed or design.get(key) == base.get(key, space.OPTIONAL.get(key))
                 for key in keys
@@ -45,10 +45,6 @@ class Presets(Scratch):
                 found.append(row)
         self.assertEqual(len(found), 1)
         return found[0]
-
-    def test_the_table_is_large_enough(self):
-        self.assertGreaterEqual(len(self.rows()), 200)
-        self.assertTrue(all(int(row["mismatches"] or 0) == 0 for row in self.rows()))
 
     def test_stable_and_for_use(self):
         for name in presets.NAMES:

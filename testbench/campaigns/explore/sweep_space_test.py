@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Space files: what is read, what is refused, and how points fall into chunks.
+"""Space files: what is read, what is refused, and how points fall into parts.
 
 Documentation: docs/speed-for-accuracy.md
 """
@@ -9,8 +9,8 @@ Documentation: docs/speed-for-accuracy.md
 import unittest
 
 from bench import ROOT, SPACE, Bench
-from exploration import plan as plans
 from exploration import space
+from exploration import sweep as sweeps
 
 
 class Reading(Bench):
@@ -57,7 +57,7 @@ class Reading(Bench):
         self.refused('base = "lever"', 'base = "lever"\nbases = 1', 3, "bases")
 
     def test_no_file(self):
-        self.ended(self.explore("plan", self.folder / "none.toml"), 2, "is neither a verb")
+        self.ended(self.explore(self.folder / "none.toml"), 2, "is neither a verb")
 
     def test_shipped_spaces_are_good(self):
         for path in (ROOT / "vectors/spaces").glob("*.toml"):
@@ -65,37 +65,16 @@ class Reading(Bench):
                 self.assertGreater(len(space.read_space(ROOT, path).points), 1)
 
 
-class Chunks(Bench):
-    def setUp(self):
-        super().setUp()
-        self.planned = plans.make(space.read_space(ROOT, self.space), self.folder / "plan")
-
-    def test_every_point_in_one_chunk(self):
-        for count in (1, 2, 3, 4, 5, 7, 24, 40):
-            parts = [self.planned.chunk(i, count) for i in range(1, count + 1)]
-            together = [point for part in parts for point in part]
-            self.assertEqual(together, list(self.planned.points), count)
-
-    def test_a_structure_is_not_torn(self):
-        self.assertEqual(len(self.planned.groups()), 4)
-        for count in (1, 2, 3, 4):
+class Parts(Bench):
+    def test_every_point_in_one_part_and_no_structure_is_torn(self):
+        sweep = sweeps.start(ROOT, space.read_space(ROOT, self.space), self.folder / "plan")
+        for count in (1, 2, 3, 4, 5, 40):
             homes = {}
             for index in range(1, count + 1):
-                for point in self.planned.chunk(index, count):
-                    homes.setdefault(space.structure(point), set()).add(index)
-            self.assertTrue(all(len(home) == 1 for home in homes.values()), count)
-
-    def test_wrong_chunks_are_refused(self):
-        for text in ("0/4", "5/4", "4", "a/b", "1/0"):
-            with self.assertRaises(plans.PlanError):
-                plans.parse_chunk(text)
-
-    def test_planned_again_is_the_same_and_another_is_refused(self):
-        before = (self.folder / "plan/plan.json").read_bytes()
-        self.plan()
-        self.assertEqual((self.folder / "plan/plan.json").read_bytes(), before)
-        self.space.write_text(SPACE.replace("767", "768"), encoding="utf-8")
-        self.ended(self.explore("plan", self.space, "-o", self.folder / "plan"), 2, "another space")
+                for point in sweep.part(index, count):
+                    homes.setdefault(space.structure(point), []).append(index)
+            self.assertTrue(all(len(set(home)) == 1 for home in homes.values()), count)
+            self.assertEqual(sum(map(len, homes.values())), 24)
 
 
 if __name__ == "__main__":

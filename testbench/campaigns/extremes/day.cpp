@@ -71,7 +71,7 @@ namespace {
 constexpr int day_minutes = 24 * 60;
 constexpr std::int64_t minute_ticks = 60'000'000;
 /// The fastest dither over one edge that the core does not take for a dead channel.
-constexpr std::int64_t dither_ticks = (std::int64_t{Map::edge_units} << Map::edge_unit_bits) + 64;
+constexpr std::int64_t dither_ticks = (std::int64_t{Map::edge_units} << Lever::edge_unit_bits) + 64;
 
 /// The motion of one minute: bursts at 599 rad/s, strokes by hand, single counts, dither, rest.
 /// Returns the difference between end and start, in counts.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The encoder's pins as a broken wire or a pulse makes them, and the core's twin behind them.
-// Documentation: docs/verification.md
+// Documentation: docs/testing.md
 #pragma once
 
 #include <algorithm>

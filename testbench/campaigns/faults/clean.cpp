@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// False alarms. Documentation: docs/verification.md
+// False alarms. Documentation: docs/testing.md
 #include "campaigns/faults/clean.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Device time without any fault: nothing may be flagged. Documentation: docs/verification.md
+// Device time without any fault: nothing may be flagged. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>

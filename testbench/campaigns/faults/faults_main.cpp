@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_faults: runs a part of the campaign and prints one line of JSON per fault.
-// scripts/faults.py starts this program and makes the table. Documentation: docs/verification.md
+// scripts/faults.py starts this program and makes the table. Documentation: docs/testing.md
 #include <fmt/format.h>
 
 #include <algorithm>

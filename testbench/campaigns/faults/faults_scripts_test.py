@@ -60,36 +60,12 @@ class Results(unittest.TestCase):
         self.assertFalse(results.promises([*many, *[pin("silent", changed=False)] * 3])[1][3])
         self.assertFalse(results.promises([*many, *[pin("silent")] * 3])[1][3])
 
-    def test_a_register_is_of_the_deepest_block(self):
-        blocks = {"dob", "lowpass", "registers", "scene_charge", "velocity_n"}
-        for register, block in (("u_dob.u_lowpass.y_o", "lowpass"), ("u_dob.drive_q", "dob"),
-                                ("u_scenes.gen_charge.u_charge.rest_q", "scene_charge"),
-                                ("u_wave.scene_o", "feltgate_core"),
-                                ("u_encoder.position_o", "feltgate_core"),
-                                ("parameter overspeed", "registers"),
-                                ("velocity line", "velocity_n")):
-            self.assertEqual(results.block_of(state(register), blocks), block)
-
-    def test_per_block_counts_safety_state_only(self):
-        found = results.per_block([state("u_dob.a", "silent"), state("u_dob.b", safety=False),
-                                   pin("silent")], {"dob"})
-        self.assertEqual(found, {"dob": {"unsafe": [0, 1], "silent": [1, 1]}})
-
-    def test_table_has_a_row_per_group(self):
-        text = results.text_table(results.rows_of([state("a", peak=0.25), pin("detected")]))
-        self.assertIn("pwm", text)
-        self.assertIn("0.250", text)
-        self.assertEqual(len(text.splitlines()), 3)
-
-    def test_of_another_design_the_table_has_times_and_the_motor_s_torque(self):
-        late = pin("detected") | {"off_after_us": 361, "motor_peak_nm": 0.04}
-        soon = late | {"off_after_us": 20}
-        rows = results.rows_of([late, soon, pin("silent", "a phase opens")])
-        cells = results.markdown_table(rows, timed=True)
-        self.assertEqual([line.split("|")[-3:-1] for line in cells if "pins" in line],
-                         [[" - ", " 0.000 "], [" 361 ", " 0.040 "]])
-        self.assertEqual(rows[1].as_json()["off_after_us"], 361)
-        self.assertIsNone(rows[0].as_json()["off_after_us"])
+    def test_not_one_late_sensor_arms(self):
+        late = pin("off", "late sensor") | {"must_flag": False, "must_refuse": True}
+        found = results.promises([late, late])
+        self.assertEqual(found[-1], ("not refused, of 'late sensor'", 0, 2, True))
+        found = results.promises([late] * 999 + [late | {"class": "unsafe"}])
+        self.assertEqual([good for *_, good in found], [False, False])
 
 
 class Command(Scratch):

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Tests a part of the fault campaign, the separation of its classes, and the listed cases.
-// docs/verification.md defines each fault and the limits of the classes.
+// docs/testing.md defines each fault and the limits of the classes.
 #include <fstream>
 #include <map>
 #include <string>
@@ -193,6 +193,7 @@ TEST_CASE("faults: at the pins of the options each kind ends as it must") {
         INFO(design << ", " << kinds[k].name << ", seed " << seed << ": " << r.what);
         if (kinds[k].promise == Promise::unseen) continue;
         CHECK(o.is != Class::unsafe);
+        if (kinds[k].promise == Promise::refused) CHECK(o.is == Class::off);
         if (kinds[k].promise != Promise::flagged) continue;
         CHECK(o.is == Class::detected);
         if (kinds[k].within_us > 0) CHECK(o.off_after <= kinds[k].within_us);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // False alarms of the designs with a current loop, an absolute encoder or three phases: motors that
-// differ from the design, hands, and torques that step. Documentation: docs/verification.md
+// differ from the design, hands, and torques that step. Documentation: docs/testing.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Faults at the pins that lever does not have. Documentation: docs/verification.md
+// Faults at the pins that lever does not have. Documentation: docs/testing.md
 #include "campaigns/faults/option_faults.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "campaigns/faults/common_cases.hpp"
 #include "campaigns/faults/option_rig.hpp"
 
 namespace feltgate::faults {
@@ -21,18 +22,6 @@ namespace {
 
 using test::Random;
 using Defect = AbsoluteSensor::Defect;
-
-double share(Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
-double sign(Random* r) { return r->coin() ? 1 : -1; }
-
-/// A torque of 0.3 to 1 of the limit, and a hand that moves up to so fast.
-Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0) {
-  Case c;
-  c.torque_nm = sign(r) * limit_nm * (0.3 + 0.7 * share(r));
-  c.rad_s = sign(r) * (least_rad_s + (most_rad_s - least_rad_s) * share(r));
-  c.from_rad = share(r);
-  return c;
-}
 
 const std::vector<PinKind> current_kinds{
     {"modulator's line stands", "pins", "low, high or as it was", 1, Promise::flagged, 22},
@@ -50,6 +39,7 @@ const std::vector<PinKind> current_kinds{
      Promise::unseen},
     {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
     {"shunt's wires off at arming", "pins", "free, self-test on", 1, Promise::flagged, 25000},
+    late_sensor,
 };
 
 Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, double most_rad_s = 30) {
@@ -134,6 +124,7 @@ const std::vector<PinKind> gimbal_kinds = with_sensor({
      Promise::unseen},
     {"phases swapped at arming", "pins", "B and C, free, self-test on", 1, Promise::none},
     {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
+    late_sensor,
 });
 
 const std::vector<PinKind> absolute_kinds = [] {
@@ -144,6 +135,7 @@ const std::vector<PinKind> absolute_kinds = [] {
       {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
       {"magnet slips with the torque", "pins", "by 3 to 11 degrees, at the limit", 1,
        Promise::none},
+      late_sensor,
   });
   for (PinKind& k : all) {  // of SPI, whose diagnosis comes once in 16 readings
     if (std::string_view("magnet lost") == k.name) k.within_us = 2000;
@@ -387,10 +379,11 @@ PinResult run_option_fault(const std::string& root, const std::string& design, s
   PinResult result{kind, seed, {}, {}, design};
   with_option(design, [&](const auto& o) {
     const Faults faults = faults_of(o);
-    const Case c = faults.made((*faults.kinds)[kind].name, &random);
+    using D = typename std::decay_t<decltype(o)>::Design;
+    const std::string_view name = (*faults.kinds)[kind].name;
+    const Case c = name == late_sensor.name ? late_case<D>(&random) : faults.made(name, &random);
     result.what = c.what + (c.free ? fmt::format("{:.3f} Nm, free", c.torque_nm)
                                    : fmt::format("{:.3f} Nm, {:.3g} rad/s", c.torque_nm, c.rad_s));
-    using D = typename std::decay_t<decltype(o)>::Design;
     result.outcome = run_case<D>(root, c, o.plant, o.arm_s, random.bits());
   });
   return result;

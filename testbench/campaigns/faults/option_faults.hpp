@@ -4,7 +4,7 @@
 // Faults at the pins that lever does not have: of the current loop of lever_current, of the encoder
 // of lever_absolute, of that and the three phases of gimbal_motor, of all in gimbal_current,
 // of the Hall lines of hall_motor.
-// Documentation: docs/verification.md
+// Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>

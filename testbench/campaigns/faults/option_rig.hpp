@@ -3,7 +3,7 @@
 //
 // A core's twin with what designs with a current loop, an absolute encoder or three phases have at
 // their pins: modulator, driver, sensor, the gates of a bridge, motor and hand; and what breaks of
-// it. Documentation: docs/verification.md
+// it. Documentation: docs/testing.md
 #pragma once
 
 #include <algorithm>
@@ -84,6 +84,10 @@ class Rig {
     return all;
   }
   void write(Word word) { words_.push_back(word); }
+  void ask(Word arm) {
+    write(arm);
+    asked_ = now_;
+  }
   /// From now on this is broken.
   void harm(const Harm& harm, std::uint64_t seed) {
     harm_ = harm;
@@ -103,6 +107,8 @@ class Rig {
 
   /// The gates of the last step drive the motor in this one, so nothing depends on its own future.
   void step() {
+    const bool late = harm_.late_s > 0 && asked_ >= 0;
+    if (late && static_cast<double>(now_ - asked_) >= harm_.late_s * D::clock_hz) harm({}, 0);
     const double before_rad = angle_rad();
     advance();
     torque_.add(kStep, harm_.shorted ? 0 : motor_.observables().motor_torque_mean_nm);
@@ -290,6 +296,7 @@ class Rig {
   Harm harm_;
   test::Random random_{0};
   Clock since_ = -1;  // clocks since something is broken; -1: nothing is
+  Clock asked_ = -1;  // when arming was asked for
   Clock now_ = 0;
 };
 
@@ -332,14 +339,14 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
     setup.push_back({D::A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1});
   }
   const Word arm{D::C::control, control | 1u << D::C::control_arm};
-  const bool before = c.at_arming || c.from_start;
+  const bool late = c.harm.late_s > 0, before = c.at_arming || c.from_start || late;
   if (before) faulty.harm(c.harm, seed);
   // Both as far as the arming; a fault under way comes 5 to 6 ms later, and until then both are
   // one.
   const auto start = [&](Rig<D>* rig) {
     for (const Word& w : setup) rig->write(w);
     while (rig->now() < clocks(arm_s)) rig->step();
-    rig->write(arm);
+    rig->ask(arm);
   };
   start(&sound);
   if (before) {
@@ -359,8 +366,8 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
   TorqueLimits judge(limits);
   Outcome o;
   Clock off_for = 0;
-  bool differed = false, position_wrong = false;
-  while (faulty.now() < from + clocks(c.seconds) && off_for < 60 * D::clocks_per_tick) {
+  bool differed = false, position_wrong = false, opened = false;
+  while (faulty.now() < from + clocks(c.seconds) && (late || off_for < 60 * D::clocks_per_tick)) {
     faulty.step();
     sound.step();
     const CoreOut &f = faulty.out(), &s = sound.out();
@@ -377,11 +384,13 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
     position_wrong = !c.free && f.position != s.position;
     o.count_changed = o.count_changed || position_wrong;
     differed = differed || f.gates != s.gates || f.position != s.position || f.tau_ref != s.tau_ref;
+    opened = opened || f.gates_enable;
     if (judge.unsafe(o)) break;
     off_for = closed && !faulty.on() ? off_for + Rig<D>::kStep : 0;
   }
   settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,
          &o);
+  if (late && opened) o.is = Class::unsafe, o.why = "armed by its sensor";
   return o;
 }
 

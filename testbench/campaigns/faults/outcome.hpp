@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Outcome of a fault: the classes of the campaign and the rules that select one.
-// Documentation: docs/verification.md
+// Documentation: docs/testing.md
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Faults at the pins and at the register port. Documentation: docs/verification.md
+// Faults at the pins and at the register port. Documentation: docs/testing.md
 #include "campaigns/faults/pin_faults.hpp"
 
 #include <fmt/format.h>

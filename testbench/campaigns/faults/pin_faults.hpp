@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Faults at the encoder's pins, at the stop and at the register port. The core's twin runs in
-// closed loop beside a sound twin on the same lever. Documentation: docs/verification.md
+// closed loop beside a sound twin on the same lever. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@ enum class Promise {
   none,
   flagged,  ///< a fault in >= 99 %
   unseen,   ///< the core cannot see the fault: unsafe outcomes are reported separately
+  refused,  ///< the request to arm is, for good: the gates never open
 };
 
 /// A kind of fault: its share of the runs, and the text of its row.

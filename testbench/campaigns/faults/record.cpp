@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A fault as one line of JSON. Documentation: docs/verification.md
+// A fault as one line of JSON. Documentation: docs/testing.md
 #include "campaigns/faults/record.hpp"
 
 #include <fmt/format.h>
@@ -81,6 +81,7 @@ std::string line_of(const PinResult& r) {
   j["what"] = r.what;
   j["must_flag"] = kind.promise == Promise::flagged;
   if (kind.promise == Promise::unseen) j["unseen"] = true;
+  if (kind.promise == Promise::refused) j["must_refuse"] = true;
   add(r.outcome, &j);
   j["count_changed"] = r.outcome.count_changed;
   j["travel_rad"] = rounded(r.outcome.travel_rad, 1e-5);

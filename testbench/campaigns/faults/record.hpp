@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes a fault and its outcome as one line of JSON, and reads such a line. Documentation:
-// docs/verification.md
+// docs/testing.md
 #pragma once
 
 #include <string>

@@ -3,7 +3,7 @@
 //
 // The Verilated core with access to its state. A test can flip a flip-flop or a word of a memory
 // (all logic that depends on it is evaluated again), and copy and compare the whole state.
-// Documentation: docs/verification.md
+// Documentation: docs/testing.md
 #pragma once
 
 #include <Vfaults.h>

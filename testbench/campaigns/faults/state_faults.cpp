@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Bits of the core's state that flip for one clock. Documentation: docs/verification.md
+// Bits of the core's state that flip for one clock. Documentation: docs/testing.md
 #include "campaigns/faults/state_faults.hpp"
 
 #include <fmt/format.h>

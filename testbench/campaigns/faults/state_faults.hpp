@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Bits of the core's state flip for one clock. The core runs in closed loop beside a sound core on
-// the same lever. Documentation: docs/verification.md
+// the same lever. Documentation: docs/testing.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The scenes, motor, lever and hands for the fault campaign. Documentation: docs/verification.md
+// The scenes, motor, lever and hands for the fault campaign. Documentation: docs/testing.md
 #include "campaigns/faults/world.hpp"
 
 #include <algorithm>

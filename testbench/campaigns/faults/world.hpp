@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The environment of the fault campaign: scenes that give torque, with motor, lever and a hand;
-// what breaks of the sensors of other designs than lever. Documentation: docs/verification.md
+// what breaks of the sensors of other designs than lever. Documentation: docs/testing.md
 #pragma once
 
 #include <cmath>
@@ -70,6 +70,9 @@ struct Harm {
   unsigned hall_low = 0, hall_high = 0;  ///< Hall lines that stand, by the bits of CoreIn::hall
   int hall_exchanged = -1;               ///< this one and the next
   bool stop = false;
+  /// A sensor that is not there is plugged in so long after the request to arm: nothing is broken
+  /// from then on. 0: never.
+  double late_s = 0;
 };
 
 /// An encoder with A and B whose hub slips: the pins of the counts that are left.

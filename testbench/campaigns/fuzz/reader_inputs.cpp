@@ -192,7 +192,6 @@ Ending use_schedule(const fs::path& file) {
     const design::Schedule s = design::read_schedule(file.string(), map);
     (void)design::map_package(map, s);
     (void)design::map_header(map, s);
-    (void)design::timing_diagram(map, s);
   });
 }
 
@@ -316,6 +315,8 @@ traces::Options options_of(const fs::path& file, traces::FileFormat format) {
   o.clock_hz = clocks[random.below(4)];
   const std::int64_t rates[] = {0, 0, 1, 1'000'000'000'000};
   o.sample_hz = rates[random.below(4)];
+  o.turn_counts = 4096;
+  o.warn = [](const std::string&) {};
   const bool saleae = format == traces::FileFormat::saleae;
   if (random.below(3) == 0) {
     o.probes = saleae ? std::vector<std::string>{"Channel 0", "Channel 1"}
@@ -325,7 +326,10 @@ traces::Options options_of(const fs::path& file, traces::FileFormat format) {
     o.probes.clear();
     o.count_column = random.below(2) == 0 ? "count" : "";
     if (random.below(2) == 0) o.scale = 325.95;
+    if (random.below(2) == 0) o.wrap = random.below(2) == 0 ? 0.0 : 360.0;
   }
+  const char* const units[] = {"", "", "ms", "h"};
+  o.time_unit = units[random.below(4)];
   return o;
 }
 

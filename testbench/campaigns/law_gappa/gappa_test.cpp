@@ -240,7 +240,7 @@ TEST_CASE("a bound that is too small is not proven", "[defects]") {
 
 TEST_CASE("Gappa proves what the language brings along") {
   const Prover gappa;
-  for (const char* name : {"cogging", "counts", "equal", "latch", "rough"}) {
+  for (const char* name : {"cogging", "counts", "equal", "latch", "rough", "since"}) {
     require_all(gappa,
                 compile_file(fmt::format("{}/testbench/law/laws/{}.law", FELTGATE_BUILD_DIR, name),
                              Target{}),

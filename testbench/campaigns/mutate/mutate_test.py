@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The parts of `feltgate mutate` that need no test program: netlist, proofs, reasons, figures."""
+"""`feltgate mutate` of the RTL: the netlist with its mutants, and the command with a stand-in for a test."""
 
-import contextlib
-import io
 import json
 import os
 import re
@@ -12,13 +10,13 @@ import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from testing import Scratch, called
+import block_results
 import mutate
-from crew import Crew
-from mutation import equivalence, netlist, rtl, rtl_table
+from mutation import netlist, rtl, runs
 
-# dead_q stays 0, so that what it adds is no matter; spare is what a mutant of the word must change.
 COUNTER = """module counter (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -57,319 +55,133 @@ LINE = ("mutate -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3
         "-wire w -wirebit 2 -src rtl/b.sv:2.1-2.9 -src rtl/b.sv:1.1-1.4")
 
 
-class Commands(unittest.TestCase):
-    def test_a_line_of_the_list_and_back(self):
-        mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")})
-        found = tuple(mutant[key] for key in ("mode", "type", "port", "bit", "by_bit"))
-        self.assertEqual(found, ("cnot1", "$add", "Y", 3, 1))
-        self.assertEqual((mutant["wire"], mutant["wire_bit"]), ("w", 2))
-        self.assertEqual(mutant["sources"], ["rtl/b.sv:2.1-2.9", "rtl/b.sv:1.1-1.4"])
-        other = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$dffe", "w_q")}) | {"port": "EN"}
-        self.assertEqual(rtl.says(other).partition(",")[0], "bit 3 of $dffe.EN of w_q")
-        self.assertEqual(netlist.command(mutant, "b", "-ctrl mutsel 4 7"),
-                         "mutate -ctrl mutsel 4 7 -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 "
-                         "-port Y -portbit 3 -ctrlbit 1")
-        self.assertEqual(rtl.says(mutant),
-                         "bit 3 of $add.Y, w[2] inverted while another bit of the pin is 1 (1)")
-
-
-@unittest.skipUnless(shutil.which("yosys") and shutil.which("yosys-abc"), "no yosys")
+@unittest.skipUnless(shutil.which("yosys"), "no yosys")
 class Netlist(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.root = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        (cls.root / "rtl").mkdir()
-        (cls.root / "rtl/counter.sv").write_text(COUNTER, encoding="utf-8")
-        cls.folder = cls.root / "with a blank"
-        netlist.write("counter", [Path("rtl/counter.sv")], [], 1000, 1, cls.folder / "counter.sv",
-                      cls.root)
-        cls.found = json.loads((cls.folder / "mutants.json").read_text(encoding="utf-8"))
-        cls.mutants = cls.found["mutants"]
-
-    def mutant(self, **wanted):
-        return next(m for m in self.mutants if all(m.get(k) == v for k, v in wanted.items()))
-
-    def verdicts(self, *mutants):
-        with tempfile.TemporaryDirectory() as work:
-            design = equivalence.Joined(self.folder, "counter", list(mutants), Path(work), Crew())
-            return [design.prove(m, 10)[0] for m in mutants]
-
-    def test_at_most_60_percent_and_no_clocks(self):
-        self.assertLessEqual(len(self.mutants), 0.6 * self.found["database"])
-        self.assertGreater(len(self.mutants), 50)
-        self.assertFalse({m["port"] for m in self.mutants} & set(netlist.LEFT_OUT))
-        self.assertEqual([m["number"] for m in self.mutants], list(range(1, len(self.mutants) + 1)))
-
-    def test_a_value_at_power_up_stays(self):
-        text = (self.folder / "counter.sv").read_text(encoding="utf-8")
-        self.assertRegex(text, r"reg kept_q = 1'h1;")
-        self.assertFalse([m for m in self.mutants if m.get("wire") == "kept_q"
-                          and m["port"] == "Q"])
-
-    def test_the_wrapper_has_the_ports_and_asks_which(self):
-        text = (self.folder / "counter.sv").read_text(encoding="utf-8")
-        self.assertIn("module counter (", text)
-        self.assertIn("feltgate_chosen_mutant()", text)
-        self.assertIn("module counter_mutants(clk_i", text)
-
-    def test_the_same_seed_gives_the_same_mutants(self):
-        other = self.root / "again"
-        netlist.write("counter", [Path("rtl/counter.sv")], [], 1000, 1, other / "counter.sv",
-                      self.root)
-        self.assertEqual((other / "mutants.json").read_text(),
-                         (self.folder / "mutants.json").read_text())
-
-    def test_different(self):
-        count = self.mutant(type="$adffe", port="Q")
-        self.assertEqual(self.verdicts(count), [equivalence.DIFFERENT])
-
-    def test_none_is_equivalent(self):
-        count = dict(self.mutant(type="$adffe", port="Q"))
-        with tempfile.TemporaryDirectory() as work:
-            design = equivalence.Joined(self.folder, "counter", [count], Path(work), Crew())
-            design.numbers[count["number"]] = 0
-            self.assertEqual(design.prove(count, 10)[0], equivalence.EQUIVALENT)
-
-    def test_stuck_where_it_is_constant_is_equivalent(self):
-        # Of count_o + 1, the operand 1.
-        adder = next(m for m in self.mutants if m["type"] == "$add")
-        same = adder | {"port": "B", "bit": 0, "mode": "const1"}
-        same.pop("by_bit", None)
-        self.assertEqual(self.verdicts(same), [equivalence.EQUIVALENT])
-
-    def test_a_memory_is_cut_out_and_its_address_compared(self):
-        text = (self.folder / "block.il").read_text(encoding="utf-8")
-        self.assertIn("$mem_v2", text)
-        cut = equivalence.without_memories(text)
-        self.assertNotIn("$mem_v2", cut)
-        self.assertIn(r"input 6 \memory_1_RD_DATA", cut)
-        self.assertIn(r"output 7 \memory_1_RD_ADDR", cut)
-
-    def test_a_memory_with_another_clock_is_refused(self):
-        text = (self.folder / "block.il").read_text(encoding="utf-8")
-        for old, new in (("RD_CLK_ENABLE 1'0", "RD_CLK_ENABLE 1'1"),
-                         ("WR_CLK_ENABLE 1'1", "WR_CLK_ENABLE 1'0"),
-                         (r"WR_CLK \clk_i", "WR_CLK $and$1")):
-            self.assertIn(old, text)
-            with self.assertRaisesRegex(netlist.NetlistError, "memory words"):
-                equivalence.without_memories(text.replace(old, new))
-
-    def test_a_mutant_at_a_memory(self):
-        read = self.mutant(type="$mem_v2", port="RD_DATA", mode="inv")
-        wrote = self.mutant(type="$mem_v2", port="WR_DATA")
-        count = self.mutant(type="$adffe", port="Q")
-        self.assertEqual(self.verdicts(read, count, wrote), 3 * [equivalence.DIFFERENT])
-
-    def test_a_pin_of_a_memory_stuck_where_it_is_constant_is_equivalent(self):
-        # The upper bit of what is written is made a constant 0.
-        text = (self.folder / "block.il").read_text(encoding="utf-8")
-        data = re.search(r"connect \\WR_DATA (\S+)", text).group(1)
-        (self.folder / "block.il").write_text(
-            text.replace(f"connect \\WR_DATA {data}", f"connect \\WR_DATA {{ 1'0 {data} [2:0] }}"),
-            encoding="utf-8")
-        self.addCleanup((self.folder / "block.il").write_text, text, encoding="utf-8")
-        wrote = self.mutant(type="$mem_v2", port="WR_DATA")
-        wrote = {k: v for k, v in wrote.items() if k != "by_bit"} | {"mode": "const0"}
-        verdicts = self.verdicts(wrote | {"bit": 3}, wrote | {"bit": 2, "number": 9999})
-        self.assertEqual(verdicts, [equivalence.EQUIVALENT, equivalence.DIFFERENT])
-
-
-@unittest.skipUnless(shutil.which("yosys") and shutil.which("yosys-abc"), "no yosys")
-class OfItsOwn(unittest.TestCase):
-    """A block whose child, with a memory in it, is measured by itself."""
-
-    @classmethod
-    def setUpClass(cls):
-        root = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+    def written(self, top, own=False):
+        """(text, mutants) of a block, in a folder with a blank."""
+        root = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (root / "rtl").mkdir()
         for name, text in (("counter", COUNTER), ("pair", PAIR)):
             (root / f"rtl/{name}.sv").write_text(text, encoding="utf-8")
-        cls.folder = root / "own"
-        sources = [Path("rtl/counter.sv"), Path("rtl/pair.sv")]
-        netlist.write("pair", sources, [], 1000, 1, cls.folder / "pair.sv", root, own=True)
-        cls.test = rtl.Test("pair", "pair", cls.folder, cls.folder / "pair")
-        cls.test.read()
+        sources = [Path(f"rtl/{name}.sv") for name in ("counter", "pair")[: 1 + (top == "pair")]]
+        folder = root / "with a blank"
+        netlist.write(top, sources, [], 1000, 1, folder / f"{top}.sv", root, own)
+        text = (folder / f"{top}.sv").read_text(encoding="utf-8")
+        return text, json.loads((folder / "mutants.json").read_text(encoding="utf-8"))
+
+    def test_the_netlist_has_the_ports_of_the_block_and_its_mutants(self):
+        text, mutants = self.written("counter")
+        self.assertEqual(re.findall(r"^module (\w+)", text, re.M), ["counter", "counter_mutants"])
+        self.assertIn("feltgate_chosen_mutant()", text)
+        self.assertGreater(len(mutants), 50)
+        self.assertEqual([m["number"] for m in mutants], list(range(1, len(mutants) + 1)))
+        self.assertEqual(self.written("counter")[1], mutants)
+        pins = {re.search(r"of \S+[.](\w+)", m["what"])[1] for m in mutants}
+        self.assertFalse(pins & set(netlist.LEFT_OUT))
+        self.assertTrue(all(re.fullmatch(r"rtl/counter.sv:\d+", w) for m in mutants for w in m["where"]))
+
+    def test_a_value_at_power_up_stays(self):
+        text, mutants = self.written("counter")
+        self.assertIn("reg kept_q = 1'h1;", text)
+        self.assertFalse([m for m in mutants if "Q, kept_q" in m["what"]])
 
     def test_only_its_own_cells_and_the_pins_of_its_child_change(self):
-        self.assertLess(self.test.database, 100)
-        types = {m["type"] for m in self.test.mutants}
-        self.assertEqual(types, {"$logic_not", "$logic_and", "u_counter"})
-        pins = {m["port"] for m in self.test.mutants if m["type"] == "u_counter"}
-        self.assertTrue({"count_o"} <= pins <= {"rst_ni", "up_i", "count_o", "kept_o"})
-
-    def test_the_netlist_is_one_module_behind_the_ports(self):
-        text = (self.folder / "pair.sv").read_text(encoding="utf-8")
+        text, mutants = self.written("pair", own=True)
         self.assertEqual(re.findall(r"^module (\w+)", text, re.M), ["pair", "pair_mutants"])
+        cells = {re.search(r"of (\S+)[.]\w+", m["what"])[1] for m in mutants}
+        self.assertEqual(cells, {"$logic_not", "$logic_and", "u_counter"})
 
-    def test_pins_of_the_child_are_proven_with_its_memory_cut_out(self):
-        pin = next(m for m in self.test.mutants if m["type"] == "u_counter")
-        pin = {k: v for k, v in pin.items() if k != "by_bit"} | {"port": "rst_ni", "bit": 0}
-        same, other = (pin | {"mode": f"const{n}", "number": 2 - n} for n in (1, 0))
-        with tempfile.TemporaryDirectory() as work:
-            design = self.test.joined([same, other], Path(work), Crew())
-            self.assertIn("memory_1_RD_DATA", design.blif)
-            found = [design.prove(m, 10)[0] for m in (same, other)]
-        self.assertEqual(found, [equivalence.EQUIVALENT, equivalence.DIFFERENT])
-
-
-class Reasons(Scratch):
-    def setUp(self):
-        super().setUp()
-        self.put("rtl/b.sv", "one\n  assign w = a + 1;\n")
-        self.mutant = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")}) | {"number": 1}
-
-    def listed(self, text):
-        self.put(rtl.LISTED, text)
-        return rtl.Listed(self.folder, "b")
-
-    def test_where(self):
-        self.assertEqual(rtl.where(self.folder, self.mutant),
-                         ["rtl/b.sv:1: one", "rtl/b.sv:2: assign w = a + 1;"])
-
-    def test_every_key_must_fit(self):
-        whole = ('[[b]]\nline = "w = a + 1"\nwire = "w"\npin = "[$]add[.]Y"\nbits = [3]\n'
-                 'modes = ["cnot1"]\nkind = "gap"\nwhy = "x"\n')
-        self.assertEqual(self.listed(whole).entry(self.mutant), ("gap", "x"))
-        for key, other in (("w = a", "v = a"), ('wire = "w"', 'wire = "v"'), ("add", "sub"),
-                           ("[3]", "[2]"), ("cnot1", "inv")):
-            self.assertEqual(self.listed(whole.replace(key, other)).entry(self.mutant), ("", ""))
-
-    def test_no_reason_is_refused(self):
-        for text in ('kind = "gap"\nline = "x"\n', 'kind = "gap"\nwhy = "x"\n',
-                     'kind = "gap"\nwhy = "x"\nlin = "x"\n', 'why = "x"\nline = "x"\n',
-                     'kind = "other"\nwhy = "x"\nline = "x"\n'):
-            with self.assertRaises(rtl.MutateError):
-                self.listed(f"[[b]]\n{text}")
-        for text in ("[[b]\n", '[[b]]\nkind = "gap"\nwhy = "x"\nwire = "a["\n'):
-            with self.assertRaisesRegex(rtl.MutateError, "rtl.toml"):
-                self.listed(text)
-
-    def test_figures(self):
-        test = rtl.Test("b", "b", self.folder, self.folder / "b_mutants", 1, 100,
-                        [self.mutant | {"number": n} for n in range(1, 6)])
-        gap = '[[b]]\nline = "w = a"\nkind = "gap"\nwhy = "seen"\n'
-        row = rtl.Row(test, self.listed(gap))
-        row.fates = {1: rtl.KILLED, 2: rtl.HANGS, 3: rtl.SURVIVES, 4: rtl.SURVIVES, 5: rtl.KILLED}
-        row.proofs = {3: (equivalence.EQUIVALENT, ""),
-                      4: (equivalence.DIFFERENT, "differs in clock 2")}
-        self.assertEqual((row.equivalent(), row.relevant(), row.of(rtl.GAP), row.share()),
-                         (1, 4, 1, 0.75))
-        row.listed = self.listed(gap.replace("gap", "equivalent"))
-        self.assertEqual((row.relevant(), row.of(rtl.ARGUED), row.share()), (3, 1, 1.0))
-        row.listed = self.listed(gap)
-        self.assertIn("75.0 %", rtl_table.table([row]))
-        said = row.as_json()
-        self.assertEqual((said["killed"], said["hangs"], len(said["survivors"])), (3, 1, 1))
-        with contextlib.redirect_stdout(io.StringIO()) as output:
-            rtl_table.print_survivors([row], False)
-        self.assertEqual(output.getvalue(), "")
-
-    def test_an_unproven_survivor_counts_against_the_test(self):
-        test = rtl.Test("b", "b", self.folder, self.folder / "b_mutants", 1, 100, [self.mutant])
-        row = rtl.Row(test, self.listed(""), {1: rtl.SURVIVES}, {1: (equivalence.UNKNOWN, "")})
-        self.assertEqual((row.share(), len(row.survivors())), (0.0, 1))
+    def test_a_mutant_in_words(self):
+        found = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")})
+        self.assertEqual(netlist.says(found),
+                         "bit 3 of $add.Y, w[2] inverted while another bit of the pin is 1 (1)")
+        self.assertEqual(netlist.where(found), ["rtl/b.sv:1", "rtl/b.sv:2"])
+        found = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$dffe", "w_q")}) | {"port": "EN"}
+        self.assertEqual(netlist.says(found).partition(",")[0], "bit 3 of $dffe.EN of w_q")
 
 
-class Programs(Scratch):
-    """Stands in for a test program: a script that looks at FELTGATE_MUTANT."""
+class Command(Scratch):
+    """The test program is a script that looks at FELTGATE_MUTANT."""
 
     def setUp(self):
         super().setUp()
         folder = "testbench/wave/b/b_mutants.netlist"
-        self.put(f"{folder}/test.json", '{"test": "b", "block": "b"}')
-        mutants = [netlist.parse(LINE, {}) | {"number": n} for n in range(1, 5)]
-        found = {"block": "b", "seed": 1, "own": False, "database": 9, "mutants": mutants}
-        self.put(f"{folder}/mutants.json", json.dumps(found))
-        self.say("case $FELTGATE_MUTANT in 0|4) exit 0;; 3) kill -SEGV $$;; "
-                 "*) echo mismatch at clock 3; exit 1;; esac")
+        self.put(f"{folder}/test.json", '{"test": "b_test", "block": "b"}')
+        mutants = [{"number": n, "what": "w", "where": ["rtl/b.sv:2"]} for n in range(1, 5)]
+        self.put(f"{folder}/mutants.json", json.dumps(mutants))
+        self.put("rtl/b.sv", "module b;\n  assign w = a;\n")
+        self.say("case $FELTGATE_MUTANT in 0|4) exit 0;; 3) kill -SEGV $$;; *) exit 1;; esac")
 
     def say(self, script):
-        self.program = self.put_program("testbench/wave/b/b_mutants", script)
+        self.put_program("testbench/wave/b/b_mutants", script)
+
+    def record(self, killed, tried):
+        block_results.write(self.folder, "mutants", "measured", {"b": {"rtl": [killed, tried]}})
 
     def call(self, *arguments):
-        os.environ["FELTGATE_BUILD"] = str(self.folder)
-        return called(mutate.main, "--no-build", "--proof-seconds", "0", *arguments)
+        places = {"FELTGATE_BUILD": str(self.folder), "FELTGATE_ROOT": str(self.folder)}
+        with mock.patch.dict(os.environ, places):
+            return called(mutate.main, "--no-build", *arguments)
 
-    def test_fates(self):
+    def test_a_survivor_is_printed_and_the_share_must_be_that_of_the_record(self):
+        self.record(76, 100)
         code, out, _ = self.call("--json", str(self.folder / "out.json"))
         self.assertEqual(code, 1)
-        self.assertIn("3 of 4 not equivalent ones killed (75.0 %); 1 tests below 99 %: b", out)
-        self.assertIn("b 4: bit 3 of", out)
-        (entry,) = json.loads((self.folder / "out.json").read_text())["tests"]
-        self.assertEqual((entry["killed"], entry["crashes"]), (3, 1))
+        self.assertIn("b_test 4 survives: w\n    rtl/b.sv:2: assign w = a;\n    FELTGATE_MUTANT=4 ", out)
+        self.assertIn("4 mutants; below their least share: b", out)
+        (row,) = json.loads((self.folder / "out.json").read_text())["rows"]
+        self.assertEqual((row["killed"], row["crashes"], row["killed_share"]), (2, 1, 0.75))
+        self.record(759, 1000)  # whole percents
+        self.assertEqual(self.call()[0], 0)
+        self.assertEqual(self.call("--require", "0.76")[0], 1)
 
-    def test_what_survived_again(self):
-        results = self.folder / "out.json"
-        self.call("--json", str(results))
-        self.assertIn("3 of 4 not", self.call("--again", str(results))[1])
-        # Only the survivor is tried: a program that kills nothing else now changes nothing else.
-        self.say('[ "$FELTGATE_MUTANT" != 4 ]')
-        code, out, _ = self.call("--again", str(results))
-        self.assertEqual(code, 0)
-        self.assertIn("4 of 4 not equivalent ones killed (100.0 %)", out)
+    def test_without_a_record_there_is_a_least_share_too(self):
+        self.assertEqual(self.call()[0], 1)
 
-    def test_results_of_other_mutants_are_refused(self):
-        results = self.folder / "out.json"
-        self.call("--json", str(results))
-        found = json.loads(results.read_text())
-        for change, says in (({"tests": []}, "no run of all mutants of b as they are now"),
-                             ({"tests": [found["tests"][0] | {"database": 99}]}, "no run of all"),
-                             ({"tests": [{"test": "b"}]}, "it has no 'seed'; give such a file"),
-                             ({"schema": "other/1"}, "its schema is not"),
-                             (None, "no results of")):
-            results.write_text(json.dumps(found | change if change else []))
-            code, _, err = self.call("--again", str(results))
-            self.assertEqual((code, says in err), (2, True), err)
+    def test_a_record_only_rises(self):
+        self.record(76, 100)
+        code, _, err = self.call("--update")
+        self.assertEqual((code, "less killed than the record has: b" in err), (2, True))
+        self.say('[ "$FELTGATE_MUTANT" = 0 ]')
+        self.assertEqual(self.call("b", "--update")[0], 0)
+        self.assertEqual(block_results.read(self.folder, "mutants")["blocks"]["b"]["rtl"], [4, 4])
 
-    def test_the_required_share(self):
-        self.assertEqual(self.call("--require", "0.7")[0], 0)
+    def test_a_sample_may_be_worse_by_chance(self):
+        row = runs.Row("b", 400, [runs.Verdict(None, None, runs.KILLED, 0.0)] * 40, 0.9)
+        self.assertAlmostEqual(row.limit(), 0.765, 3)
+        row.offered = 40
+        self.assertEqual(row.limit(), 0.9)
 
-    def test_a_share_is_the_same_again(self):
-        self.assertEqual(self.call("--count", "2", "--seed", "5")[1],
-                         self.call("--count", "2", "--seed", "5")[1])
+    def test_what_hangs_is_dead(self):
+        self.say("case $FELTGATE_MUTANT in 0) exit 0;; 1) while :; do :; done;; esac; exit 1")
+        with mock.patch.object(runs, "MORE_S", 0.5):
+            self.assertRegex(self.call()[1], r"b +4 +4 +3 +0 +1 +100.0 %")
 
-    def test_a_program_that_fails_without_a_mutant(self):
+    def test_a_sample_is_the_same_again(self):
+        subject = runs.Subject("b", "b", list(range(50)))
+        self.assertEqual(subject.sample(9, 1), subject.sample(9, 1))
+        self.assertNotEqual(subject.sample(9, 1), subject.sample(9, 2))
+        self.assertEqual(subject.sample(0, 1), subject.mutants)
+
+    def test_what_cannot_be_used(self):
+        self.assertIn("no block c with mutants; there are b", self.call("c")[2])
         self.say("exit 1")
         code, _, err = self.call()
-        self.assertEqual(code, 2)
-        self.assertIn("b_mutants killed without a mutant", err)
-
-    def test_what_is_unknown(self):
-        self.assertIn("no block c with mutants; there are b", self.call("c")[2])
-        self.assertEqual([self.call(*w)[0] for w in (["c"], ["--show", "9"])], [2, 2])
-        self.folder = self.folder / "none"  # the file is looked at before the build folder
-        self.assertIn("/nonexist: no results of", self.call("--again", "/nonexist")[2])
-
-    def test_options_that_mean_nothing(self):
-        for words in (["--require", "99"], ["--require", "nan"], ["--count", "-1"],
-                      ["--proof-seconds", "-1"], ["--update", "--count", "2"],
-                      ["--list", "--update"], ["--update", "--proof-seconds", "0"],
-                      ["--show", "1", "--json", "x"],
-                      ["--again", str(Path(__file__)), "--count", "2"], ["--list", "--show", "0"]):
+        self.assertEqual((code, "killed without a mutant" in err), (2, True))
+        for words in (["--require", "99"], ["--count", "-1"], ["--update", "--count", "2"],
+                      ["--list", "--update"], ["--coun", "3"]):
             with self.subTest(words):
                 self.assertEqual(called(mutate.arguments, *words)[0], 2)
 
-    def test_a_test_may_have_the_name_of_its_block(self):
-        one, other = (rtl.Test(name, "b", self.folder, self.program) for name in ("b", "b_paper"))
-        for words, found in (([], [one, other]), (["b"], [one, other]), (["b.b"], [one]),
-                             (["b_paper"], [other])):
-            self.assertEqual(mutate.chosen([one, other], words), found)
-
-    def test_a_row_of_the_table_is_of_all_tests_of_the_block(self):
-        one, other = (rtl.Test(name, "b", self.folder, self.program) for name in ("b", "b_paper"))
-        mutate.check_whole([one, other], [one, other])
-        with self.assertRaisesRegex(rtl.MutateError, "b_paper is left out"):
-            mutate.check_whole([one, other], [one])
+    def test_a_test_may_have_the_name_of_its_block_and_an_update_takes_all(self):
+        self.put("testbench/wave/b/b_paper_mutants.netlist/test.json", '{"test": "b", "block": "b"}')
+        for words, count in (([], 2), (["b"], 2), (["b_test"], 1), (["b.b"], 1), (["b_test", "--update"], 2)):
+            with mock.patch.dict(os.environ, {"FELTGATE_BUILD": str(self.folder)}):
+                self.assertEqual(len(rtl.wanted(mutate.arguments(words))), count, words)
 
     def test_a_test_that_somebody_else_ended_kills_nothing(self):
         self.say('[ "$FELTGATE_MUTANT" = 0 ] || kill -TERM $$')
         self.assertEqual(self.call()[0], 128 + 15)
-
-    def test_show(self):
-        code, out, _ = self.call("--show", "1")
-        self.assertEqual(code, 0)
-        self.assertIn("killed in", out)
-        self.assertIn("mismatch at clock 3", out)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@
 import os
 import shutil
 import unittest
-from pathlib import Path
 from unittest import mock
 
 from testing import ROOT, Scratch, called
@@ -55,46 +54,9 @@ class Catalogue(Scratch):
         self.assertEqual((proof.key, proof.top, proof.depth), ("b.p", "p_proof", 2))
         self.assertEqual(catalog.open_ports(self.folder, [proof]), {"b": []})
 
-    def test_a_port_of_a_block_inside(self):
-        self.put("rtl/core/wave/c.sv", RTL.replace("module b", "module c"))
-        toml = "testbench/wave/b/proofs/proofs.toml"
-        self.put(toml, TOML.replace("y_o", "y_o c.x_i"))
-        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
-                         {"b": [], "c": ["y_o"]})
-        for port, said in (("c.q_o", "no port q_o"), ("d.x_i", "no block d")):
-            self.put(toml, TOML.replace("y_o", f"y_o {port}"))
-            with self.assertRaisesRegex(catalog.CatalogError, said):
-                catalog.open_ports(self.folder, catalog.read(self.folder))
-
-    def test_ports_of_a_kind(self):
-        self.put("rtl/core/wave/b.sv", RTL.replace("x_i,", "x_i,\n  input logic at_z_i,\n  input logic at_w_i,"))
-        toml = "testbench/wave/b/proofs/proofs.toml"
-        self.put(toml, TOML.replace("y_o", "y_o at_*"))
-        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": []})
-        self.put(toml, TOML.replace("y_o", "y_o param_is_*"))
-        with self.assertRaisesRegex(catalog.CatalogError, r"no port param_is_\*"):
-            catalog.open_ports(self.folder, catalog.read(self.folder))
-
-    def test_a_block_of_a_folder_that_no_property_names(self):
-        self.put("rtl/link/n.sv", RTL.replace("module b", "module n"))
-        self.put("rtl/core/feltgate_checks.sv", RTL.replace("module b", "module feltgate_checks"))
-        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
-                         {"b": [], "n": ["x_i", "y_o"]})
-
     def test_a_port_in_no_property(self):
         self.put("rtl/core/wave/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
         self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": ["z_i"]})
-
-    def test_a_block_of_the_link_without_a_proof(self):
-        self.put("rtl/link/e.sv", RTL.replace("module b", "module e"))
-        self.put("rtl/boards/f.sv", RTL.replace("module b", "module f"))
-        self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)),
-                         {"b": [], "e": ["x_i", "y_o"]})
-
-    def test_a_port_that_is_none(self):
-        self.put("rtl/core/wave/b.sv", RTL.replace("x_i", "u_i"))
-        with self.assertRaises(catalog.CatalogError):
-            catalog.open_ports(self.folder, catalog.read(self.folder))
 
     def test_defects_beside_the_proof_come_first(self):
         self.put("testbench/wave/b/proofs/defects.diff", "== d\nIt breaks.\n")
@@ -114,18 +76,6 @@ class Catalogue(Scratch):
                 self.put("testbench/wave/b/proofs/proofs.toml", TOML.replace(old, new))
                 self.refused("testbench/wave/b/proofs/proofs.toml", said)
 
-    def test_what_a_wrapper_includes(self):
-        wrapper = "module p_proof;\n  `include \"own.svh\"\nendmodule\n"
-        self.put("testbench/wave/b/proofs/p.sv", wrapper)
-        self.refused("p.sv", "no own.svh beside it or in testbench/campaigns/prove")
-        self.put("testbench/campaigns/prove/shared.svh",
-                   "always_comb begin a: assert (1); c: cover (1); end\n")
-        self.put("testbench/wave/b/proofs/own.svh", "`include \"shared.svh\"\n")
-        (proof,) = catalog.read(self.folder)
-        text = catalog.wrapper_text(self.folder, proof.wrapper)
-        self.assertIn("a: assert (1)", text)
-        self.assertNotIn("include", text)
-
     def test_an_assertion_that_nothing_is_said_of(self):
         self.put("testbench/wave/b/proofs/p.sv",
                    WRAPPER.replace("a: assert (1);", "a: assert (1); b: assert (1);"))
@@ -133,11 +83,6 @@ class Catalogue(Scratch):
         self.put("testbench/wave/b/proofs/p.sv",
                    WRAPPER.replace("a: assert (1);", "a: assert (1); inside_b: assert (1);"))
         self.assertEqual(len(catalog.read(self.folder)), 1)
-
-    def test_without_a_cover(self):
-        self.put("testbench/wave/b/proofs/proofs.toml", TOML.partition("[proof.cover]")[0])
-        self.put("testbench/wave/b/proofs/p.sv", WRAPPER.replace("c: cover (1);", ""))
-        self.refused("no cover")
 
 
 class Product(unittest.TestCase):
@@ -156,20 +101,15 @@ class Product(unittest.TestCase):
     def test_the_counts_on_record_are_of_the_proofs_as_they_are(self):
         self.assertEqual(results.counted(ROOT, self.proofs), [])
 
+    def test_there_are_enough(self):
+        self.assertGreaterEqual(sum(len(proof.properties) for proof in self.proofs), 200)
+
     def test_every_defect_applies_and_says_what_it_breaks(self):
         for patch in {entry.defect for proof in self.proofs for entry in proof.properties}:
             self.assertTrue(tools.patches.patched(patch, ROOT))
 
-    def test_there_are_enough(self):
-        self.assertGreaterEqual(sum(len(proof.properties) for proof in self.proofs), 200)
-
 
 class Verdicts(unittest.TestCase):
-    def test_reached_covers_of_both_versions(self):
-        text = ("## 0:00:00 Reached cover statement at one in step 7.\n"
-                "## 0:00:00 Reached cover statement in step 9 at top: two (a.sv:3)\n")
-        self.assertEqual(tools.reached_covers(text), {"one": 7, "two": 9})
-
     def test_a_row(self):
         proof = type("P", (), {"properties": [type("E", (), {"name": "a", "defect": "d"})]})
         good = tools.Result(True, 1.0)
@@ -183,14 +123,6 @@ class Verdicts(unittest.TestCase):
         row.caught = {"a": tools.Result(False, 1.0)}
         self.assertTrue(row.good())
 
-    def test_a_share_of_the_defects_is_spread(self):
-        proof = type("P", (), {})
-        proof.properties = [type("E", (), {"name": n, "defect": n}) for n in "abccdef"]
-        self.assertEqual(tasks.chosen_defects(proof), list("abcdef"))
-        self.assertEqual(tasks.chosen_defects(proof, 2), ["b", "e"])
-        self.assertEqual(tasks.chosen_defects(proof, 6), list("abcdef"))
-        self.assertEqual(tasks.chosen_defects(proof, 0), [])
-
     def test_the_trace_ends_with_the_failing_clock(self):
         vcd = ("$scope module top $end\n$var wire 4 n0 x $end\n$scope module in $end\n"
                "$var wire 4 n1 y $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
@@ -199,13 +131,6 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(step, 1)
         self.assertEqual([line.split() for line in text.splitlines()],
                          [["clock", "0", "1"], ["x", "1", "-8"]])
-
-
-class Reading(unittest.TestCase):
-    def test_a_block_that_is_cut_has_ports_only(self):
-        head = "module a (\n  output logic y_o\n);\n"
-        self.assertEqual(tools.ports_only(f"{head}  assign y_o = 1'b1;\nendmodule\n"),
-                         f"{head}endmodule\n`default_nettype wire\n")
 
 
 class Recorded(Scratch):
@@ -279,11 +204,6 @@ class Command(Scratch):
     def status(self, *words):
         return called(prove.main, *words)
 
-    def test_the_list_names_every_property(self):
-        status, out, _ = self.status("--list")
-        self.assertEqual(status, 0)
-        self.assertIn("limiter.clamp", out)
-
     def test_wrong_words(self):
         for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"],
                       ["--update", "limiter.clamp"], ["--update", "--fast"],
@@ -296,13 +216,6 @@ class Command(Scratch):
     def test_arguments_by_themselves(self):
         self.assertEqual(self.status("--only-arguments", "limiter", "--defects", "3"), (0, "", ""))
         self.assertEqual(self.status("--only-arguments", "nothing")[0], 2)
-
-    def test_what_is_in_a_folder_is_kept(self):
-        mine = self.put("mine.txt", "mine")
-        status, _, err = self.status("--keep", self.folder, "limiter")
-        self.assertEqual(status, 2)
-        self.assertIn("is not an empty folder", err)
-        self.assertEqual(mine.read_text(encoding="utf-8"), "mine")
 
     def test_without_a_solver(self):
         self.enterContext(mock.patch.dict(os.environ, PATH="/nowhere"))

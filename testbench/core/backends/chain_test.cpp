@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The chain tick by tick: in fixed point the integers of the core's snapshots, on random lives of a
-// core; in real arithmetic near them. Documentation: docs/backends.md
+// core; in real arithmetic near them. Documentation: docs/speed-for-accuracy.md
 #include <array>
 #include <cmath>
 #include <memory>

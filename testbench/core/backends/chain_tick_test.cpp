@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The laws of a design in a row, stage by stage: what the core's twin asks of them beside ticks.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #include "feltgate/chain_tick.hpp"
 
 #include "catch.hpp"

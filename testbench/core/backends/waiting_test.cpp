@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The twin that lets quiet clocks wait against the one that does not: after every step of a loop
-// the same duty, enable of the gates and snapshots. Documentation: docs/backends.md
+// the same duty, enable of the gates and snapshots. Documentation: docs/speed-for-accuracy.md
 #include <array>
 #include <memory>
 #include <vector>

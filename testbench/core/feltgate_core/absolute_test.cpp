@@ -45,6 +45,7 @@ struct Rig {
   std::int64_t at = kReady, arm_at = kArm, mended = -1, zero_at = -1;
   double start_rad = 0, rad_s = 0, turned_meanwhile_rad = 0;
   bool reversed = false;
+  std::int64_t host_at = 400;  ///< the host takes control, with the polarity
 
   AbsoluteSensor sensor{feltgate::absolute_parameters<D>()};
   CoreIn in;
@@ -71,7 +72,7 @@ struct Rig {
       if (cycle >= from && cycle < from + kTick + 1) in.reg_write = cycle == from;
     };
     write(200, A::self_test_pulse, 0);
-    write(400, C::control, rest);
+    write(host_at, C::control, rest);
     write(arm_at, C::control, rest | 1u << C::control_arm);
     in.set_zero = cycle >= zero_at && cycle < zero_at + kTick;
     if (mended < 0) return;
@@ -149,6 +150,21 @@ TEST_CASE("absolute: a request waits for the first reading, whose angle is the p
   }
 }
 
+TEST_CASE("absolute: a sensor that is plugged in after a request to arm opens no gates") {
+  for (const Defect defect : {Defect::cut, Defect::wrong_bit}) {
+    Rig rig;
+    rig.defect = defect;
+    rig.at = 0;
+    rig.mended = kReady;
+    Seen seen = run(rig, rig.mended);
+    CHECK((seen.state & 31u) != 0);  // it is named; nothing is said to start
+    CHECK(seen.state < 32);
+    seen = run(rig, rig.mended + 10 * kPeriod);
+    CHECK(seen.armed > rig.mended + 6 * kPeriod);  // the host has asked anew
+    CHECK(seen.last.armed);
+  }
+}
+
 TEST_CASE("absolute: the position counts turns in both directions, and from its zero on") {
   for (const double rad_s : {60.0, -400.0}) {
     for (const bool reversed : {false, true}) {
@@ -171,6 +187,17 @@ TEST_CASE("absolute: the position counts turns in both directions, and from its 
   rig.start_rad = 1;
   rig.zero_at = kReady;
   CHECK(run(rig, kReady + 5'000).last.position == 0);
+}
+
+TEST_CASE("absolute: the polarity stays as it was at the first reading") {
+  for (const bool before : {false, true}) {
+    Rig rig;
+    rig.start_rad = 0.7;
+    rig.reversed = true;  // from clock 400 on
+    if (!before) rig.host_at = 5 * kPeriod;
+    const Seen seen = run(rig, 8 * kPeriod);
+    CHECK(std::abs(seen.last.position - (before ? -1 : 1) * counts(0.7)) <= 1 + kLeft_counts);
+  }
 }
 
 TEST_CASE("absolute: with a table the position is within a count of the shaft, all over a turn") {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A core with a host, a panel and a lever that a test controls. The twin runs at once; play() then
-// runs the RTL beside a twin. Documentation: docs/blocks/feltgate_core.md
+// runs the RTL beside a twin. Documentation: docs/architecture.md
 #pragma once
 
 #include <cmath>

@@ -28,7 +28,9 @@ class CoreStimulus {
   /// Neighbouring seeds of the generator give the same sequence shifted by one; the seed is changed
   /// here to prevent this.
   explicit CoreStimulus(std::uint64_t seed)
-      : random_(Random(seed).bits()), outside_(Random(~seed).bits()) {}
+      : random_(Random(seed).bits()),
+        outside_(Random(~seed).bits()),
+        turn_(static_cast<std::uint32_t>(seed % 14)) {}
 
   CoreIn operator()(std::int64_t) {
     move();
@@ -208,8 +210,8 @@ class CoreStimulus {
       then(D::C::command, 1u << D::C::command_clear_faults | 1u << D::C::command_thaw);
       then(D::C::control, host | 1u << D::C::control_arm | any_scene() << D::C::control_scene);
     };
-    switch (random_.below(14)) {
-      case 0:  // a cold motor gets too hot
+    switch (turn_ = (turn_ + 5) % 14) {  // each in turn
+      case 0:                            // a cold motor gets too hot
         then(D::A::nominal_current_squared, 0x7fffffff);
         as_designed(D::A::i2t_budget);
         // A test that does not arm a shaft that is held would leave no current.
@@ -321,6 +323,8 @@ class CoreStimulus {
       raw = static_cast<std::int64_t>(random_.bits() & static_cast<std::uint64_t>(high));
     // The lever may run away, so that the observer reaches its limits.
     if (p.address == D::A::overspeed && how < 6) raw = high;
+    // A duty limit of next to nothing takes part at 0.
+    if (p.address == D::A::duty_limit && how > 5) raw = random_.below(4);
     // Short self-tests.
     const bool test_time = p.address == D::A::self_test_quiet || p.address == D::A::self_test_pulse;
     if (test_time && how < 6) raw = random_.below(4);
@@ -387,6 +391,7 @@ class CoreStimulus {
   std::int64_t counted_ = 0;  ///< of an absolute encoder
   Random breaks_{78};
   Random random_, outside_;
+  std::uint32_t turn_;
   CoreIn in_;
   bool first_ = false;  ///< the next clock is the first of a tick
   std::int64_t left_ = 0, spacing_ = 0, wait_ = 0;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Directed tests of the scene for programs and of the signals from other axes: twin against
-// expected values, RTL against twin. Documentation: docs/blocks/feltgate_core.md
+// expected values, RTL against twin. Documentation: docs/architecture.md
 #include "core_life.hpp"
 
 using namespace feltgate::test;

@@ -4,7 +4,7 @@
 // The core with a current loop, RTL against twin in every clock, around a winding that its gates
 // switch: a torque step, what tau_hat and I2t take, the over-current, a sensor or a driver that
 // fails, the heartbeat, what arming waits for.
-// Documentation: docs/blocks/current_control.md
+// Documentation: docs/blocks/current.md
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -25,12 +25,13 @@ namespace {
 static_assert(D::current_loop != 0);
 constexpr double kFull = 32, kLsb = kFull / (1 << 17);
 constexpr std::int64_t kArmed = 520'000, kSettled = kArmed + 60'000;
-constexpr double kKt = 0.0302;  // Nm/A
+constexpr std::int64_t kLate = kArmed - 15'000;  // after an early request
+constexpr double kKt = 0.0302;                   // Nm/A
 
 /// A host that arms the set-point after the calibration, and the winding with its modulator. From
 /// kSettled on something may happen.
 struct Rig {
-  enum class Event { none, shorted, stands, driver, unseen };
+  enum class Event { none, shorted, stands, driver, unseen, late };
   Event event = Event::none;
   double torque_nm = 0.2, ohm = 0.42;
   std::uint32_t duty_limit = word_of_design(A::duty_limit);
@@ -53,6 +54,7 @@ struct Rig {
       in.current_data = modulator.next(happens && event == Event::unseen ? 0 : current_a);
     clock_was = out.current_clock;
     if (happens && event == Event::stands) in.current_data = false;
+    if (cycle < kLate && event == Event::late) in.current_data = true;
     in.driver_fault = happens && event == Event::driver && cycle < kSettled + 3;
     return in;
   }
@@ -251,6 +253,16 @@ TEST_CASE("loop: a line that stands closes the gates") {
   REQUIRE(seen.off > 0);
   CHECK(seen.off - kSettled < 300 * 4);
   CHECK(seen.last.faults == fault_bit(Fault::current));
+}
+
+TEST_CASE("loop: a modulator that is plugged in after a request to arm opens no gates") {
+  Rig rig;
+  rig.early = true;
+  rig.event = Rig::Event::late;
+  const Seen seen = run(rig, kLate + 540'000);
+  CHECK(seen.armed < 0);
+  // It has its offset by now. What a line that stands looks like is kept until a clear.
+  CHECK(seen.faults_word >> C::faults_current == 1);
 }
 
 TEST_CASE("loop: a request waits for the offset, of two averages") {

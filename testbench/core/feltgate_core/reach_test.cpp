@@ -4,7 +4,7 @@
 // Directed tests of states that a random run would reach only by luck: each word of the snapshot, a
 // zero command in each clock of a tick, positions at the ends of the scenes' range; watchdog, I2t
 // and wrong polarity, which trip at their time. Twin against expected values, RTL against twin.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #include "core_life.hpp"
 #include "core_stimulus.hpp"
 

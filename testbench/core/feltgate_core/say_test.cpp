@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_core: panel and host take control from each other, and this alone never arms the motor.
-// Documentation: docs/blocks/feltgate_core.md
+// Documentation: docs/architecture.md
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -38,10 +38,15 @@ TEST_CASE("say: the host gives it back, and what the panel asked for before does
   s.ticks(2);
   REQUIRE(key_arms(s));
   s.write(C::control, kHost | kArm);
-  CHECK(s.out().gates_enable);  // the motor stays armed
+  s.ticks(1);
+  CHECK_FALSE(s.out().gates_enable);  // a change of control disarms
+  CHECK_FALSE(opens(s, 20));
   s.write(C::control, kHost);
+  s.write(C::control, kHost | kArm);
+  CHECK(opens(s, 1));
+  s.write(C::control, kPanel);  // the panel's request is from before
+  s.ticks(1);
   CHECK_FALSE(s.out().gates_enable);
-  s.write(C::control, kPanel);
   CHECK_FALSE(opens(s, 20));
   CHECK(key_arms(s));
   s.play();

@@ -3,7 +3,7 @@
 //
 // The core's twin with velocity_mt, from event to event against clock by clock: random runs, long
 // rests after which stamps wrap, and what calm() may promise. Documentation:
-// docs/blocks/velocity_mt.md
+// docs/blocks/velocity.md
 #include "../system/skip_compare.hpp"
 #include "core_stimulus.hpp"
 

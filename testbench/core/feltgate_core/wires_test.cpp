@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_core: signals between its blocks that random runs hardly change; each test makes one
-// visible at an output. Documentation: docs/blocks/feltgate_core.md
+// visible at an output. Documentation: docs/architecture.md
+#include <algorithm>
+
 #include "core_life.hpp"
 
 using namespace feltgate::test;
@@ -30,9 +32,13 @@ TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with 
   s.in.axis_blocked = false;  // a refused request must fall first
   s.ticks(3);
   CHECK_FALSE(s.out().armed);
-  s.in.axis_silent = true;
+  s.in.axis_silent = true;  // its own, not that of the other axis
   s.ticks(1);
   s.in.axis_silent = false;
+  s.ticks(1);
+  CHECK_FALSE(s.out().armed);
+  s.write(C::control, kHost);
+  s.write(C::control, kHost | 1u << C::control_arm);
   s.ticks(1);
   CHECK(s.out().armed);
   s.in.axis_blocked = true;  // once armed, this input has no effect
@@ -103,6 +109,62 @@ TEST_CASE("core: a pulse of the self-test has all bits of its torque") {
   }
 }
 
+TEST_CASE("core: the torque's limit is obeyed in a pulse of the self-test and in a held torque") {
+  Life s;
+  const auto limit_is = [&s](std::int32_t most, int ticks) {
+    std::int32_t seen = 0;
+    for (int tick = 0; tick < ticks; ++tick) {
+      s.ticks(1);
+      seen = std::max(seen, std::abs(s.shown().tau_ref));
+    }
+    CHECK(seen == most);
+  };
+  const int unit = 1 << Map::self_test_unit_bits;
+  s.write(A::self_test_quiet, 1);
+  s.write(A::self_test_pulse, 1);
+  s.write(A::torque_limit, 655);
+  s.write(A::hold_time, 0xffffffff);
+  s.write(A::hold_limit, 300);
+  s.write(A::hold_torque, 200);
+  s.write(A::ramp_step, 1u << 24);
+  s.write(A::setpoint_torque, 17u << D::f.torque.fraction);  // too large: +, and not -
+  s.ticks(2);
+  s.write(C::control, kHost | 1u << C::control_arm | D::S::setpoint << C::control_scene);
+  limit_is(655, 8 * unit);
+  CHECK(s.shown().tau_ref == 300);  // held for too long
+  CHECK(((s.shown().limits >> Map::L::hold) & 1u) == 1);
+  s.write(A::torque_limit, 100);
+  s.ticks(3);
+  CHECK(s.shown().tau_ref == 100);
+  s.write(A::torque_limit, 0x80008000);
+  s.ticks(3);
+  CHECK(s.shown().tau_ref == 0);
+  s.play();
+}
+
+TEST_CASE("core: no gate gets a pulse that is shorter than 0.2 us") {
+  Life s;
+  s.arm(D::S::free, 2);
+  int on[4] = {}, shortest = D::pwm_period;
+  for (int duty = -40; duty <= 40; ++duty) {
+    const double volts = duty * D::supply_v / D::pwm_period;
+    s.write(A::voltage_setpoint,
+            static_cast<std::uint32_t>(std::lround(std::ldexp(volts, D::f.voltage.fraction))));
+    for (int clock = 0; clock < 2 * D::pwm_period; ++clock) {
+      s.clocks(1);
+      for (int gate = 0; gate < 4; ++gate) {
+        const bool now = ((s.out().gates >> gate) & 1) != 0;
+        if (!now && on[gate] > 0) shortest = std::min(shortest, on[gate]);
+        on[gate] = now ? on[gate] + 1 : 0;
+      }
+    }
+  }
+  CHECK(s.out().gates_enable);
+  CHECK(shortest >= 0.2e-6 * D::clock_hz);
+  CHECK(shortest < 0.3e-6 * D::clock_hz);
+  s.play();
+}
+
 TEST_CASE("core: what an engine says is no matter outside of the scene of programs") {
   Life s;
   s.write(A::setpoint_torque, 3000);
@@ -161,8 +223,8 @@ TEST_CASE("core: factors that are powers of two, whose products end in ties") {
   CHECK(pushed > 5);
 }
 
-TEST_CASE("core: a bit beyond the format of a factor without sign counts for nothing") {
-  constexpr std::uint32_t beyond = 1u << D::coefficient_bits;
+TEST_CASE("core: a factor beyond its format is the largest that there is, and none is negative") {
+  constexpr std::uint32_t most = (1u << D::coefficient_bits) - 1;
   const auto lives = [](int address, std::uint32_t word) {
     Life s;
     s.write(address, word);
@@ -175,12 +237,14 @@ TEST_CASE("core: a bit beyond the format of a factor without sign counts for not
     return s.shown();
   };
   for (const int address : {A::velocity_a1, A::observer_a1, A::voltage_gain, A::torque_gain}) {
-    const std::uint32_t word = word_of_design(address);
-    const feltgate::CoreOut with = lives(address, word | beyond), without = lives(address, word);
-    CHECK(with.velocity == without.velocity);
-    CHECK(with.tau_hat == without.tau_hat);
-    CHECK(with.current_ref == without.current_ref);
-    CHECK(with.duty == without.duty);
+    for (const std::uint32_t fits : {most, 0u}) {
+      const feltgate::CoreOut with = lives(address, fits != 0 ? most + 1 : 0x80000001),
+                              without = lives(address, fits);
+      CHECK(with.velocity == without.velocity);
+      CHECK(with.tau_hat == without.tau_hat);
+      CHECK(with.current_ref == without.current_ref);
+      CHECK(with.duty == without.duty);
+    }
   }
 }
 
@@ -204,13 +268,13 @@ TEST_CASE("core: budgets of heat that last up to some hundred ticks, RTL and twi
   CHECK(longest > 100);  // 1 % of the heat is one tick
 }
 
-TEST_CASE("core: of the words that make the heat the low 17 bits count") {
-  const auto lives = [](std::uint32_t more) {
+TEST_CASE("core: words that make the heat are at most the largest of their format") {
+  const auto lives = [](std::uint32_t word) {
     Life s;
     s.write(A::nominal_current_squared, 0);
     s.write(A::i2t_budget, static_cast<std::uint32_t>(D::i2t_start) + (1u << 13));
     for (const int address : {A::inverse_resistance, A::emf_over_resistance}) {
-      s.write(address, word_of_design(address) | more);
+      s.write(address, word == 0 ? word_of_design(address) : word);
     }
     s.write(A::setpoint_torque, 0x45d3);
     s.arm(D::S::setpoint);
@@ -225,5 +289,5 @@ TEST_CASE("core: of the words that make the heat the low 17 bits count") {
   };
   const int ticks = lives(0);
   CHECK(ticks > 5);
-  CHECK(lives(1u << D::coefficient_bits) == ticks);
+  CHECK(lives(1u << D::coefficient_bits) == lives((1u << D::coefficient_bits) - 1));
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Bits of parameters flip while the motor is armed. Their check must find the flip and turn the
-// gates off within a tick. RTL against twin on every clock. Documentation: docs/blocks/registers.md
+// gates off within a tick. RTL against twin on every clock. Documentation: docs/architecture.md
 #include <Vcore_open.h>
 #include <Vcore_open___024root.h>
 
@@ -141,10 +141,8 @@ TEST_CASE("core: each bit of each word that a scene uses opens the gates within 
   Pair pair;
   int flips = 0;
   for (const auto& p : D::parameters) {
-    // These words are on the bus only in place of another word: at high torque, at a held torque,
-    // in the self-test.
-    if (p.address == D::A::voltage_gain_high || p.address == D::A::hold_limit) continue;
-    if (p.address == D::A::self_test_torque) continue;
+    // This word is on the bus only in place of another word, at high torque.
+    if (p.address == D::A::voltage_gain_high) continue;
     const int scene = p.address < 64 ? D::S::free : p.address / 32;
     for (int bit = 0; bit < 36; ++bit) {
       pair.arm(scene);
@@ -183,39 +181,6 @@ TEST_CASE("core: a bit of the voltage gain of high torque opens the gates where 
         const bool used = (address == D::A::voltage_gain_high) == (std::abs(torque) > border);
         INFO("address " << address << " bit " << bit << " torque " << torque);
         check_flip(pair, address, bit, used);
-      }
-    }
-  }
-}
-
-TEST_CASE("core: a bit of the limit of a held torque opens the gates where that is in force") {
-  for (const int bit : {0, 35}) {
-    for (const int address : {D::A::torque_limit, D::A::hold_limit}) {
-      for (const bool held : {false, true}) {
-        Pair pair;
-        pair.write(D::A::setpoint_torque, 1 << 13);
-        pair.write(D::A::hold_torque, 100);
-        pair.write(D::A::hold_time, held ? 1u : 1u << feltgate::Map::hold_bits);
-        pair.arm(D::S::setpoint);
-        pair.clocks(std::int64_t{2 * kTick} << feltgate::Map::hold_unit_bits);
-        REQUIRE(((pair.out().limits >> feltgate::Map::L::hold) & 1) == held);
-        INFO("address " << address << " bit " << bit << " held " << held);
-        check_flip(pair, address, bit, (address == D::A::hold_limit) == held);
-      }
-    }
-  }
-}
-
-TEST_CASE("core: a bit of the self-test's torque opens the gates while it lasts") {
-  for (const int bit : {0, 35}) {
-    for (const int address : {D::A::torque_limit, D::A::self_test_torque}) {
-      for (const bool tests : {false, true}) {
-        Pair pair;
-        pair.write(D::A::self_test_quiet, 1);
-        pair.write(D::A::self_test_pulse, tests ? 10 : 0);
-        pair.arm(D::S::free);
-        INFO("address " << address << " bit " << bit << " tests " << tests);
-        check_flip(pair, address, bit, (address == D::A::self_test_torque) == tests);
       }
     }
   }

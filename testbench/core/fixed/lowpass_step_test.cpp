@@ -3,7 +3,7 @@
 //
 // The low-pass step that does not look for overflow, against the one that wraps: every state, input
 // and coefficient of small formats.
-// Documentation: docs/blocks/lowpass.md
+// Documentation: docs/blocks/dob.md
 #include "catch.hpp"
 #include "feltgate/lowpass.hpp"
 

@@ -4,17 +4,40 @@
 // narrow() and the exact operators against SystemC's sc_fix / sc_ufix: every value of the small
 // casts, 425 600 random wide casts, and sums, differences and products of wide words.
 // Documentation: docs/fixed-point.md
+#include <sysc/datatypes/fx/fx.h>
+
 #include <cstdint>
 
 #include "cast_matrix.hpp"
 #include "catch.hpp"
 #include "feltgate/fixed.hpp"
-#include "studies/bench/systemc_numbers.hpp"
+
+// The library refers to sc_main; the program has its own main() and never calls it. Only <fx.h> is
+// included: all of <systemc> would tie the program to one C++ standard at link time.
+extern "C" [[gnu::used]] int sc_main(int /*argc*/, char** /*argv*/) { return 0; }
 
 namespace {
 
 using namespace feltgate;
 using namespace feltgate::test;
+
+constexpr sc_dt::sc_q_mode systemc_mode(Round round) {
+  switch (round) {
+    case Round::truncate:
+      return sc_dt::SC_TRN;
+    case Round::half_up:
+      return sc_dt::SC_RND;
+    case Round::convergent:
+      return sc_dt::SC_RND_CONV;
+    case Round::toward_zero:
+      return sc_dt::SC_TRN_ZERO;
+  }
+  return sc_dt::SC_TRN;
+}
+
+constexpr sc_dt::sc_o_mode systemc_mode(Overflow overflow) {
+  return overflow == Overflow::saturate ? sc_dt::SC_SAT : sc_dt::SC_WRAP;
+}
 
 /// raw * 2^-fraction as SystemC's unbounded fixed-point value, exactly.
 sc_dt::sc_fxval systemc_value(int128_t raw, int fraction) {

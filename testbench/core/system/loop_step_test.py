@@ -50,7 +50,8 @@ class LoopStep(Scratch):
             self.assertLess(abs(found[f"final_error_pct.{n}"] - 100 * (1 / 1.2 - 1)), 1)
 
     def test_no_error_exceeds_its_bound(self):
-        self.ended(ran(PROGRAM, "budget", "torque_step", "--design", "lever_current"))
+        done = ran(PROGRAM, "run", "torque_step", "--design", "lever_current", "--engine", "twin,quad")
+        self.assertRegex(self.ended(done).stdout, r"bound, by source .*\nvelocity_n ")
 
 
 if __name__ == "__main__":

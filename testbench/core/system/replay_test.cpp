@@ -17,7 +17,7 @@
 #include "sim/loop/replay.hpp"
 #include "sim/traces/open.hpp"
 #include "sim/traces/statistics.hpp"
-#include "sim/traces/synthetic.hpp"
+#include "synthetic.hpp"
 
 namespace {
 

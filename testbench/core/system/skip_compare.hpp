@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Two twins of the core with one stimulus, one from event to event and one clock by clock: the same
-// outputs, registers read back and gate times. Documentation: docs/blocks/feltgate_core.md
+// outputs, registers read back and gate times. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

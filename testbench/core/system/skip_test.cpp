@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The twin from event to event against the twin clock by clock: the same outputs, registers read
-// back and gate times, on long random runs. Documentation: docs/blocks/feltgate_core.md
+// back and gate times, on long random runs. Documentation: docs/architecture.md
 #include "../feltgate_core/core_stimulus.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/lever_law.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The twin from event to event against the twin clock by clock through every fault, every word
-// read, and what it says of clocks to come. Documentation: docs/blocks/feltgate_core.md
+// read, and what it says of clocks to come. Documentation: docs/architecture.md
 #include <cstdint>
 #include <deque>
 #include <set>

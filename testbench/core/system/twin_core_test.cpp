@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // What only the twin of the core has: what it is before a reset, what waits, writes carried out, a
-// core that is not read. Documentation: docs/blocks/feltgate_core.md
+// core that is not read. Documentation: docs/architecture.md
 #include "catch.hpp"
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"

@@ -4,6 +4,7 @@
 // From a design to its integers: coefficient formats, quantisation, refused designs, generated
 // files. Documentation: docs/designs.md
 #include <cmath>
+#include <filesystem>
 
 #include "design_fixture.hpp"
 
@@ -111,6 +112,23 @@ TEST_CASE("the published numbers come out", "[design]") {
   CHECK(lever.word("voltage_gain").raw == lever.word("voltage_gain_high").raw);
 }
 
+TEST_CASE("every shipped design has a shortest pulse, and its largest duty leaves it", "[design]") {
+  int designs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root_path("rtl/designs"))) {
+    if (entry.path().extension() != ".toml") continue;
+    const Elaborated e = shipped(entry.path().stem().string());
+    const Design& d = e.design;
+    INFO(d.name);
+    CHECK(d.shortest_clocks() >= 0.2e-6 * static_cast<double>(d.clock_hz));
+    CHECK(e.word("duty_limit").raw <=
+          d.pwm_period_clocks() - d.dead_clocks() - d.shortest_clocks());
+    ++designs;
+  }
+  CHECK(designs > 15);
+  CHECK(changed("paper", "dead_time_s = 0.5e-6", "shortest_pulse_s = 0.0\ndead_time_s = 0.5e-6")
+            .design.shortest_clocks() == 1);
+}
+
 TEST_CASE("the observer's gain is negative above 1/Jn", "[design]") {
   const Elaborated e = changed("paper", "kp_1_kg_m2 = 1600.0", "kp_1_kg_m2 = 4000.0");
   const Word& w = e.word("observer_gain");
@@ -180,9 +198,11 @@ TEST_CASE("resolution, width and latency beyond the limit are refused", "[design
   check_refused("paper", "observer_fraction = 30", "observer_fraction = 38", "observer_fraction",
                 "the product with torque_constant has 37 fraction bits and its sum takes 38; lower "
                 "this, or the value of observer.torque_constant_nm_a");
-  check_refused("lever", "resistance_ohm = 0.42 ", "resistance_ohm = 0.05 ", "resistance_ohm",
-                "the current estimate takes 20 bits and the fabric has 18; use fewer integer or "
-                "fraction bits");
+  check_refused("lever", "nominal_current_a = 5.77", "nominal_current_a = 0.77",
+                "nominal_current_a",
+                "the square of the nominal current is below 4 steps of 0.25 A^2, those of a motor "
+                "with currents of up to 256 A; use fewer integer bits of the velocity or the "
+                "current");
   check_refused("paper", "tick_hz = 1_000_000", "tick_hz = 1_250_000", "tick_hz",
                 "the chain takes 50 clocks and a tick has 40; lower tick_hz or raise clock_hz");
 }

@@ -110,7 +110,7 @@ def truth(design):
                 "coefficient": (0, coefficient, fraction),
                 "signed": (1, coefficient + 1, fraction),
                 "counts": (1, 26, 8),
-                "integer": (0, 31, 0),
+                "integer": (0, p.get("bits", 31), 0),
                 "angle": (0, 32, 32),
             }[kind]
         address = p["slot"] + 32 * scenes[p["scene"]] if "scene" in p else p["slot"]

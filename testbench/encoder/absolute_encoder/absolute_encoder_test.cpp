@@ -30,7 +30,7 @@ struct Adapter {
   template <class Check>
   static void compare(Check& check, const Vabsolute_encoder& rtl, const AbsoluteEncoder::Out& out) {
     check("select", rtl.select_no, out.select_n);
-    FELTGATE_COMPARE(check, rtl, out, serial_clock, command, valid, busy, faults);
+    FELTGATE_COMPARE(check, rtl, out, serial_clock, command, valid, busy, starts, faults);
     check("position", sign_extend<32>(rtl.position_o), std::int64_t{out.position});
   }
 };

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Dead channels and healthy chatter in closed loop: the core's twin, motor, lever and hand.
-// `dead_channel_test "[table]"` prints the tables of docs/blocks/encoder_monitor.md.
+// `dead_channel_test "[table]"` prints the tables of docs/blocks/encoder.md.
 #include <cstdio>
 
 #include "catch.hpp"

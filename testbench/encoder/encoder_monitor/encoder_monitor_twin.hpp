@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/encoder/encoder_monitor.sv, clock by clock. Documentation:
-// docs/blocks/encoder_monitor.md
+// docs/blocks/encoder.md
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,10 @@ class EncoderMonitor {
     bool moved = false, chatters = false, trip = false, index_trip = false, flip_trip = false;
   };
 
-  void reset() { *this = {}; }
+  explicit EncoderMonitor(int edge_bits = 6, bool fast = false)
+      : edge_bits_(edge_bits), fast_(fast) {}
+
+  void reset() { *this = EncoderMonitor(edge_bits_, fast_); }
 
   void clock(const In& in) {
     out_.trip = out_.index_trip = false;
@@ -35,7 +38,7 @@ class EncoderMonitor {
     parity_q_ = parity;
     zeroed_q_ = in.set_zero;
     if (((in.wave >> Map::T::levels) & 1u) == 0) return;
-    law_.tick(in.levels, in.tick_count, in.index_wrong);
+    law_.tick(in.levels, in.tick_count, in.index_wrong, in.count);
     out_ = {law_.moved(), law_.chatters(), law_.trips(), law_.index_trips(), out_.flip_trip};
   }
 
@@ -48,7 +51,9 @@ class EncoderMonitor {
     return ones;
   }
 
-  EncoderMonitorLaw law_;
+  int edge_bits_;
+  bool fast_;
+  EncoderMonitorLaw law_{edge_bits_, fast_};
   bool parity_q_ = false, zeroed_q_ = false;
   Out out_;
 };

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core's twin closed over motor, lever and hand, with an encoder whose channels may fail.
-// Documentation: docs/blocks/encoder_monitor.md
+// Documentation: docs/blocks/encoder.md
 #pragma once
 
 #include <algorithm>

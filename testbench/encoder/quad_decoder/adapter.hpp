@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // quad_decoder: ports of the RTL against its twin, stimuli and an independent oracle.
-// Documentation: docs/blocks/quad_decoder.md
+// Documentation: docs/blocks/encoder.md
 #pragma once
 
 #include <Vquad_decoder.h>

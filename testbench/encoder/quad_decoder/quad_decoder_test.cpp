@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // quad_decoder: RTL against twin on every clock, and both against the motion of an encoder.
-// Documentation: docs/blocks/quad_decoder.md
+// Documentation: docs/blocks/encoder.md
 #include <algorithm>
 #include <limits>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // quad_decoder: the twin alone, which can skip the clocks between two changes of a pin.
-// Documentation: docs/blocks/quad_decoder.md
+// Documentation: docs/blocks/encoder.md
 #include "adapter.hpp"
 #include "catch.hpp"
 

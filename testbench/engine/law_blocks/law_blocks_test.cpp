@@ -104,7 +104,7 @@ double mnm(std::int64_t lsb) { return std::ldexp(1e3 * static_cast<double>(lsb),
 
 std::int64_t in_torque_format(std::int64_t t) { return std::clamp(t, -torque_end, torque_end - 1); }
 
-/// Say `what` on stdout where FELTGATE_SHOW is set: numbers of docs/law-compiler.md.
+/// Say `what` on stdout where FELTGATE_SHOW is set: numbers of docs/laws.md.
 void show(const std::string& what) {
   if (std::getenv("FELTGATE_SHOW") != nullptr) fmt::print("{}\n", what);
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // lowpass: RTL against twin and against plain integers on every clock; pole, dead band and error
-// bound against the closed form. Documentation: docs/blocks/lowpass.md
+// bound against the closed form. Documentation: docs/blocks/dob.md
 #include <Vlowpass.h>
 
 #include <array>

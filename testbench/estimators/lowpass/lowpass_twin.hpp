@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/estimators/lowpass.sv, clock by clock, by the law of the chain. Documentation:
-// docs/blocks/lowpass.md
+// docs/blocks/dob.md
 #pragma once
 
 #include <cstdint>

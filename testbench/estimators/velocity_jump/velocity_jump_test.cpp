@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // velocity_jump: RTL against twin on every clock; silent behind a low-pass with any coefficient and
-// any input, and every flip of an upper bit found. Documentation: docs/blocks/velocity_jump.md
+// any input, and every flip of an upper bit found. Documentation: docs/blocks/velocity.md
 #include <Vvelocity_jump.h>
 
 #include "catch.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/estimators/velocity_jump.sv, clock by clock. Documentation:
-// docs/blocks/velocity_jump.md
+// docs/blocks/velocity.md
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // velocity_mt of a design: adapter, a stimulus that moves an encoder clock by clock, and the block
-// once more from a list of all edges, in plain integers. Documentation: docs/blocks/velocity_mt.md
+// once more from a list of all edges, in plain integers. Documentation: docs/blocks/velocity.md
 #pragma once
 
 #include <Vvelocity_mt.h>

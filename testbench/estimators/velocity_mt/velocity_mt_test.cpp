@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // velocity_mt: RTL against twin and against the list of all edges on every clock; distance from
-// real arithmetic, reversal, and the way to standstill. Documentation: docs/blocks/velocity_mt.md
+// real arithmetic, reversal, and the way to standstill. Documentation: docs/blocks/velocity.md
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "velocity_mt_bench.hpp"

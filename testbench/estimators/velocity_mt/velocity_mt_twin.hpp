@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/estimators/velocity_mt.sv, clock by clock. Documentation:
-// docs/blocks/velocity_mt.md
+// docs/blocks/velocity.md
 #pragma once
 
 #include <cstdint>

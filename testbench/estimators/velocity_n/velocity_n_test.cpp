@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // velocity_n: RTL against twin and plain integers on every clock; gain error of the N-method, first
-// ticks after reset, counter wrap, and distance from quad precision. docs/blocks/velocity_n.md
+// ticks after reset, counter wrap, and distance from quad precision. docs/blocks/velocity.md
 #include <Vvelocity_n.h>
 
 #include <cmath>

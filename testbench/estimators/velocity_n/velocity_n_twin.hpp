@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/estimators/velocity_n.sv, clock by clock, by the law of the chain.
-// Documentation: docs/blocks/velocity_n.md
+// Documentation: docs/blocks/velocity.md
 #pragma once
 
 #include <cstdint>

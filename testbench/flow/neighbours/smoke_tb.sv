@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core behind its Wishbone slave: words are read and written, a motor that stands is armed and disarmed.
-// Ends with "smoke: passed". Documentation: docs/neighbours.md
+// Ends with "smoke: passed". Documentation: docs/other-tools.md
 `default_nettype none
 
 module smoke_tb;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The SoC of docs/examples/litex_soc.py: its master reads and writes the core. Ends with "soc: passed".
-// Documentation: docs/neighbours.md
+// Documentation: docs/other-tools.md
 `default_nettype none
 
 module soc_tb;

@@ -11,7 +11,6 @@ from testing import ROOT, Scratch
 import synth_budget
 import synth_measure
 import synth_path
-import synth_report
 
 ROW = {"lut4_equivalents": 200, "ff": 100, "mult18": 2, "bram": 1, "fmax_mhz": 150.0}
 TOOLS = {"yosys": "yosys 0.70", "nextpnr": "nextpnr 0.11"}
@@ -37,17 +36,8 @@ class Budget(Scratch):
                 self.assertEqual(self.grown(**{key: within}), [])
                 self.assertIn(key, self.grown(**{key: past})[0])
 
-    def test_a_row_without_budget_fails(self):
-        empty = {"measured": {}, "figures": {}}
-        self.assertEqual(len(synth_budget.compare(empty, {"lever": {"dob": ROW}}, TOOLS)), 1)
-
-    def test_other_tools_are_named(self):
-        budget = {"measured": {"yosys": "yosys 0.23"}, "figures": {"lever": {"dob": ROW}}}
-        lines = synth_budget.compare(budget, {"lever": {"dob": ROW | {"ff": 999}}}, TOOLS)
-        self.assertIn("yosys 0.23", lines[-1])
-
     def test_scene_sets_are_kept_beside_the_blocks(self):
-        path = self.folder / "budget.toml"
+        path = self.folder / "areas.json"
         budget = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
         sets = {"lever": {"membrane": ROW, "free": ROW | {"lut4_equivalents": 100}}}
         synth_budget.write(path, synth_budget.merge_scene_sets(budget, sets, TOOLS))
@@ -58,23 +48,8 @@ class Budget(Scratch):
         later = synth_budget.merge(again, {"lever": {"mult": ROW}}, TOOLS)
         self.assertEqual(later["scene_sets"], sets)
 
-    def test_scene_sets_are_shown_smallest_first_against_the_whole(self):
-        small = ROW | {"fmax_min_mhz": 1.0, "fmax_max_mhz": 2.0}
-        whole = small | {"lut4_equivalents": 400}
-        budget = {
-            "measured": TOOLS,
-            "figures": {"lever": {synth_measure.SCENE_ROW: whole}},
-            "scene_sets": {"lever": {"wall": small | {"lut4_equivalents": 300}, "free": small}},
-            "scene_sets_measured": TOOLS | {"date": "today", "machine": "this"},
-        }
-        table = [line for line in synth_report.scene_set_lines(budget) if line.startswith("| ")]
-        names = [line.split(" | ")[0] for line in table[1:]]
-        self.assertEqual(names, ["| free", "| wall", "| all scenes"])
-        self.assertIn("50%", table[1])
-        self.assertIn("25%", table[2])
-
     def test_written_and_read_again(self):
-        path = self.folder / "budget.toml"
+        path = self.folder / "areas.json"
         measured = {"lever": {"core without read-back, inferred": ROW}}
         merged = synth_budget.merge(synth_budget.read(path), measured, TOOLS)
         synth_budget.write(path, merged)
@@ -123,32 +98,6 @@ class Wrapper(unittest.TestCase):
         self.assertEqual(free("gimbal_motor")[4:], ["gate_c_hi_o", "gate_c_lo_o"])
         self.assertEqual(len(free("gimbal_current")), 10)
         self.assertEqual(free("hall_motor"), ["gate_c_hi_o", "gate_c_lo_o", "hall_i"])
-
-
-class Report(Scratch):
-    def test_goals_say_what_is_missed(self):
-        name = "core without read-back, registered"
-        rows = {name: ROW | {"lut4_equivalents": 2640, "fmax_mhz": 111.0}}
-        verdicts = [row[-1] for row in synth_report.goal_rows("lever", rows)]
-        self.assertEqual(verdicts[0], "**missed** by 39%")
-        self.assertEqual(verdicts[1], "**missed** by 11%")
-        self.assertEqual(verdicts[2], "not measured")
-        self.assertEqual(verdicts[4], "**missed** by 15%")
-        self.assertEqual(verdicts[5], "met")
-
-    def test_the_page_has_every_design(self):
-        text = synth_report.generated(synth_budget.read(ROOT / "scripts/synth_budget.toml"))
-        for word in ("### Design `lever`", "### Design `paper`", "Scene sets", "### Goals", "### Peers"):
-            self.assertIn(word, text)
-
-
-class Sum(unittest.TestCase):
-    def test_each_block_as_often_as_named(self):
-        area = dict.fromkeys(("lut4", "ccu2c", "ff", "mult18", "bram"), 1)
-        rows = {"a": area | {"lut4_equivalents": 5}, "b": area | {"lut4_equivalents": 70}}
-        text = synth_report.text_table("lever", rows, ["a", "b", "a"])
-        self.assertRegex(text, r"sum of 3 +3 +3 +80 +3 +3 +3 +-")
-        self.assertNotIn("sum", synth_report.text_table("lever", rows, ["a"]))
 
 
 class CriticalPath(unittest.TestCase):

@@ -134,7 +134,7 @@ class Verbs(BoardTest):
             self.patient(board.port)
             self.host(
                 board.port, "identify", "--free", "--resistance", 0.42, "--electrical-time",
-                196e-6, "--step", 0.2, "--spin", 0.15, "--json", "i.json", "--save", "lever",
+                196e-6, "--json", "i.json", "--save", "lever",
             )  # fmt: skip
         found = json.loads((self.folder / "i.json").read_text(encoding="utf-8"))
         kt, r, j, friction = 0.0302, 0.42, 1.22e-4, 3.5e-3

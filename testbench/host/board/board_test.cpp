@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The board without hardware, without its terminal: garbage on the line, ticks that do not depend
-// on who listens, recordings. Documentation: docs/board.md
+// on who listens, recordings. Documentation: docs/host.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

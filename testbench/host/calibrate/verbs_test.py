@@ -6,7 +6,6 @@ them those of docs/calibration.md, and a motor that is integrated here."""
 
 import json
 import math
-import random
 import re
 import shlex
 import unittest
@@ -43,33 +42,6 @@ def motor(path, plan, every_s=1e-3, r=0.5, kt=0.04, j=1.5e-4, b=2e-4, friction=4
             angle += step * speed
             t += step
     path.write_text("\n".join(rows) + "\n", encoding="utf-8")
-
-
-# Half a degree of a magnet off its axis, and a second harmonic: cosine 1, sine 1, cosine 2, sine 2.
-ERROR_MRAD = (7.5, 4.5, -1.2, 0.9)
-ANGLE_COUNT = 2 * math.pi / 16384
-
-
-def shown(angle):
-    """What an absolute encoder of 14 bits with this error and half a count of noise shows."""
-    seen = angle
-    for _ in range(8):  # the error is of what it shows
-        terms = (
-            e * (math.sin if k % 2 else math.cos)((k // 2 + 1) * seen)
-            for k, e in enumerate(ERROR_MRAD)
-        )
-        seen = angle + 1e-3 * sum(terms)
-    return math.floor(seen / ANGLE_COUNT + random.gauss(0, 0.5))
-
-
-def turn(path, seed, fastest=60, slower=20):
-    """A shaft that runs down: dry friction takes `slower` rad/s in a second. Gives its angles."""
-    random.seed(seed)
-    times = [k * 1e-3 for k in range(round(1e3 * fastest / slower))]
-    angles = [seed + fastest * t - slower * t * t / 2 for t in times]
-    rows = [f"{t:.3f},{shown(a)}" for t, a in zip(times, angles)]
-    path.write_text("time_s,position\n" + "\n".join(rows) + "\n", encoding="utf-8")
-    return angles
 
 
 class VerbTest(ProgramTest):
@@ -113,42 +85,6 @@ class Calibrate(VerbTest):
         said = self.host("-", "calibrate", "--from", "-", typed=rows, status=2)
         self.assertIn("forces need the arm of the pulley", said)
 
-    def test_the_table_of_an_encoder_is_right_on_another_seed(self):
-        turn(self.folder / "turn.csv", seed=1)
-        words = ("--design", "lever_absolute", "calibrate", "encoder", "--from")
-        said = self.host("-", *words, "turn.csv", "--json", "e.json", "--write", "mine.toml")
-        self.assertIn("turns at", said)
-        found = json.loads((self.folder / "e.json").read_text(encoding="utf-8"))
-        self.assertEqual(found["procedure"], "encoder")
-        self.assertEqual(found["warnings"], [])
-        self.assertEqual([c["key"] for c in found["changes"]], ["absolute_encoder.error_mrad"])
-        terms = found["changes"][0]["value"]
-        for value, truth in zip(terms, ERROR_MRAD + (0,) * 4):
-            self.assertAlmostEqual(value, truth, delta=0.1)
-        # Its table, as the generator has it, on another turn.
-        self.builds(self.folder / "mine.toml")
-        header = (self.folder / "mine.hpp").read_text(encoding="utf-8")
-        entries = re.search(r"corrections\[256\] = {(.*?)}", header, re.S)[1]
-        table = [int(n) for n in entries.split(",")]
-        self.assertEqual(len(table), 256)
-        before, after = [], []
-        for angle in turn(self.folder / "again.csv", seed=2, fastest=40):
-            count = shown(angle)
-            part, at = count % 64, count // 64 % 256
-            correction = table[at] * (64 - part) + table[(at + 1) % 256] * part
-            before.append(count * ANGLE_COUNT - angle)
-            after.append((count + (correction + 2048 >> 12)) * ANGLE_COUNT - angle)
-
-        def mean_square(values):
-            mean = sum(values) / len(values)
-            return math.sqrt(sum((v - mean) ** 2 for v in values) / len(values))
-
-        # A tenth, and what noise and rounding to counts leave of a perfect encoder.
-        self.assertLess(mean_square(after), mean_square(before) / 10 + 0.6 * ANGLE_COUNT)
-        # The other turn gives nearly the same.
-        said = self.host("-", *words, "again.csv", "--harmonics", "2")
-        self.assertIn("error_mrad = [7.", said)
-
     def test_an_alignment_gives_pole_pairs_and_offset(self):
         rows = ["commutation_offset, position"]
         for k in [*range(9), *range(8)[::-1]]:
@@ -175,16 +111,6 @@ class Calibrate(VerbTest):
             with self.subTest(words):
                 self.assertIn(needle, self.host("-", *words, status=2))
 
-    def test_encoders_without_a_table(self):
-        turn(self.folder / "turn.csv", seed=1)
-        for words, needle in (
-            (("calibrate", "encoder", "--from", "turn.csv"), "lever has no absolute encoder"),
-            (("calibrate", "encoder"), "needs a recorded turn"),
-            (("calibrate", "magnet", "--from", "turn.csv"), "encoder"),
-        ):
-            with self.subTest(words):
-                self.assertIn(needle, self.host("-", *words, status=2))
-
     def test_bad_input(self):
         for words, typed, needle in (
             (("calibrate",), "", "has no board; give the port, or the readings with --from"),
@@ -193,9 +119,10 @@ class Calibrate(VerbTest):
             (("calibrate", "--from", "-"), "v torque\n1 2\n1 2\n1 3\n", "only 1 different voltage"),
             (("calibrate", "--from", "-"), "v torque\n1 x\n", "standard input:2: torque"),
             (("calibrate", "--from", "-", "--save", "x"), "", "leave out --from"),
+            (("calibrate", "magnet", "--from", "-"), "", "align"),
             (("calibrate", "--from", "-", "--confidence", "1"), "", "--confidence"),
             (("identify",), "", "has no board"),
-            (("identify", "--from", "-", "--loaded", "x"), "", "go together"),
+            (("identify", "--from", "-", "--save", "x"), "", "--coast belongs to --from FILE"),
             (("identify", "--from", "-"), "t,position,v\n0,0,0\n", "1 rows; record at least 64"),
             (("--design", "levr", "calibrate", "--from", "-"), "", "did you mean"),
         ):

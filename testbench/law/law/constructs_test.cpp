@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Each construct of the language: what it computes. Documentation: docs/laws.md
+#include <algorithm>
 #include <cmath>
 
 #include "catch.hpp"
@@ -94,6 +95,30 @@ TEST_CASE("floor and mod") {
         0);
 }
 
+TEST_CASE("round: halves go up, as floor(x + 0.5)") {
+  for (const double x : {-2.51, -2.5, -0.5, -0.49, 0.0, 0.49, 0.5, 1.5, 2.49, 9.0}) {
+    CHECK(at("round(clamp(position, -5, 5))", x) == std::floor(std::clamp(x, -5.0, 5.0) + 0.5));
+  }
+  CHECK(at("round(2.5) + 10 * round(-2.5)") == -17);
+  CHECK(torque_of("param n = 3 in 0 .. 9 whole\nout torque = 1 Nm * round(n)") == 3);
+  CHECK(torque_of("let round = 2\nlet time = 3\nout torque = 1 Nm * round * time") == 6);
+}
+
+TEST_CASE("time: since the scene began, exact in every run, until its last one") {
+  Running<> law(
+      law_of("rate = 10 kHz\nout torque = 1 Nm * time / (1 s) + tau_hat * "
+             "(if time > 0.25 ms then 1 else 0)"));
+  CHECK(law.law().states.size() == 1);
+  for (int n = 0; n < 5; ++n) {
+    CHECK(law.torque({{"tau_hat", 1}}) == Approx(n * 1e-4 + (n > 2 ? 1 : 0)));
+  }
+  law.evaluation().reset();
+  CHECK(law.torque({}) == 0);
+  law.evaluation().set_state(0, 2e9);
+  CHECK(law.torque({}) == Approx(2e5));
+  CHECK(law.torque({}) == Approx(2e5));
+}
+
 TEST_CASE("names that nothing uses are noted, in the order of the file, each once") {
   const Law law = law_of(
       "param z = 1 in 0 .. 2\nlet used = 1\nfor i in 0 .. 2 { let a = i }\n"
@@ -171,6 +196,25 @@ TEST_CASE("conditions") {
     CHECK(counted("abs(-n) + 1 == 2 * min(p, 2)", n) == (n * n == 9));
     CHECK(counted("0 < n == p", n) == (n == 3));
     CHECK(counted("n == p < 4", n) == (n == 3));
+  }
+  const auto held = [](const std::string& c, bool b, double x) {
+    return torque_of("bool b = " + std::string(b ? "true" : "false") +
+                         "\nnext b = b\nbool d = true\nnext d = d\nout torque = 1 Nm * (if " + c +
+                         " then 1 else 0 * position)",
+                     x);
+  };
+  for (const bool b : {false, true}) {
+    for (const double x : {-1.0, 1.0}) {
+      CHECK(held("b == d", b, x) == b);
+      CHECK(held("b != d", b, x) == !b);
+      CHECK(held("b == (position > 0)", b, x) == (b == (x > 0)));
+      CHECK(held("(position > 0) != b", b, x) == (b != (x > 0)));
+      CHECK(held("not b == true", b, x) == !b);
+      CHECK(held("false != b", b, x) == b);
+      CHECK(held("(b and position > 0) == (d or position < 0)", b, x) == (b && x > 0));
+      CHECK(held("b == d == (position > 0)", b, x) == (b && x > 0));
+      CHECK(held("b == b", b, x) == 1);
+    }
   }
   CHECK(at("if position < 0 then -1 else if position < 1 then 0 else 1", 0.5) == 0);
   CHECK(at("2 * (if position < 0 then 3 else 4)", -1) == 6);

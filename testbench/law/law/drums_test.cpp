@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The laws of a stick over drums and under a ceiling. Documentation: docs/devices/drums.md
+// The laws of a stick over drums and under a ceiling. Documentation:
+// docs/devices/strings-and-drums.md
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The plane under a pen, and a sent force, against vectors. Documentation:
-// docs/devices/local_plane.md
+// docs/devices/pantograph.md
 #include <algorithm>
 #include <cmath>
 #include <map>

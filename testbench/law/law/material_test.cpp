@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A material: each of its fields alone against its formula, and stick-slip against its closed form.
-// Documentation: docs/devices/material.md
+// Documentation: docs/devices/one-lever.md
 #include <algorithm>
 #include <cmath>
 #include <map>

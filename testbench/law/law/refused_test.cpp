@@ -49,7 +49,7 @@ const Bad kMeaning[] = {
      "1:21: unknown function \"sinn\"; did you mean \"sin\"?"},
     {"out torque = 1 Nm * tan(position)",
      "1:21: unknown function \"tan\"; there are min, max, clamp, abs, sgn, sin, cos, sqrt, exp, "
-     "lowpass, sum, floor, mod, noise, log, atan2, and what table defines above"},
+     "lowpass, sum, floor, round, mod, noise, log, atan2, and what table defines above"},
     {"out torque = 1 Nm * atan2(position[1], position)",
      "1:21: atan2 of what has no end; limit both with clamp, the smallest range is the most exact "
      "one"},
@@ -309,6 +309,19 @@ const Bad kMeaning[] = {
     {"out torque = if position == 1 then 1 Nm else 0",
      "1:26: \"==\" between numbers that are never quite the same; compare with <, <=, > or >=, or "
      "make both whole"},
+    {"bool b = true\nnext b = b\nout torque = if position > 0 == b then 1 Nm else 0",
+     "3:30: a condition and a number beside \"==\"; compare the number first, in brackets: (x > 0) "
+     "== held"},
+    {"out torque = if (position < 1) < 2 then 1 Nm else 0",
+     "1:27: a condition where a number must stand; write if CONDITION then 1 else 0"},
+    {"let a = time\nlet time = a\nout torque = 1 Nm * time",
+     "1:9: \"time\" is used before its definition in line 2; move the definition up"},
+    {"out torque = 1 Nm * time / (1 s)",
+     "1:21: dt and filters need a rate; write above: rate = 40 kHz"},
+    {"out torque = 1 Nm * round(position)",
+     "1:21: round of what has no end; limit it with clamp to 64 of them; what repeats for ever is "
+     "a "
+     "periodic table"},
     {"param p = 1 in 0 .. 2 whole\nout torque = if p / 2 != 1 then 1 Nm else 0",
      "2:23: \"!=\" between numbers that are never quite the same; compare with <, <=, > or >=, or "
      "make both whole"},

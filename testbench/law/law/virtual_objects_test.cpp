@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Flywheel, pendulum and a body in space behind a spring and a damper: momentum, energy, and where
-// they are stable. Documentation: docs/devices/flywheel.md
+// they are stable. Documentation: docs/devices/one-lever.md
 #include <algorithm>
 #include <array>
 #include <cmath>

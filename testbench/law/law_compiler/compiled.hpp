@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law's text through the compiler, for the default target. docs/law-compiler.md
+// A law's text through the compiler, for the default target. docs/laws.md
 #pragma once
 
 #include <string>

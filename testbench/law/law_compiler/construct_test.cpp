@@ -9,6 +9,7 @@
 #include <map>
 
 #include "compiled.hpp"
+#include "law/diagnostics.hpp"
 #include "law/engine/machine.hpp"
 #include "law/measure.hpp"
 
@@ -84,6 +85,19 @@ const std::map<std::string, Sample> samples = {
       "next place = clamp(place + clamp(position - place, -0.5, 0.5), 0, 4)\n"
       "out torque = height(place) + 0.1 * height(4 - place)\n",
       16, 1e-4}},
+    {"bools that are the same, and whole values",
+     {"bool held = false\nbool was = true\nnext was = held\n"
+      "next held = (position > 0.2 rad) != (was == held)\n"
+      "out torque = if held == was then 0.1 Nm else 0.02 Nm * clamp(position, -1, 1)\n",
+      24, 2e-5}},
+    {"time in a ramp, a wave and a comparison",
+     {"rate = 50 kHz\nparam f = 3 Hz in 0.1 .. 400 Hz\n"
+      "let ramp = clamp(time / (2 s), 0, 1)\n"
+      "out torque = 0.1 Nm * ramp * sin(2 * pi * f * time) + (if time > 10 s then 0.01 Nm else "
+      "0)\n",
+      16, 5e-5}},
+    {"rounded to the nearest",
+     {"out torque = 0.02 Nm * round(4 * clamp(position, -1, 1))\n", 12, 2e-5}},
     {"conditions: and, or, not",
      {"param a = 0.2 in -1 .. 1\n"
       "let inside = (position > a and position < 2) or (not (velocity < 1 rad/s) and position < "
@@ -134,6 +148,53 @@ const std::map<std::string, Sample> samples = {
       "next a = b\nnext b = a\n"
       "out torque = a * 1 Nm + 0.01 Nm * clamp(position, -1, 1)\n",
       12, 5e-5}}};
+
+TEST_CASE("a comparison of whole values narrows them: == and != as well as <") {
+  for (const char* next :
+       {"if n == 9 then 0 else n + 1", "if n != 9 then n + 1 else 0", "if 9 == n then 0 else n + 1",
+        "if n < 9 then n + 1 else 0", "if n == 4 then 2 * n + 1 else 0",
+        "if 0 <= n and n < 9 then n + 1 else 0", "if n < 0 or n >= 9 then 0 else n + 1"}) {
+    INFO(next);
+    const std::string count = "state n = 0 in 0 .. 9 whole\nnext n = " + std::string(next) + "\n";
+    const Compiled c = compiled(count + "out torque = 1 mNm * n\n");
+    require_within(c, true);
+    require_within(c, false);
+    // Beside a state whose error has no bound, the law's own values count too.
+    require_within(compiled("phase p = 0 in 0 .. 1\nnext p = p + 0.01\n" + count +
+                            "out torque = 1 mNm * n * p\n"),
+                   false);
+  }
+}
+
+TEST_CASE("a choice has the range of its branches behind their comparisons") {
+  const std::string n = "state n = 0 in 0 .. 9 whole\nnext n = clamp(3 * position, 0, 9)\n";
+  for (const char* out : {"0.1 Nm / (if n == 0 then 1 else n)",
+                          "0.1 Nm / (if position > 0.1 then position else 0.1)"}) {
+    const Compiled c = compiled(n + "out torque = " + out + "\n");
+    INFO(out);
+    CHECK(c.bound.unproven.empty());
+    CHECK(c.bound.output[0] < 0.02);
+    CHECK(measure(c, 1, 5000).output[0] <= c.bound.output[0] + 1e-9);
+  }
+  CHECK_THROWS_WITH(compiled(n + "out torque = 0.1 Nm / (if n != 0 then 1 else n)\n"),
+                    Catch::Matchers::Contains("division by what goes from"));
+}
+
+TEST_CASE("the rest of a whole value is below a whole period") {
+  const Compiled c = compiled(
+      "state n = 2 in 0 .. 7 whole\nnext n = if position > 0 then mod(n + 1, 8) else n\n"
+      "out torque = 0.01 Nm * n\n");
+  CHECK(c.bound.unproven.empty());
+  CHECK(measure_free(c, 1, 5000).most[0] < 1e-5);
+}
+
+TEST_CASE("the run from the source knows every construct") {
+  for (const auto& [name, sample] : samples) {
+    INFO(name);
+    const Compiled c = compiled(sample.text);
+    CHECK(measure_free(c, 1, 1000).unknown.empty());
+  }
+}
 
 TEST_CASE("constructs stay within their bounds, which are small") {
   for (const auto& [name, sample] : samples) {

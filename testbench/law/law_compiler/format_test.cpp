@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Formats that the search must not choose, and the memory that tables need. Documentation:
-// docs/law-compiler.md
+// docs/laws.md
 #include <cmath>
 
 #include "catch.hpp"
@@ -27,6 +27,16 @@ TEST_CASE("a whole state counts in ones") {
       "state count = 0 in 0 .. 9 whole\n"
       "next count = if count < 5 and not velocity > 1 rad/s then count + 1 else 0\n"
       "out torque = 0.01 Nm * count\n");
+}
+
+TEST_CASE("a state has many steps in its range, whatever little is made of it") {
+  for (const char* out : {"if big > 5 then 0.2 Nm else 0 Nm", "1e-5 Nm * floor(big)"}) {
+    const Compiled c = compile_text(
+        std::string("state big = 0 in 0 .. 10\nnext big = clamp(4 * position, 0, 10)\n") +
+            "out torque = " + out + "\n",
+        "x.law", Target{});
+    CHECK(c.program.states[0].scale <= 10 / 256.0);
+  }
 }
 
 // Laws 60198 and 81752 of the judge.

@@ -28,7 +28,7 @@ void require_within(const Compiled& c, std::int64_t runs) {
 TEST_CASE("a strip that only changes a state says so") {
   const auto said = [](const std::string& law) { return report(compiled(law), {}); };
   CHECK_THAT(
-      said("state n = 0 in 0 .. 3 whole\nnext n = clamp(position / (1 turn) + 0.5, 0, 3)\n"
+      said("state n = 0 in 0 .. 3 whole\nnext n = clamp(position / (1.3 turn) + 0.5, 0, 3)\n"
            "out torque = 1 mNm * n\n"),
       Catch::Contains("outputs differ only in later runs, through state n, whose next value may "
                       "differ by 1\n"));
@@ -41,6 +41,28 @@ TEST_CASE("a strip that only changes a state says so") {
         "event e when 0.3 * velocity > 0.01 * position / (1 s)\nout torque = tau_hat\n"}) {
     CHECK_THAT(said(law), Catch::Contains("may go either way") && !Catch::Contains("by 0 Nm"));
   }
+}
+
+TEST_CASE("what a strip changes is what the law jumps by, not what its sides can be elsewhere") {
+  // By intervals the first side reaches 0.2 Nm / 0.01 * 1024.
+  const Compiled friction = compiled(
+      "param dv = 0.05 rad/s in 0.01 .. 1 rad/s\nparam coulomb = 20 mNm in 0 .. 0.2 Nm\n"
+      "param viscous = 1 mNm s/rad in 0 .. 20 mNm s/rad\n"
+      "out torque = if abs(velocity) < dv then -coulomb * velocity / dv else "
+      "-coulomb * sgn(velocity) - viscous * velocity\n");
+  REQUIRE(friction.bound.strips.size() == 1);
+  // 1 mNm s/rad * 0.05 rad/s, and the bound contains a part of it.
+  CHECK(friction.bound.strips[0].jump_as_set[0] + friction.bound.as_set[0] ==
+        Approx(0.05e-3).epsilon(0.1));
+  CHECK(friction.bound.strips[0].jump[0] < 0.5);
+  CHECK_THAT(report(friction, {}),
+             Catch::Contains("outputs may then differ by 4.6e-05 Nm as set, by "));
+  // Here the law jumps indeed.
+  const Compiled jump = compiled(
+      "out torque = if velocity * (1 s) > 0.31 * position then 0.1 Nm * velocity * (1 s) / 100 "
+      "else 0\n");
+  REQUIRE(jump.bound.strips.size() == 1);
+  CHECK(jump.bound.strips[0].jump_as_set[0] == Approx(0.31 * 201.06 * 1e-3).epsilon(0.02));
 }
 
 TEST_CASE("a whole number that is rounded down wrongly is wrong by one") {

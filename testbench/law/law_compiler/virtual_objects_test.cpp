@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The words of a flywheel keep momentum and energy, except for the error that the bound allows per
-// run. Documentation: docs/devices/flywheel.md
+// run. Documentation: docs/devices/one-lever.md
 #include <catch2/catch.hpp>
 #include <cmath>
 

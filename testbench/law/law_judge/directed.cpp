@@ -182,6 +182,37 @@ void rounded_down(std::vector<Directed>& all) {
   }
 }
 
+/// Conditions that are the same, whole states that are counted to an end, and rounded values.
+void the_same(std::vector<Directed>& all) {
+  const Node x = limited(position(), -2, 2), far = position() > number("0.3");
+  const Node slow = number("0.02") * velocity() < number("0.5") * position();
+  for (const Kind kind : {Kind::equal, Kind::differs}) {
+    for (const Node& other : {far, slow, make(Kind::both, {far, slow})}) {
+      Law l;
+      l.states.push_back({"held", 0, 0, 1, true, false, {}, {}, {}, true});
+      const Node held = make(Kind::state, {}, 0, "held");
+      l.states[0].next = make(kind, {held, other});
+      all.push_back({"bools that are the same",
+                     of(l, choose(make(kind, {slow, held}), number("0.5"), times(0.1, x)))});
+    }
+    for (const char* end : {"5", "3", "0"}) {
+      Law l;
+      const Node stage = l.state("stage", 0, 0, 5, true);
+      const Node more = make(Kind::minimum, {stage + number("1"), number("5")});
+      const Node is = make(kind, {stage, number(end)});
+      const Node on = end[0] == '5' ? stage + number("1") : more;
+      const bool same = kind == Kind::equal;
+      l.states[0].next = choose(is, same ? number("0") : on, same ? on : number("0"));
+      all.push_back({std::string("a whole state counted to ") + end, of(l, times(0.1, stage))});
+    }
+  }
+  const auto round = [](const Node& of) { return make(Kind::round, {of}); };
+  all.push_back({"a position rounded", of({}, times(0.05, round(times(5, x) + 0.3)))});
+  all.push_back({"a rounded position, compared",
+                 of({}, choose(make(Kind::equal, {round(times(3, x)), number("2")}), number("0.5"),
+                               times(0.1, x)))});
+}
+
 /// What a turn drops is between two words of a table's argument, always below, and steep lines of a
 /// table that is exact show it.
 void dropped(std::vector<Directed>& all) {
@@ -256,6 +287,44 @@ void wide(std::vector<Directed>& all) {
                                    limited(times(0.655, part) - 1.994, -0.492, 1.414)))});
 }
 
+/// Values that stay at an end, and are compared with it.
+void ends(std::vector<Directed>& all) {
+  const Kind kinds[] = {Kind::less,       Kind::less_equal, Kind::more,
+                        Kind::more_equal, Kind::equal,      Kind::differs};
+  const auto told = [](const Node& is) { return choose(is, number("0.25"), number("-0.5")); };
+  for (const char* factor : {"4", "2.7"}) {
+    const Node x = number(factor) * position();
+    for (const Kind kind : kinds) {
+      for (const char* with : {"0", "2", "7"}) {
+        Law l;
+        const Node stage = l.state("stage", 0, 0, 7, true);
+        l.states[0].next = limited(x, 0, 7);
+        all.push_back(
+            {"a whole state of a real number", of(l, told(make(kind, {stage, number(with)})))});
+      }
+      const bool whole = kind == Kind::equal || kind == Kind::differs;
+      const Node floor = make(Kind::floor, {limited(x, 0, 3)});
+      all.push_back({"a floor at its upper end", of({}, told(make(kind, {floor, number("3")})))});
+      if (whole) continue;
+      const Node rest = make(Kind::modulo, {limited(x, 0, 20), number("3")});
+      all.push_back(
+          {"what an end leaves of a period", of({}, told(make(kind, {rest, number("2")})))});
+      all.push_back(
+          {"a limited value", of({}, told(make(kind, {limited(x, -0.7, 0.7), number("0.7")})))});
+      Law l;
+      const Node kept = l.state("kept", 0, 0, 3);
+      l.states[0].next = limited(x, 0, 2.7);
+      all.push_back({"a state at its end", of(l, told(make(kind, {kept, number("2.7")})))});
+    }
+  }
+  Law l;
+  const Node gear = l.state("gear", 0, -20, 20, true);
+  l.states[0].next = limited(position() / number("0.4363") + 0.5, -20, 20);
+  all.push_back({"the rest of a whole state beside it",
+                 of(l, times(0.01, gear) + times(0.1, make(Kind::modulo, {gear, number("3")})) +
+                           told(make(Kind::equal, {number("2") * gear, number("40")})))});
+}
+
 /// A comparison that was the flag once, and is needed again after another one.
 void flag_once(std::vector<Directed>& all) {
   const Node held = number("0.2") < position();
@@ -284,9 +353,11 @@ std::vector<Directed> directed_laws() {
   nested(all);
   renamed(all);
   rounded_down(all);
+  the_same(all);
   directions(all);
   flag_once(all);
   wide(all);
+  ends(all);
   return all;
 }
 

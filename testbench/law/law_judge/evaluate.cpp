@@ -30,6 +30,7 @@ bool Evaluator::whole(const Node& n) const {
     case Kind::let:
       return whole(law_.lets[at(n->index)].value);
     case Kind::floor:
+    case Kind::round:
       return true;
     case Kind::add:
     case Kind::subtract:
@@ -210,6 +211,8 @@ Real Evaluator::of(const Node& n) {
       return element(n);
     case Kind::floor:
       return floored(n, arg(0));
+    case Kind::round:
+      return floored(n, arg(0) + 0.5L);
     case Kind::modulo: {
       const Real x = arg(0), period = arg(1);
       return std::clamp(x - period * floored(n, x / period), Real{0}, period);
@@ -264,9 +267,9 @@ Outcome Evaluator::run(const Before& before, const std::map<long, long>& forced)
     if (s.follows) {
       next = filtered(s, before.states[k]);
     } else if (s.next) {
-      next = s.truth ? (truth(s.next) ? 1 : 0) : of(s.next);
+      const Node& rounded = rounded_next_[k];
+      next = s.truth ? (truth(s.next) ? 1 : 0) : of(rounded ? rounded : s.next);
     }
-    if (s.whole) next = std::floor(next);
     const Real width = static_cast<Real>(s.upper) - s.lower;
     if (s.phase) next -= width * std::floor((next - s.lower) / width);
     o.states.push_back(next);

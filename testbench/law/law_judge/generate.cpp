@@ -95,10 +95,96 @@ class WideGenerator : public Generator {
   }
 };
 
+/// A real number that stays at its ends: kept in a whole state or in another one, rounded down, the
+/// rest of a period, the index of an array. Every operator compares it with its ends and more.
+class EndsGenerator : public Generator {
+ public:
+  explicit EndsGenerator(std::uint64_t seed) : Generator(seed, Shape::ends) {}
+
+  Law law() {
+    parameters();
+    whole_ = one_in(3);
+    const int count = 2 + below(8);
+    lower_ = one_in(2) ? 0 : -count;
+    upper_ = whole_ || one_in(2) ? count : between(0.3, count);
+    const Node free = real(), x = limited(free, lower_, upper_);
+    Node at;
+    switch (below(6)) {
+      case 0:
+      case 1:
+        at = law_.state("stage", 0, lower_, upper_ = std::ceil(upper_), true);
+        law_.states.back().next = x;
+        whole_ = true;
+        break;
+      case 2:
+        at = law_.state("kept", 0, lower_, upper_);
+        law_.states.back().next = one_in(2) ? x : choose(compared(position(), fixed(0)), x, at);
+        break;
+      case 3:
+        at = make(Kind::floor, {x});
+        whole_ = true;
+        break;
+      case 4:
+        // Eighths: the rest at an end is exact.
+        period_ = one_in(2) ? 1 + below(4) : (4 + below(28)) / 8.0;
+        upper_ = std::floor(8 * upper_) / 8;
+        at = make(Kind::modulo, {limited(free, lower_, upper_), number(period_)});
+        whole_ = false;
+        break;
+      default:
+        at = x;
+        whole_ = false;
+    }
+    Node torque = choose(decided(at), value(0.1, 1), fixed(0));
+    if (one_in(2)) torque = torque + choose(decided(at), value(0.1, 1), number("0"));
+    if (one_in(3)) torque = torque + value(0.01, 0.1) * at;
+    if (one_in(4)) {
+      law_.arrays.push_back({"list", {}});
+      for (int i = 0; i < 6; ++i) law_.arrays[0].values.push_back(between(-1, 1));
+      torque = torque + make(Kind::element, {limited(real(), 0, 5)}, 0, "list");
+    }
+    law_.torques.push_back(limited(torque, -4, 4));
+    if (one_in(3)) law_.events.push_back({"told", number("1"), decided(at)});
+    return law_;
+  }
+
+ private:
+  Node real() {
+    switch (below(5)) {
+      case 0:
+        return value(0.5, 5) * position();
+      case 1:
+        return position() / value(0.2, 1) + value(0, 1);
+      case 2:
+        return velocity() / value(1, 20);
+      case 3:
+        return some(params_) * position();
+      default:
+        return tau_hat() / value(0.1, 1) + position();
+    }
+  }
+
+  /// A comparison with an end, with what an end leaves of a period, or with a number between.
+  Node decided(const Node& at) {
+    const Kind kinds[] = {Kind::less,       Kind::less_equal, Kind::more,
+                          Kind::more_equal, Kind::equal,      Kind::differs};
+    double with = one_in(3) ? lower_ : one_in(2) ? upper_ : between(lower_, upper_);
+    if (period_ > 0) with = one_in(2) ? with - period_ * std::floor(with / period_) : 0;
+    if (whole_) with = std::floor(with);
+    const Node other = whole_ && one_in(4) ? count_ : number(with);
+    return make(kinds[below(whole_ ? 6 : 4)], {at, other});
+  }
+
+  bool whole_ = false;
+  double lower_ = 0, upper_ = 1, period_ = 0;
+};
+
 }  // namespace
 
 Law random_law(std::uint64_t seed, Shape shape) {
-  return shape == Shape::wide ? WideGenerator(seed).law() : Generator(seed, shape).law();
+  return shape == Shape::wide   ? WideGenerator(seed).law()
+         : shape == Shape::ends ? EndsGenerator(seed).law()
+                                : Generator(seed, shape).law();
 }
 
 }  // namespace feltgate::judge

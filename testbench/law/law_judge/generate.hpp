@@ -8,7 +8,8 @@
 
 namespace feltgate::judge {
 
-/// The main construct of a generated law; `wide`: a function over the whole range of an input.
+/// The main construct of a generated law. `wide`: a function over the whole range of an input;
+/// `ends`: values that stay at an end and are compared there.
 enum class Shape {
   formula,
   parameters_alone,
@@ -18,9 +19,10 @@ enum class Shape {
   tables,
   memory,
   axes,
-  wide
+  wide,
+  ends
 };
-constexpr int shapes = 8;  ///< without `wide`, whose laws have a test of their own
+constexpr int shapes = 8;  ///< without `wide` and `ends`, whose laws have tests of their own
 
 Law random_law(std::uint64_t seed, Shape shape);
 

@@ -21,6 +21,8 @@ struct Verdict {
   std::int64_t aimed = 0, aimed_turned = 0;  ///< the same for runs aimed at a comparison
   int unread_states = 0;  ///< states that no step reads; their words are not judged
   double worst = 0;  ///< largest error of a torque divided by its bound, without the turned runs
+  int acting = 0;    ///< free runs in which a torque moved
+  int left = 0;      ///< of these, those in which many runs were far from the law
 };
 
 /// Compares the words of `compiled` with `law`: torques, events, states and lines of every run.

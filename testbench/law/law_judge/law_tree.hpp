@@ -24,7 +24,8 @@ using Real = long double;
 enum class Kind {
   number, param, input, state, line, let, counter,  // leaves
   add, subtract, multiply, divide, power, negate, minimum, maximum, clamp, absolute,
-  sine, cosine, root, exponential, logarithm, table, element, sign, choice, sum, floor, modulo, noise,
+  sine, cosine, root, exponential, logarithm, table, element, sign, choice, sum, floor, round, modulo,
+  noise,
   angle,  // atan2(y, x); value: the floor of |x| + |y|
   less, less_equal, more, more_equal, equal, differs, both, either, opposite
 };
@@ -174,8 +175,8 @@ inline Node tau_hat(int axis = 0) {
               axis == 0 ? "tau_hat" : fmt::format("tau_hat[{}]", axis));
 }
 
-/// The text of a law. Every comparison, sgn and array element begins a new line, so that the line
-/// number identifies it.
+/// The text of a law. Every comparison, sgn, array element and next value of a whole state begins a
+/// new line, so that the line number identifies it.
 class Printer {
  public:
   explicit Printer(const Law& law);
@@ -201,6 +202,11 @@ class Printer {
 /// Returns the text of a comparison as a < b, of an element's index, of a floor or of a mod, with
 /// its lets written in full.
 std::string canonical(const Law& law, const Node& n);
+
+/// What a whole state keeps: its next value rounded down. Empty for another state.
+inline Node rounded_next(const State& s) {
+  return s.whole && s.next && !s.truth ? make(Kind::floor, {s.next}) : Node{};
+}
 
 /// A decision of a run, and its distance from the other result.
 struct Decision {
@@ -231,7 +237,9 @@ struct Before {
 /// operands.
 class Evaluator {
  public:
-  explicit Evaluator(const Law& law) : law_(law) {}
+  explicit Evaluator(const Law& law) : law_(law) {
+    for (const State& s : law.states) rounded_next_.push_back(rounded_next(s));
+  }
   Outcome run(const Before& before, const std::map<long, long>& forced);
 
  private:
@@ -251,6 +259,7 @@ class Evaluator {
   bool whole(const Node& n) const;
 
   const Law& law_;
+  std::vector<Node> rounded_next_;  ///< of each state
   std::map<const Tree*, Known> known_;
   std::map<std::string, long> numbers_;
   const Before* before_ = nullptr;

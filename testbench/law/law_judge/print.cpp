@@ -77,6 +77,8 @@ std::string written(const Law& law, const Node& n, const Mark& mark, const Let& 
       return mark(n) + n->text + "[" + p[0] + "]";
     case Kind::floor:
       return mark(n) + call("floor");
+    case Kind::round:
+      return mark(n) + call("round");
     case Kind::modulo:
       return mark(n) + call("mod");
     case Kind::noise:
@@ -124,6 +126,7 @@ std::string canonical(const Law& law, const Node& n) {
   std::string a = full(law, n->parts[0]);
   if (n->kind == Kind::element) return n->text + "[" + a + "]";
   if (n->kind == Kind::floor) return "floor(" + a + ")";
+  if (n->kind == Kind::round) return "round(" + a + ")";
   if (n->kind == Kind::modulo) return "mod(" + a + ", " + full(law, n->parts[1]) + ")";
   std::string b = n->kind == Kind::sign || n->kind == Kind::angle ? "0" : full(law, n->parts[1]);
   if (n->kind == Kind::equal) return a + " == " + b;
@@ -218,7 +221,9 @@ void Printer::declare() {
     if (needed(l.name)) s += "let " + l.name + " = " + of(l.value) + "\n";
   }
   for (const State& m : law_.states) {
-    if (needed(m.name) && m.next) s += "next " + m.name + " = " + of(m.next) + "\n";
+    if (!needed(m.name) || !m.next) continue;
+    const Node rounded = rounded_next(m);
+    s += "next " + m.name + " = " + (rounded ? mark(rounded) : "") + of(m.next) + "\n";
   }
   for (const Line& l : law_.lines) {
     if (needed(l.name)) s += "next " + l.name + " = " + of(l.written) + "\n";

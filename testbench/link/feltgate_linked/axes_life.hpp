@@ -3,7 +3,7 @@
 //
 // feltgate_linked with AXES axes: its ports, and a host that loads a law and moves levers at the
 // twin's pins; play() then runs the RTL beside a twin. Documentation:
-// docs/blocks/feltgate_linked.md
+// docs/link.md
 #pragma once
 
 #include <Vfeltgate_linked.h>

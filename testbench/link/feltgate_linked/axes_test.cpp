@@ -3,7 +3,7 @@
 //
 // feltgate_linked of a design with two axes or three: RTL against twin on every clock, with a host
 // at the wire that loads a law, arms, chooses words of all axes, and stops at any of them.
-// Documentation: docs/blocks/feltgate_linked.md
+// Documentation: docs/link.md
 #include <memory>
 
 #include "axes_life.hpp"
@@ -212,8 +212,8 @@ TEST_CASE("feltgate_linked of axes: from event to event as clock by clock") {
   };
   const auto load = law::load_into_zeros(image());
   for (std::size_t k = 0; k < load.size(); ++k) {
-    send(request(2, static_cast<int>(k & 255), EngineMap::port_first + static_cast<unsigned>(load[k].address),
-                 load[k].data));
+    send(request(2, static_cast<int>(k & 255),
+                 EngineMap::port_first + static_cast<unsigned>(load[k].address), load[k].data));
   }
   for (int k = 0; k < 2500; ++k) {
     if (random.one_in(3)) send(frames.any());

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Captures a contact and reads it back over the UART, RTL and twin in lock-step: each word belongs
-// to its tick. Documentation: docs/blocks/feltgate_linked.md
+// to its tick. Documentation: docs/link.md
 #include <array>
 #include <map>
 #include <memory>

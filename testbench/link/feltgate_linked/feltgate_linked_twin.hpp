@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/link/feltgate_linked.sv in the form that the lock-step needs. Documentation:
-// docs/blocks/feltgate_linked.md
+// docs/link.md
 #pragma once
 
 #include "feltgate/linked_core.hpp"

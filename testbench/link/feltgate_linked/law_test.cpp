@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A host loads a law over the UART, arms, changes parameters while it runs, and reads its events.
-// RTL and twin in lock-step. Documentation: docs/blocks/feltgate_linked.md
+// RTL and twin in lock-step. Documentation: docs/link.md
 #include "linked_life.hpp"
 
 using namespace feltgate;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The linked core of a test's design; connects its ports to the twin's. Documentation:
-// docs/blocks/feltgate_linked.md
+// docs/link.md
 #pragma once
 
 #include <Vfeltgate_linked.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A host loads a law and a lever moves in it. The twin runs at once; play() then runs the RTL
-// beside a twin. Documentation: docs/blocks/feltgate_linked.md
+// beside a twin. Documentation: docs/link.md
 #pragma once
 
 #include <memory>

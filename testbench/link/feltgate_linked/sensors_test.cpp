@@ -4,7 +4,7 @@
 // feltgate_linked of a design with a current loop, with an absolute encoder, with that and three
 // phases or both, or with Hall lines: RTL against twin on every clock with a modulator and a
 // winding, a sensor, that and two modulators, or the lines at its pins.
-// What happens is judged in plain numbers. Documentation: docs/blocks/feltgate_linked.md
+// What happens is judged in plain numbers. Documentation: docs/link.md
 #include <array>
 #include <cmath>
 #include <complex>
@@ -271,8 +271,8 @@ TEST_CASE("sensors: Hall lines turn the voltage with the rotor, from any angle a
     CHECK(seen.enabled.last == kEnd - 1);
     CHECK(seen.fault.first < 0);
     CHECK(seen.position == Approx(kRad_s * kEnd * 20e-9 / D::count_rad).margin(2));
-    // Ke w, 4.46 V, less R I at the begin of the ramp and what the dead times give; 1.5 of that over
-    // the supply.
+    // Ke w, 4.46 V, less R I at the begin of the ramp and what the dead times give; 1.5 of that
+    // over the supply.
     CHECK(vector.real() > 0.18);
     CHECK(vector.real() < 0.22);
     CHECK(std::abs(vector.imag()) < 0.05 * vector.real());

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_linked: signals between its blocks that random requests hardly change; each test makes
-// one visible at an output or to the host. Documentation: docs/blocks/feltgate_linked.md
+// one visible at an output or to the host. Documentation: docs/link.md
 #include <array>
 #include <functional>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_capture: every bit of what is set, compared and counted. Documentation:
-// docs/blocks/link_capture.md
+// docs/link.md
 #include <array>
 #include <cstddef>
 #include <cstdint>

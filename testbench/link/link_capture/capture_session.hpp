@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A capture from setting to reading, in lock-step: ticks of 28 clocks, writes in any of them, then
-// all is read back from the RTL. Documentation: docs/blocks/link_capture.md
+// all is read back from the RTL. Documentation: docs/link.md
 #pragma once
 
 #include <Vlink_capture.h>

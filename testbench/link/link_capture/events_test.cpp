@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// link_capture triggered by an event of a law. Documentation: docs/blocks/link_capture.md
+// link_capture triggered by an event of a law. Documentation: docs/link.md
 #include "capture_session.hpp"
 
 using namespace feltgate;

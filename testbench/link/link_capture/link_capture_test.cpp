@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_capture: RTL against twin on every clock; what was captured against the ticks that were
-// sent. Documentation: docs/blocks/link_capture.md
+// sent. Documentation: docs/link.md
 #include "capture_session.hpp"
 
 using namespace feltgate;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_port: RTL against twin in every clock, before and after the edge, beside a core's port and a
-// slave. Documentation: docs/blocks/link_port.md
+// slave. Documentation: docs/link.md
 #include "feltgate/link_port.hpp"
 
 #include <Vlink_port.h>

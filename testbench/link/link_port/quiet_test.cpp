@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_port: when its twin says that it waits, nothing changes while the inputs hold.
-// Documentation: docs/blocks/link_port.md
+// Documentation: docs/link.md
 #include <vector>
 
 #include "catch.hpp"

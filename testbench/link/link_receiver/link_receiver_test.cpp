@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_receiver: RTL against twin on every clock, and both against a reader of the wire that was
-// written from the page. Documentation: docs/blocks/link_receiver.md
+// written from the page. Documentation: docs/link.md
 #include "feltgate/link_receiver.hpp"
 
 #include <Vlink_receiver.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_receiver: when its twin says that it is idle, nothing changes without a byte. Documentation:
-// docs/blocks/link_receiver.md
+// docs/link.md
 #include <algorithm>
 
 #include "../feltgate_linked/frames.hpp"

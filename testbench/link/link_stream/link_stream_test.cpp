@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_stream: RTL against twin on every clock, and its frames against the ticks that were sent.
-// Documentation: docs/blocks/link_stream.md
+// Documentation: docs/link.md
 #include <Vlink_stream.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_stream: the twin's prediction for coming ticks, for code that skips them. Documentation:
-// docs/blocks/link_stream.md
+// docs/link.md
 #include "catch.hpp"
 #include "feltgate/link_stream.hpp"
 

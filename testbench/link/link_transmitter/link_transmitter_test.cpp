@@ -3,7 +3,7 @@
 //
 // link_transmitter: RTL against twin on every clock; each frame arrives whole, between two ENDs, as
 // the page says it. When its twin says that nothing is under way, or that it waits, nothing
-// changes. Documentation: docs/blocks/link_transmitter.md
+// changes. Documentation: docs/link.md
 #include "feltgate/link_transmitter.hpp"
 
 #include <Vlink_transmitter.h>

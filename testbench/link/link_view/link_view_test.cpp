@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // link_view: RTL against twin on every clock, and each tick that comes out against the words that
-// went in. AXES is the number of axes. Documentation: docs/blocks/link_view.md
+// went in. AXES is the number of axes. Documentation: docs/link.md
 #include <Vlink_view.h>
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // uart_rx: RTL against twin on every clock on rough lines; which bytes arrive at which baud rates;
-// the twin from event to event. Documentation: docs/blocks/uart_rx.md
+// the twin from event to event. Documentation: docs/link.md
 #include "feltgate/uart_rx.hpp"
 
 #include <Vuart_rx.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // uart_tx: clocks that the twin skips are those in which nothing changes. Documentation:
-// docs/blocks/uart_tx.md
+// docs/link.md
 #include "catch.hpp"
 #include "feltgate/uart_tx.hpp"
 #include "random.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // uart_tx: RTL against twin on every clock; every edge in its place; the receiver takes what it
-// sends; the twin from event to event. Documentation: docs/blocks/uart_tx.md
+// sends; the twin from event to event. Documentation: docs/link.md
 #include "feltgate/uart_tx.hpp"
 
 #include <Vuart_tx.h>

@@ -17,14 +17,15 @@ import pages
 
 
 PROGRAMS = ("feltgate", "cmake", "ctest", "ninja", "pip", "python", "python3", "parallel")
-PROGRAMS += ("sbatch", "cp", "mv", "git", "source", "sudo", "apt-get", "g++", "c++")
-PROGRAMS += ("jupyter", "bash", "cd", "quartus_sh", "dask-worker", "fusesoc")
+PROGRAMS += ("cp", "mv", "git", "source", "sudo", "apt-get", "g++", "c++")
+PROGRAMS += ("jupyter", "bash", "cd", "quartus_sh", "openFPGALoader", "fusesoc")
 COMMAND = re.compile(
     r"^(?:\$ )?((?:[A-Z_]+=\S+ )*(?:\./|\.?\.?[\w./-]*/bin/)?(?:%s)(?:$| .*))"
     % "|".join(map(re.escape, PROGRAMS))
 )
 SCRIPT = re.compile(r"^((?:scripts|testbench)/[\w/]+\.(?:py|sh) .*)")
 SHELL = ("", "sh", "bash", "console")
+ALL_COMMANDS = ("sh", "bash")  # a block of which each line is a command
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,8 @@ def of_code(code):
             continue
         text = one.text if inline else without_explanation(one.text)
         found = COMMAND.match(text) or SCRIPT.match(text)
+        if found is None and text and one.language in ALL_COMMANDS:
+            yield Line(f"{one.page}:{one.line}", text)
         if found is None or (inline and " " not in text):
             continue
         for part in found[1].split(" && "):

@@ -89,7 +89,7 @@ def wrong_names(words, folder):
                 return f"{word} is not there"
         if word.endswith(".tcl") and not list(folder.glob(f"rtl/boards/*/{word}")):
             return f"no board has a {word}"
-        if word.startswith("scripts/") and word.endswith((".sh", ".sbatch")):
+        if word.startswith("scripts/") and word.endswith(".sh"):
             subprocess.run(["bash", "-n", folder / word], check=True)
     return None
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // hold_timer: RTL against twin on every clock, and its course by hand.
-// Documentation: docs/blocks/hold_timer.md
+// Documentation: docs/blocks/supervisor.md
 #include <Vhold_timer.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/safety/hold_timer.sv, clock by clock. Documentation: docs/blocks/hold_timer.md
+// Twin of rtl/core/safety/hold_timer.sv, clock by clock. Documentation: docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>

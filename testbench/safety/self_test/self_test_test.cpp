@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // self_test: RTL against twin on every clock, and directed tests of its course. In closed loop:
-// start_test.cpp. Documentation: docs/blocks/self_test.md
+// start_test.cpp. Documentation: docs/blocks/supervisor.md
 #include <Vself_test.h>
 
 #include <array>

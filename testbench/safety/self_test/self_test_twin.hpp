@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/safety/self_test.sv, clock by clock, by its law. Documentation:
-// docs/blocks/self_test.md
+// docs/blocks/supervisor.md
 #pragma once
 
 #include <cstdint>

@@ -21,6 +21,27 @@ constexpr std::int32_t kRadS = 1 << Design::f.velocity.fraction;   ///< raw 1 ra
 constexpr std::int32_t kVolt = 1 << Design::f.voltage.fraction;    ///< raw 1 V
 constexpr std::int32_t kAmpere = 1 << Design::f.current.fraction;  ///< raw 1 A
 
+/// The twin with all outputs of the RTL, also those that depend on the inputs of the same clock.
+class WholeTwin : public Twin {
+ public:
+  struct Seen : Twin::Out {
+    bool arm_request, arms, ready, clear;
+    bool stopped;  ///< the latch of the stop; the pin itself may be low again at the edge
+  };
+  Seen peek(const In& in) const {
+    In last = in;  // were this the last clock of a tick
+    last.tick = true;
+    Twin after = *this;
+    after.clock(last);
+    return {out(),
+            asks(in),
+            after.out().armed,
+            ready(in.host),
+            in.clear_faults && !in.arm_request(),
+            Twin::stopped(false)};
+  }
+};
+
 struct SupervisorAdapter {
   static constexpr int kCurrentBits = Design::f.current.width();
   static constexpr int kEstimateBits = Design::f.current_estimate.width();
@@ -37,13 +58,16 @@ struct SupervisorAdapter {
   }
   static void at_edge(Vsupervisor& rtl) { rtl.stop_i = 0; }  // the pulse ends before the edge
   template <class Check>
-  static void compare(Check& check, const Vsupervisor& rtl, const Twin::Out& out) {
+  static void compare(Check& check, const Vsupervisor& rtl, const WholeTwin::Seen& out) {
     check("current_estimate", sign_extend<kEstimateBits>(rtl.current_estimate_o),
           std::int64_t{out.current_estimate});
-    FELTGATE_COMPARE(check, rtl, out, armed, gates_enable, unkicked, faults, first_fault);
+    FELTGATE_COMPARE(check, rtl, out, armed, gates_enable, unkicked, faults, first_fault,
+                     arm_request, ready, clear);
+    if (rtl.clk_i == 0) check("arms", rtl.arms_o, out.arms);  // of trips that end with the clock
+    if (rtl.rst_ni != 0) check("gates_clear", rtl.gates_clear_o, out.stopped || rtl.stop_i != 0);
   }
 };
-using SupervisorBench = LockStep<Vsupervisor, Twin, SupervisorAdapter>;
+using SupervisorBench = LockStep<Vsupervisor, WholeTwin, SupervisorAdapter>;
 
 /// Runs the twin through the changes of a scenario; afterwards the RTL runs the same inputs beside
 /// a twin.

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_charge: RTL against twin on every clock, and against law and plain integers in every wave;
-// the law's signs, symmetry and border. Documentation: docs/blocks/scene_charge.md
+// the law's signs, symmetry and border. Documentation: docs/blocks/scenes.md
 #include <Vscene_charge.h>
 
 #include "../scenes/scene_bench.hpp"

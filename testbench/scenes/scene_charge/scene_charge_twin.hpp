@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/scenes/scene_charge.sv, clock by clock, by the division of the law.
-// Documentation: docs/blocks/scene_charge.md
+// Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_damper: RTL against twin on every clock, and against law and plain integers in every wave;
-// the law's symmetry and energy. Documentation: docs/blocks/scene_damper.md
+// the law's symmetry and energy. Documentation: docs/blocks/scenes.md
 #include <Vscene_damper.h>
 
 #include "../scenes/scene_bench.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_membrane: RTL against twin on every clock, and against the law in every wave; the law's
-// entries from every side and its energy balance. Documentation: docs/blocks/scene_membrane.md
+// entries from every side and its energy balance. Documentation: docs/blocks/scenes.md
 #include <Vscene_membrane.h>
 
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/scenes/scene_membrane.sv, clock by clock, by the law of the scene.
-// Documentation: docs/blocks/scene_membrane.md
+// Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

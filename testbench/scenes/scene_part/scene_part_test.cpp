@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_part: RTL against twin, and both against plain integers; rounding a part gives what
-// rounding the product gives. Documentation: docs/blocks/scene_part.md
+// rounding the product gives. Documentation: docs/blocks/scenes.md
 #include <Vscene_part.h>
 
 #include "../scenes/scene_bench.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_setpoint: RTL against twin on every clock, and against the law.
-// Documentation: docs/blocks/scene_setpoint.md
+// Documentation: docs/blocks/scenes.md
 #include <Vscene_setpoint.h>
 
 #include "../scenes/scene_bench.hpp"

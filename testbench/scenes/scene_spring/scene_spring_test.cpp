@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_spring: RTL against twin on every clock, and against law and plain integers in every wave;
-// the law's signs and symmetry. Documentation: docs/blocks/scene_spring.md
+// the law's signs and symmetry. Documentation: docs/blocks/scenes.md
 #include <Vscene_spring.h>
 
 #include "../scenes/scene_bench.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // scene_wall: RTL against twin on every clock, and against law and 128-bit integers in every wave;
-// the law never pulls and takes from the hand. Documentation: docs/blocks/scene_wall.md
+// the law never pulls and takes from the hand. Documentation: docs/blocks/scenes.md
 #include <Vscene_wall.h>
 
 #include <algorithm>

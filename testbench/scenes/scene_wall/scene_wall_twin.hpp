@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/scenes/scene_wall.sv, clock by clock. Documentation: docs/blocks/scene_wall.md
+// Twin of rtl/core/scenes/scene_wall.sv, clock by clock. Documentation: docs/blocks/scenes.md
 #pragma once
 
 #include <cstdint>

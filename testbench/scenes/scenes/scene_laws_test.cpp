@@ -102,6 +102,19 @@ TEST_CASE("scenes: a relief eases the limit") {
   CHECK(d.settled(S::setpoint) == whole);
 }
 
+TEST_CASE("scenes: the least limit is in force, in a held torque and in a pulse") {
+  Device d;
+  d.words.set_raw(A::setpoint_torque, most_setpoint);
+  d.words.set_raw(A::torque_limit, 100);
+  CHECK(d.settled(S::setpoint, true, {false, true}) == 100);
+  CHECK(d.tick(S::setpoint, true, {}, TestPulse::up) == 100);
+  CHECK(d.tick(S::setpoint, true, {}, TestPulse::down) == -100);
+  d.words.set_raw(A::hold_limit, 70);
+  CHECK(d.settled(S::setpoint, true, {false, true}) == 70);
+  CHECK(d.tick(S::setpoint, true, {false, true}, TestPulse::down) == -70);
+  CHECK(d.settled(S::setpoint) == 100);
+}
+
 TEST_CASE("scenes: a program's torque is that of the scene `law` alone; reset forgets it") {
   Device d;
   d.law.program(Law::Torque::from_raw(-4242));

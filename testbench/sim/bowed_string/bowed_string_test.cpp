@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The bowed string: Helmholtz motion over a range of bow force, and its motion at 1 kHz; four
-// strings give no bow more than they took. Documentation: docs/devices/bowed_string.md
+// strings give no bow more than they took. Documentation: docs/devices/strings-and-drums.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 //
 // The torque that a hand feels at a free and at a damped lever, from the core's bits and from
 // formulas. With FELTGATE_SHOW=1 it prints the table of the page. Simulation. Documentation:
-// docs/devices/free_lever.md
+// docs/devices/one-lever.md
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -9,10 +9,12 @@
 #include <memory>
 
 #include "catch.hpp"
+#include "design/design.hpp"
 #include "feltgate/largest.hpp"
 #include "loop_fixture.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/backend_choice.hpp"
+#include "sim/loop/bounded.hpp"
 
 namespace {
 
@@ -119,4 +121,38 @@ TEST_CASE("a law of several axes says how a scene runs it") {
   };
   CHECK(told("coupled_levers").find("device = \"two_levers\"") != std::string::npos);
   CHECK(told("gimbal").find("device = \"gimbal\"") != std::string::npos);
+}
+
+TEST_CASE("a large error without a proven bound breaks the run, unless the scene expects one") {
+  const std::string folder = std::string(FELTGATE_ROOT) + "/testbench/sim/loop/";
+  const std::string rtl = std::string(FELTGATE_ROOT) + "/rtl/";
+  const design::Elaborated design =
+      design::elaborate(design::read_design(rtl + "designs/lever_law.toml"),
+                        design::read_registers(rtl + "registers.toml"));
+  const plant::Parameters plant = p24();
+  Scenario s = read_scenario(folder + "parting.toml");
+  resolve_effects(s, plant.effects);
+  const auto run = [&](const char* engine) {
+    const auto law = make_scene_law(folder + "parting.law", design_named("lever_law"));
+    RunOptions options;
+    options.design = "lever_law";
+    options.engine = engine;
+    options.law = law.get();
+    return run_within_bounds(design, s, plant, options);
+  };
+  const RunResult r = run("twin,quad");
+  REQUIRE(r.large.size() == 1);
+  CHECK_THAT(r.large[0], Catch::StartsWith("torque_error_nm = 0.0") &&
+                             Catch::EndsWith("Nm at most were asked, and no bound is proven"));
+  CHECK(r.broken == r.large);
+  CHECK_FALSE(r.as_expected());
+  Expectation e;
+  e.figure = "torque_error_nm";
+  e.low = 0;
+  e.high = 0.1;
+  s.expectations = {e};
+  CHECK(run("twin,quad").as_expected());
+  CHECK(run("twin").as_expected());
+  s.expectations[0].high = 0.001;
+  CHECK(run("twin,quad").broken.size() == 1);
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Walls and ceilings with a sensor of the host: how quietly a lever rests on them with an encoder,
-// with a tracker, filtered and fused. Simulation. Documentation: docs/devices/drums.md
+// with a tracker, filtered and fused. Simulation. Documentation: docs/devices/strings-and-drums.md
 #include <fmt/format.h>
 
 #include <cmath>

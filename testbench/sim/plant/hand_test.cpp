@@ -259,6 +259,20 @@ TEST_CASE("phases change on their clock: blocked for 1 s, then released", "[hand
   CHECK(plant.observables().hand_torque_nm == 0.0);
 }
 
+TEST_CASE("a ramp with ease begins and ends at rest, at its own speed between", "[hand]") {
+  Segment ramp = segment(Segment::Kind::kRamp, 0.062, 0.9);
+  ramp.ease_s = 0.002;
+  const auto at = [&](double s) { return ProfileRun({ramp}, 0.0).at(s); };
+  CHECK(at(0.0).rate == 0.0);
+  CHECK(at(0.001).rate == Approx(7.5));
+  CHECK(at(0.001).value == Approx(0.5 * 7.5e-3));
+  CHECK(at(0.031).rate == Approx(15.0));
+  CHECK(at(0.031).value == Approx(0.45));
+  CHECK(at(0.061).rate == Approx(7.5));
+  CHECK(at(std::nextafter(0.062, 0.0)).rate == Approx(0.0).margin(1e-9));
+  CHECK(at(0.062).value == 0.9);
+}
+
 TEST_CASE("phases that end between steps do not drift", "[hand]") {
   const Parameters p = shipped("p24");
   Hand hand;

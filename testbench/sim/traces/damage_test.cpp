@@ -140,7 +140,8 @@ TEST_CASE("texts that are wrong", "[traces]") {
          "no column 'coutn'; did you mean \"count\"? name it; there are: time, count");
   expect(csv("t,count\n0,1\n1,inf\n"), "a.csv:3: position 'inf' is not a finite number");
   expect(csv("t,count\n0,1\n1,1e300\n"), "over 2^53 counts");
-  expect(csv("t,theta\n0,1\n"), "cannot tell which channels are the encoder's A and B");
+  expect(csv("t,u\n0,1\n"), "cannot tell which channels are the encoder's A and B");
+  expect(csv("t,theta\n0,1\n"), "column 'theta' looks like an angle; give the scale in counts");
 }
 
 TEST_CASE("VCD and vectors that are wrong", "[traces]") {

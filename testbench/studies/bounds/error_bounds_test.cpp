@@ -61,6 +61,63 @@ TEST_CASE("every signal of the shipped designs has a bound, each reference adds 
   }
 }
 
+TEST_CASE("the sources add up to the bound") {
+  constexpr double SourceBound::*signals[] = {&SourceBound::velocity_rad_s,
+                                              &SourceBound::tau_hat_nm, &SourceBound::tau_ref_nm,
+                                              &SourceBound::current_a};
+  for (const char* name : {"lever", "paper"}) {
+    const ChainNumbers numbers = chain_numbers(shipped(name));
+    for (const std::string& scene : numbers.scenes) {
+      const InputRegion region{10, scene, 0};
+      const ErrorBounds b = error_bounds(numbers, region);
+      const auto sources = source_bounds(numbers, region);
+      REQUIRE(sources.size() == 6);
+      const ErrorBound bounds[] = {b.velocity_rad_s, b.tau_hat_nm, b.tau_ref_nm, b.current_a};
+      for (std::size_t n = 0; n < 4; ++n) {
+        double rounding = 0;
+        for (std::size_t k = 0; k < 4; ++k) rounding += sources[k].*signals[n];
+        const double all = rounding + sources[4].*signals[n];
+        CAPTURE(name, scene, n);
+        CHECK(rounding <= bounds[n].against_quantised * 1.0001 + 1e-200);
+        CHECK(all >= bounds[n].against_reference * (1 - 1e-9));
+        CHECK(all <= bounds[n].against_reference * 1.1 + 1e-200);
+      }
+    }
+  }
+}
+
+TEST_CASE("a source has the bound of its own rounding, and none where it does not round") {
+  const Elaborated e = shipped("lever");
+  const auto s = source_bounds(chain_numbers(e), {8, "spring_compression", 0});
+  const auto bit = [](const Format& f) { return std::ldexp(1.0, -f.fraction); };
+  CHECK(s[0].name == "velocity_n");
+  CHECK(s[0].velocity_rad_s ==
+        Approx(bit(e.formats.velocity) / 2 / e.word("velocity_a1").quantised()));
+  CHECK(s[0].tau_hat_nm > 0);
+  CHECK(s[0].tau_ref_nm + s[0].current_a == 0);
+  CHECK(s[1].name == "dob");
+  CHECK(s[1].tau_hat_nm > bit(e.formats.torque) / 2 +
+                              bit(e.formats.observer) / 2 / e.word("observer_a1").quantised());
+  CHECK(s[1].velocity_rad_s + s[1].tau_ref_nm + s[1].current_a == 0);
+  CHECK(s[2].name == "scenes");
+  CHECK(s[2].tau_ref_nm == Approx(bit(e.formats.torque) / 2));
+  CHECK(s[2].current_a == Approx(s[2].tau_ref_nm * e.word("torque_gain").quantised()));
+  CHECK(s[2].velocity_rad_s == 0);
+  CHECK(s[3].name == "torque_control");
+  CHECK(s[3].current_a == Approx(bit(e.formats.current)));
+  CHECK(s[3].velocity_rad_s + s[3].tau_ref_nm == 0);
+  CHECK(s[4].name == "coefficients");
+  CHECK(s[5].name == "gain");
+  CHECK(
+      s[5].velocity_rad_s ==
+      Approx(8 * std::abs(e.design.velocity_gain_rad_s() / e.rad_s_per_count() - 1)).epsilon(0.1));
+  CHECK(s[5].tau_ref_nm + s[5].current_a == 0);
+  const std::string table = source_table(s);
+  for (const SourceBound& row : s) {
+    if (row.name != "gain") CHECK(table.find("\n" + row.name + " ") != std::string::npos);
+  }
+}
+
 TEST_CASE("a smaller region has a smaller bound, except what rounding alone does") {
   const Elaborated e = shipped("lever");
   InputRegion region;

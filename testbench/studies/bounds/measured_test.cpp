@@ -6,11 +6,16 @@
 // docs/error-bounds.md
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <deque>
 #include <functional>
 
 #include "catch.hpp"
+#include "feltgate/velocity_n.hpp"
 #include "random.hpp"
-#include "studies/budget/budget.hpp"
+#include "sim/loop/figures.hpp"
+#include "sim/reference/real_chain.hpp"
+#include "studies/bounds/coverage.hpp"
 
 namespace feltgate::bounds {
 
@@ -64,7 +69,7 @@ struct Held {
   double velocity_share = 0;  ///< largest measured error as a share of its bound
 };
 
-/// The chain of `design` beside the reference, every row and the whole below their bounds.
+/// The chain of `design` beside the reference, each error below its bound.
 void check(const std::string& design, int scene, const Stimulus& stimulus, int ticks, Held* held) {
   const design::Elaborated e = shipped(design);
   const ChainNumbers numbers = chain_numbers(e);
@@ -72,39 +77,48 @@ void check(const std::string& design, int scene, const Stimulus& stimulus, int t
   for (const design::Scene& s : e.registers.scenes) {
     if (s.number == scene) name = s.name;
   }
-  const auto budget = make_budget(design);
-  budget->cover(Coverage(error_bounds(numbers, {1e-9, name, 0}), numbers));
+  const auto fixed = make_real_chain(design, "fixed"), exact = make_real_chain(design, "quad");
   // The ramp after arming is over at once: what it does is no matter of rounding.
-  budget->set_parameter(e.word("ramp_step").parameter.address, 15.0);
+  for (RealChain* chain : {fixed.get(), exact.get()}) {
+    chain->set_parameter(e.word("ramp_step").parameter.address, 15.0);
+  }
+  Coverage coverage(error_bounds(numbers, {1e-9, name, 0}), numbers);
+  std::deque<std::int16_t> window(static_cast<std::size_t>(e.design.m1), 0);
+  int counts = 0;
+  ErrorFigure velocity_rad_s, tau_hat_nm, tau_ref_nm, current_a;
   for (int k = 0; k < ticks; ++k) {
     ChainIn in;
     in.armed = k > 2000 && (k / 10'000) % 3 != 2;
     in.scene = scene;
     in.position = stimulus.motion(k);
     in.travel = static_cast<std::int16_t>(in.position & 0xffff);
-    budget->tick(in);
+    fixed->tick(in);
+    exact->tick(in);
+    window.push_back(in.travel);
+    counts = std::max(counts, std::abs(travel_difference(in.travel, window.front())));
+    window.pop_front();
+    const ChainOut &of_core = fixed->out(), &real = exact->out();
+    const unsigned limits = fixed->raw()->limits;
+    coverage.tick({(limits & limit::velocity) != 0, (limits & limit::tau_hat) != 0,
+                   (limits & limit::ramp) != 0 || exact->ramping(),
+                   of_core.tau_ref_nm - real.tau_ref_nm});
+    if (coverage.velocity()) velocity_rad_s.add(of_core.velocity_rad_s - real.velocity_rad_s);
+    if (!coverage.torque()) continue;
+    tau_hat_nm.add(of_core.tau_hat_nm - real.tau_hat_nm);
+    tau_ref_nm.add(of_core.tau_ref_nm - real.tau_ref_nm);
+    current_a.add(of_core.current_a - real.current_a);
   }
-  const InputRegion region{std::max(budget->largest_velocity_rad_s(), 1e-9), name, 0};
-  const ErrorBounds b = error_bounds(numbers, region);
-  const auto sources = source_bounds(numbers, region);
-  INFO(design << ", " << name << ", " << stimulus.name << ", up to " << region.velocity_rad_s);
-  for (const BudgetRow& r : budget->rows()) {
-    SourceBound bound{"whole", b.velocity_rad_s.against_reference, b.tau_hat_nm.against_reference,
-                      b.tau_ref_nm.against_reference, b.current_a.against_reference};
-    for (const SourceBound& s : sources) {
-      if (s.name == r.name) bound = s;
-    }
-    INFO(r.name);
-    CHECK(r.velocity_rad_s.max() <= bound.velocity_rad_s);
-    CHECK(r.tau_hat_nm.max() <= bound.tau_hat_nm);
-    CHECK(r.tau_ref_nm.max() <= bound.tau_ref_nm);
-    CHECK(r.current_a.max() <= bound.current_a);
-    if (r.name != "whole") continue;
-    held->velocity_share =
-        std::max(held->velocity_share, r.velocity_rad_s.max() / bound.velocity_rad_s);
-  }
+  const double largest_rad_s = std::max(counts * numbers.used_gain, 1e-9);
+  const ErrorBounds b = error_bounds(numbers, {largest_rad_s, name, 0});
+  INFO(design << ", " << name << ", " << stimulus.name << ", up to " << largest_rad_s);
+  CHECK(velocity_rad_s.max() <= b.velocity_rad_s.against_reference);
+  CHECK(tau_hat_nm.max() <= b.tau_hat_nm.against_reference);
+  CHECK(tau_ref_nm.max() <= b.tau_ref_nm.against_reference);
+  CHECK(current_a.max() <= b.current_a.against_reference);
+  held->velocity_share =
+      std::max(held->velocity_share, velocity_rad_s.max() / b.velocity_rad_s.against_reference);
   held->ticks += ticks;
-  held->covered += budget->coverage().ticks() - budget->coverage().outside();
+  held->covered += coverage.ticks() - coverage.outside();
 }
 
 }  // namespace

@@ -7,7 +7,6 @@ import json
 import os
 import re
 import sys
-import tomllib
 import unittest
 
 from testing import BUILD, Scratch, ran, text_of
@@ -49,7 +48,7 @@ class Controllers(Scratch):
         self.assertEqual(
             list(of), ["observer", "feed-forward", "PI", "PID", "reaction observer"]
         )
-        budget = tomllib.loads(text_of("scripts/synth_budget.toml"))["figures"]["lever"]
+        budget = json.loads(text_of("docs/verification/areas.json"))["figures"]["lever"]
         dob, lowpass = (budget[b]["lut4_equivalents"] for b in ("dob", "lowpass"))
         for name, filters in (("observer", 0), ("PI", 1), ("PID", 2), ("reaction observer", 1)):
             self.assertEqual(of[name]["lut4_measured"], dob)
@@ -68,7 +67,6 @@ class Controllers(Scratch):
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
         for word in (*of, "largest wall, Nm/rad", "motor torque, mNm", "noise, mNm rms"):
             self.assertIn(word, svg)
-            self.assertIn(word, text_of("docs/images/controllers.svg"))
 
     def test_the_estimators(self):
         done = self.ended(self.call("controllers", "--estimators", "--json", "c.json", "-o", "c.svg"))
@@ -87,30 +85,9 @@ class Controllers(Scratch):
             self.assertLess(mt[noise][1], lever[noise][1] / 30)
         self.assertGreater(mt["tau_hat_irregular_nm"][2], 2 * lever["tau_hat_irregular_nm"][2])
         self.assertLess(mt["tau_hat_irregular_nm"][2], paper["tau_hat_irregular_nm"][2])
-        drawn = [(self.folder / "c.svg").read_text(encoding="utf-8"), text_of("docs/images/estimators.svg")]
-        for word in ("M/T, one cycle, 500 rad/s", "at 10 rad/s", "observer fed back", "largest wall, Nm/rad"):
-            self.assertTrue(all(word in svg for svg in drawn), word)
+        self.assertIn("observer fed back", (self.folder / "c.svg").read_text(encoding="utf-8"))
         drags = [one["drag_rms_nm"] for one in data["estimators"]]
         self.assertLess(max(drags) - min(drags), 1e-5)
-
-    def test_the_current_loop(self):
-        done = self.ended(self.call("controllers", "--current", "--json", "i.json", "-o", "i.svg"))
-        page = [line.split("|") for line in text_of(TABLES).splitlines()]
-        page = {cells[1]: cells[2:] for cells in page if len(cells) == 7}
-        data = json.loads((self.folder / "i.json").read_text(encoding="utf-8"))
-        self.assertEqual(data["schema"], "feltgate-current/1")
-        self.assertEqual(len(done.stdout.splitlines()), 2 + len(data["figures"]))
-        for figure, line in zip(data["figures"], done.stdout.splitlines()[2:], strict=True):
-            name, measured, *rest = line.split("|")[1:]
-            self.assertIn(name, page, f"{TABLES} is stale: paste this table")
-            self.assertEqual(rest, page[name][1:], name)
-            # The modulator is chaotic: another compiler's last bit moves the last digits.
-            self.assertAlmostEqual(float(page[name][0]), float(measured), delta=0.02 * abs(float(measured)) + 0.03)
-            self.assertAlmostEqual(float(measured), figure["measured"], delta=0.06)
-        drawn = [(self.folder / "i.svg").read_text(encoding="utf-8"), text_of("docs/images/current_loop.svg")]
-        for word in ("motor torque, mNm", "gain, dB", "phase, degrees", "after the short, µs", "lag of 2000 Hz"):
-            self.assertTrue(all(word in svg for svg in drawn), word)
-        self.ended(self.call("controllers", "--current", "--estimators"), 2)
 
     def test_a_design_with_mt(self):
         text = re.sub(r"^(m1|n) = .*\n", "", text_of("rtl/designs/lever.toml"), flags=re.M)

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The observer beside other controllers: the chain of the twin, closed forms at stall and in
-// motion, eigenvalues. Documentation: docs/controllers.md
+// motion, eigenvalues. Documentation: docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -96,7 +96,7 @@ TEST_CASE("coupled levers: their own matrix, and what bits show with the observe
   test::LeversLoop levers;
   const double border = margin(two, of(4 * apart, 0.005 * apart), 2, 2).ratio * 4;
   CHECK(border == Approx(levers.border_nm_rad(p)).epsilon(0.03));
-  // docs/devices/coupled_levers.md: by bits between 5 and 6 Nm/rad.
+  // docs/devices/pantograph.md: by bits between 5 and 6 Nm/rad.
   Slope observed = of(4 * pulled, 0.005 * pulled);
   observed.observed << 0, -1, 0, 1;
   const double with_observer = margin(two, observed, 2, 2).ratio * 4;

@@ -7,14 +7,13 @@ import csv
 import json
 import os
 import sys
-import tomllib
 import unittest
 
 from testing import BUILD, ROOT, Scratch, ran
 
 from exploration.design_text import design_text
 
-BUDGET = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
+BUDGET = json.loads((ROOT / "docs/verification/areas.json").read_text(encoding="utf-8"))
 ENGINE = f'engine {BUDGET["figures"]["lever"]["axes_engine"]["lut4_equivalents"]} LUT4 eq'
 PROGRAM, OF_DEVICE = BUILD / "feltgate_lever_law", BUILD / "feltgate_two_levers_law"
 SCENE = """title = "Short"
@@ -66,10 +65,9 @@ class Rates(Scratch):
         return ran(program, "rates", *words, cwd=self.folder, env=environment)
 
     def test_gates_are_those_of_the_budget(self):
-        budget = tomllib.loads((ROOT / "scripts/synth_budget.toml").read_text(encoding="utf-8"))
-        rows = budget["scene_sets"]["lever"]
+        rows = BUDGET["scene_sets"]["lever"]
         sets = {name: row["lut4_equivalents"] for name, row in rows.items()}
-        engine = budget["figures"]["lever"]["axes_engine"]["lut4_equivalents"]
+        engine = BUDGET["figures"]["lever"]["axes_engine"]["lut4_equivalents"]
         files = (ROOT / "model/studies/rates").glob("*.cpp")
         source = "".join(path.read_text(encoding="utf-8") for path in files)
         for text, name in (

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Margins of laws whose host samples the device, and of scenes at rest: against closed forms and
-// the swing of the core's bits. Documentation: docs/stability.md
+// the swing of the core's bits. Documentation: docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

@@ -15,8 +15,8 @@ namespace law = feltgate::law;
 
 namespace {
 
-law::Compiled compiled(const shape::Curve& curve, shape::Kind kind, int vertices) {
-  return law::compile_text(shape::text_of(curve, kind, vertices), "shape.law", law::Target{});
+law::Compiled compiled(const shape::Curve& curve, int vertices) {
+  return law::compile_text(shape::text_of(curve, vertices), "shape.law", law::Target{});
 }
 
 constexpr int steps = 400;
@@ -41,29 +41,25 @@ void same_bits(const law::Compiled& c) {
 
 }  // namespace
 
-TEST_CASE("every law of a shape is proven, within its bound, and fits the memories") {
+TEST_CASE("the law of a shape is proven, within its bound, and fits the memories") {
   const shape::Curve fish = shape::curve_of("fish", 2e-3);
-  for (const shape::Kind kind : shape::all_kinds()) {
-    for (const int vertices : {20, 100}) {
-      const law::Compiled c = compiled(fish, kind, vertices);
-      INFO("law " << static_cast<int>(kind) << ", " << vertices << " vertices, "
-                  << c.assembled.instructions.size() << " instructions");
-      CHECK(c.bound.unproven.empty());
-      CHECK(c.rate_hz >= 40e3);
-      // 30 mm deep at 200 N/m are 6 N along each axis: of 1.2 Nm the bound is some per cent.
-      for (const double bound : c.bound.output) CHECK(bound < 0.02);
-      for (std::size_t i = 0; i < c.law.states.size(); ++i) {
-        const law::State& s = c.law.states[i];
-        if (!s.whole) CHECK(c.program.states[i].scale <= (s.range.upper - s.range.lower) / 4000);
-      }
+  for (const int vertices : {20, 100}) {
+    const law::Compiled c = compiled(fish, vertices);
+    INFO(vertices << " vertices, " << c.assembled.instructions.size() << " instructions");
+    CHECK(c.bound.unproven.empty());
+    CHECK(c.rate_hz >= 40e3);
+    // 30 mm deep at 200 N/m are 6 N along each axis: of 1.2 Nm the bound is some per cent.
+    for (const double bound : c.bound.output) CHECK(bound < 0.02);
+    for (std::size_t i = 0; i < c.law.states.size(); ++i) {
+      const law::State& s = c.law.states[i];
+      if (!s.whole) CHECK(c.program.states[i].scale <= (s.range.upper - s.range.lower) / 4000);
     }
   }
 }
 
-TEST_CASE("a texture and friction are proven too, beside 80 vertices") {
+TEST_CASE("a texture is proven too, beside 80 vertices") {
   shape::LawRequest request;
   request.texture = true;
-  request.friction = true;
   const law::Compiled c = law::compile_text(
       shape::law_text(shape::sampled(shape::curve_of("fish", 2e-3), shape::most_measured_vertices),
                       request),
@@ -76,14 +72,9 @@ TEST_CASE("shapes in the interpreter, the engine's twin and its RTL: the same bi
   // An engine of three axes needs three torques.
   const std::string third = "out torque[2] = 0.1 Nm * sin(position[2])\n";
   const shape::Curve fish = shape::curve_of("fish", 2e-3);
-  for (const shape::Kind kind : shape::all_kinds()) {
-    INFO("law " << static_cast<int>(kind));
-    const int vertices = kind == shape::Kind::proxy ? 100 : 40;
-    same_bits(law::compile_text(shape::text_of(fish, kind, vertices) + third, "shape.law",
-                                law::Target{}));
-  }
+  same_bits(law::compile_text(shape::text_of(fish, 100) + third, "shape.law", law::Target{}));
   shape::LawRequest rough;
-  rough.friction = true;
+  rough.texture = true;
   same_bits(law::compile_text(shape::law_text(shape::sampled(fish, 80), rough) + third, "shape.law",
                               law::Target{}));
   std::vector<shape::Polygon> two;

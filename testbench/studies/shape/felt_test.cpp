@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The forces from the laws of a shape: closed forms, one motion under three laws, a thin tail; and
+// The forces from the law of a shape: closed forms, a texture, a thin tail, several shapes; and
 // the exit code of commands that make a law. Documentation: docs/devices/shapes.md
 #include <algorithm>
 #include <cmath>
@@ -43,18 +43,15 @@ Curve tail() {
 TEST_CASE("the square: 2 mm behind its side at 50 N/m are 0.1 N, square to it") {
   for (const double radius_m : {0.0, 5e-3}) {
     const Curve square = curve_of("square", radius_m);
-    for (const Kind kind : all_kinds()) {
-      for (const int vertices : {20, 40, 100}) {
-        const law::Law law = law_of(square, kind, vertices);
-        Pen pen(law);
-        // From 40 to 28 mm beside the middle in one step; the proxy is at (0.03, 0).
-        CHECK(length(pen.at({0.04, 0.12}, settle)) < 1e-12);
-        const Point f = pen.at({0.028, 0.12}, 2);
-        INFO("law " << static_cast<int>(kind) << ", " << vertices << " vertices, corners of "
-                    << radius_m << " m");
-        CHECK(f.x == Approx(50 * 0.002).epsilon(1e-6));
-        CHECK(std::fabs(f.y) < 1e-6);
-      }
+    for (const int vertices : {20, 40, 100}) {
+      const law::Law law = law_of(square, vertices);
+      Pen pen(law);
+      // From 40 to 28 mm beside the middle in one step; the proxy is at (0.03, 0).
+      CHECK(length(pen.at({0.04, 0.12}, settle)) < 1e-12);
+      const Point f = pen.at({0.028, 0.12}, 2);
+      INFO(vertices << " vertices, corners of " << radius_m << " m");
+      CHECK(f.x == Approx(50 * 0.002).epsilon(1e-6));
+      CHECK(std::fabs(f.y) < 1e-6);
     }
   }
 }
@@ -64,25 +61,13 @@ TEST_CASE(
   // On an arc of 5 mm the pen goes around with 3 mm: its normal turns by 0.153 / 3 = 5.1 %.
   for (const int vertices : {20, 40, 100}) {
     const Curve c = curve_of("square");
-    const Felt f = around(law_of(c, Kind::proxy, vertices), c, 50, 2e-3, 0.153e-3);
+    const Felt f = around(law_of(c, vertices), c, 50, 2e-3, 0.153e-3);
     INFO(vertices << " vertices: step " << f.most_step << ", error " << f.rms_error);
     CHECK(f.most_step > 0.03);
     if (vertices == 100) CHECK(f.most_step < 0.06);
     CHECK(f.jumps == 0);
     CHECK(f.rms_error < (vertices == 100 ? 0.02 : vertices == 40 ? 0.06 : 0.2));
   }
-}
-
-TEST_CASE("the edges alone turn the force by their angle, and a sharp corner by all of it") {
-  const Curve c = curve_of("square");
-  const Felt edges = around(law_of(c, Kind::walk, 20), c, 50, 2e-3, 0.153e-3);
-  const Felt smooth = around(law_of(c, Kind::proxy, 20), c, 50, 2e-3, 0.153e-3);
-  INFO("edges " << edges.most_step << ", smooth " << smooth.most_step);
-  CHECK(edges.most_step > 2 * smooth.most_step);
-  // Along the diagonal beside a sharp corner the nearest side changes: 90 degrees.
-  const Curve sharp = curve_of("square", 0.0);
-  const auto f = pushed(law_of(sharp, Kind::simple, 40), {0.0281, 0.146}, {0.0279, 0.1482}, 1e-4);
-  CHECK(jumps(f) == 1);
 }
 
 TEST_CASE("a texture: a sine of the way along the outline, square to it") {
@@ -120,112 +105,18 @@ TEST_CASE("a texture: a sine of the way along the outline, square to it") {
   CHECK(most == Approx(50 * 2.2e-3).epsilon(1e-2));
 }
 
-namespace {
-
-/// The square's proxy with friction, 50 N/m.
-law::Law rough(const Polygon& polygon) {
-  LawRequest request;
-  request.friction = true;
-  return law::read_law_text(law_text(polygon, request), "shape.law", 50e3);
-}
-constexpr std::size_t of_friction = 2, of_grip = 3;  // parameters
-
-}  // namespace
-
-TEST_CASE("friction: a spring along the outline that slips at its share of what presses") {
-  const law::Law law = rough(sampled(curve_of("square"), 80));
-  Pen pen(law);
-  pen.set_parameter(of_friction, 0.3);
-  pen.set_parameter(of_grip, 200);
-  pen.at({0.04, 0.11}, settle);
-  CHECK(length(pen.at({0.028, 0.11}, settle) - Point{0.1, 0}) < 1e-5);  // pressed, not drawn
-  // 0.1 N press: 0.03 N slip, which is a way of 0.15 mm.
-  double anchor = 0.11;
-  for (const auto& [from, to] : {std::pair{0.11, 0.112}, {0.112, 0.1115}, {0.1115, 0.113}}) {
-    const double step = to > from ? 0.02e-3 : -0.02e-3;
-    for (double y = from + step; (to - y) * step > 0; y += step) {
-      const Point f = pen.at({0.028, y}, settle);
-      anchor = std::min(std::max(anchor, y - 0.15e-3), y + 0.15e-3);
-      INFO("at " << y << ", anchor " << anchor);
-      REQUIRE(f.y == Approx(-200 * (y - anchor)).margin(2e-4));
-      REQUIRE(std::fabs(f.y) < 0.03 * 1.001);
-      REQUIRE(f.x == Approx(0.1).epsilon(1e-3));
-    }
-  }
-  // The pen leaves the shape: the anchor is reset.
-  CHECK(length(pen.at({0.04, 0.112}, settle)) < 1e-12);
-  CHECK(std::fabs(pen.at({0.028, 0.112}, settle).y) < 1e-5);
-}
-
-TEST_CASE("friction on a texture: its share of what presses there, on crest and in trough") {
-  LawRequest request;
-  request.texture = request.friction = true;
-  const law::Law law =
-      law::read_law_text(law_text(sampled(curve_of("square"), 80), request), "shape.law", 50e3);
-  Pen pen(law);
-  pen.at({0.04, 0.11}, settle);
-  pen.at({0.028, 0.11}, settle);
-  double least = 1, most = 0;
-  for (double y = 0.11; y < 0.13; y += 0.05e-3) {
-    const Point f = pen.at({0.028, y}, settle);
-    if (y < 0.112) continue;  // until it slips all the time
-    INFO("at " << y);
-    REQUIRE(-f.y < 0.3 * f.x * (1 + 1e-6));
-    least = std::min(least, -f.y / f.x);
-    most = feltgate::larger(most, -f.y / f.x);
-  }
-  CHECK(most == Approx(0.3).epsilon(1e-3));
-  CHECK(least > 0.2);  // where the crest comes nearer it has not slipped so far
-}
-
-TEST_CASE("friction: anchored by the way along the outline, corners and first vertex included") {
-  const Polygon p = sampled(curve_of("square"), 80);
-  const law::Law law = rough(p);
-  Pen pen(law);
-  pen.set_parameter(of_friction, 1);
-  pen.set_parameter(of_grip, 0.5);  // 0.1 N press and slip after 200 mm, nearly all the way around
-  const auto inside = [&p](std::size_t edge, double t, double depth_m) {
-    const std::size_t next = (edge + 1) % p.size();
-    const Point along = p.along[edge] + (p.along[next] - p.along[edge]) * t;
-    const Point square = Point{-along.y, along.x} * (1 / length(along));
-    return p.at[edge] + (p.at[next] - p.at[edge]) * t + square * depth_m;
-  };
-  constexpr std::size_t start = 30;
-  pen.at(inside(start, 0, -12e-3), settle);
-  pen.at(inside(start, 0, 2e-3), settle);
-  double way_m = 0, most_n = 0;
-  for (std::size_t n = 0; n < p.size() + 20; ++n) {
-    const std::size_t edge = (start + n) % p.size();
-    for (int part = 0; part < 4; ++part) {
-      const Point f = pen.at(inside(edge, part / 4.0, 2e-3), settle);
-      const Point outward = inside(edge, part / 4.0, 0) - inside(edge, part / 4.0, 1);
-      const double pull_n = f.x * outward.y - f.y * outward.x;
-      INFO("edge " << edge << ", " << part << " of 4");
-      // Between vertices the direction is up to 1 % short.
-      REQUIRE(pull_n == Approx(std::min(0.5 * way_m, 0.1)).margin(2e-3));
-      most_n = feltgate::larger(most_n, pull_n);
-      way_m += p.edge_m(edge) / 4;
-    }
-  }
-  CHECK(most_n > 0.098);
-}
-
 TEST_CASE("a thin tail pushed through: the proxy holds on to the side it came from") {
   const Curve c = tail();
   const Point above{0.0, 0.124}, below{0.0, 0.1185};
   // 5.5 mm down through 4 mm: past the middle the nearest edge is the other side.
-  const auto simple = pushed(law_of(c, Kind::simple, 100), above, below, 0.1e-3);
-  CHECK(jumps(simple) == 1);
-  CHECK(simple.back().y < 0);
-  for (const Kind kind : {Kind::proxy, Kind::walk}) {
-    const auto held = pushed(law_of(c, kind, 100), above, below, 0.1e-3);
-    CHECK(jumps(held) == 0);
-    CHECK(held.back().y == Approx(50 * (0.122 - below.y)).epsilon(1e-3));
-    CHECK(std::fabs(held.back().x) < 1e-3);
-    // The pen passes through and out: the law still pushes back.
-    const auto through = pushed(law_of(c, kind, 100), above, {0.0, 0.116}, 0.1e-3);
-    CHECK(through.back().y > 0.25);
-  }
+  const law::Law law = law_of(c, 100);
+  const auto held = pushed(law, above, below, 0.1e-3);
+  CHECK(jumps(held) == 0);
+  CHECK(held.back().y == Approx(50 * (0.122 - below.y)).epsilon(1e-3));
+  CHECK(std::fabs(held.back().x) < 1e-3);
+  // The pen passes through and out: the law still pushes back.
+  const auto through = pushed(law, above, {0.0, 0.116}, 0.1e-3);
+  CHECK(through.back().y > 0.25);
 }
 
 TEST_CASE(
@@ -285,8 +176,8 @@ TEST_CASE("outside there is no force, wherever the pen comes from") {
       }
       return in;
     };
-    for (const Kind kind : all_kinds()) {
-      const law::Law law = law_of(c, kind, 100);
+    {
+      const law::Law law = law_of(c, 100);
       Pen pen(law);
       constexpr int ways = 12, runs = 50;
       const auto at = [](double angle, double away) {
@@ -295,7 +186,7 @@ TEST_CASE("outside there is no force, wherever the pen comes from") {
       pen.at(at(0, 0.05), settle);
       for (int way = 0; way < ways; ++way) {
         const double angle = 2 * std::acos(-1.0) * way / ways;
-        INFO(name << ", law " << static_cast<int>(kind) << ", from " << angle << " rad");
+        INFO(name << ", from " << angle << " rad");
         for (int i = 20; i >= 0; --i) {
           pen.at(at(angle - 2 * std::acos(-1.0) * i / (20 * ways), 0.05), runs);
         }
@@ -318,7 +209,7 @@ TEST_CASE("the seven shapes as the page has them: felt all around, without a jum
   for (const char* name : {"duck", "bell", "banana", "fish", "horseshoe", "mushroom", "square"}) {
     const Curve curve = curve_of(name, 2e-3);
     CHECK_FALSE(crosses_itself(sampled(curve, 40).at));
-    const law::Law law = law_of(curve, Kind::proxy, 40);
+    const law::Law law = law_of(curve, 40);
     const Felt felt = around(law, curve, 50, 1e-3, 0.153e-3);
     INFO(name << ": rms error " << felt.rms_error << ", step " << felt.most_step);
     CHECK(felt.jumps == 0);

@@ -21,20 +21,14 @@ inline Curve curve_of(const std::string& name, double radius_m = 5e-3, Placing p
   return rounded(placed(read_svg(vector_file(name)), placing), radius_m);
 }
 
-inline std::string text_of(const Curve& curve, Kind kind, int vertices) {
+inline std::string text_of(const Curve& curve, int vertices) {
   LawRequest request;
   request.summary = "a test's shape";
-  request.kind = kind;
   return law_text(sampled(curve, vertices), request);
 }
 
-inline law::Law law_of(const Curve& curve, Kind kind, int vertices) {
-  return law::read_law_text(text_of(curve, kind, vertices), "shape.law", 50e3);
-}
-
-inline const std::vector<Kind>& all_kinds() {
-  static const std::vector<Kind> kinds{Kind::proxy, Kind::simple, Kind::walk};
-  return kinds;
+inline law::Law law_of(const Curve& curve, int vertices) {
+  return law::read_law_text(text_of(curve, vertices), "shape.law", 50e3);
 }
 
 }  // namespace feltgate::shape

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A wall on either side of its border in the whole core: RTL and twin in lock-step, from pins to
-// pins. Documentation: docs/stability.md
+// pins. Documentation: docs/speed-for-accuracy.md
 #include <cmath>
 
 #include "catch.hpp"

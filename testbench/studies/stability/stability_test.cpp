@@ -3,7 +3,7 @@
 //
 // Stability of walls: published numbers, eigenvalues two ways, borders in the chain's own bits, and
 // what counts and noise do; and what a study refuses: not a number would never end. Documentation:
-// docs/stability.md
+// docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A field of 16 x 16 as words: the interpreter, the engine's twin and its RTL with three axes, bit
-// for bit. Documentation: docs/devices/texture.md
+// for bit. Documentation: docs/devices/shapes.md
 #include "law_same_bits.hpp"
 #include "texture_case.hpp"
 

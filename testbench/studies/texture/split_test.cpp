@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The split of the depth, a sine's height and slope, firmness against the size of texels, and force
-// shading against the smooth curve. Documentation: docs/devices/texture.md
+// shading against the smooth curve. Documentation: docs/devices/shapes.md
 #include <cmath>
 #include <cstdlib>
 #include <iostream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Textures for tests. Documentation: docs/devices/texture.md
+// Textures for tests. Documentation: docs/devices/shapes.md
 #pragma once
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A valley of a 16 x 16 field in the engine's words, under a mass behind a winding: facets throw it
-// from wall to wall, interpolated normals let it rest. Documentation: docs/devices/texture.md
+// from wall to wall, interpolated normals let it rest. Documentation: docs/devices/shapes.md
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Trim of scenes with a law, on one lever and on devices of several axes. Documentation:
-// docs/trim.md
+// docs/speed-for-accuracy.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Trim: off means not computed, the trimmed set holds on motions nobody searched on, a set that is
-// too loose is refused. Documentation: docs/trim.md
+// too loose is refused. Documentation: docs/speed-for-accuracy.md
 #include "studies/trim/trim.hpp"
 #include "feltgate/largest.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // mult: RTL against twin on every clock, and both against 128-bit products four clocks late.
-// Documentation: docs/blocks/mult.md
+// Documentation: docs/architecture.md
 #include <Vmult.h>
 
 #include <array>

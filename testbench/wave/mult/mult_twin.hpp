@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/wave/mult.sv: the chain's one multiplier, 35 x 18 bits signed, product four
-// clocks after the operands. Documentation: docs/blocks/mult.md
+// clocks after the operands. Documentation: docs/architecture.md
 #pragma once
 
 #include <array>

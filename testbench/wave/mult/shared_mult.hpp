@@ -3,7 +3,7 @@
 //
 // The shared multiplier as a block under test sees it: its own products four clocks after their
 // operands, products of random operands in every other clock, so that taking one a clock early or
-// late shows. Documentation: docs/blocks/mult.md
+// late shows. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

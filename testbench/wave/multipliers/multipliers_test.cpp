@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // multipliers: RTL against twin on every clock, one for all or one per block, and both against the
-// products of the operands four clocks ago. Documentation: docs/blocks/multipliers.md
+// products of the operands four clocks ago. Documentation: docs/architecture.md
 #include <Vmultipliers.h>
 
 #include <array>
@@ -124,7 +124,7 @@ struct ClocksAgo {
     const std::int64_t by_scene = then.square_distance ? then.distance : word;
     const std::int64_t by_supervisor = then.square_estimate ? then.estimate : word;
     const std::int64_t by_control = then.zero_control ? 0 : word;
-    const std::int64_t by_all = then.zero_control     ? 0
+    const std::int64_t by_all = then.zero_control      ? 0
                                 : then.square_distance ? then.distance
                                                        : by_supervisor;
     ++(*seen)[kind(then)][by_all < 0];

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/wave/multipliers.sv, clock by clock: one multiplier on the operand bus, or one
-// per block. Documentation: docs/blocks/multipliers.md
+// per block. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

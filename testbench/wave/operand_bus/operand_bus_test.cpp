@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // operand_bus: RTL against twin on every clock, and the bus against the schedule: in the clock of
-// each product its operand and nothing else. Documentation: docs/blocks/operand_bus.md
+// each product its operand and nothing else. Documentation: docs/architecture.md
 #include <Voperand_bus.h>
 
 #include <array>

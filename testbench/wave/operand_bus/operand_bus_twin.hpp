@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/wave/operand_bus.sv, clock by clock: who holds a clock drives it. It computes
-// nothing. Documentation: docs/blocks/operand_bus.md
+// nothing. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // registers: functions that only the twin has, for fault campaigns, for skipping and for the core:
-// flipped bits, words in the pipeline, waiting writes. Documentation: docs/blocks/registers.md
+// flipped bits, words in the pipeline, waiting writes. Documentation: docs/architecture.md
 #include "catch.hpp"
 #include "host.hpp"
 

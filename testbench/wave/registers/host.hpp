@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Ports of the Verilated registers, a host that follows a script, and a random host.
-// Documentation: docs/blocks/registers.md
+// Documentation: docs/architecture.md
 #pragma once
 
 #include <Vregisters.h>
@@ -23,14 +23,14 @@ constexpr std::uint16_t kCommand = Lever::C::command;
 
 struct RegistersAdapter {
   static void drive(Vregisters& rtl, const Twin::In& in) {
-    FELTGATE_DRIVE(rtl, in, tick, reg_addr, reg_wdata, reg_write, armed, set_zero, slot_fetch,
-                   scene_slot_fetch, scene, region_high, derated, testing, snap_slot, snap_valid,
-                   snap_data);
+    FELTGATE_DRIVE(rtl, in, tick, reg_addr, reg_wdata, reg_write, armed, polarity_holds, set_zero,
+                   slot_fetch, scene_slot_fetch, scene, region_high, at_least_full, at_least_hold,
+                   at_least_test, derated, testing, snap_slot, snap_valid, snap_data);
   }
   template <class Check>
   static void compare(Check& check, const Vregisters& rtl, const Twin::Out& out) {
     FELTGATE_COMPARE(check, rtl, out, reg_rdata, reg_busy, param, word_error, control, set_zero,
-                     clear_faults, kick, disarm, stop, restart, refused);
+                     clear_faults, kick, disarm, stop, restart, refused, saturated);
   }
 };
 using RegistersBench = LockStep<Vregisters, Twin, RegistersAdapter>;
@@ -46,6 +46,10 @@ inline Twin::In inputs_of(const Clock::Out& now) {
   in.tick = now.tick;
   in.slot_fetch = static_cast<std::uint8_t>(now.slot_fetch);
   in.scene_slot_fetch = now.scene_slot_fetch;
+  const auto fetched = [&now](int t) { return now.slot_fetch == Map::first_wave_clock + t; };
+  in.at_least_full = fetched(Map::T::least_full);
+  in.at_least_hold = fetched(Map::T::least_hold);
+  in.at_least_test = fetched(Map::T::least_test);
   if (now.slot_fetch >= 2 && now.slot_fetch < 49) {
     in.snap_slot = static_cast<std::uint8_t>(now.slot_fetch - 2);
     in.snap_valid = true;
@@ -59,6 +63,7 @@ class Script {
  public:
   std::uint8_t scene = 0;
   bool region_high = false, testing = false, armed = false, set_zero = false, derated = false;
+  bool polarity_holds = false;
   std::uint16_t address = 0;
 
   Script() { twin_.reset(); }
@@ -75,6 +80,7 @@ class Script {
     in.region_high = region_high;
     in.testing = testing;
     in.armed = armed;
+    in.polarity_holds = polarity_holds;
     in.set_zero = set_zero;
     in.derated = derated;
     in.reg_addr = address;
@@ -140,12 +146,14 @@ class RandomHost {
       in_force_.testing = random_.coin();
       if (random_.one_in(5)) in_force_.armed = random_.coin();
       in_force_.derated = random_.coin();
+      in_force_.polarity_holds = random_.coin();
     }
     in.armed = in_force_.armed;
     in.set_zero = random_.one_in(300);
     in.scene = in_force_.scene;
     in.region_high = in_force_.region_high;
     in.derated = in_force_.derated;
+    in.polarity_holds = in_force_.polarity_holds;
     in.testing = in_force_.testing;
     // Some writes are held for a while, others last one clock.
     if (!in_force_.reg_write || random_.one_in(in.tick ? 2 : 60)) {

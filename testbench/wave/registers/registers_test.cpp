@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // registers: RTL against twin on every clock, and both against the documented behaviour of the
-// port. Documentation: docs/blocks/registers.md
+// port. Documentation: docs/architecture.md
 #include <set>
 
 #include "catch.hpp"
@@ -10,6 +10,7 @@
 
 using namespace feltgate::test;
 using feltgate::Lever;
+using feltgate::Map;
 
 namespace {
 
@@ -35,8 +36,12 @@ TEST_CASE("registers: after configuration the RAM holds the design's values") {
   for (std::uint8_t scene = 0; scene < 16; ++scene) {
     host.scene = scene;
     for (int slot = 0; slot < 48; ++slot) {
-      const bool of_scene = ((feltgate::Map::scene_slots >> slot) & 1u) != 0;
-      const int address = of_scene ? scene * 32 + slot : slot;
+      const bool of_scene = ((Map::scene_slots >> slot) & 1u) != 0;
+      const int address = of_scene                     ? scene * 32 + slot
+                          : slot == Map::T::least_full ? Lever::A::torque_limit
+                          : slot == Map::T::least_hold ? Lever::A::hold_limit
+                          : slot == Map::T::least_test ? Lever::A::self_test_torque
+                                                       : slot;
       REQUIRE(host.bus(slot) == host.twin().parameter(address));
     }
   }
@@ -281,25 +286,83 @@ TEST_CASE("registers: each command acts once, in the last clock of the tick") {
   host.play();
 }
 
-TEST_CASE("registers: slot 34 carries word 50 in the high region, slot 24 word 51 in a test") {
+TEST_CASE("registers: slot 34 carries word 50 in the high region") {
   Script host;
   host.write(Lever::A::voltage_gain, 1111).until(0);
   host.write(Lever::A::voltage_gain_high, 2222).until(0);
   for (const bool high : {false, true, false}) {
-    host.region_high = host.testing = high;
-    REQUIRE(host.bus(24) == host.twin().parameter(high ? 51 : 24));
-    REQUIRE(host.bus(34) == (high ? 2222U : 1111U));
+    host.region_high = high;
     REQUIRE(host.bus(33) == host.twin().parameter(33));
+    REQUIRE(host.bus(34) == (high ? 2222U : 1111U));
   }
   host.play();
 }
 
-TEST_CASE("registers: slot 24 carries hold_limit while a held torque is eased") {
+TEST_CASE("registers: slot 24 carries the least of all that limit the torque") {
   Script host;
-  host.write(Lever::A::torque_limit, 1111).until(0).write(Lever::A::hold_limit, 2222).until(0);
-  for (const bool derated : {false, true, false}) {
-    host.derated = derated;
-    REQUIRE(host.bus(24) == (derated ? 2222U : 1111U));
+  for (const int full : {-5, 0, 300, 2000}) {
+    for (const int hold : {-6, 100, 300, 1500}) {
+      for (const int test : {-7, 200, 400, 1600}) {
+        host.write(Lever::A::torque_limit, static_cast<std::uint32_t>(full)).until(0);
+        host.write(Lever::A::hold_limit, static_cast<std::uint32_t>(hold)).until(0);
+        host.write(Lever::A::self_test_torque, static_cast<std::uint32_t>(test)).until(0);
+        for (const bool derated : {false, true}) {
+          for (const bool testing : {false, true}) {
+            host.derated = derated;
+            host.testing = testing;
+            host.until(0);
+            int least = full;
+            if (derated && hold < least) least = hold;
+            if (testing && test < least) least = test;
+            REQUIRE(host.bus(24) == static_cast<std::uint32_t>(least));
+          }
+        }
+      }
+    }
+  }
+  host.play();
+}
+
+TEST_CASE("registers: a word that does not fit its format becomes the nearest that does") {
+  Script host;
+  for (const auto& p : Lever::parameters) {
+    const int bits = p.format.width() - p.format.sign;
+    const bool judged = bits >= 31;  // all words fit, or the block that takes it judges it
+    const std::int64_t most = (std::int64_t{1} << bits) - 1;
+    const std::int64_t least = p.format.sign != 0 ? -most - 1 : 0;
+    for (const std::int64_t asked : {most, most + 1, least, least - 1, 2 * most, std::int64_t{-1},
+                                     std::int64_t{0x7fffffff}, -std::int64_t{0x80000000}}) {
+      const auto word = static_cast<std::uint32_t>(asked);
+      if (!judged && static_cast<std::int32_t>(word) != asked) continue;
+      host.write(static_cast<std::uint16_t>(p.address), word).until(0);
+      const std::int64_t fits = asked > most ? most : asked < least ? least : asked;
+      INFO(p.name << " " << asked);
+      REQUIRE(host.twin().parameter(p.address) ==
+              (judged ? word : static_cast<std::uint32_t>(fits)));
+      REQUIRE(host.out().saturated == (!judged && fits != asked));
+    }
+  }
+  // What is no parameter takes its bits as they are, and says nothing of the last parameter.
+  host.write(Lever::A::setpoint_torque, 17U << 16).until(0);
+  host.write(kControl, 0xffffffffU).until(0);
+  REQUIRE(host.out().control == (1U << Lever::C::control_width) - 1);
+  REQUIRE(host.out().saturated);
+  host.play();
+}
+
+TEST_CASE("registers: the encoder's polarity holds while it must") {
+  constexpr std::uint32_t kPolarity = 1U << Lever::C::control_encoder_polarity;
+  constexpr std::uint32_t kRest = ((1U << Lever::C::control_width) - 1) & ~kPolarity;
+  Script host;
+  for (const std::uint32_t before : {0U, kPolarity}) {
+    host.polarity_holds = false;
+    host.write(kControl, before).until(0);
+    host.polarity_holds = true;
+    for (const std::uint32_t asked : {0U, kPolarity}) {
+      host.write(kControl, kRest | asked).until(0);
+      REQUIRE(host.out().control == (kRest | before));
+      REQUIRE_FALSE(host.out().word_error);
+    }
   }
   host.play();
 }

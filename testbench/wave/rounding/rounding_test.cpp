@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // rounding: RTL against twin and against real numbers, all inputs of a small width, in the three
-// modes. Documentation: docs/blocks/rounding.md
+// modes. Documentation: docs/architecture.md
 #include <Vrounding.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/core/wave/rounding.sv, by the rounding of fixed-point numbers. Documentation:
-// docs/blocks/rounding.md
+// docs/architecture.md
 #pragma once
 
 #include <cstdint>

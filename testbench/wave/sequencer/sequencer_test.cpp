@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // sequencer: RTL against twin on every clock, and both against the definition of a tick.
-// Documentation: docs/blocks/sequencer.md
+// Documentation: docs/architecture.md
 #include <Vsequencer.h>
 
 #include <set>

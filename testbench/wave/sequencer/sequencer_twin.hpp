@@ -3,7 +3,7 @@
 //
 // Twin of rtl/core/wave/sequencer.sv: clocks of a tick, waves, slots to fetch. Clock c of a tick
 // fetches slot c and is wave clock c - Map::first_wave_clock. Documentation:
-// docs/blocks/sequencer.md
+// docs/architecture.md
 #pragma once
 
 #include <cstdint>

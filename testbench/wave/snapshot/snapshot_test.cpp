@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // snapshot: RTL against twin on every clock, and both against the list of words.
-// Documentation: docs/blocks/snapshot.md
+// Documentation: docs/architecture.md
 #include <Vsnapshot.h>
 
 #include <array>

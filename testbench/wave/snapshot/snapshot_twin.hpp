@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/wave/snapshot.sv, clock by clock. Documentation: docs/blocks/snapshot.md
+// Twin of rtl/core/wave/snapshot.sv, clock by clock. Documentation: docs/architecture.md
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,6 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "host/calibrate/report.hpp"
-#include "host/identify/report.hpp"
 #include "law/amount.hpp"
 
 namespace feltgate::host {
@@ -27,11 +26,10 @@ namespace feltgate::host {
 namespace {
 
 struct CalibrateArguments {
-  std::string what, from, write, json, save, slow_turn, into;
+  std::string what, from, write, json, save;
   bool closed = false;
   std::vector<double> points;
   double arm_m = 0, torque_constant = 0, gain = 1, confidence = 0.95, hold_s = 3, voltage_v = 0;
-  int harmonics = 4;
 };
 
 constexpr double kSettle_s = 0.1;
@@ -162,51 +160,11 @@ std::string readings_csv(const std::vector<Reading>& readings, bool closed) {
   return text;
 }
 
-/// calibrate encoder: the table of an absolute encoder, from a recorded turn.
-int calibrate_encoder(Session& session, const CalibrateArguments& a) {
-  if (a.from.empty()) {
-    throw std::invalid_argument(
-        "calibrate encoder needs a recorded turn: --from FILE with time_s and position, as the CSV "
-        "of "
-        "a run has it");
-  }
-  const BenchDesign known(session, "");
-  const design::Design& d = known.design().design;
-  if (!d.absolute) {
-    throw std::invalid_argument(
-        fmt::format("design {} has no absolute encoder; give one that has with --design", d.name));
-  }
-  files::Outputs outputs;
-  if (a.from != "-") outputs.reads(a.from);
-  files::OutputFile* json = outputs.open("--json", a.json);
-  files::OutputFile* write = outputs.open("--write", a.write);
-  Recording turn = turn_of(ColumnTable::of_file(a.from), d.count_rad(), d.tick_s());
-  if (d.encoder_polarity != 0) {  // the table is that of the sensor's own angle
-    for (double& angle : turn.angle_rad) angle = -angle;
-    for (double& angle : turn.reference_rad) angle = -angle;
-  }
-  const EncoderError error = identify_encoder(turn, a.harmonics, d.count_rad(), a.confidence);
-  const std::vector<Change> changes = changes_of(error, known.design());
-  auto result = report_json(error, a.confidence);
-  result["changes"] = report_json(changes);
-  outputs.say(report_text(error, a.confidence) + known.write(changes, write, a.write));
-  if (json != nullptr) json->write(files::json_text(result));
-  outputs.commit();
-  return exit_ok;
-}
-
 int calibrate(Session& session, CalibrateArguments a) {
-  if (a.what == "cogging") {
-    return calibrate_cogging(session, {a.from, a.write, a.json, a.slow_turn, a.into, a.confidence});
-  }
-  if (!a.slow_turn.empty() || !a.into.empty()) {
-    throw std::invalid_argument("--slow-turn and --into belong to calibrate cogging");
-  }
   if (a.what == "align") {
     return calibrate_align(session, {a.from, a.write, a.json, a.save, a.voltage_v, a.confidence});
   }
   if (a.voltage_v > 0) throw std::invalid_argument("--voltage belongs to calibrate align");
-  if (!a.what.empty()) return calibrate_encoder(session, a);
   if (!a.from.empty() && !a.save.empty()) {
     throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
   }
@@ -282,31 +240,19 @@ Run add_calibrate(CLI::App& sub) {
       "  feltgate host /dev/ttyUSB0 calibrate --arm 0.011 --write mine.toml\n"
       "  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv\n"
       "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
-      "  feltgate host - --design mine calibrate encoder --from turn.csv --write mine.toml\n"
       "  feltgate host /dev/ttyUSB0 calibrate align --write mine.toml        the motor turns\n"
-      "  feltgate host - --design lever_law calibrate cogging --from turn.csv --write mine.law\n"
       "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
       "and\n"
       "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
       "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
       "do not say it, 3 the link broke down.");
-  sub.add_option(
-         "what", a->what,
-         "encoder: a table, from a turn; cogging: a law, from a slow turn; align: three phases")
-      ->type_name("encoder|cogging|align")
-      ->check(CLI::IsMember({"encoder", "cogging", "align"}));
-  sub.add_option("--slow-turn", a->slow_turn, "of cogging: write the law that turns the lever")
-      ->type_name("FILE");
-  sub.add_option("--into", a->into, "of cogging: the law to which --write adds the compensation")
-      ->type_name("LAW");
+  sub.add_option("what", a->what, "align: pole pairs and angle of a motor with three phases")
+      ->type_name("align")
+      ->check(CLI::IsMember({"align"}));
   sub.add_option("--voltage", a->voltage_v,
                  "of align: that turns the rotor; default: half of the nominal current's")
       ->type_name("V")
       ->transform(checks::positive(100, "V"));
-  sub.add_option("--harmonics", a->harmonics, "of encoder: so many per turn")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(checks::number(1, 16, ""));
   sub.add_flag("--closed", a->closed, "the closed-loop calibration");
   sub.add_option("--from", a->from, "readings of this file instead of a board; - is the input")
       ->type_name("FILE")
@@ -335,8 +281,7 @@ Run add_calibrate(CLI::App& sub) {
       ->capture_default_str()
       ->check(checks::number(0.5, 0.9999, ""));
   sub.add_option("--save", a->save, "write the readings as CSV")->type_name("FILE");
-  sub.add_option("--write", a->write,
-                 "write the design file, of cogging the law, with what was found")
+  sub.add_option("--write", a->write, "write the design file with what was found")
       ->type_name("FILE");
   sub.add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
   return [a](Session& session) { return calibrate(session, *a); };

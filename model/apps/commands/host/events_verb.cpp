@@ -115,11 +115,11 @@ Run add_events(CLI::App& sub) {
       ->transform(checks::seconds());
   sub.add_option("--count", a->count, "end after so many events")
       ->type_name("EVENTS")
-      ->check(checks::whole(1, 1'000'000'000));
+      ->transform(checks::whole(1, 1'000'000'000));
   sub.add_option("--tcp", a->tcp,
                  "send the lines to those who connect to this port of 127.0.0.1 too; 0: any")
       ->type_name("PORT")
-      ->check(checks::whole(0, 65535));
+      ->transform(checks::whole(0, 65535));
   return [a](Session& session) { return events(session, *a); };
 }
 

@@ -114,9 +114,14 @@ bool set_word(Device& device, const Setting& s) {
   }
   const bool well = !r.refused && r.kept;
   if (!well) {
-    what = fmt::format("{}: refused, stays {}; {}", q.name, q.text_of(device.word(q)),
-                       r.refused ? "the motor is armed and the torque could jump: disarm first"
-                                 : "the board did not keep it");
+    const std::string now = q.text_of(device.word(q));
+    what =
+        r.saturated && !r.refused
+            ? fmt::format("{}: saturated, is {}; the value does not fit the board's word", q.name,
+                          now)
+            : fmt::format("{}: refused, stays {}; {}", q.name, now,
+                          r.refused ? "the motor is armed and the torque could jump: disarm first"
+                                    : "the board did not keep it");
   }
   std::fputs((what + "\n").c_str(), stdout);
   return well;

@@ -31,14 +31,6 @@ Run add_record(CLI::App& sub);
 Run add_calibrate(CLI::App& sub);
 Run add_identify(CLI::App& sub);
 
-/// The options of calibrate cogging.
-struct CoggingArguments {
-  std::string from, write, json, slow_turn, into;
-  double confidence = 0;
-};
-/// Writes the law that turns the lever slowly, or from its recording the one that compensates.
-int calibrate_cogging(Session& session, const CoggingArguments& a);
-
 /// The options of calibrate align.
 struct AlignArguments {
   std::string from, write, json, save;

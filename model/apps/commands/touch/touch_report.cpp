@@ -86,6 +86,10 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
     s += fmt::format("  left out: {} primitives of points or lines\n", soup.not_triangles);
   if (soup.skins > 0)
     s += fmt::format("  left out: {} skins; the mesh is in its rest pose\n", soup.skins);
+  if (soup.animations > 0)
+    s += fmt::format("  left out: {} animations; the mesh is in its rest pose\n", soup.animations);
+  for (const std::string& name : soup.extensions)
+    s += fmt::format("  left out: the extension {}, which may change the mesh\n", name);
   s += fmt::format(
       "  welded {} vertices, dropped {} triangles without an area and {} that were there twice\n",
       r.welded, r.degenerate, r.duplicates);

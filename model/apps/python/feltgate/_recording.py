@@ -3,6 +3,7 @@
 """Encoder edges."""
 
 import os
+import warnings
 from typing import Any, Dict, Optional, Sequence, Union
 
 import numpy as np
@@ -23,23 +24,31 @@ class Recording:
     probes        names of A, B and perhaps Z, "A,B" or a list; left out: guessed
     step, dir     names of the signals of a STEP and DIR recording
     time_column, count_column, scale   of a table; scale is counts per unit of the column
-    sample_hz     rate of the capture, where the file does not say it
+    time_unit     "s", "ms", "us" or "ns" of the time column; left out: as its name says, else "s"
+    wrap          the count column begins again after so many of its units: 360, "2pi", 65536; True:
+                  a turn of an angle, or 2^16 or 2^32 counts, as its first jump tells
+    sample_hz     rate of the capture, where the file does not say it; rows without a time are its
+                  samples
     format        "sigrok", "vcd", "saleae", "levels", "columns", "vector"; left out: by content
     jitter, seed  edges at a seeded place inside their sample, or at its start (docs/traces.md)
     clock_hz      clock of the design that will see it
-    Raises ValueError "file:position: what is wrong; mend".
+    Raises ValueError "file:position: what is wrong; mend"; warns of what is hardly meant.
     """
 
     def __init__(self, path: PathLike, probes: Union[str, Sequence[str]] = (), *, step: str = "",
-                 dir: str = "", time_column: str = "", count_column: str = "",
-                 scale: Union[str, float] = "", sample_hz: int = 0, format: str = "",
+                 dir: str = "", time_column: str = "", time_unit: str = "", count_column: str = "",
+                 scale: Union[str, float] = "", wrap: Union[None, bool, str, float] = None,
+                 sample_hz: int = 0, format: str = "",
                  jitter: bool = True, seed: int = 1, clock_hz: int = 50_000_000):
         if isinstance(probes, str):
             probes = [name.strip() for name in probes.split(",") if name.strip()]
+        wraps = None if wrap is None or wrap is False else "" if wrap is True else str(wrap)
         self._core = _core.Recording.read(
-            os.fspath(path), list(probes), step, dir, time_column, count_column, str(scale),
-            sample_hz, format, jitter, seed, clock_hz)
+            os.fspath(path), list(probes), step, dir, time_column, time_unit, count_column,
+            str(scale), wraps, sample_hz, format, jitter, seed, clock_hz)
         self._arrays = None  # type: Optional[Dict[str, Any]]
+        for text in self._core.warnings:
+            warnings.warn(text, stacklevel=2)
 
     @classmethod
     def of_counts(cls, time_s: npt.ArrayLike, counts: npt.ArrayLike, *,

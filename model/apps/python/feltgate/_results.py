@@ -44,10 +44,13 @@ class Columns(Mapping[str, Any]):
 
 @dataclass(frozen=True)
 class ErrorFigure:
-    """Difference of a signal from its reference over a run: largest magnitude, root mean square."""
+    """Difference of a signal from its reference over a run: largest magnitude and root mean square of the
+    ticks for which its bound holds, and the largest of the others: ramps, saturation and what follows."""
 
     max: float
     rms: float
+    outside: float = 0.0
+    ticks_outside: int = 0
 
 
 class Signals(Columns):
@@ -61,7 +64,7 @@ class Signals(Columns):
     voltage_v: Floats  #: voltage for the motor, V
     duty: Floats  #: of the PWM period, -1 to 1
 
-    #: Over all ticks, kept or not, against Result.reference; empty for the reference itself.
+    #: Of all ticks, kept or not, against Result.reference; empty for the reference itself.
     errors: Dict[str, ErrorFigure]
     #: Time spent in this back-end, s.
     busy_s: float
@@ -109,10 +112,12 @@ class Felt:
     motor_nm: Optional[Peak] = None  #: of the plant's motor, averaged over each PWM period
     hand_nm: Optional[Peak] = None  #: of the hand on the lever
     motor_error_nm: Optional[ErrorFigure] = None  #: motor less asked
+    tau_hat_void_s: float = 0.0  #: time in which voltage or duty was at its limit, so that tau_hat tells too much
     taken_from_hand_j: Optional[float] = None  #: sum of all that the hand gave
     given_to_hand_j: Optional[float] = None  #: sum of all that it got
     limits: Dict[str, Acted] = field(default_factory=dict)  #: only those that acted
     faults: Dict[str, Acted] = field(default_factory=dict)
+    tau_hat_void_s: float = 0.0  #: how long voltage or duty were at the limit, so that tau_hat was void
     expectations: List[Expected] = field(default_factory=list)
 
     @staticmethod
@@ -161,7 +166,7 @@ class Result(Columns):
     reference: Optional[str]  #: back-end that the errors are taken against: "quad" or "double"
     engines: Dict[str, Signals]
     felt: Felt
-    #: Proven bounds on the errors of the fixed point in this motion, against "quad"; None without it.
+    #: Proven bounds on errors[...].max of the fixed point in this motion, against "quad"; None without it.
     bounds: Optional[Dict[str, float]]
     figures: Dict[str, float]  #: what scene files put bounds on; docs/scenes.md
     broken: List[str]  #: expectations and bounds that do not hold, one line each

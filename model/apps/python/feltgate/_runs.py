@@ -76,7 +76,7 @@ def run(scene: Union[PathLike, Scene], design: str = "lever", engine: Engines = 
 
         r = feltgate.run("membrane")
         r = feltgate.run("spring_tension", hand=(time_s, angle_rad), set={"torque_limit": 0.3})
-        r = feltgate.run("wall", "fast", "twin", every=1, duration_s=0.5)
+        r = feltgate.run("wall", "paper", "twin", every=1, duration_s=0.5)
 
     scene       one of feltgate.scenes(), the path of a scene file, or a Scene
     design      one of feltgate.designs()

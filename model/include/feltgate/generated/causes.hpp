@@ -16,12 +16,12 @@ namespace limit {
 constexpr unsigned torque = 1;  ///< torque reference at its limit
 constexpr unsigned ramp = 2;  ///< ramping: after arming, a change of scene, or what could have made the torque jump
 constexpr unsigned current = 4;  ///< current reference at its limit
-constexpr unsigned voltage = 8;  ///< voltage at the end of the window around the back-EMF
-constexpr unsigned duty = 16;  ///< duty at its limit
+constexpr unsigned voltage = 8;  ///< voltage at the end of the window around the back-EMF; without a current loop tau_hat is void, for the motor gives less than it counts on
+constexpr unsigned duty = 16;  ///< duty at its limit; without a current loop tau_hat is void, as above
 constexpr unsigned velocity = 32;  ///< the raw velocity saturated its format
 constexpr unsigned tau_hat = 64;  ///< tau_hat saturated its format
 constexpr unsigned gates_closed = 128;  ///< the gates are off
-constexpr unsigned hold = 256;  ///< a torque was held for too long: the limit is hold_limit
+constexpr unsigned hold = 256;  ///< a torque was held for too long: the limit is hold_limit, or torque_limit if that is less
 constexpr unsigned chatter = 512;  ///< the count alternates on one edge: the torque reference does not grow
 /// By the number of the bit.
 inline constexpr std::array<const char*, 10> names{

@@ -31,7 +31,7 @@ struct HallMotor {
   static constexpr int index_counts = 4096;  // counts from index to index; 0: not checked
   static constexpr int pwm_period = 1000;  // clocks
   static constexpr int dead_clocks = 25;  // clocks
-  static constexpr int shortest_clocks = 1;  // clocks, of a pulse at a gate
+  static constexpr int shortest_clocks = 10;  // clocks, of a pulse at a gate
   static constexpr int scene_mask = 1021;  // bit n: scene n is built
   static constexpr int control_reset = 0;  // control word after reset
   static constexpr int coefficient_bits = 17;  // bits of a coefficient's mantissa, without its sign
@@ -50,6 +50,9 @@ struct HallMotor {
   static constexpr int mt_counts = 0;  // velocity by M/T of an encoder with so many counts in a turn; 0: by the N-method
   static constexpr int mt_window = 0;  // clocks: of a shorter span twice the cycles
   static constexpr int mt_doublings = 0;  // the span has at most 2^n cycles
+  static constexpr int edge_unit_bits = 6;  // bits of the ticks in which the time between edges is counted
+  static constexpr int fast_edges = 0;  // 1: at the fastest motion several counts come in a tick
+  static constexpr int self_test_drop = 0;  // the self-test takes 2^n counts for one
   static constexpr int current_loop = 0;  // 1: a measured current is controlled
   static constexpr int current_drop = 0;  // fraction bits of the current reference below an LSB of the measured current
   static constexpr int current_proportional = 0;  // [0,4,13], supply per full scale
@@ -75,7 +78,8 @@ struct HallMotor {
   static constexpr int phases = 3;  // legs of the bridge: 2 of one motor current, 3 of three
   static constexpr int modulation = 1;  // of three phases: 0 sines, 1 space vectors
   static constexpr Round rounding = Round::half_up;  // where the chain rounds
-  static constexpr std::uint32_t design_crc = 0x15e6be74;  // by which a host knows the design
+  static constexpr std::uint32_t design_crc = 0x6e0ebd88;  // by which a host knows the design
+  static constexpr std::uint32_t file_sum = 0xfa4d1b06;  // by which a program notices that the file has changed
 
   /// Formats of the parameters.
   struct P {
@@ -84,7 +88,7 @@ struct HallMotor {
     static constexpr Format emf_over_resistance{0, -4, 21};
     static constexpr Format torque_constant{0, -4, 21};
     static constexpr Format inertia_gain{0, -4, 21};
-    static constexpr Format nominal_current_squared{0, 17, 2};
+    static constexpr Format nominal_current_squared{0, 30, 2};
     static constexpr Format observer_a1{0, -10, 27};
     static constexpr Format overspeed{1, 10, 21};
     static constexpr Format i2t_budget{0, 30, 2};
@@ -110,7 +114,7 @@ struct HallMotor {
     static constexpr Format dead_voltage{1, 5, 14};
     static constexpr Format voltage_window{1, 5, 14};
     static constexpr Format duty_gain{0, 7, 10};
-    static constexpr Format duty_limit{0, 31, 0};
+    static constexpr Format duty_limit{0, 12, 0};
     static constexpr Format watchdog_ticks{0, 31, 0};
     static constexpr Format self_test_torque{1, 4, 16};
     static constexpr Format self_test_quiet{0, 31, 0};
@@ -129,11 +133,11 @@ struct HallMotor {
     static constexpr Format damper_damping{0, -6, 23};
     static constexpr Format attract_centre{1, 17, 8};
     static constexpr Format attract_strength{0, 16, 16};
-    static constexpr Format attract_core{0, 31, 0};
+    static constexpr Format attract_core{0, 18, 0};
     static constexpr Format attract_core_slope{0, -9, 26};
     static constexpr Format repel_centre{1, 17, 8};
     static constexpr Format repel_strength{0, 16, 16};
-    static constexpr Format repel_core{0, 31, 0};
+    static constexpr Format repel_core{0, 18, 0};
     static constexpr Format repel_core_slope{0, -9, 26};
     static constexpr Format wall_contact{1, 17, 8};
     static constexpr Format wall_stiffness{0, -4, 21};
@@ -225,7 +229,7 @@ struct HallMotor {
       {"duty_gain", "clock/V", A::duty_gain, P::duty_gain,
        72.168783648703211, 73901},
       {"duty_limit", "clock", A::duty_limit, P::duty_limit,
-       948.0, 948},
+       930.0, 930},
       {"watchdog_ticks", "tick", A::watchdog_ticks, P::watchdog_ticks,
        100000.0, 100000},
       {"self_test_torque", "Nm", A::self_test_torque, P::self_test_torque,

@@ -39,15 +39,14 @@ struct Map {
   static constexpr int self_test_held_bit = 0;  ///< of self_test_arms: the scene begins though the lever is held
   static constexpr int self_test_moving_bit = 1;  ///< of self_test_arms: the scene begins though the lever moves
   static constexpr int kickless_bits = 24;  ///< bits of the longest time without a kick [tick]
+  static constexpr int arm_wait_ms = 20;  ///< for so long a request to arm may wait until the gates open [ms]; then it is refused
   static constexpr int absolute_jump_bit = 3;  ///< of faults.absolute: the angle has jumped
   static constexpr int absolute_entry_bits = 20;  ///< a correction of an absolute encoder's table is in steps of a turn / 2^20
   static constexpr int absolute_segment_bits = 8;  ///< its table has 2^8 corrections over a turn
   static constexpr int one_channel_edges = 16;  ///< edges of one channel in a row from which it is chatter or a dead channel
   static constexpr int dead_channel_edges = 24;  ///< as many are a dead channel
-  static constexpr int edge_unit_bits = 6;  ///< bits of the ticks in which the time between edges is counted
-  static constexpr int edge_units = 19;  ///< so many of them without an edge end the row
-  static constexpr int chatter_unit_bits = 8;  ///< bits of the ticks in which the time of chatter is counted
-  static constexpr int chatter_units = 20;  ///< chatter for so many of them is a dead channel
+  static constexpr int edge_units = 19;  ///< so many times 2^EDGE_UNIT_BITS ticks (of the design) without an edge end the row
+  static constexpr int chatter_units = 20;  ///< chatter for so many times 4 * 2^EDGE_UNIT_BITS ticks is a dead channel
   static constexpr int index_width_bits = 3;  ///< an index may be less than 2^index_width_bits counts wide
   static constexpr int hold_unit_bits = 10;  ///< bits of the ticks in which hold_time is counted
   static constexpr int hold_bits = 13;  ///< bits of the longest hold_time
@@ -182,6 +181,10 @@ struct Map {
     static constexpr int charge_width_limited = 6;
     static constexpr int charge_core = 7;
     static constexpr int charge_chosen = 8;
+    static constexpr int least_full = 11;
+    static constexpr int least_hold = 12;
+    static constexpr int least_test = 14;
+    static constexpr int least = 22;
     static constexpr int scene_sum = 15;
     static constexpr int scene_rounded = 22;
     static constexpr int law_torque = 22;
@@ -319,14 +322,17 @@ struct Map {
     setpoint_part,
     membrane_torque,
     read_index,
+    least_full,
     current_estimate,
     drive_torque,
+    least_hold,
     estimate_to_bus,
     operand_current_square,
     observer_input,
     read_encoder,
     observer_difference,
     damper_part,
+    least_test,
     operand_observer_a1,
     scene_sum,
     speed_size,
@@ -347,6 +353,7 @@ struct Map {
     window_over,
     operand_emf_constant,
     tau_hat,
+    least,
     scene_rounded,
     law_torque,
     polarity,
@@ -459,14 +466,17 @@ struct Map {
       {Step::setpoint_part, 10},
       {Step::membrane_torque, 10},
       {Step::read_index, 11},
+      {Step::least_full, 11},
       {Step::current_estimate, 11},
       {Step::drive_torque, 12},
+      {Step::least_hold, 12},
       {Step::estimate_to_bus, 12},
       {Step::operand_current_square, 13},
       {Step::observer_input, 13},
       {Step::read_encoder, 14},
       {Step::observer_difference, 14},
       {Step::damper_part, 14},
+      {Step::least_test, 14},
       {Step::operand_observer_a1, 15},
       {Step::scene_sum, 15},
       {Step::speed_size, 15},
@@ -487,6 +497,7 @@ struct Map {
       {Step::window_over, 21},
       {Step::operand_emf_constant, 22},
       {Step::tau_hat, 22},
+      {Step::least, 22},
       {Step::scene_rounded, 22},
       {Step::law_torque, 22},
       {Step::polarity, 22},
@@ -693,6 +704,7 @@ struct Map {
     static constexpr int status_self_test_width = 2;
     static constexpr int status_testing = 18;
     static constexpr int status_driver_fault = 19;
+    static constexpr int status_saturated = 31;
     static constexpr int status_current_missing = 30;
     static constexpr int read_faults = 794;
     static constexpr int faults_seen = 0;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The gimbal: three motors, a handle in two rings, encoders and a hand. Documentation:
-// docs/gimbal.md
+// docs/devices/three-axes.md
 #include "sim/plant/gimbal/gimbal.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A gimbal: three motors, a handle in two rings, encoders and a hand that turns the handle. It
-// closes the loop of a design with three axes in simulation. Documentation: docs/gimbal.md
+// closes the loop of a design with three axes in simulation. Documentation:
+// docs/devices/three-axes.md
 #pragma once
 
 #include <limits>

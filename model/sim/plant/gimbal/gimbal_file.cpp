@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reader of gimbal files such as vectors/devices/gimbal.toml. Documentation: docs/gimbal.md
+// Reader of gimbal files such as vectors/devices/gimbal.toml. Documentation:
+// docs/devices/three-axes.md
 #include "sim/plant/gimbal/gimbal_file.hpp"
 
 #include "sim/plant/plant_table.hpp"

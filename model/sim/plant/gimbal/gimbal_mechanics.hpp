@@ -3,7 +3,7 @@
 //
 // Mechanics of a handle in two rings: three joints whose axes meet in one point, outer about z,
 // middle about y, inner about x. Inertia, and one step with stops and hand. Derivation:
-// docs/gimbal.md
+// docs/devices/three-axes.md
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reader of the [hand] table of a hand that turns a handle. Documentation: docs/gimbal.md
+// Reader of the [hand] table of a hand that turns a handle. Documentation:
+// docs/devices/three-axes.md
 #include <fmt/format.h>
 
 #include <utility>

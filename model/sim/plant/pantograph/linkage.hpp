@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Geometry of a five-bar linkage: two motors drive the cranks, and the pen is where two circles
-// meet. It shares no code with the laws that a core evaluates. Derivation: docs/pantograph.md
+// meet. It shares no code with the laws that a core evaluates. Derivation:
+// docs/devices/pantograph.md
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Dynamics of a five-bar linkage: mass matrix, centrifugal and Coriolis torques, kinetic energy,
-// from the centres and rotations of its bodies. Derivation: docs/pantograph.md
+// from the centres and rotations of its bodies. Derivation: docs/devices/pantograph.md
 #pragma once
 
 #include "linkage.hpp"

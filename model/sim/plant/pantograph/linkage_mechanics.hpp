@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // One step of linkage, stops and hand: fourth-order Runge-Kutta, split where a stop is met or left;
-// the work of the hand is one of the states. Documentation: docs/pantograph.md
+// the work of the hand is one of the states. Documentation: docs/devices/pantograph.md
 #pragma once
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The pantograph: two motors, a five-bar linkage, stops, encoders and a hand. Documentation:
-// docs/pantograph.md
+// docs/devices/pantograph.md
 #include "sim/plant/pantograph/pantograph.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 //
 // A pantograph: two motors, a five-bar linkage, stops, encoders and a hand at the pen. It closes
 // the loop of a design with two axes in simulation. Equations, step and convergence:
-// docs/pantograph.md
+// docs/devices/pantograph.md
 #pragma once
 
 #include <array>

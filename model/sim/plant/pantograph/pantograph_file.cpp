@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reader of vectors/devices/NAME.toml for pantographs. Documentation: docs/pantograph.md
+// Reader of vectors/devices/NAME.toml for pantographs. Documentation: docs/devices/pantograph.md
 #include "sim/plant/pantograph/pantograph_file.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Constants of a pantograph in SI units: linkage, joints, stops, and two equal motors.
-// Documentation: docs/pantograph.md
+// Documentation: docs/devices/pantograph.md
 #pragma once
 
 #include <string>

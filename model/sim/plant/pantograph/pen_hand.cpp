@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Execution of the phases of a hand at a pen. Documentation: docs/pantograph.md
+// Execution of the phases of a hand at a pen. Documentation: docs/devices/pantograph.md
 #include "sim/plant/pantograph/pen_hand.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What holds the pen of a linkage: the lever's hand in two dimensions. docs/pantograph.md
+// What holds the pen of a linkage: the lever's hand in two dimensions. docs/devices/pantograph.md
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Reader of the [hand] table of a pen with two or three axes. Documentation: docs/pantograph.md
+// Reader of the [hand] table of a pen with two or three axes. Documentation:
+// docs/devices/pantograph.md
 #include <fmt/format.h>
 
 #include <algorithm>

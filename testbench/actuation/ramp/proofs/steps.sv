@@ -129,7 +129,7 @@ module steps_proof (
         ends_within_a_step: assert (!ramps_q || !armed_q || ramping || frozen_q || (left <= step_q && left >= -step_q));
         at_once_otherwise: assert (ramps_q || (frozen_q && armed_q) || fine == target_q);
         frozen_falls_only: assert (!(frozen_q && armed_q) ||
-                                   ((before_q >= 0) ? (fine <= before_q && fine >= 0) : fine >= before_q));
+                                   ((before_q >= 0) ? (fine <= before_q && fine >= 0) : (fine >= before_q && fine <= 0)));
         disarmed_is_the_target: assert (armed_q || fine == target_q);
         shows_the_ramp: assert (limit_ramp ? armed_q && (ramps_q || (frozen_q && fine == before_q))
                                            : !(armed_q && (ramps_q || (frozen_q && fine != target_q))));

@@ -113,7 +113,7 @@ module around_proof (
     if (past_ok_q && rst_ni) begin
       checked_since_asked: assert (unchecked || checked_q);
       every_request_is_checked: assert (starts == (snapshot_i && arm_request_i == 2'b11 && !checked_q && !runs_q));
-      unfit_in_laws: assert (unfit == (law_i != '0 && !good));
+      unfit_in_laws: assert (unfit == (law_i != '0 && !unchecked && !good));
       no_torque_unchecked: assert (late == (\u_dut.u_engine.late_o || !good));
       locked_while_it_counts: assert (\u_dut.u_engine.locked_i == (armed_i != '0 || arm_request_i == 2'b11 || runs_q));
       jumps_until_sampled: assert (restart == open_q);

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // FELTGATE_MUTANT chooses a mutant; FELTGATE_MUTANTS_REACHED names a file for the numbers of those
-// that a run has reached; `exact` after one that is none. Documentation:
-// docs/verification.md
+// that a run has reached. Documentation: docs/testing.md
 #include "mutant.hpp"
 
 #include <cstdio>
@@ -15,15 +14,14 @@ unsigned char state[FELTGATE_MUTANTS];
 
 namespace {
 
-int chosen = -1;
+int chosen = 0;
 bool noted[FELTGATE_MUTANTS];
-bool noted_exact[FELTGATE_MUTANTS];
 
 // Before the constructors of other files, and it outlives their destructors.
 [[gnu::constructor(101)]] void choose() {
   if (const char* number = std::getenv("FELTGATE_MUTANT")) {
     chosen = std::atoi(number);
-    if (chosen >= 0 && chosen < FELTGATE_MUTANTS) state[chosen] = 1;
+    if (chosen > 0 && chosen < FELTGATE_MUTANTS) state[chosen] = 1;
   }
   if (std::getenv("FELTGATE_MUTANTS_REACHED") != nullptr) {
     for (unsigned char& s : state) s = 2;
@@ -36,14 +34,12 @@ bool noted_exact[FELTGATE_MUTANTS];
   std::FILE* file = std::fopen(name, "w");
   if (file == nullptr) return;
   for (int n = 0; n < FELTGATE_MUTANTS; ++n) {
-    if (noted[n] || noted_exact[n]) std::fprintf(file, "%d%s\n", n, noted[n] ? "" : " exact");
+    if (noted[n]) std::fprintf(file, "%d\n", n);
   }
   std::fclose(file);
 }
 
 }  // namespace
-
-void exact(int number) { noted_exact[number] = true; }
 
 bool reached(int number) {
   noted[number] = true;

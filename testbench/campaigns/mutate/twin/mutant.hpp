@@ -3,7 +3,7 @@
 //
 // Mutants that are compiled once and chosen at run time: `a + b` of a header becomes
 // feltgate_mutant::plus<17>(a, b), which is a - b in mutant 17. Constants stay as they are.
-// Written into headers by scripts/mutation/twin_source.py. Documentation: docs/verification.md
+// Written into headers by scripts/mutation/twin_source.py. Documentation: docs/testing.md
 #pragma once
 
 #include <type_traits>
@@ -11,7 +11,7 @@
 
 namespace feltgate_mutant {
 
-/// By number: 0 as it was, 1 chosen, 2 to be noted when it is reached.
+/// By number, from 1: 0 as it was, 1 chosen, 2 to be noted when it is reached.
 extern unsigned char state[];
 /// Notes it; whether it is the chosen one.
 bool reached(int number);
@@ -26,16 +26,12 @@ struct HasFormat : std::false_type {};
 template <class T>
 struct HasFormat<T, std::void_t<decltype(T::format.fraction)>> : std::true_type {};
 
-/// Notes that there is no such mutant: a rounding with nothing to round, a call that cannot be.
-void exact(int number);
-
-/// The same for another rounding of x into a To; real numbers round nothing.
+/// The same for another rounding of x into a To; without bits to round there is no such mutant.
 template <class To, class From>
 constexpr bool rounds(int number, const From&) {
   if constexpr (HasFormat<To>::value && HasFormat<From>::value) {
     if constexpr (From::format.fraction > To::format.fraction) return on(number);
   }
-  if (!__builtin_is_constant_evaluated() && state[number] == 2) exact(number);
   return false;
 }
 
@@ -59,8 +55,6 @@ template <int N, class F, class A, class B>
                                  decltype(f(std::forward<A>(a), std::forward<B>(b)))>) {
       if (on(N)) return f(std::forward<B>(b), std::forward<A>(a));
     }
-  } else if (!__builtin_is_constant_evaluated() && state[N] == 2) {
-    exact(N);
   }
   return f(std::forward<A>(a), std::forward<B>(b));
 }

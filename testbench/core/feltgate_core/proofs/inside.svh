@@ -7,6 +7,7 @@
   (* hierconn *) wire \u_core.u_wave.u_registers.lands ;
   (* hierconn *) wire [35:0] \u_core.u_wave.u_registers.written ;
   (* hierconn *) wire [8:0] \u_core.u_wave.u_registers.address_q ;
+  (* hierconn *) wire [5:0] \u_core.u_wave.u_registers.least_at_q ;
   (* hierconn *) wire [31:0] \u_core.u_wave.u_registers.data_q ;
   (* hierconn *) wire \u_core.u_wave.u_registers.to_parameter_q ;
   (* hierconn *) wire \u_core.u_wave.u_registers.to_control_q ;

@@ -27,6 +27,8 @@ module reads_proof (
   );
 
   (* hierconn *) wire \u_core.u_wave.u_registers.refused_o ;
+  (* hierconn *) wire \u_core.u_wave.u_registers.saturated_o ;
+  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_core.u_wave.u_registers.least_q ;
   (* hierconn *) wire \u_core.u_wave.u_registers.held_check_q ;
   (* hierconn *) wire \u_core.u_wave.u_registers.written_q ;
   (* hierconn *) wire \u_core.u_wave.u_registers.written_q2 ;
@@ -71,6 +73,9 @@ module reads_proof (
   (* hierconn *) wire \u_other.u_wave.u_registers.stop_o ;
   (* hierconn *) wire \u_other.u_wave.u_registers.zero_q ;
   (* hierconn *) wire \u_other.u_wave.u_registers.refused_o ;
+  (* hierconn *) wire \u_other.u_wave.u_registers.saturated_o ;
+  (* hierconn *) wire [5:0] \u_other.u_wave.u_registers.least_at_q ;
+  (* hierconn *) wire [feltgate_pkg::TORQUE_W-1:0] \u_other.u_wave.u_registers.least_q ;
   (* hierconn *) wire \u_other.u_wave.u_registers.held_check_q ;
   (* hierconn *) wire \u_other.u_wave.u_registers.warm_q ;
   (* hierconn *) wire \u_other.u_wave.u_registers.written_q ;
@@ -166,6 +171,9 @@ module reads_proof (
           \u_core.u_wave.u_registers.stop_o == \u_other.u_wave.u_registers.stop_o &&
           \u_core.u_wave.u_registers.zero_q == \u_other.u_wave.u_registers.zero_q &&
           \u_core.u_wave.u_registers.refused_o == \u_other.u_wave.u_registers.refused_o &&
+          \u_core.u_wave.u_registers.saturated_o == \u_other.u_wave.u_registers.saturated_o &&
+          \u_core.u_wave.u_registers.least_at_q == \u_other.u_wave.u_registers.least_at_q &&
+          \u_core.u_wave.u_registers.least_q == \u_other.u_wave.u_registers.least_q &&
           \u_core.u_wave.u_registers.held_check_q == \u_other.u_wave.u_registers.held_check_q &&
           \u_core.u_wave.u_registers.warm_q == \u_other.u_wave.u_registers.warm_q &&
           \u_core.u_wave.u_registers.written_q == \u_other.u_wave.u_registers.written_q &&

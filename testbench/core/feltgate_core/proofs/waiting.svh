@@ -12,12 +12,26 @@
   assign to_parameter = pending_q && at_q < 12'h200;
   assign to_control   = pending_q && at_q == feltgate_map_pkg::A_CONTROL;
   assign to_command   = pending_q && at_q == feltgate_map_pkg::A_COMMAND;
+  // The nearest value that the format of a parameter holds.
+  function automatic logic [31:0] fitted(input logic [11:0] address, input logic [31:0] data);
+    logic has_sign;
+    logic [31:0] above;
+    logic signed [32:0] value, most, least;
+    {has_sign, above} = feltgate_pkg::parameter_above(address[8:0]);
+    value = 33'($signed(data));
+    most  = {1'b0, ~above};
+    least = has_sign ? {1'b1, above} : 33'sd0;
+    if (address >= 12'h200 || above == 32'd0) fitted = data;
+    else if (value > most) fitted = most[31:0];
+    else if (value < least) fitted = least[31:0];
+    else fitted = data;
+  endfunction
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) pending_q <= 1'b0;
     else if (taken) begin
       pending_q <= 1'b1;
       at_q      <= reg_addr_i;
-      data_q    <= reg_wdata_i;
+      data_q    <= fitted(reg_addr_i, reg_wdata_i);
     end else if (last) pending_q <= 1'b0;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -23,6 +23,7 @@ module writes_proof (
   (* hierconn *) wire [35:0] \u_core.u_wave.u_registers.g_read.parameter_q ;
   (* hierconn *) wire [ControlW-1:0] \u_core.control ;
   (* hierconn *) wire \u_core.arms ;
+  (* hierconn *) wire \u_core.u_safety.u_supervisor.request ;
   wire [ControlW-1:0] control = \u_core.control ;
   wire lands = \u_core.u_wave.u_registers.lands ;
 
@@ -43,10 +44,14 @@ module writes_proof (
     if (phase_q < 10'd64 && feltgate_map_pkg::SCENE_SLOTS[phase_q[5:0]]) wanted = {scene, phase_q[4:0]};
     else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN) && \u_core.region_high )
       wanted = 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
-    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.testing_o )
-      wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
-    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && \u_core.derated )
+    else if (phase_q == 10'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT))
+      wanted = {3'd0, \u_core.u_wave.u_registers.least_at_q };
+    else if (phase_q == 10'(feltgate_map_pkg::EVENT_AT_LEAST_FULL))
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
+    else if (phase_q == 10'(feltgate_map_pkg::EVENT_AT_LEAST_HOLD))
       wanted = 9'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
+    else if (phase_q == 10'(feltgate_map_pkg::EVENT_AT_LEAST_TEST))
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
   end
   always_ff @(posedge clk_i) begin
     address_q    <= address_q;
@@ -115,7 +120,7 @@ module writes_proof (
       waits_a_tick_at_most: assert (!busy || busy_q < 10'(N));
       commands_once: assert (
           \u_core.u_safety.u_supervisor.clear_faults_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_CLEAR_FAULTS]) &&
-          \u_core.u_encoder.u_quad_decoder.clear_error_i == (\u_core.u_safety.u_supervisor.clear_faults_i && !\u_core.arm_request_o ) &&
+          \u_core.u_encoder.u_quad_decoder.clear_error_i == (\u_core.u_safety.u_supervisor.clear_faults_i && !\u_core.u_safety.u_supervisor.request ) &&
           \u_core.u_safety.u_supervisor.kick_i == (last && to_command && data_q[feltgate_map_pkg::B_COMMAND_KICK]));
       zero_once: assert (
           zeroed == (last && (zero_due_q || (to_command && data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))) &&

@@ -22,7 +22,7 @@ module frame_proof (
 
   `include "reset.svh"
 
-  logic select_n, serial_clock, command, valid, busy;
+  logic select_n, serial_clock, command, valid, busy, starts;
   logic signed [31:0] position;
   logic [4:0] faults;
   absolute_encoder #(
@@ -37,6 +37,7 @@ module frame_proof (
       .position_o(position),
       .valid_o(valid),
       .busy_o(busy),
+      .starts_o(starts),
       .faults_o(faults)
   );
   (* hierconn *) wire [1:0] \u_dut.state_q ;
@@ -123,7 +124,7 @@ module frame_proof (
   end
 
   // What a frame means.
-  logic lost, flag, far, wrong, good, ends_q, good_q, lost_q, began_q;
+  logic lost, flag, far, wrong, good, ends_q, good_q, lost_q, began_q, stained_q;
   logic [13:0] step, step_q;
   logic signed [31:0] position_q;
   logic [2:0] row_q;
@@ -146,7 +147,7 @@ module frame_proof (
   assign name  = odd_q ? 4'b0010 : flag ? 4'b0100 : 4'b1000;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {ends_q, good_q, lost_q, moved_q, frozen_q, began_q, bad_once_q, unwell_q} <= '0;
+      {ends_q, good_q, lost_q, moved_q, frozen_q, began_q, bad_once_q, unwell_q, stained_q} <= '0;
       row_q      <= 3'(Errors);
       name_q     <= 4'b0001;
       equal_q    <= '0;
@@ -186,6 +187,7 @@ module frame_proof (
       end else if (ends && wrong) begin
         row_q  <= row_q + 3'(!lost);
         name_q <= name;
+        stained_q <= 1'b1;
       end
     end
   end
@@ -207,6 +209,7 @@ module frame_proof (
       position_is_held: assert (!began_q || valid || position == position_q);
       jumps_only_when_lost: assert (!valid || lost_q || (position - position_q <= $signed(reach_q) && position - position_q >= -$signed(reach_q)));
       lost_after_errors: assert ({faults[3], faults[1:0]} == ({3{lost}} & {name_q[3], name_q[1:0]}));
+      starts_until_wrong: assert (starts == !stained_q);
       unwell_or_flagged: assert (faults[2] == (unwell_q || (lost && name_q[2])));
       frozen_after_a_motion: assert (faults[4] == frozen_q);
       clocks: cover (rise);

@@ -18,8 +18,8 @@ module rows_proof (
 );
   localparam int Chatter = feltgate_map_pkg::ONE_CHANNEL_EDGES;
   localparam int Dead = feltgate_map_pkg::DEAD_CHANNEL_EDGES;
-  localparam int EdgeBits = feltgate_map_pkg::EDGE_UNIT_BITS;
-  localparam int ChatterBits = feltgate_map_pkg::CHATTER_UNIT_BITS;
+  localparam int EdgeBits = 6;  // the block's own, of 4096 counts in a turn
+  localparam int ChatterBits = EdgeBits + 2;
   // Ticks without an edge after which a row may have ended, and surely has; ticks of chatter, likewise.
   localparam int LateMin = (feltgate_map_pkg::EDGE_UNITS - 1) << EdgeBits;
   localparam int LateMax = feltgate_map_pkg::EDGE_UNITS << EdgeBits;

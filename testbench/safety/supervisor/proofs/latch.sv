@@ -33,28 +33,35 @@ module latch_proof (
   always_comb begin
     assume (!trips_i[0]);  // there is no cause 0
     assume (!clear_faults_i || tick_i);
+    assume (!tick_i || !wave_i[feltgate_map_pkg::PARAM_AT_POLARITY_TICKS]);
   end
 
-  (* hierconn *) wire \u_dut.asked_q ;
-  wire asked = \u_dut.asked_q ;
+  (* hierconn *) wire \u_dut.host_q ;
   (* hierconn *) wire \u_dut.host_counts_q ;
   (* hierconn *) wire \u_dut.panel_counts_q ;
+  (* hierconn *) wire \u_dut.stop_seen_q ;
+  (* hierconn *) wire [feltgate_map_pkg::KICKLESS_BITS:0] \u_dut.kickless_ticks_q ;
   (* hierconn *) wire [1:0] \u_dut.stop_q ;
   wire [1:0] stop = \u_dut.stop_q ;
+  wire [feltgate_map_pkg::KICKLESS_BITS:0] waited = \u_dut.kickless_ticks_q ;
 
   logic after_q, gates_q, armed_q, arms_q, tick_q, asks_q, silent_q, clear_q, stop_seen_q, unkicked_q, kicked_q, blocked_q;
   logic [2:0] cleared_q;  // gates_clear_o one, two, three clocks ago
-  // What the host, the panel and the one of them who has the say ask for: now, and at the end of the last tick.
-  // A disarm takes away the request of who has the say.
-  logic arm_request, host_asks, panel_asks, asked_then_q, host_then_q, panel_then_q, silent_then_q;
-  assign host_asks  = host_arm_i && !(host_i && disarm_i);
-  assign panel_asks = arm_i && !(!host_i && disarm_i);
-  assign arm_request       = (host_i ? host_asks : panel_asks);
-  // Whether a line has been low since a reset, a fault, a stop, a kick that is missing, and since the other had the say.
-  logic host_low_q, panel_low_q, able;
-  assign able = faults == '0 && !stop[1] && !unkicked;
-  logic rose_q, low_since_q;  // what opens the gates now
-  logic asked_last_q;
+  logic arm_request;      // of who has control
+  assign arm_request = (host_i ? host_arm_i : arm_i) && !disarm_i;
+
+  // Of either line: the ticks at whose end it was high, since it was low at one; and whether one of them refused it:
+  // beside a fault or a trip, a stop since the tick before, a kick that is missing, a disarm, while the other had control,
+  // while an axis is blocked and the gates are off, or as the gates closed. Which had control, and whether a stop was seen.
+  localparam int AgeW = 27;
+  localparam logic [AgeW-1:0] Oldest = AgeW'(feltgate_pkg::CLOCK_HZ / 50 / feltgate_pkg::CLOCKS_PER_TICK - 1);  // 20 ms with the one in which it rose
+  logic [AgeW-1:0] host_age_q, panel_age_q, age, age_q;
+  logic host_refused_q, panel_refused_q, refused, refused_q, refuses, owner_q, handed, handed_q, stopped_q;
+  assign refuses = faults != '0 || trip != '0 || stop[1] || stopped_q || unkicked || disarm_i || (axis_blocked_i && !gates) ||
+                   (gates && (axis_silent_i || handed));
+  assign handed  = host_i != owner_q;
+  assign age     = host_i ? host_age_q : panel_age_q;
+  assign refused = host_i ? host_refused_q : panel_refused_q;
   logic [FaultsW-1:0] faults_q, trip_q, trips_q;
   logic [ FirstW-1:0] first_q;
   always_ff @(posedge clk_i) begin
@@ -65,8 +72,9 @@ module latch_proof (
     arms_q   <= arms_o;
     silent_q <= axis_silent_i;
     clear_q  <= clear_faults_i && !arm_request;
-    rose_q   <= silent_then_q || !(host_i ? host_then_q : panel_then_q);
-    low_since_q <= host_i ? host_low_q : panel_low_q;
+    age_q     <= age;
+    refused_q <= refused;
+    handed_q  <= handed;
     faults_q <= faults;
     first_q  <= first;
     trip_q   <= trip;
@@ -74,35 +82,37 @@ module latch_proof (
     stop_seen_q  <= stop[1];
     unkicked_q   <= unkicked;
     blocked_q    <= axis_blocked_i;
-    asked_last_q <= asked_then_q;
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      after_q      <= 1'b0;
-      asked_then_q <= 1'b1;
-      host_then_q   <= 1'b1;
-      panel_then_q  <= 1'b1;
-      silent_then_q <= 1'b0;
-      host_low_q    <= 1'b0;
-      panel_low_q   <= 1'b0;
-      cleared_q    <= 3'b000;
-      kicked_q     <= 1'b0;
+      after_q         <= 1'b0;
+      owner_q         <= 1'b0;
+      stopped_q       <= 1'b0;
+      host_age_q      <= AgeW'(1);
+      panel_age_q     <= AgeW'(1);
+      host_refused_q  <= 1'b1;
+      panel_refused_q <= 1'b1;
+      cleared_q       <= 3'b000;
+      kicked_q        <= 1'b0;
     end else begin
-      after_q <= 1'b1;
+      after_q   <= 1'b1;
+      stopped_q <= !tick_i && (stopped_q || stop[1]);
       if (tick_i) begin
-        asked_then_q  <= arm_request && !axis_silent_i;
-        host_then_q   <= host_asks;
-        panel_then_q  <= panel_asks;
-        silent_then_q <= axis_silent_i;
-        if (!host_arm_i) host_low_q <= 1'b1;
-        else if (!host_i || !able) host_low_q <= 1'b0;
-        if (!arm_i) panel_low_q <= 1'b1;
-        else if (host_i || !able) panel_low_q <= 1'b0;
+        owner_q         <= host_i;
+        host_age_q      <= !host_arm_i ? '0 : host_age_q + AgeW'(!host_age_q[AgeW-1]);
+        panel_age_q     <= !arm_i ? '0 : panel_age_q + AgeW'(!panel_age_q[AgeW-1]);
+        host_refused_q  <= host_arm_i && (host_refused_q || !host_i || refuses);
+        panel_refused_q <= arm_i && (panel_refused_q || host_i || refuses);
       end
       cleared_q <= {cleared_q[1:0], gates_clear};
       if (kick_i) kicked_q <= 1'b1;
     end
   end
+  // What the request of who had control has waited, of closed gates without a fault.
+  logic [AgeW-1:0] owner_age;
+  logic owner_counts;
+  assign owner_age    = owner_q ? host_age_q : panel_age_q;
+  assign owner_counts = owner_q ? \u_dut.host_counts_q : \u_dut.panel_counts_q ;
   logic signed [feltgate_pkg::CURRENT_ESTIMATE_W-1:0] estimate_q;
   logic estimate_due_q;
   always_ff @(posedge clk_i) begin
@@ -126,28 +136,39 @@ module latch_proof (
       first_cause_is_the_lowest: assert (!(clear_q || first_q == '0) || trip_q == '0 ||
                                          (FaultsW'(1) << first) == lowest_bit);
       no_gates_beside_a_fault: assert (!gates || faults == '0);
-      no_arming_by_itself: assert (!(gates && !gates_q) || (tick_q && asks_q && !silent_q && !asked_last_q &&
+      no_arming_by_itself: assert (!(gates && !gates_q) || (tick_q && asks_q && !silent_q &&
                                    faults_q == '0 && trip_q == '0 && !stop_seen_q && !unkicked_q && !blocked_q));
-      rising_request_opens: assert (!(gates && !gates_q) || rose_q);
-      low_before_it_opens: assert (!(gates && !gates_q) || low_since_q);
-      inside_ready: assert (ready_o == (able && (host_i ? host_low_q : panel_low_q)));
-      inside_counts: assert (\u_dut.host_counts_q == host_low_q && \u_dut.panel_counts_q == panel_low_q);
-      inside_who_asked: assert (((!host_then_q || !host_low_q) && (!panel_then_q || !panel_low_q)) ||
-                                asked_then_q || silent_then_q);
-      clears_where_nobody_asks: assert (clear_o == (clear_faults_i && !arm_request) && arm_request_o == arm_request);
+      opens_within_20_ms: assert (!(gates && !gates_q) || age_q <= Oldest);
+      opens_unrefused: assert (!(gates && !gates_q) || !refused_q);
+      hand_over_closes_gates: assert (!(tick_q && handed_q && gates_q) || !gates);
+      asks_while_it_counts: assert ((!arm_request_o || (arm_request && !refused && !(gates && handed))) &&
+                                    (!ready_o || (!refused && !(gates && handed) && faults == '0 && !stop[1] && !unkicked)));
+      refused_for_a_reason: assert (!(arm_request && !refused && !(gates && handed) && (gates || age <= Oldest)) || arm_request_o);
+      inside_counts: assert ((!\u_dut.host_counts_q || !host_refused_q) && (!\u_dut.panel_counts_q || !panel_refused_q) &&
+                             (owner_q ? !\u_dut.panel_counts_q || panel_age_q == '0 : !\u_dut.host_counts_q || host_age_q == '0));
+      inside_refused: assert ((\u_dut.host_counts_q || host_refused_q || (owner_q && host_age_q > Oldest && !gates)) &&
+                              (\u_dut.panel_counts_q || panel_refused_q || (!owner_q && panel_age_q > Oldest && !gates)));
+      inside_ages: assert ((host_age_q != '0 || \u_dut.host_counts_q ) &&
+                           (panel_age_q != '0 || \u_dut.panel_counts_q ) && (!gates || (owner_counts && owner_age != '0)));
+      inside_waited: assert (gates || faults != '0 || !(\u_dut.host_counts_q || \u_dut.panel_counts_q ) || !owner_counts || owner_age == '0 ||
+                             AgeW'(waited) == owner_age || AgeW'(waited) + AgeW'(1) == owner_age);
+      inside_idle: assert (gates || faults != '0 || !(\u_dut.host_counts_q || \u_dut.panel_counts_q ) ||
+                           (owner_counts && owner_age != '0) || waited == '0);
+      inside_owner: assert (\u_dut.host_q == owner_q && \u_dut.stop_seen_q == stopped_q);
+      clears_where_nobody_asks: assert (clear_o == (clear_faults_i && !arm_request));
       disarms_with_the_request: assert (!(tick_q && (!asks_q || silent_q)) || (!gates && !armed));
       armed_in_ticks_only: assert (tick_q || armed == armed_q);
       armed_as_told: assert (!tick_q || armed == arms_q);
       estimate_in_its_clock: assert (estimate_due_q || estimate == estimate_q);
       stop_closes_gates: assert (!cleared_q[2] || !gates);
       unkicked_until_a_kick: assert (unkicked == (feltgate_pkg::REQUIRE_WATCHDOG != 0 && !kicked_q));
-      inside_asked: assert (asked == asked_then_q);
       arms: cover (gates && !gates_q);
+      arms_late: cover (gates && !gates_q && age_q == AgeW'(2));
       trips: cover (!gates && gates_q && faults != '0);
       cleared: cover (faults == '0 && faults_q != '0);
     end
     if (rst_ni && past_ok_q) begin
-      inside_reset: assert (after_q || (asked && asked_then_q && !gates && !armed && faults == '0 && first == '0));
+      inside_reset: assert (after_q || (!\u_dut.host_counts_q && !\u_dut.panel_counts_q && !gates && !armed && faults == '0 && first == '0));
       inside_stop: assert ((!cleared_q[0] || stop[0]) && (!cleared_q[1] || stop[1]));
       stop_clears_at_once: assert (!stop_i || gates_clear);
       clear_until_closed: assert (!cleared_q[0] || !gates_q || gates_clear);

@@ -179,7 +179,9 @@ module limits_proof (
 
   logic late;  // after the tick, before the wave
   assign late = phase_q > 9'(Clocks - 1 - feltgate_map_pkg::FIRST_WAVE_CLOCK) || phase_q == 9'd0;
-  (* hierconn *) wire \u_dut.asked_q ;
+  (* hierconn *) wire \u_dut.host_counts_q ;
+  (* hierconn *) wire \u_dut.panel_counts_q ;
+  wire counts = \u_dut.host_counts_q || \u_dut.panel_counts_q ;
 
   // Inside: what the laws' registers share with the block's.
   (* hierconn *) wire [feltgate_map_pkg::RUNAWAY_BITS:0] \u_dut.runaway_ticks_q ;
@@ -216,8 +218,8 @@ module limits_proof (
       inside_awake: assert (\u_dut.awake_q == awake_q);
       inside_silence: assert (!gates || !awake_q ||
           \u_dut.kickless_ticks_q == silence_q[feltgate_map_pkg::KICKLESS_BITS:0]);
-      inside_whole: assert ((!gates || window_q) && (!window_q || whole_q) && (whole_q || \u_dut.asked_q || late) &&
-                            (window_q || \u_dut.asked_q || late || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_POLARITY)));
+      inside_whole: assert ((!gates || window_q) && (!window_q || whole_q) && (whole_q || !counts || late) &&
+                            (window_q || !counts || late || phase_q <= 9'(feltgate_map_pkg::EVENT_AT_POLARITY)));
       inside_patience: assert (!gates || !awake_q || silence_q != Patience || late ||
                                phase_q <= 9'(feltgate_map_pkg::EVENT_AT_WATCHDOG));
       inside_errors: assert (16'(\u_dut.errors_q ) + forgiven_q >= errors_q && 4'(\u_dut.errors_q ) <= recent_q &&

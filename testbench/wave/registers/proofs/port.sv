@@ -13,11 +13,15 @@ module port_proof (
     input logic [31:0] reg_wdata_i,
     input logic        reg_write_i,
     input logic        armed_i,
+    input logic        polarity_holds_i,
     input logic        set_zero_i,
     input logic [ 5:0] slot_fetch_i,
     input logic        scene_slot_fetch_i,
     input logic [ 3:0] scene_i,
     input logic        region_high_i,
+    input logic        at_least_full_i,
+    input logic        at_least_hold_i,
+    input logic        at_least_test_i,
     input logic        derated_i,
     input logic        testing_i,
     input logic [ 5:0] snap_slot_i,
@@ -30,7 +34,7 @@ module port_proof (
   localparam int Held = feltgate_map_pkg::B_CONTROL_MODE;
 
   logic [31:0] rdata, param;
-  logic busy, word_error, set_zero, clear_faults, kick, disarm, stop, restart, refused;
+  logic busy, word_error, set_zero, clear_faults, kick, disarm, stop, restart, refused, saturated;
   logic [ControlW-1:0] control;
   registers u_dut (
       .*,
@@ -45,7 +49,8 @@ module port_proof (
       .disarm_o(disarm),
       .stop_o(stop),
       .restart_o(restart),
-      .refused_o(refused)
+      .refused_o(refused),
+      .saturated_o(saturated)
   );
   (* hierconn *) wire \u_dut.lands ;
   wire lands = \u_dut.lands ;
@@ -72,6 +77,61 @@ module port_proof (
     end
   endfunction
 
+  // The nearest value that the format of a parameter holds.
+  function automatic logic [31:0] fitted(input logic [11:0] address, input logic [31:0] data);
+    logic has_sign;
+    logic [31:0] above;
+    logic signed [32:0] value, most, least;
+    {has_sign, above} = feltgate_pkg::parameter_above(address[8:0]);
+    value = 33'($signed(data));
+    most  = {1'b0, ~above};
+    least = has_sign ? {1'b1, above} : 33'sd0;
+    if (address >= 12'h200 || above == 32'd0) fitted = data;
+    else if (value > most) fitted = most[31:0];
+    else if (value < least) fitted = least[31:0];
+    else fitted = data;
+  endfunction
+
+  // What limits the torque, as it came by: each limit once, in its order.
+  (* hierconn *) wire [5:0] \u_dut.least_at_q ;
+  (* hierconn *) wire signed [feltgate_pkg::TORQUE_W-1:0] \u_dut.least_q ;
+  wire [5:0] least_at = \u_dut.least_at_q ;
+  logic signed [feltgate_pkg::TORQUE_W-1:0] limit, full_q, hold_q, test_q, least;
+  logic hold_on_q, test_on_q;
+  logic [1:0] next_q;  // the limit to come: 0 torque_limit, 1 hold_limit, 2 self_test_torque
+  assign limit = param[feltgate_pkg::TORQUE_W-1:0];
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      full_q <= '0;
+      {hold_on_q, test_on_q, next_q} <= '0;
+    end else begin
+      if (at_least_full_i) begin
+        full_q <= limit;
+        {hold_on_q, test_on_q} <= 2'b00;
+        next_q <= 2'd1;
+      end
+      if (at_least_hold_i) begin
+        hold_q    <= limit;
+        hold_on_q <= derated_i;
+        next_q    <= 2'd2;
+      end
+      if (at_least_test_i) begin
+        test_q    <= limit;
+        test_on_q <= testing_i;
+        next_q    <= 2'd0;
+      end
+    end
+  end
+  always_comb begin
+    assume (3'(at_least_full_i) + 3'(at_least_hold_i) + 3'(at_least_test_i) <= 3'd1);
+    assume (!at_least_full_i || next_q == 2'd0);
+    assume (!at_least_hold_i || next_q == 2'd1);
+    assume (!at_least_test_i || next_q == 2'd2);
+    least = full_q;
+    if (hold_on_q && hold_q < least) least = hold_q;
+    if (test_on_q && test_q < least) least = test_q;
+  end
+
   // The word of an address, whichever that is, as it was written last.
   logic past_ok_q;
   logic [8:0] address_q, wanted_q;
@@ -84,10 +144,13 @@ module port_proof (
     if (scene_slot_fetch_i) wanted = {scene_i, slot_fetch_i[4:0]};
     else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN) && region_high_i)
       wanted = 9'(feltgate_map_pkg::PARAM_AT_VOLTAGE_GAIN_HIGH);
-    else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && testing_i)
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::EVENT_AT_LEAST_TEST))
       wanted = 9'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE);
-    else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) && derated_i)
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::EVENT_AT_LEAST_HOLD))
       wanted = 9'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT);
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::EVENT_AT_LEAST_FULL))
+      wanted = 9'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT);
+    else if (slot_fetch_i == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT)) wanted = {3'd0, \u_dut.least_at_q };
     else wanted = {3'd0, slot_fetch_i};
   end
   (* hierconn *) wire [8:0] \u_dut.fetch_address ;
@@ -120,8 +183,19 @@ module port_proof (
     else if (taken) begin
       pending_q <= 1'b1;
       at_q      <= reg_addr_i;
-      data_q    <= reg_wdata_i;
+      data_q    <= fitted(reg_addr_i, reg_wdata_i);
     end else if (tick_i) pending_q <= 1'b0;
+  end
+
+  logic has_sign, saturated_q, saturated_q2;
+  logic [31:0] above;  // bits above the format of the word that is written
+  assign {has_sign, above} = feltgate_pkg::parameter_above(\u_dut.address_q );
+  always_ff @(posedge clk_i) saturated_q2 <= saturated_q;
+
+  // Whether the last parameter that was taken fitted.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) saturated_q <= 1'b0;
+    else if (taken && reg_addr_i < 12'h200) saturated_q <= fitted(reg_addr_i, reg_wdata_i) != reg_wdata_i;
   end
 
   // A disarm, a stop and a zero that were asked for in this tick, taken or not.
@@ -141,7 +215,7 @@ module port_proof (
   assign holds = armed_i && !disarm_due_q;
 
   // What the last clock had, and whether it was one after the reset.
-  logic after_q, tick_q, control_due_q, holds_q, disarmed_q, parameter_due_q, refuse_q, refused_q, bank_q;
+  logic after_q, tick_q, control_due_q, holds_q, polarity_holds_q, disarmed_q, parameter_due_q, refuse_q, refused_q, bank_q;
   logic frozen_q, command_q;
   logic [ControlW-1:0] control_q;
   logic [31:0] data_then_q;
@@ -162,6 +236,7 @@ module port_proof (
     refuse_q        <= refuse;
     refused_q       <= refused;
     holds_q         <= holds;
+    polarity_holds_q <= polarity_holds_i;
     disarmed_q      <= tick_i && disarm_due_q;
     control_q       <= control;
     data_then_q     <= data_q;
@@ -174,6 +249,8 @@ module port_proof (
     if (control_due_q) begin
       wanted_control[Held-1:0] = data_then_q[Held-1:0];
       if (!holds_q) wanted_control[ControlW-1:Held] = data_then_q[ControlW-1:Held];
+      if (polarity_holds_q)
+        wanted_control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] = control_q[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY];
     end
     if (disarmed_q) begin
       wanted_control[feltgate_map_pkg::B_CONTROL_HOST] = 1'b1;
@@ -245,6 +322,15 @@ module port_proof (
           data_q[feltgate_map_pkg::B_COMMAND_SET_ZERO]))));
       jumps_restart: assert (restart == (tick_i && ((set_zero && !feltgate_map_pkg::INPUT_SCENES[scene_i]) ||
           (to_parameter && (common ? feltgate_map_pkg::RAMPS_WHILE_ARMED[at_q[5:0]] : scene_word)))));
+      fits_its_format: assert (!lands || (\u_dut.written [31:0] & above) ==
+                               (has_sign && \u_dut.written [31] ? above : 32'd0));
+      saturated_is_told: assert (saturated == saturated_q);
+      limit_is_the_least: assert (least_at == 6'(feltgate_map_pkg::PARAM_AT_TORQUE_LIMIT) ? full_q == least :
+                                  least_at == 6'(feltgate_map_pkg::PARAM_AT_HOLD_LIMIT) ? hold_on_q && hold_q == least :
+                                  least_at == 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE) && test_on_q && test_q == least);
+      inside_least: assert (\u_dut.least_q == least);
+      inside_fits: assert (!to_parameter || fitted(at_q, data_q) == data_q);
+      inside_due: assert (next_q == 2'd0 || (!test_on_q && (next_q == 2'd2 || (next_q == 2'd1 && !hold_on_q))));
       banks_apart: assert (\u_dut.g_read.read_bank != \u_dut.g_read.write_bank_q );
       inside_taken: assert (\u_dut.to_parameter_q == to_parameter && \u_dut.to_control_q == to_control &&
                             \u_dut.to_command_q == to_command);
@@ -257,6 +343,8 @@ module port_proof (
         disarm_lands: assert (!disarmed_q || (control[feltgate_map_pkg::B_CONTROL_HOST] &&
                                               !control[feltgate_map_pkg::B_CONTROL_ARM]));
         held_while_armed: assert (!holds_q || control[ControlW-1:Held] == control_q[ControlW-1:Held]);
+        polarity_holds: assert (!polarity_holds_q || control[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] ==
+                                control_q[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY]);
         refused_is_told: assert (refused == (parameter_due_q ? refuse_q : refused_q));
         banks_swap_with_the_tick: assert ((\u_dut.g_read.write_bank_q != bank_q) == (tick_q && !frozen_then_q));
       end
@@ -270,6 +358,9 @@ module port_proof (
         broken_bit_is_seen: assert (!flipped_q3 || word_error);
         whole_words_pass: assert (flipped_q3 || lands_q3 || !word_error);
       end
+      saturates: cover (saturated && !saturated_q2);
+      least_of_three: cover (hold_on_q && test_on_q && test_q < hold_q && hold_q < full_q &&
+                             least_at == 6'(feltgate_map_pkg::PARAM_AT_SELF_TEST_TORQUE));
       lands_armed: cover (lands && armed_i);
       refuses: cover (refused && !refused_q);
       disarms_while_busy: cover (disarmed_q && control_due_q && holds_q == 1'b0);

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: 2026 the feltgate authors
+"""Every line of docs/instantiate.md, on the instance that stands there; and the examples beside it
+connect every port of the core.
+
+instantiate_test.py VENV: the folder into which scripts/build.sh has fetched pyslang.
+"""
+
+import os
+import re
+import shutil
+import sys
+import unittest
+from pathlib import Path
+
+from testing import ROOT, Scratch, ran, text_of
+
+VENV = Path(sys.argv.pop(1))
+PAGE = text_of("docs/instantiate.md")
+INSTANCE = re.search(r"```systemverilog\n(.*?)```", PAGE, re.S)[1]
+LINES = "".join(re.findall(r"```sh\n(.*?)```", PAGE, re.S)).splitlines()
+FILES = LINES[0]
+
+# Arms the instance and counts the clocks in which a gate is open.
+BENCH = """
+module tb;
+  logic clk = 1'b0, rst_n = 1'b0, arm = 1'b0, armed;
+  logic [3:0] gates;
+  int open = 0;
+  my_core u_core (.clk_i(clk), .rst_ni(rst_n), .enc_a_i(1'b0), .enc_b_i(1'b0), .arm_i(arm), .stop_i(1'b0),
+                  .gates_o(gates), .armed_o(armed));
+  always #10 clk = !clk;
+  always @(negedge clk) if (gates != 4'd0) open++;
+  initial begin
+    repeat (5) @(negedge clk);
+    rst_n = 1'b1;
+    repeat (500) @(negedge clk);
+    if (armed || open != 0) $display("not at rest");
+    arm = 1'b1;
+    repeat (5000) @(negedge clk);
+    $display("armed %0d, open %0d", armed, open);
+    $finish;
+  end
+endmodule
+"""
+
+
+class Instantiate(Scratch):
+    def setUp(self):
+        super().setUp()
+        for name in ("rtl", "testbench"):
+            (self.folder / name).symlink_to(ROOT / name)
+        (self.folder / "my_core.sv").write_text(INSTANCE, encoding="utf-8")
+
+    def shell(self, *lines):
+        return ran("bash", "-ec", "\n".join(lines), cwd=self.folder)
+
+    def passes(self, *lines):
+        done = self.shell(*lines)
+        self.assertEqual((done.returncode, done.stdout + done.stderr), (0, ""), lines[-1])
+
+    def line(self, tool):
+        (found,) = (line for line in LINES if line.startswith(tool) and "ulx3s" not in line)
+        if not shutil.which(tool.split()[0]):
+            self.skipTest(f"no {tool}")
+        return found
+
+    def test_verilator(self):
+        self.passes(FILES, self.line("verilator"))
+        # A port that is left out is found.
+        (self.folder / "my_core.sv").write_text(INSTANCE.replace(".hall_i(3'b000),", ""))
+        self.assertIn("PINMISSING", self.shell(FILES, self.line("verilator")).stderr)
+
+    def test_icarus(self):
+        self.passes(FILES, self.line("iverilog"))
+        (self.folder / "tb.sv").write_text(BENCH)
+        bench = self.line("iverilog").replace("-s my_core", "-s tb") + " tb.sv"
+        self.passes(FILES, bench)
+        said = self.shell("vvp -n my_core.vvp").stdout
+        self.assertRegex(said, r"^armed 1, open 4\d\d\d\n")
+
+    def test_yosys(self):
+        # The front end and the checks of its netlist; ./feltgate synth maps the core to cells.
+        line = self.line("yosys")
+        self.assertIn("synth_ecp5 -top my_core -json my_core.json", line)
+        ends = 'synth_ecp5 -run begin:coarse -top my_core; check -assert"'
+        self.passes(FILES, line.split("synth_ecp5")[0] + ends)
+
+    def test_quartus(self):
+        (line,) = (line for line in LINES if line.startswith("for f in"))
+        self.passes(FILES, line)
+        qsf = (self.folder / "my_core.qsf").read_text(encoding="utf-8")
+        files = re.findall(r"^set_global_assignment -name SYSTEMVERILOG_FILE (\S+)$", qsf, re.M)
+        self.assertEqual(files[0], "rtl/generated/lever/feltgate_pkg.sv")
+        self.assertEqual(files[-1], "my_core.sv")
+        self.assertGreater(len(files), 40)
+        for name in files:
+            self.assertTrue((self.folder / name).is_file(), name)
+        python = VENV / "bin/python"
+        if not python.exists() and not os.environ.get("CI"):
+            self.skipTest("no pyslang; ./feltgate test fetches it")
+        done = ran(python, "-B", ROOT / "scripts/quartus_subset.py", self.folder / "my_core.sv")
+        self.assertEqual((done.returncode, done.stdout + done.stderr), (0, ""))
+
+    def test_board(self):
+        (line,) = (line for line in LINES if "ulx3s" in line)
+        self.passes(line)
+
+    def test_the_examples_connect_every_port(self):
+        bus = FILES.replace("feltgate_core.f", "feltgate_bus.f")
+        for top, file in (
+            ("wishbone_core", "docs/examples/wishbone_core.sv"),
+            ("axi_core", "docs/examples/cocotb/axi_core.sv"),
+        ):
+            lint = self.line("verilator").replace("my_core", top)
+            lint = lint.replace(" -Wno-PINCONNECTEMPTY", "")
+            self.passes(bus.replace("my_core.sv", str(ROOT / file)), lint)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -42,11 +42,6 @@ class Pwm {
              duty_active == o.duty_active;
     }
   };
-  /// Clocks per period for which each gate is on.
-  struct OnTimes {
-    int a_hi, a_lo, b_hi, b_lo;
-  };
-
   /// `period` in clocks: even, 4 to 4094. `dead_clocks`: 1 to 64. `shortest_clocks`: shortest pulse
   /// at a gate, 1 to 255; if above 1, both together are at most half a period.
   explicit Pwm(int period = 1000, int dead_clocks = 25, int shortest_clocks = 1)
@@ -58,6 +53,7 @@ class Pwm {
     time_ = period_ - 2;
     taken_ = Command{};
     command_ = Command{};
+    debt_ = 0;
     legs_ = {};
     for (Leg& leg : legs_) leg.dead = dead_;
     enable_ = false;
@@ -70,11 +66,12 @@ class Pwm {
     command_ = taken_;
     out_.period_start = time_ == period_ - 2;
     if (out_.period_start) {
-      taken_ = command(in);
+      take(in);
       out_.duty_active = in.duty;
     }
     if (!in.enable) {
       taken_.threshold = taken_.antiphase ? period_ / 2 : 0;
+      debt_ = 0;
       out_.duty_active = 0;
     }
     time_ = time_ == period_ - 1 ? 0 : time_ + 1;
@@ -127,16 +124,6 @@ class Pwm {
     for (Leg& leg : legs_) leg.dead = std::max(0, leg.dead - clocks);
   }
 
-  /// Closed form for a steady duty while enabled: a gate waits for the dead time, then is on for
-  /// the rest of its share of the period. A leg that never switches is on for the whole period.
-  OnTimes on_times(const In& in) const {
-    const Command steady = command(in);
-    const int share = std::clamp(steady.threshold, 0, period_);
-    const int a = steady.antiphase || !steady.switch_b ? share : 0;
-    const int b = steady.antiphase ? period_ - share : (steady.switch_b ? share : 0);
-    return {on_time(a), on_time(period_ - a), on_time(b), on_time(period_ - b)};
-  }
-
  private:
   struct Leg {
     bool high_q = false;
@@ -166,41 +153,41 @@ class Pwm {
     }
   };
 
-  Command command(const In& in) const {
+  void take(const In& in) {
     Command c;
     c.antiphase = in.mode;
     c.switch_b = (in.duty < 0) != in.polarity;
+    if (c.antiphase || c.switch_b != taken_.switch_b) debt_ = 0;
     const int twice = period_ + (in.polarity ? -in.duty : in.duty);
     c.threshold =
         whole(in.mode ? (twice - (twice & 1)) / 2 : (in.duty < 0 ? -in.duty : in.duty), in.mode);
-    return c;
+    taken_ = c;
   }
-  /// `threshold`, changed so that no pulse is shorter than shortest_: a short high pulse is left
-  /// out or, in antiphase, made longer; a short low pulse is made longer.
-  int whole(int threshold, bool antiphase) const {
+  /// `threshold`, changed so that no pulse is shorter than shortest_: the clocks of a short high
+  /// pulse wait in debt_ until they make a whole one; in antiphase it is made longer. A short low
+  /// pulse is made longer.
+  int whole(int threshold, bool antiphase) {
     if (shortest_ == 1) return threshold;
-    const int dead = dead_ + 1, least = dead + shortest_;
-    if (threshold > period_ - least) return period_ - least;
-    if (threshold >= least) return threshold;
-    return antiphase ? least : std::min(threshold, dead);
+    const int dead = dead_ + 1, least = dead + shortest_, most = period_ - least;
+    if (antiphase) return std::clamp(threshold, least, most);
+    if (threshold <= dead) return threshold;
+    const int sum = threshold + debt_;
+    debt_ = sum < least ? sum - dead : 0;
+    return sum < least ? dead : std::min(sum, most);
   }
   /// Whether legs A and B are to be high in this clock; the carrier counts Period, Period-2 .. 2,
-  /// 1, 3
-  /// .. Period-1.
+  /// 1, 3 .. Period-1.
   std::array<bool, 2> wanted() const {
     const int carrier = 2 * time_ < period_ ? period_ - 2 * time_ : 2 * time_ - period_ + 1;
     const bool high = carrier <= command_.threshold;
     if (command_.antiphase) return {high, !high};
     return {high && !command_.switch_b, high && command_.switch_b};
   }
-  int on_time(int share) const {
-    return share >= period_ ? period_ : std::max(0, share - (dead_ + 1));
-  }
-
   int period_;
   int dead_;      // DeadClocks - 1
   int shortest_;  // ShortestClocks
   int time_ = 0;  // clocks since the start of the carrier
+  int debt_ = 0;  // clocks of high pulses that were too short
   Command taken_;
   Command command_;
   bool enable_ = false;

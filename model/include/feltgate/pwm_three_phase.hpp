@@ -64,9 +64,9 @@ class PwmThreePhase {
       leg.wait = free ? std::max(0, leg.wait - 1) : dead_ - 1;
       leg.wanted = leg.high;
       leg.high = carrier <= leg.threshold;
-      leg.threshold = whole(leg.taken);
-      if (out_.period_start) leg.taken = on[l];
-      if (!in.enable) leg.taken = 0;
+      leg.threshold = leg.whole;
+      if (out_.period_start) take(leg, on[l]);
+      if (!in.enable) leg.taken = leg.whole = leg.debt = 0;
     }
     time_ = time_ == period_ - 1 ? 0 : time_ + 1;
     out_.gate_a_hi = legs_[0].gate_hi;
@@ -78,26 +78,29 @@ class PwmThreePhase {
   }
 
   const Out& out() const { return out_; }
-  /// Clocks of a leg's high switch in this period as it is taken, with the dead time in it; new
-  /// with period_start.
-  int on_time(std::size_t leg) const { return std::min(whole(legs_[leg].taken), period_); }
+  /// Clocks of a leg's high switch in this period as they are taken, with the dead time in them;
+  /// new with period_start.
+  int on_time(std::size_t leg) const { return std::min(legs_[leg].taken, period_); }
 
   /// Number of clocks before the clock that samples the on-times.
   int clocks_to_sample() const { return (2 * period_ - 2 - time_) % period_; }
 
  private:
   struct Leg {
-    int taken = 0, threshold = 0;  // clocks
+    int taken = 0, whole = 0, threshold = 0;  // clocks
+    int debt = 0;                             // clocks of high pulses that were too short
     bool high = false, wanted = false, gate_hi = false, gate_lo = false;
     int wait = 0;  // clocks until the dead time is over
   };
 
-  /// `on`, changed so that no pulse is shorter than shortest_: a short high pulse is left out, a
-  /// short low pulse is made longer.
-  int whole(int on) const {
-    if (shortest_ == 1) return on;
-    if (on > period_ - dead_ - shortest_) return period_ - dead_ - shortest_;
-    return on > dead_ && on < dead_ + shortest_ ? dead_ : on;
+  /// Takes `on`, and changes it so that no pulse is shorter than shortest_: the clocks of a short
+  /// high pulse wait in debt until they make a whole one, a short low pulse is made longer.
+  void take(Leg& leg, int on) const {
+    leg.taken = leg.whole = on;
+    if (shortest_ == 1 || on <= dead_) return;
+    const int least = dead_ + shortest_, sum = on + leg.debt;
+    leg.debt = sum < least ? sum - dead_ : 0;
+    leg.whole = sum < least ? dead_ : std::min(sum, period_ - least);
   }
 
   int period_, dead_, shortest_;

@@ -44,14 +44,12 @@ double BridgeModel::dead_share(double on_share, double against_share) const {
   return std::min(dead_fraction_, on_share);
 }
 
-// The duty after the PWM has left out or lengthened its shortest pulses (docs/blocks/pwm.md).
+// The mean duty of a PWM that gives whole pulses only (docs/blocks/pwm.md).
 double BridgeModel::whole_pulses(double duty) const {
   const double d = std::clamp(duty, -1.0, 1.0);
   if (!dead_time_ || least_ <= 0.0) return d;
   if (antiphase_) return 2.0 * std::clamp(0.5 * (1.0 + d), least_, 1.0 - least_) - 1.0;
-  double on = std::min(std::abs(d), 1.0 - least_);
-  if (on < least_) on = std::min(on, dead_fraction_);
-  return std::copysign(on, d);
+  return std::clamp(d, least_ - 1.0, 1.0 - least_);
 }
 
 void BridgeModel::hold(double duty, double bus_v) {

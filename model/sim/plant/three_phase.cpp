@@ -124,8 +124,7 @@ LegModel::LegModel(const Drive& drive, const SupplyParameters& supply, const Pha
                    const Effects& effects)
     : diode_v_(supply.diode_drop_v),
       dead_fraction_(effects.dead_time ? drive.dead_time_s * drive.pwm_hz : 0.0),
-      dead_share_(drive.dead_time_s * drive.pwm_hz),
-      least_(drive.shortest_s > 0 ? dead_share_ + drive.shortest_s * drive.pwm_hz : 0.0),
+      least_(drive.shortest_s > 0 ? (drive.dead_time_s + drive.shortest_s) * drive.pwm_hz : 0.0),
       ripple_a_v_(effects.inductance ? 0.5 / (motor.inductance_h * drive.pwm_hz) : 0.0) {
   if (!(drive.clock_hz > 0.0) || !(drive.pwm_hz > 0.0) || !(drive.dead_time_s >= 0.0) ||
       !(drive.dead_time_s * drive.pwm_hz < 0.5) || !(least_ <= 0.5)) {
@@ -134,11 +133,9 @@ LegModel::LegModel(const Drive& drive, const SupplyParameters& supply, const Pha
   }
 }
 
-// Share of the period after the PWM has left out a short high pulse or made a short low pulse
-// longer (docs/blocks/pwm.md).
+// Mean share of the period of a PWM that gives whole pulses only (docs/blocks/pwm.md).
 double LegModel::whole_pulses(double on) const {
   if (dead_fraction_ <= 0.0 || least_ <= 0.0) return on;
-  if (on > dead_share_ && on < least_) return dead_share_;
   return std::min(on, 1.0 - least_);
 }
 

@@ -68,7 +68,6 @@ class LegModel {
 
   double diode_v_;
   double dead_fraction_;  ///< dead time over PWM period; 0: its loss is left out
-  double dead_share_;     ///< dead time over PWM period
   double least_;          ///< (dead time + shortest pulse) over PWM period; 0: no minimum
   double ripple_a_v_;     ///< A per volt and unit of duty*duty; 0 without inductance
   Phases duty_{};

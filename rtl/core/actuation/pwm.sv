@@ -94,8 +94,9 @@ module pwm #(
     end
   end
 
-  // No gate gets a pulse shorter than ShortestClocks. A short high pulse is left out in
-  // sign-magnitude and made longer in antiphase, where both legs always switch. A short low pulse
+  // No gate gets a pulse shorter than ShortestClocks. In sign-magnitude the clocks of a short high
+  // pulse wait in debt_q until they make a whole one, so the mean voltage is that of the duty. In
+  // antiphase, where both legs always switch, a short high pulse is made longer. A short low pulse
   // is made longer.
   logic signed [13:0] whole_d;
 
@@ -103,14 +104,33 @@ module pwm #(
   if (ShortestClocks == 1) begin : g_any_pulse
     assign whole_d = threshold_d;
   end else begin : g_whole_pulses
+    localparam int DEBT_BITS = $clog2(ShortestClocks);
     localparam logic signed [13:0] DEAD_TIME = 14'(DeadClocks);
     localparam logic signed [13:0] LEAST     = 14'(DeadClocks + ShortestClocks);
     localparam logic signed [13:0] MOST      = 14'(Period - DeadClocks - ShortestClocks);
+    logic        [DEBT_BITS-1:0] debt_q, debt_d;  // clocks of this direction; 0 in antiphase
+    logic signed          [13:0] sum;
+    logic                        turns;
+
+    assign sum   = threshold_d + 14'(debt_q);
+    assign turns = mode_i || (duty_i[12] ^ polarity_i) != switch_b_q;
     always_comb begin
-      whole_d = threshold_d;
-      if (threshold_d > MOST) whole_d = MOST;
-      else if (threshold_d < LEAST && antiphase_q) whole_d = LEAST;
-      else if (threshold_d < LEAST && threshold_d > DEAD_TIME) whole_d = DEAD_TIME;
+      whole_d = sum;
+      debt_d  = '0;
+      if (sum > MOST) whole_d = MOST;
+      else if (antiphase_q) whole_d = (sum < LEAST) ? LEAST : sum;
+      else if (threshold_d <= DEAD_TIME) begin
+        whole_d = threshold_d;
+        debt_d  = debt_q;
+      end else if (sum < LEAST) begin
+        whole_d = DEAD_TIME;
+        debt_d  = DEBT_BITS'(sum - DEAD_TIME);
+      end
+    end
+    always_ff @(posedge clk_i or negedge rst_ni) begin
+      if (!rst_ni) debt_q <= '0;
+      else if (!enable_i) debt_q <= '0;
+      else if (take) debt_q <= turns ? '0 : debt_d;
     end
   end
   endgenerate

@@ -75,8 +75,8 @@ module pwm_three_phase #(
   assign changes = high_q ^ wanted_q;
 
   // Each leg: both gates are off for DeadClocks after each change of the wanted level, and while disabled. The top bit of
-  // dead_q marks the end of the count of DeadClocks - 1. No gate gets a pulse shorter than ShortestClocks: a short high
-  // pulse is left out, a short low pulse is made longer.
+  // dead_q marks the end of the count of DeadClocks - 1. No gate gets a pulse shorter than ShortestClocks: the clocks of a
+  // short high pulse wait in debt_q until they make a whole one, a short low pulse is made longer.
   localparam int DeadBits = (DeadClocks > 1) ? $clog2(DeadClocks) : 1;
   localparam logic [DeadBits:0] Dead = (DeadBits + 1)'(2 ** DeadBits - (DeadClocks - 1));
 
@@ -91,10 +91,33 @@ module pwm_three_phase #(
     if (ShortestClocks == 1) begin : g_any_pulse
       assign whole[12*l+:12] = on;
     end else begin : g_whole_pulses
-      localparam logic [11:0] DeadTime = 12'(DeadClocks);
-      localparam logic [11:0] Least = 12'(DeadClocks + ShortestClocks);
-      localparam logic [11:0] Most = 12'(Period - DeadClocks - ShortestClocks);
-      assign whole[12*l+:12] = on > Most ? Most : on > DeadTime && on < Least ? DeadTime : on;
+      localparam int DebtBits = $clog2(ShortestClocks);
+      localparam logic [12:0] DeadTime = 13'(DeadClocks);
+      localparam logic [12:0] Least = 13'(DeadClocks + ShortestClocks);
+      localparam logic [12:0] Most = 13'(Period - DeadClocks - ShortestClocks);
+      logic [DebtBits-1:0] debt_q, debt_d;  // clocks
+      logic [12:0] sum;
+      logic [11:0] given;
+
+      assign sum = {1'b0, on} + 13'(debt_q);
+      always_comb begin
+        given  = sum[11:0];
+        debt_d = '0;
+        if (sum > Most) given = Most[11:0];
+        else if (on <= DeadTime[11:0]) begin
+          given  = on;
+          debt_d = debt_q;
+        end else if (sum < Least) begin
+          given  = DeadTime[11:0];
+          debt_d = DebtBits'(sum - DeadTime);
+        end
+      end
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) debt_q <= '0;
+        else if (!enable_i) debt_q <= '0;
+        else if (take) debt_q <= debt_d;
+      end
+      assign whole[12*l+:12] = given;
     end
     assign {above, unused_difference} = {1'b0, threshold_q[12*l+:12]} - {1'b0, level_q, rising_q};
     assign elapsed[l] = dead_q[DeadBits];

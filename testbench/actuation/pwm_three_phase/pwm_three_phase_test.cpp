@@ -76,17 +76,21 @@ int count(const std::vector<unsigned>& gates, int gate, int from, int length) {
   return n;
 }
 
-/// Clocks that the high and the low gate are on in a period, from the definition.
+/// Clocks that the high and the low gate are on in a period, from the definition; the mean, where
+/// pulses are too short.
 std::pair<int, int> defined(int on) {
   int high = std::min(on, kPeriod);
-  if (kShortest > 1) {
-    if (high - kDead > 0 && high - kDead < kShortest) high = kDead;
-    high = std::min(high, kPeriod - kDead - kShortest);
-  }
+  if (kShortest > 1) high = std::min(high, kPeriod - kDead - kShortest);
   const auto left = [](int share) {
     return share == kPeriod ? kPeriod : std::max(0, share - kDead);
   };
   return {left(high), left(kPeriod - high)};
+}
+
+/// Periods in which pulses that are too short make a whole one.
+int periods_of(int on) {
+  const int clocks = on - kDead;
+  return clocks > 0 && clocks < kShortest ? (kShortest + clocks - 1) / clocks : 1;
 }
 
 struct Totals {
@@ -149,13 +153,15 @@ TEST_CASE("pwm_three_phase: on-times are exact, of each leg alone") {
        on += kPeriod < 100 || on > kPeriod - 70 || on < 70 ? 1 : 61) {
     const int b = kPeriod - std::min(on, kPeriod), c = (on * 7 + 3) % (kPeriod + 1);
     const PwmThreePhase::In in = steady(on, b, c);
-    const auto gates = record([in](std::int64_t) { return in; }, 3 * kPeriod);
-    CAPTURE(on, b, c);
     const int each[] = {on, b, c};
+    const int longest = std::max({periods_of(on), periods_of(b), periods_of(c)});
+    const auto gates = record([in](std::int64_t) { return in; }, (2 + longest) * kPeriod);
+    CAPTURE(on, b, c);
     for (int leg = 0; leg < 3; ++leg) {
       const auto [high, low] = defined(each[leg]);
-      REQUIRE(count(gates, 2 * leg, 2 * kPeriod, kPeriod) == high);
-      REQUIRE(count(gates, 2 * leg + 1, 2 * kPeriod, kPeriod) == low);
+      const int periods = periods_of(each[leg]), clocks = periods * kPeriod;
+      REQUIRE(count(gates, 2 * leg, 2 * kPeriod, clocks) == periods * high);
+      REQUIRE(count(gates, 2 * leg + 1, 2 * kPeriod, clocks) == periods * low);
     }
   }
   const auto gates = record([](std::int64_t) { return steady(4095, 0, 4095); }, 3 * kPeriod);

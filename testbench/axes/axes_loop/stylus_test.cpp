@@ -175,8 +175,6 @@ TEST_CASE("stylus: a valley of a field of heights throws it with facets, not wit
     auto& setup = std::get<StylusSetup>(scene.device);
     plant::LeverParameters& slide = setup.parameters.lever.lever;
     slide.viscous_nm_s_rad = 0.5 * slide.radius_m * slide.radius_m;
-    // The law alone: with a shortest pulse of 0.2 us the drive leaves out less than 0.2 N.
-    scene.scenario.effects.dead_time = false;
     for (std::size_t n = 0; n < 3; ++n) {
       setup.hand[n] = {};
       setup.hand[n].start_rad = start_m[n] / slide.radius_m;

@@ -121,18 +121,20 @@ TEST_CASE("three phases: averaged legs have the means of the gates", "[phases]")
   CHECK(supply < 1e-4);
 }
 
-TEST_CASE("three phases: averaged legs leave out what is shorter than the shortest pulse",
-          "[phases]") {
-  // Dead time 25 clocks, shortest pulse 10: no high pulse of 26 to 34 clocks, no low one below 35.
+TEST_CASE(
+    "three phases: averaged legs lengthen low pulses to the shortest, and keep short high ones",
+    "[phases]") {
+  // Dead time 25 clocks, shortest pulse 10: no low pulse below 35; the PWM gives the mean of high
+  // pulses of 26 to 34.
   PhaseParameters m = gimbal_motor();
   Parameters p = shaft_on(24);
   p.effects.dead_time = true;
   Drive drive = drive_50khz();
   drive.shortest_s = 10 / kClockHz;
   for (const auto& [asked, given] :
-       {std::pair{std::array<int, 3>{990, 500, 30}, std::array<int, 3>{965, 500, 25}},
+       {std::pair{std::array<int, 3>{990, 500, 30}, std::array<int, 3>{965, 500, 30}},
         {{1000, 500, 20}, {965, 500, 20}},
-        {{964, 34, 36}, {964, 25, 36}},
+        {{964, 34, 36}, {964, 34, 36}},
         {{700, 400, 0}, {700, 400, 0}}}) {
     ThreePhasePlant plant(p, m, p.effects, drive, held_at(0));
     ThreePhasePlant other = locked(p, m);

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // No leg is wanted on for so few or so many clocks that a gate gets a pulse shorter than the design's
-// shortest. `period` says that these clocks are one piece, `legs` that each pulse loses the dead time.
+// shortest, and what a period does not give, a later one does. `period` says that these clocks are one
+// piece, `legs` that each pulse loses the dead time.
 `default_nettype none
 
 module whole_proof (
@@ -41,27 +42,48 @@ module whole_proof (
   (* hierconn *) wire \u_dut.antiphase_q2 ;
   wire antiphase = \u_dut.antiphase_q2 ;
 
-  // Clocks of the high and of the low gate that are left after the dead time.
-  logic signed [14:0] high_left, low_left, duty_left_q;
+  localparam int DebtBits = $clog2(Shortest);
+  (* hierconn *) wire [DebtBits-1:0] \u_dut.g_whole_pulses.debt_q ;
+  wire [DebtBits-1:0] debt = \u_dut.g_whole_pulses.debt_q ;
+  (* hierconn *) wire \u_dut.take ;
+  (* hierconn *) wire \u_dut.antiphase_q ;
+  (* hierconn *) wire \u_dut.switch_b_q ;
+
+  // Clocks of the high and of the low gate that are left after the dead time, those of the duty of one
+  // clock before, and those that waited.
+  logic signed [14:0] high_left, low_left, duty_left_q, waited_q, debt_left;
   assign high_left = 15'(wanted) - 15'(Dead);
   assign low_left  = 15'(Period) - 15'(wanted) - 15'(Dead);
-  always_ff @(posedge clk_i) duty_left_q <= 15'(\u_dut.threshold_d ) - 15'(Dead);
-
-  logic after_q;
+  assign debt_left = 15'(debt);
+  logic after_q, take_q, turned_q, enable_q, antiphase_taken_q;
+  always_ff @(posedge clk_i) begin
+    duty_left_q       <= 15'(\u_dut.threshold_d ) - 15'(Dead);
+    waited_q          <= debt_left;
+    take_q            <= \u_dut.take ;
+    enable_q          <= enable_i;
+    turned_q          <= mode_i || (duty_i[12] ^ polarity_i) != \u_dut.switch_b_q ;
+    antiphase_taken_q <= \u_dut.antiphase_q ;
+  end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) after_q <= 1'b0;
     else after_q <= 1'b1;
   end
 
+  // What was asked and waited before, is given or waits now. A duty within the dead time asks for nothing.
+  logic balanced;
+  assign balanced = (duty_left_q <= 0) ? (high_left == duty_left_q && debt_left == waited_q) :
+                    high_left + debt_left == duty_left_q + waited_q;
+
   always_comb begin
     if (rst_ni && past_ok_q && after_q) begin
       high_is_whole: assert (high_left >= 15'(Shortest) || (high_left <= 0 && !antiphase));
       low_is_whole: assert (low_left >= 15'(Shortest));
-      whole_is_kept: assert (duty_left_q < 15'(Shortest) ||
+      whole_is_kept: assert (duty_left_q < 15'(Shortest) || waited_q != 0 ||
                              duty_left_q > 15'(Period) - 15'(2 * Dead) - 15'(Shortest) || high_left == duty_left_q);
-      off_by_less: assert (antiphase || duty_left_q < 0 || duty_left_q >= 15'(Shortest) || high_left == 15'sd0 ||
-                           high_left == duty_left_q);
-      left_out: cover (!antiphase && duty_left_q == 15'(Shortest) - 15'sd1 && high_left == 15'sd0);
+      nothing_is_lost: assert (!take_q || !enable_q || turned_q || antiphase_taken_q || low_left == 15'(Shortest) ||
+                               balanced);
+      waits_less_than_a_pulse: assert (debt_left < 15'(Shortest));
+      waits: cover (!antiphase && duty_left_q == 15'(Shortest) - 15'sd1 && high_left == 15'sd0);
       longer: cover (antiphase && high_left == 15'(Shortest));
     end
   end

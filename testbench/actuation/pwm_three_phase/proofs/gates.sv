@@ -18,7 +18,7 @@ module gates_proof (
   localparam int Shortest = feltgate_pkg::SHORTEST_CLOCKS;
   localparam int Half = Period / 2;
   localparam logic [11:0] Most = 12'(Period - Dead - Shortest);
-  localparam bit AnyPulse = Shortest == 1;
+  localparam int DebtBits = $clog2(Shortest);
   localparam int DeadBits = (Dead > 1) ? $clog2(Dead) : 1;
 
   `include "reset.svh"
@@ -70,6 +70,18 @@ module gates_proof (
                      \u_dut.threshold_q [35:24];
   assign dead      = leg == 2'd0 ? \u_dut.g_leg[0].dead_q : leg == 2'd1 ? \u_dut.g_leg[1].dead_q : \u_dut.g_leg[2].dead_q ;
   assign asked     = leg == 2'd0 ? on_a_i : leg == 2'd1 ? on_b_i : on_c_i;
+
+  // The clocks of short pulses that wait, and the on-time of the period with them.
+  logic [12:0] debt, sum;
+  logic [11:0] given;
+  (* hierconn *) wire [DebtBits-1:0] \u_dut.g_leg[0].g_whole_pulses.debt_q ;
+  (* hierconn *) wire [DebtBits-1:0] \u_dut.g_leg[1].g_whole_pulses.debt_q ;
+  (* hierconn *) wire [DebtBits-1:0] \u_dut.g_leg[2].g_whole_pulses.debt_q ;
+  assign debt  = 13'(leg == 2'd0 ? \u_dut.g_leg[0].g_whole_pulses.debt_q :
+                     leg == 2'd1 ? \u_dut.g_leg[1].g_whole_pulses.debt_q : \u_dut.g_leg[2].g_whole_pulses.debt_q );
+  assign sum   = 13'(taken) + debt;
+  assign given = taken <= 12'(Dead) ? taken : sum < 13'(Dead + Shortest) ? 12'(Dead) :
+                 sum > 13'(Most) ? Most : sum[11:0];
 
   // Clocks since a gate of the leg was on, and since enable_i was low, up to 127; a reset counts as both.
   logic [6:0] hi_off_q, lo_off_q, enabled_q;
@@ -134,7 +146,7 @@ module gates_proof (
       taken_at_the_boundary: assert (!after_q || taken == (!asked_enabled_q ? 12'd0 : period_start ? asked_q : taken_q));
       period_is_exact: assert (period_start == (clock_q == 12'(Period - 1) && after_q));
       braked: cover (lo);
-      left_out: cover (lo && threshold == 12'(Dead) && taken != 12'(Dead));
+      waits: cover (lo && threshold == 12'(Dead) && taken != 12'(Dead));
     end
   end
 
@@ -159,22 +171,22 @@ module gates_proof (
       inside_clock: assert (clock_q < 12'(Period) && (after_q || clock_q == 12'(Period - 2)));
       inside_rising: assert (rising == (done >= 14'(Half)));
       inside_level: assert (rising ? 14'(level) == done - 14'(Half) : 14'(level) == 14'(Half) - done);
-      inside_whole: assert (AnyPulse || (threshold <= Most &&
-                            (threshold <= 12'(Dead) || threshold >= 12'(Dead + Shortest))));
-      inside_cleared: assert (AnyPulse || (enabled_q > 7'd1 || !after_q || enabled_q == 7'd0 || threshold == '0));
-      inside_taken: assert (AnyPulse || (period_start || enabled_q == '0 || threshold == (taken > Most ? Most :
-                            taken > 12'(Dead) && taken < 12'(Dead + Shortest) ? 12'(Dead) : taken)));
-      inside_high: assert (AnyPulse || (!high || enabled_q < 7'd2 || (length + first_on == done && done <= first_on + 14'(threshold))));
-      inside_low_end: assert (AnyPulse || (high || length + 14'(Period) >= done + LowHalf));
-      inside_high_end: assert (AnyPulse || (!high || done + LowHalf <= 14'(Period)));
-      inside_low: assert (AnyPulse || (high || threshold == '0 || done > first_on || length >= done + LowHalf));
-      inside_length: assert (AnyPulse || (length_q != '0 && (wanted == high) == (length_q != 12'd1)));
-      inside_waited: assert (AnyPulse || (wanted != high || 14'(waited) + 14'd2 <= length));
-      inside_opens: assert (AnyPulse || (count == '0 || hi || lo || wanted != high || length <= 14'(waited) + 14'd2));
-      inside_run: assert (AnyPulse || (count != 2'd2 || !(hi || lo) || run >= 9'(Shortest) ||
-                          (wanted == high && length <= 14'(run) + 14'(Dead + 1))));
-      inside_lasts: assert (AnyPulse || (!(hi_reg || lo_reg) || wanted != high || length >= 14'(Dead + 2)));
-      inside_count: assert (AnyPulse || (count == '0 || enabled_q >= 7'(Dead)));
+      inside_whole: assert (threshold <= Most &&
+                            (threshold <= 12'(Dead) || threshold >= 12'(Dead + Shortest)));
+      inside_cleared: assert (enabled_q > 7'd1 || !after_q || enabled_q == 7'd0 || threshold == '0);
+      inside_taken: assert (period_start || enabled_q == '0 || threshold == given);
+      inside_debt: assert (debt < 13'(Shortest) && (enabled_q != 7'd0 || debt == '0));
+      inside_high: assert (!high || enabled_q < 7'd2 || (length + first_on == done && done <= first_on + 14'(threshold)));
+      inside_low_end: assert (high || length + 14'(Period) >= done + LowHalf);
+      inside_high_end: assert (!high || done + LowHalf <= 14'(Period));
+      inside_low: assert (high || threshold == '0 || done > first_on || length >= done + LowHalf);
+      inside_length: assert (length_q != '0 && (wanted == high) == (length_q != 12'd1));
+      inside_waited: assert (wanted != high || 14'(waited) + 14'd2 <= length);
+      inside_opens: assert (count == '0 || hi || lo || wanted != high || length <= 14'(waited) + 14'd2);
+      inside_run: assert (count != 2'd2 || !(hi || lo) || run >= 9'(Shortest) ||
+                          (wanted == high && length <= 14'(run) + 14'(Dead + 1)));
+      inside_lasts: assert (!(hi_reg || lo_reg) || wanted != high || length >= 14'(Dead + 2));
+      inside_count: assert (count == '0 || enabled_q >= 7'(Dead));
       inside_count_q: assert (count_q != 2'd3);
     end
   end

@@ -146,7 +146,7 @@ class Scripts(Bench):
         folder = self.path("build/testbench/wave/b/b_mutants.netlist")
         folder.mkdir()
         (folder / "test.json").write_text('{"test": "b", "block": "b"}')
-        (folder / "mutants.json").write_text('{"seed": 1, "own": false, "database": 1, "mutants": []}')
+        (folder / "mutants.json").write_text("[]")
         self.path("build/coverage").mkdir()
         self.path("build/coverage/programs.txt").write_text(f"b b {self.path('b_cover')}\n")
         for command, words, count in (

@@ -98,12 +98,12 @@ module registers #(
   assign input_scene = feltgate_map_pkg::INPUT_SCENES[scene_i];  // independent of position
   assign restart_o   = (set_zero_o && !input_scene) || (tick_i && to_parameter_q && ramps);
 
-  logic [feltgate_map_pkg::W_CONTROL-1:HELD] held;
-  always_comb begin
-    held = data_q[feltgate_map_pkg::W_CONTROL-1:HELD];
-    if (polarity_holds_i)
-      held[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY] = control_o[feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY];
-  end
+  localparam logic [feltgate_map_pkg::W_CONTROL-1:0] POLARITY =
+      feltgate_map_pkg::W_CONTROL'(1) << feltgate_map_pkg::B_CONTROL_ENCODER_POLARITY;
+  logic [feltgate_map_pkg::W_CONTROL-1:HELD] held, kept;
+  assign kept = POLARITY[feltgate_map_pkg::W_CONTROL-1:HELD] & {$bits(held){polarity_holds_i}};
+  assign held = (data_q[feltgate_map_pkg::W_CONTROL-1:HELD] & ~kept) |
+                (control_o[feltgate_map_pkg::W_CONTROL-1:HELD] & kept);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

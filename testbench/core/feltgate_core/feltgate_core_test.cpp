@@ -25,9 +25,10 @@ using feltgate::test::Coverage;
 
 constexpr bool kLoop = D::current_loop != 0;  // it cannot be armed in the first 10 ms
 constexpr bool kEdges = D::absolute_encoder == 0;
-constexpr std::int64_t kClocks = kLoop || !kEdges ? 3'500'000
-                                 : D::hall != 0   ? 1'200'000
-                                                  : 1'500'000;
+constexpr std::int64_t kClocks = kLoop || !kEdges          ? 3'500'000
+                                 : D::hall != 0            ? 1'200'000
+                                 : D::clocks_per_tick > 50 ? 3'000'000
+                                                           : 1'500'000;
 constexpr bool kPrograms = feltgate::scene_built<D>(feltgate::Map::S::law);
 
 /// Compares the signals from a core to other axes.

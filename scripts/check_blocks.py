@@ -122,7 +122,7 @@ def find_blocks(root):
                 twin=beside if tested else public,
                 test=test,
                 doc=page_of(pages, rtl.relative_to(root)),
-                defects=tuple(patches.names(root / folder / "defects.diff")),
+                defects=tuple(patches.names(root / folder / "defects.diff")[0]),
             )
         )
     return blocks
@@ -149,9 +149,11 @@ def check_block(root, block):
 
 
 def check_defects(root):
-    """Each defect is well-formed, and a test is built with it; those of proofs are in their list."""
+    """Each defect is well-formed, and a test is built with it; those for proofs are in their list."""
     for file in sorted(root.glob("testbench/**/*.diff")):
-        rules = file.parent / ("proofs.toml" if file.parent.name == "proofs" else "CMakeLists.txt")
+        rules = file.parent / "CMakeLists.txt"
+        proofs = file.parent / "proofs/proofs.toml"
+        proven = proofs.read_text(encoding="utf-8") if proofs.exists() else ""
         room = file.parents[1] / "CMakeLists.txt"
         if not rules.exists() and room.exists():
             rules = room
@@ -166,9 +168,13 @@ def check_defects(root):
             else:
                 text, built = (calls, built) if calls else (text, "(?!)")
         try:
-            for patch in patches.chosen(file):
+            for patch in patches.every(file):
                 patches.touched(patch)
-                if not re.search(rf"{built}|\b{patch.name}\b", text):
+                if patch.name in patches.names(file)[1]:
+                    if f'"{patch.name}"' not in proven:
+                        where = proofs.relative_to(root)
+                        yield f"{patch.relative_to(root)}: no proof tries it; name it in {where}"
+                elif not re.search(rf"{built}|\b{patch.name}\b", text):
                     where = rules.relative_to(root)
                     yield f"{patch.relative_to(root)}: no test is built with it; name it in {where}"
         except patches.DefectError as error:

@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Seeded defects: patches beside their tests, applied to copies of the product. docs/testing.md
 
-FILE is testbench/ROOM/BLOCK/defects.diff, NAME a defect of it; without a NAME: all of them.
+FILE is testbench/ROOM/BLOCK/defects.diff, NAME a defect of it; without a NAME: all for tests.
 
   defects.py copy FILE NAME --output DIR  the patched files, at their paths below DIR
   defects.py block BLOCK --defects FILE [NAME...] --sources S... --output OUT.sv
@@ -57,7 +57,7 @@ def main():
         root = options.root.resolve()
         if options.verb == "check":
             files = sorted((root / "testbench").glob("**/*.diff"))
-            chosen = [patch for file in files for patch in patches.chosen(file)]
+            chosen = [p for file in files for p in patches.every(file)]
             for patch in chosen:
                 patches.patched(patch, root)
             print(f"{len(chosen)} defects in {len(files)} files apply")

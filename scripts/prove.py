@@ -9,7 +9,7 @@ inputs and named assertions. Four kinds of run decide it:
   base        no assertion fails in the first k clocks after a reset
   induction   k clocks in which all hold are followed by one in which they hold, so they always do
   covers      what the assumptions must still allow is reached: the proof is about something
-  defect      with a patch of the product (testbench/ROOM/BLOCK/proofs/defects.diff) the assertion fails
+  defect      with a patch of the product (testbench/ROOM/BLOCK/defects.diff) the assertion fails
 
 A counter-example is printed as a table of the wrapper's signals, the failing clock last.
 Table, assumptions and what is not proven: docs/testing.md

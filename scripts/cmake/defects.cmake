@@ -17,11 +17,11 @@ set(FELTGATE_EXPECT_QUIET "${CMAKE_CURRENT_LIST_DIR}/expect_quiet.cmake")
 add_library(feltgate_chosen_defect STATIC ${FELTGATE_ROOT}/testbench/common/chosen_defect.cpp)
 target_compile_options(feltgate_chosen_defect PRIVATE ${FELTGATE_WARNINGS})
 
-# feltgate_defect_names(<variable> <file>): the defects of a file, of which there must be one.
+# feltgate_defect_names(<variable> <file>): the defects of a file for tests, of which there must be one.
 function(feltgate_defect_names variable file)
   set(names "")
   if(EXISTS "${file}")
-    file(STRINGS "${file}" names REGEX "^== ")
+    file(STRINGS "${file}" names REGEX "^== [^ ]+$")
     list(TRANSFORM names REPLACE "^== " "")
     list(REMOVE_DUPLICATES names)  # defects.py refuses them, and says where
   endif()

@@ -80,11 +80,8 @@ def wrapper_text(root, path):
 
 
 def defect_path(root, block, name):
-    """NAME is a patch of the block's proofs, of its test, or BLOCK/NAME of another's test."""
+    """NAME is a patch of the block, or BLOCK/NAME of another."""
     where, _, stem = name.rpartition("/")
-    own = rtl_sources.tests_of(root, block) / "proofs/defects.diff"
-    if name in patches.names(own):
-        return own / name
     return rtl_sources.tests_of(root, where or block) / "defects.diff" / stem
 
 
@@ -111,7 +108,7 @@ def read_proof(root, block, path, table):
             if key not in entry:
                 raise wrong(f"property '{label}' without '{key}'")
         defect = defect_path(root, block, entry["defect"])
-        if defect.name not in patches.names(defect.parent):
+        if defect.name not in sum(patches.names(defect.parent), []):
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
         properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
                                    entry.get("from_any", False)))

@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Applies patches to copies, and checks the rules for a patch.
 
-A patch is a section of a file of seeded defects, named as if that were a folder: FILE/NAME.
+A patch is a section of a file of seeded defects, named as if that were a folder: FILE/NAME. One with the
+line '== NAME (proof)' is for a proof of the block alone, no test is built with it.
 """
 
 import re
@@ -14,6 +15,7 @@ from command_line import Refused
 
 ROOT = Path(__file__).resolve().parents[2]
 NONE = "none"
+PROOF = " (proof)"
 DIFF_BEGINS = r"(--- |\+\+\+ |@@ |diff |index )"
 
 
@@ -27,23 +29,31 @@ def code_only(text):
 
 
 def names(file):
-    """The defects of a file, in its order; none where there is no such file."""
-    return re.findall(r"^== (.*)", file.read_text(encoding="utf-8"), re.M) if file.is_file() else []
+    """The defects of a file for tests and those for proofs, in its order; none where there is no such file."""
+    heads = re.findall(r"^== (.*)", file.read_text(encoding="utf-8"), re.M) if file.is_file() else []
+    tests = [head for head in heads if not head.endswith(PROOF)]
+    return tests, [head.removesuffix(PROOF) for head in heads if head.endswith(PROOF)]
 
 
 def chosen(file, some=()):
-    """Patches of these names of a file; without names: all of it."""
-    return [Path(file, name) for name in some or read(Path(file))]
+    """Patches of these names of a file; without names: all that are for tests."""
+    return [Path(file, name) for name in some or names(Path(file))[0]]
+
+
+def every(file):
+    """Patches of a file, those for proofs too."""
+    return [Path(file, name) for name in read(file)]
 
 
 def read(file):
-    """{name: text} of a file of defects, each after a line '== name'."""
+    """{name: text} of a file of defects, each after a line '== name' or '== name (proof)'."""
     head, *parts = re.split(r"^== (.*)\n", file.read_text(encoding="utf-8"), flags=re.M)
     for line in head.splitlines():
         if line and not line.startswith("#"):
             raise DefectError(f"{file}: '{line}' is before the first line '== name'; move it")
     found = {}
     for name, text in zip(parts[::2], parts[1::2]):
+        name = name.removesuffix(PROOF)
         if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or name == NONE:
             raise DefectError(f"{file}: '== {name}': its name is no word like carry_lost; rename it")
         if name in found:

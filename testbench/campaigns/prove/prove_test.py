@@ -58,10 +58,10 @@ class Catalogue(Scratch):
         self.put("rtl/core/wave/b.sv", RTL.replace("x_i,", "x_i,\n  input logic signed [2:0] z_i,"))
         self.assertEqual(catalog.open_ports(self.folder, catalog.read(self.folder)), {"b": ["z_i"]})
 
-    def test_defects_beside_the_proof_come_first(self):
-        self.put("testbench/wave/b/proofs/defects.diff", "== d\nIt breaks.\n")
+    def test_a_defect_for_proofs_alone(self):
+        self.put("testbench/wave/b/defects.diff", "== d (proof)\nIt breaks.\n")
         (proof,) = catalog.read(self.folder)
-        self.assertEqual(proof.properties[0].defect.parent.parent.name, "proofs")
+        self.assertEqual(proof.properties[0].defect.name, "d")
 
     def test_what_is_wrong(self):
         for old, new, said in (

@@ -85,9 +85,10 @@ class Coverage {
   }
   /// Lists, one word each, what was reached less than `times` times; empty if there is nothing.
   /// `outside`: the run also drives programs and other axes; `looped`: the modulator of a current
-  /// loop; `edges`: the encoder is incremental.
-  std::string gaps(std::int64_t times, bool outside = false, bool looped = false,
-                   bool edges = true) const {
+  /// loop; `edges`: the encoder is incremental; `fine`: it has no index and so many counts that no
+  /// motion reaches the limit of tau_hat.
+  std::string gaps(std::int64_t times, bool outside = false, bool looped = false, bool edges = true,
+                   bool fine = false) const {
     std::string text;
     const auto ask = [&](std::int64_t n, const std::string& what) {
       if (n < times) text += what + ' ' + std::to_string(n) + ", ";
@@ -95,15 +96,17 @@ class Coverage {
     for (std::size_t n = 1; n < fault_names.size(); ++n) {
       const auto cause = static_cast<Fault>(n);
       const bool of_others = cause == Fault::engine || cause == Fault::axis;
-      const bool of_edges = cause == Fault::channel || cause == Fault::index;
+      const bool of_edges = cause == Fault::channel || (cause == Fault::index && !fine);
       const bool comes = cause == Fault::current ? looped
                          : of_edges              ? edges
+                         : cause == Fault::index ? false
                                                  : !broken_hardware_alone(cause);
       if (of_others ? outside : comes) ask(faults_[n], std::string("fault ") + fault_names[n]);
     }
     for (std::size_t b = 0; b < limits_.size(); ++b)
       // The motions that reach these two are jumps to an absolute encoder.
-      if (edges || (b != Map::L::chatter && b != Map::L::velocity && b != Map::L::tau_hat))
+      if ((edges || (b != Map::L::chatter && b != Map::L::velocity && b != Map::L::tau_hat)) &&
+          !(fine && b == Map::L::tau_hat))
         ask(limits_[b], std::string("limit ") + limit::names[b]);
     for (const int slot : snapshot_slots)
       ask(words_[static_cast<std::size_t>(slot)], "word " + std::to_string(slot));

@@ -68,7 +68,7 @@ TEST_CASE("core: random motion, scenes, modes and register traffic") {
   CHECK(total.tau_ref_pinned_share() < 0.5);
   // Of the eleven numbers, 1 is reserved, and 10 has no scene without programs.
   CHECK(total.scenes_seen(kPrograms ? 11 : 10) == (kPrograms ? 10 : 9));
-  CHECK(total.gaps(2, kPrograms, kLoop, kEdges) == "");
+  CHECK(total.gaps(2, kPrograms, kLoop, kEdges, D::fast_edges != 0) == "");
   CHECK(total.eased_share() > 0.005);
   if (kEdges) CHECK(total.frozen_share() > 0.0005);
 }

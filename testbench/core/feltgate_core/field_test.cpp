@@ -207,7 +207,7 @@ TEST_CASE("field: a step of the torque at rest") {
     rig.torque_nm = nm;
     rig.moves_at = kArm - 300'000;  // else it is armed before its speed is known
     const auto turn = static_cast<std::int64_t>(kTwoPi / 11 / std::abs(rad_s) / kClockS);
-    const Seen seen = run(rig, kSettled + turn);
+    const Seen seen = run(rig, kSettled + 100 * kPeriod + turn);  // the turn begins settled
     REQUIRE(seen.last.armed);
     const auto periods = static_cast<std::size_t>(turn / kPeriod);
     REQUIRE(seen.torque_nm.size() > periods + 20);

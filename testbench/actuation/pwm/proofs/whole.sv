@@ -75,6 +75,7 @@ module whole_proof (
                     high_left + debt_left == duty_left_q + waited_q;
 
   always_comb begin
+    if (rst_ni && past_ok_q) waits_less_than_a_pulse: assert (debt_left < 15'(Shortest));
     if (rst_ni && past_ok_q && after_q) begin
       high_is_whole: assert (high_left >= 15'(Shortest) || (high_left <= 0 && !antiphase));
       low_is_whole: assert (low_left >= 15'(Shortest));
@@ -82,7 +83,6 @@ module whole_proof (
                              duty_left_q > 15'(Period) - 15'(2 * Dead) - 15'(Shortest) || high_left == duty_left_q);
       nothing_is_lost: assert (!take_q || !enable_q || turned_q || antiphase_taken_q || low_left == 15'(Shortest) ||
                                balanced);
-      waits_less_than_a_pulse: assert (debt_left < 15'(Shortest));
       waits: cover (!antiphase && duty_left_q == 15'(Shortest) - 15'sd1 && high_left == 15'sd0);
       longer: cover (antiphase && high_left == 15'(Shortest));
     end

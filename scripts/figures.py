@@ -15,7 +15,6 @@ import command_line
 import outputs
 from outputs import write_whole
 from reports import all_figures, docs_figures, page, runs
-from reports.progress import Progress
 from reports.recordings import all_faults
 
 SCHEMA = "feltgate-figures/1"
@@ -84,8 +83,8 @@ def run_docs(arguments):
     """The nine pictures, into docs/images or the folder; the exit code."""
     folder = (arguments.out or command_line.root() / "docs" / "images").resolve()
     jobs = docs_figures.jobs()
-    with outputs.new_folder(folder), Progress(jobs) as progress:
-        found = runs.run_all(jobs, runs.build_folder() / "figures" / "data", progress)
+    with outputs.new_folder(folder):
+        found = runs.run_all("figures", jobs, runs.build_folder() / "figures" / "data")
         wrong = all_faults(found)
         if not wrong:
             for picture in docs_figures.draw(found):
@@ -104,8 +103,7 @@ def run(arguments):
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)
     with outputs.new_folder(folder):
-        with Progress(jobs) as progress:
-            found = runs.run_all(jobs, folder / "data", progress)
+        found = runs.run_all("figures", jobs, folder / "data")
         drawn = all_figures.draw(found, designs, png=True)
         path = write(folder, drawn, found)
     wrong = all_faults(found)

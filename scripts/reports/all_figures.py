@@ -28,12 +28,8 @@ def draw_one(number, runs, designs, png):
 NUMBERS = (7, 10, 11, *(spec.number for spec in scene_figures.SPECS))
 
 
-def start(pool, runs, designs, png=False):
-    """Figures that the pool draws, in the paper's order, from the runs that came to an end."""
-    there = {name: run for name, run in runs.items() if run.ran}
-    return [pool.submit(draw_one, number, there, designs, png) for number in NUMBERS]
-
-
 def draw(runs, designs, png=False):
+    """Figures in the paper's order, from the runs that came to an end."""
+    there = {name: run for name, run in runs.items() if run.ran}
     with ProcessPoolExecutor() as pool:
-        return [done.result() for done in start(pool, runs, designs, png)]
+        return [f.result() for f in [pool.submit(draw_one, n, there, designs, png) for n in NUMBERS]]

@@ -9,7 +9,7 @@ Documentation: docs/figures.md
 import os
 import platform
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from reports import demo_tables, headline, observer_section, page, recordings, run_pictures
@@ -43,20 +43,11 @@ class Demo:
     where: Path = None
     own: bool = False
     took_s: float = 0.0
-    so_far: str = ""  # of a page that is written while the runs go on
 
     @property
     def shown(self):
         """Runs that have a place on the page."""
         return self.scenes + self.devices + self.replays
-
-    def part(self, ended, drawn, **more):
-        """The same of some runs, which have ended and are drawn."""
-        lists = {
-            kind: [name for name in getattr(self, kind) if name in drawn]
-            for kind in ("scenes", "devices", "replays")
-        }
-        return replace(self, runs=ended, drawn=drawn, **lists, **more)
 
     @property
     def clocks(self):
@@ -204,10 +195,7 @@ def document(demo):
         "A DSP core that lets a hand feel things that are not there, tried in simulation: its "
         "SystemVerilog runs beside its bit-exact C++ twin, every output compared in every clock."
     )
-    if demo.so_far:
-        body += page.paragraph(demo.so_far)
-    if demo.wrong or not demo.so_far:
-        body += page.verdict(demo.wrong, good)
+    body += page.verdict(demo.wrong, good)
     body += headlines(demo) + cards(demo)
     body += page.section("tables", "All runs", tables(demo))
     if demo.figures:

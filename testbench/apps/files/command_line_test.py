@@ -101,13 +101,6 @@ class CommandLine(Bench):
         self.refused("replay", "--wrap", "log.csv", "--quiet", said=("put --wrap behind the file",))
         self.refused(*words, "--time-unit", "h", said=("--time-unit", "h"))
 
-    def test_abbreviations(self):
-        for command in ("figures", "synth", "demo"):
-            with self.subTest(command):
-                done = self.finished(command, "--desig", "lever")
-                self.assertEqual(done.returncode, 2, done.err)
-                self.assertIn("unrecognized arguments: --desig", done.err)
-
     def test_trim_ends_in_a_set_that_breaks_an_expectation(self):
         scene = (ROOT / "testbench/studies/trim/push.toml").read_text(encoding="utf-8")
         self.path("push.toml").write_text(scene + '[[expect]]\nfigure = "faults"\nlow = 1\n')
@@ -117,10 +110,6 @@ class CommandLine(Bench):
         self.assertEqual(done.returncode, 1, done.out)
         self.assertRegex(done.out, r"^trimmed, not as expected: .*faults")
         self.assert_only()
-
-    def test_how_long_trim_runs(self):
-        self.refused("trim", "wall", "--duration", "1e-9", said=("shorter than 10 windows",))
-        self.refused("trim", "wall", "--duration", "5", said=("the scene is over after",))
 
     def test_settings(self):
         for value in ("nan", "inf", "1e300", "", "x"):

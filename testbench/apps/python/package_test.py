@@ -3,7 +3,6 @@
 """What the Python package gives a user: columns, hands, plants, recordings, errors, Ctrl-C."""
 
 import filecmp
-import inspect
 import os
 import re
 import signal
@@ -24,21 +23,6 @@ SCENE = "torque_step_cord"
 
 
 class Columns(unittest.TestCase):
-    def test_the_hints_name_every_column(self):
-        result = feltgate.run(SCENE, engine="twin,double", every=1000)
-        arrays = [name for name, kind in feltgate.Result.__annotations__.items()
-                  if "NDArray" in str(kind) or "ndarray" in str(kind)]
-        self.assertEqual(arrays, list(result))
-        kinds = {name: str(column.dtype) for name, column in result.items()}
-        self.assertEqual({name for name, kind in kinds.items() if kind != "float64"},
-                         {"limits", "faults"})
-        signals = [name for name in feltgate.Signals.__annotations__ if name not in
-                   ("errors", "busy_s")]
-        self.assertEqual(signals, list(result["double"]))
-        for engine in ("twin", "double"):
-            for name in signals:
-                self.assertEqual(len(result[engine][name]), len(result.time_s))
-
     def test_one_engine_has_the_columns_of_the_base(self):
         result = feltgate.run(SCENE, engine="float", every=1000)
         self.assertIs(result["float"].velocity_rad_s, result.velocity_rad_s)
@@ -213,33 +197,6 @@ class Installed(unittest.TestCase):
             self.assertTrue(filecmp.cmp(path, ROOT / path.relative_to(data), shallow=False), path)
         self.assertEqual(names[2], ["lever", "narrow", "paper"])
         self.assertIn(f"`feltgate.designs()` gives {', '.join(f'`{name}`' for name in names[2])}", text_of("docs/python.md"))
-
-    def test_version(self):
-        said = (ROOT / "CITATION.cff").read_text()
-        self.assertIn(f"version: {feltgate.__version__}", said)
-
-    def test_designs_beyond_lever_and_paper_are_loaded_when_one_is_used(self):
-        code = ("import sys, feltgate; there = lambda: 'feltgate._designs' in sys.modules;"
-                "feltgate.Chain('lever'); feltgate.designs(); print(there());"
-                "feltgate.Twin('narrow'); print(there())")
-        said = ran(sys.executable, "-c", code, check=True).stdout
-        self.assertEqual(said.split(), ["False", "True"])
-        with self.assertRaisesRegex(ValueError, "nonsense"):
-            feltgate.Chain("narrow", "nonsense")
-
-    def test_the_host_is_loaded_when_it_is_used(self):
-        code = ("import sys, feltgate; print('feltgate._host' in sys.modules); feltgate.Device; "
-                "print('feltgate._host' in sys.modules, hasattr(feltgate, 'Devise'))")
-        said = ran(sys.executable, "-c", code, check=True).stdout
-        self.assertEqual(said.split(), ["False", "True", "False"])
-
-    def test_everything_public_is_explained(self):
-        for name in feltgate.__all__:
-            thing = getattr(feltgate, name)
-            self.assertTrue(inspect.getdoc(thing), name)
-            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
-                if not member.startswith("_") and (callable(value) or isinstance(value, property)):
-                    self.assertTrue(inspect.getdoc(value), f"{name}.{member}")
 
 
 class Refused(unittest.TestCase):

@@ -122,23 +122,6 @@ class Fusesoc(Neighbours):
         self.assertEqual(pins, told)
         self.assertNotIn("_FILE", said)
 
-    def test_ulx3s(self):
-        if not (ROOT / "rtl/boards/ulx3s").exists():
-            self.skipTest("no rtl/boards/ulx3s")
-        status, said, work = self.fusesoc("ulx3s", "--setup")
-        self.assertEqual(status, 0, said)
-        found = self.listed(work, "ulx3s")
-        self.assertIn("rtl/core/wave/mult18_ecp5.sv", found)
-        self.assertIn("rtl/boards/ulx3s/ulx3s.lpf", found)
-        makefile = (work / "Makefile").read_text(encoding="utf-8")
-        self.assertIn("--85k", makefile)
-        self.assertIn("CABGA381", makefile)
-
-    def test_tang_nano_9k(self):
-        status, said, work = self.fusesoc("tang_nano_9k", "--setup")
-        self.assertEqual(status, 0, said)
-        self.assertIn("rtl/boards/tang_nano_9k/tang_nano_9k.cst", self.listed(work, "tang_nano_9k"))
-
 
 class Cocotb(Neighbours):
     def example(self, root):

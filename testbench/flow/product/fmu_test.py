@@ -26,7 +26,7 @@ except ImportError:
     fmpy = None
 import unittest
 
-from testing import BUILD, ROOT, Scratch, ran, script, text_of
+from testing import BUILD, Scratch, ran, script, text_of
 
 EVERY = 250  # ticks between two rows
 TICK_S = 1e-6
@@ -138,11 +138,6 @@ class Fmu(Scratch):
         model.enterInitializationMode()
         model.exitInitializationMode()
         self.compare(model, names, rows[:100], lambda now, end: [end])
-
-    def test_simulate(self):
-        result = fmpy.simulate_fmu(str(self.made("wall")), stop_time=0.4, output_interval=1e-3)
-        self.assertEqual(len(result), 401)
-        self.assertAlmostEqual(result["theta_rad"][-1], result["position_rad"][-1], delta=2e-3)
 
     def test_a_hand_of_the_importers_own(self):
         # The same push in a scene's file: its hand must give the same bits.

@@ -137,17 +137,6 @@ class Product(Scratch):
                 self.ended(self.product("board", *words), 2, said)
         self.assertEqual((self.folder / "mine/thesis.txt").read_text(), "x")
 
-    def test_refused(self):
-        for words, said in (
-            (("verilog", "--design", "levr"), "levr is neither a design (balanced, exact"),
-            (("verilog", "-o", "no/x.v"), "there is no folder"),
-            (("vhdl",), "invalid choice"),
-        ):
-            self.ended(self.product(*words), 2, said)
-        (self.folder / "bad.toml").write_text("[clock]\n")
-        self.ended(self.product("verilog", "--design", "bad.toml"), 2, "bad.toml")
-        self.assertFalse((self.folder / "feltgate.v").exists())
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -89,8 +89,8 @@ RULES = (
     # The first sets FILES, which is left out as of an environment.
     Rule(r"rtl/generated/lever/feltgate_pkg\.sv \$\(sed|verilator|iverilog|yosys|for f in", "BY", "flow.instantiate"),
     # A defect of one's own: the lines that follow copy and build it.
-    Rule(r"file=testbench/wave/mult/defects\.diff|\{ printf", "BY", "repository.defects_test"),
-    Rule(r"scripts/defects\.py copy", "BY", "repository.defects_test"),
+    Rule(r"file=testbench/wave/mult/defects\.diff|\{ printf", "BY", "repository.defects"),
+    Rule(r"scripts/defects\.py copy", "BY", "repository.defects"),
     Rule(r"(?:cp|mv|cd|git checkout|quartus_sh|openFPGALoader)", "NAMED"),
     Rule(r"c\+\+ -std=c\+\+17 -Imodel/include docs/examples/tick_loop\.cpp", "WHOLE"),
     Rule(r"a\.out", "WHOLE"),
@@ -103,7 +103,6 @@ RULES = (
     Rule(r"python docs/examples/cocotb/test_axi\.py", "BY", "neighbours.cocotb"),
     Rule(r"python docs/examples/mujoco_lever\.py", "BY", "plant.mujoco"),
     Rule(r"python3 testbench/apps/page/(?:chromium|string_tab|knob_tab)_test\.py", "NAMED"),
-    Rule(r"python3 testbench/apps/python/speed\.py", "BY", "python.speed"),
     Rule(r"(?:python3 -m venv|(?:venv/bin/)?pip install)", "BY", "python.pip"),
 )
 

@@ -203,9 +203,8 @@ def document(demo):
             "figures",
             "The paper's figures, redrawn from RTL",
             page.paragraph(
-                "Broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
-                "point, dashed black the ideal, green the modelled motor. Design paper has the "
-                "published numbers, lever those of the motor that is really there."
+                "Blue is the torque that paper observes, purple its motor's, green that of lever's motor, dashed "
+                "the ideal. Design paper has the published numbers, lever those of the motor that is really there."
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)

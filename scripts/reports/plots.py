@@ -173,11 +173,6 @@ def legend(axes, columns=None):
     )
 
 
-def sentence(text):
-    """With a capital at the start, the rest as it is."""
-    return text[:1].upper() + text[1:]
-
-
 def at_least(axes, span):
     """Opens the y axis to `span`, so that noise of one bit does not fill it."""
     low, high = axes.get_ylim()

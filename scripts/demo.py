@@ -64,14 +64,12 @@ def all_jobs(scenes, replays, figures):
 
 
 def find_recordings(named, everything=False):
-    """(recordings, complaints, where they lie): of a known file one encoder. Without any: those of the project itself."""
+    """(recordings, where they lie). Without any: those of the project itself."""
     where = recordings.folder(named)
-    found, complaints = recordings.find(where) if where.is_dir() else ([], [])
-    if found:
-        return found if everything else recordings.one_of_each(found), complaints, where
+    if found := recordings.find(where, everything):
+        return found, where
     print(recordings.SOURCES, file=sys.stderr)
-    own, more = recordings.find(recordings.OWN)
-    return own, complaints + more, recordings.OWN
+    return recordings.find(recordings.OWN), recordings.OWN
 
 
 def write(folder, demo):
@@ -135,7 +133,7 @@ def run(arguments):
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
     with outputs.new_folder(folder):
-        found, unreadable, where = find_recordings(arguments.traces, arguments.all)
+        found, where = find_recordings(arguments.traces, arguments.all)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
         figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True) + observer_section.jobs()
@@ -155,7 +153,7 @@ def run(arguments):
             replays=[job.name for job in replays],
             figures=[] if arguments.no_figures else all_figures.draw(done, DESIGNS),
             wrong=recordings.all_faults(done),
-            unreadable=unreadable + guesses_that_failed(done),
+            unreadable=guesses_that_failed(done),
             where=where,
             own=where == recordings.OWN,
         )

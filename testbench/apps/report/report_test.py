@@ -9,7 +9,6 @@ import json
 import re
 import shutil
 import unittest
-import zipfile
 from html import escape
 from types import SimpleNamespace
 
@@ -18,7 +17,6 @@ import demo
 from reports import all_figures, headline, observer_section, recordings, run_section, runs
 
 HOSTILE = '"><img src=x onerror=alert(1)></script><script>alert(2)</script><!--<script>'
-METADATA = "[global]\nsigrok version=0.5\n[device 1]\nsamplerate={}\ntotal probes=4\nunitsize=1\n"
 # The program, whose results another hand changes: two mismatches in each.
 BROKEN = """"{program}" "$@"
 while [ "$1" != --json ]; do shift; done
@@ -127,37 +125,25 @@ class Demo(Scratch):
 
 
 class Recordings(Scratch):
-    def capture(self, name, probes, rate, samples):
-        with zipfile.ZipFile(self.folder / name, "w", zipfile.ZIP_DEFLATED) as archive:
-            lines = "".join(f"probe{i}={p}\n" for i, p in enumerate(probes, 1))
-            archive.writestr("metadata", METADATA.format(rate) + lines)
-            archive.writestr("logic-1-1", bytes(samples))
-
     def test_how_each_is_read(self):
-        self.capture("avago_adns_2051_move_mouse_fast.sr", ["SCLK", "XA", "XB", "YB", "YA"], "1 MHz", 500_000)
-        self.capture("mine.sr", ["enc_a", "enc_b", "x"], "1 MHz", 500_000)
-        self.capture("smoothieware.sr", list("01234567"), "12 MHz", 1_200_000)
-        self.put("qube_1.csv", "t, theta, alpha\n0,0,0\n4.0,1,2\n")
-        self.put("README.txt", "words")
-        self.put("cut.sr", "PK\x03\x04 and no more")
-        found, complaints = recordings.find(self.folder)
-        self.assertRegex("".join(complaints), "^cut.sr: ")
-        told = [(r.channel, r.arguments, round(r.seconds, 6), r.sure) for r in recordings.one_of_each(found)]
-        table = ("--time-column", "t", "--count-column", "theta", "--scale", "2048/2pi")
-        self.assertEqual(told, [("Y", ("--probes", "YA,YB"), 0.5, True), ("ENC", ("--probes", "enc_a,enc_b"), 0.5, False),
-                                ("theta", table, 4.0, True), ("X", ("--step", "5", "--dir", "6"), 0.1, True)])
+        for name in ("avago_adns_2051_move_mouse_fast.sr", "mine.sr", "smoothieware.sr", "a/log.csv", "README.txt"):
+            self.put(name, "x")
+        told = [(r.path.name, r.arguments, r.sure) for r in recordings.find(self.folder, everything=False)]
+        self.assertEqual(told, [("log.csv", (), False), ("avago_adns_2051_move_mouse_fast.sr", ("--probes", "YA,YB"), True),
+                                ("mine.sr", (), False), ("smoothieware.sr", ("--step", "5", "--dir", "6"), True)])
+        self.assertEqual(len(recordings.find(self.folder)), 6)
 
-    def faults(self, name, channel, position, sure=True):
-        job = SimpleNamespace(recording=recordings.Recording(self.folder / name, channel, (), 5.0, sure))
+    def faults(self, recording, position):
         summary = {"position": dict(zip(("steps", "illegal", "reversals"), position))} if position else {}
-        return recordings.faults(runs.Run(job, 0, "cut off", summary))
+        return recordings.faults(runs.Run(SimpleNamespace(recording=recording), 0, "cut off", summary))
 
     def test_known_numbers_and_only_a_guess_may_fail(self):
-        mouse = "avago_adns_2051_move_mouse_fast.sr"
-        self.assertEqual(self.faults(mouse, "Y", (4154, 0, 72)), [])
-        self.assertIn("4153", self.faults(mouse, "Y", (4153, 0, 72))[0])
-        self.assertEqual(len(self.faults("mine.csv", "", ())), 1)
-        self.assertEqual(self.faults("mine.csv", "", (), sure=False), [])
+        self.put("avago_adns_2051_move_mouse_fast.sr", "x")
+        mouse, _ = recordings.find(self.folder)
+        self.assertEqual(self.faults(mouse, (4154, 0, 72)), [])
+        self.assertIn("4153", self.faults(mouse, (4153, 0, 72))[0])
+        self.assertEqual(len(self.faults(mouse, ())), 1)
+        self.assertEqual(self.faults(recordings.Recording(self.folder / "mine.csv"), ()), [])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import unittest
 import warnings
 from pathlib import Path
@@ -28,12 +27,6 @@ class Columns(unittest.TestCase):
         self.assertIs(result["float"].velocity_rad_s, result.velocity_rad_s)
         with self.assertRaisesRegex(AttributeError, "no column"):
             result.velocity
-
-    def test_every(self):
-        few, all_ticks = (feltgate.run(SCENE, engine="twin", every=n) for n in (10, 1))
-        self.assertEqual(len(all_ticks.time_s), all_ticks.ticks)
-        np.testing.assert_array_equal(few.tau_hat_nm, all_ticks.tau_hat_nm[::10])
-        self.assertLess(len(feltgate.run(SCENE).time_s), 30_000)
 
     def test_what_the_first_page_prints(self):
         """The error beside a bound is that of the ticks for which it holds; the rest is told."""
@@ -83,14 +76,6 @@ class Hands(Scratch):
         self.assertAlmostEqual(result.simulated_s, 0.1)
         self.assertAlmostEqual(result.theta_rad.max(), 0.3, places=3)
 
-    def test_torque(self):
-        hand = feltgate.Hand.torque([0.0, 0.05, 0.1], [0.0, 0.1, 0.1], start_rad=0.2)
-        result = feltgate.run("spring_tension", engine="twin", hand=hand)
-        self.assertAlmostEqual(result.hand_torque_nm.max(), 0.1, places=6)
-        self.assertAlmostEqual(result.theta_rad[0], 0.2, places=3)
-        half = np.searchsorted(result.time_s, 0.025)
-        self.assertAlmostEqual(result.hand_torque_nm[half], 0.05, places=3)
-
     def test_a_jump_of_the_speed_is_a_warning(self):
         path = self.put("jump.toml", 'title = "t"\nabout = "a"\nduration_s = 0.02\n'
                         '[core]\nscene = "free"\n[[hand.phase]]\nkind = "prescribed"\n'
@@ -106,11 +91,6 @@ class Hands(Scratch):
                 for h in (stiff, soft)]
         self.assertGreater(ends[0], ends[1] + 0.01)
 
-    def test_nobody(self):
-        result = feltgate.run("spring_tension", engine="twin", hand=feltgate.Hand.free(),
-                              duration_s=0.01)
-        self.assertEqual(np.abs(result.hand_torque_nm).max(), 0)
-
 
 class Parts(unittest.TestCase):
     def test_plant(self):
@@ -123,16 +103,6 @@ class Parts(unittest.TestCase):
         slow = feltgate.run(SCENE, engine="twin", plant=plant)
         self.assertNotEqual(slow.theta_rad.max(),
                             feltgate.run(SCENE, engine="twin").theta_rad.max())
-
-    def test_recording(self):
-        recording = feltgate.Recording(ROOT / "vectors/traces/membrane.vec")
-        lines = (ROOT / "vectors/traces/membrane.vec").read_text().splitlines()
-        self.assertGreater(len(recording), len(lines) - 10)
-        self.assertTrue(np.all(np.diff(recording.clock) > 0))
-        self.assertTrue(np.all(np.abs(np.diff(recording.counts)) == 1))
-        self.assertEqual(recording.illegal, 0)
-        at = recording.counts_at([0.0, recording.time_s[99], recording.length_s])
-        self.assertEqual(list(at), [0, recording.counts[99], recording.counts[-1]])
 
     def test_a_recording_warns(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -250,14 +220,6 @@ class Long(unittest.TestCase):
             run.send_signal(signal.SIGINT)
             _, errors = run.communicate(timeout=60)
         self.assertIn("KeyboardInterrupt", errors)
-
-    def test_other_threads_go_on(self):
-        run = threading.Thread(target=feltgate.run, args=("damper", "lever", "twin"))
-        run.start()
-        turns = 0
-        while run.is_alive():
-            turns += 1
-        self.assertGreater(turns, 1000)
 
 
 if __name__ == "__main__":

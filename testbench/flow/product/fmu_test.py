@@ -183,26 +183,6 @@ class Fmu(Scratch):
             other.instantiate(logMessage=self.log)
         self.assertIn("instantiationToken", said[-1])
 
-    def test_refusals_of_the_command(self):
-        for words, said in (
-            (("--scene", "wal"), '"wal" is not in vectors/scenes'),
-            (("--scene", "no/scene.toml"), "no/scene.toml: there is no such file"),
-            # Before a design is looked for or built.
-            (("--scene", "no/scene.toml", "--design", "nothing"), "no/scene.toml: there is no such file"),
-            (("--scene", "detent"), "has no engine; choose a scene without law"),
-            (("--scene", "plane_circle"), "names a device of several axes"),
-            (("--design", "nothing"), "choose lever"),
-            (("--design", "lever_law"), "choose lever"),
-        ):
-            self.ended(self.product(*words, "-o", "it.fmu"), 2, said)
-            self.assertFalse((self.folder / "it.fmu").exists())
-        text = text_of("vectors/scenes/wall.toml")
-        own = self.put("own.toml", text.replace('title = ', 'plant = "p25"\ntitle = ', 1))
-        self.ended(self.product("--scene", own), 2, "p25.toml: there is no such file")
-        self.put("own.toml", text.replace("duration_s", "duration"))
-        self.ended(self.product("--scene", own), 2, "own.toml:")
-        self.ended(self.product("--no-read-back"), 2, "--no-read-back is of verilog")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -73,13 +73,6 @@ class Product(Scratch):
         self.assertNotIn("snapshot_ram", text)
         self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 1)
 
-    @weekly(3)
-    def test_a_design_of_ones_own(self):
-        own = (ROOT / "rtl/designs/lever.toml").read_text()
-        own = re.sub(r"^lines = .*", "lines = 2048", own, flags=re.M)
-        (self.folder / "own.toml").write_text(own)
-        self.assertIn("design own", self.written("--design", "own.toml"))
-
     def board(self, *words):
         done = self.ended(self.product("board", *words))
         return done

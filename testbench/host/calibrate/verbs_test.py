@@ -78,13 +78,6 @@ class Calibrate(VerbTest):
                          ["motor.resistance_ohm", "voltage.dead_voltage_v"])  # fmt: skip
         self.builds(self.folder / "m.toml")
 
-    def test_forces_and_the_input(self):
-        rows = "v;force_n\n1.5;3.4\n2.5;9.9\n3.5;16.5\n4.5;23.0\n"
-        said = self.host("-", "calibrate", "--from", "-", "--arm", 0.011, typed=rows)
-        self.assertIn("slope", said)
-        said = self.host("-", "calibrate", "--from", "-", typed=rows, status=2)
-        self.assertIn("forces need the arm of the pulley", said)
-
     def test_an_alignment_gives_pole_pairs_and_offset(self):
         rows = ["commutation_offset, position"]
         for k in [*range(9), *range(8)[::-1]]:

@@ -39,17 +39,6 @@ class Shape(LawMaking):
             self.refused("one", *files, "--vertices", 27, *option)
         self.refused("holds 7", *files, files[0])
 
-    def test_as_many_vertices_as_fit(self):
-        """Nobody who did not ask for a number of vertices is told that it is too large."""
-        done = self.ended(self.run_it("shape", SHAPES / "square.svg", "--texture"))
-        self.assertIn("around, 80 vertices", done.stdout)
-        names = ("square", "bell", "banana", "fish", "horseshoe", "mushroom", "duck")
-        files = [SHAPES / f"{name}.svg" for name in names]
-        done = self.ended(self.run_it("shape", *files, "--radius", "2mm", "-o", "hidden_shapes.law"))
-        self.assertIn("around, 27 vertices", done.stdout)
-        written = (self.folder / "hidden_shapes.law").read_text()
-        self.assertEqual(written, (ROOT / "rtl/laws/hidden_shapes.law").read_text())
-
     def test_refused(self):
         path = '<svg xmlns="http://www.w3.org/2000/svg"><path d="{}"/></svg>'
         self.refused("no SVG; write <svg xmlns=", self.drawing("a.svg", "<svg><text>x</text></svg>"))

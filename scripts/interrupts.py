@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Signals that end a job: started programs end too, and the exit code is 128 + the signal. And what
-a script says where a module is missing.
+"""Signals that end a job: started programs end too, and the exit code is 128 + the signal.
 
 Documentation: docs/json.md
 """
 
-import os
 import signal
 import subprocess
 import sys
@@ -91,33 +89,3 @@ def run(command, **options):
 
 
 CAPTURED = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-
-
-# Debian's packages of the modules that a script imports.
-PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "PIL": "python3-pil"}
-
-
-def _name():
-    return os.path.basename(sys.argv[0]).removesuffix(".py")
-
-
-def _fail(kind, error, trace):
-    """A module that this python3 does not have is told in one line, with its package. The exit code
-    is 1, by which the launcher knows that packages are still to come."""
-    package = PACKAGES.get(str(getattr(error, "name", "")).split(".")[0])
-    if kind is not ModuleNotFoundError or package is None:
-        sys.__excepthook__(kind, error, trace)
-        return
-    sys.stderr.write(f"{_name()}: {sys.executable} has no module {error.name}; ")
-    sys.stderr.write(f"run: apt-get install {package}\n")
-
-
-def _interrupt(number, _):
-    """Ctrl-C while modules are imported, before end_on_signals()."""
-    sys.stderr.write(f"{_name()}: interrupted\n")
-    os._exit(128 + number)
-
-
-sys.excepthook = _fail
-if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, _interrupt)

@@ -9,11 +9,9 @@ Documentation: docs/json.md
 import os
 import signal
 import subprocess
-import sys
 import unittest
 
 from bench import Bench
-from testing import SCRIPTS
 
 WAIT_S = 60
 
@@ -80,20 +78,6 @@ class Signals(Bench):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(WAIT_S), 130)
         self.assertRaises(ProcessLookupError, os.kill, child, 0)
-
-    def script_with_numpy(self, text):
-        """The script of a report, with a stand-in for the first module that it needs."""
-        self.path("numpy.py").write_text(text)
-        options = {"text": True, "stderr": subprocess.PIPE}
-        options["env"] = os.environ | {"PYTHONPATH": str(self.folder)}
-        return self.started(sys.executable, SCRIPTS / "report.py", "out", "a.json", **options)
-
-    def test_a_module_that_is_missing(self):
-        process = self.script_with_numpy("raise ModuleNotFoundError('none', name='numpy')\n")
-        self.assertEqual(process.wait(WAIT_S), 1)  # what check_arguments of the launcher expects
-        said = process.stderr.read()
-        self.assertIn("has no module numpy; run: apt-get install python3-numpy\n", said)
-        self.assertEqual(said.count("\n"), 1)
 
 
 if __name__ == "__main__":

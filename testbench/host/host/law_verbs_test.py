@@ -132,32 +132,6 @@ class Laws(ProgramTest):
         refused = self.host("get", "stiffness", "--law", "spring", status=1)
         self.assertIn("does not run the law spring", refused)
 
-    @weekly(3)
-    def test_what_cannot_be_loaded(self):
-        self.board("--design", "lever_law")
-        bad = self.law("param a = 1 Nm in 0 .. 2 Nm\nout torque = -a * sin(12 * positio)\n")
-        said = self.host("law", bad, status=2)
-        self.assertRegex(said, r"mine\.law:2:\d+: .*positio")
-        unit = self.law("param a = 1 Nm in 0 .. 2 Nm\nout torque = a + position\n")
-        self.assertRegex(self.host("law", unit, status=2), r"mine\.law:2:\d+: ")
-        self.assertIn("choose one of", self.host("law", "no_such", status=2))
-        (self.folder / "broken.img").write_text("nothing\n", encoding="utf-8")
-        self.assertIn("broken.img", self.host("law", "broken.img", status=2))
-        (self.folder / "empty.img").write_text("", encoding="utf-8")
-        self.assertIn("no law's image", self.host("law", "empty.img", status=2))
-        self.assertIn("a torque for axis 1", self.host("law", "pantograph", status=2))
-        refused = self.host("arm", "law", status=1)
-        self.assertIn("its CRC does not hold", refused)
-
-        # Armed: the law stays as it is.
-        self.host("law", self.law(SPRING))
-        self.host("set", "watchdog_ticks=20000000", "self_test_pulse=0")
-        self.assertIn("the CRC of the law holds", self.host("arm", "law"))
-        self.assertIn("disarm first", self.host("law", "detent", status=1))
-        self.host("set", "stiffness=0.03")
-        self.host("disarm")
-        self.host("law", "detent")
-
     def test_a_board_without_engine(self):
         self.board("--design", "lever")
         said = self.host("law", "detent", status=1)

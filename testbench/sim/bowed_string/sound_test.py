@@ -174,18 +174,6 @@ class BowedStringSound(Player):
                 self.dies_away(heard[n][times > ends + 0.01], hz)
         self.assertAlmostEqual(np.ptp(self.play()[-2000:]) * 2.5, 0.2 / 0.1, delta=0.8)
 
-    def test_what_are_no_states(self):
-        for text, said in (
-            ("", ':1: no columns "time_s" and "heard"'),
-            ("time_s,stuck\n0,1\n", ':1: no columns "time_s" and "heard"'),
-            ("time_s,heard\n0,0\n1,x\n", ":3: no row of states"),
-            ("time_s,heard\n1,0\n0,0\n", ":3: time goes back"),
-            ("time_s,heard\n0,nan\n", ":2: time goes back, or a value is none"),
-            ("time_s,heard\n0,0\n", ": fewer than two runs of the law"),
-        ):
-            self.states.write_text(text, encoding="utf-8")
-            self.assertIn(said, self.play(status=2))
-
 
 if __name__ == "__main__":
     unittest.main()

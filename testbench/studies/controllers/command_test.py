@@ -117,17 +117,6 @@ class Controllers(Scratch):
         self.assertAlmostEqual(figures["torque_settling_ms.0"], 7.4, delta=0.2)
         self.assertLess(abs(figures["final_error_pct.0"]), 0.5)
 
-    def test_bad_input_is_told_in_a_line(self):
-        for words, told in (
-            (("lever",), "lever"),
-            (("-o", "none/a.svg"), "none"),
-            (("-o", "-"), "--output"),
-            (("--json", "none/a.json"), "none"),
-        ):
-            with self.subTest(words=words):
-                done = self.ended(self.call("controllers", *words), 2, told)
-                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The readers that are fuzzed, each as a function of one file. Documentation: docs/testing.md
+// The readers that are fuzzed, each as a function of one file, and the seeded changes of its input.
+// Documentation: docs/testing.md
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "random.hpp"
 
 namespace feltgate::fuzz {
 
@@ -32,8 +35,7 @@ const std::vector<Reader>& readers();
 /// Where the plants, designs and the register map of the project lie.
 void set_root(const std::filesystem::path& root);
 
-/// A reader with every fault that fuzzing must find. The input names the fault: crash, hang,
-/// message, throw or write.
-Ending use_faulty(const std::filesystem::path& file);
+/// `input` after a few random changes; parts of `other` may get into it.
+std::string mutated(std::string input, const std::string& other, test::Random& random);
 
 }  // namespace feltgate::fuzz

@@ -169,7 +169,7 @@ def mismatches(there):
 
 
 def runs_section(demo):
-    parts, lines = [], []
+    parts = []
     for name in demo.shown:
         run = demo.runs[name]
         if not run.ran or name in CARDS:
@@ -177,11 +177,9 @@ def runs_section(demo):
         if run.of_axes:
             text = page.bullets(run_section.axes_facts(run.summary)) + page.pictures(demo.drawn[name])
             parts.append(page.folded(name, title(run), text))
-        elif run_section.room(run.summary) == "line":
-            lines.append(page.line(name, f"{title(run)}: {run_section.in_a_line(run.summary)}"))
         else:
             parts.append(page.folded(name, title(run), run_section.inside(run.summary, demo.drawn[name])))
-    return page.section("runs", "Each run", "\n".join(parts + lines))
+    return page.section("runs", "Each run", "\n".join(parts))
 
 
 def document(demo):

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from reports import plots
-from reports.run_section import ENGINE_NAMES, closed_loop, room
+from reports.run_section import ENGINE_NAMES, closed_loop
 from reports.runs import design
 
 QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
@@ -196,12 +196,8 @@ def axes_pictures(name, csv):
 
 
 def pictures(name, summary, csv):
-    """As many as the run has to show: of a recording of few steps none."""
-    if room(summary) == "line":
-        return []
+    """As many as the run has to show."""
     drawn = [motion_picture(name, summary, csv)]
-    if room(summary) == "picture":
-        return drawn
     if any(np.any(csv[column]) for column in ("tau_ref_nm", "tau_hat_nm", "current_a")):
         drawn.append(torque_picture(name, summary, csv))
     if closed_loop(summary) and np.ptp(csv["theta_rad"]) > 0.02:

@@ -6,20 +6,10 @@ from reports import felt_section, page
 
 ENGINES = ("rtl", "twin", "float", "double", "quad")
 ENGINE_NAMES = {"rtl": "RTL"}
-# A recording of few steps has nothing to look at: below these, a line, and one picture.
-LINE_STEPS, PICTURE_STEPS = 20, 1000
 
 
 def closed_loop(summary):
     return "scene" in summary
-
-
-def room(summary):
-    """How much a run shows: "line", "picture" or "whole"; a recording by its steps."""
-    steps = summary["position"]["steps"]
-    if closed_loop(summary) or steps >= PICTURE_STEPS:
-        return "whole"
-    return "picture" if steps >= LINE_STEPS else "line"
 
 
 def subject(summary):
@@ -115,16 +105,6 @@ def faults_of(summary):
     texts += summary.get("expectations", {}).get("broken", [])
     texts += felt_section.broken_bounds(summary)
     return [f"{subject(summary)}, {summary['design']}: {text}" for text in texts]
-
-
-def in_a_line(summary):
-    """A recording with nothing to look at."""
-    p, wrong = summary["position"], summary.get("mismatches")
-    count = "not compared" if wrong is None else f"{wrong:,} mismatches"
-    return (
-        f"{p['steps']:,} steps, {p['illegal']:,} illegal, {p['reversals']:,} reversals in "
-        f"{page.number(summary['simulated_s'])} s; {count}"
-    )
 
 
 def inside(summary, drawn):

@@ -48,17 +48,6 @@ class CommandLine(Bench):
                     said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
                     self.refused(*command.split(), f"{option}={value}", said=said)
 
-    def test_a_whole_number_may_be_a_power_of_ten(self):
-        self.put("a.csv", "time,A,B\n0.000,0,0\n0.001,1,0\n0.002,1,1\n0.003,1,1\n")
-        made = []
-        for rate in ("2000", "2e3", "2kHz"):
-            done = self.finished("import", "a.csv", f"{rate}.vec", "--sample-hz", rate)
-            self.assertEqual(done.returncode, 0, done.err)
-            made.append(self.path(f"{rate}.vec").read_text())
-        self.assertEqual(made, made[:1] * 3)
-        done = self.run_it("--every", "1e1", "--csv", "a_run.csv", "--quiet")
-        self.assertEqual(done.returncode, 0, done.err)
-
     def test_empty_words(self):
         for words in (("run", "short.toml", "--json", ""), ("figures", "-o", ""), ("replay", "")):
             with self.subTest(words):
@@ -111,12 +100,6 @@ class CommandLine(Bench):
         self.assertRegex(done.out, r"^trimmed, not as expected: .*faults")
         self.assert_only()
 
-    def test_settings(self):
-        for value in ("nan", "inf", "1e300", "", "x"):
-            with self.subTest(value):
-                word = f"voltage_gain={value}"
-                self.refused("run", "membrane", "--set", word, said=("voltage_gain",))
-
     def test_units(self):
         for words, said in (
             (("run", "wall", "--set", "torque_limit=1V"), "1V is not in Nm; give it in Nm"),
@@ -149,13 +132,6 @@ class CommandLine(Bench):
         ):
             with self.subTest(words):
                 self.refused(*words, said=(said,))
-
-    def test_options_that_would_do_nothing(self):
-        self.refused(
-            "run", "membrane", "--every", "2", said=("--every thins out the rows of --csv",)
-        )
-        self.refused("replay", "x.vec", "--every", "2", said=("--every thins out the rows",))
-        self.refused("import", "x.vec", "a.vec", "-o", "b.vec", said=("two files to write",))
 
     def test_a_folder_is_no_scene(self):
         self.path("scenes.toml").mkdir()

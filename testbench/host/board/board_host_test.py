@@ -303,33 +303,11 @@ class Recordings(BoardTest):
         for words, needle in (
             (("--hand", "wave"), "is neither free, locked, hold or swing"),
             (("--plant", "p42"), "is not in vectors/plants"),
-            (("--scene", "walls"), "wall"),
-            (("--design", "levr"), "did you mean"),
-            (("--twin", "--rtl"), "give one of them"),
             (("--rtl", "--for", "1"), "./feltgate board --design lever --rtl builds it"),
-            (("--design", "gimbal_law"), "./feltgate board --design gimbal_law builds it"),
             (("--replay", "none.board"), "cannot be read"),
-            (("--replay", "x", "--link", "y"), "leave --record and --link out"),
-            (("--bad-line", "2"), "--bad-line"),
         ):
             with self.subTest(words):
                 self.assertIn(needle, self.run_program("feltgate_board", *words, status=2))
-        pen = ("--design", "pantograph_law", "--for", "0.01")
-        for words, needle in (
-            (("--plant", "p24"), "--plant p24: is for levers"),
-            (("--hand", "coupled_levers"), "is a scene of the device two_levers, whose design is two_levers_law"),
-        ):
-            with self.subTest(words):
-                said = self.run_program(board_program(pen), *pen, *words, status=2)
-                self.assertIn(needle, said)
-        for words, needle in (
-            (("--design", "paper"), "./feltgate board --design paper --rtl builds it"),
-            (("--baud", "115200"), "leave --baud out, or take the twin"),
-        ):
-            with self.subTest(words):
-                words = ("--rtl", "--for", "1", *words)
-                said = self.run_program("feltgate_board_rtl_lever", *words, status=2)
-                self.assertIn(needle, said)
         (self.folder / "there").write_text("mine")
         said = self.run_program("feltgate_board", "--link", "there", status=2)
         self.assertIn("is there and no symbolic link", said)

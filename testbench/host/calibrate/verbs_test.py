@@ -87,14 +87,8 @@ class Calibrate(VerbTest):
         for words, typed, needle in (
             (("calibrate",), "", "has no board; give the port, or the readings with --from"),
             (("calibrate", "--from", "none.csv"), "", "cannot be read"),
-            (("calibrate", "--from", "-"), "v torque\n1 2\n", "1 readings; take at least 3"),
             (("calibrate", "--from", "-"), "v torque\n1 2\n1 2\n1 3\n", "only 1 different voltage"),
             (("calibrate", "--from", "-"), "v torque\n1 x\n", "standard input:2: torque"),
-            (("calibrate", "--from", "-", "--save", "x"), "", "leave out --from"),
-            (("calibrate", "magnet", "--from", "-"), "", "align"),
-            (("calibrate", "--from", "-", "--confidence", "1"), "", "--confidence"),
-            (("identify",), "", "has no board"),
-            (("identify", "--from", "-", "--save", "x"), "", "--coast belongs to --from FILE"),
             (("identify", "--from", "-"), "t,position,v\n0,0,0\n", "1 rows; record at least 64"),
             (("--design", "levr", "calibrate", "--from", "-"), "", "did you mean"),
         ):

@@ -67,15 +67,6 @@ class Demo:
         return sum(run.mismatches for run in self.runs.values())
 
 
-def contents(demo):
-    links = [page.link("scenes", "scenes")]
-    links += [page.link("axes", "several axes")] if demo.devices else []
-    links += [page.link("recordings", "recordings")]
-    links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
-    links.append(page.link("runs", "each run"))
-    return f"<p>{' · '.join(links)}</p>"
-
-
 def headlines(demo):
     """Clocks and mismatches of all runs, the largest error of any, the settling of a step."""
     there = [run.summary for run in demo.runs.values() if run.ran and not run.of_axes]
@@ -136,7 +127,6 @@ def tables(demo):
         "sampled counts; speed is simulated seconds per second spent in a back-end. Everything is "
         "simulation: nothing ran on a board."
     )
-    text += contents(demo)
     text += page.folded(
         "scenes",
         f"Scenes: {many(len(scenes), 'run')} in closed loop, {mismatches(scenes)}, "

@@ -43,7 +43,7 @@ class Report(Scratch):
         summary["mismatches"] = 0
         page = self.report(summary, paths)
         self.assertIn('class="verdict good"', page)
-        self.assertEqual(page.count("<img"), 3)
+        self.assertEqual(page.count("<img"), 2)
         self.assertNotRegex(page, r"https?:|//[a-z]+\.[a-z]|@import")
         clocks, error, settling = headline.of_run(summary, run_section.steps_of(summary))
         twin = summary["engines"]["twin"]

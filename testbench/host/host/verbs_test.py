@@ -7,7 +7,6 @@ and the session of docs/host.md."""
 import csv
 import json
 import os
-import pty
 import re
 import shlex
 import signal
@@ -179,22 +178,6 @@ class Verbs(VerbTest):
             rows = (self.folder / "kept.csv").read_text(encoding="utf-8").splitlines()
             self.assertEqual(len(rows), 2)
             self.assertTrue(rows[1].startswith("0.05,0.049,"))
-
-    def test_watch_on_a_terminal_and_for_teleplot(self):
-        with BoardProcess() as board:
-            said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 1)
-            self.assertRegex(said, r"(?m)^>angle:\d+\.\d{3}:-?[\d.e-]+§rad$")
-            self.assertGreaterEqual(said.count("§rad"), 3)
-            master, slave = pty.openpty()
-            words = self.command(board.port, "watch", "angle", "--for", 1, "--every", 0.05)
-            with subprocess.Popen(words, env=self.environment(), stdout=slave) as process:
-                process.wait(timeout=20)
-            os.close(slave)
-            shown = os.read(master, 100000).decode()
-            os.close(master)
-            self.assertEqual(process.returncode, 0)
-            self.assertIn("SIMULATED", shown)
-            self.assertRegex(shown, "[▁▂▃▄▅▆▇█]{5}")
 
     def test_capture_csv_picture_and_vector(self):
         with BoardProcess() as board:

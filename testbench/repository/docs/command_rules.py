@@ -27,7 +27,6 @@ RULES = (
     # Of designs that are built when they are named: scene.SCENE.DESIGN and the tests of the devices.
     Rule(r"feltgate run .*--(?:torque-scale|states)", "ELSEWHERE"),
     Rule(r"feltgate run my_scene\.toml --set amplitude\S*", "ELSEWHERE"),
-    Rule(r"feltgate texture .*--table", "ELSEWHERE"),
     Rule(r"feltgate (?:run|replay|import|design|law|shape|texture|generate)", "WHOLE"),
     # 1: of a scene of milliseconds there may be nothing to leave out.
     Rule(r"feltgate trim (?:detent|coupled_levers)$", "ELSEWHERE"),
@@ -82,7 +81,7 @@ PLACEHOLDERS = {
     "law NAME": "wall",
     "law ./fish.law": "wall",
     "shape FILE.svg": "vectors/shapes/square.svg",
-    "texture FILE.png": "vectors/textures/ripples.png",
+    "texture FILE.png": "vectors/textures/valley.png",
     "run SCENE": "wall",
     "point FILE": "my_design.toml",
 }

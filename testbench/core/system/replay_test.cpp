@@ -16,44 +16,20 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/encoder_source.hpp"
 #include "feltgate/random.hpp"
 #include "mismatch.hpp"
+#include "moves.hpp"
 #include "sim/loop/replay.hpp"
 #include "sim/traces/open.hpp"
-#include "sim/traces/phase.hpp"
 #include "sim/traces/statistics.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace feltgate;
+using test::Moves;
 
 constexpr Clock kShare = 20'000'000;  // clocks: 0.4 s of the lever
-
-/// A recording from just before its first step on.
-/// A motion that begins at A = B = 0, move by move: +1 or -1 count; 2: both channels at once, which
-/// is illegal.
-class Moves : public EncoderSource {
- public:
-  void move(Clock wait, int turn) {
-    clock_ += wait;
-    phase_ += static_cast<unsigned>(turn);
-    events_.push_back({clock_, traces::pins_at(phase_)});
-  }
-  EncoderPins initial() const override { return {}; }
-  std::optional<EncoderEvent> next() override {
-    if (at_ == events_.size()) return std::nullopt;
-    return events_[at_++];
-  }
-  Clock length() const override { return clock_ + 1; }
-
- private:
-  std::vector<EncoderEvent> events_;
-  std::size_t at_ = 0;
-  Clock clock_ = 0;
-  unsigned phase_ = 0;
-};
 
 Moves constant_speed(double counts_per_s, std::int64_t counts) {
   Moves m;
@@ -96,6 +72,7 @@ Moves random_walk(std::uint64_t seed, int moves, int per_thousand, Clock least, 
   return m;
 }
 
+/// A recording from just before its first step on.
 class FromFirstStep : public EncoderSource {
  public:
   explicit FromFirstStep(EncoderSource& inner) : inner_(inner), first_(inner.next()) {

@@ -15,16 +15,13 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/device.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
+#include "rig.hpp"
 #include "sim/loop/loop.hpp"
 #include "sim/loop/replay.hpp"
-#include "sim/plant/drive.hpp"
-#include "sim/plant/plant.hpp"
-#include "sim/plant/plant_file.hpp"
 #include "sim/traces/open.hpp"
 
 namespace {
@@ -34,48 +31,6 @@ using namespace feltgate::test;
 using plant::Hand;
 using plant::HandPhase;
 using plant::Segment;
-
-enum class Wiring { right, motor_swapped, encoder_swapped };
-
-plant::Parameters motor_of(const std::string& name) {
-  return plant::read_plant_file(std::string(FELTGATE_ROOT) + "/vectors/plants/" + name + ".toml");
-}
-
-/// Runs one tick at a time, without the self-test. The bridge is averaged and uses the duty at the
-/// start of the tick.
-template <class D>
-class Rig {
- public:
-  Rig(const plant::Parameters& motor, const plant::Hand& hand, Wiring w = Wiring::right)
-      : plant(motor, motor.effects, plant::drive_of(design_info<D>()), hand), wiring(w) {
-    device.clock(seen(plant.encoder().pins()));
-    plant.advance(plant::Bridge::off(), 1);
-    device.set("self_test_pulse", 0);
-    for (int k = 0; k < 10; ++k) tick();
-  }
-  void tick() {
-    const double sign = wiring == Wiring::motor_swapped ? -1.0 : 1.0;
-    const Clock clocks = D::clocks_per_tick - device.now() % D::clocks_per_tick;
-    plant.advance(plant::Bridge::averaged(sign * device.bridge_duty(), device.gates_enabled()),
-                  clocks);
-    events = plant.events();
-    for (EncoderEvent& e : events) e.pins = seen(e.pins);
-    device.run(clocks, events);
-  }
-  const CoreOut& out() const { return device.out(); }
-  const plant::Observables& lever() const { return plant.observables(); }
-
-  TwinDevice<D> device;
-  plant::Plant plant;
-  Wiring wiring;
-
- private:
-  EncoderPins seen(EncoderPins pins) const {
-    if (wiring != Wiring::encoder_swapped) return pins;
-    return {pins.b, pins.a, pins.z};
-  }
-  std::vector<EncoderEvent> events;
-};
 
 /// The core's check beside a core whose own is off: when the shipped limits would have tripped.
 template <class D>

@@ -40,7 +40,7 @@ def draw(data, options):
     axes.margins(x=0.12, y=0.35)
     axes.legend(loc="center left")
     axes.set_title(f"{data['machine']}, {data['compiler']}, {data['date']}, simulation", fontsize=7)
-    write_whole(options.svg, plots.finish(figure, "bench").svg)
+    write_whole(options.to, plots.finish(figure, "bench").svg)
 
 
 if __name__ == "__main__":

@@ -92,7 +92,7 @@ SCHEMAS = {
 
 
 def draw(data, options):
-    write_whole(options.svg, SCHEMAS[data["schema"]](data).svg)
+    write_whole(options.to, SCHEMAS[data["schema"]](data).svg)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ instances:
 
   lines, branches   reached at all; must be all of them
   toggles           each bit of each signal changed twice at least outside of a reset; must be 98 %
-  cover points      named situations (testbench/campaigns/coverage/BLOCK_cover.sv); must be all of them
+  cover points      named situations (testbench/campaigns/coverage/points_*.sv); must be all of them
 
 What cannot be reached is waived, with its reason, in testbench/campaigns/coverage/waivers.toml, ten times at
 most. 'whole core' is what the core's own tests reach, each instance for itself; no target. What it

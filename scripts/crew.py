@@ -26,18 +26,11 @@ class Crew:
 
     def start(self, command, **options):
         """subprocess.Popen, which wait() must follow; Interrupted after end()."""
-        process = None
-        try:
-            with interrupts.Held(), self._lock:
-                if self._ended:
-                    raise interrupts.Interrupted()
-                process = subprocess.Popen(command, **options)
-                self._running.add(process)
-        except BaseException:
-            if process is not None:
-                self.kill(process)
-                self.wait(process)
-            raise
+        with self._lock:
+            if self._ended:
+                raise interrupts.Interrupted()
+            process = subprocess.Popen(command, **options)
+            self._running.add(process)
         return process
 
     def wait(self, process, limit_s=None):

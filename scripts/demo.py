@@ -8,23 +8,19 @@ last. The exit code is 1 if there was a mismatch or a broken expectation; these 
 Documentation: docs/figures.md
 """
 
-import contextlib
 import json
 import os
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
 from pathlib import Path
 
-import building
 import command_line
 import interrupts
 import outputs
 from outputs import write_whole
 from reports import all_figures, demo_page, observer_section, recordings, runs
-from reports.growing import Growing
-from reports.progress import Progress, clock_text
+from reports.progress import clock_text
 
 SCHEMA = "feltgate-demo/1"
 EPILOG = """\
@@ -68,14 +64,12 @@ def all_jobs(scenes, replays, figures):
 
 
 def find_recordings(named, everything=False):
-    """(recordings, complaints, where they lie): of a known file one encoder. Without any: those of the project itself."""
+    """(recordings, where they lie). Without any: those of the project itself."""
     where = recordings.folder(named)
-    found, complaints = recordings.find(where) if where.is_dir() else ([], [])
-    if found:
-        return found if everything else recordings.one_of_each(found), complaints, where
+    if found := recordings.find(where, everything):
+        return found, where
     print(recordings.SOURCES, file=sys.stderr)
-    own, more = recordings.find(recordings.OWN)
-    return own, complaints + more, recordings.OWN
+    return recordings.find(recordings.OWN), recordings.OWN
 
 
 def write(folder, demo):
@@ -99,70 +93,17 @@ def write(folder, demo):
     return path
 
 
-def warmed_up(workers):
-    """Processes that draw; they are there before there are threads."""
-    pool = ProcessPoolExecutor(workers, initializer=interrupts.leave_signals_to_the_parent)
-    pool.submit(int).result()
-    return pool
+def guesses_that_failed(done):
+    """Recordings that were tried with guesses and could not be read."""
+    failed = (r for r in done.values() if not r.ran and r.job.recording and not r.job.recording.sure)
+    return [f"{r.job.recording.title}: {r.complaint}" for r in failed]
 
 
-def programs(jobs):
-    """Those that the jobs need, in the order of their use, without the one that the launcher has built."""
-    order = sorted(jobs, key=lambda job: job.name not in demo_page.CARDS)
-    names = dict.fromkeys(runs.program_path(job.design).name for job in order)
-    names.pop(runs.FIRST_PROGRAM, None)
-    return list(names)
-
-
-def run_all(demo, jobs, folder, arguments):
-    """The demo with all runs, drawings and figures; its page grows meanwhile."""
-    with contextlib.ExitStack() as beside:
-        pool = warmed_up(arguments.jobs)
-        beside.callback(pool.shutdown, cancel_futures=True)
-        targets = programs(jobs) if os.environ.get("FELTGATE_BUILD_BESIDE") else []
-        builds = beside.enter_context(building.Beside(runs.build_folder(), targets))
-        progress = beside.enter_context(Progress(jobs, beside=builds.text))
-
-        def page_so_far(ended, drawn):
-            part = demo.part(
-                ended,
-                drawn,
-                wrong=recordings.all_faults(ended),
-                took_s=time.monotonic() - progress.began,
-                so_far=f"{progress.finished} of {progress.count} runs so far, about "
-                f"{progress.left()} minutes to go. The demo writes this page again as its runs "
-                "end: load it again to see more.",
-            )
-            return demo_page.document(part)
-
-        growing = Growing(pool, demo.shown, folder / "demo.html", page_so_far)
-        done = runs.run_all(
-            jobs,
-            folder / "data",
-            progress,
-            arguments.jobs,
-            first=demo_page.CARDS,
-            ready=lambda job: builds.ready(runs.program_path(job.design).name),
-            ended=growing.take,
-        )
-        figures = []
-        if not arguments.no_figures:
-            # The large ones first, so that no core waits for the last of them.
-            figures = [f.result() for f in all_figures.start(pool, done, DESIGNS)]
-        drawn = growing.result()
-    unreadable = [
-        f"{r.job.recording.title}: {r.complaint}"
-        for r in done.values()
-        if not r.ran and r.job.recording and not r.job.recording.sure
-    ]
-    return replace(
-        demo,
-        runs=done,
-        drawn=drawn,
-        figures=figures,
-        wrong=recordings.all_faults(done),
-        unreadable=demo.unreadable + unreadable,
-    )
+def drawn(names, done, jobs):
+    """{name: its pictures} of the runs that ended."""
+    there = [name for name in names if done[name].ran]
+    with ProcessPoolExecutor(jobs, initializer=interrupts.leave_signals_to_the_parent) as pool:
+        return dict(zip(there, pool.map(demo_page.draw, (done[name] for name in there))))
 
 
 def arguments_of(argv):
@@ -192,7 +133,7 @@ def run(arguments):
     folder = (arguments.out or runs.build_folder() / "demo").resolve()
     began = time.monotonic()
     with outputs.new_folder(folder):
-        found, unreadable, where = find_recordings(arguments.traces, arguments.all)
+        found, where = find_recordings(arguments.traces, arguments.all)
         scenes, devices = scene_jobs(arguments.all)
         replays = [recordings.job(r, i, "lever", REPLAY_SCENE) for i, r in enumerate(found, 1)]
         figures = [] if arguments.no_figures else all_figures.jobs(DESIGNS, quick=True) + observer_section.jobs()
@@ -204,17 +145,20 @@ def run(arguments):
             f"{total:.0f} s of device time",
             file=sys.stderr,
         )
+        done = runs.run_all("demo", jobs, folder / "data", arguments.jobs)
         demo = demo_page.Demo(
-            runs={},
+            runs=done,
             scenes=[job.name for job in scenes],
             devices=[job.name for job in devices],
             replays=[job.name for job in replays],
-            unreadable=unreadable,
+            figures=[] if arguments.no_figures else all_figures.draw(done, DESIGNS),
+            wrong=recordings.all_faults(done),
+            unreadable=guesses_that_failed(done),
             where=where,
             own=where == recordings.OWN,
         )
-        demo = run_all(demo, jobs, folder, arguments)
-        demo = replace(demo, took_s=time.monotonic() - began)
+        demo.drawn = drawn(demo.shown, done, arguments.jobs)
+        demo.took_s = time.monotonic() - began
         path = write(folder, demo)
     for line in demo.unreadable:
         print(f"demo: could not read {line}", file=sys.stderr)

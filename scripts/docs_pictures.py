@@ -22,22 +22,17 @@ SCENES = ("collision", "end_stops", "flywheel", "graded_membrane", "moved_detent
 BLUE, RED, GREEN, GREY = "#0072b2", "#b23a00", "#008a64", "#8c96a0"
 
 
-def started(program, *words):
-    """What a program prints; the CSV that it writes for --csv or --path last, as columns."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "rows.csv")
-        command = [str(w) for w in (program, *words)] + ([str(path)] if words[-1] in ("--csv", "--path") else [])
-        done = subprocess.run(command, cwd=runs.ROOT, check=False, text=True, stdout=subprocess.PIPE)
-        if done.returncode not in (0, 1):
-            sys.exit(done.returncode)
-        return runs.read_table(path) if path.exists() else done.stdout
-
-
 def run(scene, *words, every=100):
     """Columns of a scene's run by the twin."""
     design = runs.design_of(scene)
-    words = ("--design", design, "--engine", "twin", "--quiet", "--every", every, *words, "--csv")
-    return started(runs.program(design), "run", scene, *words)
+    with tempfile.TemporaryDirectory() as folder:
+        rows = Path(folder, "rows.csv")
+        command = (runs.program(design), "run", scene, "--design", design, "--engine", "twin", "--quiet", "--every",
+                   every, *words, "--csv", rows)
+        done = subprocess.run([str(word) for word in command], cwd=runs.ROOT, check=False)
+        if done.returncode not in (0, 1):
+            sys.exit(done.returncode)
+        return runs.read_table(rows)
 
 
 def panels(layout, size, title=""):
@@ -208,37 +203,23 @@ def stylus():
 
 
 def texture():
-    words = (runs.program(), "texture", "vectors/textures/ripples.png", "--depth")
-    r = started(*words, "4mm", "--path")
-    figure, p = panels("aab", (10, 3.6), "Forces on a row of an image, and how firm it is by texel")
-    path(p["a"], r["pen_x_m"], r["height_m"], "x", "y", "surface", GREY)
-    path(p["a"], r["pen_x_m"], r["pen_y_m"], "x", "y", "pen, 1 mm below black")
-    x, y, *force = (r[name][::4] for name in ("pen_x_m", "pen_y_m", "force_x_n", "force_y_n"))
+    figure, p = panels("a", (7.9, 3.4), "A pen drawn over a row of an image, a sine of 4 and 16 mm, 1 mm below black")
+    surface = np.linspace(-0.018, 0.002, 200)
+    path(p["a"], surface, 0.082 - 0.002 * np.sin(2 * np.pi * surface / 0.016), "x", "y", "surface", GREY)
+    r = run("texture", every=2000)
+    x, y = r["pen_x_m"], r["pen_y_m"]
+    path(p["a"], x, y, "x", "y", "pen")
+    # Both motors at 0 0, links of 0.1 m: each crank's torque is 0.1 m (cos F_y - sin F_x).
+    angles = np.arctan2(y, x) + np.arccos(np.hypot(x, y) / 0.2) * np.array([[-1], [1]])
+    turned = 0.1 * np.stack((-np.sin(angles), np.cos(angles)), -1).swapaxes(0, 1)
+    torques = np.stack((r["tau_ref_nm.0"], r["tau_ref_nm.1"]), -1)
+    force = np.linalg.solve(turned, torques[..., None])[..., 0].T
     arrows(p["a"], x, y, force, 0.5, "force, 0.5 N a mm")
-    p["a"].set(xlim=(-18, 18), ylim=(78, 87))
-    rows = [row for row in map(str.split, started(*words, "1mm", "--table").splitlines()) if len(row) == 4 and row[0][0].isdigit()]
-    texel, _, split, normal = np.array(rows).astype(float).T
-    lines(p["b"], texel, {"depth split": split, "along the normal": normal}, "texel, mm", "stiffness felt, share", marker="o")
-    p["b"].set(xscale="log", ylim=(0, 1.15))
-    return figure
-
-
-def shapes():
-    figure, p = panels("ab", (10, 4), "A pen led around inside a fish, 2 mm deep")
-    words = ("vectors/shapes/fish.svg", "--radius", "3mm", "--vertices", 40, "--path")
-    x, y, *force = started(runs.program(), "shape", *words).values()
-    path(p["a"], x, y, "x", "y", "pen", "black", lw=0.8)
-    path(p["a"], x + force[0] / 50, y + force[1] / 50, "x", "y", "proxy, at 50 N/m")
-    arrows(p["a"], x[::25], y[::25], [f[::25] for f in force], 0.02, "force, 20 mN a mm")
-    way = np.cumsum(1e3 * np.hypot(np.diff(x, prepend=x[0]), np.diff(y, prepend=y[0])))
-    direction = np.unwrap(np.degrees(np.arctan2(force[1], force[0])), period=360)
-    lines(p["b"], way, {"_": direction}, "way of the pen, mm", "direction of the force, degrees")
-    p["b"].set(xlim=(15, 60), ylim=(170, 330))
     return figure
 
 
 PICTURES = {f.__name__: f for f in (coupled_levers, free_lever, drums, material_fields, material_stick_slip,
-            bowed_string, gimbal, pantograph_wall, local_plane, stylus, texture, shapes)}
+            bowed_string, gimbal, pantograph_wall, local_plane, stylus, texture)}
 PICTURES |= {scene: partial(one_lever, scene) for scene in SCENES}
 
 

@@ -3,8 +3,7 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Redraws the paper's figures 7, 10, 11, 14, 16, 17, 19, 21 and 22 from runs of the RTL.
 
-Each shows the quad reference and the ideal curve, together with the paper's numbers and our
-results. Writes figures.html (pictures inside), figures.json, and each picture as SVG and PNG.
+Each has the ideal curve, the paper's numbers and our results. Writes figures.html (pictures inside), figures.json, and each picture as SVG and PNG.
 Documentation: docs/figures.md
 """
 
@@ -14,8 +13,7 @@ import sys
 import command_line
 import outputs
 from outputs import write_whole
-from reports import all_figures, docs_figures, page, runs
-from reports.progress import Progress
+from reports import all_figures, page, paper_pictures, runs
 from reports.recordings import all_faults
 
 SCHEMA = "feltgate-figures/1"
@@ -33,9 +31,8 @@ INTRODUCTION = (
     "has the published numbers; lever has the constants of the motor that is really there."
 )
 LEGEND = (
-    "In every picture broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
-    "point on the same counts, dashed black the ideal, green the modelled motor. "
-    "What the RTL's bit-exact twin computed alone says so."
+    "Blue is the torque that paper observes, purple its motor's, green that of lever's motor, dashed the "
+    "ideal. The long motions of the paper ran on the RTL's bit-exact twin alone."
 )
 
 
@@ -83,13 +80,13 @@ def arguments():
 def run_docs(arguments):
     """The nine pictures, into docs/images or the folder; the exit code."""
     folder = (arguments.out or command_line.root() / "docs" / "images").resolve()
-    jobs = docs_figures.jobs()
-    with outputs.new_folder(folder), Progress(jobs) as progress:
-        found = runs.run_all(jobs, runs.build_folder() / "figures" / "data", progress)
+    jobs = paper_pictures.jobs()
+    with outputs.new_folder(folder):
+        found = runs.run_all("figures", jobs, runs.build_folder() / "figures" / "data")
         wrong = all_faults(found)
         if not wrong:
-            for picture in docs_figures.draw(found):
-                picture.write(folder)
+            for number in paper_pictures.NUMBERS:
+                paper_pictures.draw(number, lambda job: found.get(paper_pictures.by_twin(job).name)).write(folder)
     for line in wrong:
         print(f"figures: {line}", file=sys.stderr)
     print(folder)
@@ -104,8 +101,7 @@ def run(arguments):
     designs = (arguments.design,) if arguments.design else DESIGNS
     jobs = all_figures.jobs(designs)
     with outputs.new_folder(folder):
-        with Progress(jobs) as progress:
-            found = runs.run_all(jobs, folder / "data", progress)
+        found = runs.run_all("figures", jobs, folder / "data")
         drawn = all_figures.draw(found, designs, png=True)
         path = write(folder, drawn, found)
     wrong = all_faults(found)

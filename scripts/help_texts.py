@@ -30,9 +30,9 @@ sys.path.insert(0, str(ROOT / "scripts"))
 
 
 def subcommands():
-    """Their names, as the launcher lists them."""
+    """{name: how it starts}, as the launcher lists them."""
     table = (ROOT / "scripts/commands.txt").read_text(encoding="utf-8")
-    return re.findall(r"^([a-z]+)\|", table, re.M)
+    return dict(re.findall(r"^([a-z]+)\|[^|]*\|[^|]*\|(\w+)\|", table, re.M))
 
 
 def host_verbs():
@@ -49,15 +49,14 @@ def commands(build):
         # Not by the launcher: that prints the text which this compares.
         "test": ["bash", "-c", 'source "$0"; tests_usage', ROOT / "scripts/run_tests.sh"],
         "generate": [build / "feltgate_generate", ROOT],
+        "touch": [build / "feltgate_touch", "touch"],
     }
-    scripts = ("choose", "claims", "faults", "prove", "mutate", "coverage", "page", "product", "docs")
-    own |= {name: [PYTHON, "-B", ROOT / f"scripts/{name}.py"] for name in scripts}
-    programs = ("bench", "extremes", "host", "board")
-    own |= {name: [build / f"feltgate_{name}"] for name in programs}
-    own["touch"] = [build / "feltgate_touch", "touch"]
-    found = {name: own.get(name, [build / "feltgate", name]) for name in subcommands()}
+    found = {}
+    for name, how in subcommands().items():
+        ways = {"program": [build / "feltgate", name], "own": [build / f"feltgate_{name}"]}
+        found[name] = own.get(name) or ways.get(how) or [PYTHON, "-B", ROOT / f"scripts/{name}.py"]
     for verb in host_verbs():
-        found[f"host {verb}"] = [*own["host"], "PORT", verb]
+        found[f"host {verb}"] = [*found["host"], "PORT", verb]
     for verb in VERBS:
         found[f"explore {verb}"] = [build / "feltgate", "explore", verb]
     return found

@@ -1,22 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Signals that end a job: started programs end too, and the exit code is 128 + the signal. And what
-a script says where a module is missing.
+"""Signals that end a job: started programs end too, and the exit code is 128 + the signal.
 
 Documentation: docs/json.md
 """
 
-import os
 import signal
 import subprocess
 import sys
-import threading
-import time
 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 PATIENCE_S = 10
-NUDGE = signal.SIGURG  # ignored where nobody expects it
-NUDGES_S = (0.05, 0.2, 1)
 
 
 class Interrupted(KeyboardInterrupt):
@@ -27,55 +21,15 @@ class Interrupted(KeyboardInterrupt):
         self.number = int(number)
 
 
-class Held:
-    """While it lasts a signal waits: a program under way must be known before it can be ended. In
-    other threads than the main one, which no signal breaks off, it does nothing."""
-
-    depth, waiting = 0, None
-
-    def __enter__(self):
-        if threading.current_thread() is threading.main_thread():
-            Held.depth += 1
-
-    def __exit__(self, *_):
-        if threading.current_thread() is not threading.main_thread():
-            return
-        Held.depth -= 1
-        if Held.depth == 0 and Held.waiting is not None:
-            number, Held.waiting = Held.waiting, None
-            raise Interrupted(number)
-
-
 def end_on_signals():
     """From now on they raise Interrupted; one that is ignored, as under nohup, stays ignored."""
 
     def interrupt(number, _):
-        if not Held.depth:
-            raise Interrupted(number)
-        Held.waiting = number
+        raise Interrupted(number)
 
     for number in ENDING:
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, interrupt)
-    wake_what_waits()
-
-
-def wake_what_waits():
-    """Python sees a signal that comes just before a call that waits only when that call ends, which
-    may take as long as the program that it waits for. So another thread breaks the call off."""
-    heard, tell_of = os.pipe()
-    os.set_blocking(tell_of, False)
-    signal.signal(NUDGE, lambda *_: None)
-    signal.set_wakeup_fd(tell_of, warn_on_full_buffer=False)
-    main = threading.main_thread().ident
-
-    def nudge():
-        while number := os.read(heard, 1):
-            for pause_s in NUDGES_S if number[0] in ENDING else ():
-                time.sleep(pause_s)
-                signal.pthread_kill(main, NUDGE)
-
-    threading.Thread(target=nudge, daemon=True).start()
 
 
 def leave_signals_to_the_parent():
@@ -84,14 +38,10 @@ def leave_signals_to_the_parent():
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
-def exit_code(error):
-    return 128 + getattr(error, "number", signal.SIGINT)
-
-
 def tell(name, error, hint=""):
     """Says it; the exit code. In one piece: another thread may be saying something too."""
     sys.stderr.write(f"{name}: interrupted{hint}\n")
-    return exit_code(error)
+    return 128 + getattr(error, "number", signal.SIGINT)
 
 
 def ending_signal(status):
@@ -126,22 +76,9 @@ def stop(process):
         process.wait()
 
 
-def start(command, **options):
-    """subprocess.Popen, which a signal does not break off half-way."""
-    process = None
-    try:
-        with Held():
-            process = subprocess.Popen(command, **options)
-    except BaseException:
-        if process is not None:
-            stop(process)
-        raise
-    return process
-
-
 def run(command, **options):
     """subprocess.run without check=; a signal here ends the program, one there is one here."""
-    process = start(command, **options)
+    process = subprocess.Popen(command, **options)
     try:
         out, err = process.communicate()
     except BaseException:
@@ -152,33 +89,3 @@ def run(command, **options):
 
 
 CAPTURED = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-
-
-# Debian's packages of the modules that a script imports.
-PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "PIL": "python3-pil"}
-
-
-def _name():
-    return os.path.basename(sys.argv[0]).removesuffix(".py")
-
-
-def _fail(kind, error, trace):
-    """A module that this python3 does not have is told in one line, with its package. The exit code
-    is 1, by which the launcher knows that packages are still to come."""
-    package = PACKAGES.get(str(getattr(error, "name", "")).split(".")[0])
-    if kind is not ModuleNotFoundError or package is None:
-        sys.__excepthook__(kind, error, trace)
-        return
-    sys.stderr.write(f"{_name()}: {sys.executable} has no module {error.name}; ")
-    sys.stderr.write(f"run: apt-get install {package}\n")
-
-
-def _interrupt(number, _):
-    """Ctrl-C while modules are imported, before end_on_signals()."""
-    sys.stderr.write(f"{_name()}: interrupted\n")
-    os._exit(128 + number)
-
-
-sys.excepthook = _fail
-if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-    signal.signal(signal.SIGINT, _interrupt)

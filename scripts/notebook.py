@@ -6,7 +6,6 @@ committed outputs are what comes out: their text, not the pixels of the pictures
 
   scripts/notebook.py docs/fixed_against_float.ipynb           run and write
   scripts/notebook.py docs/fixed_against_float.ipynb --check   run and compare
-  scripts/notebook.py NOTEBOOK --output FILE                   run and write elsewhere
 
 The package feltgate must be importable (docs/python.md). Exit code: 0 fine, 1 a cell failed or an
 output differs, 2 a package is missing.
@@ -71,7 +70,6 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("notebook", type=Path)
     parser.add_argument("--check", action="store_true", help="compare, write nothing")
-    parser.add_argument("-o", "--output", type=Path, help="where to write; default: in place")
     options = parser.parse_args()
     committed = nbformat.read(options.notebook, as_version=4)
     before = list(texts(committed))
@@ -81,7 +79,7 @@ def main():
         print(f"{options.notebook}: a cell failed\n{error}", file=sys.stderr)
         return 1
     if not options.check:
-        nbformat.write(done, options.output or options.notebook)
+        nbformat.write(done, options.notebook)
         return 0
     after = list(texts(done))
     if before == after:

@@ -5,7 +5,6 @@
 
   feltgate rates wall -o wall.svg            calls it
   feltgate rates --json rates.json && scripts/rates_picture.py rates.json rates.svg
-  scripts/rates_picture.py rates.json docs/images --each    rates_SCENE.svg for each scene, too
 
 Documentation: docs/speed-for-accuracy.md
 """
@@ -113,13 +112,8 @@ def draw_all(data, options):
     scenes = data["scenes"]
     if not scenes:
         raise ValueError("no scene was measured")
-    if options.each:
-        for made in (several(scenes), *map(one, scenes)):
-            write_whole(options.svg / f"{made.name}.svg", made.svg)
-    else:
-        write_whole(options.svg, (one(scenes[0]) if len(scenes) == 1 else several(scenes)).svg)
+    write_whole(options.to, (one(scenes[0]) if len(scenes) == 1 else several(scenes)).svg)
 
 
 if __name__ == "__main__":
-    each = "rates.svg and one for each scene"
-    sys.exit(plots.main(__doc__, "rates", ["feltgate-rates/1"], draw_all, each=each))
+    sys.exit(plots.main(__doc__, "rates", ["feltgate-rates/1"], draw_all))

@@ -21,13 +21,12 @@ import tempfile
 from pathlib import Path
 
 import command_line
-import interrupts
 import outputs
 import synth_board
 import synth_budget
 import synth_measure
 import synth_report
-from synth_tools import ToolError, Tools, require_current, version
+from synth_tools import ToolError, Tools, package_of, version
 
 SCHEMA = "feltgate-synth/1"
 
@@ -35,15 +34,10 @@ SCHEMA = "feltgate-synth/1"
 def arguments():
     parser = command_line.parser("synth", __doc__)
     add = {"action": "append"}
-    what = "a design point; default: lever, paper; with --board lever, or a file of your own"
+    what = "a design point or a file of your own; default: lever, paper; with --board lever"
     parser.add_argument("--design", metavar="DESIGN", help=what, **add)
     what = "a block, or 'core'; default: all; of several the sum too, each as often as named"
     parser.add_argument("--block", metavar="BLOCK", help=what, **add)
-    what = (
-        "the core of a design that builds only what these scenes need, instead of the blocks; "
-        "may be repeated, one row for each"
-    )
-    parser.add_argument("--for", dest="scenes", metavar="SCENE[,SCENE...]", help=what, **add)
     what = "the whole of a board instead of the blocks; docs/boards"
     parser.add_argument("--board", choices=synth_board.BOARDS, help=what)
     what = "the bitstream of --board ulx3s or tang_nano_9k; default ulx3s.bit, tang_nano_9k.fs"
@@ -57,8 +51,8 @@ def arguments():
     )
     options = parser.parse_args()
     outputs.check(parser, json=options.json, output=options.output)
-    if options.board and (options.block or options.scenes or len(options.design or []) > 1):
-        parser.error("--board takes one --design, and neither --block nor --for")
+    if options.board and (options.block or len(options.design or []) > 1):
+        parser.error("--board takes one --design and no --block")
     if options.output and options.board not in synth_board.ROUTED:
         parser.error(f"-o is the bitstream of --board {' or '.join(synth_board.ROUTED)}; no other is made here")
     if not re.fullmatch(r"\d+(,\d+)*", options.seeds):
@@ -84,86 +78,25 @@ def progress(text):
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
 
-def check_designs(root, designs):
-    for design in designs:
-        if not (root / f"rtl/generated/{design}/feltgate_pkg.sv").exists():
-            raise ToolError(f"no design {design} in rtl/generated; ./feltgate generate makes it")
-    require_current(root, *designs)
-
-
-def program(name):
-    """feltgate or feltgate_generate, built beside each other."""
-    if "FELTGATE_PROGRAM" not in os.environ:
-        raise ToolError("--for needs the built program: run it as ./feltgate synth")
-    return Path(os.environ["FELTGATE_PROGRAM"]).with_name(name)
-
-
-def package_for(root, design, scenes, folder):
-    """The package of DESIGN cut down to SCENES; made by the program as a user would."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{design}_cut.toml"
-    for command in (
-        [program("feltgate"), "design", design, "--for", *scenes, "-o", path],
-        [program("feltgate_generate"), root, "--design", path, "--output", folder],
-    ):
-        done = interrupts.run(command, **interrupts.CAPTURED)
-        if done.returncode:
-            raise ToolError(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
-    return folder / "feltgate_pkg.sv"
-
-
-def run_scene_sets(options, root):
-    """Figures of the core for each design and set of scenes, and the tools that made them."""
-    measured = {}
-    seeds = [] if options.no_route else [int(seed) for seed in options.seeds.split(",")]
-    target = synth_measure.scene_target(root)
-    with tempfile.TemporaryDirectory(prefix="feltgate-synth-") as temporary:
-        keep = Path(os.environ.get("FELTGATE_BUILD", temporary), "synth")
-        for design in options.design or ["lever"]:
-            measured[design] = {}
-            for index, names in enumerate(options.scenes):
-                scenes = names.split(",")
-                progress(f"{design} for {names} ({index + 1} of {len(options.scenes)})")
-                folder = keep / f"{design}_for_{'_'.join(scenes)}"
-                package = package_for(root, design, scenes, folder / "design")
-                tools = Tools(folder)
-                figures = synth_measure.measure(tools, root, package, target, seeds)
-                measured[design][", ".join(scenes)] = figures
-            progress("")
-            print(synth_report.text_table(design, measured[design]))
-            print()
-    return measured, {"yosys": version(tools.yosys), "nextpnr": version(tools.nextpnr)}
-
-
-def main_scene_sets(options, root):
-    measured, tools = run_scene_sets(options, root)
-    if options.json:
-        result = {"schema": SCHEMA, "tools": tools, "scene_sets": measured}
-        outputs.write_json(options.json, result)
-    if options.update:
-        update(root, synth_budget.merge_scene_sets, measured, tools)
-    return 0
-
-
-def update(root, merge, measured, tools):
+def update(root, measured, tools):
     """The budget, with what was measured."""
     path = root / synth_budget.FILE
-    synth_budget.write(path, merge(synth_budget.read(path), measured, tools))
+    synth_budget.write(path, synth_budget.merge(synth_budget.read(path), measured, tools))
     print(f"synth: wrote {synth_budget.FILE}")
 
 
 def measure(options, root):
     designs = options.design or ["lever", "paper"]
-    check_designs(root, designs)
     rows = chosen(root, options.block)
     seeds = [int(seed) for seed in options.seeds.split(",")]
     keep = os.environ.get("FELTGATE_BUILD")
     measured = {}
     with tempfile.TemporaryDirectory(prefix="feltgate-synth-") as temporary:
-        for design in designs:
+        for given in designs:
+            design = Path(given).stem
             folder = Path(keep or temporary, "synth", design)
             folder.mkdir(parents=True, exist_ok=True)
-            tools = Tools(folder)
+            tools, package = Tools(folder), package_of(root, given, folder / "design")
             if options.no_route or tools.nextpnr is None:
                 if not options.no_route:
                     print("synth: no nextpnr-ecp5, so no speed", file=sys.stderr)
@@ -171,8 +104,7 @@ def measure(options, root):
             measured[design] = {}
             for index, row in enumerate(rows):
                 progress(f"{design}: {row.name} ({index + 1} of {len(rows)})")
-                figures = synth_measure.measure(tools, root, design, row, seeds)
-                measured[design][row.name] = figures
+                measured[design][row.name] = synth_measure.measure(tools, root, package, row, seeds)
             progress("")
             print(synth_report.text_table(design, measured[design], options.block or ()))
             print()
@@ -183,8 +115,6 @@ def measure(options, root):
 def run(options):
     """The exit code."""
     root = command_line.root()
-    if options.scenes:
-        return main_scene_sets(options, root)
     fine = True
     if options.board:
         measured, tools, fine = synth_board.run(options, root, progress)
@@ -194,10 +124,10 @@ def run(options):
         result = {"schema": SCHEMA, "tools": tools, "designs": measured}
         outputs.write_json(options.json, result)
     if options.update:
-        update(root, synth_budget.merge, measured, tools)
+        update(root, measured, tools)
         return 0
     budget = synth_budget.read(root / synth_budget.FILE)
-    if options.board:  # one's own design has no budget
+    if options.board or not measured.keys() <= budget["figures"].keys():  # one's own design has no budget
         measured = synth_budget.known(budget, measured)
     grown = synth_budget.compare(budget, measured, tools)
     if any(measured.values()):

@@ -30,14 +30,6 @@ def stamp(tools):
     return {"date": datetime.date.today().isoformat(), "machine": machine, **tools}
 
 
-def merge_scene_sets(budget, measured, tools):
-    """The budget with the measured scene sets, {design: {set: row}}, replaced."""
-    sets = {design: dict(rows) for design, rows in budget["scene_sets"].items()}
-    for design, rows in measured.items():
-        sets.setdefault(design, {}).update(rows)
-    return budget | {"scene_sets": sets, "scene_sets_measured": stamp(tools)}
-
-
 def merge(budget, measured, tools):
     """The budget with the measured rows replaced; a row keeps the figures not measured now."""
     figures = {design: dict(rows) for design, rows in budget["figures"].items()}

@@ -12,16 +12,15 @@ file(WRITE "${FELTGATE_COVERAGE_PROGRAMS}" "")
 # <test> with a model of the block that counts, and the cover points of all that it is made of.
 function(feltgate_cover_program test block sources)
   cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "LIBRARIES;PARAMS")
+  set(folder "${FELTGATE_ROOT}/testbench/campaigns/coverage")
   set(points "")
   foreach(source IN LISTS sources)
     get_filename_component(name "${source}" NAME_WE)
-    if(EXISTS "${FELTGATE_ROOT}/testbench/campaigns/coverage/${name}_cover.sv")
-      list(APPEND points "${FELTGATE_ROOT}/testbench/campaigns/coverage/${name}_cover.sv")
-    endif()
+    list(APPEND points -DCOVER_${name})
   endforeach()
   # A cover point samples a reset that its block takes between the clocks, and looks at some bits of a signal.
-  feltgate_verilate(${test}_cover_rtl ${block} "${FELTGATE_ROOT}/testbench/campaigns/coverage/coverage.vlt;${sources};${points}" COVERAGE
-    --flatten -Wno-SYNCASYNCNET -Wno-UNUSEDSIGNAL ${arg_PARAMS})
+  feltgate_verilate(${test}_cover_rtl ${block} "${folder}/coverage.vlt;${sources};${folder}/points_chain.sv;${folder}/points_core.sv" COVERAGE
+    ${points} --flatten -Wno-SYNCASYNCNET -Wno-UNUSEDSIGNAL ${arg_PARAMS})
   target_compile_options(${test}_cover_rtl PRIVATE -O1)
   add_executable(${test}_cover EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${test}_object>)
   target_link_libraries(${test}_cover PRIVATE feltgate_catch_main ${arg_LIBRARIES} ${test}_cover_rtl)

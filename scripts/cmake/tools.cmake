@@ -129,7 +129,7 @@ feltgate_library(feltgate_shape studies/shape feltgate_law Boost::headers)
 target_compile_options(feltgate_shape PRIVATE -O1)
 # Height fields from images.
 find_package(PNG REQUIRED)
-feltgate_library(feltgate_texture studies/texture feltgate_shape PNG::PNG)
+feltgate_library(feltgate_texture studies/texture feltgate_law PNG::PNG)
 
 # Meshes under the pen: docs/touch.md. Linked by name, as SystemC is: only who builds them needs TinyGLTF and
 # meshoptimizer.

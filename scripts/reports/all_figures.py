@@ -3,37 +3,35 @@
 """All figures of the paper that are redrawn, for figures.py and demo.py."""
 
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 
-from reports import calibrations, scene_figures, step_figure
+from reports import paper_pictures, scene_figures, step_figures
 
 
 def jobs(designs, quick=False):
     """What the figures need. Quick: of the objects on paper only the one that shows its border."""
-    chosen = calibrations.jobs() + step_figure.jobs(designs)
-    chosen += scene_figures.jobs(designs, quick)
-    return [job for job in chosen if job.arguments[job.arguments.index("--design") + 1] in designs]
+    chosen = step_figures.jobs(designs) + scene_figures.jobs(designs, quick)
+    return [job for job in chosen if job.design in designs]
 
 
 def draw_one(number, runs, designs, png):
+    def find(job):
+        return runs.get(job.name)
+
     if number == 7:
-        return calibrations.figure_7(runs, png)
-    if number == 10:
-        return calibrations.figure_10(runs, png)
-    if number == 11:
-        return step_figure.figure_11(runs, designs, png)
-    spec = next(s for s in scene_figures.SPECS if s.number == number)
-    return scene_figures.figure(spec, runs, designs, png)
-
-
-NUMBERS = (7, 10, 11, *(spec.number for spec in scene_figures.SPECS))
-
-
-def start(pool, runs, designs, png=False):
-    """Figures that the pool draws, in the paper's order, from the runs that came to an end."""
-    there = {name: run for name, run in runs.items() if run.ran}
-    return [pool.submit(draw_one, number, there, designs, png) for number in NUMBERS]
+        figure = step_figures.figure_7(find)
+    elif number == 10:
+        figure = step_figures.figure_10(find)
+    elif number == 11:
+        figure = step_figures.figure_11(find, designs)
+    else:
+        figure = scene_figures.figure(number, find, designs)
+    figure.pictures.append(paper_pictures.draw(number, find, png))
+    return figure
 
 
 def draw(runs, designs, png=False):
+    """Figures in the paper's order, from the runs that came to an end."""
+    there = {name: run for name, run in runs.items() if run.ran}
     with ProcessPoolExecutor() as pool:
-        return [done.result() for done in start(pool, runs, designs, png)]
+        return list(pool.map(partial(draw_one, runs=there, designs=designs, png=png), paper_pictures.NUMBERS))

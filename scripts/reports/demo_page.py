@@ -9,7 +9,7 @@ Documentation: docs/figures.md
 import os
 import platform
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from reports import demo_tables, headline, observer_section, page, recordings, run_pictures
@@ -43,20 +43,11 @@ class Demo:
     where: Path = None
     own: bool = False
     took_s: float = 0.0
-    so_far: str = ""  # of a page that is written while the runs go on
 
     @property
     def shown(self):
         """Runs that have a place on the page."""
         return self.scenes + self.devices + self.replays
-
-    def part(self, ended, drawn, **more):
-        """The same of some runs, which have ended and are drawn."""
-        lists = {
-            kind: [name for name in getattr(self, kind) if name in drawn]
-            for kind in ("scenes", "devices", "replays")
-        }
-        return replace(self, runs=ended, drawn=drawn, **lists, **more)
 
     @property
     def clocks(self):
@@ -74,15 +65,6 @@ class Demo:
     @property
     def mismatches(self):
         return sum(run.mismatches for run in self.runs.values())
-
-
-def contents(demo):
-    links = [page.link("scenes", "scenes")]
-    links += [page.link("axes", "several axes")] if demo.devices else []
-    links += [page.link("recordings", "recordings")]
-    links += [page.link(f.name(), f"figure {f.number}") for f in demo.figures]
-    links.append(page.link("runs", "each run"))
-    return f"<p>{' · '.join(links)}</p>"
 
 
 def headlines(demo):
@@ -145,7 +127,6 @@ def tables(demo):
         "sampled counts; speed is simulated seconds per second spent in a back-end. Everything is "
         "simulation: nothing ran on a board."
     )
-    text += contents(demo)
     text += page.folded(
         "scenes",
         f"Scenes: {many(len(scenes), 'run')} in closed loop, {mismatches(scenes)}, "
@@ -178,7 +159,7 @@ def mismatches(there):
 
 
 def runs_section(demo):
-    parts, lines = [], []
+    parts = []
     for name in demo.shown:
         run = demo.runs[name]
         if not run.ran or name in CARDS:
@@ -186,11 +167,9 @@ def runs_section(demo):
         if run.of_axes:
             text = page.bullets(run_section.axes_facts(run.summary)) + page.pictures(demo.drawn[name])
             parts.append(page.folded(name, title(run), text))
-        elif run_section.room(run.summary) == "line":
-            lines.append(page.line(name, f"{title(run)}: {run_section.in_a_line(run.summary)}"))
         else:
             parts.append(page.folded(name, title(run), run_section.inside(run.summary, demo.drawn[name])))
-    return page.section("runs", "Each run", "\n".join(parts + lines))
+    return page.section("runs", "Each run", "\n".join(parts))
 
 
 def document(demo):
@@ -204,10 +183,7 @@ def document(demo):
         "A DSP core that lets a hand feel things that are not there, tried in simulation: its "
         "SystemVerilog runs beside its bit-exact C++ twin, every output compared in every clock."
     )
-    if demo.so_far:
-        body += page.paragraph(demo.so_far)
-    if demo.wrong or not demo.so_far:
-        body += page.verdict(demo.wrong, good)
+    body += page.verdict(demo.wrong, good)
     body += headlines(demo) + cards(demo)
     body += page.section("tables", "All runs", tables(demo))
     if demo.figures:
@@ -215,9 +191,8 @@ def document(demo):
             "figures",
             "The paper's figures, redrawn from RTL",
             page.paragraph(
-                "Broad pale blue is the RTL, thin dark red the same chain in 113-bit floating "
-                "point, dashed black the ideal, green the modelled motor. Design paper has the "
-                "published numbers, lever those of the motor that is really there."
+                "Blue is the torque that paper observes, purple its motor's, green that of lever's motor, dashed "
+                "the ideal. Design paper has the published numbers, lever those of the motor that is really there."
             ),
         )
         body += "".join(figure.html() for figure in demo.figures)

@@ -2,7 +2,6 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """A self-contained HTML page: no network, readable on a phone, in the dark and in print."""
 
-import json
 from html import escape
 from pathlib import Path
 
@@ -30,12 +29,6 @@ def document(title, body):
     )
 
 
-def embedded(value):
-    """JSON for a script element: no text in it can end the element."""
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-
-
 def paragraph(text, soft=False):
     return f'<p{" class=soft" if soft else ""}>{escape(text)}</p>'
 
@@ -59,13 +52,8 @@ def good_or_bad(count):
     return mark(count == 0, f"{count:,}")
 
 
-def breakable(text):
-    """Text of a narrow column: a file's long name may go on in the next line after a _."""
-    return escape(text).replace("_", "_<wbr>")
-
-
 def link(target, text):
-    return Cell(f'<a href="#{escape(target, quote=True)}">{breakable(text)}</a>')
+    return Cell(f'<a href="#{escape(target, quote=True)}">{escape(text)}</a>')
 
 
 def table(head, rows, words=()):
@@ -75,8 +63,7 @@ def table(head, rows, words=()):
 
     def cells(row, tag):
         for i, value in enumerate(row):
-            text = breakable if tag == "td" and i in words else escape
-            inner = value if isinstance(value, Cell) else text(str(value))
+            inner = value if isinstance(value, Cell) else escape(str(value))
             yield f"<{tag}{' class=words' if i in words else ''}>{inner}</{tag}>"
 
     lines = ["<tr>" + "".join(cells(head, "th")) + "</tr>"]
@@ -112,11 +99,6 @@ def fold(summary, inside):
 def folded(anchor, summary, inside):
     """The same, as a place that a link leads to."""
     return f'<section id="{escape(anchor, quote=True)}">{fold(summary, inside)}</section>'
-
-
-def line(anchor, text):
-    """What needs no more room than a line, as a place that a link leads to."""
-    return f'<p class="line" id="{escape(anchor, quote=True)}">{escape(text)}</p>'
 
 
 def section(anchor, title, inside):

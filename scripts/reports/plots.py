@@ -15,7 +15,6 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import command_line
 import interrupts
 import matplotlib
 import numpy as np
@@ -173,11 +172,6 @@ def legend(axes, columns=None):
     )
 
 
-def sentence(text):
-    """With a capital at the start, the rest as it is."""
-    return text[:1].upper() + text[1:]
-
-
 def at_least(axes, span):
     """Opens the y axis to `span`, so that noise of one bit does not fill it."""
     low, high = axes.get_ylim()
@@ -186,14 +180,12 @@ def at_least(axes, span):
         axes.set_ylim(middle - span / 2, middle + span / 2)
 
 
-def main(what, command, schemas, draw, **flags):
+def main(what, command, schemas, draw):
     """The exit code of a script that draws the JSON of feltgate COMMAND: draw(data, options), if it has one
     of these schemas; 2 and a line that names the file where it cannot be read, drawn or written."""
     parser = argparse.ArgumentParser(description=what.splitlines()[0])
     parser.add_argument("json", type=Path, help=f"what feltgate {command} --json wrote")
-    to = "; with --each a folder" if flags else ""
-    parser.add_argument("svg", type=Path, help=f"picture to be written{to}")
-    command_line.add_flags(parser, **flags)
+    parser.add_argument("to", type=Path, help="picture, or folder of pictures, to be written")
     options = parser.parse_args()
     interrupts.end_on_signals()
     try:

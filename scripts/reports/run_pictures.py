@@ -7,19 +7,10 @@ import re
 import numpy as np
 
 from reports import plots
-from reports.run_section import ENGINE_NAMES, closed_loop, room
-from reports.runs import design
+from reports.run_section import ENGINE_NAMES, closed_loop
 
 QUAD = {"linewidth": 0.6, "alpha": 0.5}  # lets the RTL through where both swing too fast
 FELT_S = 1e-3  # as in model/sim/loop/felt.hpp
-
-
-def lsb(design_name, signal):
-    """Unit of the last place of a signal of a design, in its SI unit."""
-    try:
-        return 2.0 ** -design(design_name)["formats"][signal][2]
-    except (OSError, KeyError):
-        return {"velocity": 2.0**-21, "torque": 2.0**-16, "current": 2.0**-16}[signal]
 
 
 def time_axis(t):
@@ -93,42 +84,6 @@ def torque_picture(name, summary, csv):
     return plots.finish(figure, f"{name}-torque")
 
 
-DIFFERENCES = (  # signal of the formats, column, unit, name
-    ("velocity", "velocity_rad_s", "rad/s", "velocity"),
-    ("torque", "tau_hat_nm", "Nm", "observed\ntorque"),
-    ("current", "current_a", "A", "current"),
-)
-
-
-def differs(summary, csv):
-    """Whether there is anything to compare with, and it says something."""
-    found = [exact(summary, csv, column) for _, column, *_ in DIFFERENCES]
-    return any(values is not None and np.any(values) for values in found)
-
-
-def difference_picture(name, summary, csv):
-    """Lead, and binary32 where it ran, minus the reference on the same counts, in last places."""
-    time, label = time_axis(csv["time_s"])
-    title = f"{lead(summary)} minus {summary['reference']} reference, in units of the last place"
-    figure, axes = plots.stacked(title, [0.9] * 3)
-    for axis, (signal, column, si, words) in zip(axes, DIFFERENCES, strict=True):
-        unit, reference = lsb(summary["design"], signal), exact(summary, csv, column)
-        single = csv.get(f"float_{column}")
-        ours = {"linewidth": 0.7, "color": "#2f7fb8"}
-        plots.draw(axis, time, (csv[column] - reference) / unit, "rtl", lead(summary), **ours)
-        if single is not None:
-            error = (single - reference) / unit
-            plots.draw(axis, time, error, "paper", "float", linewidth=0.6, linestyle="-")
-        axis.set_ylabel(words)
-        plots.at_least(axis, 2.0)
-        place = f"1 = 2^{round(np.log2(unit))} {si}"
-        axis.set_title(place, loc="left", fontsize=7.5, color="#5a6570")
-    if "float_velocity_rad_s" in csv:
-        plots.legend(axes[0])
-    axes[-1].set_xlabel(label)
-    return plots.finish(figure, f"{name}-difference")
-
-
 def felt_rows(csv):
     """(position, hand's torque, torque asked for) of each FELT_S of a run: a hand does not feel
     apart what is shorter. Rows that lie further apart are taken as they are."""
@@ -196,16 +151,10 @@ def axes_pictures(name, csv):
 
 
 def pictures(name, summary, csv):
-    """As many as the run has to show: of a recording of few steps none."""
-    if room(summary) == "line":
-        return []
+    """As many as the run has to show."""
     drawn = [motion_picture(name, summary, csv)]
-    if room(summary) == "picture":
-        return drawn
     if any(np.any(csv[column]) for column in ("tau_ref_nm", "tau_hat_nm", "current_a")):
         drawn.append(torque_picture(name, summary, csv))
     if closed_loop(summary) and np.ptp(csv["theta_rad"]) > 0.02:
         drawn.append(loop_picture(name, csv))
-    if differs(summary, csv):
-        drawn.append(difference_picture(name, summary, csv))
     return drawn

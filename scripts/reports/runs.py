@@ -8,10 +8,7 @@ Documentation: docs/json.md, docs/figures.md
 import json
 import os
 import subprocess
-import threading
-import time
 import tomllib
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import islice
@@ -20,10 +17,10 @@ from pathlib import Path
 import interrupts
 import numpy as np
 from crew import Crew
+from reports.progress import Steps
 
 ROOT = Path(os.environ.get("FELTGATE_ROOT", Path(__file__).resolve().parents[2]))
 SCENES = ROOT / "vectors" / "scenes"
-FIRST_PROGRAM = "feltgate_run"  # has the design lever alone, and is built before the others
 ENGINE_DESIGN = "lever_law"  # has an engine for laws, and a program of its own
 
 
@@ -45,7 +42,7 @@ def program_path(design=""):
     if path.name == "feltgate" and design in presets():
         return path.with_name(f"feltgate_{design}")
     if path.name == "feltgate" and design == "lever":
-        small = path.with_name(FIRST_PROGRAM)
+        small = path.with_name("feltgate_run")
         return small if os.access(small, os.X_OK) else path
     return path
 
@@ -145,7 +142,6 @@ class Run:
     complaint: str = ""
     summary: dict = field(default_factory=dict)
     csv_path: Path = None
-    took_s: float = 0.0
 
     @cached_property
     def csv(self):
@@ -197,7 +193,6 @@ def start(job, folder, crew):
     engines = () if "--engine" in job.arguments else ("--engine", "all")
     command = [str(program(job.design)), *job.arguments, *engines, "--quiet"]
     command += ["--json", str(json_path), "--csv", str(csv_path), "--every", str(job.every)]
-    began = time.monotonic()
     quiet = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL}
     try:
         done = crew.run(command, stderr=subprocess.PIPE, **quiet)
@@ -208,7 +203,7 @@ def start(job, folder, crew):
     if interrupts.ending_signal(done.returncode):
         complaint = interrupts.how_it_ended(done.returncode)
     run = Run(job, done.returncode, complaint)
-    run.took_s, run.csv_path = time.monotonic() - began, csv_path
+    run.csv_path = csv_path
     if done.returncode in (0, 1) and json_path.exists() and csv_path.exists():
         try:
             run.summary = json.loads(json_path.read_text(encoding="utf-8"))
@@ -219,61 +214,29 @@ def start(job, folder, crew):
     return run
 
 
-class Queue:
-    """Jobs in the order in which they are to start; `ready(job)` says whether one can."""
-
-    POLL_S = 0.2
-
-    def __init__(self, jobs, ready):
-        self.jobs, self.ready = list(jobs), ready
-        self.lock = threading.Lock()
-
-    def next(self):
-        """The first that can start, waited for; None where none is left."""
-        while True:
-            with self.lock:
-                job = next((job for job in self.jobs if self.ready(job)), None)
-                if job is not None:
-                    self.jobs.remove(job)
-                if job is not None or not self.jobs:
-                    return job
-            time.sleep(self.POLL_S)
-
-    def clear(self):
-        with self.lock:
-            self.jobs.clear()
+def describe(run):
+    """A few words on how a run went."""
+    if not run.ran:
+        return f"did not run: {run.complaint}"
+    broken = len(run.summary.get("expectations", {}).get("broken", []))
+    return f"{run.mismatches} mismatches{f', {broken} broken expectations' if broken else ''}"
 
 
-def run_all(jobs, folder, progress, workers=None, *, first=(), ready=None, ended=None):
-    """{name: Run} of all jobs: those named in `first`, then the longest, on every core. `progress`
-    is told of each. `ready(job)` says whether its program is built, where that is going on;
-    `ended(run)` is called as each ends.
+def run_all(command, jobs, folder, workers=None):
+    """{name: Run} of all jobs, the longest first, on every core, with a line of progress of the command.
 
     An interrupt ends the programs that were started here, and no others.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    if ready is None:
-        for design in {"", *(job.design for job in jobs)}:
-            program(design)  # complain once, not once per job
-    order = sorted(jobs, key=lambda job: (job.name not in first, -job.seconds))
-    crew, runs, queue = Crew(), {}, Queue(order, ready or (lambda job: True))
+    for design in {"", *(job.design for job in jobs)}:
+        program(design)  # complain once, not once per job
+    crew, found = Crew(), {}
+    with Steps(command, sum(job.seconds for job in jobs)) as progress:
 
-    def work():
-        while (job := queue.next()) is not None:
-            progress.begin(job)
-            run = start(job, folder, crew)
-            progress.end(job, run)
-            runs[job.name] = run
-            if ended:
-                ended(run)
+        def done(job, run):
+            found[job.name] = run
+            progress.step(f"{job.name}: {describe(run)}", progress.done + job.seconds)
 
-    workers = workers or os.cpu_count() or 1
-    with ThreadPoolExecutor(workers) as pool:
-        try:
-            for done in as_completed([pool.submit(work) for _ in range(workers)]):
-                done.result()
-        except BaseException:
-            queue.clear()
-            crew.end()
-            raise
-    return {job.name: runs.get(job.name) or Run(job, -1, "interrupted") for job in jobs}
+        order = sorted(jobs, key=lambda job: -job.seconds)
+        crew.each(lambda job: start(job, folder, crew), order, workers or os.cpu_count(), done)
+    return {job.name: found[job.name] for job in jobs}

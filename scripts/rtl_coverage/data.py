@@ -18,7 +18,7 @@ LINE = re.compile(r"^C '(.*)' (\d+)$")
 PAGES = {"line": "line", "branch": "branch", "toggle": "toggle", "user": "cover"}
 KINDS = tuple(PAGES.values())
 NEEDED = {"toggle": 2}  # a bit must come back, or rise in two models; of all else once is enough
-POINTS = "_cover"  # testbench/campaigns/coverage/BLOCK_cover.sv has the cover points of BLOCK
+POINTS = "testbench/campaigns/coverage/points_"  # the files of modules BLOCK_cover
 
 
 class DataError(Refused):
@@ -60,14 +60,15 @@ def generated_index(hierarchy):
 
 def point_of(root, entry):
     """None for what is not asked for: the cover points' own lines and bits."""
-    kind = PAGES.get(entry.get("page", "").removeprefix("v_").partition("/")[0])
+    page, _, module = entry.get("page", "").removeprefix("v_").partition("/")
+    kind = PAGES.get(page)
     path = Path(entry["f"])
     file = str(path.relative_to(root)) if path.is_relative_to(root) else str(path)
-    is_points = path.stem.endswith(POINTS)
+    is_points = file.startswith(POINTS)
     if kind is None or is_points != (kind == "cover"):
         return None
     name = entry["o"] + (generated_index(entry["h"]) if is_points else "")
-    block = rtl_sources.measured_as(path.stem.removesuffix(POINTS))
+    block = rtl_sources.measured_as(module.partition("_cover")[0] if is_points else path.stem)
     return Point(block, kind, file, int(entry["l"]), int(entry["n"]), name)
 
 

@@ -200,9 +200,7 @@ void add_law(CLI::App& app, int* exit_code) {
   sub->add_option("law", a->law, "name in rtl/laws, or the path of a law file")
       ->required()
       ->type_name("LAW");
-  sub->add_option("--design", a->design, "design point in rtl/designs")
-      ->type_name("DESIGN")
-      ->capture_default_str();
+  add_design(*sub, &a->design);
   sub->add_flag("--listing", a->listing, "every instruction: format, range and error");
   sub->add_option("-o,--output", a->out, "the image that an engine runs")->type_name("FILE");
   sub->add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");

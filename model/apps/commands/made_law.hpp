@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Common parts of the commands that make a law from a drawing or an image. Documentation:
-// docs/devices/shapes.md, docs/devices/shapes.md
+// Common parts of the commands that make a law from a drawing or an image.
+// Documentation: docs/devices/shapes.md
 #pragma once
 
 #include <fmt/format.h>
@@ -14,6 +14,11 @@
 #include <string>
 
 #include "apps/commands/commands.hpp"
+#include "apps/commands/law_target.hpp"
+#include "files/output_file.hpp"
+#include "law/compile.hpp"
+#include "law/listing.hpp"
+#include "law/measure.hpp"
 #include "law/verdict.hpp"
 
 namespace feltgate {
@@ -22,6 +27,18 @@ namespace feltgate {
 inline int end_of(const law::Verdict& verdict) {
   for (const std::string& f : verdict.failures) fmt::print(stderr, "feltgate: failed: {}\n", f);
   return verdict.failures.empty() ? exit_ok : exit_failed;
+}
+
+/// Compiles and measures the text of a law, writes it to `file` unless that is null, says `said`
+/// and the compiler's report. Returns the exit code.
+inline int make_law(const std::string& text, const std::string& name, const std::string& design,
+                    const std::string& said, files::OutputFile* file, files::Outputs* outputs) {
+  const law::Compiled c = law::compile_text(text, name, law_target(design));
+  const law::Measured m = law::measure(c, 1, 20000);
+  if (file != nullptr) file->write(text);
+  outputs->say(said + "\n" + law::report(c, m));
+  outputs->commit();
+  return end_of(law::verdict(c, m));
 }
 
 /// Returns make(); adds the name of the file to its errors.
@@ -54,6 +71,27 @@ inline CLI::Option* add_length(CLI::App& to, const std::string& name, double* va
       ->type_name("LENGTH")
       ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::UNIT_REQUIRED))
       ->check(finite());
+}
+
+/// Adds the options for the spring and the damper of a law.
+template <class Request>
+void add_spring(CLI::App& to, Request* request, double most_n_per_m, double most_ns_per_m) {
+  to.add_option("--stiffness", request->stiffness_n_per_m, "N/m at first; the host may change it")
+      ->type_name("N/m")
+      ->check(CLI::Range(0.0, most_n_per_m))
+      ->check(finite())
+      ->capture_default_str();
+  to.add_option("--damping", request->damping_ns_per_m, "N s/m, likewise")
+      ->type_name("N s/m")
+      ->check(CLI::Range(0.0, most_ns_per_m))
+      ->check(finite())
+      ->capture_default_str();
+}
+
+inline void add_design(CLI::App& to, std::string* design) {
+  to.add_option("--design", *design, "design point in rtl/designs")
+      ->type_name("DESIGN")
+      ->capture_default_str();
 }
 
 }  // namespace feltgate

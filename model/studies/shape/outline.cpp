@@ -16,6 +16,8 @@ namespace feltgate::shape {
 namespace {
 
 constexpr double shortest_m = 1e-6, kept_within_m = 0.1e-3;
+/// Reach of the pantograph's pen: distances from its motors.
+constexpr double nearest_m = 0.04, farthest_m = 0.19;
 
 /// Whether a-b and c-d have a point in common; touching counts.
 bool meet(Point a, Point b, Point c, Point d) {
@@ -28,79 +30,63 @@ bool meet(Point a, Point b, Point c, Point d) {
   return on(a, b, c, s1) || on(a, b, d, s2) || on(c, d, a, s3) || on(c, d, b, s4);
 }
 
-/// Keeps of `o` between first and last, both kept, what the line between them misses by more than
-/// the tolerance (Douglas and Peucker, The Canadian Cartographer 10, 1973).
-void keep(const Outline& o, std::size_t first, std::size_t last, std::vector<char>& kept) {
-  std::size_t farthest = first;
-  double most = kept_within_m;
-  const Point from = o[first], way = o[last % o.size()] - from;
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const Point to = o[i] - from;
+Outline::const_iterator farthest(const Outline& o, Point from) {
+  return std::max_element(o.begin(), o.end(),
+                          [&](Point a, Point b) { return length(a - from) < length(b - from); });
+}
+
+/// Adds to `kept` the corner at `first`, and those behind it up to `last` that the line between
+/// both misses by more than the tolerance (Douglas and Peucker, The Canadian Cartographer 10,
+/// 1973).
+void keep(const Outline& o, std::size_t first, std::size_t last, Outline* kept) {
+  const Point way = o[last] - o[first];
+  const auto away = [&](std::size_t i) {
+    const Point to = o[i] - o[first];
     const double share = dot(way, way) > 0 ? std::clamp(dot(to, way) / dot(way, way), 0.0, 1.0) : 0;
-    const double away = length(to - way * share);
-    if (away > most) {
-      most = away;
-      farthest = i;
-    }
-  }
-  if (farthest == first) return;
-  kept[farthest] = 1;
-  keep(o, first, farthest, kept);
-  keep(o, farthest, last, kept);
+    return length(to - way * share);
+  };
+  std::size_t most = first;
+  for (std::size_t i = first + 1; i < last; ++i) most = away(i) > away(most) ? i : most;
+  if (away(most) <= kept_within_m) return kept->push_back(o[first]);
+  keep(o, first, most, kept);
+  keep(o, most, last, kept);
 }
 
 /// The necessary corners: without the others the outline moves by at most `kept_within_m`.
-Outline simplified(const Outline& o) {
+Outline simplified(Outline o) {
   // Two corners far from each other are corners for certain.
-  const auto farthest_from = [&](Point p) {
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < o.size(); ++i) {
-      if (length(o[i] - p) > length(o[best] - p)) best = i;
-    }
-    return best;
-  };
-  const std::size_t start = farthest_from(o.front());
-  Outline turned(o.begin() + static_cast<std::ptrdiff_t>(start), o.end());
-  turned.insert(turned.end(), o.begin(), o.begin() + static_cast<std::ptrdiff_t>(start));
-  std::size_t middle = 0;
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    if (length(turned[i] - turned[0]) > length(turned[middle] - turned[0])) middle = i;
-  }
-  std::vector<char> kept(turned.size(), 0);
-  kept[0] = kept[middle] = 1;
-  keep(turned, 0, middle, kept);
-  keep(turned, middle, turned.size(), kept);
-  Outline result;
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    if (kept[i] != 0) result.push_back(turned[i]);
-  }
-  return result;
+  std::rotate(o.begin(), o.begin() + (farthest(o, o.front()) - o.cbegin()), o.end());
+  const auto middle = static_cast<std::size_t>(farthest(o, o.front()) - o.cbegin());
+  o.push_back(o.front());
+  Outline kept;
+  keep(o, 0, middle, &kept);
+  keep(o, middle, o.size() - 1, &kept);
+  return kept;
 }
 
 }  // namespace
 
 double length(Point a) { return std::hypot(a.x, a.y); }
 
-double doubled_area(const Outline& o) {
+double area(const Outline& o) {
   double sum = 0;
-  for (std::size_t i = 0; i < o.size(); ++i) sum += cross(o[i], o[(i + 1) % o.size()]);
+  for (std::size_t i = 0; i < o.size(); ++i) sum += cross(o[i], o[(i + 1) % o.size()]) / 2;
   return sum;
 }
 
 bool crosses_itself(const Outline& o) {
   const std::size_t n = o.size();
-  const auto left = [&](std::size_t i) { return std::min(o[i].x, o[(i + 1) % n].x); };
-  const auto right = [&](std::size_t i) { return std::max(o[i].x, o[(i + 1) % n].x); };
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
+  const auto end = [&](std::size_t i) { return o[(i + 1) % n]; };
+  std::vector<std::size_t> edges(n);  // by their left ends
+  std::iota(edges.begin(), edges.end(), std::size_t{0});
+  const auto left = [&](std::size_t i) { return std::min(o[i].x, end(i).x); };
+  std::sort(edges.begin(), edges.end(),
             [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = order[k];
-    for (std::size_t l = k + 1; l < n && left(order[l]) <= right(i); ++l) {
-      const std::size_t j = order[l];
-      if ((i + 1) % n == j || (j + 1) % n == i) continue;
-      if (meet(o[i], o[(i + 1) % n], o[j], o[(j + 1) % n])) return true;
+  for (auto e = edges.begin(); e != edges.end(); ++e) {
+    const double right = std::max(o[*e].x, end(*e).x);
+    for (auto f = e + 1; f != edges.end() && left(*f) <= right; ++f) {
+      const bool neighbours = (*e + 1) % n == *f || (*f + 1) % n == *e;
+      if (!neighbours && meet(o[*e], end(*e), o[*f], end(*f))) return true;
     }
   }
   return false;
@@ -129,18 +115,18 @@ Outline placed(const Outline& given, const Placing& p) {
     throw std::invalid_argument(
         "the path crosses or touches itself; unite it in a drawing program");
   }
-  if (flat || std::fabs(doubled_area(o)) < 1e-6 * p.size_m * p.size_m) {
+  if (flat || std::fabs(area(o)) < 5e-7 * p.size_m * p.size_m) {
     throw std::invalid_argument("the path has no area; draw an outline around something");
   }
   o = simplified(o);
-  if (doubled_area(o) < 0) std::reverse(o.begin(), o.end());
+  if (area(o) < 0) std::reverse(o.begin(), o.end());
   for (const Point& q : o) {
     const double from_motors = length(q);
-    if (q.y <= 0 || from_motors < p.nearest_m || from_motors > p.farthest_m) {
+    if (q.y <= 0 || from_motors < nearest_m || from_motors > farthest_m) {
       throw std::invalid_argument(
           fmt::format("({:.0f}, {:.0f}) mm is out of the pen's reach, {:.0f} to {:.0f} mm from the "
                       "motors; choose a smaller --size or another --centre",
-                      1e3 * q.x, 1e3 * q.y, 1e3 * p.nearest_m, 1e3 * p.farthest_m));
+                      1e3 * q.x, 1e3 * q.y, 1e3 * nearest_m, 1e3 * farthest_m));
     }
   }
   return o;

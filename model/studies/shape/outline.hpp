@@ -33,14 +33,9 @@ constexpr int most_commands = 2000, curve_steps = 24;
 /// for no outline or several, and for one that is open or has more than `most_commands` parts.
 Outline read_svg(const std::string& path);
 
-/// Reach of the pantograph's pen: distances from its motors.
-constexpr double nearest_pen_m = 0.04, farthest_pen_m = 0.19;
-
 struct Placing {
-  double size_m = 0.06;              ///< larger side of its bounding box
-  Point centre_m = {0.0, 0.12};      ///< centre of its bounding box
-  double nearest_m = nearest_pen_m;  ///< reach of the pen around the motors
-  double farthest_m = farthest_pen_m;
+  double size_m = 0.06;          ///< larger side of its bounding box
+  Point centre_m = {0.0, 0.12};  ///< centre of its bounding box
 };
 
 /// The outline, scaled and placed, counter-clockwise. Edges shorter than 1 um are removed, and so
@@ -48,10 +43,10 @@ struct Placing {
 /// "what; mend" when it crosses itself, has no area or is out of reach.
 Outline placed(const Outline& outline, const Placing& placing);
 
-/// Twice the area; positive for a counter-clockwise outline.
-double doubled_area(const Outline& outline);
+/// Positive for a counter-clockwise outline.
+double area(const Outline& outline);
 
-/// Whether two edges that are not neighbours meet.
+/// Whether two edges that are not neighbours meet; touching counts.
 bool crosses_itself(const Outline& outline);
 
 }  // namespace feltgate::shape

@@ -19,10 +19,8 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 #include <string_view>
-#include <vector>
 
 #include "studies/shape/outline.hpp"
 
@@ -46,12 +44,9 @@ struct TooMany {};
 class Collector {
  public:
   std::vector<Outline> outlines;
-  std::vector<int> of_element;  ///< the element of each, counted as they were entered
-  int entered = 0;              ///< elements so far
-  int open_in = 0;              ///< the element of the first outline that was not closed, or 0
+  bool open = false;  ///< one of them
 
   void on_enter_element(svgpp::tag::element::any) {
-    ++entered;
     commands_ = 0;
     matrices_.push_back(matrices_.back());
   }
@@ -83,12 +78,12 @@ class Collector {
   void path_cubic_bezier_to(double x1, double y1, double x2, double y2, double x, double y,
                             Absolute) {
     const Point p0 = at_, p1{x1, y1}, p2{x2, y2}, p3{x, y};
-    for (int i = 1; i <= curve_steps; ++i) {
+    for (int i = 1; i < curve_steps; ++i) {
       const double t = static_cast<double>(i) / curve_steps, u = 1 - t;
-      put(p0 * (u * u * u) + p1 * (3 * u * u * t) + p2 * (3 * u * t * t) + p3 * (t * t * t));
+      corners_.push_back(p0 * (u * u * u) + p1 * (3 * u * u * t) + p2 * (3 * u * t * t) +
+                         p3 * (t * t * t));
     }
-    at_ = p3;
-    count();
+    add(p3);
   }
   void path_close_subpath() {
     closed_ = true;
@@ -97,23 +92,17 @@ class Collector {
   void path_exit() { end(); }
 
  private:
-  void count() {
-    if (++commands_ > most_commands) throw TooMany{};
-  }
   void add(Point p) {
     at_ = p;
-    put(p);
-    count();
+    corners_.push_back(p);
+    if (++commands_ > most_commands) throw TooMany{};
   }
-  void put(Point p) { corners_.push_back(p); }
   /// An outline that ends where it began is closed too.
   void end() {
     if (corners_.size() > 2) {
       const Point gap = corners_.back() - corners_.front();
-      const bool closed = closed_ || std::hypot(gap.x, gap.y) < 1e-9;
-      if (!closed && open_in == 0) open_in = entered;
+      open |= !closed_ && std::hypot(gap.x, gap.y) >= 1e-9;
       outlines.push_back(corners_);
-      of_element.push_back(entered);
     }
     corners_.clear();
     closed_ = false;
@@ -164,41 +153,22 @@ std::size_t depth_of(const std::string& text) {
   return most;
 }
 
-/// The n-th element from 1 that the library enters, below the root; n counts down, null where there
-/// are fewer.
-const rapidxml_ns::xml_node<>* element(const rapidxml_ns::xml_node<>* first, int* n) {
-  static const std::set<std::string_view> names = {"svg",      "g",    "path",   "polygon",
-                                                   "polyline", "rect", "circle", "ellipse"};
-  for (const auto* node = first; node != nullptr; node = node->next_sibling()) {
-    if (names.count({node->local_name(), node->local_name_size()}) == 0) continue;
-    if (std::string_view(node->namespace_uri(), node->namespace_uri_size()) != kNamespace) continue;
-    if (--*n == 0) return node;
-    if (const auto* inside = element(node->first_node(), n)) return inside;
-  }
-  return nullptr;
-}
-
-std::string read(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in.good() && text.empty()) {
-    throw std::invalid_argument(path + ": cannot be read; check the path");
-  }
-  return text;
-}
-
 }  // namespace
 
 Outline read_svg(const std::string& path) {
-  const std::string text = read(path);
-  const auto refuse = [&](long line, std::string what) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.good() && text.empty()) {
+    throw std::invalid_argument(path + ": cannot be read; check the path");
+  }
+  const auto refuse = [&](std::string what, long line = 1) {
     // A message of the library may have bytes of the file in it.
     std::replace_if(
         what.begin(), what.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     throw std::invalid_argument(fmt::format("{}:{}: {}", path, line, what));
   };
   if (depth_of(text) > most_depth) {
-    refuse(1, fmt::format("elements in more than {} others; ungroup the drawing", most_depth));
+    refuse(fmt::format("elements in more than {} others; ungroup the drawing", most_depth));
   }
   std::vector<char> buffer(text.begin(), text.end());
   buffer.push_back('\0');
@@ -207,49 +177,34 @@ Outline read_svg(const std::string& path) {
   const auto line_at = [&](const char* place) {
     // Of a prefix without a namespace the library tells no place.
     const bool inside = place >= buffer.data() && place <= buffer.data() + text.size();
-    const auto before = inside ? place - buffer.data() : 0;
-    const std::string_view above(text.data(), static_cast<std::size_t>(before));
-    long line = 1;
-    for (std::size_t i = 0; i < above.size(); ++i) {
-      // CR LF is one end of a line, CR alone another.
-      line += above[i] == '\n' || (above[i] == '\r' && text[i + 1] != '\n') ? 1 : 0;
-    }
-    return line;
-  };
-  const auto line_of = [&](int entered) {
-    const rapidxml_ns::xml_node<>* root = document.first_node();
-    const auto* node = root == nullptr ? nullptr : element(root->first_node(), &entered);
-    return node == nullptr ? 1 : line_at(node->name());
+    return 1 +
+           (inside ? std::count(text.begin(), text.begin() + (place - buffer.data()), '\n') : 0);
   };
   try {
     document.parse<rapidxml_ns::parse_no_string_terminators>(buffer.data());
     const rapidxml_ns::xml_node<>* svg = document.first_node();
-    if (svg == nullptr) refuse(1, "no element; write an SVG file with one closed path");
+    if (svg == nullptr) refuse("no element; write an SVG file with one closed path");
     if (std::string_view(svg->namespace_uri(), svg->namespace_uri_size()) != kNamespace) {
-      refuse(line_at(svg->name()),
-             fmt::format("no SVG; write <svg xmlns=\"{}\"> around the path", kNamespace));
+      refuse(fmt::format("no SVG; write <svg xmlns=\"{}\"> around the path", kNamespace),
+             line_at(svg->name()));
     }
     Walk::load_document(svg, found);
   } catch (const rapidxml_ns::parse_error& e) {
-    refuse(line_at(e.where<char>()),
-           fmt::format("no whole XML: {}; save the drawing again", e.what()));
+    refuse(fmt::format("no whole XML: {}; save the drawing again", e.what()),
+           line_at(e.where<char>()));
   } catch (const TooMany&) {
-    refuse(line_of(found.entered),
-           fmt::format("a path of more than {} corners and curves; simplify it in a drawing "
-                       "program",
-                       most_commands));
+    refuse(
+        fmt::format("a path of more than {} corners and curves; simplify it in a drawing program",
+                    most_commands));
   } catch (const svgpp::exception_base& e) {
-    refuse(line_of(found.entered), fmt::format("{}; save the drawing as plain SVG", e.what()));
+    refuse(fmt::format("{}; save the drawing as plain SVG", e.what()));
   }
-  if (found.outlines.empty()) refuse(1, "no path; draw one closed outline");
+  if (found.outlines.empty()) refuse("no path; draw one closed outline");
   if (found.outlines.size() > 1) {
-    refuse(line_of(found.of_element[1]),
-           fmt::format("{} outlines; unite them to one, a hidden shape has no holes",
+    refuse(fmt::format("{} outlines; unite them to one, a hidden shape has no holes",
                        found.outlines.size()));
   }
-  if (found.open_in != 0) {
-    refuse(line_of(found.open_in), "the path is open; close it (z at its end)");
-  }
+  if (found.open) refuse("the path is open; close it (z at its end)");
   return found.outlines.front();
 }
 

@@ -4,8 +4,6 @@
 // Documentation: docs/devices/pantograph.md
 #include "studies/shape/rhombus.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -32,18 +30,6 @@ std::array<double, 2> crank_speeds(Point p, Point v) {
   const double c1 = std::cos(a), s1 = std::sin(a), c5 = std::cos(b), s5 = std::sin(b);
   const double determinant = link_m * (c1 * s5 - s1 * c5);
   return {(c5 * v.x + s5 * v.y) / determinant, -(c1 * v.x + s1 * v.y) / determinant};
-}
-
-std::string law_cranks() {
-  return fmt::format(
-      "let L = {:.9g} m\n"
-      "let s1 = sin(position[0])\nlet c1 = cos(position[0])\n"
-      "let s5 = sin(position[1])\nlet c5 = cos(position[1])\n",
-      link_m);
-}
-
-std::string law_torques() {
-  return "out torque[0] = L * (c1 * fy - s1 * fx)\nout torque[1] = L * (c5 * fy - s5 * fx)\n";
 }
 
 }  // namespace feltgate::shape

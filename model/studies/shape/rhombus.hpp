@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "studies/shape/outline.hpp"
 
@@ -23,10 +22,5 @@ Point force_at(Point pen_m, const std::array<double, 2>& torque_nm);
 
 /// Speeds of the two cranks, rad/s, for the pen at `pen_m` with this velocity, m/s.
 std::array<double, 2> crank_speeds(Point pen_m, Point velocity_m_s);
-
-/// The same as text of a law: link length L, and sines and cosines s1, c1, s5, c5 of the cranks;
-/// then the torques of the force fx, fy.
-std::string law_cranks();
-std::string law_torques();
 
 }  // namespace feltgate::shape

@@ -12,9 +12,11 @@
 
 namespace feltgate::shape {
 
-namespace {
-
 Point direction(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+
+Point direction(const Piece& p, double s) {
+  return direction(p.heading_rad + s * p.curvature_per_m);
+}
 
 Point place(const Piece& p, double s) {
   if (p.curvature_per_m == 0) return p.from + direction(p.heading_rad) * s;
@@ -22,10 +24,6 @@ Point place(const Piece& p, double s) {
   return {p.from.x + r * (std::sin(turned) - std::sin(p.heading_rad)),
           p.from.y - r * (std::cos(turned) - std::cos(p.heading_rad))};
 }
-
-double heading(const Piece& p, double s) { return p.heading_rad + s * p.curvature_per_m; }
-
-}  // namespace
 
 Curve rounded(const Outline& o, double radius_m) {
   const std::size_t n = o.size();
@@ -60,11 +58,6 @@ Curve rounded(const Outline& o, double radius_m) {
   return c;
 }
 
-Point end(const Piece& p) { return place(p, p.length_m); }
-Point end_heading(const Piece& p) { return direction(heading(p, p.length_m)); }
-
-double Polygon::edge_m(std::size_t i) const { return length(at[(i + 1) % size()] - at[i]); }
-
 Polygon sampled(const Curve& curve, int vertices) {
   double turning = 0;
   for (const Piece& p : curve.pieces) turning += p.length_m * std::fabs(p.curvature_per_m);
@@ -85,34 +78,9 @@ Polygon sampled(const Curve& curve, int vertices) {
     const Piece& p = curve.pieces[piece];
     const double s = p.length_m * std::min(1.0, (due - before) / weight(p));
     polygon.at.push_back(place(p, s));
-    polygon.along.push_back(direction(heading(p, s)));
+    polygon.along.push_back(direction(p, s));
   }
   return polygon;
-}
-
-Nearest nearest(const Curve& curve, Point q) {
-  Nearest best;
-  double least = INFINITY;
-  for (const Piece& p : curve.pieces) {
-    double s = 0;
-    if (p.curvature_per_m == 0) {
-      s = dot(q - p.from, direction(p.heading_rad));
-    } else {
-      // The direction from the arc's middle to q, as far as the arc goes.
-      const double r = 1 / p.curvature_per_m;
-      const Point normal = direction(p.heading_rad + std::acos(-1.0) / 2);
-      const Point middle = p.from + normal * r;
-      const Point a = p.from - middle, b = q - middle;
-      s = std::atan2(cross(a, b), dot(a, b)) * r;
-    }
-    s = std::clamp(s, 0.0, p.length_m);
-    const Point at = place(p, s);
-    if (length(q - at) < least) {
-      least = length(q - at);
-      best = {at, direction(heading(p, s))};
-    }
-  }
-  return best;
 }
 
 }  // namespace feltgate::shape

@@ -17,9 +17,11 @@ struct Piece {
   double curvature_per_m = 0;  ///< positive where it turns left, as around a convex corner
 };
 
-/// The end of a piece, with its direction there.
-Point end(const Piece& piece);
-Point end_heading(const Piece& piece);
+/// A unit vector.
+Point direction(double heading_rad);
+/// The place and the direction at a distance s from the piece's start.
+Point place(const Piece& piece, double s);
+Point direction(const Piece& piece, double s);
 
 /// A closed curve, counter-clockwise, without kinks.
 struct Curve {
@@ -34,18 +36,9 @@ Curve rounded(const Outline& outline, double radius_m);
 /// Vertices, and at each the direction of the curve, a unit vector.
 struct Polygon {
   std::vector<Point> at, along;
-  std::size_t size() const { return at.size(); }
-  /// Length of the edge from vertex i to the next.
-  double edge_m(std::size_t i) const;
 };
 
 /// Vertices on the curve, one half at equal distances along it and one half by how much it turns.
 Polygon sampled(const Curve& curve, int vertices);
-
-/// The place of the curve nearest to p, and the direction there; for comparisons.
-struct Nearest {
-  Point at, along;
-};
-Nearest nearest(const Curve& curve, Point p);
 
 }  // namespace feltgate::shape

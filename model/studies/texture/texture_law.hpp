@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Writes a height field as a law file: a row of an image for the pen of the pantograph, or a field
-// for three Cartesian axes. Documentation: docs/devices/shapes.md
+// Writes an image as a law file: a field of heights for a pen on three Cartesian axes.
+// Documentation: docs/devices/shapes.md
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "studies/texture/image.hpp"
 
@@ -21,31 +20,19 @@ struct LawRequest {
   std::string summary;  ///< first line of the file
   double texel_m = 1e-3, depth_m = 2e-3;
   double stiffness_n_per_m = 500, damping_ns_per_m = 0;
-  double surface_m = 0.08;  ///< height of black
   Normals normals = Normals::interpolated;
 };
 
-constexpr int most_row = 240, most_facets = 140, most_field = 16;
+/// Pixels along a side.
+constexpr int most_field = 16;
 /// Largest slope of a texture, depth, depth that the pen is felt in, and values of parameters.
 constexpr double most_slope = 2, most_depth_m = 10e-3, most_pen_m = 20e-3;
 constexpr double most_stiffness_n_per_m = 1000, most_damping_ns_per_m = 2;
-/// For a field: radius of the capstans that convert an angle to a distance.
+/// Radius of the capstans that convert an angle to a distance.
 constexpr double capstan_m = 10e-3;
-
-/// Heights of a row's pixels, as shares of the depth.
-std::vector<double> row_of(const Image& image, int row);
-
-/// Largest slope of a row, or of a field along either side, with these normals; in depths per
-/// texel.
-double steepest(const std::vector<double>& row, Normals normals);
-double steepest(const Image& field, Normals normals);
-
-/// The largest depth at which a texture of this steepness stays within `most_slope`.
-double deepest_m(double steepest, double texel_m);
 
 /// The text of the law (docs/laws.md), lines of at most 100 columns. Throws std::invalid_argument
 /// "what; mend" for too many pixels, all alike, or too steep.
-std::string row_law(const std::vector<double>& row, const LawRequest& request);
 std::string field_law(const Image& field, const LawRequest& request);
 
 }  // namespace feltgate::texture

@@ -48,17 +48,6 @@ class CommandLine(Bench):
                     said = (f"feltgate: {option}: {wrong} is not ", f"{accepted}; see feltgate ")
                     self.refused(*command.split(), f"{option}={value}", said=said)
 
-    def test_a_whole_number_may_be_a_power_of_ten(self):
-        self.put("a.csv", "time,A,B\n0.000,0,0\n0.001,1,0\n0.002,1,1\n0.003,1,1\n")
-        made = []
-        for rate in ("2000", "2e3", "2kHz"):
-            done = self.finished("import", "a.csv", f"{rate}.vec", "--sample-hz", rate)
-            self.assertEqual(done.returncode, 0, done.err)
-            made.append(self.path(f"{rate}.vec").read_text())
-        self.assertEqual(made, made[:1] * 3)
-        done = self.run_it("--every", "1e1", "--csv", "a_run.csv", "--quiet")
-        self.assertEqual(done.returncode, 0, done.err)
-
     def test_empty_words(self):
         for words in (("run", "short.toml", "--json", ""), ("figures", "-o", ""), ("replay", "")):
             with self.subTest(words):
@@ -101,13 +90,6 @@ class CommandLine(Bench):
         self.refused("replay", "--wrap", "log.csv", "--quiet", said=("put --wrap behind the file",))
         self.refused(*words, "--time-unit", "h", said=("--time-unit", "h"))
 
-    def test_abbreviations(self):
-        for command in ("figures", "synth", "demo"):
-            with self.subTest(command):
-                done = self.finished(command, "--desig", "lever")
-                self.assertEqual(done.returncode, 2, done.err)
-                self.assertIn("unrecognized arguments: --desig", done.err)
-
     def test_trim_ends_in_a_set_that_breaks_an_expectation(self):
         scene = (ROOT / "testbench/studies/trim/push.toml").read_text(encoding="utf-8")
         self.path("push.toml").write_text(scene + '[[expect]]\nfigure = "faults"\nlow = 1\n')
@@ -117,16 +99,6 @@ class CommandLine(Bench):
         self.assertEqual(done.returncode, 1, done.out)
         self.assertRegex(done.out, r"^trimmed, not as expected: .*faults")
         self.assert_only()
-
-    def test_how_long_trim_runs(self):
-        self.refused("trim", "wall", "--duration", "1e-9", said=("shorter than 10 windows",))
-        self.refused("trim", "wall", "--duration", "5", said=("the scene is over after",))
-
-    def test_settings(self):
-        for value in ("nan", "inf", "1e300", "", "x"):
-            with self.subTest(value):
-                word = f"voltage_gain={value}"
-                self.refused("run", "membrane", "--set", word, said=("voltage_gain",))
 
     def test_units(self):
         for words, said in (
@@ -160,13 +132,6 @@ class CommandLine(Bench):
         ):
             with self.subTest(words):
                 self.refused(*words, said=(said,))
-
-    def test_options_that_would_do_nothing(self):
-        self.refused(
-            "run", "membrane", "--every", "2", said=("--every thins out the rows of --csv",)
-        )
-        self.refused("replay", "x.vec", "--every", "2", said=("--every thins out the rows",))
-        self.refused("import", "x.vec", "a.vec", "-o", "b.vec", said=("two files to write",))
 
     def test_a_folder_is_no_scene(self):
         self.path("scenes.toml").mkdir()

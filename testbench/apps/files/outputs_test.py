@@ -11,7 +11,6 @@ import json
 import os
 import signal
 import stat
-import subprocess
 import threading
 import unittest
 
@@ -36,15 +35,6 @@ class Files(Bench):
         self.assertEqual(stat.S_IMODE(self.path("old.json").stat().st_mode), 0o640)
         self.assert_only("new.json", "old.json")
 
-    def test_the_mode_of_a_waveform_that_is_replaced(self):
-        self.path("old.fst").write_text("old")
-        self.path("old.fst").chmod(0o600)
-        done = self.finished("run", "short.toml", "--engine", "rtl", "--fst", "old.fst", "--quiet")
-        self.assertEqual((done.out, done.err), ("", ""))
-        self.assertEqual(stat.S_IMODE(self.path("old.fst").stat().st_mode), 0o600)
-        self.assertGreater(self.path("old.fst").stat().st_size, 1000)
-        self.assert_only("old.fst")
-
     def test_a_symbolic_link_stays_and_its_target_is_replaced(self):
         self.path("there").mkdir()
         self.path("there/target.csv").write_text("old")
@@ -62,11 +52,6 @@ class Files(Bench):
         self.assertTrue(self.path("target.json").is_file())
         self.assert_only("link.json", "target.json")
 
-    def test_a_name_as_long_as_a_name_may_be(self):
-        name = "n" * 250 + ".json"
-        self.assertEqual(self.run_it("--json", name).returncode, 0)
-        self.assert_only(name)
-
     def test_every_output_of_a_run_at_once(self):
         words = ("--json", "a.json", "--csv", "a.csv", "--fst", "a.fst", "--record", "a.vec")
         self.assertEqual(self.finished("run", "short.toml", *words).returncode, 0)
@@ -83,22 +68,6 @@ class InPlace(Bench):
                 self.assertEqual(json.loads(done.out)["scene"], "short")
                 self.assertIn("scene short", done.err)
                 self.assert_only()
-
-    def test_stdout_into_a_file(self):
-        with self.path("out.json").open("wb") as out:
-            out.write(b"[\n")
-            out.flush()
-            self.assertEqual(self.run_it("--json", "/dev/stdout", stdout=out).returncode, 0)
-        self.assertEqual(json.loads(self.path("out.json").read_text() + "]")[0]["scene"], "short")
-
-    def test_devices_stay_devices(self):
-        before = os.stat("/dev/null")
-        self.assertEqual(self.run_it("--json", "/dev/null", "--csv", "/dev/null").returncode, 0)
-        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
-        self.assertEqual(os.stat("/dev/null").st_ino, before.st_ino)
-        self.path("null").symlink_to("/dev/null")
-        self.assertEqual(self.run_it("--json", "null").returncode, 0)
-        self.assert_only("null")
 
     def test_a_full_disk_is_told_and_costs_no_other_output(self):
         for option, other in (("--json", "--csv"), ("--csv", "--json"), ("--record", "--json")):
@@ -126,21 +95,6 @@ class InPlace(Bench):
         self.given.add("told")
         self.assert_only("fifo")
 
-    def test_process_substitution(self):
-        script = "exec 3> >(cat >told; touch whole); "
-        script += '"$0" run short.toml --engine twin --json /dev/fd/3'
-        script += '; status=$?; exec 3>&-; until [[ -e whole ]]; do :; done; exit "$status"'
-        self.ended(ran("bash", "-c", script, *self.words(), cwd=self.folder))
-        self.assertEqual(json.loads(self.path("told").read_text())["scene"], "short")
-
-    def test_a_report_of_what_went_to_stdout(self):
-        done = self.run_it("--json", "-", "--report", "out")
-        self.assertEqual(done.returncode, 0, done.err)
-        self.assertEqual(json.loads(done.out)["scene"], "short")
-        names = {p.name for p in self.path("out").iterdir()}
-        self.assertEqual(names, {"short.json", "short.csv", "report.html"})
-
-
     def test_two_runs_into_one_folder(self):
         """The second one would replace what the first one said; at the same time or after it."""
         self.assertEqual(self.run_it("--report", "out").returncode, 0)
@@ -161,14 +115,6 @@ class InPlace(Bench):
         first.send_signal(signal.SIGINT)
         first.wait()
         self.assertFalse(self.path("new").exists())
-
-    def test_what_failed_is_the_last_line(self):
-        with open(self.path("all"), "wb") as both:
-            done = self.run_it("--csv", "/dev/full", stdout=both, stderr=subprocess.STDOUT)
-        self.assertEqual(done.returncode, 2)
-        lines = self.path("all").read_text().splitlines()
-        self.assertGreater(len(lines), 5)
-        self.assertIn("--csv /dev/full: could not be written whole", lines[-1])
 
 
 class Refused(Bench):
@@ -196,14 +142,6 @@ class Refused(Bench):
                     self.assert_refused(done, f"feltgate: {option} {path}: ", said)
         self.assertEqual(self.path("file").read_text(), "kept")
         self.assert_only("folder", "file", "round")
-
-    def test_folders_of_reports(self):
-        self.path("file").write_text("kept")
-        for path in ("file", "file/out", "/proc/out"):
-            with self.subTest(path):
-                self.assert_refused(self.run_it("--report", path), f"--report {path}: ")
-        self.assert_refused(self.run_it("--report", "new/deep", "--json", "no/x"), "--json no/x")
-        self.assert_only("file")
 
     def test_a_waveform_needs_a_file(self):
         for path in ("-", "/dev/null"):
@@ -250,10 +188,6 @@ class Refused(Bench):
         self.path("lever").symlink_to(ROOT / "rtl/designs/lever.toml")
         done = self.run_it("--json", "lever")
         self.assert_refused(done, "rtl/designs/lever.toml, which is read")
-
-    def test_where_stdout_goes_too(self):
-        with self.path("text").open("wb") as out:
-            self.assert_refused(self.run_it("--json", "text", stdout=out), "where stdout goes too")
 
     def test_rights(self):
         drop = {"preexec_fn": drop_right_to_all} if os.geteuid() == 0 else {}

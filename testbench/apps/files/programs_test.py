@@ -29,14 +29,6 @@ class Names(Bench):
                 self.assertIn(f"{name}/report.html", done.out)
         self.assertFalse(self.path("pwned").exists())
 
-    def test_pictures_of_stability(self):
-        words = ("--rate", "1000", "--damping", "0.003", "--no-bits", "--no-experiments")
-        name = "x';touch pwned;'"
-        done = self.finished("stability", *words, "--plot", name)
-        self.assertEqual(done.returncode, 0, done.err)
-        self.assertTrue(list(self.path(name).glob("*.svg")))
-        self.assert_only(name)
-
     def test_a_name_that_is_no_text(self):
         """Latin-1 in a scene's name: the run is done, the JSON has U+FFFD in the byte's place."""
         name = os.fsencode(self.folder) + b"/caf\xe9"

@@ -9,11 +9,9 @@ Documentation: docs/json.md
 import os
 import signal
 import subprocess
-import sys
 import unittest
 
 from bench import Bench
-from testing import SCRIPTS
 
 WAIT_S = 60
 
@@ -67,20 +65,6 @@ class Signals(Bench):
         self.assertEqual(process.wait(WAIT_S), 128 + signal.SIGPIPE)
         self.assert_only()
 
-    def test_nohup_is_respected(self):
-        process = self.begin_ignoring(signal.SIGHUP)
-        process.send_signal(signal.SIGHUP)
-        process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(WAIT_S), 143)
-
-    def begin_ignoring(self, number):
-        before = signal.signal(number, signal.SIG_IGN)
-        try:
-            words = ("run", "long.toml", "--engine", "twin", "--json", "a.json")
-            return self.begin(*words, parts=1)
-        finally:
-            signal.signal(number, before)
-
     def test_the_program_that_draws_is_ended_too(self):
         """A stand-in for Python notes its number and waits; it must not outlive the run."""
         noting = "echo $$ >pid.new; mv pid.new pid\nexec sleep 30 >/dev/null 2>&1"
@@ -94,33 +78,6 @@ class Signals(Bench):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(WAIT_S), 130)
         self.assertRaises(ProcessLookupError, os.kill, child, 0)
-
-    def script_with_numpy(self, text):
-        """The script of a report, with a stand-in for the first module that it needs."""
-        self.path("numpy.py").write_text(text)
-        options = {"text": True, "stderr": subprocess.PIPE}
-        options["env"] = os.environ | {"PYTHONPATH": str(self.folder)}
-        return self.started(sys.executable, SCRIPTS / "report.py", "out", "a.json", **options)
-
-    def test_ctrl_c_while_a_script_imports(self):
-        process = self.script_with_numpy("import time\nopen('here', 'w')\ntime.sleep(30)\n")
-        self.until(self.path("here").exists)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(WAIT_S), 130)
-        self.assertEqual(process.stderr.read(), "report: interrupted\n")
-
-    def test_a_module_that_is_missing(self):
-        process = self.script_with_numpy("raise ModuleNotFoundError('none', name='numpy')\n")
-        self.assertEqual(process.wait(WAIT_S), 1)  # what check_arguments of the launcher expects
-        said = process.stderr.read()
-        self.assertIn("has no module numpy; run: apt-get install python3-numpy\n", said)
-        self.assertEqual(said.count("\n"), 1)
-
-    def test_trim_and_its_threads(self):
-        process = self.begin("trim", "long.toml", "-o", "a.toml", "--json", "a.json", parts=2)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(WAIT_S), 130)
-        self.assert_only()
 
 
 if __name__ == "__main__":

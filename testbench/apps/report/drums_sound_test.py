@@ -97,16 +97,6 @@ class DrumsSound(Player):
         tops = [np.abs(samples[int(a * self.rate) : int((a + 0.05) * self.rate)]).max() for a in (0.8, 1.05)]
         self.assertAlmostEqual(tops[0] / tops[1], np.e, delta=0.15)
 
-    def test_what_are_no_rows(self):
-        for text in ("time_s,velocity\n0,0\n1,1\n", "time_s,tau_ref_nm\n0,0\n",
-                     "time_s,tau_ref_nm\n0,0\n1,x\n2,0\n", "time_s,tau_ref_nm\n0,0\n1,0\n3,0\n",
-                     "time_s,tau_ref_nm\n0,0\n1,nan\n2,0\n", "time_s,tau_ref_nm\n0,0\n1\n2,0\n"):
-            said = self.samples(self.put("run.csv", text), 2)
-            self.assertIn('run.csv: no rows of "time_s" and "tau_ref_nm" at even times', said)
-        path = self.put("run.csv", "time_s,tau_ref_nm\n")
-        path.write_bytes(path.read_bytes() + b"\xff\n")
-        self.assertIn("run.csv: is no text", self.samples(path, 2))
-
     def test_what_is_no_hit(self):
         said = self.play("0.000 hit 2 1 0;\n5 strike 2 1 0;\n", status=2)
         self.assertIn('e.txt:2: "5 strike 2 1 0;" is no hit; write "MS hit', said)

@@ -4,10 +4,12 @@
 """Numbers of the figures against values worked out by hand. Documentation: docs/figures.md"""
 
 import unittest
+from types import SimpleNamespace
 
-import bench  # noqa: F401, isort: skip (puts scripts/ on the path)
 import numpy as np
-from reports import measure, page, plots
+
+import testing  # noqa: F401, isort: skip (puts scripts/ on the path)
+from reports import measure, objects, observer_section, plots
 
 
 class Laws(unittest.TestCase):
@@ -76,18 +78,42 @@ class Numbers(unittest.TestCase):
         self.assertTrue(np.all(np.diff(x) > 0))
 
 
-class Text(unittest.TestCase):
-    def test_number(self):
-        for value, text in (
-            (0, "0"),
-            (0.05, "0.0500"),
-            (-1.5, "−1.50"),
-            (12345.6, "12,346"),
-            (2.5e-5, "0.000025"),
-            (-3.2e-9, "≈ 0"),
-            (None, "–"),
+class Objects(unittest.TestCase):
+    """The rows of the figures, of runs whose torque is the ideal one."""
+
+    def rows(self, scene, from_rad, to_rad):
+        time = np.linspace(0, 2, 20_000)
+        theta = from_rad + (to_rad - from_rad) * (time / 2) ** 2
+        omega = np.gradient(theta, time)
+        ideal = measure.ideal_torque(scene, "lever", theta, omega)
+        view = objects.View(scene, "lever", "lever", time, theta, omega, ideal, ideal, ideal, ideal)
+        rows = {}
+        getattr(objects, scene)(SimpleNamespace(add=lambda key, values: rows.update({key: values.get("lever")})), [view])
+        return rows
+
+    def test_each_object(self):
+        for scene, span, wanted in (
+            ("membrane", (0.9, 0.3), {"torque_inside_nm": 0.5, "upper_edge_rad": 0.7, "lower_edge_rad": 0.5}),
+            ("spring_compression", (1, 0), {"stiffness_nm_rad": 1, "contact_rad": 0.498, "largest_torque_nm": 0.5}),
+            ("spring_tension", (0, 2), {"stiffness_nm_rad": 0.5, "saturates_rad": 1, "largest_torque_nm": -0.5}),
+            ("damper", (0, 3), {"largest_torque_nm": 0.09, "largest_speed_rad_s": 3, "damping_nm_s_rad": 0.03}),
+            ("charge_attract", (1.5, 0.05), {"exponent": -2, "limit_rad": 0.202, "largest_torque_nm": -0.5}),
+            ("charge_repel", (0.05, 1.5), {"exponent": -2, "limit_rad": 0.202, "largest_torque_nm": 0.5}),
         ):
-            self.assertEqual(page.number(value), text)
+            found = self.rows(scene, *span)
+            for key, value in wanted.items():
+                self.assertAlmostEqual(found[key], value, delta=2e-3, msg=f"{scene}, {key}")
+
+    def test_numbers_of_a_load_step(self):
+        time = np.arange(0, 0.35, 1e-4)
+        after = np.maximum(time - observer_section.LOAD_S, 0)
+        theta = 0.04 + 0.02 * (1 - np.exp(-after / 0.02) * np.cos(200 * after))
+        torque = 0.1 + 0.001 * (-1) ** np.arange(len(time))
+        csv = {"time_s": time, "theta_rad": theta, "motor_torque_nm": torque}
+        ripple, over, rest = observer_section.of_load(SimpleNamespace(csv=csv))
+        self.assertAlmostEqual(ripple, 1, places=3)
+        self.assertAlmostEqual(over, 47.0, delta=0.5)  # at 14.5 ms
+        self.assertLess(abs(rest - 47), 10)  # 0.02 exp(-t / 0.02) is a count after 51 ms
 
 
 if __name__ == "__main__":

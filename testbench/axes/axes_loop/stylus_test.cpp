@@ -160,7 +160,6 @@ TEST_CASE("stylus: a valley of a field of heights throws it with facets, not wit
     r.texel_m = 2e-3;
     r.depth_m = 8e-3;
     r.stiffness_n_per_m = 500;
-    r.surface_m = 0;
     r.normals = normals;
     const std::string path = temporary("feltgate_valley.law");
     std::ofstream(path) << texture::field_law(valley, r);

@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The parts of `feltgate coverage` that need no simulation: data, waivers, the change of
-Verilator's code, verdicts."""
+"""The parts of `feltgate coverage` that need no simulation: cover points that fit their blocks, data,
+waivers, the change of Verilator's code, verdicts."""
 
 import json
 import os
+import re
 import unittest
 from pathlib import Path
 from unittest import mock
 
-from testing import ROOT, Scratch, called
+from testing import ROOT, Scratch, called, ran
 import block_results
 import coverage
+import rtl_sources
 from rtl_coverage import data, instrument, programs, report, waivers
 
 HEAD = "# SystemC::Coverage-3\n"
@@ -21,6 +23,21 @@ HEAD = "# SystemC::Coverage-3\n"
 def entry(page, name, count, line=3, where="TOP.b", file="rtl/b.sv"):
     pairs = {"f": f"/r/{file}", "l": line, "n": 5, "page": f"v_{page}/b", "o": name, "h": where}
     return "C '" + "".join(f"\x01{k}\x02{v}" for k, v in pairs.items()) + f"' {count}\n"
+
+
+class Points(Scratch):
+    def test_the_signals_of_all_points_are_there(self):
+        points = sorted(ROOT.glob(f"{data.POINTS}*.sv"))
+        text = "".join(path.read_text(encoding="utf-8") for path in points)
+        blocks = re.findall(r"^module (\w+)_cover\b", text, re.M)
+        self.assertGreater(len(blocks), 10)
+        quiet = ("-Wno-SYNCASYNCNET", "-Wno-UNUSEDSIGNAL", "-Wno-MULTITOP", "-Wno-DECLFILENAME")
+        rtl = [ROOT / "rtl" / name for name in rtl_sources.core_files(ROOT)]
+        for design in ("lever", "paper"):
+            self.ended(ran("verilator", "--lint-only", "--coverage", "-Wall", *quiet, "--top-module",
+                           rtl_sources.CORE, *(f"-DCOVER_{block}" for block in blocks),
+                           ROOT / "testbench/campaigns/coverage/coverage.vlt",
+                           ROOT / f"rtl/generated/{design}/feltgate_pkg.sv", *rtl, *points))
 
 
 class Data(Scratch):
@@ -157,15 +174,6 @@ class Command(Scratch):
         status, out, _ = self.status()
         self.assertEqual(status, 1)
         self.assertIn("waives nothing; delete it", out)
-
-    def test_wrong_words(self):
-        for words, said in ((["c"], "no test of c; there are those of b"),
-                            (["--jobs", "0"], "at least 1"),
-                            (["--json", "/nowhere/x"], "no folder")):
-            with self.subTest(said):
-                status, _, err = self.status(*words)
-                self.assertEqual(status, 2)
-                self.assertIn(said, err)
 
     def test_tests_that_fail(self):
         for lines, said in ((["echo a difference", "exit 3"], "a difference"),

@@ -87,19 +87,10 @@ class Command(Scratch):
         self.assertIn("NOT KEPT", out)
 
     def test_refusals(self):
-        for words, what in ((("--long",), "--clean"), (("--jobs", "0"), "at least 1"),
-                            (("--flips", "-1"), "0 or more"),
-                            (("--picture", "x.bmp"), ".svg or .png"),
+        for words, what in ((("--long",), "--clean"),
                             (("--clean", "--replay", "x"), "exclude"),
                             (("--update", "--only", "x"), "all registers"),
-                            (("--update", "--flips", "0"), "all registers"),
-                            (("--clean", "--save", "x"), "tell of a campaign"),
-                            (("--design", "lever_current", "--replay", "x"), "are of lever"),
                             (("--design", "gimbal_motor", "--update"), "of lever"),
-                            (("--lines", "x", "--json", "y", "--save", "y"),
-                             "is also that of --json"),
-                            (("--lines", __file__, "--json", __file__),
-                             "is read by the same command"),
                             (("--lines", "/no/such"), "/no/such")):
             code, _, err = self.run_main(*words)
             self.assertEqual(code, 2, words)

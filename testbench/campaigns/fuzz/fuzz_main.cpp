@@ -4,7 +4,7 @@
 // feltgate_fuzz READER ROOT RUNS SEED CORPUS...: replays the corpus, then reads RUNS changed
 // inputs. feltgate_fuzz_sanitized does so under the sanitizers, and there an input that reaches
 // code that none before it reached joins the corpus of this run. The same seed gives the same
-// inputs. Documentation: docs/testing.md
+// inputs. Of corpus.txt the sections of the reader are taken. Documentation: docs/testing.md
 #include <fcntl.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -19,8 +19,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "mutate.hpp"
-#include "reader_inputs.hpp"
+#include "fuzz.hpp"
 
 namespace fs = std::filesystem;
 
@@ -118,7 +117,31 @@ class InputFile {
   int file_;
 };
 
-std::vector<std::string> read_corpus(char** first, char** last) {
+/// The sections of corpus.txt that are of this reader.
+void add_sections(const std::string& corpus, const std::string& reader,
+                  std::vector<std::string>* inputs) {
+  const std::string head = "\n=== ";
+  for (std::size_t at = corpus.find(head), end; at != std::string::npos; at = end) {
+    end = corpus.find(head, at + 1);
+    const std::string section = corpus.substr(at + head.size(), end - at - head.size());
+    if (section.rfind(reader + "/", 0) != 0) continue;
+    std::string bytes;
+    for (std::size_t i = section.find('\n') + 1; i < section.size(); ++i) {
+      if (section[i] != '\\') {
+        bytes += section[i];
+      } else if (section[++i] == '\\') {
+        bytes += '\\';
+      } else {  // x and two digits
+        bytes += static_cast<char>(std::stoi(section.substr(i + 1, 2), nullptr, 16));
+        i += 2;
+      }
+    }
+    if (end == std::string::npos) bytes.pop_back();  // the end of the last line
+    inputs->push_back(bytes);
+  }
+}
+
+std::vector<std::string> read_corpus(const std::string& reader, char** first, char** last) {
   std::vector<fs::path> files;
   for (char** at = first; at != last; ++at) {
     if (fs::is_regular_file(*at)) files.emplace_back(*at);
@@ -127,7 +150,13 @@ std::vector<std::string> read_corpus(char** first, char** last) {
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> inputs;
-  for (const fs::path& file : files) inputs.push_back(bytes_of(file));
+  for (const fs::path& file : files) {
+    if (file.filename() == "corpus.txt") {
+      add_sections(bytes_of(file), reader, &inputs);
+    } else {
+      inputs.push_back(bytes_of(file));
+    }
+  }
   if (inputs.empty()) throw std::runtime_error("the corpus holds no file");
   return inputs;
 }
@@ -256,7 +285,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPROF, on_hang);
   int code = 2;
   try {
-    auto corpus = read_corpus(argv + 5, argv + argc);
+    auto corpus = read_corpus(argv[1], argv + 5, argv + argc);
     fuzz::set_root(argv[2]);
     // A write of a reader to a relative path would go to the folder of the input.
     fs::current_path(folder);

@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Seeded changes of an input. Documentation: docs/testing.md
-#include "mutate.hpp"
-
-#include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <utility>
+
+#include "fuzz.hpp"
 
 namespace feltgate::fuzz {
 
@@ -16,47 +17,17 @@ using test::Random;
 constexpr std::size_t kMost = 1U << 16U;  ///< an input never grows beyond this
 
 /// Numbers at the limits of a reader, and texts that are not numbers.
-constexpr const char* kNumbers[] = {"0",
-                                    "-0.0",
-                                    "-1",
-                                    "1",
-                                    "2",
-                                    "3",
-                                    "7",
-                                    "40",
-                                    "63",
-                                    "64",
-                                    "65",
-                                    "127",
-                                    "256",
-                                    "1e-9",
-                                    "1e-300",
-                                    "5e-324",
-                                    "1e300",
-                                    "1.8e308",
-                                    "-1e300",
-                                    "1e9",
-                                    "1e12",
-                                    "1e18",
-                                    "nan",
-                                    "-nan",
-                                    "inf",
-                                    "-inf",
-                                    "1_000",
-                                    "0x7fffffff",
-                                    "2147483648",
-                                    "9223372036854775807",
-                                    "-9223372036854775808",
-                                    "18446744073709551616",
-                                    "4611686018427387904",
-                                    "0.1",
-                                    "1e-12",
-                                    "00",
-                                    "1e",
-                                    "1.",
-                                    "true",
-                                    "1979-05-27",
-                                    "99999999999999999999999999"};
+const std::vector<std::string>& numbers() {
+  static const std::vector<std::string> all = [] {
+    std::istringstream words(
+        "0 -0.0 -1 1 2 3 7 40 63 64 65 127 256 1e-9 1e-300 5e-324 1e300 1.8e308 -1e300 1e9 "
+        "1e12 1e18 nan -nan inf -inf 1_000 0x7fffffff 2147483648 9223372036854775807 "
+        "-9223372036854775808 18446744073709551616 4611686018427387904 0.1 1e-12 00 1e 1. "
+        "true 1979-05-27 99999999999999999999999999");
+    return std::vector<std::string>(std::istream_iterator<std::string>(words), {});
+  }();
+  return all;
+}
 
 /// Pieces with a meaning in one of the formats.
 constexpr const char* kPieces[] = {
@@ -141,7 +112,7 @@ void change_once(std::string& text, const std::string& other, Random& random) {
     case 4:
     case 5:
     case 6:
-      return replace_word(text, at, kNumbers[index_below(random, std::size(kNumbers))], true);
+      return replace_word(text, at, numbers()[index_below(random, numbers().size())], true);
     case 7:
       return replace_word(text, at, random_word(random.coin() ? text : other, random), false);
     case 8: {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The readers that are fuzzed. Documentation: docs/testing.md
-#include "reader_inputs.hpp"
+#include "fuzz.hpp"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -361,6 +361,28 @@ Ending use_recording(const fs::path& file, traces::FileFormat format) {
 template <traces::FileFormat Format>
 Ending use_trace(const fs::path& file) {
   return use_recording(file, Format);
+}
+
+/// A reader with every fault that fuzzing must find. The input names the fault.
+Ending use_faulty(const fs::path& file) {
+  std::string fault;
+  std::ifstream(file) >> fault;
+  Ending ending;
+  ending.read = true;
+  if (fault == "crash") {
+    const std::vector<int> values(fault.size());
+    ending.read = values.data()[fault.size()] == 0;  // one beyond the end
+  } else if (fault == "hang") {
+    for (volatile bool for_ever = true; for_ever;) {
+    }
+  } else if (fault == "write") {
+    std::ofstream("left_behind") << fault;
+  } else if (fault == "message") {
+    ending = {false, "something is wrong", ""};
+  } else if (fault == "throw") {
+    throw std::out_of_range("of the reader's own");
+  }
+  return ending;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ from unittest import mock
 from testing import Scratch, called
 import block_results
 import mutate
-from mutation import netlist, rtl, runs
+from mutation import netlist, runs
 
 COUNTER = """module counter (
   input  logic       clk_i,
@@ -51,8 +51,6 @@ PAIR = """module pair (
   counter u_counter (.clk_i(clk_i), .rst_ni(1'b1), .up_i(up), .count_o(count_o), .kept_o(kept_o));
 endmodule
 """
-LINE = ("mutate -mode cnot1 -module b -cell $add$rtl/b.sv:2$1 -port Y -portbit 3 -ctrlbit 1 "
-        "-wire w -wirebit 2 -src rtl/b.sv:2.1-2.9 -src rtl/b.sv:1.1-1.4")
 
 
 @unittest.skipUnless(shutil.which("yosys"), "no yosys")
@@ -90,14 +88,6 @@ class Netlist(unittest.TestCase):
         self.assertEqual(re.findall(r"^module (\w+)", text, re.M), ["pair", "pair_mutants"])
         cells = {re.search(r"of (\S+)[.]\w+", m["what"])[1] for m in mutants}
         self.assertEqual(cells, {"$logic_not", "$logic_and", "u_counter"})
-
-    def test_a_mutant_in_words(self):
-        found = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$add", "")})
-        self.assertEqual(netlist.says(found),
-                         "bit 3 of $add.Y, w[2] inverted while another bit of the pin is 1 (1)")
-        self.assertEqual(netlist.where(found), ["rtl/b.sv:1", "rtl/b.sv:2"])
-        found = netlist.parse(LINE, {"$add$rtl/b.sv:2$1": ("$dffe", "w_q")}) | {"port": "EN"}
-        self.assertEqual(netlist.says(found).partition(",")[0], "bit 3 of $dffe.EN of w_q")
 
 
 class Command(Scratch):
@@ -157,27 +147,10 @@ class Command(Scratch):
         with mock.patch.object(runs, "MORE_S", 0.5):
             self.assertRegex(self.call()[1], r"b +4 +4 +3 +0 +1 +100.0 %")
 
-    def test_a_sample_is_the_same_again(self):
-        subject = runs.Subject("b", "b", list(range(50)))
-        self.assertEqual(subject.sample(9, 1), subject.sample(9, 1))
-        self.assertNotEqual(subject.sample(9, 1), subject.sample(9, 2))
-        self.assertEqual(subject.sample(0, 1), subject.mutants)
-
-    def test_what_cannot_be_used(self):
-        self.assertIn("no block c with mutants; there are b", self.call("c")[2])
+    def test_a_test_that_fails_without_a_mutant_kills_nothing(self):
         self.say("exit 1")
         code, _, err = self.call()
         self.assertEqual((code, "killed without a mutant" in err), (2, True))
-        for words in (["--require", "99"], ["--count", "-1"], ["--update", "--count", "2"],
-                      ["--list", "--update"], ["--coun", "3"]):
-            with self.subTest(words):
-                self.assertEqual(called(mutate.arguments, *words)[0], 2)
-
-    def test_a_test_may_have_the_name_of_its_block_and_an_update_takes_all(self):
-        self.put("testbench/wave/b/b_paper_mutants.netlist/test.json", '{"test": "b", "block": "b"}')
-        for words, count in (([], 2), (["b"], 2), (["b_test"], 1), (["b.b"], 1), (["b_test", "--update"], 2)):
-            with mock.patch.dict(os.environ, {"FELTGATE_BUILD": str(self.folder)}):
-                self.assertEqual(len(rtl.wanted(mutate.arguments(words))), count, words)
 
     def test_a_test_that_somebody_else_ended_kills_nothing(self):
         self.say('[ "$FELTGATE_MUTANT" = 0 ] || kill -TERM $$')

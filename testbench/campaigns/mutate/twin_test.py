@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from testing import ROOT, Scratch, called, ran
+from testing import ROOT, Scratch, ran
 
 import mutate
 from mutation import twin, twin_parser, twin_programs, twin_source
@@ -64,32 +64,11 @@ class Offered(unittest.TestCase):
         self.assertEqual(found, ["f: a < b -> a <= b", "f: a < b -> a >= b", "f: a + b -> a - b",
                                  "f: a << b -> a >> b"])
 
-    def test_a_chain_loses_one_condition_at_a_time(self):
-        found = names("bool f(bool a, bool b, bool c) { return a && b && c; }")
-        self.assertEqual(found, ["f: a && b && c -> its opposite", "f: a -> left out of &&",
-                                 "f: b -> left out of &&", "f: c -> left out of &&",
-                                 "f: && b -> || b", "f: && c -> || c"])
-
-    def test_statements(self):
-        found = names("void f(int& a) { a = 3; if (a > 2) return; g(a); a += 1, a = 0; }")
-        for wanted in ("f: a = 3 -> removed", "f: return -> removed", "f: g(a) -> removed",
-                       "f: a = 0 -> removed"):
-            self.assertIn(wanted, found)
-
-    def test_constants(self):
-        self.assertEqual(names("int f() { return 7; }"),
-                         ["f: 7 in return 7 -> 7 + 1", "f: 7 in return 7 -> 7 - 1"])
-        self.assertEqual(names("bool f() { return true; }"), ["f: true in return true -> false"])
-
     def test_rounding(self):
         found = names("int f(int x) { return round<Round::half_up, Overflow::saturate>(x); }")
         self.assertEqual(len(found), 2)
         self.assertIn("Round::truncate", found[0])
         self.assertIn("Overflow::wrap", found[1])
-
-    def test_the_second_of_the_same_has_its_number(self):
-        self.assertIn("f: a + b -> a - b #2",
-                      names("int f(int a, int b) { return (a + b) * (a + b); }"))
 
     def test_what_only_the_compiler_sees_stays(self):
         for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);",
@@ -103,15 +82,6 @@ class Offered(unittest.TestCase):
         text = "int f(int a) { return -a; }"
         (one,) = header(text).mutants
         self.assertEqual(header(text, dropped=[one.what]).mutants, [])
-
-    def test_lines_and_columns_survive_comments(self):
-        (one,) = header("// a < b\n/* c\n */ int f(int a) { return -a; }\n").mutants
-        self.assertEqual(one.where, ["model/include/feltgate/h.hpp:3"])
-
-    def test_no_c_plus_plus_is_said(self):
-        with self.assertRaises(twin_parser.SourceError) as error:
-            header("int f( {")
-        self.assertIn("h:1", str(error.exception))
 
     def test_every_header_is_understood(self):
         with mock.patch.object(twin_parser, "cpp_language", lambda _: LANGUAGE):
@@ -182,10 +152,6 @@ class Subjects(Scratch):
         one.name = "h"
         said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
         self.assertEqual(twin.refused([one], Path("mutants/twin/h"), said), {("h", "swap")})
-
-    def test_an_unknown_header_is_said(self):
-        status, _, said = called(mutate.main, "--twin", "suprevisor", "--only-arguments")
-        self.assertEqual((status, "there are supervisor" in said), (2, True))
 
 
 @unittest.skipIf(NO_PARSER or not OPTIONS, "no tree-sitter; ./feltgate test fetches it")

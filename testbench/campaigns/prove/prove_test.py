@@ -204,19 +204,6 @@ class Command(Scratch):
     def status(self, *words):
         return called(prove.main, *words)
 
-    def test_wrong_words(self):
-        for words in (["nothing"], ["--jobs", "0"], ["--json", "/nowhere/x"],
-                      ["--update", "limiter.clamp"], ["--update", "--fast"],
-                      ["--update", "--changed"], ["--list", "--update"],
-                      ["--list", "--json", "x"], ["--list", "--defects", "0"]):
-            with self.subTest(words):
-                status, _, err = self.status(*words)
-                self.assertEqual(status, 2, err)
-
-    def test_arguments_by_themselves(self):
-        self.assertEqual(self.status("--only-arguments", "limiter", "--defects", "3"), (0, "", ""))
-        self.assertEqual(self.status("--only-arguments", "nothing")[0], 2)
-
     def test_without_a_solver(self):
         self.enterContext(mock.patch.dict(os.environ, PATH="/nowhere"))
         status, _, err = self.status("limiter")

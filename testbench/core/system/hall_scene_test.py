@@ -91,24 +91,6 @@ class HallScene(Scratch):
         self.ended(done, 2)
         self.assertIn("plant gimbal_motor has none; give it hall_rad and hall_error_rad", done.stderr)
 
-    def test_what_is_wrong_with_lines_in_a_plant(self):
-        for old, new, said in (
-            (ERROR, "hall_error_rad = [0.0, 0.0]", "does not hold three numbers"),
-            (ERROR, "hall_error_rad = [0.0, 0.0, 0.6]", "hall_error_rad"),
-            ("hall_rad = -2.0943951 ", "hall_rad = 7.0 ", "hall_rad"),
-        ):
-            plant = text_of("vectors/plants/hall_motor.toml")
-            self.assertEqual(plant.count(old), 1)
-            done = self.program("run", "wall", "--plant", self.put("bad.toml", plant.replace(old, new)))
-            self.ended(done, 2)
-            self.assertIn(said, done.stderr)
-
-    def test_a_recording_has_no_lines(self):
-        log = self.put("log.csv", "t,count\n0,0\n0.01,5\n")
-        done = self.program("replay", log, "--time-column", "t", "--count-column", "count")
-        self.ended(done, 2)
-        self.assertIn("measures the motor's angle by Hall lines, which a recording does not have", done.stderr)
-
 
 if __name__ == "__main__":
     unittest.main()

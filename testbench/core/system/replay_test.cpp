@@ -10,22 +10,67 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "catch.hpp"
+#include "feltgate/random.hpp"
 #include "mismatch.hpp"
+#include "moves.hpp"
 #include "sim/loop/replay.hpp"
 #include "sim/traces/open.hpp"
 #include "sim/traces/statistics.hpp"
-#include "synthetic.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-namespace synthetic = feltgate::traces::synthetic;
 using namespace feltgate;
+using test::Moves;
 
 constexpr Clock kShare = 20'000'000;  // clocks: 0.4 s of the lever
+
+Moves constant_speed(double counts_per_s, std::int64_t counts) {
+  Moves m;
+  Clock last = 0;
+  for (std::int64_t k = 1; k <= counts; ++k) {
+    const Clock at = std::llround(static_cast<double>(k) * 50e6 / std::fabs(counts_per_s));
+    m.move(at - std::exchange(last, at), counts_per_s > 0 ? 1 : -1);
+  }
+  return m;
+}
+
+/// A sine of growing frequency, at most a count a clock.
+Moves chirp(double amplitude, double f0_hz, double f1_hz, double duration_s) {
+  constexpr Clock grid = 50;
+  Moves m;
+  std::int64_t position = 0;
+  Clock last = 0;
+  for (Clock at = grid; static_cast<double>(at) * 20e-9 < duration_s; at += grid) {
+    const double t = static_cast<double>(at) * 20e-9;
+    const double turns = f0_hz * t + (f1_hz - f0_hz) * t * t / (2 * duration_s);
+    const std::int64_t target = std::llround(amplitude * std::sin(2 * 3.14159265358979 * turns));
+    for (Clock now = at; position != target; ++now) {
+      const int turn = target > position ? 1 : -1;
+      m.move(now - std::exchange(last, now), turn);
+      position += turn;
+    }
+  }
+  return m;
+}
+
+/// Steps either way at random; of a thousand so many are illegal.
+Moves random_walk(std::uint64_t seed, int moves, int per_thousand, Clock least, Clock most) {
+  Moves m;
+  SplitMix64 random(seed);
+  for (int k = 0; k < moves; ++k) {
+    const Clock wait = least + random.below(most - least + 1);
+    const int legal = random.below(2) == 0 ? 1 : -1;
+    m.move(wait, random.below(1000) < per_thousand ? 2 : legal);
+  }
+  return m;
+}
 
 /// A recording from just before its first step on.
 class FromFirstStep : public EncoderSource {
@@ -96,33 +141,34 @@ bool there(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("synthetic traces", "[synthetic]") {
+  const auto play = [](Moves m, const std::string& name, Clock most_clocks = 0) {
+    return replayed(m, name, most_clocks);
+  };
   const double count_rad = 2 * 3.14159265358979 / 4096;
   for (const double rad_s : {0.1, 1.0, 10.0, 100.0, 600.0, -600.0}) {
     const double counts_per_s = rad_s / count_rad;
     // A fifth of a second each, a few counts at least.
     const auto counts = static_cast<std::int64_t>(std::fmax(4.0, std::fabs(counts_per_s) * 0.1));
-    auto s = synthetic::constant_speed(counts_per_s, counts);
-    replayed(*s, "constant speed " + std::to_string(rad_s) + " rad/s", 5'000'000);
+    play(constant_speed(counts_per_s, counts), "constant speed " + std::to_string(rad_s) + " rad/s",
+         5'000'000);
   }
-  auto reversals = synthetic::reversals(40, 7, 900);
-  CHECK(replayed(*reversals, "reversals at every phase").position.reversals > 40);
-  auto dither = synthetic::dither(400, 9'650);
-  replayed(*dither, "dither on one edge");
-  auto chirp = synthetic::chirp(300, 1.0, 200.0, 0.1);
-  replayed(*chirp, "chirp");
-  auto slow = synthetic::one_count_per_second(2);
-  replayed(*slow, "one count per second", 3'000'000);
-  auto steps = synthetic::steps(20, 50, 300, 60'000);
-  replayed(*steps, "steps");
-  auto walk = synthetic::random_walk(5, 20'000, 20, 400);
-  replayed(*walk, "random walk");
-  auto illegal = synthetic::illegal(6, 2'000, 20, 50, 2'000);
-  CHECK(replayed(*illegal, "illegal transitions").position.illegal > 10);
-  auto fast = synthetic::fast_run(140'000, 1, 1);
-  replayed(*fast, "one state per clock, past the wrap of 16 bits");
+  play(constant_speed(1.0, 2), "one count per second", 3'000'000);
+  Moves reversals, dither, steps, fast;
+  for (int k = 0; k < 40 * 15; ++k) reversals.move(900, k % 15 < 7 || k % 15 == 14 ? 1 : -1);
+  CHECK(play(reversals, "reversals at every phase").position.reversals > 40);
+  for (int k = 0; k < 400; ++k) dither.move(9'650, k % 2 == 0 ? 1 : -1);
+  play(dither, "dither on one edge");
+  for (int k = 0; k < 20 * 50; ++k) {
+    steps.move(k % 50 == 0 ? 60'000 : 300, k / 50 % 2 == 0 ? 1 : -1);
+  }
+  play(steps, "steps");
+  for (int k = 0; k < 140'000; ++k) fast.move(1, 1);
+  play(fast, "one state per clock, past the wrap of 16 bits");
+  play(chirp(300, 1.0, 200.0, 0.1), "chirp");
+  play(random_walk(5, 20'000, 0, 20, 400), "random walk");
+  CHECK(play(random_walk(6, 2'000, 20, 50, 2'000), "illegal transitions").position.illegal > 10);
 }
 
-// One test case per recording, so that they run side by side. The table of the recordings' page.
 struct Recording {
   const char* file;
   const char* probes;

@@ -89,10 +89,6 @@ for call in (lambda: feltgate.run("wall", engine="twin"), feltgate.Twin, feltgat
             self.assertIn(SAYS, line)
             self.assertIn("run ./feltgate generate and install the package again", line)
 
-    def test_a_comment_changes_nothing(self):
-        self.edit(after=f"# as of the paper\n{LIMIT}")
-        self.feltgate("feltgate", "run", "free_lever", "--engine", "twin", status=0, says=())
-
     def test_a_file_that_is_no_design_is_told_with_its_line(self):
         self.edit(after="torque_limit = 0.5")
         self.feltgate("feltgate", "run", "wall", "--engine", "twin", says=("lever.toml:", '"torque_limit_nm" is missing'))

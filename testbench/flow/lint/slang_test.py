@@ -97,28 +97,6 @@ class Slang(Scratch):
         options = ["-DFELTGATE_ECP5", "-Wno-unconnected-input-port"]
         self.assertEqual(lint("feltgate_core", *options, *files), "")
 
-    def changed(self, name, old, new):
-        """What slang says of the core with one change in a file."""
-        (source,) = (path for path in core() if path.name == name)
-        text = source.read_text(encoding="utf-8")
-        self.assertIn(old, text)
-        copy = self.put(name, text.replace(old, new, 1))
-        files = [copy if path.name == name else path for path in core()]
-        return lint("feltgate_core", package("lever"), *files)
-
-    def test_finds_a_use_before_the_declaration(self):
-        words = self.changed(
-            "lowpass.sv", "  logic signed [Width-1:0] y_q;\n", "  wire early = y_q[0];\n"
-            "  logic signed [Width-1:0] y_q;\n"
-        )
-        self.assertIn("used before its declaration", words)
-
-    def test_finds_two_writers(self):
-        words = self.changed(
-            "lowpass.sv", "  assign y_o = y_q;", "  assign y_o = y_q;\n  always_comb y_o = y_q;"
-        )
-        self.assertIn("y_o", words)
-
 
 if __name__ == "__main__":
     unittest.main()

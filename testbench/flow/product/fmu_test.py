@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """feltgate product fmu: FMPy finds its description valid and runs it, and every word is that of
-`feltgate run`; what it refuses. docs/other-tools.md
+`feltgate run`. docs/other-tools.md
 
 fmu_test.py VENV: where scripts/build.sh has fetched FMPy. It needs no network.
 """
@@ -26,7 +26,7 @@ except ImportError:
     fmpy = None
 import unittest
 
-from testing import BUILD, ROOT, Scratch, ran, script, text_of
+from testing import BUILD, Scratch, ran, script, text_of
 
 EVERY = 250  # ticks between two rows
 TICK_S = 1e-6
@@ -52,7 +52,7 @@ class Fmu(Scratch):
         with open(self.folder / "it.csv", newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
-    def instance(self, path, said=None):
+    def instance(self, path):
         """The FMU, and its variables by name."""
         description = fmpy.read_model_description(path)
         # Each into a folder of its own: a library that is loaded must not be written.
@@ -62,9 +62,7 @@ class Fmu(Scratch):
             unzipDirectory=folder,
             modelIdentifier=description.coSimulation.modelIdentifier,
         )
-        self.log = fmi3.fmi3LogMessageCallback(
-            lambda _, status, category, message: said.append(message.decode()) if said is not None else None
-        )
+        self.log = fmi3.fmi3LogMessageCallback(lambda *_: None)
         self.addCleanup(lambda: model.component and model.freeInstance())
         return model, {v.name: v for v in description.modelVariables}
 
@@ -139,11 +137,6 @@ class Fmu(Scratch):
         model.exitInitializationMode()
         self.compare(model, names, rows[:100], lambda now, end: [end])
 
-    def test_simulate(self):
-        result = fmpy.simulate_fmu(str(self.made("wall")), stop_time=0.4, output_interval=1e-3)
-        self.assertEqual(len(result), 401)
-        self.assertAlmostEqual(result["theta_rad"][-1], result["position_rad"][-1], delta=2e-3)
-
     def test_a_hand_of_the_importers_own(self):
         # The same push in a scene's file: its hand must give the same bits.
         text = re.sub(r"\[hand\].*?(?=\[\[expect)", "", text_of("vectors/scenes/wall.toml"), flags=re.S)
@@ -161,52 +154,6 @@ class Fmu(Scratch):
         model.setFloat64([names["push_nm"].valueReference], [-0.15])
         model.doStep((len(rows) - 1) * EVERY * TICK_S + TICK_S, 1e-3)
         self.assertEqual(model.getFloat64([names["hand_torque_nm"].valueReference]), [-0.15])
-
-    def test_refusals_of_the_model(self):
-        said = []
-        model, names = self.instance(self.made("wall"), said)
-        self.started(model)
-        for act in (
-            lambda: model.setFloat64([names["theta_rad"].valueReference], [0.0]),
-            lambda: model.setFloat64([names["push_nm"].valueReference], [float("nan")]),
-            lambda: model.setBoolean([names["own_hand"].valueReference], [True]),
-            lambda: model.getFloat64([names["faults"].valueReference]),
-            lambda: model.getFloat64([99]),
-            lambda: model.doStep(0.0, -1.0),
-        ):
-            before = len(said)
-            with self.assertRaises(Exception):
-                act()
-            self.assertEqual(len(said), before + 1)
-        # Another plant than that of the token.
-        plant = Path(model.unzipDirectory, "resources/plant.toml")
-        plant.write_text(plant.read_text(encoding="utf-8") + "\n", encoding="utf-8")
-        other = fmi3.FMU3Slave(
-            guid=model.guid, unzipDirectory=model.unzipDirectory, modelIdentifier=model.modelIdentifier
-        )
-        with self.assertRaises(Exception):
-            other.instantiate(logMessage=self.log)
-        self.assertIn("instantiationToken", said[-1])
-
-    def test_refusals_of_the_command(self):
-        for words, said in (
-            (("--scene", "wal"), '"wal" is not in vectors/scenes'),
-            (("--scene", "no/scene.toml"), "no/scene.toml: there is no such file"),
-            # Before a design is looked for or built.
-            (("--scene", "no/scene.toml", "--design", "nothing"), "no/scene.toml: there is no such file"),
-            (("--scene", "detent"), "has no engine; choose a scene without law"),
-            (("--scene", "plane_circle"), "names a device of several axes"),
-            (("--design", "nothing"), "choose lever"),
-            (("--design", "lever_law"), "choose lever"),
-        ):
-            self.ended(self.product(*words, "-o", "it.fmu"), 2, said)
-            self.assertFalse((self.folder / "it.fmu").exists())
-        text = text_of("vectors/scenes/wall.toml")
-        own = self.put("own.toml", text.replace('title = ', 'plant = "p25"\ntitle = ', 1))
-        self.ended(self.product("--scene", own), 2, "p25.toml: there is no such file")
-        self.put("own.toml", text.replace("duration_s", "duration"))
-        self.ended(self.product("--scene", own), 2, "own.toml:")
-        self.ended(self.product("--no-read-back"), 2, "--no-read-back is of verilog")
 
 
 if __name__ == "__main__":

@@ -73,13 +73,6 @@ class Product(Scratch):
         self.assertNotIn("snapshot_ram", text)
         self.assertEqual(len(re.findall(r"<= parameter_ram\[", text)), 1)
 
-    @weekly(3)
-    def test_a_design_of_ones_own(self):
-        own = (ROOT / "rtl/designs/lever.toml").read_text()
-        own = re.sub(r"^lines = .*", "lines = 2048", own, flags=re.M)
-        (self.folder / "own.toml").write_text(own)
-        self.assertIn("design own", self.written("--design", "own.toml"))
-
     def board(self, *words):
         done = self.ended(self.product("board", *words))
         return done
@@ -136,17 +129,6 @@ class Product(Scratch):
             with self.subTest(said):
                 self.ended(self.product("board", *words), 2, said)
         self.assertEqual((self.folder / "mine/thesis.txt").read_text(), "x")
-
-    def test_refused(self):
-        for words, said in (
-            (("verilog", "--design", "levr"), "levr is neither a design (balanced, exact"),
-            (("verilog", "-o", "no/x.v"), "there is no folder"),
-            (("vhdl",), "invalid choice"),
-        ):
-            self.ended(self.product(*words), 2, said)
-        (self.folder / "bad.toml").write_text("[clock]\n")
-        self.ended(self.product("verilog", "--design", "bad.toml"), 2, "bad.toml")
-        self.assertFalse((self.folder / "feltgate.v").exists())
 
 
 if __name__ == "__main__":

@@ -16,7 +16,6 @@ from pathlib import Path
 
 from testing import ROOT, Scratch, script
 import synth_board
-import synth_budget
 from synth_tools import feeds
 
 VENV = Path(sys.argv[1]) if len(sys.argv) > 1 else None
@@ -124,12 +123,6 @@ class StandIns(Scratch):
         self.assertIn("3 of 4 gates", done.stderr)
         self.assertEqual(written, "")
 
-    def test_area_alone(self):
-        done, written, there = self.run_board("--board", "ulx3s", "--no-route")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertNotIn("fmax_mhz", there["designs"]["lever"]["board ulx3s"])
-        self.assertEqual(written, "")
-
     def test_the_tang_nano_gets_its_clock_and_its_design(self):
         done, written, there = self.run_board("--board", "tang_nano_9k", clock=54)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -145,19 +138,6 @@ class StandIns(Scratch):
         words = re.findall(r"^serial_hz = (\d+)", design.read_text(encoding="utf-8"), re.M)
         # Whole clocks in each half, at most the 5 MHz of the design.
         self.assertEqual([54_000_000 / int(word) for word in words], [12])
-
-    def test_the_tang_nano_takes_a_file_as_it_is(self):
-        design = ROOT / "rtl/designs/lever.toml"
-        done, written, _ = self.run_board("--board", "tang_nano_9k", "--design", design, clock=54)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("the PLL gives 54 MHz, the design wants 50 MHz", done.stderr)
-        self.assertEqual((written, self.design), ("", ""))
-
-    def test_the_tang_nano_too_slow(self):
-        done, written, _ = self.run_board("--board", "tang_nano_9k", clock=54, speeds=(90, 53, 80))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("DOES NOT CLOSE", done.stdout)
-        self.assertEqual((written, self.design), ("", ""))
 
     def test_what_does_not_fit_is_refused(self):
         for design in ("gimbal_motor", "gimbal_current", "hall_motor", "lever_current"):
@@ -177,36 +157,6 @@ class StandIns(Scratch):
                 self.assertIn(f"behind a carry 0, behind neither 1: {6912 + more} to {6912 + more} places of 8640", done.stdout)
                 self.assertEqual(f"{6912 + more} of 8640 places: above 80%" in done.stderr, bool(more), done.stderr)
                 self.assertEqual((done.returncode == 2, bool(written)), (bool(more), not more))
-
-    def test_percent_of_the_cyclone(self):
-        done, _, there = self.run_board("--board", "de0_nano")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("34816 of  608256    5.7%", done.stdout)
-        self.assertEqual(there["designs"]["lever"]["board de0_nano"]["m9k"], 4)
-
-    def test_wrong_words_are_refused(self):
-        for words, said in (
-            (("--board", "ulx3s", "--block", "core"), "neither --block nor --for"),
-            (("--board", "ulx3s", "--design", "nowhere.toml"), "neither a design"),
-            (("--board", "other"), "invalid choice"),
-            (("--board", "ulx3s", "--design", "a", "--design", "b"), "takes one --design"),
-        ):
-            with self.subTest(words):
-                done, _, _ = self.run_board(*words)
-                self.assertEqual(done.returncode, 2)
-                self.assertIn(said, done.stderr)
-
-    def test_a_cell_that_lacks_one_setting_is_none(self):
-        self.assertEqual(synth_board.gate_cells(f".tile A\n{CELL}\n"), 1)
-        for setting in synth_board.GATE_CELL:
-            text = f".tile A\n{CELL}\n".replace(f"enum: IOLOGICA.{setting}\n", "")
-            text = text.replace(setting, "X")
-            self.assertEqual(synth_board.gate_cells(text), 0, setting)
-
-    def test_both_boards_have_a_budget(self):
-        rows = synth_budget.read(ROOT / synth_budget.FILE)["figures"]["lever"]
-        for board in synth_board.BOARDS:
-            self.assertIn(f"board {board}", rows)
 
 
 class Feeds(unittest.TestCase):

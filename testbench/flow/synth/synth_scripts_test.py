@@ -36,18 +36,6 @@ class Budget(Scratch):
                 self.assertEqual(self.grown(**{key: within}), [])
                 self.assertIn(key, self.grown(**{key: past})[0])
 
-    def test_scene_sets_are_kept_beside_the_blocks(self):
-        path = self.folder / "areas.json"
-        budget = synth_budget.merge(synth_budget.read(path), {"lever": {"dob": ROW}}, TOOLS)
-        sets = {"lever": {"membrane": ROW, "free": ROW | {"lut4_equivalents": 100}}}
-        synth_budget.write(path, synth_budget.merge_scene_sets(budget, sets, TOOLS))
-        again = synth_budget.read(path)
-        self.assertEqual(again["figures"], budget["figures"])
-        self.assertEqual(again["scene_sets"], sets)
-        # A later run of the blocks keeps the sets.
-        later = synth_budget.merge(again, {"lever": {"mult": ROW}}, TOOLS)
-        self.assertEqual(later["scene_sets"], sets)
-
     def test_written_and_read_again(self):
         path = self.folder / "areas.json"
         measured = {"lever": {"core without read-back, inferred": ROW}}
@@ -83,21 +71,6 @@ class Wrapper(unittest.TestCase):
         core = (ROOT / "rtl/core/feltgate_core.sv").read_text(encoding="utf-8")
         for port in synth_measure.SNAPSHOT_PORTS:
             self.assertRegex(core, rf"\boutput logic [^;]*\b{port}\b")
-
-    def test_pins_of_an_option_count_where_the_design_has_it(self):
-        core = synth_measure.scene_target(ROOT)
-        def free(design):
-            text = (ROOT / f"rtl/generated/{design}/feltgate_pkg.sv").read_text(encoding="utf-8")
-            target = synth_measure.with_option_pins(core, text)
-            pins = {pin for some in synth_measure.OPTION_PINS.values() for pin in some}
-            return sorted(pins - {*target.open_ports, *target.tied_ports})
-
-        self.assertEqual(free("lever"), [])
-        self.assertEqual(free("lever_current"), ["current_clock_o", "current_data_i", "driver_fault_i", "heartbeat_o"])
-        self.assertEqual(len(free("lever_absolute")), 4)
-        self.assertEqual(free("gimbal_motor")[4:], ["gate_c_hi_o", "gate_c_lo_o"])
-        self.assertEqual(len(free("gimbal_current")), 10)
-        self.assertEqual(free("hall_motor"), ["gate_c_hi_o", "gate_c_lo_o", "hall_i"])
 
 
 class CriticalPath(unittest.TestCase):

@@ -120,19 +120,6 @@ class TouchBoard(ProgramTest):
         _, said = touching.communicate(timeout=60)
         self.assertEqual(touching.returncode, 3, said)
 
-    def test_what_is_refused(self):
-        _, lever = self.board()
-        for words, needle in (
-            (("--board", lever), "its design lever is no stylus"),
-            (("--board", "/dev/none"), "there is no such port"),
-            (("--board", lever, "--press", 1), "--press is not for a pen at a board"),
-            (("--board", lever, "--lost", 0.5), "--lost is not for a pen at a board"),
-            (("--board", lever, "--stroke", "x.csv"), "--stroke excludes --board"),
-            (("--for", 1), "requires --board"),
-        ):
-            with self.subTest(words):
-                self.assertIn(needle, self.touch("ball.glb", *words, status=2))
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -7,7 +7,6 @@ and the session of docs/host.md."""
 import csv
 import json
 import os
-import pty
 import re
 import shlex
 import signal
@@ -68,12 +67,6 @@ class Session(VerbTest):
                         self.assertEqual(patterns_of(said), patterns_of(shown))
                     lines += 1
         self.assertGreater(lines, 8)
-
-    def test_every_verb_is_on_the_page(self):
-        table = (ROOT / "model/apps/commands/host/verbs.cpp").read_text(encoding="utf-8")
-        page = PAGE.read_text(encoding="utf-8")
-        for verb in re.findall(r'^ +\{"([a-z]+)", "', table, re.M):
-            self.assertRegex(page, rf"\b{verb}\b")
 
 
 class Verbs(VerbTest):
@@ -185,27 +178,6 @@ class Verbs(VerbTest):
             rows = (self.folder / "kept.csv").read_text(encoding="utf-8").splitlines()
             self.assertEqual(len(rows), 2)
             self.assertTrue(rows[1].startswith("0.05,0.049,"))
-
-    def test_watch_on_a_terminal_and_for_teleplot(self):
-        with BoardProcess() as board:
-            said = self.host(board.port, "watch", "angle", "--teleplot", "--for", 1)
-            self.assertRegex(said, r"(?m)^>angle:\d+\.\d{3}:-?[\d.e-]+§rad$")
-            self.assertGreaterEqual(said.count("§rad"), 3)
-            master, slave = pty.openpty()
-            words = self.command(board.port, "watch", "angle", "--for", 1, "--every", 0.05)
-            with subprocess.Popen(words, env=self.environment(), stdout=slave) as process:
-                process.wait(timeout=20)
-            os.close(slave)
-            shown = os.read(master, 100000).decode()
-            os.close(master)
-            self.assertEqual(process.returncode, 0)
-            self.assertIn("SIMULATED", shown)
-            self.assertRegex(shown, "[▁▂▃▄▅▆▇█]{5}")
-
-    def test_too_fast_for_the_wire(self):
-        with BoardProcess() as board:
-            said = self.host(board.port, "watch", "--every", 1e-5, status=2)
-            self.assertIn("use capture", said)
 
     def test_capture_csv_picture_and_vector(self):
         with BoardProcess() as board:

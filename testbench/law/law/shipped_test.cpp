@@ -33,9 +33,7 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       // material_test.cpp
       "material",
       // testbench/studies/shape
-      "hidden_shapes",
-      // testbench/studies/texture
-      "texture",
+      "hidden_shapes", "texture",
       // drums_test.cpp
       "ceiling", "wall_tracked", "ceiling_tracked", "drums",
       // testbench/sim/bowed_string

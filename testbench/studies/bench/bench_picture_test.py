@@ -17,10 +17,6 @@ class BenchPicture(Scratch):
             self.assertIn(word, drawn)
             self.assertIn(word, committed)
 
-    def test_another_schema_is_refused(self):
-        other = self.put("other.json", json.dumps({"schema": "feltgate-run/1"}))
-        self.ended(script("bench_picture.py", other, self.folder / "x.svg"), 2, "feltgate-bench/1")
-
 
 if __name__ == "__main__":
     unittest.main()

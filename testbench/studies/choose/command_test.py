@@ -9,12 +9,11 @@ import math
 import subprocess
 import unittest
 from pathlib import Path
-from unittest import mock
 
 from testing import BUILD, ROOT, Scratch, called, ran
 
 import choose
-from exploration import choosing, design_text, made_scene
+from exploration import choosing, made_scene
 
 PROGRAM = BUILD / "feltgate_lever_law"
 SCENE = """title = "Short"
@@ -216,30 +215,6 @@ class Chosen(Scratch):
         found.run_itself(one)
         self.assertGreaterEqual(said(), rows[0]["error_max_nm"] * (1 - 1e-9))
 
-    def test_a_design_of_the_table_as_a_program(self):
-        """Its package, its file among the repository's, and what is built; the build itself takes minutes."""
-        point = {"base": "lever", "set": {"velocity.cutoff_rad_s": 1900, "formats.rounding": "floor"}}
-        text = design_text.described(design_text.design_text(ROOT, point), point)
-        folder = Path(self.folder) / "build"
-        folder.mkdir()
-        (folder / "feltgate_generate").symlink_to(BUILD / "feltgate_generate")
-        built = []
-        with (
-            mock.patch.object(design_text.command_line, "build_folder", lambda: folder),
-            mock.patch.object(design_text.building, "make", lambda *words: built.append(words[2])),
-        ):
-            environment = design_text.own_program("choose", "lever_1", text)
-            self.assertEqual(environment, design_text.own_program("choose", "lever_1", text))
-            with self.assertRaisesRegex(Exception, "lever_2.toml.*rounding"):
-                design_text.own_program("choose", "lever_2", text.replace('"floor"', '"up"'))
-        self.assertEqual(built, [["feltgate_lever_1"]] * 2)
-        package = (folder / "own/lever_1/feltgate/generated/feltgate_pkg.sv").read_text(encoding="utf-8")
-        self.assertIn("package feltgate_pkg", package)
-        root = Path(environment["FELTGATE_ROOT"])
-        self.assertEqual((root / "rtl/designs/lever_1.toml").read_text(encoding="utf-8"), text)
-        for same in ("rtl/registers.toml", "rtl/designs/lever.toml", "vectors/scenes/wall.toml"):
-            self.assertEqual((root / same).read_bytes(), (ROOT / same).read_bytes())
-
     def test_rtl_that_was_hardly_armed_verifies_nothing(self):
         scene = {"core": {"arm_s": 0.05}}
         for seconds, armed, holds in ((0.001, 0, False), (0.0505, 0.0005, False), (0.06, 0.01, True)):
@@ -255,12 +230,6 @@ class Chosen(Scratch):
             self.assertEqual((status, out), (2, ""), err)
             self.assertIn(said, err)
             self.assertFalse((self.folder / "out").exists())
-
-
-    def test_a_scene_without_a_law_is_refused_by_its_own_name(self):
-        status, _, err = called(choose.main, "free_lever", "-o", self.folder / "out", "--quiet")
-        self.assertEqual(status, 2)
-        self.assertRegex(err, "^feltgate choose: free_lever: the scene renders no torque law")
 
 
 class Border(Scratch):

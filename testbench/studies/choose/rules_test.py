@@ -6,7 +6,6 @@ is, why a wish is not met; the designs of the table; scenes and laws as they are
 import csv
 import tomllib
 import unittest
-from pathlib import Path
 
 from testing import ROOT, Scratch, called, text_of
 
@@ -121,28 +120,6 @@ class Designs(unittest.TestCase):
             self.rows = list(csv.DictReader(file))
         self.base = tomllib.loads(text_of("rtl/designs/lever.toml"))
 
-    def test_every_design_of_the_table_is_kept_or_counted(self):
-        kept, left = choice.designs(self.rows, self.base, "wall")
-        self.assertEqual(len(self.rows), 286)
-        self.assertEqual(len(kept) + sum(left.values()), 286)
-        said = {word: sum(n for why, n in left.items() if word in why) for word in ("coarse", "unstable")}
-        coarse = [r for r in self.rows if r["coarse"] == "True"]
-        usable = [r for r in self.rows if r["coarse"] != "True" and r["stable"] == "True"]
-        unstable = len(self.rows) - len(coarse) - len(usable)
-        self.assertEqual(said, {"coarse": len(coarse), "unstable": unstable})
-        # By hand: apart from the observer, whose cut-off no torque feels, no two of them are alike.
-        keys = [k for k in choice.settings(usable[0] | {k: "x" for k in usable[0]}) if k != choice.OBSERVER]
-        default = {choice.CUTOFF: "500", "formats.coefficient_bits": "17", "formats.observer_fraction": "30"}
-        default |= {"formats.velocity": "[1,10,21]", "velocity.m1": "767"}
-        all_of = {tuple(r[k] if r[k] != default.get(k) else "" for k in keys) for r in usable}
-        few = ("damper", "membrane", "free")
-        with_wall = [one for one in all_of if not any(name in str(one) for name in few)]
-        self.assertEqual(len(kept), len(with_wall))
-        self.assertGreater(len(kept), 80)
-        damper, _ = choice.designs(self.rows, self.base, "damper")
-        self.assertEqual(len(damper), len(kept) + 3)
-        self.assertEqual(len(choice.designs(self.rows, self.base, None)[0]), len(kept))
-
     def test_registers_hold_a_cut_off_within_an_octave(self):
         kept, _ = choice.designs(self.rows, self.base, "wall")
         held = sorted(row.get(choice.CUTOFF) for row in kept if row.in_registers())
@@ -172,27 +149,6 @@ class Written(Scratch):
 
 
 class Refused(Scratch):
-    def test_options(self):
-        for words, said in (
-            ((), "required: SCENE|LAW"),
-            (("wall", "--torque-error", "0"), "not a share"),
-            (("wall", "--torque-error", "nan"), "not a share"),
-            (("wall", "--torque-error", "1%%"), "not a share"),
-            (("wall", "--margin", "0.5"), "not a number from 1"),
-            (("wall", "--margin", "2%"), "not a number from 1"),
-            (("wall", "--latency", "fast"), "not a number from"),
-            (("wall", "--chip", "up6k"), "invalid choice"),
-            (("wall", "--fastest", "--smallest"), "not allowed with"),
-            (("wall", "--json", self.folder / "none/a.json"), "no folder"),
-            (("wall", "-o", Path(__file__)), "is no folder"),
-            (("wal",), "did you mean wall?"),
-            (("none.toml",), "no such file"),
-        ):
-            with self.subTest(words):
-                status, out, err = called(choose.main, *words, "--only-arguments")
-                self.assertEqual((status, out), (2, ""))
-                self.assertIn(said, err)
-
     def test_what_is_no_scene_and_no_law(self):
         broken = self.put("broken.toml", "title = ")
         lawless = self.put("lawless.toml", '[core]\nscene = "law"\nlaw = "gone.law"\n')

@@ -57,13 +57,6 @@ class Controllers(Scratch):
         pairs = zip(of["PI"]["stall_nm"], of["observer"]["stall_nm"], strict=True)
         self.assertLess(max(abs(a - b) for a, b in pairs), 2e-3)
         self.assertGreater(len(of["PI"]["stall_nm"]), 350)
-        # What the page says in words.
-        observer, forward = of["observer"], of["feed-forward"]
-        walls = [one["border_nm_rad"]["fixed"] for one in (observer, forward)]
-        self.assertAlmostEqual(walls[0] / walls[1], 1.32, delta=0.05)
-        for i, more in ((0, False), (1, True), (2, True), (3, True)):
-            pair = [one["inertia_ratios"][i]["border_nm_rad"] for one in (observer, forward)]
-            self.assertEqual(pair[0] > pair[1], more)
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
         for word in (*of, "largest wall, Nm/rad", "motor torque, mNm", "noise, mNm rms"):
             self.assertIn(word, svg)
@@ -73,21 +66,7 @@ class Controllers(Scratch):
         self.assertIn(done.stdout.strip(), text_of(TABLES), f"{TABLES} is stale: paste this table")
         data = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
         self.assertEqual(data["schema"], "feltgate-estimators/1")
-        paper, lever, faster, cycle, window, mt = data["estimators"]
-        # What the page says in words.
-        self.assertGreater(mt["border_nm_rad"], 1.15 * lever["border_nm_rad"])
-        self.assertGreater(mt["border_observer_nm_rad"], 1.4 * lever["border_observer_nm_rad"])
-        self.assertGreater(faster["border_nm_rad"], mt["border_nm_rad"])
-        self.assertLess(window["border_nm_rad"], lever["border_nm_rad"])
-        self.assertEqual(cycle["border_nm_rad"], window["border_nm_rad"])
-        for noise in ("tau_hat_good_nm", "tau_hat_irregular_nm"):
-            self.assertLess(mt[noise][1], paper[noise][1] / 40)
-            self.assertLess(mt[noise][1], lever[noise][1] / 30)
-        self.assertGreater(mt["tau_hat_irregular_nm"][2], 2 * lever["tau_hat_irregular_nm"][2])
-        self.assertLess(mt["tau_hat_irregular_nm"][2], paper["tau_hat_irregular_nm"][2])
         self.assertIn("observer fed back", (self.folder / "c.svg").read_text(encoding="utf-8"))
-        drags = [one["drag_rms_nm"] for one in data["estimators"]]
-        self.assertLess(max(drags) - min(drags), 1e-5)
 
     def test_a_design_with_mt(self):
         text = re.sub(r"^(m1|n) = .*\n", "", text_of("rtl/designs/lever.toml"), flags=re.M)
@@ -116,17 +95,6 @@ class Controllers(Scratch):
         # 6.98 ms by partial fractions, a run of the law and the last clock of the duty later.
         self.assertAlmostEqual(figures["torque_settling_ms.0"], 7.4, delta=0.2)
         self.assertLess(abs(figures["final_error_pct.0"]), 0.5)
-
-    def test_bad_input_is_told_in_a_line(self):
-        for words, told in (
-            (("lever",), "lever"),
-            (("-o", "none/a.svg"), "none"),
-            (("-o", "-"), "--output"),
-            (("--json", "none/a.json"), "none"),
-        ):
-            with self.subTest(words=words):
-                done = self.ended(self.call("controllers", *words), 2, told)
-                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
 
 if __name__ == "__main__":

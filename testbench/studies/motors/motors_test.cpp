@@ -12,12 +12,12 @@
 
 #include "catch.hpp"
 #include "kinds.hpp"
+#include "moves.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/loop/loop.hpp"
 #include "sim/loop/replay.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/traces/open.hpp"
-#include "synthetic.hpp"
 
 namespace {
 
@@ -186,12 +186,8 @@ void speeds(const Bench& b) {
 /// Channel B stands while a hand turns the lever: one live channel changes every second count.
 double dead_channel(const std::string& design, double count_rad, double rad_s) {
   const auto wait = static_cast<Clock>(2 * count_rad / rad_s * 50e6);
-  int turn = -1, moves = 0;
-  traces::Synthetic source([&]() -> std::optional<traces::Synthetic::Move> {
-    if (++moves > 60) return {};
-    turn = -turn;
-    return traces::Synthetic::Move{wait, turn};
-  });
+  test::Moves source;
+  for (int k = 0; k < 60; ++k) source.move(wait, k % 2 == 0 ? 1 : -1);
   ReplayOptions options;
   options.design = design;
   options.engine = "twin";

@@ -116,23 +116,6 @@ Material felt_material(const Trace& trace) {
   return {found[1], found[2]};
 }
 
-double felt_ripple_n(const Trace& trace, double wave_m) {
-  const std::vector<Touch>& all = trace.touches;
-  const auto half = static_cast<std::size_t>(std::lround(0.5 * wave_m / (kSpeed_m_s * kStep_s)));
-  double sum_n = 0, sum_n2 = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    sum_n += shape::length(all[i].force_n);
-    if (i < 2 * half) continue;
-    const double off_n =
-        shape::length(all[i - half].force_n) - sum_n / static_cast<double>(2 * half + 1);
-    sum_n2 += off_n * off_n;
-    ++count;
-    sum_n -= shape::length(all[i - 2 * half].force_n);
-  }
-  return count > 0 ? std::sqrt(sum_n2 / static_cast<double>(count)) : 0;
-}
-
 Trace traced(int shape, double stiffness_n_m, double damping_ns_m, Point start_m) {
   return traced("hidden_shapes",
                 {{"shape", static_cast<double>(shape)},

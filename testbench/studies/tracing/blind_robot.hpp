@@ -38,10 +38,6 @@ struct Material {
 };
 Material felt_material(const Trace& trace);
 
-/// Rms of what the force does within `wave_m` of the walk, N: the ripples of a texture of that
-/// length, and what the counts of the encoders add.
-double felt_ripple_n(const Trace& trace, double wave_m);
-
 /// Leads the hand of a scene, one decision a millisecond.
 class BlindRobot {
  public:

@@ -17,7 +17,7 @@ namespace {
 constexpr double kRadius_m = 2e-3;  ///< of the corners in the law
 constexpr double kPace_m = 2e-3;    ///< in which a way is remembered
 /// What tells shapes apart, each in the size of its own spread.
-constexpr double kApart_m = 1.5e-3, kStiffness_share = 0.15, kDamping_ns_m = 0.01, kRipple_n = 2e-3;
+constexpr double kApart_m = 1.5e-3, kStiffness_share = 0.15, kDamping_ns_m = 0.01;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// Places a pace apart on a closed line.
@@ -113,10 +113,6 @@ int Guesser::guess(const Trace& trace, const Cues& cues, const Memory& memory,
     }
     if (cues.damping)
       off += std::pow((felt.damping_ns_m - kShapes[i].damping_ns_m) / kDamping_ns_m, 2);
-    if (cues.texture) {
-      const double ripple_n = felt_ripple_n(trace, kWave_m);
-      off += std::pow((ripple_n - (kRough[i] ? kRough_n : kSmooth_n)) / kRipple_n, 2);
-    }
     if (off >= least) continue;
     least = off;
     best = static_cast<int>(i);

@@ -33,15 +33,8 @@ constexpr std::array<Shape, 7> kShapes{{{"square", kHard_n_m, kSlippery_ns_m},
 constexpr std::array<Point, 4> kStarts{{{0, 0.17}, {-0.055, 0.12}, {0.055, 0.12}, {0, 0.075}}};
 
 struct Cues {
-  bool stiffness = false, damping = false, texture = false;
+  bool stiffness = false, damping = false;
 };
-
-/// Of the study with a texture: which of the shapes have ripples, and their length and height.
-constexpr std::array<bool, 7> kRough{false, true, false, true, false, true, false};
-constexpr double kWave_m = 2.5e-3, kRipple_m = 0.4e-3;
-/// The force's rms that it expects of a smooth outline, by the counts of the encoders, and of a
-/// rough one, K A / root 2.
-constexpr double kSmooth_n = 3e-3, kRough_n = 14e-3;
 
 /// How a way is remembered: its direction is off by a random walk.
 struct Memory {

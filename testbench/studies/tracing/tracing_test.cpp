@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <regex>
 #include <tuple>
 
-#include "../shape/shape_case.hpp"
 #include "catch.hpp"
 #include "guesses.hpp"
 #include "mismatch.hpp"
@@ -49,29 +47,6 @@ Confusion lives(const Guesser& guesser, Traces& traces, const Cues& cues, const 
     }
   }
   return guesses;
-}
-
-/// A shape alone, by a proxy with a texture: ripples of kWave_m and of this height.
-Trace traced_rippled(std::size_t shape, double ripple_m, double patience_s = most_patience_s) {
-  namespace s = feltgate::shape;
-  const s::Polygon outline =
-      s::sampled(s::curve_of(kShapes[shape].name, 2e-3), s::most_measured_vertices);
-  s::LawRequest request;
-  request.summary = kShapes[shape].name;
-  request.texture = true;
-  const auto path = (std::filesystem::temp_directory_path() /
-                     fmt::format("feltgate_{}_rippled.law", kShapes[shape].name))
-                        .string();
-  std::ofstream(path) << s::law_text(outline, request);
-  double around_m = 0;
-  for (std::size_t i = 0; i < outline.at.size(); ++i)
-    around_m += s::length(outline.at[(i + 1) % outline.at.size()] - outline.at[i]);
-  return traced(path,
-                {{"stiffness", kHard_n_m},
-                 {"damping", kSlippery_ns_m},
-                 {"ripple", 1e3 * ripple_m},  // mm, as the law has it
-                 {"ripples", std::round(around_m / kWave_m)}},
-                kStarts[0], patience_s);
 }
 
 std::string paging_script(const std::string& name) {
@@ -113,52 +88,6 @@ TEST_CASE("tracing: every shape is walked around and named, its material felt") 
     CHECK(guesser.guess(trace, {}, {}, random) == static_cast<int>(shape));
     CHECK(guesser.guess(trace, cues, {}, random) == static_cast<int>(shape));
   }
-}
-
-TEST_CASE("tracing: ripples of an outline are felt, and a smooth one is not rough") {
-  // A side of the square and a corner; the force of ripples that the pen does not follow is K A
-  // sin.
-  const double smooth_n = felt_ripple_n(traced_rippled(0, 0, 1.5), kWave_m);
-  const double rough_n = felt_ripple_n(traced_rippled(0, kRipple_m, 1.5), kWave_m);
-  INFO(smooth_n << " N, " << rough_n << " N");
-  CHECK(smooth_n == Approx(kSmooth_n).margin(1.5e-3));
-  const double ripples_n = kHard_n_m * kRipple_m / std::sqrt(2.0);
-  CHECK(rough_n == Approx(std::hypot(ripples_n, smooth_n)).epsilon(0.12));
-}
-
-TEST_CASE("tracing: how often the robot is right with a texture and without", "[.table]") {
-  const Guesser guesser;
-  std::array<std::array<Trace, 2>, kShapes.size()> traces;  // smooth, and as it is
-  std::string text = "shape, N rms smooth and as it is\n";
-  for (std::size_t shape = 0; shape < kShapes.size(); ++shape) {
-    traces[shape][0] = traced_rippled(shape, 0);
-    traces[shape][1] = kRough[shape] ? traced_rippled(shape, kRipple_m) : traces[shape][0];
-    text += fmt::format("{:<10} {:.4f} {:.4f} {}\n", kShapes[shape].name,
-                        felt_ripple_n(traces[shape][0], kWave_m),
-                        felt_ripple_n(traces[shape][1], kWave_m),
-                        traces[shape][0].closed && traces[shape][1].closed ? "" : "not closed");
-  }
-  text += "degrees per root cm  smooth  rough, not a cue  rough, a cue, % right\n";
-  struct Case {
-    std::size_t trace;
-    Cues cues;
-  };
-  for (const double error : {0.0, 5.0, 10.0, 15.0, 20.0, 30.0, 40.0}) {
-    text += fmt::format("{:>4}", error);
-    for (const Case& c : {Case{0, {}}, Case{1, {}}, Case{1, {false, false, true}}}) {
-      std::mt19937_64 random(1);
-      Confusion guesses{};
-      for (std::size_t shape = 0; shape < kShapes.size(); ++shape) {
-        for (int life = 0; life < 200; ++life) {
-          const Trace& trace = traces[shape][c.trace];
-          ++guesses[shape][static_cast<std::size_t>(guesser.guess(trace, c.cues, {error}, random))];
-        }
-      }
-      text += fmt::format("  {:>6.1f}", 100 * right(guesses));
-    }
-    text += "\n";
-  }
-  std::fputs(text.c_str(), stdout);
 }
 
 TEST_CASE("tracing: how often the robot is right, with cues and without", "[.table]") {

@@ -13,22 +13,20 @@ def clock_text(seconds):
     return f"{seconds // 60}:{seconds % 60:02d}"
 
 
-class RedrawnLine:
-    """A line() that is drawn anew on a terminal while the work inside `with` goes on; silent
-    elsewhere."""
+class Steps:
+    """Work that is counted, inside `with`: a line that is drawn anew on a terminal; elsewhere one every half a minute."""
 
-    def __init__(self, stream=None, every_s=0.2):
-        self.stream = stream or sys.stderr
-        self.live = self.stream.isatty()
-        self.every_s = every_s
-        self.began = time.monotonic()
-        self._stopped = threading.Event()
-        self._thread = None
-        self._drawing = threading.Lock()
+    EVERY_S, SILENT_S = 0.2, 30
+
+    def __init__(self, name, total):
+        self.name, self.total = name, total
+        self.done, self.last = 0, ""
+        self.began = self._said = time.monotonic()
+        self._stopped, self._drawing = threading.Event(), threading.Lock()
+        self._thread = threading.Thread(target=self._redraw, daemon=True) if sys.stderr.isatty() else None
 
     def __enter__(self):
-        if self.live:
-            self._thread = threading.Thread(target=self._redraw, daemon=True)
+        if self._thread:
             self._thread.start()
         return self
 
@@ -36,56 +34,38 @@ class RedrawnLine:
         self._stopped.set()
         if self._thread:
             self._thread.join()
-            self.stream.write("\r\x1b[K")
-            self.stream.flush()
+            self._write("")
+
+    def _write(self, text):
+        sys.stderr.write(f"\r{text[: shutil.get_terminal_size().columns - 1]}\x1b[K")
+        sys.stderr.flush()
 
     def _redraw(self):
-        while not self._stopped.wait(self.every_s):
+        while not self._stopped.wait(self.EVERY_S):
             with self._drawing:
-                self.stream.write("\r" + self.line() + "\x1b[K")
-                self.stream.flush()
+                self._write(self.text())
 
     def say(self, text):
         """Prints something to stdout while the work goes on."""
         with self._drawing:
-            if self.live:
-                self.stream.write("\r\x1b[K")
-                self.stream.flush()
+            if self._thread:
+                self._write("")
             print(text, flush=True)
-
-
-class Steps(RedrawnLine):
-    """Work that is counted. Where there is no terminal it says a line every half a minute."""
-
-    SILENT_S = 30
-
-    def __init__(self, name, total, stream=None):
-        super().__init__(stream)
-        self.name, self.total = name, total
-        self.done, self.last = 0, ""
-        self._said = self.began
 
     def step(self, last, done=None):
         """One more is done, or `done` are by now; `last` says what this was."""
         self.done = self.done + 1 if done is None else done
         self.last = last
         now = time.monotonic()
-        if not self.live and now - self._said > self.SILENT_S:
+        if not self._thread and now - self._said > self.SILENT_S:
             self._said = now
-            self.stream.write(self.text() + "\n")
-            self.stream.flush()
+            print(self.text(), file=sys.stderr, flush=True)
 
     def text(self):
         """How far it is; without a share where nobody knows how much there is (total None)."""
+        spent = time.monotonic() - self.began
         if self.total is None:
-            return f"{self.name}: {self.done} done, {clock_text(self._spent())}  {self.last}"
+            return f"{self.name}: {self.done} done, {clock_text(spent)}  {self.last}"
         share = min(1.0, self.done / self.total) if self.total else 1.0
-        spent = self._spent()
         left = clock_text(spent * (1 / share - 1)) if share > 0 else "?"
         return f"{self.name}: {100 * share:3.0f} %, {clock_text(spent)}, {left} left  {self.last}"
-
-    def _spent(self):
-        return time.monotonic() - self.began
-
-    def line(self):
-        return self.text()[: shutil.get_terminal_size().columns - 1]

@@ -120,13 +120,9 @@ class CommandLine(Bench):
             (("rnu",), 'command rnu is unknown; did you mean "run"?'),
             (("run", "membrane", "--desing", "lever"), 'did you mean "--design"?'),
             (("run", "membrane", "--desing=lever"), 'option --desing is unknown; did you mean'),
-            (("stability", "--no-experimnets"), 'did you mean "--no-experiments"?'),
             (("run", "membrnae"), '"membrnae" is not in vectors/scenes; did you mean "membrane"?'),
             (("run", "mebrane.toml"), "did you mean membrane, which is in vectors/scenes?"),
             (("run", "membrane", "--plant", "p42"), '"p42" is not in vectors/plants; did you mean'),
-            (("extremes", "warp_32"), 'case "warp_32" is unknown; did you mean "wrap_32"?'),
-            (("design", "Lever2"), '"Lever2" is not in rtl/designs; did you mean "lever"?'),
-            (("stability", "detent", "--rate", "500"), "detent is a scene, which has its own rate"),
             (("stability", ROOT / "vectors/scenes/detent.toml", "--plot", "out"), "leave out --rate, --damping"),
             (("trim", "membrane", "--design", "levr"), 'did you mean "lever"?'),
         ):

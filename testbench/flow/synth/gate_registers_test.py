@@ -7,27 +7,13 @@ docs/blocks/pwm.md, docs/blocks/pwm.md
 """
 
 import json
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import Scratch, ran, text_of
 
 
 def gates(legs):
     return [f"gate_{leg}_{side}_o" for leg in legs for side in ("hi", "lo")]
-
-
-def netlist(text, name="pwm"):
-    """The module of this source, as Yosys maps it."""
-    with tempfile.TemporaryDirectory() as folder:
-        source = Path(folder) / f"{name}.sv"
-        source.write_text(text, encoding="utf-8")
-        script = f"read_verilog -sv {source}; synth_ecp5 -top {name} -json {folder}/{name}.json"
-        subprocess.run(["yosys", "-q", "-p", script], check=True, capture_output=True, text=True)
-        return json.loads((Path(folder) / f"{name}.json").read_text())["modules"][name]
 
 
 def findings(module, legs="ab"):
@@ -58,15 +44,14 @@ def findings(module, legs="ab"):
     return found
 
 
-class GateRegisters(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.source = (ROOT / "rtl/core/actuation/pwm.sv").read_text(encoding="utf-8")
-
+class GateRegisters(Scratch):
     def test_they_fit_the_cells(self):
-        self.assertEqual(findings(netlist(self.source)), [])
-        source = (ROOT / "rtl/core/actuation/pwm_three_phase.sv").read_text(encoding="utf-8")
-        self.assertEqual(findings(netlist(source, "pwm_three_phase"), "abc"), [])
+        for name, legs in (("pwm", "ab"), ("pwm_three_phase", "abc")):
+            source = self.put(f"{name}.sv", text_of(f"rtl/core/actuation/{name}.sv"))
+            made = self.folder / f"{name}.json"
+            script = f"read_verilog -sv {source}; synth_ecp5 -top {name} -json {made}"
+            self.ended(ran("yosys", "-q", "-p", script))
+            self.assertEqual(findings(json.loads(made.read_text(encoding="utf-8"))["modules"][name], legs), [])
 
 
 if __name__ == "__main__":

@@ -132,15 +132,6 @@ class Laws(ProgramTest):
         refused = self.host("get", "stiffness", "--law", "spring", status=1)
         self.assertIn("does not run the law spring", refused)
 
-    def test_a_board_without_engine(self):
-        self.board("--design", "lever")
-        said = self.host("law", "detent", status=1)
-        self.assertIn("design lever has no engine", said)
-        self.assertIn("lever_law", said)
-        self.assertIn("no engine", self.host("events", status=1))
-        self.assertIn("no engine", self.host("capture", "--trigger", "event:a", status=1))
-        self.assertIn("did you mean", self.host("set", "torque_limt=3", status=2))
-
     @weekly(3)
     def test_events(self):
         self.board("--design", "lever_law", "--hand", "swing")

@@ -4,19 +4,18 @@
 """The frames that docs/link.md shows, computed again; what docs/examples/link.py sends and
 takes."""
 
-import os
 import re
 import struct
 import sys
 import unittest
 import zlib
-from pathlib import Path
 
-ROOT = Path(os.environ["FELTGATE_ROOT"])
+from testing import ROOT, text_of
+
 sys.path.insert(0, str(ROOT / "docs/examples"))
 import link  # noqa: E402
 
-PAGE = (ROOT / "docs/link.md").read_text(encoding="utf-8")
+PAGE = text_of("docs/link.md")
 
 
 def decoded(raw):

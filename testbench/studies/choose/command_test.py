@@ -8,7 +8,6 @@ import json
 import math
 import subprocess
 import unittest
-from pathlib import Path
 
 from testing import BUILD, ROOT, Scratch, called, ran
 
@@ -150,22 +149,6 @@ class Chosen(Scratch):
             self.assertIn(part, [left["part"] for left in told["left_out"]])
             self.assertIn(f"left out: {part}", out)
         self.assertEqual(told["choice"]["gates"]["mult18"], 6)
-
-    def test_a_law_that_is_read_is_never_replaced(self):
-        law = self.put("spring.law", LAW)
-        scene = self.put("spring.toml", SPRING)
-        two = self.put("two.toml", SPRING.replace("spring.law", "two.law"))
-        self.put("two.law", LAW + "out torque[1] = -k * position[1]\n")
-        engine = ("--design", "lever_law", "--engine", "twin")
-        for words, said in (
-            (("trim", scene, "--json", law), "spring.law, which is read"),
-            (("trim", scene, "-o", law), "spring.law, which is read"),
-            (("run", scene, *engine, "--json", law), "spring.law, which is read"),
-            (("trim", two), "two.law:4: a torque for axis 1"),
-        ):
-            with self.subTest(words=words):
-                self.ended(ran(PROGRAM, *words, "--quiet"), 2, said)
-                self.assertEqual(Path(law).read_text(encoding="utf-8"), LAW)
 
     def test_a_law_of_ones_own_at_the_rate_that_was_chosen(self):
         self.put("spring.law", LAW)

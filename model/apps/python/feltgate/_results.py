@@ -112,7 +112,6 @@ class Felt:
     motor_nm: Optional[Peak] = None  #: of the plant's motor, averaged over each PWM period
     hand_nm: Optional[Peak] = None  #: of the hand on the lever
     motor_error_nm: Optional[ErrorFigure] = None  #: motor less asked
-    tau_hat_void_s: float = 0.0  #: time in which voltage or duty was at its limit, so that tau_hat tells too much
     taken_from_hand_j: Optional[float] = None  #: sum of all that the hand gave
     given_to_hand_j: Optional[float] = None  #: sum of all that it got
     limits: Dict[str, Acted] = field(default_factory=dict)  #: only those that acted

@@ -40,9 +40,8 @@ FILES = (
     "sim/touch/mesh.cpp",
     "sim/touch/proxy.cpp",
     "studies/shape/rhombus.cpp",
-    "studies/stability/dominant_poles.cpp",
-    "studies/stability/eigenvalues.cpp",
     "studies/stability/linear_loop.cpp",
+    "studies/stability/eigenvalues.cpp",
 )
 PLANTS = ("p24", "p48", "linear", "gimbal_motor")
 # A hand read from a file needs recordings, which the page has none of; nobody asks it for C++ or

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "sim/traces/error.hpp"
-#include "sim/traces/phase.hpp"
+#include "sim/traces/options.hpp"
 
 namespace feltgate::traces {
 namespace {

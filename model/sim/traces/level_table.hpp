@@ -6,9 +6,11 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <string>
 
 #include "capture.hpp"
+#include "feltgate/encoder_source.hpp"
 #include "options.hpp"
 #include "table.hpp"
 
@@ -41,6 +43,32 @@ class LevelTable final : public Capture {
   std::deque<Row> ahead_;   // the first rows, read to see whether rows are samples or changes
   std::int64_t width_ = 0;  // of a sample, in ps; 0: rows are changes at exact times
   std::uint32_t levels_ = 0;
+};
+
+// A capture of logic levels as encoder pins: A, B and Z as they are, or STEP and DIR turned into
+// quadrature.
+
+/// With Options::step and dir a rising STEP is one count, up where DIR is high in the same sample;
+/// the pins start low. Otherwise the probes are the pins.
+class LevelSource final : public EncoderSource {
+ public:
+  LevelSource(std::unique_ptr<Capture> capture, const Options& options);
+
+  EncoderPins initial() const override { return initial_; }
+  std::optional<EncoderEvent> next() override;
+  Clock length() const override { return length_; }
+
+ private:
+  std::optional<EncoderPins> pins_of(std::uint32_t levels);
+  Clock placed(std::optional<Clock> clock) const;
+
+  std::unique_ptr<Capture> capture_;
+  Placer placer_;
+  bool step_dir_;
+  bool step_ = false;
+  unsigned phase_ = 0;
+  EncoderPins initial_;
+  Clock length_ = 0;
 };
 
 }  // namespace feltgate::traces

@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "sim/traces/column_source.hpp"
-#include "sim/traces/level_source.hpp"
 #include "sim/traces/level_table.hpp"
 #include "sim/traces/sigrok.hpp"
 #include "sim/traces/vcd.hpp"

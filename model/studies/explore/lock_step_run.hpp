@@ -19,7 +19,6 @@
 #include "sim/backends/lock_step_core.hpp"
 #include "sim/reference/control_chain.hpp"
 #include "studies/explore/measurement.hpp"
-#include "studies/explore/stimulus.hpp"
 
 namespace feltgate::explore {
 

@@ -23,7 +23,6 @@
 #include "sim/reference/control_chain.hpp"
 #include "studies/explore/lock_step_run.hpp"
 #include "studies/explore/measurement.hpp"
-#include "studies/explore/stimulus.hpp"
 
 namespace feltgate::explore {
 

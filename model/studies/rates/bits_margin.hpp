@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "studies/rates/margin.hpp"
-#include "studies/stability/swing_meter.hpp"
+#include "studies/stability/bit_loop.hpp"
 
 namespace feltgate::rates {
 

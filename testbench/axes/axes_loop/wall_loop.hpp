@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/plant/pantograph/linkage_dynamics.hpp"
+#include "sim/plant/pantograph/linkage_mechanics.hpp"
 #include "sim/plant/pantograph/pantograph_parameters.hpp"
 #include "studies/stability/eigenvalues.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "feltgate/nearest.hpp"
-#include "files/toml/toml_text.hpp"
+#include "files/toml/toml_reader.hpp"
 
 using namespace feltgate::config;
 

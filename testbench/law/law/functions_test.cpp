@@ -12,7 +12,7 @@
 #include "catch.hpp"
 #include "catch2/catch.hpp"
 #include "feltgate/real_functions.hpp"
-#include "law/amount.hpp"
+#include "law/units.hpp"
 #include "law_case.hpp"
 
 using feltgate::Quad;

@@ -12,10 +12,10 @@
 
 #include "compiled.hpp"
 #include "feltgate/random.hpp"
+#include "law/allocate.hpp"
 #include "law/evaluate.hpp"
 #include "law/listing.hpp"
 #include "law/measure.hpp"
-#include "law/pieces.hpp"
 #include "law/read_law.hpp"
 #include "law/verdict.hpp"
 

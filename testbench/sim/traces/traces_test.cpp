@@ -8,8 +8,8 @@
 #include "catch.hpp"
 #include "files/output_file.hpp"
 #include "recording_files.hpp"
+#include "sim/traces/capture.hpp"
 #include "sim/traces/place.hpp"
-#include "sim/traces/statistics.hpp"
 #include "sim/traces/text.hpp"
 #include "sim/traces/vector_file.hpp"
 

@@ -12,7 +12,6 @@
 #include "studies/stability/eigenvalues.hpp"
 #include "studies/stability/linear_loop.hpp"
 #include "studies/stability/loop_poles.hpp"
-#include "studies/stability/winding.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;

@@ -8,8 +8,15 @@
 #include <array>
 #include <cstdint>
 
+#ifdef FELTGATE_DESIGN_HEADER
+#include FELTGATE_DESIGN_HEADER
+#endif
+#include "../../estimators/lowpass/exact.hpp"
 #include "../mult/mult_twin.hpp"
+#include "catch.hpp"
 #include "feltgate/words.hpp"
+#include "lock_step.hpp"
+#include "unreset.hpp"
 
 // Twin of rtl/core/wave/multipliers.sv, clock by clock: one multiplier on the operand bus, or one
 // per block.
@@ -67,15 +74,6 @@ class Multipliers {
 };
 
 }  // namespace feltgate
-
-#ifdef FELTGATE_DESIGN_HEADER
-#include FELTGATE_DESIGN_HEADER
-#endif
-#include "../../estimators/lowpass/exact.hpp"
-#include "catch.hpp"
-#include "lock_step.hpp"
-#include "multipliers_twin.hpp"
-#include "unreset.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

@@ -213,7 +213,7 @@ class BackEnd {
   // periodic.cpp
   Value periodic(NodeId id);
 
-  // lines.cpp
+  // elements.cpp
   void begin_lines();
   Value line_read(NodeId id);
   void write_lines();

@@ -41,7 +41,6 @@ FILES = (
     "sim/touch/proxy.cpp",
     "studies/shape/rhombus.cpp",
     "studies/stability/linear_loop.cpp",
-    "studies/stability/eigenvalues.cpp",
 )
 PLANTS = ("p24", "p48", "linear", "gimbal_motor")
 # A hand read from a file needs recordings, which the page has none of; nobody asks it for C++ or

@@ -9,7 +9,6 @@
 
 #include <cmath>
 
-#include "sim/traces/column_source.hpp"
 #include "sim/traces/level_table.hpp"
 #include "sim/traces/sigrok.hpp"
 #include "sim/traces/vcd.hpp"

@@ -13,7 +13,7 @@
 
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"
-#include "studies/stability/eigenvalues.hpp"
+#include "studies/stability/linear_loop.hpp"
 
 namespace feltgate::rates {
 

@@ -10,8 +10,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <Eigen/Eigenvalues>
+
 #include "studies/stability/axis_chain.hpp"
-#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::stability {
 
@@ -301,6 +302,22 @@ std::vector<Pole> dominant_poles(
   std::sort(out.begin(), out.end(),
             [](const Pole& a, const Pole& b) { return a.real() > b.real(); });
   return out;
+}
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+}
+
+Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t) {
+  const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
+  const Eigen::MatrixXd step = a * std::ldexp(t, -doublings);
+  Eigen::MatrixXd term = step, sum = Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  for (int n = 2; n < 20; ++n) {
+    sum += term;
+    term = (term * step / n).eval();
+  }
+  for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
+  return sum;
 }
 
 }  // namespace feltgate::stability

@@ -125,4 +125,14 @@ double actuator_delay_s(const LoopModel& model, int scene_ticks);
 /// Nm/rad. Back-EMF compensation and observer are in it, the winding's lag is not.
 double free_impedance_nm_rad(const LoopModel& model, double rad_s);
 
+// Eigenvalues and exponential of a real matrix, in one source: Eigen's solver takes the compiler
+// long.
+
+/// All eigenvalues of a square matrix, in no order.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// exp(a*t) - 1 of a square matrix `a` and a time t >= 0 in the inverse of its unit, by a Taylor
+/// series and doubling, so that small results keep their digits.
+Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t);
+
 }  // namespace feltgate::stability

@@ -3,7 +3,7 @@
 //
 // A host acts at any clock while the engine's twin runs run by run: writes, commits, resets and
 // reads. Documentation: docs/blocks/engine.md
-#include "../machine/random_program.hpp"
+#include "../machine/machine_programs.hpp"
 #include "catch.hpp"
 #include "feltgate/engine_watch.hpp"
 #include "pair.hpp"

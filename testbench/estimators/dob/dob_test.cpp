@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../../wave/mult/shared_mult.hpp"
+#include "../../wave/mult/mult_twin.hpp"
 #include "../lowpass/exact.hpp"
 #include "../lowpass/lowpass_twin.hpp"
 #include "catch.hpp"

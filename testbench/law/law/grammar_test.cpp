@@ -7,7 +7,6 @@
 #include <fstream>
 #include <string>
 
-#include "bad_law.hpp"
 #include "catch.hpp"
 #include "law/compile.hpp"
 #include "law/load.hpp"

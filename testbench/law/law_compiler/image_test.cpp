@@ -9,10 +9,10 @@
 #include <catch2/catch.hpp>
 
 #include "catch.hpp"
-#include "engine_rate.hpp"
 #include "law/compile.hpp"
 #include "law/load.hpp"
 #include "law/measure.hpp"
+#include "machine_programs.hpp"
 
 namespace feltgate::law {
 namespace {

@@ -15,7 +15,7 @@
 #include "studies/rates/margin.hpp"
 #include "studies/rates/rates.hpp"
 #include "studies/rates/slow_law.hpp"
-#include "studies/stability/mass_loop.hpp"
+#include "studies/stability/law_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::rates;

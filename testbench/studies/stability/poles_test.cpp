@@ -9,7 +9,6 @@
 
 #include "../../design/design/design_fixture.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "studies/stability/eigenvalues.hpp"
 #include "studies/stability/linear_loop.hpp"
 #include "studies/stability/loop_poles.hpp"
 

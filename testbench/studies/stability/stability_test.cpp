@@ -14,7 +14,7 @@
 #include "sim/loop/loop.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "studies/stability/bit_loop.hpp"
-#include "studies/stability/eigenvalues.hpp"
+#include "studies/stability/linear_loop.hpp"
 #include "studies/stability/report.hpp"
 
 using namespace feltgate;

@@ -3,7 +3,7 @@
 //
 // Reader of gimbal files such as vectors/devices/gimbal.toml. Documentation:
 // docs/devices/three-axes.md
-#include "sim/plant/gimbal/gimbal_file.hpp"
+#include "sim/plant/gimbal/gimbal.hpp"
 
 #include <utility>
 #include <vector>

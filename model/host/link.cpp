@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <boost/crc.hpp>
 
+#include "feltgate/generated/link.hpp"
+
 namespace feltgate::host {
 
 namespace {

@@ -15,7 +15,7 @@
 #include "brushed_motor.hpp"
 #include "encoder.hpp"
 #include "feltgate/encoder_source.hpp"
-#include "hand.hpp"
+#include "hand_run.hpp"
 #include "lugre.hpp"
 #include "mechanics.hpp"
 #include "parameters.hpp"

@@ -72,9 +72,4 @@ constexpr EncoderPins pins_at(unsigned phase) {
   return {a, ((phase & 1U) != 0) != a, false};
 }
 
-/// Phase 0 to 3 of A and B: the inverse of pins_at.
-constexpr unsigned phase_of(const EncoderPins& pins) {
-  return (pins.a ? 2U : 0U) + (pins.a != pins.b ? 1U : 0U);
-}
-
 }  // namespace feltgate::traces

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Tables of levels: rows that are samples, and rows that are changes. Documentation: docs/traces.md
-#include "sim/traces/level_table.hpp"
+// Columns of positions and tables of levels as encoder edges. Documentation: docs/traces.md
+#include "sim/traces/sources.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Tables of levels: `time,A,B[,Z]` (a row per sample or per change) and Saleae Logic exports.
-// Documentation: docs/traces.md
+// What an encoder did, from plain columns and from tables of levels: `time,A,B[,Z]` (a row per
+// sample or per change) and Saleae Logic exports. Documentation: docs/traces.md
 #pragma once
 
 #include <deque>

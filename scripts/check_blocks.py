@@ -6,8 +6,8 @@
 Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp
 (scene_* blocks may share a folder of testbench/scenes), at least one seeded defect, and a page that links its
 RTL; blocks that help one another share a page. The twin is the class with the block's name. It is in
-model/include/feltgate/<b>.hpp if the product uses it, else in testbench/<room>/<b>/<b>_twin.hpp; then the
-law that it evaluates, if any, is in the former.
+model/include/feltgate/<b>.hpp if the product uses it, else in the test, or beside it in <b>_twin.hpp where several
+tests use it; then the law that it evaluates, if any, is in the former.
 Further checks: a strobe is connected to the clock of its name, and the lists made from the blocks are up to date:
 docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
@@ -65,6 +65,10 @@ def class_name(name):
     return "".join(part.capitalize() for part in name.split("_"))
 
 
+def has_class(path, name):
+    return path.is_file() and re.search(rf"\bclass {class_name(name)}\b", path.read_text(encoding="utf-8"))
+
+
 def shared_scene_test(root, name):
     """The first test in a folder of testbench/scenes that names the block, if any."""
     for test in sorted(root.glob("testbench/scenes/*/*_test.cpp")):
@@ -106,6 +110,8 @@ def find_blocks(root):
             test = shared_scene_test(root, name) or test
         public = Path(f"model/include/feltgate/{name}.hpp")
         beside = folder / f"{name}_twin.hpp"
+        if has_class(root / test, name):
+            beside = test
         tested = (root / beside).exists()
         blocks.append(
             Block(
@@ -126,10 +132,8 @@ def check_block(root, block):
     for what, path in (("twin", block.twin), ("test", block.test)):
         if not (root / path).exists():
             yield f"{path}: missing, the {what} of {block.rtl}; write it"
-    twin = root / block.twin
-    name = class_name(block.name)
-    if twin.exists() and not re.search(rf"\bclass {name}\b", twin.read_text(encoding="utf-8")):
-        yield f"{block.twin}: no class {name} in it; name the class as the block"
+    if (root / block.twin).exists() and not has_class(root / block.twin, block.name):
+        yield f"{block.twin}: no class {class_name(block.name)} in it; name the class as the block"
     rtl = (root / block.rtl).read_text(encoding="utf-8")
     if not re.search(rf"\bmodule\s+{block.name}\b", rtl):
         yield f"{block.rtl}: no module {block.name} in it; name the module as the file"

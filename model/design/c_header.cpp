@@ -11,7 +11,7 @@
 
 #include "design/generate.hpp"
 #include "design/host_words.hpp"
-#include "design/text_case.hpp"
+#include "design/text_edit.hpp"
 
 namespace feltgate::design {
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -199,5 +200,36 @@ constexpr int coefficient_fraction_max = 48;
 
 /// Clocks from the sampled position to the duty register.
 constexpr int latency_clocks = Map::T::duty + 1 - Map::T::sample;
+
+}  // namespace feltgate::design
+
+// Reduces a design to the blocks that some scenes need.
+
+namespace feltgate::design {
+
+/// Text of the design file `path` with [scenes] include reduced to `laws` (names of scenes in the
+/// register map) and "free", in the file's order. `comment` comes first, with # before each line.
+/// Throws config::ConfigError when the design does not build one of the laws.
+std::string text_for_scenes(const std::string& path, const std::set<std::string>& laws,
+                            const std::string& comment);
+
+/// RTL blocks of scenes that a design with these laws does not contain.
+std::vector<std::string> blocks_left_out(const std::set<std::string>& laws,
+                                         const RegisterMap& registers);
+
+}  // namespace feltgate::design
+
+// Computes the value of every parameter from a design.
+
+namespace feltgate::design {
+
+/// A parameter's value in its unit and the key of the design file that decides it.
+struct Value {
+  double si;
+  const char* key;
+};
+
+/// The values by the parameters' names in the register map.
+std::map<std::string, Value> parameter_values(const Design& d);
 
 }  // namespace feltgate::design

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "design/design.hpp"
 #include "design/registers.hpp"
+#include "law/target.hpp"
 
 namespace feltgate::design {
 
@@ -48,5 +50,19 @@ EngineDescription read_engine(const std::string& path);
 std::string engine_package(const EngineDescription& engine);
 std::string engine_header(const EngineDescription& engine);
 std::string engine_page(const EngineDescription& engine);
+
+// Converts a design to a target of the law compiler: its rates and formats.
+
+/// The properties of design `e` that the law compiler needs.
+inline law::Target law_target(const Elaborated& e) {
+  law::Target t;
+  t.design = e.design.name;
+  t.tick_hz = e.design.tick_hz;
+  t.clocks_per_tick = e.design.clocks_per_tick();
+  t.counts_per_turn = 4 * e.design.lines;
+  t.velocity = e.design.velocity;
+  t.torque = e.design.torque;
+  return t;
+}
 
 }  // namespace feltgate::design

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reduces a design to the blocks that some scenes need. Documentation: docs/designs.md
-#include "design/for_scenes.hpp"
+#include "design/design.hpp"
 
 #include <algorithm>
 #include <sstream>

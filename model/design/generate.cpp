@@ -13,7 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "design/text_case.hpp"
+#include "design/text_edit.hpp"
 #include "feltgate/crc32.hpp"
 #include "feltgate/current_control.hpp"
 #include "feltgate/current_sense.hpp"

@@ -8,7 +8,7 @@
 
 #include "design/engine_map.hpp"
 #include "design/generate.hpp"
-#include "design/text_case.hpp"
+#include "design/text_edit.hpp"
 
 namespace feltgate::design {
 

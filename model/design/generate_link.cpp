@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "design/generate.hpp"
-#include "design/text_case.hpp"
+#include "design/text_edit.hpp"
 #include "feltgate/crc32.hpp"
 
 namespace feltgate::design {

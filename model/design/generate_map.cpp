@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "design/schedule.hpp"
-#include "design/text_case.hpp"
+#include "design/text_edit.hpp"
 
 namespace feltgate::design {
 
@@ -111,7 +111,8 @@ constexpr const char* products_doc = "Wave clocks in which a product is on the p
 constexpr const char* steps_doc =
     "Wave clocks of the steps; what a step gives is there a clock later.";
 constexpr const char* words_doc =
-    "Wave clocks in which the snapshot takes its words, off the operand bus or by inputs of its own.";
+    "Wave clocks in which the snapshot takes its words, off the operand bus or by inputs of its "
+    "own.";
 
 void fields_sv(std::ostringstream& s, const std::string& word, const std::vector<Field>& fields) {
   for (const Field& f : fields) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Computes the value of every parameter from a design. Documentation: docs/designs.md
-#include "design/parameter_values.hpp"
+#include "design/design.hpp"
 
 #include <algorithm>
 #include <cmath>

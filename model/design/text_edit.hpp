@@ -4,10 +4,10 @@
 // Changes values in the text of a design file and keeps its layout. Documentation: docs/designs.md
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <optional>
 #include <string>
+
+#include <toml++/toml.h>
 
 namespace feltgate::design {
 
@@ -47,5 +47,16 @@ std::size_t offset_of(const std::string& text, const toml::source_position& at);
 
 /// The text of a file. Throws config::ConfigError when the file cannot be read.
 std::string text_of_file(const std::string& path);
+
+// Converts names and numbers to the forms used in generated files.
+
+/// Converts a_name to A_NAME.
+std::string upper(std::string name);
+/// Converts a_name or a-name to AName.
+std::string camel(const std::string& name);
+/// A double as a C literal that keeps every bit.
+std::string real_literal(double v);
+/// The licence and "Generated from SOURCES by `feltgate generate`: do not edit. WHAT".
+std::string generated_banner(const std::string& sources, const std::string& what);
 
 }  // namespace feltgate::design

@@ -7,13 +7,62 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "files/destination.hpp"
-#include "files/unfinished.hpp"
+#include <sys/stat.h>
+#include <sys/types.h>
 
 namespace feltgate::files {
+
+// Cleans up when a signal ends the program: unfinished files, folders that are still empty, a
+// started program.
+
+/// Installs handlers: SIGINT, SIGTERM, SIGHUP and SIGPIPE remove unfinished paths and end the
+/// program with 128 + their number (130 for Ctrl-C). A signal that is ignored, as under nohup,
+/// stays ignored.
+void end_on_signals();
+
+/// A path that a signal removes during this object's lifetime: a file, or a folder if it is empty.
+class Unfinished {
+ public:
+  enum class Kind { file, folder };
+  /// Throws std::runtime_error when there are more than 32, or for a path of 4096 bytes or more.
+  Unfinished(const std::string& path, Kind kind);
+  ~Unfinished();
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+ private:
+  int slot_;
+};
+
+/// Names a started program: a signal to this program is passed to it and its end is awaited; 0:
+/// none.
+void note_child(pid_t child);
+
+// Resolves the name that a user gives for an output.
+
+/// The destination of an output.
+struct Destination {
+  /// Open descriptor of an output that is written in place (stdout, devices, pipes, a shell's
+  /// /dev/fd/N); -1 for a file, which is written under a temporary name and then renamed.
+  int in_place = -1;
+  std::string target;                 ///< of a file: its path with symbolic links resolved
+  std::optional<struct stat> now;     ///< status of the existing file or device
+  std::optional<struct stat> folder;  ///< of a file: status of the folder that holds it
+  std::string name;                   ///< of a file: its name in that folder
+
+  /// Whether two outputs would overwrite each other; /dev/null takes any number.
+  bool same(const Destination& other) const;
+  /// Whether this output and descriptor `fd` have the same destination, other than /dev/null.
+  bool same(int fd) const;
+};
+
+/// Resolves `path`; "-" is stdout. Throws std::invalid_argument "option: what; mend" for a folder,
+/// a missing folder, a write-protected file, and similar.
+Destination find_destination(const std::string& option, const std::string& path);
 
 /// An output under a name that a user gave. A file is written under a temporary name; commit()
 /// renames it and keeps the old file's mode. Without commit(), or when a signal ends the program,

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "files/unfinished.hpp"
+#include "files/output_file.hpp"
 
 extern char** environ;
 

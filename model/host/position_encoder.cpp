@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "sim/traces/phase.hpp"
+#include "sim/traces/options.hpp"
 
 namespace feltgate::host {
 

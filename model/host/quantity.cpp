@@ -12,7 +12,7 @@
 
 #include "feltgate/axes_ports.hpp"
 #include "feltgate/nearest.hpp"
-#include "law/amount.hpp"
+#include "law/units.hpp"
 
 namespace feltgate::host {
 

@@ -73,7 +73,7 @@ class Quantities {
   /// "" for axis 0, ".1" for axis 1.
   static std::string suffix(int axis);
 
-  /// Parses "NAME=VALUE" with an optional unit after the value (law/amount.hpp). Errors:
+  /// Parses "NAME=VALUE" with an optional unit after the value (law/units.hpp). Errors:
   /// std::invalid_argument with advice: no '=', unknown name, not writable, no number, a wrong
   /// unit, out of range.
   Setting setting(const std::string& text) const;

@@ -5,6 +5,7 @@
 // instructions. Documentation: docs/laws.md
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -15,11 +16,61 @@
 #include "law/law.hpp"
 #include "law/program.hpp"
 #include "law/ranges.hpp"
-#include "law/stays.hpp"
-#include "law/tables.hpp"
 #include "law/target.hpp"
 
 namespace feltgate::law {
+
+// Makes the words of table memory for functions, and proves their error.
+
+/// A function that returns its jet: value, slope and curvature over a span of its argument, in SI.
+using JetFunction = std::function<Jet(const Span&)>;
+
+struct TableRequest {
+  JetFunction function;
+  Span domain;            ///< SI; the argument is clamped to it
+  double argument_scale;  ///< SI value of one LSB of the argument's word
+  int low, count;         ///< first index x >> 12, and how many segments
+  double value_scale;     ///< SI value of one LSB of the result
+  std::int32_t limit;     ///< largest magnitude of a value, words
+};
+
+/// The function, continued beyond its domain where the domain ends inside a segment: there it is
+/// the line through the domain's end and the segment's sample inside. `request` must outlive the
+/// result.
+std::function<double(double)> extended(const TableRequest& request);
+
+/// Makes linear segments between samples; each is shifted so that its largest positive and negative
+/// errors are equal.
+TableUse make_table(const TableRequest& request);
+
+/// Sine over a full turn, wrapping: 2^21 words of the argument per turn, values of at most `limit`
+/// words.
+TableUse sine_turn(std::int32_t limit, double value_scale);
+/// Sine over [-1/2, 1/2) turn in segments of 2^-bits turns; with `cosines`, over [-1/2, 3/4) turn.
+TableUse sine_part(int bits, bool cosines, std::int32_t limit, double value_scale);
+
+// The values at which a law's values stay: clamp(x, 0, 3) is 3 over half of all positions. A word
+// beside that 3 would be on the wrong side of a comparison with 3 in all of them.
+
+class Stays {
+ public:
+  explicit Stays(const Law& law);
+
+  /// Whether the node can keep this value while what it is made of moves.
+  bool at(NodeId id, double value) const;
+  /// Whether the node, or what it goes to unchanged, is compared with a value at which it stays.
+  bool decides(NodeId id) const { return decides_[static_cast<std::size_t>(id)] != 0; }
+  /// Whether the node can stay at a whole number.
+  bool at_whole(NodeId id) const;
+
+ private:
+  const std::vector<double>& of(NodeId id);
+  void decide(NodeId id, double value);
+
+  const Law& law_;
+  std::map<NodeId, std::vector<double>> values_;
+  std::vector<char> decides_;
+};
 
 /// The decisions that a search may change. lower() notes its own choice where none is given.
 struct Choice {
@@ -162,7 +213,7 @@ class BackEnd {
   // periodic.cpp
   Value periodic(NodeId id);
 
-  // lines.cpp
+  // elements.cpp
   void begin_lines();
   Value line_read(NodeId id);
   void write_lines();

@@ -112,4 +112,11 @@ Bound bound(const Law& law, const Target& target, const Program& program, int sp
 std::vector<double> bound_as_set(const Law& law, const Target& target, const Program& program,
                                  const Cell& cell, const Bound& all, int splits);
 
+// The range of a value of the law that conditions decide: what is compared is narrowed on each
+// side.
+
+/// The range of node `id` over `cell`. Where it is a choice (or a choice of choices), each side is
+/// looked at where its condition can hold: `if n < 9 then n + 1 else 0` goes to 9 for a whole n.
+Span reach(const Law& law, RangesOf& ranges, NodeId id, const Cell& cell);
+
 }  // namespace feltgate::law

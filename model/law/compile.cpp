@@ -11,10 +11,9 @@
 #include <map>
 #include <utility>
 
+#include "law/allocate.hpp"
 #include "law/mends.hpp"
-#include "law/pieces.hpp"
 #include "law/read_law.hpp"
-#include "law/strip_jumps.hpp"
 #include "law/verdict.hpp"
 
 namespace feltgate::law {

@@ -3,16 +3,28 @@
 //
 // Lowers the definitions that occupy the engine's table memory: tables, arrays, delay lines.
 // Documentation: docs/laws.md
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "law/evaluate.hpp"
+#include "law/law.hpp"
 #include "law/lowering.hpp"
 #include "law/ranges.hpp"
-#include "law/table_values.hpp"
 
 namespace feltgate::law {
+
+// Finds places where a table's formula is not a finite number.
+
+struct NoNumber {
+  NodeId node = -1;  ///< the node without a value; -1: the formula is a number everywhere
+  double x = 0;      ///< the argument at which it has no value, SI
+};
+
+/// Evaluates a table's formula at 4097 places over its domain, the ends included. A value that min,
+/// max or a comparison would discard is also checked; a value that an `if` does not choose is not.
+NoNumber no_number(const Law& law, const Table& table);
 
 namespace {
 
@@ -208,6 +220,123 @@ void Lowering::line(const Statement& s) {
     law_.lines.push_back(l);
   }
   define(s, symbol);
+}
+
+// Finds places where a table's formula is not a finite number.
+
+namespace {
+
+constexpr int looks = 4096;  // equal parts of the domain; the formula is evaluated at their ends
+
+/// Whether the value of argument number `argument` reaches the node's value: false for the value
+/// that a selection does not choose.
+bool chosen_from(const Node& n, const std::vector<double>& values, std::size_t argument) {
+  return n.op != Op::select || argument == 0 ||
+         (values[at(n.arguments[0])] != 0) == (argument == 1);
+}
+
+/// Among the causes of a value that is not a number, the first node whose arguments all are
+/// numbers.
+NodeId first_cause(const Law& law, NodeId id, const std::vector<double>& values) {
+  const Node& n = law.nodes[at(id)];
+  for (std::size_t i = 0; i < n.arguments.size(); ++i) {
+    if (chosen_from(n, values, i) && !std::isfinite(values[at(n.arguments[i])])) {
+      return first_cause(law, n.arguments[i], values);
+    }
+  }
+  return id;
+}
+
+}  // namespace
+
+NoNumber no_number(const Law& law, const Table& table) {
+  if (!table.points.empty()) return {};
+  std::vector<char> needed(at(table.body) + 1, 0);
+  needed.back() = 1;
+  for (std::size_t i = needed.size(); i-- > 0;) {
+    for (const NodeId a : law.nodes[i].arguments)
+      if (needed[i] != 0) needed[at(a)] = 1;
+  }
+  const Evaluation<double> evaluation(law);
+  std::vector<double> values(needed.size(), 0);
+  for (int look = 0; look <= looks; ++look) {
+    const double share = static_cast<double>(look) / looks;
+    const double x = look == looks
+                         ? table.domain.upper
+                         : table.domain.lower + (table.domain.upper - table.domain.lower) * share;
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+      if (needed[i] == 0) continue;
+      const Node& n = law.nodes[i];
+      values[i] = static_cast<NodeId>(i) == table.argument ? x : evaluation.compute(n, values);
+      for (std::size_t a = 0; a < n.arguments.size(); ++a) {
+        const double from = values[at(n.arguments[a])];
+        if (chosen_from(n, values, a) && !std::isfinite(from)) values[i] = std::nan("");
+      }
+    }
+    if (!std::isfinite(values[at(table.body)])) {
+      return {first_cause(law, table.body, values), x};
+    }
+  }
+  return {};
+}
+
+namespace {
+
+const std::vector<std::string> kFunctions{"min", "max",  "clamp", "abs",     "sgn", "sin",
+                                          "cos", "sqrt", "exp",   "lowpass", "sum"};
+/// Built-in names that a law may redefine.
+const std::vector<std::string> kFreeFunctions{"floor", "round", "mod", "noise", "log", "atan2"};
+const std::vector<std::string> kFreeValues{"time"};
+const std::vector<std::string> kValues{"position", "velocity", "tau_hat", "torque",
+                                       "pi",       "dt",       "true",    "false"};
+
+bool holds(const std::vector<std::string>& all, const std::string& name) {
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+}  // namespace
+
+std::map<std::string, Symbol> Scope::close() {
+  std::map<std::string, Symbol> last = std::move(levels_.back());
+  levels_.pop_back();
+  return last;
+}
+
+Symbol* Scope::find(const std::string& name) {
+  for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+    const auto found = level->find(name);
+    if (found != level->end()) return &found->second;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Scope::names() const {
+  std::vector<std::string> all;
+  for (const auto& level : levels_) {
+    for (const auto& [name, symbol] : level) all.push_back(name);
+  }
+  return all;
+}
+
+bool is_function(const std::string& name) {
+  return holds(kFunctions, name) || holds(kFreeFunctions, name);
+}
+bool is_reserved(const std::string& name) {
+  return holds(kFunctions, name) || holds(kValues, name);
+}
+bool is_given_value(const std::string& name) {
+  return holds(kValues, name) || holds(kFreeValues, name);
+}
+
+const std::vector<std::string>& given_names() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> names = kValues;
+    for (const auto* more : {&kFreeValues, &kFunctions, &kFreeFunctions}) {
+      names.insert(names.end(), more->begin(), more->end());
+    }
+    return names;
+  }();
+  return all;
 }
 
 }  // namespace feltgate::law

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "law/host_range.hpp"
 #include "law/ranges.hpp"
 #include "law/units.hpp"
 

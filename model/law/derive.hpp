@@ -6,8 +6,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "law/graph.hpp"
+#include "law/law.hpp"
 
 namespace feltgate::law {
 
@@ -35,5 +37,18 @@ void finish(Law& law, const Graph& graph, Diagnostics& diagnostics);
 
 /// A node as a formula: "2*k/(a + b)"; "..." replaces inner parts beyond 60 characters.
 std::string formula(const Law& law, NodeId id);
+
+// Computes the range of a formula of parameters by interval arithmetic.
+
+/// Thrown when a formula has no value somewhere in the ranges of its parameters.
+struct NoRange {
+  std::string what, mend;
+};
+
+/// The range of `node`, which may depend only on constants and parameters; `ranges` holds the
+/// ranges of its arguments, by node. Each end is rounded outward by one double; constants and
+/// parameters are exact. Throws NoRange when a divisor can be 0, a root's argument can be below 0,
+/// or a value can exceed 1e300.
+Range host_range(const Law& law, const Node& node, const std::vector<Range>& ranges);
 
 }  // namespace feltgate::law

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
-#include "law/host_range.hpp"
+#include "law/derive.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "law/compile.hpp"
+#include "law/image.hpp"
 #include "law/measure.hpp"
 
 namespace feltgate::law {
@@ -19,5 +20,18 @@ std::string listing(const Compiled& compiled);
 
 /// An operand as the listing names it: "position", "contact", "#12", "t3".
 std::string name_of(const Compiled& compiled, const Operand& operand);
+
+// Writes an image as the initial memory contents of the RTL engine, for a board without a host:
+// files for $readmemh, and the parameters that name them.
+
+/// The files of a law, by their names in one folder.
+struct Content {
+  std::string program, data, table;  ///< program.mem, data.mem, table.mem: 512 words, a line each
+  std::string parameters;            ///< law.svh: parameters of feltgate_axes or feltgate_linked
+};
+
+/// The content of `image`. law.svh puts `folder` before the file names: the path at which the
+/// simulator or synthesis finds them.
+Content content(const Image& image, const std::string& folder);
 
 }  // namespace feltgate::law

@@ -13,7 +13,7 @@
 #include "feltgate/random.hpp"
 #include "law/engine/machine.hpp"
 #include "law/evaluate.hpp"
-#include "law/formula.hpp"
+#include "law/image.hpp"
 #include "law/load.hpp"
 
 namespace feltgate::law {

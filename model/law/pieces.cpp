@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/laws.md
-#include "law/pieces.hpp"
+#include "law/allocate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,10 +9,10 @@
 #include <iterator>
 #include <system_error>
 
-#include "law/bytes.hpp"
 #include "law/derive.hpp"
 #include "law/evaluate.hpp"
 #include "law/lowering.hpp"
+#include "law/recovery.hpp"
 
 namespace feltgate::law {
 

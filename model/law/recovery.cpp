@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "feltgate/nearest.hpp"
-#include "law/bytes.hpp"
 
 namespace feltgate::law {
 

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Lowers statements, in the order of the file.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "feltgate/nearest.hpp"
 #include "law/lowering.hpp"
@@ -389,6 +389,32 @@ void Lowering::check_ends(const Statement* last) {
   if (any_out_) return;
   diagnostics_.add(last == nullptr ? Place{} : at(last->offset), "the law has no output",
                    "write out torque = ...");
+}
+
+// Lowers the `require` statements of a law.
+
+void Lowering::require(const Statement& s) {
+  const NodeId condition = truth_of(s.condition);
+  if (condition != kNone) require(condition, true, s.condition->offset);
+}
+
+/// Adds the requirement that `condition` is true, or false if not `holds`.
+void Lowering::require(NodeId condition, bool holds, std::size_t offset) {
+  const Node n = graph_.node(condition);
+  if (graph_.is_constant(condition) || !graph_.is_fixed(condition)) {
+    report(offset, "a requirement of what is no parameter",
+           "compare parameters; what runs or mailboxes change is limited with clamp");
+  } else if (n.op == Op::opposite) {
+    require(n.arguments[0], !holds, offset);
+  } else if (n.op == (holds ? Op::both : Op::either)) {
+    require(n.arguments[0], holds, offset);
+    require(n.arguments[1], holds, offset);
+  } else if (n.op == Op::less) {
+    const NodeId a = n.arguments[0], b = n.arguments[1];
+    law_.requirements.push_back({holds ? a : b, holds ? b : a, holds, at(offset)});
+  } else {
+    report(offset, "a requirement with a choice", "write a require for each, without or");
+  }
 }
 
 }  // namespace feltgate::law

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/laws.md
-#include "law/stays.hpp"
+#include "law/back_end.hpp"
 
 #include <algorithm>
 #include <cmath>

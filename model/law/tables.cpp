@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/laws.md
-#include "law/tables.hpp"
+#include "law/back_end.hpp"
 
 #include <fmt/format.h>
 

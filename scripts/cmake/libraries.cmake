@@ -89,9 +89,9 @@ feltgate_sim_library(design design feltgate_config)
 feltgate_sim_library(bounds studies/bounds feltgate_design Boost::headers)
 
 # Amounts with units are of use without laws.
-feltgate_sim_library(units law ONLY "/(amount|units)\\.cpp$")
+feltgate_sim_library(units law ONLY "/units\\.cpp$")
 # Laws as files: reader, evaluation, compiler. The grammar is Boost.Spirit X3, in one source.
-feltgate_library(feltgate_law law EXCEPT "/(amount|units)\\.cpp$" feltgate_units Boost::headers)
+feltgate_library(feltgate_law law EXCEPT "/units\\.cpp$" feltgate_units Boost::headers)
 
 # The host's side of the link; Boost.Asio in headers.
 find_package(Threads REQUIRED)

@@ -136,7 +136,7 @@ feltgate_library(feltgate_texture studies/texture feltgate_law PNG::PNG)
 feltgate_library(feltgate_mesh sim/touch ONLY "/(glb|decimate)" feltgate_proxy)
 target_link_libraries(feltgate_mesh PRIVATE tinygltf meshoptimizer)
 # The proxy needs neither. It is the whole work of a run.
-feltgate_library(feltgate_proxy sim/touch ONLY "/(mesh|proxy|edges|distance)\\.")
+feltgate_library(feltgate_proxy sim/touch ONLY "/(mesh|proxy|edges)\\.")
 foreach(name feltgate_mesh feltgate_proxy)
   target_compile_options(${name} PRIVATE -O2)
 endforeach()

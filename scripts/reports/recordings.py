@@ -20,7 +20,7 @@ OWN = ROOT / "vectors" / "traces"
 SECONDS = 5.0  # forecast of a length
 
 # Of each encoder in a file: its options, and what a correct x4 decoder finds: steps, illegal, reversals. Counted by a
-# plain program (model/sim/traces/statistics.hpp), not by the decoder or its twin. The demo takes the first.
+# plain program (model/sim/traces/capture.hpp), not by the decoder or its twin. The demo takes the first.
 X, Y = ("X", ("--probes", "XA,XB")), ("Y", ("--probes", "YA,YB"))
 TABLE = ("--time-column", "t", "--count-column", "theta", "--scale", "2048/2pi")
 KNOWN = {

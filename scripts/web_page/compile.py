@@ -40,8 +40,6 @@ FILES = (
     "sim/touch/mesh.cpp",
     "sim/touch/proxy.cpp",
     "studies/shape/rhombus.cpp",
-    "studies/stability/dominant_poles.cpp",
-    "studies/stability/eigenvalues.cpp",
     "studies/stability/linear_loop.cpp",
 )
 PLANTS = ("p24", "p48", "linear", "gimbal_motor")

@@ -19,7 +19,7 @@
 #include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "files/output_file.hpp"
-#include "host/board/axes_board.hpp"
+#include "host/board/board.hpp"
 #include "host/board/serve.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/loop/scenario.hpp"

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "law/amount.hpp"
+#include "law/units.hpp"
 
 namespace feltgate::checks {
 

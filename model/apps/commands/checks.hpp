@@ -13,7 +13,7 @@ namespace feltgate::checks {
 
 /// A finite number from min to max. `unit` follows the range in help and message; it may be empty.
 /// With a unit, attach the check by transform(), because a number with another unit of the same
-/// quantity is converted (law/amount.hpp).
+/// quantity is converted (law/units.hpp).
 CLI::Validator number(double min, double max, const std::string& unit);
 /// A finite number above 0, at most max.
 CLI::Validator positive(double max, const std::string& unit);

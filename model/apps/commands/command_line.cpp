@@ -12,7 +12,7 @@
 
 #include "apps/commands/commands.hpp"
 #include "feltgate/nearest.hpp"
-#include "files/unfinished.hpp"
+#include "files/output_file.hpp"
 
 namespace feltgate {
 

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "apps/commands/commands.hpp"
-#include "design/for_scenes.hpp"
+#include "design/design.hpp"
 #include "design/generate.hpp"
 #include "files/output_file.hpp"
 #include "sim/loop/scenario.hpp"

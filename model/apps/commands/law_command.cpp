@@ -18,7 +18,6 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "files/program.hpp"
-#include "law/content.hpp"
 #include "law/gappa.hpp"
 #include "law/listing.hpp"
 #include "law/verdict.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/commands/commands.hpp"
-#include "design/law_target.hpp"
+#include "design/engine_map.hpp"
 
 namespace feltgate {
 

@@ -18,7 +18,7 @@
 #include "apps/commands/csv.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
-#include "sim/loop/bounded.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 #include "sim/traces/open.hpp"
 #include "sim/traces/vector_file.hpp"
 

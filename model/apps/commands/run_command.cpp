@@ -20,8 +20,8 @@
 #include "apps/commands/run_laws.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
-#include "sim/loop/bounded.hpp"
 #include "sim/loop/loop.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/speed_jumps.hpp"
 #include "sim/plant/plant_file.hpp"
@@ -356,8 +356,9 @@ void add_run(CLI::App& app, int* exit_code) {
       ->type_name("FILE");
   sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")
       ->type_name("FILE");
-  sub->add_option("--events", a->events,
-                  "events of the scene's law as lines for Pure Data (docs/devices/strings-and-drums.md)")
+  sub->add_option(
+         "--events", a->events,
+         "events of the scene's law as lines for Pure Data (docs/devices/strings-and-drums.md)")
       ->type_name("FILE");
   sub->add_option("--states", a->states,
                   "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)")

@@ -7,7 +7,7 @@
 
 #include "apps/commands/run_output.hpp"
 #include "files/json_text.hpp"
-#include "sim/loop/bounded.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 
 namespace feltgate {
 

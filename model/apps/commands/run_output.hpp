@@ -63,7 +63,7 @@ void show_mismatch(const SessionResult& result, BackendOptions options,
 Scenario cut_after(Scenario scenario, const SessionResult& result, Clock clocks);
 
 /// Applies each NAME=VALUE of --set to the scene's parameters; the value may have a unit
-/// (law/amount.hpp). `law` may be nullptr. Throws std::invalid_argument.
+/// (law/units.hpp). `law` may be nullptr. Throws std::invalid_argument.
 void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
                     const SceneLaw* law, Scenario& scenario);
 /// The path of the law that a scene names; a relative path starts at the scene's folder.

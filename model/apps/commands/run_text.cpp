@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/commands/run_output.hpp"
-#include "sim/loop/bounded.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 
 namespace feltgate {
 

@@ -15,7 +15,7 @@
 #include "apps/commands/commands.hpp"
 #include "apps/commands/host/session.hpp"
 #include "apps/commands/touch/touch_board.hpp"
-#include "sim/axes_loop/axes_backends.hpp"
+#include "sim/axes_loop/axes_run.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/touch/make_glb.hpp"

@@ -9,7 +9,7 @@
 
 #include "apps/python/arrays.hpp"
 #include "apps/python/errors.hpp"
-#include "design/law_target.hpp"
+#include "design/engine_map.hpp"
 #include "host/capture.hpp"
 #include "host/keep_alive.hpp"
 #include "host/law_engine.hpp"

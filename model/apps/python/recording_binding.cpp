@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "apps/python/bindings.hpp"
+#include "sim/traces/capture.hpp"
 #include "sim/traces/open.hpp"
-#include "sim/traces/phase.hpp"
-#include "sim/traces/statistics.hpp"
+#include "sim/traces/options.hpp"
 
 namespace feltgate::python {
 namespace {

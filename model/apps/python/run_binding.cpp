@@ -10,7 +10,7 @@
 #include "apps/python/plant_binding.hpp"
 #include "apps/python/recording_binding.hpp"
 #include "apps/python/run_result.hpp"
-#include "sim/loop/bounded.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/speed_jumps.hpp"
 

@@ -9,7 +9,7 @@
 #include "apps/python/design_names.hpp"
 #include "feltgate/while_armed.hpp"
 #include "sim/backends/backend.hpp"
-#include "sim/traces/phase.hpp"
+#include "sim/traces/options.hpp"
 
 namespace feltgate::python {
 namespace {

@@ -6,13 +6,14 @@
 // Documentation: docs/designs.md
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <cstdint>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <toml++/toml.h>
 
 namespace feltgate::config {
 
@@ -90,5 +91,12 @@ class TomlReader {
   std::string name_;
   std::set<std::string> asked_;
 };
+
+// Checks a TOML file before the library parses it: toml++ 3.3 reaches an "unreachable" point at a
+// non-ASCII character outside strings and comments.
+
+/// Line of the first non-ASCII byte outside strings and comments, 0 if there is none. TOML allows
+/// only a byte order mark there, at the very beginning.
+int stray_line(std::string_view text);
 
 }  // namespace feltgate::config

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The closed loop of a simulated board with several axes. Documentation: docs/host.md
-#include "host/board/axes_board.hpp"
+#include "host/board/board.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "sim/axes_loop/axes_scene.hpp"
 #include "sim/axes_loop/homing.hpp"
 #include "sim/plant/drive.hpp"
-#include "sim/plant/pantograph/pantograph_file.hpp"
+#include "sim/plant/pantograph/pantograph_parameters.hpp"
 
 namespace feltgate::board {
 

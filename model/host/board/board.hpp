@@ -5,7 +5,9 @@
 // loop. Its interface is bytes in and bytes out. Documentation: docs/host.md
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "feltgate/random.hpp"
@@ -91,5 +93,15 @@ class LeverBoard : public Board {
   bool looped_;            ///< by a current loop: a step is a clock of its modulators
   Clock last_clocks_ = 0;  ///< of the last step
 };
+
+// A board with several axes: a pantograph or another device in closed loop.
+
+/// The board of a design with several axes. The joints' counts begin at the joints' zeros, as after
+/// homing. The hand of `setup` is "free", "hold" or "swing" (its pen goes 40 mm to the side and
+/// back, once a second) for a pantograph, else a scene file of the design's device; `find` converts
+/// the names of scenes and devices to paths. Errors: std::invalid_argument, config::ConfigError.
+std::unique_ptr<Board> make_axes_board(
+    std::unique_ptr<Core> core, const Setup& setup,
+    const std::function<std::string(const std::string& name, const std::string& folder)>& find);
 
 }  // namespace feltgate::board

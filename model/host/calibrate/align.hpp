@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "design/design.hpp"
-#include "host/calibrate/columns.hpp"
-#include "host/calibrate/design_changes.hpp"
 #include "host/calibrate/regression.hpp"
+#include "host/calibrate/report.hpp"
 
 namespace feltgate::host {
 

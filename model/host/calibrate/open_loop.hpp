@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "host/calibrate/columns.hpp"
 #include "host/calibrate/regression.hpp"
 
 namespace feltgate::host {

@@ -4,14 +4,45 @@
 // Results of a calibration as text and JSON. Documentation: docs/calibration.md, docs/json.md
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
+#include "design/design.hpp"
 #include "host/calibrate/closed_loop.hpp"
-#include "host/calibrate/design_changes.hpp"
 #include "host/calibrate/open_loop.hpp"
 
 namespace feltgate::host {
+
+// Measured constants as values of a design file.
+
+/// A key of the design file with its new value.
+struct Change {
+  std::string section, key;
+  double value = 0;
+  std::string reason;  ///< becomes the comment
+};
+
+/// The value or the list, as a design file has it.
+std::string toml_of(const Change& change);
+
+/// Text such as "0.4197 (0.4172 to 0.4223)".
+std::string text_of(const Interval& i);
+
+/// For a law that models the motor: R and dead voltage. For a law in regions: only R, which its
+/// estimated current uses, and only if the torque constant was given.
+std::vector<Change> changes_of(const OpenLoop& open, const design::Elaborated& design,
+                               double torque_constant_nm_a, bool constant_given,
+                               std::vector<std::string>* warnings);
+std::vector<Change> changes_of(const ClosedLoop& closed, const design::Elaborated& design,
+                               std::vector<std::string>* warnings);
+
+/// The text of the design file at `path` with these values; the layout is kept. Errors:
+/// config::ConfigError if the result is not a design that can be built.
+std::string changed_design(const std::string& path, const std::string& name,
+                           const std::vector<Change>& changes,
+                           const design::RegisterMap& registers);
 
 /// One row per reading, with line and residual, then the results.
 std::string report_text(const OpenLoop& open, const design::Elaborated& design);

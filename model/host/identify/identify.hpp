@@ -5,16 +5,44 @@
 // ohmmeter. Documentation: docs/calibration.md
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/calibrate/design_changes.hpp"
+#include <nlohmann/json_fwd.hpp>
+
 #include "host/calibrate/regression.hpp"
-#include "host/identify/recording.hpp"
+#include "host/calibrate/report.hpp"
 
 namespace feltgate::host {
+
+// Voltage and position over time, and their integrals over windows.
+
+/// A recording, one entry per row.
+struct Recording {
+  std::string name;
+  std::vector<double> time_s, voltage_v, angle_rad;
+
+  std::size_t rows() const { return time_s.size(); }
+  double length_s() const { return rows() > 0 ? time_s.back() - time_s.front() : 0; }
+};
+
+/// Reads the columns time_s, position_rad or position (counts), and voltage_v, which a coast-down
+/// does not need. Errors: MeasurementError if one is missing, if time does not increase, or if
+/// there are too few rows.
+Recording recording_of(const ColumnTable& table, double count_rad, bool needs_voltage);
+
+/// Weighted means over one window. A smooth weight, which vanishes with its derivatives at both
+/// ends, moves every derivative from the position, which has steps of a count, to the weight.
+struct Window {
+  std::size_t first = 0, last = 0;  ///< its rows
+  double speed_rad_s = 0, acceleration_rad_s2 = 0, jerk_rad_s3 = 0, voltage_v = 0;
+  double slowest_rad_s = 0;  ///< least |speed| within it; below 0 if it reverses
+};
+
+/// Consecutive windows of 30 ms or more of the recording. None contains a jump of the voltage,
+/// since its exact time between two rows is unknown. Errors: MeasurementError if not even one fits.
+std::vector<Window> windows_of(const Recording& recording);
 
 /// V = a*dw/dt + b*w + c*sign(w): all that a driven recording can determine.
 struct Drive {

@@ -5,13 +5,17 @@
 // and the law in real numbers beside them. Documentation: docs/devices.md
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "axes_scene.hpp"
+#include "sim/backends/axes_cores.hpp"
+#include "sim/loop/backend_choice.hpp"
 #include "sim/loop/columns.hpp"
 #include "sim/loop/felt.hpp"
 #include "sim/loop/figures.hpp"
@@ -58,5 +62,16 @@ std::vector<std::string> axes_columns(const AxesScene& scene);
 
 /// Runs a scene. Errors: std::invalid_argument for an engine or design that does not exist.
 AxesResult run_axes(const AxesScene& scene, const AxesRunOptions& options);
+
+// Selects the back-ends of several axes by the names that a user gives.
+
+/// Like choose_backends(), but rtl includes its twin, and "all" has no float.
+/// Errors: std::invalid_argument that names the choices.
+BackendChoice choose_axes_backends(const std::string& engines);
+
+/// Makes the cores of a design, of the kind `lead`, for a device with `axes` axes.
+/// Errors: std::invalid_argument for a design that does not exist or has another number of axes.
+std::unique_ptr<AxesCores> make_axes_cores(const std::string& design, const std::string& lead,
+                                           const std::string& device, std::size_t axes);
 
 }  // namespace feltgate

@@ -76,7 +76,6 @@ class Ensemble final : public RunHost {
   void fill(Row& row, const Snapshot& s) const;
   const BackendChoice& choice() const { return choice_; }
   const RealChain* rider(std::size_t i) const { return riders_[i].chain.get(); }
-  std::size_t rider_count() const { return riders_.size(); }
 
   double velocity_rad_s(const Snapshot& s) const {
     return static_cast<double>(s.velocity) * unit_.velocity_rad_s;

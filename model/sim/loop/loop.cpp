@@ -4,26 +4,25 @@
 // The closed loop of core, plant and host. Documentation: docs/architecture.md
 #include "sim/loop/loop.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "feltgate/current_sense.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/backends/absolute_sensor.hpp"
-#include "sim/loop/bounded.hpp"
-#include "sim/loop/drag.hpp"
 #include "sim/loop/driven_plant.hpp"
 #include "sim/loop/ensemble.hpp"
 #include "sim/loop/rest.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/step_plan.hpp"
 #include "sim/plant/period_mean.hpp"
-#include "sim/traces/statistics.hpp"
+#include "sim/traces/capture.hpp"
 #include "sim/traces/vector_file.hpp"
 
 namespace feltgate {
@@ -382,6 +381,40 @@ std::unique_ptr<SteppedRun> stepped_run(const Scenario& scenario, const plant::P
   auto run = std::make_unique<ScenarioRun>(scenario, plant, options);
   run->begin();
   return run;
+}
+
+// The events of a law as FUDI, for Pure Data.
+
+namespace {
+
+/// The digits at the end of a name; may be empty.
+std::string number_of(const std::string& name) {
+  const auto last = name.find_last_not_of("0123456789");
+  return last == std::string::npos ? "" : name.substr(last + 1);
+}
+
+}  // namespace
+
+std::string event_lines(const std::vector<RunEvent>& events, double run_s) {
+  std::string text;
+  double before_s = 0;
+  for (std::size_t i = 0; i < events.size();) {
+    const RunEvent& first = events[i];
+    const std::string number = number_of(first.name);
+    text += fmt::format("{:.3f} {}", 1e3 * (first.at_s - before_s),
+                        first.name.substr(0, first.name.size() - number.size()));
+    if (!number.empty()) text += " " + number;
+    before_s = first.at_s;
+    for (std::size_t k = i; i < events.size(); ++i) {
+      const RunEvent& e = events[i];
+      const bool together =
+          i == k || (e.at_s - first.at_s < run_s && !number.empty() && number_of(e.name) == number);
+      if (!together) break;
+      text += fmt::format(" {:.6g}", e.value);
+    }
+    text += ";\n";
+  }
+  return text;
 }
 
 }  // namespace feltgate

@@ -10,7 +10,7 @@
 
 #include "sim/loop/ensemble.hpp"
 #include "sim/loop/scenario_check.hpp"
-#include "sim/traces/statistics.hpp"
+#include "sim/traces/capture.hpp"
 
 namespace feltgate {
 

@@ -55,4 +55,37 @@ struct Rest {
   }
 };
 
+// How heavy a lever feels that a hand swings: the share of the hand's torque in phase with the
+// speed, and the share in phase with the acceleration.
+
+/// Accumulates the hand's torque from a clock on. Over whole half swings, from turn to turn, speed
+/// and acceleration are orthogonal, so the two shares are those of least squares.
+class Drag {
+ public:
+  Clock from_clock = std::numeric_limits<Clock>::max();
+
+  /// One step of the plant: the hand's mean torque in it, and the speeds at its start and end.
+  void step(double dt_s, double hand_nm, double before_rad_s, double after_rad_s) {
+    const double speed = 0.5 * (before_rad_s + after_rad_s);
+    const double acceleration = (after_rad_s - before_rad_s) / dt_s;
+    seconds_ += dt_s;
+    squares_ += hand_nm * hand_nm * dt_s;
+    with_speed_ += hand_nm * speed * dt_s;
+    with_acceleration_ += hand_nm * acceleration * dt_s;
+    speeds_ += speed * speed * dt_s;
+    accelerations_ += acceleration * acceleration * dt_s;
+  }
+  /// Adds the figures of a run; both are 0 for a lever that never moved.
+  void tell(std::map<std::string, double>& figures) const {
+    const auto share = [](double of, double in) { return in > 0 ? of / in : 0.0; };
+    figures["drag_rms_nm"] = std::sqrt(share(squares_, seconds_));
+    figures["drag_damping_nm_s_rad"] = share(with_speed_, speeds_);
+    figures["drag_inertia_kg_m2"] = share(with_acceleration_, accelerations_);
+  }
+
+ private:
+  double seconds_ = 0, squares_ = 0, with_speed_ = 0, with_acceleration_ = 0, speeds_ = 0,
+         accelerations_ = 0;
+};
+
 }  // namespace feltgate

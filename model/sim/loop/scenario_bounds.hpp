@@ -5,6 +5,10 @@
 // Documentation: docs/error-bounds.md
 #pragma once
 
+#include <string>
+
+#include "loop.hpp"
+#include "replay.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/loop/scene_law.hpp"
 #include "studies/bounds/coverage.hpp"
@@ -47,5 +51,25 @@ constexpr double hardly_any_rad_s = 1e-9;
 RunBounds scenario_bounds(const design::Elaborated& e, const Scenario& scenario,
                           double velocity_rad_s = 0, const SceneLaw* law = nullptr,
                           std::size_t axis = 0);
+
+// Runs a scene or a recording and compares its errors with their proven bounds.
+
+namespace design {
+struct Elaborated;
+}
+
+/// Runs a scene and computes the bounds for its motion. `felt` gets the errors of the core,
+/// `broken` each error that exceeds its bound in a tick for which the bound holds. Sets
+/// `options.coverage`. `e` is the design `options.design`. Without quad beside the core nothing is
+/// compared.
+RunResult run_within_bounds(const design::Elaborated& e, const Scenario& scenario,
+                            const plant::Parameters& plant, RunOptions options);
+
+/// The same for a recording.
+RunResult replay_within_bounds(const design::Elaborated& e, EncoderSource& source,
+                               const std::string& subject, ReplayOptions options);
+
+/// Whether this is an engine in fixed point, whose errors have bounds.
+bool is_core(const BackendFigures& e);
 
 }  // namespace feltgate

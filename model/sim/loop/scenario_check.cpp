@@ -16,7 +16,7 @@
 #include "design/design.hpp"
 #include "feltgate/while_armed.hpp"
 #include "files/toml/toml_reader.hpp"
-#include "law/amount.hpp"
+#include "law/units.hpp"
 
 namespace feltgate {
 

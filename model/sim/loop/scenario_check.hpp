@@ -20,7 +20,7 @@ struct Elaborated;
 /// Number of a torque law. Errors: config::ConfigError that names the design's laws.
 int scene_number(const DesignInfo& design, const std::string& name);
 
-/// The value of a parameter from text, with or without a unit (law/amount.hpp), in the unit of the
+/// The value of a parameter from text, with or without a unit (law/units.hpp), in the unit of the
 /// law or of the design; nothing if neither has the parameter. Errors: std::invalid_argument.
 std::optional<double> parameter_in(const std::string& name, const std::string& text,
                                    const DesignInfo& design, const SceneLaw* law);

@@ -16,7 +16,6 @@
 #include "encoder.hpp"
 #include "lugre.hpp"
 #include "parameters.hpp"
-#include "supply.hpp"
 
 namespace feltgate::plant {
 

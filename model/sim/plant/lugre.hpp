@@ -44,7 +44,6 @@ class Lugre {
   }
 
   double z_rad() const { return z_rad_; }
-  void set_z_rad(double z_rad) { z_rad_ = z_rad; }
 
  private:
   static constexpr double kNegligible = 40.0;  // exp(-40) is below one rounding of the sum

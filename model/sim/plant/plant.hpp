@@ -19,7 +19,6 @@
 #include "lugre.hpp"
 #include "mechanics.hpp"
 #include "parameters.hpp"
-#include "supply.hpp"
 
 namespace feltgate::plant {
 

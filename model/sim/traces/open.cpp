@@ -9,10 +9,8 @@
 
 #include <cmath>
 
-#include "sim/traces/column_source.hpp"
-#include "sim/traces/level_source.hpp"
-#include "sim/traces/level_table.hpp"
 #include "sim/traces/sigrok.hpp"
+#include "sim/traces/sources.hpp"
 #include "sim/traces/vcd.hpp"
 #include "sim/traces/vector_file.hpp"
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "feltgate/encoder_source.hpp"
+
 namespace feltgate::traces {
 
 /// File formats; `detect` looks at the content first and at the suffix second.
@@ -61,5 +63,13 @@ double parse_wrap(const std::string& text);
 /// The format's name on the command line and back; an unknown name throws TraceError.
 const char* name_of(FileFormat format);
 FileFormat parse_format(const std::string& name);
+
+// The four states of a quadrature pair: counting up, B leads A (00, 01, 11, 10 as AB).
+
+/// Pins at a phase; only its last two bits count, so that any position will do.
+constexpr EncoderPins pins_at(unsigned phase) {
+  const bool a = (phase & 2U) != 0;
+  return {a, ((phase & 1U) != 0) != a, false};
+}
 
 }  // namespace feltgate::traces

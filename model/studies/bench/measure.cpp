@@ -4,15 +4,41 @@
 // The benchmark. Documentation: docs/speed-for-accuracy.md
 #include "studies/bench/measure.hpp"
 
+#include <time.h>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <vector>
+
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
-#include "studies/bench/cpu_time.hpp"
-#include "studies/bench/device_speed.hpp"
+#include "feltgate/device.hpp"
+#include "feltgate/generated/lever.hpp"
 
 namespace feltgate::bench {
+
+// Measures CPU time of this process, so other programs on the machine do not count.
+
+/// CPU time of the action, seconds.
+template <class Do>
+double cpu_seconds(Do&& action) {
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double begin = now();
+  action();
+  return now() - begin;
+}
+
+// Measures TwinDevice::tick_to, the call by which a program of one's own moves a lever.
+
+/// CPU time of a tick, ns: an armed lever in the scene wall, angle by angle, 0.02 rad to and fro at
+/// up to 2 rad/s, a third of the way in the wall.
+double device_ns_per_tick(std::size_t ticks);
 
 namespace {
 
@@ -266,6 +292,26 @@ const BackendResult* Result::find(const std::string& name) const {
 Result measure(const std::vector<std::unique_ptr<Runner>>& runners, const std::vector<Work>& works,
                const std::vector<Scene>& closed_loops, const Options& options) {
   return Measurement(runners, works, closed_loops, options).run();
+}
+
+// The time of TwinDevice::tick_to.
+
+double device_ns_per_tick(std::size_t ticks) {
+  TwinDevice<Lever> device;
+  device.select("wall");
+  device.set("self_test_pulse", 0);  // no self-test, for the lever does not rest
+  device.set("wall_contact", device.counts(0.005));
+  device.arm();
+  std::vector<double> angles_rad(ticks);
+  for (std::size_t k = 0; k < ticks; ++k)
+    angles_rad[k] = 0.01 * std::sin(2e-4 * static_cast<double>(k));
+  device.tick_to(0);
+  double pushed = 0;
+  const double s = cpu_seconds([&] {
+    for (const double angle_rad : angles_rad) pushed += device.tick_to(angle_rad).torque_nm;
+  });
+  if (!device.armed() || pushed == 0) throw std::logic_error("the wall was not felt");
+  return 1e9 * s / static_cast<double>(ticks);
 }
 
 }  // namespace feltgate::bench

@@ -15,7 +15,6 @@
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/velocity_mt.hpp"
 #include "files/json_text.hpp"
-#include "sim/loop/drag.hpp"
 #include "sim/loop/rest.hpp"
 #include "sim/reference/chain.hpp"
 #include "studies/controllers/controllers.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/speed-for-accuracy.md
-#include "studies/rates/bits_margin.hpp"
+#include "studies/rates/rates.hpp"
 
 #include <fmt/format.h>
 

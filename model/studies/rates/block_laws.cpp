@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/speed-for-accuracy.md
-#include "studies/rates/block_laws.hpp"
+#include "studies/rates/rates.hpp"
 
 #include <fmt/format.h>
 

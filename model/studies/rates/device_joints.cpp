@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/plant/pantograph/linkage_dynamics.hpp"
+#include "sim/plant/pantograph/linkage_mechanics.hpp"
 
 namespace feltgate::rates {
 

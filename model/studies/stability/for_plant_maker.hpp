@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "design/design.hpp"
-#include "design/parameter_values.hpp"
 #include "design/text_edit.hpp"
 #include "sim/plant/parameters.hpp"
 

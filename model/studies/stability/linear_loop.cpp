@@ -10,8 +10,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include <Eigen/Eigenvalues>
+
 #include "studies/stability/axis_chain.hpp"
-#include "studies/stability/eigenvalues.hpp"
 
 namespace feltgate::stability {
 
@@ -266,6 +267,57 @@ double free_impedance_nm_rad(const LoopModel& m, double rad_s) {
   const Pole motor = m.motor_damping_nm_s_rad - m.torque_per_volt * m.applied * estimator *
                                                     (m.emf_constant + m.voltage_gain * reference);
   return std::abs(s * (s * m.inertia_kg_m2 + m.damping_nm_s_rad + motor));
+}
+
+// Arnoldi: the matrix is known by what it does to a vector, its largest eigenvalues are wanted and
+// most of the others are 0 (the windows forget).
+std::vector<Pole> dominant_poles(
+    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& after,
+    const Eigen::VectorXd& start, Eigen::Index most, double seconds) {
+  const Eigen::Index n = start.size();
+  most = std::min(most, n);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(n, most + 1);
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(most + 1, most);
+  basis.col(0) = start.normalized();
+  Eigen::Index size = 0;
+  while (size < most) {
+    Eigen::VectorXd w = after(basis.col(size));
+    const double scale = w.norm();
+    for (int pass = 0; pass < 2; ++pass) {
+      for (Eigen::Index i = 0; i <= size; ++i) {
+        const double part = basis.col(i).dot(w);
+        h(i, size) += part;
+        w -= part * basis.col(i);
+      }
+    }
+    h(size + 1, size) = w.norm();
+    ++size;
+    if (w.norm() <= 1e-13 * scale) break;
+    basis.col(size) = w / w.norm();
+  }
+  std::vector<Pole> out;
+  for (const Pole& z : eigenvalues(h.topLeftCorner(size, size))) {
+    if (std::abs(z) > 1e-6 && z.imag() >= 0) out.push_back(std::log(z) / seconds);
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Pole& a, const Pole& b) { return a.real() > b.real(); });
+  return out;
+}
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
+}
+
+Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t) {
+  const int doublings = std::max(0, std::ilogb(a.cwiseAbs().maxCoeff() * t) + 4);
+  const Eigen::MatrixXd step = a * std::ldexp(t, -doublings);
+  Eigen::MatrixXd term = step, sum = Eigen::MatrixXd::Zero(a.rows(), a.cols());
+  for (int n = 2; n < 20; ++n) {
+    sum += term;
+    term = (term * step / n).eval();
+  }
+  for (int n = 0; n < doublings; ++n) sum = (2 * sum + sum * sum).eval();
+  return sum;
 }
 
 }  // namespace feltgate::stability

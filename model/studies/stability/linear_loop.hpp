@@ -6,15 +6,29 @@
 // docs/speed-for-accuracy.md
 #pragma once
 
-#include <Eigen/Core>
+#include <complex>
+#include <functional>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "design/design.hpp"
 #include "sim/plant/mechanics.hpp"
 #include "sim/plant/parameters.hpp"
-#include "studies/stability/dominant_poles.hpp"
 
 namespace feltgate::stability {
+
+// Finds the dominant poles of a loop that is given as a function on its state. Derivation:
+
+/// An eigenvalue as a pole, rad/s.
+using Pole = std::complex<double>;
+
+/// The poles with the largest real parts, the fastest growing first; of a conjugate pair, the one
+/// with imag >= 0. `after` is linear and advances a state by `seconds`. At most `most` eigenvalues
+/// are computed; the start vector must contain every wanted mode.
+std::vector<Pole> dominant_poles(
+    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& after,
+    const Eigen::VectorXd& start, Eigen::Index most, double seconds);
 
 /// A wall and how often its torque is computed anew; the torque is held in between.
 struct Wall {
@@ -110,5 +124,15 @@ double actuator_delay_s(const LoopModel& model, int scene_ticks);
 /// Impedance of the armed lever without a scene at a frequency, as a stiffness: |torque / angle|,
 /// Nm/rad. Back-EMF compensation and observer are in it, the winding's lag is not.
 double free_impedance_nm_rad(const LoopModel& model, double rad_s);
+
+// Eigenvalues and exponential of a real matrix, in one source: Eigen's solver takes the compiler
+// long.
+
+/// All eigenvalues of a square matrix, in no order.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// exp(a*t) - 1 of a square matrix `a` and a time t >= 0 in the inverse of its unit, by a Taylor
+/// series and doubling, so that small results keep their digits.
+Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t);
 
 }  // namespace feltgate::stability

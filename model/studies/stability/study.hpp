@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "studies/stability/experiments.hpp"
-#include "studies/stability/mass_loop.hpp"
+#include "studies/stability/law_loop.hpp"
 
 namespace feltgate::stability {
 

@@ -145,7 +145,7 @@ let below = deep - within
 
 # The normal is (-slope_x, -slope_y, 1) of length 1.
 table upright(t) on [0, 8] = 1 / sqrt(1 + t) with 128 segments
-let nz = upright(clamp(slope_x * slope_x + slope_y * slope_y, 0, 8))
+let nz = upright(max(slope_x * slope_x + slope_y * slope_y, 0))
 let spring = stiffness * (within * nz + below)
 out torque[0] = -R * stiffness * within * slope_x * nz
 out torque[1] = -R * stiffness * within * slope_y * nz

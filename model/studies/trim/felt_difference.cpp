@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/speed-for-accuracy.md
-#include "studies/trim/felt_difference.hpp"
+#include "studies/trim/subject.hpp"
 
 #include <time.h>
 

@@ -2,14 +2,306 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // torque_control: RTL against twin on every clock, its law by hand, and its distance from quad
-// precision. The loops through the observer are in loop.hpp. docs/blocks/torque_control.md
-#include "loop.hpp"
-
+// precision. The loops through the observer come first. docs/blocks/torque_control.md
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "catch.hpp"
-#include "random_waves.hpp"
+#include "feltgate/dob.hpp"
+#include "feltgate/largest.hpp"
+#include "feltgate/words.hpp"
+#include "wave_bus.hpp"
+
+// Random waves for torque_control, their coverage, and tick() against clock().
+
+namespace feltgate::test {
+
+/// Torques of every size and on the border; the design's words, legal ones, or any 32 bits.
+struct RandomWaves {
+  Random random;
+
+  template <class Number>
+  std::int64_t any() {
+    if (random.one_in(20)) return random.coin() ? Number::max_raw() : Number::min_raw();
+    const auto word = static_cast<std::int64_t>(random.bits()) >> (64 - Number::width);
+    return word >> random.below(Number::width);
+  }
+  /// A limit: zero, small, or up to the format's end.
+  template <class Number>
+  std::int64_t limit() {
+    return random.one_in(10) ? 0 : Number::max_raw() >> random.below(Number::width - 3);
+  }
+  Wave operator()() {
+    Wave w;
+    const std::uint32_t kind = random.below(4);
+    if (kind >= 2) {
+      for (const int a :
+           {A::emf_constant, A::voltage_to_current, A::torque_gain, A::dead_voltage_slope,
+            A::voltage_gain, A::voltage_gain_high, A::duty_gain}) {
+        w.words.set(a, random.between(0, 131071) >> random.below(10));
+      }
+      w.words.set(A::observer_gain, random.between(-131072, 131071) >> random.below(10));
+      w.words.set(A::region_torque, limit<Torque>());
+      w.words.set(A::dead_voltage, limit<Voltage>());
+    }
+    if (kind >= 1) {
+      w.words.set(A::current_limit, limit<Current>());
+      w.words.set(A::voltage_window, limit<Voltage>());
+      w.words.set(A::duty_limit, random.between(0, 4095) >> random.below(12));
+    }
+    w.words.set(A::voltage_setpoint, any<Voltage>());
+    w.words.set(A::voltage_step, limit<Voltage>());
+    if (kind == 3 && random.one_in(4)) {
+      for (auto& word : w.words.raw) word = static_cast<std::int32_t>(random.bits() >> 32);
+    }
+    w.mode = static_cast<Mode>(random.below(4));
+    w.armed = !random.one_in(5);
+    w.tau_ref = random.coin() ? any<Torque>() : random.between(-40000, 40000);
+    w.tau_hat = random.coin() ? any<Torque>() : random.between(-40000, 40000);
+    w.velocity = any<Velocity>();
+    if (random.one_in(4)) {
+      const std::int64_t border = w.words.get<Step::Law::kBorderKey>(A::region_torque).raw();
+      w.tau_ref = (random.coin() ? border : -border) + random.between(-1, 1);
+      if (w.tau_ref > Torque::max_raw()) w.tau_ref = Torque::max_raw();
+      if (w.tau_ref < Torque::min_raw()) w.tau_ref = Torque::min_raw();
+    }
+    return w;
+  }
+};
+
+using Twin = Watched<Control, Wave>;
+using Bench = LockStep<Vtorque_control, Twin, Adapter>;
+
+/// A wave, then up to `spread` - 1 clocks of rest. The wave after a reset is disarmed, as in the
+/// core, because the sums have no reset.
+struct Waves {
+  Waves(std::uint64_t seed, std::uint32_t more_clocks)
+      : next{Random(seed)}, shared(seed + 1), spread(more_clocks) {}
+
+  Twin::In operator()(std::int64_t, const Twin::Out& out) {
+    const bool first = out.resets != resets;
+    if (first) {
+      resets = out.resets;
+      clock = 0;
+    }
+    if (clock == 0) {
+      in.aside = next();
+      if (first) in.aside.armed = false;
+      period = kShortest + static_cast<int>(shared.garbage.below(spread));
+    }
+    in.port = wave_inputs(in.aside, clock, out.port, shared);
+    clock = clock + 1 == period ? 0 : clock + 1;
+    return in;
+  }
+
+  static constexpr int kShortest = Map::T::duty + 2;
+  RandomWaves next;
+  Shared shared;
+  std::uint32_t spread;
+  Twin::In in;
+  std::int64_t resets = 0;
+  int clock = 0, period = kShortest;
+};
+
+/// Counts, by sign if the value has one: [0] negative, [1] positive.
+struct Tally {
+  std::int64_t waves = 0, disarmed = 0, modes[4] = {}, current[2] = {}, voltage[2] = {},
+               duty[2] = {}, dead[2] = {}, dead_linear = 0, border[2] = {}, high[2] = {};
+};
+
+/// Runs tick() at the clock at which the duty is ready.
+struct TickBeside {
+  Tally* tally;
+  Step step{};  // the ramp starts from the voltage of the tick before
+
+  const char* operator()(const Twin::In& in, const Vtorque_control& rtl, const Twin&,
+                         bool in_reset) {
+    if (in_reset) step = {};
+    if (in_reset || ((in.port.wave >> Map::T::duty) & 1u) == 0) return nullptr;
+    tick(step, in.aside);
+    count(in.aside, step);
+    const Control::Out out = Adapter::outputs(rtl);
+    if (out.region_high != step.region_high) return "region of tick() is that of clock()";
+    if (out.current_ref != step.current.raw()) return "current of tick() is that of clock()";
+    if (out.voltage != step.voltage.raw()) return "voltage of tick() is that of clock()";
+    if (out.duty != step.duty.raw()) return "duty of tick() is that of clock()";
+    if (out.limit.current != step.limit.current || out.limit.voltage != step.limit.voltage ||
+        out.limit.duty != step.limit.duty) {
+      return "limits of tick() are those of clock()";
+    }
+    // For all words the voltage is within the window; the port's format ends at +-32 V.
+    const Words& words = in.aside.words;
+    const auto window =
+        std::max<std::int64_t>(0, words.get<Step::Law::kVoltageKey>(A::voltage_window).raw());
+    const auto emf = (in.aside.velocity * (words.at(A::emf_constant) & 0x1ffff)) >>
+                     (Design::f.velocity.fraction + Design::P::emf_constant.fraction -
+                      Design::f.voltage.fraction);
+    const std::int64_t low = emf - window, high = emf + window;
+    const auto port = [](std::int64_t v) {
+      return std::clamp<std::int64_t>(v, Voltage::min_raw(), Voltage::max_raw());
+    };
+    if (in.port.armed && (out.voltage < port(low) || out.voltage > port(high))) {
+      return "the voltage is within the window around the back-EMF";
+    }
+    if (!in.port.armed && (out.current_ref != 0 || out.voltage != 0)) return "disarmed is silent";
+    return nullptr;
+  }
+
+  void count(const Wave& w, const Step& step) {
+    ++tally->waves;
+    if (!w.armed) ++tally->disarmed;
+    ++tally->modes[static_cast<int>(w.mode)];
+    if (step.limit.current && step.current.raw() != 0) ++tally->current[step.current.raw() > 0];
+    if (step.limit.voltage && step.voltage.raw() != 0) ++tally->voltage[step.voltage.raw() > 0];
+    if (step.limit.duty && step.duty.raw() != 0) ++tally->duty[step.duty.raw() > 0];
+    const std::int64_t border = w.words.get<Step::Law::kBorderKey>(A::region_torque).raw();
+    if (w.tau_ref == border || w.tau_ref == -border) ++tally->border[w.tau_ref > 0];
+    if (step.region_high) ++tally->high[w.tau_ref > 0];
+    const double slope =
+        std::ldexp(static_cast<double>(w.tau_ref * (w.words.at(A::dead_voltage_slope) & 0x1ffff)),
+                   -16 - Design::P::dead_voltage_slope.fraction);
+    const double dead = std::ldexp(static_cast<double>(w.words.at(A::dead_voltage)), -14);
+    if (slope > dead || slope < -dead) {
+      ++tally->dead[slope > 0];
+    } else if (slope != 0) {
+      ++tally->dead_linear;
+    }
+  }
+};
+
+}  // namespace feltgate::test
+
+// torque_control and dob in a closed loop with a blocked lever, and torque_control against quad
+// precision.
+
+namespace feltgate::test {
+
+inline std::int64_t torque_raw(double newton_metres) {
+  return std::llround(std::ldexp(newton_metres, 16));
+}
+
+/// tick() with the interface of RtlAlone.
+struct TwinAlone {
+  Step step;
+  Control::Out run(const Wave& w) {
+    tick(step, w);
+    Control::Out out;
+    out.current_ref = step.current.raw();
+    out.voltage = step.voltage.raw();
+    out.duty = step.duty.raw();
+    return out;
+  }
+};
+
+/// A common mistake: the observer gets the current before its limit.
+struct Unlimited {
+  TwinAlone twin, without;
+  Control::Out run(const Wave& w) {
+    Control::Out out = twin.run(w);
+    Wave free = w;
+    free.words.set(A::current_limit, Current::max_raw());
+    out.current_ref = without.run(free).current_ref;
+    return out;
+  }
+};
+
+/// A blocked lever: the observer gets the current of the tick before; the control gets tau_hat of
+/// the observer.
+template <class Driven>
+class Loop {
+ public:
+  /// tau_hat in Nm after each tick.
+  std::vector<double> run(Wave w, int ticks) {
+    std::vector<double> tau_hat;
+    for (int k = 0; k < ticks; ++k) {
+      observer_.tick(words_, w.armed, Current::from_raw(out_.current_ref), Velocity{});
+      w.tau_hat = observer_.tau_hat.raw();
+      tau_hat.push_back(observer_.tau_hat.to_double());
+      out_ = driven_.run(w);
+    }
+    return tau_hat;
+  }
+  std::int64_t current() const { return out_.current_ref; }
+  std::int64_t voltage() const { return out_.voltage; }
+
+ private:
+  Driven driven_;
+  feltgate::Words<Design, Fixed> words_;
+  ObserverStep<Design, Fixed> observer_;
+  Control::Out out_;
+};
+
+/// Exact parameters for the law in quad precision; the voltage set-point is an input, not a gain.
+struct ExactWords : ParameterReader<Design, ExactWords> {
+  explicit ExactWords(const Words& words)
+      : setpoint(static_cast<quad>(words.at(A::voltage_setpoint)) * lsb(14)) {}
+  template <int Key>
+  quad get(int address) const {
+    return address == A::voltage_setpoint ? setpoint : static_cast<quad>(parameter(address).si);
+  }
+  quad setpoint;
+};
+
+/// Largest errors of a tick against quad precision, in LSB of 2^-16 A, of 2^-14 V and of a clock,
+/// and the largest bounds that hold for them.
+struct Worst {
+  double current = 0, current_bound = 0, voltage = 0, voltage_bound = 0, duty = 0, duty_bound = 0;
+
+  /// Compares one wave. Returns the name of the bound that does not hold, or nullptr.
+  const char* add(const Wave& w) {
+    Step fixed;
+    TorqueControlStep<Design, Real<quad>> real;
+    if (w.mode == Mode::voltage) {  // the tick before has set the voltage to the set-point
+      fixed.voltage = Voltage::from_raw(w.words.at(A::voltage_setpoint));
+      real.voltage = static_cast<quad>(w.words.at(A::voltage_setpoint)) * lsb(14);
+    }
+    tick(fixed, w);
+    const quad tau_ref = exact(Torque::from_raw(w.tau_ref));
+    const quad tau_hat = exact(Torque::from_raw(w.tau_hat));
+    const quad omega = exact(Velocity::from_raw(w.velocity));
+    const ExactWords words(w.words);
+    real.tick(words, w.armed, w.mode, tau_ref, tau_hat, omega);
+
+    const auto off = [](int address) { return coefficient_error(parameter(address)); };
+    const quad ampere = lsb(16), volt = lsb(14);
+    const bool direct = w.mode == Mode::voltage;
+    // A truncated product has an error of less than one LSB; a limit has only the error of its
+    // quantisation.
+    quad i = direct ? off(A::voltage_to_current) * magnitude(words.setpoint) + ampere
+                    : off(A::torque_gain) * magnitude(tau_ref) +
+                          off(A::observer_gain) * magnitude(tau_hat) + 2 * ampere;
+    i = std::max(i, off(A::current_limit));
+    const int gain = real.region_high ? A::voltage_gain_high : A::voltage_gain;
+    const quad dead =
+        std::max(off(A::dead_voltage_slope) * magnitude(tau_ref) + volt, off(A::dead_voltage));
+    quad v = direct
+                 ? quad{0}
+                 : static_cast<quad>(parameter(gain).si) * i + off(gain) * magnitude(real.current) +
+                       volt + off(A::emf_constant) * magnitude(omega) + volt + dead;
+    // At the end of the window the errors are those of the window and of the back-EMF at its
+    // centre.
+    v = std::max(v, off(A::voltage_window) + off(A::emf_constant) * magnitude(omega) + volt);
+    const quad d = static_cast<quad>(parameter(A::duty_gain).si) * v +
+                   off(A::duty_gain) * magnitude(real.applied) + quad{0.5};
+
+    const bool holds =
+        raise(&current, &current_bound, exact(fixed.current) - real.current, i, ampere) &&
+        raise(&voltage, &voltage_bound, exact(fixed.applied) - real.applied, v, volt) &&
+        raise(&duty, &duty_bound, exact(fixed.duty) - real.duty, d, 1);
+    if (fixed.region_high != real.region_high) return "region";
+    return holds ? nullptr : "error above its bound";
+  }
+
+ private:
+  static bool raise(double* worst, double* largest, quad error, quad bound, quad unit) {
+    *worst = larger(*worst, static_cast<double>(magnitude(error) / unit));
+    *largest = larger(*largest, static_cast<double>(bound / unit));
+    return magnitude(error) <= bound;
+  }
+};
+
+}  // namespace feltgate::test
 
 using namespace feltgate;
 using namespace feltgate::test;

@@ -13,8 +13,8 @@
 #include <initializer_list>
 
 #include "../../estimators/lowpass/exact.hpp"
-#include "../../wave/mult/shared_mult.hpp"
-#include "../limiter/shared_limiter.hpp"
+#include "../../wave/mult/mult_twin.hpp"
+#include "../limiter/limiter_twin.hpp"
 #include "feltgate/generated/reader.hpp"
 #include "lock_step.hpp"
 #include "ports.hpp"

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "sim/plant/parameters.hpp"
-#include "studies/stability/eigenvalues.hpp"
+#include "studies/stability/linear_loop.hpp"
 
 namespace feltgate::test {
 

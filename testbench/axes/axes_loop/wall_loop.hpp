@@ -10,9 +10,9 @@
 #include <array>
 #include <cmath>
 
-#include "sim/plant/pantograph/linkage_dynamics.hpp"
+#include "sim/plant/pantograph/linkage_mechanics.hpp"
 #include "sim/plant/pantograph/pantograph_parameters.hpp"
-#include "studies/stability/eigenvalues.hpp"
+#include "studies/stability/linear_loop.hpp"
 
 namespace feltgate::test {
 

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "../../engine/machine/machine_programs.hpp"
-#include "../../engine/machine/random_program.hpp"
 #include "both.hpp"
 #include "mismatch.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "../../sim/plant/plant_fixture.hpp"
 #include "sim/plant/gimbal/gimbal.hpp"
-#include "sim/plant/gimbal/gimbal_file.hpp"
 
 namespace feltgate::plant {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "feltgate/encoder_source.hpp"
-#include "sim/traces/phase.hpp"
+#include "sim/traces/options.hpp"
 
 namespace feltgate::test {
 

@@ -20,8 +20,8 @@
 #include "mismatch.hpp"
 #include "moves.hpp"
 #include "sim/loop/replay.hpp"
+#include "sim/traces/capture.hpp"
 #include "sim/traces/open.hpp"
-#include "sim/traces/statistics.hpp"
 
 namespace {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "feltgate/engine.hpp"
+#include "lock_step.hpp"
 #include "ports.hpp"
 
 namespace feltgate::test {
@@ -127,5 +128,11 @@ class EngineHost {
   }
   int held_ = 0;
 };
+
+// The engine of AXES axes in lock-step.
+
+using Twin = EngineTwin<AXES>;
+using Bench = LockStep<Vengine, Twin, EngineAdapter<AXES>>;
+using Host = EngineHost;
 
 }  // namespace feltgate::test

@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 
-#include "engine_bench.hpp"
+#include "engine_adapter.hpp"
 #include "machine_programs.hpp"
 
 namespace feltgate::test {

@@ -3,7 +3,7 @@
 //
 // The engine's twin run by run against its clocks: programs of every length and rhythm.
 // Documentation: docs/blocks/engine.md
-#include "../machine/random_program.hpp"
+#include "../machine/machine_programs.hpp"
 #include "pair.hpp"
 
 using namespace feltgate;

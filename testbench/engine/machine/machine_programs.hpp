@@ -4,14 +4,17 @@
 // Programs of the engine written by hand, for tests. Documentation: docs/blocks/engine.md
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
 
 #include "feltgate/crc32.hpp"
+#include "feltgate/engine.hpp"
 #include "feltgate/engine_memory.hpp"
 #include "feltgate/engine_ops.hpp"
+#include "random.hpp"
 
 namespace feltgate::test {
 
@@ -111,6 +114,72 @@ inline void charge(EngineMemory& m, int thread) {
           {to(0, Op::sub, kPosition, kParameter), to(1, Op::abs, 0, 0),
            to(1, Op::min, 1, kParameter + 1), to(1, Op::mul, 1, kParameter + 2, 1),
            to(1, Op::lrp, 1, 64), out(0, Op::abs, 0, 1)});
+}
+
+// How often a program runs in the engine's twin, clock by clock.
+
+/// Runs of thread 0 and whether a start was missed, in so many ticks.
+struct Seen {
+  int fresh = 0;
+  bool overrun = false;
+};
+
+template <int Axes>
+Seen run(const EngineMemory& memory, int divider, int clocks_per_tick, int phase, int ticks) {
+  using H = EngineMap::H;
+  law::Engine<Axes> engine(0xffff);
+  engine.reset();
+  engine.memory() = memory;
+  typename law::Engine<Axes>::In in;
+  const auto write = [&](int address, int word) {
+    in.addr = static_cast<unsigned>(address);
+    in.wdata = static_cast<std::uint32_t>(word);
+    in.write = true;
+    engine.clock(in);
+    in.write = false;
+    for (int k = 0; k < 40; ++k) engine.clock(in);
+  };
+  write(H::divider0, divider);
+  write(H::run, 1);
+  for (int k = 0; k < phase; ++k) engine.clock(in);
+  in.addr = static_cast<unsigned>(H::status);
+  Seen seen;
+  for (int k = 0; k < ticks * clocks_per_tick; ++k) {
+    in.tick = k % clocks_per_tick == 0;
+    engine.clock(in);
+    seen.fresh += engine.out().fresh ? 1 : 0;
+  }
+  seen.overrun = (engine.out().rdata >> EngineMap::S::status_overrun & 1U) != 0;
+  return seen;
+}
+
+// Programs at random that a device could have: they end.
+
+/// All four threads have `length` random words or less; branches go forward but for some, and
+/// mostly a run renews all outputs.
+inline EngineMemory random_program(Random& random, int length) {
+  EngineMemory m;
+  m.line_base = random.coin() ? 512 : 400;
+  for (auto& word : m.table) word = random.bits() >> 28;
+  for (int n = 448; n < 512; ++n) m.set_data(n, static_cast<std::int32_t>(random.bits() >> 40));
+  for (int t = 0; t < 4; ++t) {
+    for (int n = 0; n < length; ++n) {
+      EngineInstruction i = engine_decode(random.bits() >> 28);
+      const int at = t * EngineMap::thread_words + n;
+      i.last = n + 1 == length || random.one_in(40);
+      if (i.op == EngineOp::brf) {
+        i.b = std::min(at + 1 + static_cast<int>(random.below(4)), at - n + length - 1);
+        if (random.one_in(300)) i.b = at;
+      }
+      if (random.one_in(3)) i.a = 48 + static_cast<int>(random.below(10));
+      if (i.dst == 2) i.d = static_cast<int>(random.below(3));
+      if (i.dst == 1 && random.coin()) i.d = static_cast<int>(random.below(40));
+      if (n + 3 >= length) i.dst = 2;
+      if (n + 3 >= length) i.d = length - 1 - n;
+      m.set_program(at, engine_encode(i));
+    }
+  }
+  return m;
 }
 
 }  // namespace feltgate::test

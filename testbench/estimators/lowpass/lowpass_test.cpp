@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "../../wave/mult/shared_mult.hpp"
+#include "../../wave/mult/mult_twin.hpp"
 #include "catch.hpp"
 #include "exact.hpp"
 #include "feltgate/largest.hpp"

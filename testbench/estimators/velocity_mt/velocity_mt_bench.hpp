@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "../../wave/mult/shared_mult.hpp"
+#include "../../wave/mult/mult_twin.hpp"
 #include "../lowpass/exact.hpp"
 #include "feltgate/largest.hpp"
 #include "lock_step.hpp"

@@ -14,7 +14,7 @@
 #include "catch.hpp"
 #include "feltgate/generated/link.hpp"
 #include "host/chai3d/feltgate_device.hpp"
-#include "host/frame.hpp"
+#include "host/link.hpp"
 
 using namespace feltgate;
 using chai3d::C_ERROR;

@@ -11,7 +11,7 @@
 
 #include "feltgate/random.hpp"
 #include "host/calibrate/open_loop.hpp"
-#include "host/identify/recording.hpp"
+#include "host/identify/identify.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/plant/plant_file.hpp"
 

@@ -13,8 +13,6 @@
 #include "design/text_edit.hpp"
 #include "feltgate/random.hpp"
 #include "files/toml/toml_reader.hpp"
-#include "host/calibrate/columns.hpp"
-#include "host/calibrate/design_changes.hpp"
 #include "host/calibrate/open_loop.hpp"
 #include "host/calibrate/regression.hpp"
 #include "host/calibrate/report.hpp"

@@ -13,7 +13,7 @@
 #include "host/capture.hpp"
 #include "host/host_device.hpp"
 #include "host/position_encoder.hpp"
-#include "sim/traces/phase.hpp"
+#include "sim/traces/options.hpp"
 
 namespace {
 

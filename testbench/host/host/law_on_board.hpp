@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "design/law_target.hpp"
+#include "design/engine_map.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "feltgate/linked_core.hpp"

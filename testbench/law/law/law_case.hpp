@@ -99,3 +99,18 @@ inline double torque_of(const std::string& text, double x = 0) {
 }
 
 }  // namespace feltgate::law
+
+// A law that is refused, and its messages.
+
+struct Bad {
+  const char* text;
+  const char* messages;  ///< without the file's name, a line each
+};
+
+// A line that is well, so that only what is looked at is wrong.
+#define OUT "\nout torque = tau_hat"
+
+inline void check(const Bad& bad) {
+  INFO(bad.text);
+  CHECK(feltgate::law::messages_of(bad.text) == bad.messages);
+}

@@ -3,7 +3,7 @@
 //
 // Messages about what a law means: where each points, what it says, how it mends. Documentation:
 // docs/laws.md
-#include "bad_law.hpp"
+#include "law_case.hpp"
 
 using namespace feltgate::law;
 

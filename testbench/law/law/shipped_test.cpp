@@ -25,17 +25,14 @@ TEST_CASE("every shipped law has a summary and a torque, and is tested here") {
       "pantograph", "pantograph_filtered", "coupled_levers", "wall",
       // lever_devices_test.cpp
       "turn_switch", "graded_membrane", "end_stops", "scroll_wheel", "moved_detents", "cut_string",
-      "throttle", "lump", "attraction",
+      "throttle", "lump", "attraction", "material", "ceiling", "wall_tracked", "ceiling_tracked",
+      "drums",
       // virtual_objects_test.cpp
       "flywheel", "pendulum", "collision", "rigid_body",
       // local_plane_law_test.cpp
       "local_plane", "sent_force", "local_space", "local_vibration", "local_edge",
-      // material_test.cpp
-      "material",
       // testbench/studies/shape
       "hidden_shapes", "texture",
-      // drums_test.cpp
-      "ceiling", "wall_tracked", "ceiling_tracked", "drums",
       // testbench/sim/bowed_string
       "bowed_string", "four_strings"};
   for (const auto& entry : std::filesystem::directory_iterator(FELTGATE_ROOT "/rtl/laws")) {

@@ -5,7 +5,7 @@
 // docs/blocks/supervisor.md
 #pragma once
 
-#include "../../wave/sequencer/running_clock.hpp"
+#include "../../wave/sequencer/sequencer_twin.hpp"
 #include "random_scenario.hpp"
 
 namespace feltgate::test {

@@ -13,8 +13,8 @@
 #include "design/design.hpp"
 #include "loop_fixture.hpp"
 #include "sim/backends/backend.hpp"
-#include "sim/loop/bounded.hpp"
 #include "sim/loop/figures.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 #include "sim/loop/speed_jumps.hpp"
 
 namespace {

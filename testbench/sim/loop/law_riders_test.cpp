@@ -14,7 +14,7 @@
 #include "loop_fixture.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/backend_choice.hpp"
-#include "sim/loop/bounded.hpp"
+#include "sim/loop/scenario_bounds.hpp"
 
 namespace {
 

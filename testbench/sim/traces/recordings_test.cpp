@@ -12,7 +12,7 @@
 
 #include "catch.hpp"
 #include "recording_files.hpp"
-#include "sim/traces/statistics.hpp"
+#include "sim/traces/capture.hpp"
 
 using namespace feltgate;
 using namespace feltgate::traces;

@@ -2,15 +2,20 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Errors of scenes at several rates against closed forms.
-#include "studies/rates/rates.hpp"
+#include <cmath>
+#include <random>
 
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "files/toml/toml_reader.hpp"
+#include "law/evaluate.hpp"
 #include "mismatch.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/plant/plant_file.hpp"
+#include "studies/rates/margin.hpp"
+#include "studies/rates/rates.hpp"
+#include "studies/rates/slow_law.hpp"
+#include "studies/stability/law_loop.hpp"
 
 using namespace feltgate;
 using namespace feltgate::rates;
@@ -177,4 +182,130 @@ TEST_CASE("what has no single law is refused") {
   CHECK_THROWS_AS(require_one_law(s), config::ConfigError);
   CHECK_THROWS_AS(measured("vectors/scenes/detent.toml", shipped("pantograph"), Options{}),
                   std::invalid_argument);
+}
+
+// Laws at other rates: by the divider, and held for several runs.
+
+namespace {
+
+const LawSource membrane{std::string(FELTGATE_ROOT) + "/rtl/laws/membrane.law", ""};
+
+}  // namespace
+
+TEST_CASE("a held law changes in every n-th run and is the law there") {
+  const law::Law plain = read(membrane, 1e6);
+  const law::Law slow = held(plain, 5, law::Target{});
+  law::Evaluation<double> a(plain), b(slow);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> position(0.3, 0.9);
+  int pushes = 0;
+  double before = 0;
+  for (int run = 0; run < 5000; ++run) {
+    const std::vector<double> in{position(random)};
+    b.run(in);
+    if (run % 5 == 0) {
+      a.run(in);
+      REQUIRE(b.outputs().front() == a.outputs().front());
+      pushes += a.outputs().front() != 0 ? 1 : 0;
+    } else {
+      REQUIRE(b.outputs().front() == before);
+    }
+    before = b.outputs().front();
+  }
+  CHECK(pushes > 200);
+  CHECK(pushes < 800);
+}
+
+TEST_CASE("a rate is the engine's divider, and more than its most is held") {
+  const law::Target target;
+  const law::Compiled fast = fastest(membrane, target);
+  CHECK(fast.divider == 2);
+  const law::Compiled one = at_rate(membrane, target, 1000);
+  CHECK(one.divider == 1000);
+  CHECK(one.rate_hz == 1000);
+  CHECK(one.law.states.size() == fast.law.states.size());
+  const law::Compiled two = at_rate(membrane, target, 6940);
+  CHECK(two.divider == 3470);
+  CHECK(two.law.states.size() == fast.law.states.size() + 2);
+  CHECK(at_rate(membrane, target, 10000).divider == 2500);  // three does not divide it, four does
+}
+
+TEST_CASE("every shipped law of one axis can be held") {
+  for (const char* name :
+       {"wall", "ceiling", "charge", "charge_far", "damper", "detent", "spring"}) {
+    CAPTURE(name);
+    const LawSource law{std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law", ""};
+    CHECK(at_rate(law, law::Target{}, 6940).divider == 3470);
+    CHECK(at_rate(law, law::Target{}, 20000).divider == 4000);
+  }
+}
+
+TEST_CASE("filters follow the rate; a law that counts runs is refused") {
+  const LawSource filtered{"filtered", "out torque = 0.1 Nm * lowpass(position, 100 Hz)\n"};
+  CHECK(at_rate(filtered, law::Target{}, 1000).rate_hz == 1000);
+  const LawSource echo{"echo",
+                       "rate = 10 kHz\nline past[20] in -1 .. 1\nnext past = sin(position)\n"
+                       "out torque = 0.1 Nm * past[20]\n"};
+  CHECK_THROWS_WITH(at_rate(echo, law::Target{}, 1000),
+                    Catch::Contains("echo:2") && Catch::Contains("counts runs"));
+}
+
+// Margins against the borders of the stability study and against 2 b / T.
+
+namespace {
+
+stability::LoopModel model() {
+  const std::string root = FELTGATE_ROOT;
+  const auto e = design::elaborate(design::read_design(root + "/rtl/designs/lever.toml"),
+                                   design::read_registers(root + "/rtl/registers.toml"));
+  return stability::make_model(e, plant::read_plant_file(root + "/vectors/plants/linear.toml"));
+}
+
+Slope slope(double stiffness_nm_rad, double damping_nm_s_rad, double jump_nm = 0) {
+  Slope s;
+  s.stiffness_nm_rad = stiffness_nm_rad;
+  s.damping_nm_s_rad = damping_nm_s_rad;
+  s.jump_nm = jump_nm;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a sampled wall without other delays ends at 2 b / T") {
+  // b = 0.003 and B = 0.1 N s/m; so heavy that a period's swing is small: what the backward
+  // difference itself lags is none.
+  const double rates_hz[] = {144, 490, 1e3, 40e3, 1e6};
+  const double expected_n_m[] = {29.7, 100.9, 206, 8240, 2.06e5};
+  for (int i = 0; i < 5; ++i) {
+    const stability::MassLoop loop{1e6 / rates_hz[i], 0.003, 1 / rates_hz[i], 0.1, 0, 0};
+    CAPTURE(rates_hz[i]);
+    CHECK(stability::stiffest(loop) == Approx(expected_n_m[i]).epsilon(0.005));
+    CHECK(stability::stiffest(loop) == Approx(2 * 0.103 * rates_hz[i]).epsilon(0.005));
+  }
+}
+
+TEST_CASE("a margin is the border of the stability study over the stiffness") {
+  const stability::LoopModel m = model();
+  const Slope wall = slope(4, 0.005);
+  for (const int ticks : {1000, 100, 1}) {
+    const int delay = ticks > 1 ? stability::host_ticks : 0;
+    const Margin found = margin(m, wall, ticks, delay);
+    const double border = stability::border(m, 0.005, ticks).stiffness_nm_rad;
+    CAPTURE(ticks);
+    CHECK(found.of == Margin::Of::stiffness);
+    CHECK(found.border == Approx(border).epsilon(0.003));
+    CHECK(found.ratio == Approx(border / 4).epsilon(0.003));
+  }
+  // A run of the engine costs a tick of delay beside the block's none: a little.
+  CHECK(margin(m, wall, 1, 1).border < margin(m, wall, 1, 0).border);
+  CHECK(margin(m, wall, 1, 1).border > 0.98 * margin(m, wall, 1, 0).border);
+}
+
+TEST_CASE("damping has a margin where nothing is stiff, and nothing has none") {
+  const stability::LoopModel m = model();
+  const Margin slow = margin(m, slope(0, 0.03), 7000, 1), fast = margin(m, slope(0, 0.03), 1, 0);
+  CHECK(slow.of == Margin::Of::damping);
+  CHECK(slow.ratio < fast.ratio);
+  CHECK(fast.border == Approx(0.03 * fast.ratio));
+  CHECK(margin(m, slope(0, 0, 0.5), 1000, 1).of == Margin::Of::none);
 }

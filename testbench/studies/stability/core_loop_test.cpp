@@ -22,7 +22,7 @@
 #include "sim/plant/sigma_delta.hpp"
 #include "studies/stability/bit_loop.hpp"
 #include "studies/stability/experiments.hpp"
-#include "studies/stability/mass_loop.hpp"
+#include "studies/stability/law_loop.hpp"
 
 using namespace feltgate;
 

@@ -9,10 +9,8 @@
 
 #include "../../design/design/design_fixture.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "studies/stability/eigenvalues.hpp"
 #include "studies/stability/linear_loop.hpp"
 #include "studies/stability/loop_poles.hpp"
-#include "studies/stability/winding.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;

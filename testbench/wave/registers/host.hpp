@@ -7,7 +7,6 @@
 
 #include <Vregisters.h>
 
-#include "../sequencer/running_clock.hpp"
 #include "../sequencer/sequencer_twin.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/registers.hpp"

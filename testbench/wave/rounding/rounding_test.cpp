@@ -6,10 +6,46 @@
 #include <Vrounding.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "catch.hpp"
+#include "feltgate/fixed.hpp"
 #include "lock_step.hpp"
-#include "rounding_twin.hpp"
+
+// Twin of rtl/core/wave/rounding.sv, by the rounding of fixed-point numbers.
+
+namespace feltgate {
+
+/// Combinational twin: whether a number goes up when its lowest Drop bits are dropped.
+template <int Drop, Round R>
+class Rounding {
+ public:
+  struct In {
+    std::uint32_t low = 0;  ///< Drop + 1 bits: what is dropped and the lowest that is kept
+    bool negated = false;
+  };
+  struct Out {
+    bool up = false;
+  };
+
+  void reset() {}
+  void clock(const In& in) {
+    const auto x = fixed<1, 2, Drop>::from_raw(in.low);
+    const std::int64_t rounded = in.negated ? -whole<R>(-x) : whole<R>(x);
+    out_.up = rounded != whole<Round::truncate>(x);
+  }
+  const Out& out() const { return out_; }
+
+ private:
+  template <Round How, class X>
+  static std::int64_t whole(X x) {
+    return narrow<fixed<1, 4, 0>, How, Overflow::wrap>(x).raw();
+  }
+
+  Out out_;
+};
+
+}  // namespace feltgate
 
 using namespace feltgate;
 using namespace feltgate::test;

@@ -10,7 +10,7 @@
 
 #include "apps/commands/host/session.hpp"
 #include "files/output_file.hpp"
-#include "host/calibrate/design_changes.hpp"
+#include "host/calibrate/report.hpp"
 
 namespace feltgate::host {
 

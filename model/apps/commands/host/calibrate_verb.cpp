@@ -19,7 +19,7 @@
 #include "files/json_text.hpp"
 #include "files/output_file.hpp"
 #include "host/calibrate/report.hpp"
-#include "law/amount.hpp"
+#include "law/units.hpp"
 
 namespace feltgate::host {
 

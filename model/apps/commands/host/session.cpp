@@ -14,7 +14,7 @@
 #include <stdexcept>
 
 #include "apps/commands/commands.hpp"
-#include "design/law_target.hpp"
+#include "design/engine_map.hpp"
 #include "law/compile.hpp"
 
 namespace feltgate::host {

@@ -15,7 +15,7 @@
 #include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "sim/plant/pantograph/linkage.hpp"
-#include "sim/plant/pantograph/pantograph_file.hpp"
+#include "sim/plant/pantograph/pantograph_parameters.hpp"
 
 namespace feltgate::host {
 

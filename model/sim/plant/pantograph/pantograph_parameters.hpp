@@ -21,4 +21,12 @@ struct PantographParameters : AxesParameters {
   Vec2 start_m;          ///< pen at clock 0, unless the hand gives a start
 };
 
+// Reader of vectors/devices/NAME.toml for pantographs.
+
+/// Reads and checks a pantograph; every key is required, unknown keys are errors.
+/// Errors: config::ConfigError "file:line: what; mend".
+PantographParameters read_pantograph_file(const std::string& path);
+/// The same from a text; errors name it `path`.
+PantographParameters read_pantograph_text(const std::string& text, const std::string& path);
+
 }  // namespace feltgate::plant

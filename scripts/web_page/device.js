@@ -5,7 +5,7 @@ const SAMPLE = ["time", "theta", "hand", "tau_ref", "tau_hat", "torque", "hand_n
 const RADIUS_M = 0.1; // where the hand holds the lever: radius_m of the plants
 const VIEW = "-40 -72 580 472"; // of the picture, around CENTRE
 const SHOW_S = 4; // of a press that shows how
-const KEPT = 20000; // samples of the curves: 4 s at 5 kHz
+const CURVES = { chunk_s: 0.01, kept: 800 }; // what they keep: 4 s
 
 /** What can be broken, by its number in the core: what is to be expected, and how a hand shows it. */
 const BROKEN = {
@@ -29,10 +29,10 @@ class Device {
       this.ranges[p.name] = p;
     }
     if (own) for (const { name, value } of own.values) this.set(name, value);
-    this.history = { length: 0, next: 0, ...Object.fromEntries(SAMPLE.map((n) => [n, new Float32Array(KEPT)])) };
+    this.chunk = [];
+    this.traces = { theta: [], hand: [], torque: [], tau_ref: [], tau_hat: [], difference: [] };
     this.now = Object.fromEntries(SAMPLE.map((n) => [n, 0]));
     this.lead = 0;
-    this.difference = 0;
     this.build(place);
   }
 
@@ -51,22 +51,7 @@ class Device {
     this.alarm.querySelector("button").onclick = recover;
     this.parts = Object.fromEntries(["objects", "over"].map((n) => [n, this.figure.querySelector("." + n)]));
     place.append(this.figure);
-    this.svg.addEventListener("pointerdown", (event) => {
-      this.svg.setPointerCapture(event.pointerId);
-      this.take(true);
-      this.point(event);
-    });
-    this.svg.addEventListener("pointermove", (event) => this.svg.hasPointerCapture(event.pointerId) && this.point(event));
-    for (const end of ["pointerup", "pointercancel"]) this.svg.addEventListener(end, () => this.take(false));
-    this.svg.addEventListener("keydown", (event) => {
-      const steps = { ArrowLeft: -0.02, ArrowRight: 0.02, ArrowDown: -0.1, ArrowUp: 0.1 };
-      if (event.key === " ") this.take(!this.held);
-      else if (event.key in steps) {
-        this.take(true);
-        this.aim(this.lead + steps[event.key]);
-      } else return;
-      event.preventDefault();
-    });
+    led_by(this.svg, taken(this, { ArrowLeft: -0.02, ArrowRight: 0.02, ArrowDown: -0.1, ArrowUp: 0.1 }, (event) => this.point(event)));
   }
 
   /** Somebody takes the lever, or lets go; the hand that showed how is gone for good. */
@@ -129,21 +114,27 @@ class Device {
   advance(ticks, every = 200, lead = this.lead) {
     this.loop.lead(lead);
     const said = this.loop.advance(ticks, every);
-    const samples = this.loop.samples(), h = this.history;
-    for (let i = 0; i < samples.length; i += SAMPLE.length) {
-      for (let n = 0; n < SAMPLE.length; ++n) h[SAMPLE[n]][h.next] = samples[i + n];
-      h.next = (h.next + 1) % KEPT;
-      h.length = Math.min(h.length + 1, KEPT);
-    }
-    const last = samples.length - SAMPLE.length;
-    if (last >= 0) SAMPLE.forEach((n, i) => (this.now[n] = samples[last + i]));
+    const samples = this.loop.samples();
+    for (let i = 0; i < samples.length; i += SAMPLE.length) this.note(Object.fromEntries(SAMPLE.map((name, n) => [name, samples[i + n]])));
     this.status = this.loop.status();
-    this.difference = Math.max(this.difference, this.status.difference_nm);
     if (this.rearm && !said) {
       this.rearm = false;
       this.loop.arm(true);
     }
     return said;
+  }
+
+  /** The curves keep the least and the largest value of each 10 ms, so that no spike is lost. */
+  note(sample) {
+    this.now = sample;
+    this.chunk.push({ ...sample, difference: 1e6 * (sample.tau_hat - sample.float_hat) });
+    if (sample.time - this.chunk[0].time < CURVES.chunk_s) return;
+    for (const [name, trace] of Object.entries(this.traces)) {
+      const values = this.chunk.map((row) => row[name]);
+      keep(trace, CURVES.kept, Math.min(...values));
+      keep(trace, CURVES.kept, Math.max(...values));
+    }
+    this.chunk = [];
   }
 
   draw(values) {
@@ -152,7 +143,7 @@ class Device {
     const ball = at(s.theta, LENGTH), newton = s.torque / RADIUS_M;
     let over = motor_and_bar(s.theta);
     if (this.held) {
-      if (!page.shows) over += `<path class="handline" d="${path([ball, at(s.hand, LENGTH)])}"/>${circle("handring", at(s.hand, LENGTH), 26)}`;
+      if (!page.shows) over += hand_ring(ball, at(s.hand, LENGTH), 26);
       over += hand_at(s.theta, s.hand - s.theta);
     }
     over += force_at(ball, s.theta, newton, 70, 100) + this.newton_text(s.theta, newton);

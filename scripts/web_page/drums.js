@@ -2,7 +2,7 @@
 "use strict";
 
 const STICK_M = 0.3; // `length` of the law
-const DRUMS = [{ across: -0.3, skin: 900 }, { across: 0, skin: 600 }, { across: 0.3, skin: 300 }]; // of the law
+const DRUMS = [-0.3, 0, 0.3]; // where they stand, across, of the law
 const HALF_M = 0.12;
 const HALL = { width: 480, height: 400, x: 240, y: 290, across: 430, ahead: 150, up: 800 };
 const STROKE_S = 0.15; // how long the space bar presses
@@ -30,45 +30,26 @@ function drum_samples(drum, speed_m_s, place, rate_hz) {
 
 class DrumsTab {
   constructor(core, numbers) {
-    this.stick = new core.Stick(numbers.drums);
+    this.stick = core.Lever.stick(numbers.drums);
     this.across = 0;
     this.lead = 0.3;
     this.hits = [];
     this.played = 0;
     this.lit = [0, 0, 0];
     this.seen = this.stick.state();
-    $("drums-stage").innerHTML = `<svg viewBox="0 0 ${HALL.width} ${HALL.height}" tabindex="0" role="application"
-      aria-label="Drums: the stick follows the mouse; arrow keys move it, the space bar strikes"></svg><figcaption><span class="equation"></span></figcaption>`;
-    this.svg = $("drums-stage").querySelector("svg");
-    this.caption = $("drums-stage").querySelector(".equation");
-    this.svg.addEventListener("pointerdown", (event) => this.svg.setPointerCapture(event.pointerId));
-    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
-    this.svg.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-0.02, 0], ArrowRight: [0.02, 0], ArrowUp: [0, 0.05], ArrowDown: [0, -0.05] }[event.key];
-      if (step) this.aim(this.across + step[0], this.lead + step[1]);
-      else if (event.key === " ") this.stroke = STROKE_S;
-      else return;
-      event.preventDefault();
-    });
-    DRUMS.forEach((drum, n) => {
-      const label = document.createElement("label"), shown = document.createElement("output");
-      const range = Object.assign(document.createElement("input"), { id: `drums-skin${n + 1}`, type: "range", min: 0, max: 2000, step: 10, value: drum.skin });
-      label.className = "slider";
-      range.oninput = () => { say(this.stick.set(`skin${n + 1}`, Number(range.value))); shown.textContent = `${range.value} N/m`; };
-      shown.textContent = `${drum.skin} N/m`;
-      label.append(`skin ${n + 1}`, range, shown);
-      $("drums-skins").append(label);
-    });
-    $("drums-sound").onclick = () => this.hear(!this.audio || this.audio.state !== "running");
+    const steps = { ArrowLeft: [-0.02, 0], ArrowRight: [0.02, 0], ArrowUp: [0, 0.05], ArrowDown: [0, -0.05] };
+    Object.assign(this, make_stage($("drums-stage"), `0 0 ${HALL.width} ${HALL.height}`, "Drums: the stick follows the mouse; arrow keys move it, the space bar strikes", {
+      point: (event) => this.point(event),
+      steps,
+      step: ([across, lead]) => this.aim(this.across + across, this.lead + lead),
+      space: () => (this.stroke = STROKE_S),
+    }));
+    for (const n of [1, 2, 3]) wire_slider(`drums-skin${n}`, (value) => `${value} N/m`, (value) => say(this.stick.set(`skin${n}`, value)));
+    sound_button("drums-sound", () => this.is_heard(), (wanted) => (wanted ? (this.audio ??= new AudioContext()).resume() : this.audio.suspend()));
   }
 
-  hear(wanted) {
-    if (wanted) {
-      this.audio ??= new AudioContext();
-      this.audio.resume();
-    } else this.audio.suspend();
-    $("drums-sound").setAttribute("aria-pressed", wanted);
-    $("drums-sound").textContent = wanted ? "Sound off" : "Sound on";
+  is_heard() {
+    return this.audio && this.audio.state === "running";
   }
 
   point(event) {
@@ -93,7 +74,7 @@ class DrumsTab {
     this.lit = this.lit.map((left) => Math.max(0, left - passed));
     for (const { name, value, time } of this.seen.events) {
       const drum = Number(name.slice(-1));
-      if (name.startsWith("hit")) this.hits.push({ drum, speed: value, time });
+      if (name.startsWith("hit")) keep(this.hits, 500, { drum, speed: value, time });
       else this.hit(drum, value);
     }
     this.draw();
@@ -104,17 +85,10 @@ class DrumsTab {
     const hit = this.hits[this.hits.length - 1];
     hit.place = place;
     this.lit[drum - 1] = 0.15;
-    if (this.hits.length > 500) this.hits.shift();
-    const row = $("drums-hits").insertRow(0);
-    [`drum ${drum}`, `${fixed(hit.speed, 2)} m/s`, `${fixed(place, 2)} to the rim`].forEach((text) => (row.insertCell().textContent = text));
+    add_row($("drums-hits"), [`drum ${drum}`, `${fixed(hit.speed, 2)} m/s`, `${fixed(place, 2)} to the rim`], 0);
     if ($("drums-hits").rows.length > 8) $("drums-hits").deleteRow(8);
-    if (!this.audio || this.audio.state !== "running") return;
-    const samples = drum_samples(drum, hit.speed, place, this.audio.sampleRate);
-    const buffer = this.audio.createBuffer(1, samples.length, this.audio.sampleRate), source = this.audio.createBufferSource();
-    buffer.copyToChannel(samples, 0);
-    source.buffer = buffer;
-    source.connect(this.audio.destination);
-    source.start();
+    if (!this.is_heard()) return;
+    play(this.audio, drum_samples(drum, hit.speed, place, this.audio.sampleRate));
     ++this.played;
   }
 
@@ -122,15 +96,13 @@ class DrumsTab {
     const s = this.seen, newton = s.torque / STICK_M;
     const place = (theta) => in_hall(this.across, STICK_M * Math.cos(theta), STICK_M * Math.sin(theta));
     const wrist = in_hall(this.across, 0, 0), tip = place(s.theta), hand = place(s.hand), below = in_hall(this.across, STICK_M * Math.cos(s.theta), 0);
-    let text = DRUMS.map((drum, n) => {
-      const [x, y] = in_hall(drum.across, STICK_M, 0), rx = HALF_M * HALL.across, ry = HALF_M * HALL.ahead;
+    let text = DRUMS.map((across, n) => {
+      const [x, y] = in_hall(across, STICK_M, 0), rx = HALF_M * HALL.across, ry = HALF_M * HALL.ahead;
       const corners = path([[x - rx, y + ry], [x - rx + 14, y - ry], [x + rx - 14, y - ry], [x + rx, y + ry]]);
       return `<path class="outline${this.lit[n] ? " lit" : ""}" d="${corners}Z"/><path class="outline" d="${path([[x - rx, y + ry], [x - rx, y + 70], [x + rx, y + 70], [x + rx, y + ry]])}"/><text class="label" x="${x}" y="${y + 50}">${n + 1}</text>`;
     }).join("");
-    text += `<ellipse class="joint" cx="${below[0]}" cy="${below[1]}" rx="7" ry="3"/><path class="lever" d="${path([wrist, tip])}"/><circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="8"/>` +
-      `<path class="handline" d="${path([tip, hand])}"/><circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="12"/>`;
-    const long = Math.min(150, 30 * newton);
-    if (long > 2) text += `<path class="force" d="${path([tip, [tip[0], tip[1] - long + 6]])}"/><path class="forcehead" d="${path([[tip[0], tip[1] - long], [tip[0] - 6, tip[1] - long + 9], [tip[0] + 6, tip[1] - long + 9]])}Z"/>`;
+    text += `<ellipse class="joint" cx="${below[0]}" cy="${below[1]}" rx="7" ry="3"/><path class="lever" d="${path([wrist, tip])}"/>${circle("knob", tip, 8)}` +
+      hand_ring(tip, hand, 12) + arrow(tip, 0, -Math.min(150, 30 * newton), "force");
     this.svg.innerHTML = text;
     this.caption.textContent = `τ = skin · d² = ${fixed(s.torque)} Nm, ${fixed(newton, 2)} N at the tip; the stick at ${s.counts} counts\nthe law's words at ${fixed(s.rate_hz / 1000, 0)} kHz`;
   }

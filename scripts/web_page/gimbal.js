@@ -4,11 +4,7 @@
 const GIMBAL = { width: 640, height: 430, x: 320, y: 215, per_unit: 120, drag: 150, key: Math.PI / 36, most_nm: 0.1, kept: 240 }; // drag: pixels of a radian; kept: frames of the curve
 const GIMBAL_VIEW = { right: [0.9397, 0.342, 0], up: [-0.117, 0.3214, 0.9397], out: [0.3214, -0.883, 0.342] }; // from 20 degrees aside and above; z is up, y leads away
 const GIMBAL_SIDES = [[0, 1, "x"], [1, 1.5, "y"], [2, 0.7, "z"]]; // axis, half of the body's side, name
-const GIMBAL_LAW = [
-  { name: "inertia", unit: "g m²", low: 0.05, high: 1, step: 0.05, value: 0.1, si: 1e-3 },
-  { name: "stiffness", unit: "Nm/rad", low: 0, high: 0.25, step: 0.01, value: 0.1, si: 1 },
-  { name: "damping", unit: "mNm s/rad", low: 0, high: 2, step: 0.05, value: 0.5, si: 1e-3 },
-];
+const GIMBAL_LAW = [["inertia", " g m²", 1e-3], ["stiffness", " Nm/rad", 1], ["damping", " mNm s/rad", 1e-3]]; // unit of the slider, in SI
 
 /** A vector, turned by a quaternion w, x, y, z. */
 function turned_by([w, x, y, z], v) {
@@ -23,40 +19,28 @@ class GimbalTab {
     this.seen = this.loop.state();
     this.trace = [];
     this.values = {};
-    $("gimbal-stage").innerHTML = `<svg viewBox="0 0 ${GIMBAL.width} ${GIMBAL.height}" tabindex="0" role="application"
-      aria-label="Body in space: drag to turn the hand, with Shift about the line of sight; arrow keys by 5 degrees, Page Up and Page Down about the line of sight"></svg>
-      <figcaption><span class="equation"></span></figcaption>`;
-    this.svg = $("gimbal-stage").querySelector("svg");
-    this.caption = $("gimbal-stage").querySelector(".equation");
-    this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.at = pointed(event, this.svg); });
-    this.svg.addEventListener("pointermove", (event) => {
-      if (!this.svg.hasPointerCapture(event.pointerId)) return;
-      const at = pointed(event, this.svg), [dx, dy] = [at[0] - this.at[0], at[1] - this.at[1]];
-      this.at = at;
-      if (event.shiftKey) this.turn(0, 0, -dx / GIMBAL.drag);
-      else this.turn(dy / GIMBAL.drag, dx / GIMBAL.drag, 0);
-    });
-    this.svg.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [0, -1, 0], ArrowRight: [0, 1, 0], ArrowUp: [-1, 0, 0], ArrowDown: [1, 0, 0], PageUp: [0, 0, 1], PageDown: [0, 0, -1] }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      this.turn(...step.map((n) => n * GIMBAL.key));
-    });
-    for (const slider of GIMBAL_LAW) $("gimbal-law").append(this.slider(slider));
+    const steps = { ArrowLeft: [0, -1, 0], ArrowRight: [0, 1, 0], ArrowUp: [-1, 0, 0], ArrowDown: [1, 0, 0], PageUp: [0, 0, 1], PageDown: [0, 0, -1] };
+    Object.assign(this, make_stage($("gimbal-stage"), `0 0 ${GIMBAL.width} ${GIMBAL.height}`,
+      "Body in space: drag to turn the hand, with Shift about the line of sight; arrow keys by 5 degrees, Page Up and Page Down about the line of sight", {
+        dragged: true,
+        down: (event) => (this.at = pointed(event, this.svg)),
+        point: (event) => this.drag(event),
+        steps,
+        step: (way) => this.turn(...way.map((n) => n * GIMBAL.key)),
+      }));
+    for (const [name, unit, si] of GIMBAL_LAW) {
+      wire_slider(`gimbal-law-${name}`, (value) => value + unit, (value) => {
+        this.values[name] = value * si;
+        say(this.loop.set(name, value));
+      });
+    }
   }
 
-  slider({ name, unit, low, high, step, value, si }) {
-    const line = document.createElement("label"), shown = document.createElement("output");
-    const range = Object.assign(document.createElement("input"), { id: `gimbal-law-${name}`, type: "range", min: low, max: high, step, value });
-    line.className = "slider";
-    range.oninput = () => {
-      this.values[name] = Number(range.value) * si;
-      say(this.loop.set(name, Number(range.value)));
-      shown.textContent = `${range.value} ${unit}`;
-    };
-    range.oninput();
-    line.append(name, range, shown);
-    return line;
+  drag(event) {
+    const at = pointed(event, this.svg), [dx, dy] = [at[0] - this.at[0], at[1] - this.at[1]];
+    this.at = at;
+    if (event.shiftKey) this.turn(0, 0, -dx / GIMBAL.drag);
+    else this.turn(dy / GIMBAL.drag, dx / GIMBAL.drag, 0);
   }
 
   /** About the picture's right, up and the line of sight, rad. */
@@ -68,8 +52,7 @@ class GimbalTab {
   frame(passed) {
     run_timed(passed, () => say(this.loop.advance(passed)));
     this.seen = this.loop.state();
-    this.trace.push(this.seen.torque.map((nm) => 1000 * nm));
-    if (this.trace.length > GIMBAL.kept) this.trace.shift();
+    keep(this.trace, GIMBAL.kept, this.seen.torque.map((nm) => 1000 * nm));
     this.draw();
     const lines = ["x", "y", "z"].map((text, n) => ({ text, colour: ["--blue", "--red", "--green"][n], values: this.trace.map((row) => row[n]) }));
     draw_traces($("gimbal-torque"), "torque on the handle, mNm, the last seconds", lines, GIMBAL.kept, 10);

@@ -42,8 +42,7 @@ class Inside {
 
   pause(wanted) {
     page.paused = wanted;
-    $("pause").setAttribute("aria-pressed", wanted);
-    $("pause").textContent = wanted ? "Go on" : "Pause";
+    press("pause", wanted, wanted ? "Go on" : "Pause");
   }
 
   /** The table, where it is unfolded. */
@@ -52,10 +51,7 @@ class Inside {
     $("words").replaceChildren(...page.devices.map((d) => {
       const table = document.createElement("table");
       table.createCaption().textContent = `${d.name}, tick ${words_of(d)[0].integer}`;
-      for (const { name, integer, value } of words_of(d)) {
-        const row = table.insertRow();
-        [name, integer, value].forEach((text) => (row.insertCell().textContent = text));
-      }
+      for (const { name, integer, value } of words_of(d)) add_row(table, [name, integer, value]);
       return table;
     }));
   }

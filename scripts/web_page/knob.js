@@ -26,31 +26,16 @@ class KnobTab {
       <figcaption><span class="equation"></span></figcaption>`;
     this.svg = $("knob-face");
     this.caption = $("knob-stage").querySelector(".equation");
-    this.svg.addEventListener("pointerdown", (event) => {
-      this.svg.setPointerCapture(event.pointerId);
-      this.take(true);
-      this.at = this.angle(event);
-    });
-    this.svg.addEventListener("pointermove", (event) => {
-      if (!this.svg.hasPointerCapture(event.pointerId)) return;
+    const point = (event) => {
       const at = this.angle(event);
-      this.aim(this.lead + wrapped(at - this.at));
+      this.aim(this.lead + wrapped(at - (event.type === "pointerdown" ? at : this.at)));
       this.at = at;
-    });
-    for (const end of ["pointerup", "pointercancel"]) this.svg.addEventListener(end, () => this.take(false));
-    this.svg.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -0.05, ArrowRight: 0.05, ArrowDown: -0.2, ArrowUp: 0.2 }[event.key];
-      if (event.key === " ") this.take(!this.held);
-      else if (step) {
-        this.take(true);
-        this.aim(this.lead + step);
-      } else return;
-      event.preventDefault();
-    });
-    for (const id of ["pitch", "peak"]) $(`knob-${id}`).oninput = () => this.detents();
+    };
+    led_by(this.svg, taken(this, { ArrowLeft: -0.05, ArrowRight: 0.05, ArrowDown: -0.2, ArrowUp: 0.2 }, point));
+    $("knob-pitch").oninput = () => this.detents();
     $("knob-offset").oninput = () => this.misalign();
     $("knob-armed").oninput = () => this.knob.arm($("knob-armed").checked);
-    this.detents();
+    wire_slider("knob-peak", (mnm) => `${fixed(mnm, 1)} mNm`, () => this.detents());
     this.misalign();
   }
 
@@ -74,9 +59,7 @@ class KnobTab {
 
   detents() {
     this.pitch = Number($("knob-pitch").value);
-    const peak = Number($("knob-peak").value);
-    say(this.knob.detents(this.pitch, peak / 1000));
-    $("knob-peak-shown").textContent = `${fixed(peak, 1)} mNm`;
+    say(this.knob.detents(this.pitch, Number($("knob-peak").value) / 1000));
   }
 
   /** The motor stays as it is; the core's word is wrong. */
@@ -96,8 +79,7 @@ class KnobTab {
     run_timed(passed, () => say(this.knob.advance(passed)));
     this.seen = this.knob.state();
     const samples = this.knob.samples();
-    for (let n = 0; n < samples.length; n += 5) this.trace.push(samples.slice(n, n + 5));
-    if (this.trace.length > KNOB_KEPT) this.trace.splice(0, this.trace.length - KNOB_KEPT);
+    for (let n = 0; n < samples.length; n += 5) keep(this.trace, KNOB_KEPT, samples.slice(n, n + 5));
     this.draw_face();
     this.draw_dial();
     this.draw_curves();
@@ -113,7 +95,7 @@ class KnobTab {
     }
     const grips = Array.from({ length: 24 }, (_, n) => line("grip", KNOB.ring - 12, KNOB.ring - 2, theta + (n * TURN) / 24)).join("");
     const newton = torque / KNOB.radius_m, tip = at(KNOB.ring, theta), reach = Math.max(-90, Math.min(90, 110 * newton));
-    const held = this.held ? `<path class="handline" d="${path([at(KNOB.ring, theta), at(KNOB.ring, hand)])}"/><circle class="handring" cx="${at(KNOB.ring, hand)[0]}" cy="${at(KNOB.ring, hand)[1]}" r="14"/>` : "";
+    const held = this.held ? hand_ring(tip, at(KNOB.ring, hand), 14) : "";
     this.svg.innerHTML = `${marks}<circle class="shadow" cx="${c + 5}" cy="${c + 8}" r="${KNOB.ring}"/><circle class="ring" cx="${c}" cy="${c}" r="${KNOB.ring}"/>${grips}
       <circle class="cap" cx="${c}" cy="${c}" r="${KNOB.cap}"/>${line("notch", 62, KNOB.cap - 10, theta)}${held}${arrow(tip, reach * Math.cos(theta), reach * Math.sin(theta), "force")}
       <text class="newton" text-anchor="middle" x="${c}" y="${c + 12}">${fixed(Math.abs(newton), 2)} N</text><text class="engraved" x="${c}" y="${c + 32}">at the rim</text>`;

@@ -90,37 +90,27 @@ function way_arrows(pen, up, back, x, y, apart) {
 
 /** Torque against position over a turn, up and back, as the words of the program say it, and where the lever is. */
 function draw_turn(device) {
-  const { pen, width, height, colour } = cleared($("turn"));
+  const paper = cleared($("turn")), { pen, width, height, colour } = paper;
   if (!width) return;
   device.turn ??= device.loop.lawCurve(TURN_POINTS);
   const left = 46, right = width - 8, top = 24, bottom = height - 18;
   const most = Math.max(0.01, Math.abs(device.now.tau_ref), ...device.turn.map(Math.abs));
-  const x = (rad) => left + ((rad + Math.PI) / (2 * Math.PI)) * (right - left), y = (nm) => (top + bottom) / 2 - (nm / most) * ((bottom - top) / 2);
-  pen.strokeStyle = colour("--line");
-  pen.fillStyle = colour("--faint");
+  const x = (rad) => left + ((rad + Math.PI) / (2 * Math.PI)) * (right - left);
   const up = device.turn.slice(0, TURN_POINTS), back = device.turn.slice(TURN_POINTS).reverse(), apart = most / 100;
   const loop = up.some((nm, n) => Math.abs(nm - back[n]) >= apart);
-  pen.fillText(`torque over a turn at rest, Nm${loop ? ", up and back: arrows tell the way" : ""}`, left + 6, 15);
+  const y = draw_scale(paper, `torque over a turn at rest, Nm${loop ? ", up and back: arrows tell the way" : ""}`, [-most, 0, most], top, bottom);
   for (const rad of [-3, -2, -1, 0, 1, 2, 3]) {
-    pen.beginPath(); pen.moveTo(x(rad), top); pen.lineTo(x(rad), bottom); pen.stroke();
+    draw_line(pen, [[x(rad), top], [x(rad), bottom]]);
     pen.fillText(rad === 0 ? "0 rad" : `${fixed(rad, 0)}`, x(rad) - 4, height - 5);
-  }
-  for (const nm of [-most, 0, most]) {
-    pen.beginPath(); pen.moveTo(left, y(nm)); pen.lineTo(right, y(nm)); pen.stroke();
-    pen.fillText(nm.toFixed(2), 4, y(nm) + 4);
   }
   const x_of = (n) => x(-Math.PI + (2 * Math.PI * n) / (TURN_POINTS - 1));
   pen.strokeStyle = pen.fillStyle = colour("--blue");
   pen.lineWidth = 1.5;
-  for (const way of loop ? [up, back] : [up]) {
-    pen.beginPath();
-    way.forEach((nm, n) => { if (n) pen.lineTo(x_of(n), y(nm)); else pen.moveTo(x_of(n), y(nm)); });
-    pen.stroke();
-  }
+  for (const way of loop ? [up, back] : [up]) draw_line(pen, way.map((nm, n) => [x_of(n), y(nm)]));
   if (loop) way_arrows(pen, up, back, x_of, y, apart);
   pen.lineWidth = 1;
   pen.strokeStyle = pen.fillStyle = colour("--red");
   const theta = Math.atan2(Math.sin(device.now.theta), Math.cos(device.now.theta));
-  pen.beginPath(); pen.moveTo(x(theta), top); pen.lineTo(x(theta), bottom); pen.stroke();
+  draw_line(pen, [[x(theta), top], [x(theta), bottom]]);
   pen.beginPath(); pen.arc(x(theta), y(device.now.tau_ref), 4, 0, 7); pen.fill();
 }

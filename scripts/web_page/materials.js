@@ -8,19 +8,8 @@ const SAMPLE_S = 0.001, TRACE = 1000; // torques that the curve keeps: 1 s
 class MaterialStage {
   constructor(tab, place, name) {
     this.tab = tab;
-    this.figure = document.createElement("figure");
-    this.figure.innerHTML = `<svg viewBox="0 0 500 400" tabindex="0" role="slider" aria-label="Lever in a material: the hand's angle in rad" aria-valuemin="${-MOST_RAD}" aria-valuemax="${MOST_RAD}" aria-valuenow="0"></svg>
-      <figcaption><span class="name"></span><div class="equation"></div></figcaption>`;
-    this.svg = this.figure.querySelector("svg");
-    place.append(this.figure);
-    this.svg.addEventListener("pointerdown", (event) => this.svg.setPointerCapture(event.pointerId));
-    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
-    this.svg.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      tab.aim(tab.lead + step);
-    });
+    const leads = { aim: (rad) => tab.aim(rad), step: (rad) => tab.aim(tab.lead + rad) };
+    this.picture = lever_stage(place, name, "Lever in a material", MOST_RAD, leads);
     this.choose(name);
   }
 
@@ -29,7 +18,7 @@ class MaterialStage {
     if (this.stick) this.stick.delete();
     this.name = name;
     this.values = this.tab.materials.find((m) => m.name === name).parameters;
-    this.stick = new this.tab.core.Stick(this.tab.image);
+    this.stick = this.tab.core.Lever.stick(this.tab.image);
     // One at a time, and the dynamic friction may never be above the static one.
     const { static: held, dynamic, ...others } = this.values;
     for (const [key, value] of [["dynamic", 0], ["static", held], ["dynamic", dynamic], ...Object.entries(others), ["face", FACE_RAD]]) {
@@ -37,12 +26,7 @@ class MaterialStage {
     }
     this.seen = this.stick.state();
     this.trace = [];
-    this.figure.querySelector(".name").textContent = name;
-  }
-
-  point(event) {
-    const [x, y] = pointed(event, this.svg);
-    this.tab.aim(Math.atan2(x - CENTRE[0], Math.max(CENTRE[1] - y, 1)));
+    this.picture.name.textContent = name;
   }
 
   /** In slices, so that a vibration of 200 Hz is seen. */
@@ -52,20 +36,15 @@ class MaterialStage {
       this.stick.lead(from + ((to - from) * n) / slices);
       say(this.stick.advance(seconds / slices));
       this.seen = this.stick.state();
-      this.trace.push(this.seen.torque);
+      keep(this.trace, TRACE, this.seen.torque);
     }
-    if (this.trace.length > TRACE) this.trace.splice(0, this.trace.length - TRACE);
   }
 
   draw() {
-    const s = this.seen, [hx, hy] = at(s.theta, LENGTH), [gx, gy] = at(s.hand, LENGTH), newton = s.torque / RADIUS_M;
-    let text = `<path class="solid" d="${sector(Math.max(FACE_RAD, s.theta), 1.2, 60, 225)}"/><path class="object" d="${ray(FACE_RAD, 60, 225)}"/>`;
-    text += motor_and_bar(s.theta);
-    text += `<path class="handline" d="${path([[hx, hy], [gx, gy]])}"/><circle class="handring" cx="${gx}" cy="${gy}" r="19"/>`;
-    text += force_at([hx, hy], s.theta, newton, 18, 90);
-    this.svg.innerHTML = text;
-    this.svg.setAttribute("aria-valuenow", this.tab.lead.toFixed(2));
-    this.figure.querySelector(".equation").textContent = `${fixed(s.torque)} Nm, ${fixed(Math.max(0, s.theta - FACE_RAD))} rad deep\n` +
+    const s = this.seen, { svg, caption } = this.picture;
+    svg.innerHTML = `<path class="solid" d="${sector(Math.max(FACE_RAD, s.theta), 1.2, 60, 225)}"/><path class="object" d="${ray(FACE_RAD, 60, 225)}"/>` + held_bar(s.theta, s.hand, s.torque / RADIUS_M);
+    svg.setAttribute("aria-valuenow", this.tab.lead.toFixed(2));
+    caption.textContent = `${fixed(s.torque)} Nm, ${fixed(Math.max(0, s.theta - FACE_RAD))} rad deep\n` +
       Object.entries(this.values).filter(([key]) => key !== "face").map(([key, value]) => `${key} ${value}`).join(", ");
   }
 }
@@ -94,10 +73,6 @@ class MaterialsTab {
     run_timed(passed, () => this.stages.forEach((stage) => stage.advance(passed, this.led, this.lead)));
     this.led = this.lead;
     this.stages.forEach((stage) => stage.draw());
-    this.draw_torques();
-  }
-
-  draw_torques() {
     const lines = this.stages.map((stage, n) => ({ text: `${n ? "right" : "left"}: ${stage.name}`, colour: n ? "--red" : "--blue", values: stage.trace }));
     draw_traces($("materials-torque"), "torque, Nm, the last second", lines, TRACE, 0.05);
   }

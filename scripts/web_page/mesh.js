@@ -69,13 +69,13 @@ class MeshView {
   draw({ pen, proxy, force, hand }) {
     if (!this.image) this.paint();
     const paper = this.canvas.getContext("2d"), [right, up, out] = this.axes(), { width, height, per_m } = MESH_VIEW;
-    const style = getComputedStyle(document.documentElement), colour = (name) => style.getPropertyValue(name).trim();
+    const colour = colours();
     const along = (axis, p) => axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
     const seen = (p) => [width / 2 + per_m * along(right, p), height / 2 - per_m * along(up, p)];
     const line = (from, to, name, wide) => {
       paper.strokeStyle = colour(name);
       paper.lineWidth = wide;
-      paper.beginPath(); paper.moveTo(...from); paper.lineTo(...to); paper.stroke();
+      draw_line(paper, [from, to]);
     };
     const dot = (p, name, radius) => {
       paper.fillStyle = colour(name);

@@ -5,6 +5,12 @@ const $ = (id) => document.getElementById(id);
 const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], borders: {}, paused: false, told: false, shows: false, shown_s: 0, count: 0 };
 window.feltgate = page; // for whoever wants to look inside
 
+/** Of each tab its title, and what makes its device when it is first opened; the lever is there. */
+const TABS = {
+  lever: ["lever"], pantograph: ["pantograph", PenTab], drums: ["drums", DrumsTab], materials: ["materials", MaterialsTab], coupled: ["two levers", CoupledTab],
+  string: ["string", StringTab], stylus: ["stylus", StylusTab], gimbal: ["gimbal", GimbalTab], knob: ["knob", KnobTab], board: ["your board", BoardTab],
+};
+
 const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
 const devices = (act) => page.devices.forEach(act);
 
@@ -188,7 +194,7 @@ function build_controls() {
   $("clear").onclick = () => devices((d) => d.loop.clearFaults());
   $("stop").onclick = () => {
     const pressed = $("stop").getAttribute("aria-pressed") !== "true";
-    $("stop").setAttribute("aria-pressed", pressed);
+    press("stop", pressed);
     devices((d) => d.loop.stop(pressed));
   };
   document.addEventListener("keydown", (event) => {
@@ -208,8 +214,7 @@ function build_controls() {
   });
   const theme = (dark) => {
     document.documentElement.classList.toggle("dark", dark);
-    $("theme").setAttribute("aria-pressed", dark);
-    $("theme").textContent = dark ? "light" : "dark";
+    press("theme", dark, dark ? "light" : "dark");
   };
   theme(window.matchMedia("(prefers-color-scheme: dark)").matches);
   $("theme").onclick = () => theme(!document.documentElement.classList.contains("dark"));
@@ -242,27 +247,19 @@ async function compare_bits() {
   const table = document.createElement("table");
   $("hashes").replaceChildren(table);
   page.compared = [];
-  for (const r of page.numbers.recorded) {
-    const row = table.insertRow(), found = await page.worker.call("hash", r.design, r.inputs);
-    const same = found === r.hash;
-    page.compared.push({ ...r, inputs: undefined, found, same });
-    [r.design, r.scene, found, same ? "same" : `native ${r.hash}`].forEach((text) => (row.insertCell().textContent = text));
-    row.lastChild.className = same ? "same" : "differs";
-  }
-  for (const p of page.numbers.planes) {
-    const row = table.insertRow(), found = await page.worker.call("planesHash", "", "", 0);
-    const same = found === p.hash;
-    page.compared.push({ design: "planes", scene: p.mesh, found, same });
-    ["planes of a stroke", p.mesh, found, same ? "same" : `native ${p.hash}`].forEach((text) => (row.insertCell().textContent = text));
-    row.lastChild.className = same ? "same" : "differs";
-  }
+  const compare = async (design, scene, hash, ...call) => {
+    const found = await page.worker.call(...call), same = found === hash;
+    page.compared.push({ design, scene, found, same });
+    add_row(table, [design, scene, found, same ? "same" : `native ${hash}`]).lastChild.className = same ? "same" : "differs";
+  };
+  for (const r of page.numbers.recorded) await compare(r.design, r.scene, r.hash, "hash", r.design, r.inputs);
+  for (const p of page.numbers.planes) await compare("planes of a stroke", p.mesh, p.hash, "planesHash", "", "", 0);
   for (const c of page.numbers.closed) {
     const rows = await page.worker.call("closedLoop", c.design);
     const apart = [0, 1].map((n) => Math.max(...rows.map((row, i) => Math.abs(row[n] - c.rows[i][n]))));
     page.closed = [...(page.closed || []), { design: c.design, rad: apart[0], nm: apart[1] }];
-    const cell = table.insertRow().insertCell();
-    cell.colSpan = 4;
-    cell.textContent = `${c.design}: closed loop into a wall, against the native one: ${apart[0].toExponential(1)} rad, ${apart[1].toExponential(1)} Nm apart (another libm).`;
+    const said = `${c.design}: closed loop into a wall, against the native one: ${apart[0].toExponential(1)} rad, ${apart[1].toExponential(1)} Nm apart (another libm).`;
+    add_row(table, [said]).lastChild.colSpan = 4;
   }
   page.done = true;
 }
@@ -277,7 +274,7 @@ function run_timed(passed, act) {
 
 /** Out of every fault: what is broken is mended, which starts the devices anew, for counts were lost. */
 function recover() {
-  $("stop").setAttribute("aria-pressed", false);
+  press("stop", false);
   if ($("break").value !== "0") {
     $("break").value = "0";
     say_broken();
@@ -313,7 +310,7 @@ function select_tab(name) {
     tab.tabIndex = chosen ? 0 : -1;
     $(tab.getAttribute("aria-controls")).hidden = !chosen;
   }
-  const make = { pantograph: PenTab, drums: DrumsTab, materials: MaterialsTab, coupled: CoupledTab, string: StringTab, stylus: StylusTab, gimbal: GimbalTab, knob: KnobTab, board: BoardTab }[name];
+  const make = TABS[name][1];
   if (make && !page[name]) {
     page[name] = new make(page.core, page.numbers);
     page.address.opened(name, true);
@@ -323,7 +320,8 @@ function select_tab(name) {
 }
 
 function build_tabs() {
-  const tabs = [...document.querySelectorAll("[role=tab]")];
+  $("tabs").innerHTML = Object.entries(TABS).map(([name, [title]]) => `<button type="button" role="tab" id="tab-${name}" aria-controls="${name}">${title}</button>`).join("");
+  const tabs = [...$("tabs").children];
   tabs.forEach((tab, n) => {
     const name = tab.getAttribute("aria-controls");
     tab.onclick = (event) => {

@@ -18,21 +18,9 @@ class PenStage {
     this.arrow = true;
     this.seen = this.pen.state();
     this.lead = [this.seen.x, this.seen.y];
-    place.innerHTML = `<svg viewBox="0 0 ${STAGE.width} ${STAGE.height}" tabindex="0" role="application"
-      aria-label="Pantograph: the pen follows the mouse, or the arrow keys by a millimetre"><g class="under"></g><g class="over"></g></svg>
-      <figcaption><span class="equation"></span></figcaption>`;
-    this.svg = place.querySelector("svg");
-    this.under = place.querySelector(".under");
-    this.over = place.querySelector(".over");
-    this.caption = place.querySelector(".equation");
-    this.svg.addEventListener("pointerdown", (event) => this.svg.setPointerCapture(event.pointerId));
-    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
-    this.svg.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      this.aim(this.lead[0] + step[0] / 1000, this.lead[1] + step[1] / 1000);
-    });
+    const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const leads = { point: (event) => this.point(event), steps, step: ([x, y]) => this.aim(this.lead[0] + x / 1000, this.lead[1] + y / 1000) };
+    Object.assign(this, make_stage(place, `0 0 ${STAGE.width} ${STAGE.height}`, "Pantograph: the pen follows the mouse, or the arrow keys by a millimetre", leads));
   }
 
   /** Another law under the same pen: a shape with a stiffness in N/m and a damping in Ns/m. */
@@ -74,16 +62,16 @@ class PenStage {
     const s = this.seen, half = Math.acos(Math.min(1, Math.hypot(s.x, s.y) / (2 * LINK_M))), middle = Math.atan2(s.y, s.x);
     const elbow = (angle) => to_stage(LINK_M * Math.cos(angle), LINK_M * Math.sin(angle));
     const motor = to_stage(0, 0), pen = to_stage(s.x, s.y), hand = to_stage(s.hand_x, s.hand_y);
-    this.under.innerHTML = this.shown.map(([shape, label]) => {
+    const under = this.shown.map(([shape, label]) => {
       const [x, y] = middle_of(shape);
       return `<path class="outline" d="${outline_path(shape)}"/>` + (label || []).map((line, n) => `<text class="label" x="${x}" y="${y - 2 + 15 * n}">${line}</text>`).join("");
     }).join("");
-    let over = [middle - half, middle + half].map((angle) => `<path class="link" d="${path([motor, elbow(angle), pen])}"/><circle class="joint" cx="${elbow(angle)[0]}" cy="${elbow(angle)[1]}" r="4"/>`).join("");
-    over += `<circle class="hub" cx="${motor[0]}" cy="${motor[1]}" r="10"/><path class="handline" d="${path([pen, hand])}"/><circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="11"/><circle class="knob" cx="${pen[0]}" cy="${pen[1]}" r="6"/>`;
+    let over = under + [middle - half, middle + half].map((angle) => `<path class="link" d="${path([motor, elbow(angle), pen])}"/>${circle("joint", elbow(angle), 4)}`).join("");
+    over += circle("hub", motor, 10) + hand_ring(pen, hand, 11) + circle("knob", pen, 6);
     const newton = Math.hypot(s.force_x, s.force_y);
     const per_newton = Math.min(NEWTON, 150 / newton);
     if (this.arrow && newton > 0) over += arrow(pen, per_newton * s.force_x, -per_newton * s.force_y, "force");
-    this.over.innerHTML = over;
+    this.svg.innerHTML = over;
     const mm = (m) => fixed(1000 * m, 1);
     this.caption.textContent = `pen ${mm(s.x)}, ${mm(s.y)} mm: joints at ${s.counts_1} and ${s.counts_5} counts` +
       (this.arrow ? `\nF = ${fixed(newton, 2)} N (${fixed(s.force_x, 2)}, ${fixed(s.force_y, 2)}), the law's words at ${fixed(s.rate_hz / 1000, 1)} kHz` : "");
@@ -106,10 +94,11 @@ class PenTab {
     this.squares = numbers.training.map((shape, n) => ({ shape, label: labels[n], material: materials[n] }));
     for (const shape of this.shapes) $("pen-shape").append(option(shape.name, shape.name));
     $("pen-shape").value = "square";
-    for (const id of ["pen-shape", "pen-outline", "pen-stiffness", "pen-damping"]) $(id).oninput = () => this.choose("try");
-    $("pen-arrow").oninput = () => this.arrow();
+    for (const id of ["pen-shape", "pen-outline"]) $(id).oninput = () => this.choose("try");
+    wire_slider("pen-stiffness", (value) => `${fixed(value, 0)} N/m`, () => this.choose("try"));
+    wire_slider("pen-damping", (value) => `${fixed(value, 3)} Ns/m`, () => this.choose("try"));
+    $("pen-arrow").oninput = () => (this.stage.arrow = $("pen-arrow").checked);
     for (const radio of document.querySelectorAll("#pen-modes input")) radio.onchange = () => this.choose(radio.value);
-    this.choose("try");
   }
 
   named(name) {
@@ -120,12 +109,9 @@ class PenTab {
     const entered = this.mode !== mode;
     this.mode = mode;
     for (const id of ["try", "training", "game"]) $(`pen-${id}`).hidden = id !== mode;
-    this.arrow();
     if (entered) this.stage.place(0, 0.06);
     if (mode === "try") {
       const shape = this.named($("pen-shape").value), stiffness = Number($("pen-stiffness").value), damping = Number($("pen-damping").value);
-      $("pen-stiffness-shown").textContent = `${fixed(stiffness, 0)} N/m`;
-      $("pen-damping-shown").textContent = `${fixed(damping, 3)} Ns/m`;
       this.stage.shown = $("pen-outline").checked ? [[shape]] : [];
       if (this.stage.loaded !== shape) this.stage.load(shape, stiffness, damping);
       else this.stage.material(stiffness, damping);
@@ -133,10 +119,6 @@ class PenTab {
       this.stage.shown = this.squares.map((s) => [s.shape, s.label]);
       this.near = null;
     } else if (entered) this.game.enter();
-  }
-
-  arrow() {
-    this.stage.arrow = $("pen-arrow").checked;
   }
 
   /** The engine holds one shape: in training that of the square that the pen is next to. */

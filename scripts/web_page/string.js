@@ -44,11 +44,7 @@ class StringSound {
       this.next = Math.ceil((now + QUEUE_S) * this.audio.sampleRate) / this.audio.sampleRate;
       for (let i = 0; i < Math.min(100, samples.length); ++i) samples[i] *= i / 100; // no click
     }
-    const buffer = this.audio.createBuffer(1, samples.length, this.audio.sampleRate), source = this.audio.createBufferSource();
-    buffer.copyToChannel(samples, 0);
-    source.buffer = buffer;
-    source.connect(this.audio.destination);
-    source.start(this.next);
+    play(this.audio, samples, this.next);
     this.next += samples.length / this.audio.sampleRate;
     this.played += samples.length;
   }
@@ -65,44 +61,39 @@ class StringTab {
     this.strings = numbers.strings;
     this.lead = this.phase = 0;
     this.alone = false; // whether the bow goes by itself
-    $("string-stage").innerHTML = `<svg viewBox="0 0 ${BOWING.width} ${BOWING.height}" tabindex="0" role="application"
-      aria-label="Bow on a string: the bow follows the mouse; arrow keys left and right draw it, up and down change its force, the space bar lets it go by itself"></svg><figcaption><div class="equation"></div></figcaption>`;
-    this.svg = $("string-stage").querySelector("svg");
-    this.caption = $("string-stage").querySelector(".equation");
-    this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.draw_alone(false); });
-    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
-    this.svg.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -0.05, ArrowRight: 0.05 }[event.key], press = { ArrowUp: 0.1, ArrowDown: -0.1 }[event.key];
-      if (!step && !press) return;
-      event.preventDefault();
-      if (press) { $("string-force").value = Number($("string-force").value) + press; $("string-force").oninput(); }
-      else { this.draw_alone(false); this.aim(this.lead + step); }
-    });
+    const steps = { ArrowLeft: -0.05, ArrowRight: 0.05, ArrowUp: 0.1, ArrowDown: -0.1 };
+    const step = (by, { key }) => {
+      if (key === "ArrowLeft" || key === "ArrowRight") { this.draw_alone(false); this.aim(this.lead + by); return; }
+      $("string-force").value = Number($("string-force").value) + by;
+      $("string-force").oninput();
+    };
+    Object.assign(this, make_stage($("string-stage"), `0 0 ${BOWING.width} ${BOWING.height}`,
+      "Bow on a string: the bow follows the mouse; arrow keys left and right draw it, up and down change its force, the space bar lets it go by itself",
+      { down: () => this.draw_alone(false), point: (event) => this.point(event), steps, step }));
     document.addEventListener("keydown", (event) => {
       if (page.tab !== "string" || event.key !== " " || /SELECT|BUTTON|TEXTAREA/.test(event.target.tagName)) return;
       event.preventDefault();
       this.draw_alone(!this.alone);
     });
-    for (const [name, digits, unit] of [["force", 2, "N"], ["place", 3, ""], ["speed", 2, "m/s"]]) {
-      const range = $(`string-${name}`);
-      range.oninput = () => { $(`string-${name}-shown`).textContent = `${fixed(Number(range.value), digits)} ${unit}`; this.turned(name, Number(range.value)); };
+    this.choose(0);
+    for (const [name, digits, unit] of [["force", 2, " N"], ["place", 3, ""], ["speed", 2, " m/s"]]) {
+      wire_slider(`string-${name}`, (value) => fixed(value, digits) + unit, (value) => this.turned(name, value));
     }
     $("string-rate").oninput = () => this.choose(Number($("string-rate").value));
     $("string-alone").onclick = () => this.draw_alone(!this.alone);
-    $("string-sound").onclick = () => this.hear(!this.sound || this.sound.audio.state !== "running");
-    this.choose(0);
+    sound_button("string-sound", () => this.is_heard(), (wanted) => (this.sound ??= new StringSound()).hear(wanted));
   }
 
   /** A fresh string, of the law at its own rate (0) or at a host's (1). */
   choose(which) {
     if (this.bow) this.bow.delete();
     const { image, heard } = this.strings[which];
-    this.bow = new this.core.BowString(image, heard.address, heard.scale);
+    this.bow = this.core.Lever.bow(image, heard);
     this.seen = this.bow.state();
     this.trace = new Float32Array(Math.round(HEARD_S * this.seen.rate_hz));
     this.slips = [];
     this.lead = this.quick = 0;
-    for (const name of ["force", "place", "speed"]) $(`string-${name}`).oninput();
+    for (const name of ["force", "place", "speed"]) this.turned(name, Number($(`string-${name}`).value));
   }
 
   turned(name, value) {
@@ -115,15 +106,11 @@ class StringTab {
     if (this.alone && !wanted) this.lead = this.seen.hand;
     this.alone = wanted;
     this.bow.draw(wanted ? this.speed : 0);
-    $("string-alone").setAttribute("aria-pressed", wanted);
-    $("string-alone").textContent = wanted ? "Bow by hand" : "Bow by itself";
+    press("string-alone", wanted, wanted ? "Bow by hand" : "Bow by itself");
   }
 
-  hear(wanted) {
-    if (wanted) this.sound ??= new StringSound();
-    this.sound.hear(wanted);
-    $("string-sound").setAttribute("aria-pressed", wanted);
-    $("string-sound").textContent = wanted ? "Sound off" : "Sound on";
+  is_heard() {
+    return this.sound && this.sound.audio.state === "running";
   }
 
   point(event) {
@@ -139,10 +126,10 @@ class StringTab {
     this.bow.lead(this.lead);
     run_timed(passed, () => say(this.bow.advance(passed)));
     this.seen = this.bow.state();
-    const heard = this.bow.heard().slice(), { trace, seen } = this;
+    const heard = this.bow.watched().slice(), { trace, seen } = this;
     trace.copyWithin(0, heard.length);
     trace.set(heard.subarray(Math.max(0, heard.length - trace.length)), Math.max(0, trace.length - heard.length));
-    this.slips = this.slips.concat(seen.slips).filter((slip) => slip.time > seen.time - JUDGED_S);
+    this.slips = this.slips.concat(seen.events.map(({ value, time }) => ({ time, since: value }))).filter((slip) => slip.time > seen.time - JUDGED_S);
     this.quick += (1 - Math.exp(-passed / 0.1)) * (Math.abs(REACH_M * seen.speed) - this.quick);
     this.phase = (this.phase + passed * SLOW_HZ) % 1;
     if (this.sound) this.sound.feed(heard, seen.rate_hz);
@@ -150,7 +137,7 @@ class StringTab {
     this.draw();
     this.draw_heard();
     this.draw_forces();
-    $("string-late").textContent = this.sound && this.sound.audio.state === "running" && page.speed && page.speed < 1.1
+    $("string-late").textContent = this.is_heard() && page.speed && page.speed < 1.1
       ? "The law takes longer here than it lasts: the sound breaks up." : "";
   }
 
@@ -200,9 +187,8 @@ class StringTab {
     text += `<path class="bowstick" d="M${frog} ${level - 16}Q${frog + 170} ${level - 5} ${frog + 340} ${level - 15}L${frog + 346} ${level}"/><path class="bowhair" d="${path([[frog, level], [frog + 346, level]])}"/>
       <path class="handline" d="${path([handle, [frog, level]])}"/><rect class="knob" x="${frog - 9}" y="${level - 20}" width="26" height="24" rx="3"/>`;
     text += `<path class="string" d="${path(string)}"/>`;
-    text += `<path class="scale" d="${path(Array.from({ length: 31 }, (_, i) => turn(-0.9 + 0.06 * i)))}"/><path class="lever" d="${path([b.lever, handle])}"/><circle class="hub" cx="${b.lever[0]}" cy="${b.lever[1]}" r="12"/><circle class="knob" cx="${handle[0]}" cy="${handle[1]}" r="10"/>`;
-    text += `<path class="handline" d="${path([handle, hand])}"/><circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="16"/>`;
-    text += force_at(handle, s.theta, newton, 60, 110);
+    text += `<path class="scale" d="${path(Array.from({ length: 31 }, (_, i) => turn(-0.9 + 0.06 * i)))}"/><path class="lever" d="${path([b.lever, handle])}"/>${circle("hub", b.lever, 12)}${circle("knob", handle, 10)}`;
+    text += hand_ring(handle, hand, 16) + force_at(handle, s.theta, newton, 60, 110);
     text += `<text x="10" y="20">the string in slow motion,</text><text x="10" y="35">its way ${b.wide} times as large</text>`;
     this.svg.innerHTML = text;
     const j = this.judged, kind = !j.count ? "no slips" : j.helmholtz ? "one slip a period: Helmholtz motion" : j.one ? "one slip a period, but a faint wave" : "not one slip a period";
@@ -212,16 +198,13 @@ class StringTab {
 
   /** 25 ms of what comes to the bridge, from a slip on, so that an even tone stands still. */
   draw_heard() {
-    const { pen, width, height, colour } = cleared($("string-heard")), { trace, seen } = this, dt = 1 / seen.rate_hz;
+    const paper = cleared($("string-heard")), { pen, width, height, colour } = paper, { trace, seen } = this, dt = 1 / seen.rate_hz;
     const slip = this.slip_before(DRAWN_S), from = slip ? slip.time : seen.time - DRAWN_S, saw = this.bow_speed() / this.place / 2;
     const peak = trace.reduce((most, v) => Math.max(most, Math.abs(v)), Math.min(4, saw)), most = Math.max(0.5, Math.ceil(2.2 * peak) / 2);
     const left = 46, right = width - 10, top = 26, bottom = height - 18;
-    const x = (t) => left + ((t - from) / DRAWN_S) * (right - left), y = (v) => (top + bottom) / 2 - (v / most) * ((bottom - top) / 2);
-    const line = (points) => { pen.beginPath(); points.forEach(([a, b], i) => (i ? pen.lineTo(a, b) : pen.moveTo(a, b))); pen.stroke(); };
-    pen.fillStyle = colour("--faint");
-    pen.strokeStyle = colour("--line");
-    pen.fillText("what comes to the bridge, m/s, over 25 ms; dashed: ± speed / place / 2, a Helmholtz sawtooth's ends; below: slips", left + 6, 15);
-    for (const v of [-most, 0, most]) { line([[left, y(v)], [right, y(v)]]); pen.fillText(fixed(v, 1), 6, y(v) + 4); }
+    const title = "what comes to the bridge, m/s, over 25 ms; dashed: ± speed / place / 2, a Helmholtz sawtooth's ends; below: slips";
+    const x = (t) => left + ((t - from) / DRAWN_S) * (right - left), y = draw_scale(paper, title, [-most, 0, most], top, bottom, 15, 1);
+    const line = (points) => draw_line(pen, points);
     pen.setLineDash([5, 5]);
     pen.strokeStyle = colour("--object");
     for (const v of [-saw, saw]) if (saw < most) line([[left, y(v)], [right, y(v)]]);
@@ -263,7 +246,7 @@ class StringTab {
     pen.strokeStyle = colour("--line");
     pen.strokeRect(left, top, right - left, bottom - top);
     pen.fillText(`force, N, over place; green: Schelleng's, ${fixed(bow, 2)} m/s`, 6, 14);
-    for (const force of [0.1, 0.3, 1, 3]) { pen.fillText(String(force), 6, y(force) + 4); pen.beginPath(); pen.moveTo(left, y(force)); pen.lineTo(right, y(force)); pen.stroke(); }
+    for (const force of [0.1, 0.3, 1, 3]) { pen.fillText(String(force), 6, y(force) + 4); draw_line(pen, [[left, y(force)], [right, y(force)]]); }
     for (const over of [20, 13, 10, 7, 5, 4]) pen.fillText(`1/${over}`, Math.min(x(1 / over) - 8, right - 16), bottom + 14);
     pen.fillStyle = colour(this.judged.helmholtz ? "--green" : "--red");
     pen.beginPath();

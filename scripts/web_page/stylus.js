@@ -18,14 +18,10 @@ class StylusTab {
     this.worlds = numbers.stylus.worlds;
     this.seen = this.pen.state();
     this.trace = [];
-    $("stylus-stage").innerHTML = `<svg viewBox="0 0 ${STYLUS_CUT.width} ${STYLUS_CUT.height}" tabindex="0" role="application"
-      aria-label="Stylus: the hand follows the mouse, or the arrow keys by a millimetre; Page Up and Page Down lead it away and near"></svg>
-      <figcaption><span class="equation"></span></figcaption>`;
-    this.svg = $("stylus-stage").querySelector("svg");
-    this.caption = $("stylus-stage").querySelector(".equation");
-    this.svg.addEventListener("pointerdown", (event) => this.svg.setPointerCapture(event.pointerId));
-    for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.point(event));
-    this.svg.addEventListener("keydown", (event) => this.key(event));
+    const steps = { ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 0, 1], ArrowDown: [0, 0, -1], PageUp: [0, 1, 0], PageDown: [0, -1, 0] };
+    const step = ([x, y, z], event) => this.aim(...vector_plus(this.lead, event.shiftKey && z ? [0, z, 0] : [x, y, z], 0.001));
+    Object.assign(this, make_stage($("stylus-stage"), `0 0 ${STYLUS_CUT.width} ${STYLUS_CUT.height}`,
+      "Stylus: the hand follows the mouse, or the arrow keys by a millimetre; Page Up and Page Down lead it away and near", { point: (event) => this.point(event), steps, step }));
     for (const { name } of this.worlds) $("stylus-world").append(option(name, { floor: "plane" }[name] || name));
     $("stylus-world").append(option("mesh", "mesh: the knob, or a GLB file"));
     this.view = new MeshView($("stylus-view"));
@@ -35,9 +31,12 @@ class StylusTab {
     $("stylus-shading").oninput = () => this.shade();
     $("stylus-edges").oninput = () => this.touch();
     $("stylus-world").oninput = () => this.choose();
-    for (const id of ["stiffness", "damping", "friction", "rate", "age"]) $(`stylus-${id}`).oninput = () => this.touch();
-    $("stylus-y").oninput = () => this.aim(this.lead[0], Number($("stylus-y").value) / 1000, this.lead[2]);
     this.choose();
+    $("stylus-rate").oninput = () => this.touch();
+    for (const [id, digits, unit] of [["stiffness", 0, " N/m"], ["damping", 2, " Ns/m"], ["friction", 2, ""], ["age", 1, " ms"]]) {
+      wire_slider(`stylus-${id}`, (value) => fixed(value, digits) + unit, () => this.touch());
+    }
+    wire_slider("stylus-y", (mm) => `${fixed(mm, 0)} mm`, (mm) => this.aim(this.lead[0], mm / 1000, this.lead[2]));
   }
 
   /** Another object, with the pen above it. */
@@ -64,10 +63,10 @@ class StylusTab {
 
   /** Without a name, the knob. */
   load(name, bytes) {
-    const begin = performance.now(), found = this.pen.load(name, bytes, MESH_SIZE_M);
+    const found = this.pen.load(name, bytes, MESH_SIZE_M);
     $("stylus-said").textContent = found.error;
     if (found.error) return false;
-    this.mesh = { name: name || "the knob", ...found, triangles: this.pen.triangles(), import_ms: performance.now() - begin };
+    this.mesh = { name: name || "the knob", ...found, triangles: this.pen.triangles() };
     const { faces, read, scale, parts, borders, nonmanifold, genus } = this.mesh, closed = borders ? `${borders} edges at a border` : "closed";
     const many = nonmanifold ? `, ${nonmanifold} edges of more than two faces` : "";
     $("stylus-said").textContent = `${this.mesh.name}: ${faces} of ${read} triangles, scaled by ${Number(scale.toPrecision(3))} to ${1000 * MESH_SIZE_M} mm; ` +
@@ -84,7 +83,6 @@ class StylusTab {
   /** The host begins anew, with what the controls say. */
   touch() {
     const number = (id) => Number($(`stylus-${id}`).value);
-    const shown = (id, text) => ($(`stylus-${id}-shown`).textContent = text);
     this.material = { stiffness_n_m: number("stiffness"), damping_ns_m: number("damping"), friction: number("friction") };
     const edged = ["mesh", "cube"].includes(this.world.name);
     $("stylus-edged").hidden = !edged;
@@ -92,10 +90,6 @@ class StylusTab {
     this.seen = this.pen.state();
     this.rate_hz = number("rate") || this.seen.rate_hz;
     this.pen.touch({ ...this.world, ...this.material, rate_hz: this.rate_hz, age_s: number("age") / 1000 });
-    shown("stiffness", `${fixed(this.material.stiffness_n_m, 0)} N/m`);
-    shown("damping", `${fixed(this.material.damping_ns_m, 2)} Ns/m`);
-    shown("friction", fixed(this.material.friction, 2));
-    shown("age", `${fixed(number("age"), 1)} ms`);
   }
 
   /** The section leads x and z; the view from above, while it is pressed, x and y. */
@@ -105,14 +99,6 @@ class StylusTab {
     if (!event.buttons) this.above = false;
     if (this.above) this.aim((x - STYLUS_ABOVE.x) / STYLUS_ABOVE.per_m, (STYLUS_ABOVE.y - y) / STYLUS_ABOVE.per_m, this.lead[2]);
     else if (x <= STYLUS_CUT.right) this.aim((x - STYLUS_CUT.x) / STYLUS_CUT.per_m, this.lead[1], (STYLUS_CUT.y - y) / STYLUS_CUT.per_m);
-  }
-
-  key(event) {
-    const away = { PageUp: 1, PageDown: -1 }[event.key] || (event.shiftKey && { ArrowUp: 1, ArrowDown: -1 }[event.key]);
-    const step = away ? [0, away, 0] : { ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 0, 1], ArrowDown: [0, 0, -1] }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    this.aim(...vector_plus(this.lead, step, 0.001));
   }
 
   aim(...lead) {
@@ -128,10 +114,9 @@ class StylusTab {
       this.pen.lead(...vector_plus(from, vector_plus(this.lead, from, -1), n / slices));
       say(this.pen.advance(seconds / slices));
       this.seen = this.pen.state();
-      this.trace.push([Math.hypot(...this.seen.force), (180 / Math.PI) * this.seen.tilt]);
+      keep(this.trace, STYLUS_TRACE.samples, [Math.hypot(...this.seen.force), (180 / Math.PI) * this.seen.tilt]);
     }
     this.led = this.lead;
-    if (this.trace.length > STYLUS_TRACE.samples) this.trace.splice(0, this.trace.length - STYLUS_TRACE.samples);
   }
 
   frame(passed) {
@@ -155,16 +140,10 @@ class StylusTab {
       const square = (kind) => `<rect class="${kind}" x="${x - r}" y="${y - r}" width="${2 * r}" height="${2 * r}"/>`;
       return square("scale") + (inside ? square("outline") : "");
     }
-    const circle = (kind, radius) => `<circle class="${kind}" cx="${x}" cy="${y}" r="${radius}"/>`;
-    return circle("scale", r) + (inside ? circle("outline", STYLUS_CUT.per_m * Math.sqrt(radius_m ** 2 - off ** 2)) : "");
+    return circle("scale", [x, y], r) + (inside ? circle("outline", [x, y], STYLUS_CUT.per_m * Math.sqrt(radius_m ** 2 - off ** 2)) : "");
   }
 
-  /** The plane that came last, cut at the pen's y next to the pen, and its normal, beside the pen. */
-  planes_in_section() {
-    const { point, normal, second_point, second } = this.seen;
-    return (point ? this.plane_in_section(point, normal) : "") + (second ? this.plane_in_section(second_point, second) : "");
-  }
-
+  /** A plane, cut at the pen's y next to the pen, and its normal, beside the pen. */
   plane_in_section(point, normal) {
     const { pen } = this.seen;
     const above = vector_plus(pen, point, -1).reduce((sum, part, n) => sum + part * normal[n], 0);
@@ -180,12 +159,12 @@ class StylusTab {
     const { name, centre, radius_m } = this.world, { pen, hand, force, point, normal } = this.seen;
     const [x, y] = from_above(centre), r = STYLUS_ABOVE.per_m * radius_m, left = STYLUS_ABOVE.x - STYLUS_ABOVE.half, top = STYLUS_ABOVE.y - STYLUS_ABOVE.half, size = 2 * STYLUS_ABOVE.half;
     const box = (kind, half_x, half_y) => `<rect class="${kind}" x="${x - half_x}" y="${y - half_y}" width="${2 * half_x}" height="${2 * half_y}"/>`;
-    const object = name === "mesh" ? "" : name === "floor" ? box("outline", STYLUS_ABOVE.half, STYLUS_ABOVE.half) : name === "cube" ? box("outline", r, r) : `<circle class="outline" cx="${x}" cy="${y}" r="${r}"/>`;
+    const object = name === "mesh" ? "" : name === "floor" ? box("outline", STYLUS_ABOVE.half, STYLUS_ABOVE.half) : name === "cube" ? box("outline", r, r) : circle("outline", [x, y], r);
     const at_pen = from_above(pen), at_hand = from_above(hand), scale = STYLUS_NEWTON * 0.4;
     return `<rect class="scale" x="${left}" y="${top}" width="${size}" height="${size}"/><g clip-path="url(#stylus-above)">${object}` +
       `<path class="scale" stroke-dasharray="4 4" d="${path([[left, at_pen[1]], [left + size, at_pen[1]]])}"/>` +
       (point ? arrow(at_pen, 30 * normal[0], -30 * normal[1], "sent") : "") + arrow(at_pen, scale * force[0], -scale * force[1], "force") +
-      `<circle class="handring" cx="${at_hand[0]}" cy="${at_hand[1]}" r="8"/><circle class="knob" cx="${at_pen[0]}" cy="${at_pen[1]}" r="4"/></g>` +
+      `${circle("handring", at_hand, 8)}${circle("knob", at_pen, 4)}</g>` +
       `<text x="${left}" y="${top - 7}">from above, y up</text>`;
   }
 
@@ -200,8 +179,7 @@ class StylusTab {
       ([name, text], n) => `<text x="490" y="${288 + 36 * n}">${name}</text><text class="figure" x="628" y="${290 + 36 * n}">${text}</text>`).join("");
     this.svg.innerHTML = `<defs><clipPath id="stylus-cut"><rect x="-500" width="${STYLUS_CUT.right + 500}" height="${STYLUS_CUT.height}"/></clipPath>
       <clipPath id="stylus-above"><rect x="${STYLUS_ABOVE.x - STYLUS_ABOVE.half}" y="${STYLUS_ABOVE.y - STYLUS_ABOVE.half}" width="${2 * STYLUS_ABOVE.half}" height="${2 * STYLUS_ABOVE.half}"/></clipPath></defs>
-      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${this.planes_in_section()}${s.proxy ? `<circle class="proxy" cx="${in_section(s.proxy)[0]}" cy="${in_section(s.proxy)[1]}" r="5"/>` : ""}<path class="handline" d="${path([tip, hand])}"/>
-      <circle class="handring" cx="${hand[0]}" cy="${hand[1]}" r="13"/>${arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}<circle class="knob" cx="${tip[0]}" cy="${tip[1]}" r="4.5"/></g>
+      <g clip-path="url(#stylus-cut)">${this.object_in_section()}${body}${s.point ? this.plane_in_section(s.point, s.normal) : ""}${s.second ? this.plane_in_section(s.second_point, s.second) : ""}${s.proxy ? circle("proxy", in_section(s.proxy), 5) : ""}${hand_ring(tip, hand, 13)}${arrow(tip, STYLUS_NEWTON * s.force[0], -STYLUS_NEWTON * s.force[2], "force")}${circle("knob", tip, 4.5)}</g>
       <path class="scale" d="${path([[STYLUS_CUT.right, 0], [STYLUS_CUT.right, STYLUS_CUT.height]])}"/><text x="8" y="18">cut at y = ${fixed(1000 * s.pen[1], 1)} mm, z up</text>${this.view_from_above()}${key}${large}`;
     const list = (v, digits, k = 1) => `(${v.map((part) => fixed(k * part, digits)).join(", ")})`;
     this.caption.textContent = `pen ${list(s.pen, 1, 1000)} mm; F = ${list(s.force, 2)} N${s.limited ? `: an axis gives ${this.most_n} N, no more` : ""}\n` +
@@ -210,22 +188,13 @@ class StylusTab {
   }
 
   draw_trace() {
-    const { pen, width, height, colour } = cleared($("stylus-curve"));
-    const left = 46, x = (n) => left + (n / STYLUS_TRACE.samples) * (width - left - 8);
+    const paper = cleared($("stylus-curve")), { pen, width, height, colour } = paper;
+    const x = (n) => 46 + (n / STYLUS_TRACE.samples) * (width - 54);
     [["force on the pen, N, the last second", "--red", 1], ["sent normal off the true one, degrees", "--blue", 0.5]].forEach(([title, name, least], n) => {
-      const top = 20 + (n * height) / 2, bottom = ((n + 1) * height) / 2 - 6, most = Math.max(least, ...this.trace.map((row) => row[n]));
-      const y = (value) => bottom - (value / most) * (bottom - top);
-      pen.strokeStyle = colour("--line");
-      pen.fillStyle = colour("--faint");
-      pen.fillText(title, left + 6, top - 6);
-      for (const value of [0, most]) {
-        pen.beginPath(); pen.moveTo(left, y(value)); pen.lineTo(width - 8, y(value)); pen.stroke();
-        pen.fillText(value.toFixed(2), 4, y(value) + 4);
-      }
+      const top = 20 + (n * height) / 2, most = Math.max(least, ...this.trace.map((row) => row[n]));
+      const y = draw_scale(paper, title, [0, most], top, ((n + 1) * height) / 2 - 6, top - 6);
       pen.strokeStyle = colour(name);
-      pen.beginPath();
-      this.trace.forEach((row, i) => (i ? pen.lineTo(x(i), y(row[n])) : pen.moveTo(x(i), y(row[n]))));
-      pen.stroke();
+      draw_line(pen, this.trace.map((row, i) => [x(i), y(row[n])]));
     });
   }
 }

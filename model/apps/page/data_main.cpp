@@ -15,7 +15,7 @@
 
 #include "apps/page/felt_mesh.hpp"
 #include "apps/page/image_law.hpp"
-#include "apps/page/law_loops.hpp"
+#include "apps/page/law_loop.hpp"
 #include "apps/page/live_loop.hpp"
 #include "apps/page/recorded_inputs.hpp"
 #include "law/compile.hpp"
@@ -28,8 +28,8 @@
 
 namespace {
 
+using namespace feltgate;
 using nlohmann::json;
-namespace page = feltgate::page;
 
 const std::string vectors = FELTGATE_SOURCE_DIR "/vectors/";
 const std::string laws = FELTGATE_SOURCE_DIR "/rtl/laws/";
@@ -41,29 +41,28 @@ const std::vector<std::string> scenes_of_default = {
 const std::vector<std::string> scenes_of_others = {"membrane", "wall"};
 
 json recorded(const std::string& design, const std::string& scene) {
-  feltgate::Scenario scenario = feltgate::read_scenario(vectors + "scenes/" + scene + ".toml");
-  const auto plant =
-      feltgate::plant::read_plant_file(vectors + "plants/" + scenario.plant + ".toml");
-  feltgate::resolve_effects(scenario, plant.effects);
+  Scenario scenario = read_scenario(vectors + "scenes/" + scene + ".toml");
+  const auto plant = plant::read_plant_file(vectors + "plants/" + scenario.plant + ".toml");
+  resolve_effects(scenario, plant.effects);
   page::Recording inputs;
-  feltgate::RunOptions options;
+  RunOptions options;
   options.design = design;
   options.engine = "twin";
   options.inputs = &inputs;
-  const auto absolute = feltgate::design_named(design).absolute;
+  const auto absolute = design_named(design).absolute;
   if (absolute) {  // such a core goes clock by clock: a part is enough, over the knob's first crest
     scenario.duration_s = std::min(scenario.duration_s, 0.45);
     scenario.expectations.clear();
   }
   page::CountRecorder recorder(absolute ? absolute->bits : 0, &inputs);
   if (absolute) {
-    options.plant_step = [&](feltgate::Clock clocks, const feltgate::plant::Observables& o) {
+    options.plant_step = [&](Clock clocks, const plant::Observables& o) {
       recorder.turned(o.theta_rad, clocks);
     };
   }
-  std::unique_ptr<feltgate::SceneLaw> law;
+  std::unique_ptr<SceneLaw> law;
   if (!scenario.law.empty()) {
-    law = feltgate::make_scene_law(laws + scenario.law + ".law", feltgate::design_named(design));
+    law = make_scene_law(laws + scenario.law + ".law", design_named(design));
     options.law = law.get();
   }
   run_scenario(scenario, plant, options);
@@ -79,7 +78,7 @@ json recorded(const std::string& design, const std::string& scene) {
 json closed_loop(const std::string& design) {
   json rows = json::array();
   for (const page::ScriptRow& row :
-       page::follow_script(design, feltgate::plant::read_plant_file(vectors + "plants/p24.toml"))) {
+       page::follow_script(design, plant::read_plant_file(vectors + "plants/p24.toml"))) {
     rows.push_back({row.theta_rad, row.torque_nm});
   }
   return {{"design", design}, {"scene", "wall"}, {"rows", rows}};
@@ -89,83 +88,81 @@ json closed_loop(const std::string& design) {
 const std::vector<std::string> shapes = {"duck",      "bell",     "banana", "fish",
                                          "horseshoe", "mushroom", "square"};
 constexpr double training_m = 0.036;
-const std::vector<feltgate::shape::Point> training_centres_m = {
+const std::vector<shape::Point> training_centres_m = {
     {-0.032, 0.142}, {0.032, 0.142}, {-0.032, 0.088}, {0.032, 0.088}};
 constexpr double corner_m = 2e-3;
 constexpr int vertices = 40;
 
 /// The image of a shape's law, and its outline in 10 um.
-json hidden(const std::string& name, const feltgate::shape::Placing& placing) {
-  namespace shape = feltgate::shape;
+json hidden(const std::string& name, const shape::Placing& placing) {
   const auto outline = shape::placed(shape::read_svg(vectors + "shapes/" + name + ".svg"), placing);
   const shape::Polygon polygon = shape::sampled(shape::rounded(outline, corner_m), vertices);
   shape::LawRequest request;
   request.summary = name;
-  const auto law =
-      feltgate::law::compile_text(shape::law_text(polygon, request), name + ".law",
-                                  feltgate::law::target_of(feltgate::design_named("lever")));
+  const auto law = law::compile_text(shape::law_text(polygon, request), name + ".law",
+                                     law::target_of(design_named("lever")));
   json places = json::array();
   for (const shape::Point& p : polygon.at) {
     places.push_back({std::lround(1e5 * p.x), std::lround(1e5 * p.y)});
   }
-  return {{"name", name}, {"image", feltgate::law::text(law.image)}, {"outline", places}};
+  return {{"name", name}, {"image", law::text(law.image)}, {"outline", places}};
 }
 
-std::string image_of(const std::string& law) {
-  const auto target = feltgate::law::target_of(feltgate::design_named("lever"));
-  return feltgate::law::text(feltgate::law::compile_file(laws + law + ".law", target).image);
+law::Compiled compiled(const std::string& law, const std::string& design = "lever",
+                       double rate_hz = 0) {
+  return law::compile(law::read_law(laws + law + ".law", rate_hz),
+                      law::target_of(page::law_design(design)));
+}
+std::string image_of(const std::string& law, const std::string& design = "lever") {
+  return law::text(compiled(law, design).image);
+}
+/// Where an image keeps a state.
+json place_of(const law::Compiled& law, const std::string& state) {
+  const page::StateWord word = page::state_word(law, state);
+  return {{"address", word.address}, {"scale", word.scale}};
 }
 
 /// The law, and the inertia of the lever that each of both is.
 json coupled() {
-  const auto plant = feltgate::plant::read_plant_file(vectors + "plants/p24.toml");
+  const auto plant = plant::read_plant_file(vectors + "plants/p24.toml");
   return {{"image", image_of("coupled_levers")}, {"inertia_kg_m2", plant.lever.inertia_kg_m2}};
 }
 
 /// The law, the slides and the worlds of a stylus: device and scenes as they are shipped.
 json stylus() {
-  const auto target = feltgate::law::target_of(page::stylus_design());
-  const auto image = [&](const char* law) {
-    return feltgate::law::text(feltgate::law::compile_file(laws + law, target).image);
-  };
   json worlds = json::array(), slides;
   for (const char* name : {"floor", "sphere", "cube"}) {
-    const auto scene = feltgate::read_axes_scene(
+    const auto scene = read_axes_scene(
         vectors + "scenes/stylus_" + name + ".toml",
         [](const std::string& device) { return vectors + "devices/" + device + ".toml"; });
-    const feltgate::PlaneHostSettings& w = scene.plane.value();
+    const PlaneHostSettings& w = scene.plane.value();
     worlds.push_back({{"name", name},
                       {"kind", static_cast<int>(w.world)},
                       {"centre", {w.centre_m.x, w.centre_m.y, w.centre_m.z}},
                       {"radius_m", w.radius_m}});
-    const auto& device = std::get<feltgate::StylusSetup>(scene.device);
-    const page::StylusSlides s = page::slides_of(device.parameters.lever);
-    slides = {
-        {"mass_kg", s.mass_kg}, {"friction_ns_m", s.friction_ns_m}, {"capstan_m", s.capstan_m}};
+    const auto& device = std::get<StylusSetup>(scene.device);
+    const page::Stylus s = page::Stylus::of(device.parameters.lever);
+    slides = {{"mass_kg", s.own_kg}, {"friction_ns_m", s.own_ns_m}, {"capstan_m", s.capstan_m}};
   }
-  return {{"image", image("local_space.law")},
-          {"image_of_edges", image("local_edge.law")},
+  return {{"image", image_of("local_space", "stylus_law")},
+          {"image_of_edges", image_of("local_edge", "stylus_law")},
           {"slides", slides},
           {"worlds", worlds}};
 }
 
 /// The body in space, with where its image keeps the quaternion.
 json gimbal() {
-  const auto law = feltgate::law::compile_file(laws + "rigid_body.law",
-                                               feltgate::law::target_of(page::gimbal_design()));
+  const auto law = compiled("rigid_body", "gimbal_law");
   json body = json::array();
-  for (const char* state : {"dw", "dx", "dy", "dz"}) {
-    const page::StateWord word = page::state_word(law, state);
-    body.push_back({{"address", word.address}, {"scale", word.scale}});
-  }
-  return {{"image", feltgate::law::text(law.image)}, {"body", body}};
+  for (const char* state : {"dw", "dx", "dy", "dz"}) body.push_back(place_of(law, state));
+  return {{"image", law::text(law.image)}, {"body", body}};
 }
 
 /// The presets of the law `material` are scenes.
 json materials() {
   json all = json::array();
   for (const char* name : {"stone", "fabric", "water"}) {
-    const auto scenario = feltgate::read_scenario(vectors + "scenes/material_" + name + ".toml");
+    const auto scenario = read_scenario(vectors + "scenes/material_" + name + ".toml");
     json values = json::object();
     for (const auto& [parameter, value] : scenario.parameters) values[parameter] = value;
     all.push_back({{"name", name}, {"parameters", values}});
@@ -176,15 +173,10 @@ json materials() {
 /// The bowed string at its own rate and at that of a usual host, each with where its image keeps
 /// what comes to the bridge.
 json strings() {
-  const auto target = feltgate::law::target_of(feltgate::design_named("lever"));
   json all = json::array();
   for (const double rate_hz : {40e3, 1e3}) {
-    const auto law =
-        feltgate::law::compile(feltgate::law::read_law(laws + "bowed_string.law", rate_hz), target);
-    const page::StateWord heard = page::state_word(law, "heard");
-    all.push_back({{"rate_hz", rate_hz},
-                   {"image", feltgate::law::text(law.image)},
-                   {"heard", {{"address", heard.address}, {"scale", heard.scale}}}});
+    const auto law = compiled("bowed_string", "lever", rate_hz);
+    all.push_back({{"image", law::text(law.image)}, {"heard", place_of(law, "heard")}});
   }
   return all;
 }
@@ -202,8 +194,8 @@ json hidden_shapes() {
 
 json training_squares() {
   json all = json::array();
-  for (const feltgate::shape::Point& centre : training_centres_m) {
-    feltgate::shape::Placing placing;
+  for (const shape::Point& centre : training_centres_m) {
+    shape::Placing placing;
     placing.size_m = training_m;
     placing.centre_m = centre;
     all.push_back(hidden("square", placing));
@@ -227,11 +219,11 @@ int main(int count, char** argv) {
                 {"gimbal", gimbal()},         {"planes", planes()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
-      if (feltgate::design_named(design).phases == 3) {
+      if (design_named(design).phases == 3) {
         out["recorded"].push_back(recorded(design, "knob_detents"));
         continue;
       }
-      if (feltgate::design_named(design).scene_number("law") >= 0) {
+      if (design_named(design).scene_number("law") >= 0) {
         out["recorded"].push_back(recorded(design, "detent"));
         continue;
       }

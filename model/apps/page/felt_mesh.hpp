@@ -5,39 +5,49 @@
 // Documentation: docs/page.md
 #pragma once
 
+#include <utility>
+
 #include "sim/axes_loop/plane_host.hpp"
-#include "sim/touch/touch.hpp"
+#include "sim/touch/make_glb.hpp"
 
 namespace feltgate::page {
 
-/// A knob with six bumps, 60 mm wide: 3072 triangles.
-touch::Soup knob_mesh();
+/// A knob with six bumps, 60 mm wide: a ball drawn out along the axes.
+inline touch::Soup knob_mesh() {
+  constexpr double largest_m = 0.03, hollow = 0.4;
+  touch::Soup s = touch::made_ball(3000);
+  for (plant::Vec3& n : s.at) {
+    const double x2 = n.x * n.x, y2 = n.y * n.y, z2 = n.z * n.z;
+    const double bump = x2 * x2 + y2 * y2 + z2 * z2;
+    n = largest_m * (1 - hollow + hollow * bump) * n;
+  }
+  s.materials = {"none"};
+  s.parts.assign(s.triangles.size(), 0);
+  return s;
+}
 
 /// A mesh and the proxy on it. It stays where it is: the proxy points to the mesh.
-class FeltMesh {
- public:
-  explicit FeltMesh(touch::Mesh mesh);
+struct FeltMesh {
+  explicit FeltMesh(touch::Mesh m) : mesh(std::move(m)), proxy(mesh, {}) {}
   FeltMesh(const FeltMesh&) = delete;
   FeltMesh& operator=(const FeltMesh&) = delete;
 
   /// Puts the proxy where the pen is. Errors: std::invalid_argument where that is inside of a
   /// closed mesh or on its surface.
-  void begin(plant::Vec3 pen_m);
-  /// Normals between those of the corners, or those of the facets, from the next move on.
-  void shade(bool on) { proxy_.shade(on); }
-  /// Both planes of an edge, or the proxy's alone, from the next move on.
-  void tell_edges(bool on) { proxy_.tell_edges(on); }
+  void begin(plant::Vec3 pen_m) {
+    proxy.begin(pen_m);
+    touched = {};
+  }
   /// For PlaneHostSettings::search: the pen is here now.
-  Plane move(plant::Vec3 pen_m);
+  Plane move(plant::Vec3 pen_m) {
+    touched = proxy.move(pen_m);
+    return {touched.point_m, touched.normal, touched.second_point_m, touched.second,
+            touched.convex};
+  }
 
-  const touch::Mesh& mesh() const { return mesh_; }
-  /// What the last move() found.
-  const touch::Touched& touched() const { return touched_; }
-
- private:
-  touch::Mesh mesh_;
-  touch::Proxy proxy_;
-  touch::Touched touched_;
+  touch::Mesh mesh;
+  touch::Proxy proxy;
+  touch::Touched touched;  ///< what the last move() found
 };
 
 }  // namespace feltgate::page

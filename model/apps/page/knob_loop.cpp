@@ -124,7 +124,9 @@ void KnobLoop::lead(double theta_rad) { wanted_rad_ = std::clamp(theta_rad, -mos
 void KnobLoop::advance(double seconds) {
   samples_.clear();
   const double step_s = ticks_per_step * tick_s_;
-  const int steps = pace_.runs(seconds, step_s);
+  owed_s_ += seconds;
+  const int steps = static_cast<int>(owed_s_ / step_s);
+  owed_s_ -= steps * step_s;
   const double rate = steps > 0 && held_ ? (wanted_rad_ - hand_rad_) / (steps * step_s) : 0;
   for (int n = 0; n < steps; ++n) {
     step();

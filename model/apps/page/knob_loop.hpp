@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/page/pace.hpp"
 #include "feltgate/commutation.hpp"
 #include "feltgate/while_armed.hpp"
 #include "sim/backends/backend.hpp"
@@ -105,7 +104,7 @@ class KnobLoop {
   double pitch_ = 1, centre_ = 0;  ///< counts
   bool held_ = false;
   double hand_rad_ = 0, wanted_rad_ = 0;
-  Pace pace_;
+  double owed_s_ = 0;  ///< of the time of advance()
   std::int64_t ticks_ = 0;
   std::int32_t read_ = 0, position_ = 0;  ///< counts: of the reading under way, and the newest one
   std::vector<KnobSample> samples_;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "feltgate/largest.hpp"
 #include "sim/backends/fnv1a.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/plant/drive.hpp"
@@ -231,7 +230,6 @@ void LiveLoop::tick(const Snapshot& s) {
   if (s.faults != 0 && armed_) arm(false);  // as a panel does: nothing arms again by itself
   if (host_ticks_ > 1 && scene_ == "wall" && ticks_ % host_ticks_ == 0) host(s);
   const double float_nm = core_.rider(0)->out().tau_hat_nm;
-  difference_nm_ = larger(difference_nm_, std::abs(core_.torque_nm(s.tau_hat) - float_nm));
   if (ticks_++ % every_ != 0) return;
   const plant::Observables& o = plant_.observables();
   samples_.push_back({static_cast<double>(ticks_) / static_cast<double>(design().tick_hz),
@@ -247,8 +245,6 @@ std::vector<Snapshot> LiveLoop::last_ticks() const {
   list.insert(list.end(), kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(oldest));
   return list;
 }
-
-double LiveLoop::take_difference() { return std::exchange(difference_nm_, 0.0); }
 
 std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant) {
   constexpr int frames = 90, in = 40, out = 70;  // of 1/60 s; there, and off again

@@ -161,8 +161,6 @@ class LiveLoop {
   /// Largest torque at rest of a hand that yields, Nm.
   double gentle_nm() const { return 0.9 * motor_.cool_nm(); }
   double time_s() const { return static_cast<double>(core_.lead_const().now()) / clock_hz_; }
-  /// Largest difference of tau_hat between the core's bits and double since the last call, Nm.
-  double take_difference();
 
  private:
   void step(Clock clocks);
@@ -194,7 +192,6 @@ class LiveLoop {
   double hand_rad_ = 0, wanted_rad_ = 0;
   std::int64_t ticks_ = 0;
   int every_ = 1;
-  double difference_nm_ = 0;
   Snapshot last_;
   std::vector<Snapshot> kept_;  ///< a ring; tick n since the start is at n % most_ticks_kept
   std::vector<Sample> samples_;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -28,7 +29,7 @@ std::vector<std::string> fixed_lines(const design::Elaborated& e) {
                        line.find("* name =") != std::string::npos || line.find("//") == 0;
     if (!values && !named && line.find("i2t_start") == std::string::npos &&
         line.find("design_crc") == std::string::npos && line.find("file_sum") == std::string::npos)
-      lines.push_back(line);
+      lines.push_back(line.substr(std::min(line.size(), line.find_first_not_of(' '))));
     if (values && line.find("};") != std::string::npos) values = false;
   }
   return lines;
@@ -37,12 +38,7 @@ std::vector<std::string> fixed_lines(const design::Elaborated& e) {
 std::string first_difference(const std::vector<std::string>& own,
                              const std::vector<std::string>& base) {
   for (std::size_t i = 0; i < std::min(own.size(), base.size()); ++i) {
-    if (own[i] == base[i]) continue;
-    const auto trimmed = [](const std::string& s) {
-      const auto begin = s.find_first_not_of(" ");
-      return begin == std::string::npos ? s : s.substr(begin);
-    };
-    return fmt::format("\"{}\" instead of \"{}\"", trimmed(own[i]), trimmed(base[i]));
+    if (own[i] != base[i]) return fmt::format("\"{}\" instead of \"{}\"", own[i], base[i]);
   }
   return "other scenes";
 }

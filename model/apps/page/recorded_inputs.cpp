@@ -54,7 +54,7 @@ std::string text_of(const Recording& inputs) {
   }
   Clock before = 0;
   for (const EncoderEvent& e : inputs.edges) {
-    out += fmt::format("{} {}\n", e.clock - before, levels(e.pins));
+    out += fmt::format("e {} {}\n", e.clock - before, levels(e.pins));
     before = e.clock;
   }
   ShownCount shown;
@@ -73,33 +73,24 @@ Recording inputs_from_text(const std::string& text) {
   Clock now = 0;
   for (int number = 1; std::getline(lines, line); ++number) {
     std::istringstream words(line);
-    bool read = false;
-    if (line[0] == 'c') {
-      char c = 0;
-      int first = 0;
-      read = static_cast<bool>(words >> c >> inputs.clocks >> first);
-      inputs.pins = pins_of(first);
-    } else if (line[0] == 'w') {
-      char c = 0;
-      HostWrite w;
-      read = static_cast<bool>(words >> c >> w.clock >> w.address >> w.data);
-      inputs.writes.push_back(w);
-    } else if (line[0] == 'a') {
-      char a = 0;
-      ShownCount change;
-      read = static_cast<bool>(words >> a >> change.clock >> change.count) && change.clock >= 0;
-      shown = {shown.clock + change.clock, shown.count + change.count};
-      inputs.counts.push_back(shown);
-    } else {
-      Clock delta = 0;
-      int next = 0;
-      read = static_cast<bool>(words >> delta >> next) && delta >= 0;
-      now += delta;
-      inputs.edges.push_back({now, pins_of(next)});
-    }
-    if (!read) {
+    char kind = 0;
+    std::int64_t first = -1, second = 0;
+    std::uint32_t data = 0;
+    words >> kind >> first >> second;
+    if (kind == 'w') words >> data;
+    if (!words || first < 0 || std::string("cwea").find(kind) == std::string::npos) {
       throw std::invalid_argument(
           fmt::format("line {} of the recorded inputs cannot be read: \"{}\"", number, line));
+    }
+    if (kind == 'c') {
+      inputs.clocks = first;
+      inputs.pins = pins_of(static_cast<int>(second));
+    } else if (kind == 'w') {
+      inputs.writes.push_back({first, static_cast<int>(second), data, 0});
+    } else if (kind == 'e') {
+      inputs.edges.push_back({now += first, pins_of(static_cast<int>(second))});
+    } else {
+      inputs.counts.push_back(shown = {shown.clock + first, shown.count + second});
     }
   }
   return inputs;

@@ -41,7 +41,7 @@ class CountRecorder {
 };
 
 /// The text: a line "c CLOCKS LEVELS" with the levels at reset (1 A, 2 B, 4 Z), then a line
-/// "w CLOCK ADDRESS DATA" per register write, and a line "DELTA LEVELS" per pin change, DELTA
+/// "w CLOCK ADDRESS DATA" per register write, and a line "e DELTA LEVELS" per pin change, DELTA
 /// clocks after the previous change, or "a DELTA COUNTS" per change of the shown count, by so many.
 std::string text_of(const Recording& inputs);
 /// Reads such a text. Throws std::invalid_argument with the line.

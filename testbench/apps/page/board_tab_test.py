@@ -1,20 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The page's link to a board: its protocol in node against the examples of docs/link.md and a
-simulated board; its tab in Debian's Chromium with a port that leads to that board; and the server
-that Web Serial needs.
+"""The page's link to a board in Debian's Chromium: its frames against the examples of
+docs/link.md; its tab with a port that leads to a simulated board; the server that Web Serial needs.
 
-board_tab_test.py --pictures FOLDER keeps a screenshot.
 Documentation: docs/page.md
 """
 
 import http.server
-import json
 import os
 import re
 import select
-import shutil
 import socket
 import subprocess
 import sys
@@ -26,33 +22,14 @@ import urllib.error
 import urllib.request
 
 from board_process import need_terminals
-from browsing import ROOT, By, PageTest, main, taking
-from host_program import BUILD, ProgramTest
+from browsing import ROOT, PageTest
+from host_program import ProgramTest
 
-sys.path.insert(0, str(ROOT / "scripts"))
-import page  # noqa: E402
 
-NODE = shutil.which("node")
-# The page's script in node; `port` is what navigator.serial gives, on a terminal.
-IN_NODE = """
-const fs = require("fs"), tty = require("tty"), vm = require("vm");
-vm.runInThisContext(fs.readFileSync(process.argv[1], "utf8") +
-  ";globalThis.board = { framed, FrameReader, BoardLink, crc32 };");
-const map = JSON.parse(process.argv[2]), hex = (bytes) => Buffer.from(bytes).toString("hex");
-const opened = (name, lose = () => false) => {
-  const file = fs.openSync(name, fs.constants.O_RDWR | fs.constants.O_NOCTTY), heard = new tty.ReadStream(file);
-  heard.setRawMode(true);
-  return {
-    readable: new ReadableStream({ start: (to) => { heard.on("data", (bytes) => to.enqueue(Uint8Array.from(bytes))); } }),
-    writable: new WritableStream({ write: (bytes) => { if (!lose(bytes)) fs.writeSync(file, bytes); } }),
-    close: async () => {},
-  };
-};
-(async () => { %s })().then((said) => { console.log(JSON.stringify(said)); process.exit(0); }, (error) => { console.error(error); process.exit(1); });
-"""
-# A SerialPort of the browser over HTTP.
+# A SerialPort of the browser over HTTP, which loses one of so many writes.
 PORT = """
-const to = arguments[0];
+const [to, lost] = arguments;
+let writes = 0;
 window.opened_with = null;
 const port = {
   open: async (how) => {
@@ -61,7 +38,7 @@ const port = {
       const bytes = new Uint8Array(await (await fetch(to)).arrayBuffer());
       into.enqueue(bytes);
     } }, { highWaterMark: 0 });
-    port.writable = new WritableStream({ write: (bytes) => fetch(to, { method: "POST", body: bytes }) });
+    port.writable = new WritableStream({ write: (bytes) => ++writes % lost ? fetch(to, { method: "POST", body: bytes }) : null });
   },
   close: async () => { window.port_closed = true; },
 };
@@ -75,98 +52,6 @@ class BoardTest(ProgramTest):
         need_terminals()
         process = self.start_program("feltgate_board", *words, stderr=subprocess.STDOUT)
         return process.stdout.readline().strip()
-
-
-@unittest.skipUnless(NODE or os.environ.get("CI"), "no node")
-class Protocol(BoardTest):
-    def node(self, script, *words):
-        program = [NODE, "-e", IN_NODE % script, ROOT / "scripts/web_page/board.js"]
-        registers = json.dumps(page.registers_of(ROOT))
-        done = subprocess.run(
-            [*program, registers, *words], capture_output=True, text=True, timeout=100, check=False
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)
-
-    def test_frames_are_those_of_the_documentation(self):
-        text = (ROOT / "docs/link.md").read_text(encoding="utf-8")
-        lines = [bytes.fromhex(line) for line in re.findall(r"^[<>] ([0-9a-f ]+)$", text, re.M)]
-        self.assertGreater(len(lines), 3)
-        whole = b"".join(lines).hex()
-        bodies = self.node(
-            "const reader = new board.FrameReader(map.link);"
-            "const bodies = reader.take(Buffer.from(process.argv[3], 'hex'));"
-            "return [bodies.map((b) => hex(board.framed(b, map.link))), reader.bad]",
-            whole,
-        )
-        self.assertEqual(bodies, [[line.hex() for line in lines], 0])
-        # Escapes there and back; a changed byte and a wrong escape are counted, the next is read.
-        found = self.node(
-            "const reader = new board.FrameReader(map.link), body = Uint8Array.from([0xc0, 0xdb, 0xdc, 0xdd]);"
-            "const wire = board.framed(body, map.link), bad = Uint8Array.from(wire); bad[1] ^= 1;"
-            "const strange = Uint8Array.from([0xc0, 0xdb, 0x01, 0xc0]);"
-            "const all = [bad, strange, wire].flatMap((bytes) => reader.take(bytes));"
-            "return [hex(wire), all.map(hex), reader.bad]"
-        )
-        self.assertEqual(found[1:], [["c0dbdcdd"], 2])
-        self.assertEqual(found[0][2:-2].count("c0"), 0)
-
-    def test_words_are_read_written_streamed_and_the_motor_arms(self):
-        found = self.node(
-            """
-const streamed = [], port = opened(process.argv[3]), { words, bits, snapshot } = map;
-const link = new board.BoardLink(port, map.link, (frame) => streamed.push(frame));
-const about = await link.begin(map), bit = (name) => 1 << bits[name];
-await link.write(words.watchdog_ticks, 1000000);
-const [watchdog] = await link.read(words.watchdog_ticks);
-await link.write(words.stream_words, 1 << snapshot.indexOf("position") | 1 << snapshot.indexOf("tick"));
-await link.write(words.stream_period, Math.round(about.tick_hz / 100));
-await new Promise((after) => setTimeout(after, 400));
-await link.write(words.stream_period, 0);
-await link.write(words.command, bit("command.kick"));
-await link.write(words.control, bit("control.host") | bit("control.arm"));
-const armed = [];
-for (let n = 0; n < 20 && !armed.includes(true); ++n) armed.push(!!((await link.read(words.status))[0] & bit("status.armed")));
-await link.write(words.control, bit("control.host"));
-await link.read(words.tick);
-const after = (await link.read(words.status))[0] & bit("status.armed");
-return { about, watchdog, streamed: streamed.slice(0, 30), armed: armed.includes(true), after, bad: link.frames.bad };
-""",
-            self.board("--hand", "swing"),
-        )
-        about = found["about"]
-        self.assertEqual((about["identity"], about["version"] >> 16), (0x46454C54, 1))
-        self.assertEqual(about["features"] & 1, 1)
-        self.assertEqual(found["watchdog"], 1_000_000)
-        self.assertEqual((found["armed"], found["after"], found["bad"]), (True, 0, 0))
-        frames = found["streamed"]
-        self.assertGreater(len(frames), 5)
-        period = round(about["tick_hz"] / 100)
-        for before, after in zip(frames, frames[1:]):
-            missed = (after["number"] - before["number"]) % 256
-            self.assertEqual(after["words"], 0b110)
-            self.assertEqual((after["values"][1] - before["values"][1]) % 2**32, missed * period)
-        self.assertGreater(len({frame["values"][0] for frame in frames}), 2)
-
-    def test_what_is_lost_is_asked_again_and_done_once(self):
-        found = self.node(
-            """
-let sent = 0;
-const port = opened(process.argv[3], () => ++sent % 3 === 1), link = new board.BoardLink(port, map.link), { words } = map;
-await link.begin(map);
-const before = await link.read(words.frames_good);
-for (let n = 1; n <= 5; ++n) await link.write(words.watchdog_ticks, 200000 + n);
-return [await link.read(words.watchdog_ticks), link.repeats > 2];
-""",
-            self.board(),
-        )
-        self.assertEqual(found, [[200_005], True])
-        silent = self.node(
-            "const link = new board.BoardLink(opened(process.argv[3], () => true), map.link);"
-            "return link.begin(map).catch((error) => error.message)",
-            self.board(),
-        )
-        self.assertIn("no answer for 2 s; is the board on", silent)
 
 
 class Bridge:
@@ -210,38 +95,40 @@ class Tab(PageTest, BoardTest):
         BoardTest.setUp(self)
         PageTest.setUp(self)
 
-    def press(self, name):
-        self.driver.find_element(By.ID, f"board-{name}").click()
-
-    def said(self):
-        return self.js("return document.getElementById('board-said').textContent")
+    def said(self, words):
+        self.until("return document.getElementById('board-said').textContent.startsWith(arguments[0])", words)
 
     def test_the_page_talks_to_a_board(self):
         bridge = Bridge(self.board("--hand", "swing"))
         self.addCleanup(bridge.close)
-        self.js(PORT, f"http://127.0.0.1:{bridge.server.server_port}/")
+        self.js(PORT, f"http://127.0.0.1:{bridge.server.server_port}/", 5)
         self.open_tab("board")
-        self.press("connect")
-        self.until("return document.getElementById('board-said').textContent.startsWith('SIMULATED')")
-        self.assertIn("1000000 ticks a second", self.said())
+        self.click("#board-connect")
+        self.said("SIMULATED")
+        self.assertIn("1000000 ticks a second", self.text("#board-said"))
         self.assertEqual(self.js("return window.opened_with"), {"baudRate": 1_000_000})
-        self.until("return feltgate.board.trace.length > 5 && 'tau_ref' in feltgate.board.shown")
-        word = self.driver.find_element(By.ID, "board-word")
-        value = "return document.getElementById('board-value').value"
-        self.press("read")
-        self.until(f"{value} === arguments[0]", str(0x46454C54))
-        word.clear()
-        word.send_keys("watchdog_ticks")
-        self.js("document.getElementById('board-value').value = 60000000")
-        self.press("write")
-        self.until("return document.getElementById('board-said').textContent === 'written'")
-        self.press("arm")
-        self.press("arm")
+        # A hundred frames a second, whose positions move.
+        streamed = "feltgate.board.trace.map(([position]) => position)"
+        self.until(f"return new Set({streamed}).size > 2 && 'tau_ref' in feltgate.board.shown")
+        ticks = [self.js("return feltgate.board.shown.tick") for _ in range(20)]
+        self.assertEqual({(after - before) % 10_000 for before, after in zip(ticks, ticks[1:])}, {0})
+        value = "document.getElementById('board-value').value"
+        self.click("#board-read")
+        self.until(f"return {value} === arguments[0]", str(0x46454C54))
+        self.turn("#board-word", "watchdog_ticks")
+        self.turn("#board-value", 60_000_000)
+        self.click("#board-write")
+        self.said("written")
+        self.turn("#board-value", "")
+        self.click("#board-read")
+        self.until(f"return {value} === '60000000'")
+        self.click("#board-arm")
+        self.click("#board-arm")
         self.until(
             "if (!feltgate.board.armed) document.getElementById('board-read').click();"
             "return feltgate.board.armed"
         )
-        self.press("disarm")
+        self.click("#board-disarm")
         self.until("return !feltgate.board.armed")
         # A disarming or a stop in the same moment as an arming, whose kick is still on its way.
         for last in ("disarm", "stop"):
@@ -251,12 +138,32 @@ class Tab(PageTest, BoardTest):
             )
             time.sleep(1)
             self.assertFalse(self.js("return feltgate.board.armed"), last)
-        word.clear()
-        word.send_keys("no word")
-        self.press("read")
-        self.until("return document.getElementById('board-said').textContent.startsWith('no word is')")
-        self.press("connect")
+        self.turn("#board-word", "no word")
+        self.click("#board-read")
+        self.said("no word is")
+        self.assertGreater(self.js("return feltgate.board.link.repeats"), 0)  # asked again, done once
+        self.click("#board-connect")
         self.until("return window.port_closed && !feltgate.board.link")
+
+    def test_frames_are_those_of_the_documentation(self):
+        text = (ROOT / "docs/link.md").read_text(encoding="utf-8")
+        lines = [bytes.fromhex(line) for line in re.findall(r"^[<>] ([0-9a-f ]+)$", text, re.M)]
+        self.assertGreater(len(lines), 3)
+        self.open_tab("board")
+        read = (
+            "const link = feltgate.board.map.link, reader = new FrameReader(link);"
+            "const bodies = reader.take(Uint8Array.from(arguments[0])).map((body) => [...body]);"
+            "return [bodies, bodies.map((b) => [...framed(Uint8Array.from(b), link)]), reader.bad]"
+        )
+        _, again, bad = self.js(read, list(b"".join(lines)))
+        self.assertEqual(([bytes(frame) for frame in again], bad), (lines, 0))
+        # Escapes there and back; a changed byte and a wrong escape are counted, the next is read.
+        body = [0xC0, 0xDB, 0xDC, 0xDD]
+        wire = self.js("return [...framed(Uint8Array.from(arguments[0]), feltgate.board.map.link)]", body)
+        self.assertNotIn(0xC0, wire[1:-1])
+        changed = [wire[0], wire[1] ^ 1, *wire[2:]]
+        bodies, _, bad = self.js(read, [*changed, 0xC0, 0xDB, 0x01, 0xC0, *wire])
+        self.assertEqual((bodies, bad), ([body], 2))
 
 
 class Server(ProgramTest):
@@ -285,4 +192,4 @@ class Server(ProgramTest):
 
 
 if __name__ == "__main__":
-    main(taking({"board": "document.getElementById('tab-board').click()"}))
+    unittest.main()

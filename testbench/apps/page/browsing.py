@@ -4,7 +4,6 @@
 
 import os
 import shutil
-import sys
 import time
 import unittest
 from pathlib import Path
@@ -15,25 +14,15 @@ try:
     from selenium import webdriver
     from selenium.webdriver.chrome.options import Options
     from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.action_chains import ActionChains  # noqa: F401
-    from selenium.webdriver.common.by import By  # noqa: F401
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys  # noqa: F401
 except ImportError:
     webdriver = ActionChains = By = Keys = None
 DRIVER = shutil.which("chromedriver")
 ARGUMENTS = "--headless=new --no-sandbox --disable-dev-shm-usage --window-size=1400,1300".split()
-UNFOLD = "for (const fold of document.querySelectorAll('details')) fold.open = true"
 PATIENCE_S = 400  # of whole minutes on a machine that does other things too
-
-
-def opened():
-    """A browser with the page in it, ready and unfolded; for pictures and measurements."""
-    driver = browser()
-    driver.get(PAGE.as_uri())
-    while not driver.execute_script("return !!(window.feltgate && feltgate.ready)"):
-        time.sleep(0.1)
-    driver.execute_script(UNFOLD)
-    return driver
+READY = "return !!(window.feltgate && feltgate.ready && feltgate.frames.length > 3)"
 
 
 def browser():
@@ -42,30 +31,6 @@ def browser():
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     return webdriver.Chrome(service=Service(DRIVER), options=options)
-
-
-def taking(views):
-    """A pictures(folder) of {name: script after which the page shows it}."""
-
-    def pictures(folder):
-        driver = opened()
-        for name, script in views.items():
-            driver.execute_script(script)
-            time.sleep(4)
-            driver.save_screenshot(str(folder / f"{name}.png"))
-        driver.quit()
-
-    return pictures
-
-
-def main(pictures, speed=None):
-    """What the words after the test's name ask for: --pictures FOLDER, --speed, or the tests."""
-    if "--pictures" in sys.argv:
-        pictures(Path(sys.argv[sys.argv.index("--pictures") + 1]))
-    elif speed and "--speed" in sys.argv:
-        speed()
-    else:
-        unittest.main()
 
 
 @unittest.skipUnless(webdriver and DRIVER or os.environ.get("CI"), "no selenium or chromedriver")
@@ -79,7 +44,7 @@ class PageTest(unittest.TestCase):
 
     def setUp(self):
         self.driver.get(PAGE.as_uri())
-        self.until("return !!(window.feltgate && feltgate.ready && feltgate.frames.length > 3)")
+        self.until(READY)
 
     def tearDown(self):
         errors = [entry["message"] for entry in self.driver.get_log("browser")]
@@ -88,11 +53,13 @@ class PageTest(unittest.TestCase):
 
     def unfold(self):
         """Everything that the first screen hides."""
-        self.js(UNFOLD)
+        self.js("for (const fold of document.querySelectorAll('details')) fold.open = true")
 
     def open_tab(self, name):
         self.js("document.getElementById('devices').open = true")
-        self.driver.find_element(By.ID, f"tab-{name}").click()
+        self.click(f"#tab-{name}")
+        self.until(f"return feltgate.tab === '{name}'")
+        self.unfold()
 
     def js(self, script, *words):
         return self.driver.execute_script(script, *words)
@@ -105,3 +72,53 @@ class PageTest(unittest.TestCase):
                 return found
             time.sleep(0.1)
         self.fail(f"never true in {PATIENCE_S} s: {script}")
+
+    def passed(self, state, seconds):
+        """The state, an object with a time, when so much simulated time has passed."""
+        begin = self.js(f"return {state}.time")
+        return self.until(f"const s = {state}; return s.time > arguments[0] && s", begin + seconds)
+
+    def all(self, css):
+        return self.driver.find_elements(By.CSS_SELECTOR, css)
+
+    def one(self, css):
+        return self.driver.find_element(By.CSS_SELECTOR, css)
+
+    def click(self, css):
+        self.one(css).click()
+
+    def text(self, css):
+        return self.js("return document.querySelector(arguments[0]).textContent", css)
+
+    def count(self, css):
+        return self.js("return document.querySelectorAll(arguments[0]).length", css)
+
+    def turn(self, css, value):
+        """A control to a value, as a hand would."""
+        self.js(
+            "const e = document.querySelector(arguments[0]); e.value = arguments[1];"
+            "for (const kind of ['input', 'change']) e.dispatchEvent(new Event(kind))",
+            css,
+            value,
+        )
+
+    def actions(self, picture, *places):
+        """The mouse goes to these places, in the units of the picture's view box."""
+        stage = self.one(picture)
+        actions = ActionChains(self.driver, duration=50)
+        for place in places:
+            x, y = self.js(
+                "const [svg, [x, y]] = arguments, b = svg.getBoundingClientRect(), v = svg.viewBox.baseVal;"
+                "const size = Math.min(b.width / v.width, b.height / v.height);"
+                "return [(x - v.x - v.width / 2) * size, (y - v.y - v.height / 2) * size]",
+                stage,
+                place,
+            )
+            actions.move_to_element_with_offset(stage, round(x), round(y))
+        return actions
+
+    def screen(self, width, height, mobile=False):
+        """The size of the screen, until the test ends."""
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": mobile}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})

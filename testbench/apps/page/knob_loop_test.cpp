@@ -158,13 +158,4 @@ TEST_CASE("page: a wrong offset takes the torque's cosine, and half a turn turns
   }
 }
 
-TEST_CASE("page: without the motor the knob stays where the hand leaves it") {
-  KnobLoop loop(motor());
-  loop.arm(false);
-  turn(loop, 0.2, 2);
-  CHECK_FALSE(loop.core().gates());
-  CHECK(loop.plant().observables().motor_torque_nm == Approx(0).margin(1e-9));
-  CHECK(loop.plant().observables().theta_rad == Approx(0.2).margin(0.015));
-}
-
 }  // namespace feltgate::page

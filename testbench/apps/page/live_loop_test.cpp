@@ -2,16 +2,19 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The loop behind the page: a hand that is led, a host's wall, broken wires, recorded inputs, and
-// designs of users. Documentation: docs/page.md
+// designs and laws of users. Documentation: docs/page.md
 #include "apps/page/live_loop.hpp"
 
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "apps/page/image_law.hpp"
 #include "apps/page/own_design.hpp"
 #include "apps/page/recorded_inputs.hpp"
+#include "apps/page/user_law.hpp"
 #include "catch.hpp"
+#include "feltgate/largest.hpp"
 #include "sim/plant/plant_file.hpp"
 
 namespace feltgate::page {
@@ -24,20 +27,15 @@ plant::Parameters plant_named(const std::string& name) {
   return plant::read_plant_file(root + "/vectors/plants/" + name + ".toml");
 }
 
-/// Returns the message of an exception of `act`; "" without one.
-template <class Act>
-std::string refusal(Act&& act) {
-  try {
-    act();
-    return {};
-  } catch (const std::exception& error) {
-    return error.what();
-  }
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
-void check_says(const std::string& text, const std::string& part) {
-  INFO(text);
-  CHECK(text.find(part) != std::string::npos);
+std::string law_text(const std::string& name) {
+  return text_of_file(root + "/rtl/laws/" + name + ".law");
 }
 
 /// A hand leads a lever to an angle within `lead_s` and stays there for `stay_s`.
@@ -69,8 +67,7 @@ TEST_CASE("a wall holds the handle back, and the hand feels what the wall does")
   CHECK(s.torque_nm == Approx(s.tau_ref_nm).margin(0.006));
   CHECK(std::abs(s.hand_nm + s.torque_nm) < 0.008);
   CHECK(loop.snapshot().faults == 0);
-  CHECK(loop.take_difference() < 1e-4);
-  CHECK(loop.take_difference() == 0);
+  CHECK(std::abs(s.tau_hat_nm - s.float_nm) < 1e-4);
 
   loop.hold(Grip::none);  // the wall pushes the lever out
   loop.advance(100'000, 100);
@@ -141,15 +138,6 @@ TEST_CASE("a constant torque acts while the lever is held") {
   CHECK(loop.samples().back().torque_nm == Approx(0.1).margin(0.006));
 }
 
-TEST_CASE("the hand is led evenly, and a lever without a scene follows") {
-  LiveLoop loop("lever", plant_named("p24"));
-  loop.hold(Grip::hand);
-  lead_to(loop, 0.5, 1.0, 0.5);
-  CHECK(loop.observables().theta_rad == Approx(0.5).margin(0.03));
-  lead_to(loop, -0.5, 1.0, 0.5);
-  CHECK(loop.observables().theta_rad == Approx(-0.5).margin(0.03));
-}
-
 TEST_CASE("a wall computed by a slow host shakes where the core's own does not") {
   const auto swing = [](int ticks) {
     LiveLoop loop("lever", plant_named("linear"));
@@ -193,6 +181,10 @@ void check_break(Break broken) {
   loop.arm(true);
   loop.advance(1000, 100);
   CHECK(loop.snapshot().armed);
+  loop.stop(true);
+  loop.advance(1000, 100);
+  CHECK_FALSE(loop.snapshot().armed);
+  CHECK(((loop.snapshot().faults >> static_cast<int>(Fault::stop)) & 1) == 1);
 }
 
 TEST_CASE("broken wires are noticed, and nothing arms again by itself") {
@@ -207,21 +199,6 @@ TEST_CASE("a supply at a third gives no more than it can") {
   lead_to(loop, 0.8, 0.6, 0.6);
   const Sample& s = loop.samples().back();
   CHECK(std::abs(s.torque_nm) < 0.6 * std::abs(s.tau_ref_nm));
-}
-
-TEST_CASE("the stop is a fault") {
-  LiveLoop loop = armed_wall();
-  loop.advance(1000, 100);
-  loop.stop(true);
-  loop.advance(1000, 100);
-  CHECK_FALSE(loop.snapshot().armed);
-  CHECK(((loop.snapshot().faults >> static_cast<int>(Fault::stop)) & 1) == 1);
-}
-
-TEST_CASE("unknown names are refused with the nearest") {
-  LiveLoop loop = armed_wall();
-  check_says(refusal([&] { loop.select("wal"); }), "did you mean \"wall\"");
-  check_says(refusal([&] { loop.set("wall_stifness", 1); }), "wall_stiffness");
 }
 
 TEST_CASE("recorded inputs survive as text, and every bit of them counts in the hash") {
@@ -252,14 +229,7 @@ TEST_CASE("recorded inputs survive as text, and every bit of them counts in the 
   CHECK(hash_of("lever", other) == hash);  // a limit that does not act
   other.writes[1].data = 3 | 6u << 2;
   CHECK(hash_of("lever", other) != hash);
-  check_says(refusal([] { inputs_from_text("c 5 0\nx"); }), "line 2");
-}
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
+  CHECK_THROWS_WITH(inputs_from_text("c 5 0\nx"), Catch::Contains("line 2"));
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -287,10 +257,97 @@ TEST_CASE("a user's design runs on the core that has its formats, with its own v
   CHECK(found);
 
   const std::string other = replaced(lever, "m1 = 767", "m1 = 511");
-  const std::string refused = refusal([&] { own_design(other, compiled, folder, registers); });
-  check_says(refused, "m1 = 511");
-  check_says(refused, "feltgate page --design");
-  check_says(refusal([&] { own_design("nonsense", compiled, folder, registers); }), "own.toml:1");
+  CHECK_THROWS_WITH(own_design(other, compiled, folder, registers),
+                    Catch::Contains("m1 = 511") && Catch::Contains("feltgate page --design"));
+  CHECK_THROWS_WITH(own_design("nonsense", compiled, folder, registers),
+                    Catch::Contains("own.toml:1"));
+}
+
+TEST_CASE("page: a law is felt as it says, and its parameters are turned while it runs") {
+  UserLaw law(law_text("detent"), law_design("lever_law"));
+  LiveLoop loop("lever_law", plant_named("p24"));
+  loop.run_law(law.scene());
+  loop.select("law");
+  loop.arm(true);
+  loop.hold(Grip::hand);
+  for (const double rad : {0.3, 0.07, -0.4}) {
+    lead_to(loop, rad, 1.0 / 3, 1.0 / 6);
+    REQUIRE(loop.snapshot().armed);
+    const double at = loop.samples().back().position_rad;
+    CHECK(std::abs(loop.samples().back().tau_ref_nm + 0.05 * std::sin(24 * at)) < 1e-4);
+  }
+  loop.set("amplitude", 0.02);
+  loop.set("clicks", 12);
+  loop.advance(50'000, 100);
+  const double at = loop.samples().back().position_rad;
+  CHECK(std::abs(loop.samples().back().tau_ref_nm + 0.02 * std::sin(12 * at)) < 1e-4);
+  CHECK(loop.snapshot().faults == 0);
+  CHECK_THROWS_WITH(loop.set("amplitude", 0.7), Catch::Contains("0.5"));
+}
+
+TEST_CASE("page: torque over a turn, parameters and table of a law") {
+  UserLaw law(law_text("detent"), law_design("lever_law"));
+  const auto parameters = law.parameters();
+  REQUIRE(parameters.size() == 2);
+  CHECK(parameters[0].name == "amplitude");
+  CHECK(parameters[0].unit == "Nm");
+  CHECK(parameters[0].value == Approx(0.05).margin(1e-4));
+  CHECK(parameters[0].high == Approx(0.5).margin(1e-4));
+  CHECK(law.report(100).find("instructions") != std::string::npos);
+  const auto off = [&](double amplitude, double clicks) {
+    double most = 0;
+    const auto curve = law.curve(4097);
+    REQUIRE(curve.size() == 2 * 4097);
+    for (std::size_t n = 0; n < 4097; ++n) {
+      const double rad = 2 * M_PI * (static_cast<double>(n) / 4096 - 0.5);
+      most = larger(most, std::abs(curve[n] + amplitude * std::sin(clicks * rad)));
+      most = larger(most, std::abs(curve[n] - curve[2 * 4097 - 1 - n]));
+    }
+    return most;
+  };
+  CHECK(off(0.05, 24) < 1e-4);
+  law.set("amplitude", 0.1);
+  law.set("clicks", 7);
+  CHECK(off(0.1, 7) < 1e-4);
+}
+
+TEST_CASE("page: a law that remembers has a torque for each way over the turn") {
+  // A stalk that latches beyond 0.3 rad and springs back within 0.2 rad.
+  const UserLaw law(law_text("turn_switch"), law_design("lever_law"));
+  const int points = 1441;
+  const auto curve = law.curve(points);
+  const auto at = [&](double rad, bool up) {
+    const int n = static_cast<int>(std::lround((rad / (2 * M_PI) + 0.5) * (points - 1)));
+    return curve[static_cast<std::size_t>(up ? n : 2 * points - 1 - n)];
+  };
+  CHECK(std::abs(at(0.25, true) + 0.25) < 0.005);  // to the middle
+  CHECK(std::abs(at(0.25, false) - 0.1) < 0.005);  // to its place, 0.35 rad
+  CHECK(std::abs(at(-0.25, true) + 0.1) < 0.005);  // came from -pi: latched
+  CHECK(std::abs(at(-0.25, false) - 0.25) < 0.005);
+  for (const double rad : {-1.0, -0.1, 0.1, 1.0}) {
+    CHECK(std::abs(at(rad, true) - at(rad, false)) < 1e-4);
+  }
+}
+
+TEST_CASE("page: what is wrong with a law has its place") {
+  const auto refused = [](const std::string& text) {
+    try {
+      UserLaw law(text, law_design("lever_law"));
+    } catch (const law::LawError& error) {
+      return error.diagnostics();
+    }
+    return std::vector<law::Diagnostic>{};
+  };
+  const auto unknown = refused("# a knob\nout torque = -0.1 Nm * sin(postion)\n");
+  REQUIRE(unknown.size() == 1);
+  CHECK(unknown[0].place.line == 2);
+  CHECK(unknown[0].place.column == 28);
+  CHECK(unknown[0].mend.find("position") != std::string::npos);
+  const auto axes = refused("out torque[1] = 0.1 Nm * sin(position)\n");
+  REQUIRE(axes.size() == 1);
+  CHECK(axes[0].what.find("axis 1") != std::string::npos);
+  CHECK(refused("").size() == 1);
+  CHECK(refused(law_text("wall")).empty());
 }
 
 }  // namespace

@@ -44,12 +44,6 @@ class Game {
     }
   }
 
-  /** The first round, or the one that was left. */
-  enter() {
-    if (!this.shape) this.next();
-    else this.load();
-  }
-
   /** The law of the round's shape, and its outline once it is guessed. */
   load() {
     const shape = this.tab.named(this.shape), material = MATERIALS[this.shape];

@@ -27,7 +27,7 @@ class KnobTab {
     this.svg = $("knob-face");
     this.caption = $("knob-stage").querySelector(".equation");
     const point = (event) => {
-      const at = this.angle(event);
+      const [x, y] = pointed(event, this.svg), at = Math.atan2(x - KNOB.middle, KNOB.middle - y);
       this.aim(this.lead + wrapped(at - (event.type === "pointerdown" ? at : this.at)));
       this.at = at;
     };
@@ -37,11 +37,6 @@ class KnobTab {
     $("knob-armed").oninput = () => this.knob.arm($("knob-armed").checked);
     wire_slider("knob-peak", (mnm) => `${fixed(mnm, 1)} mNm`, () => this.detents());
     this.misalign();
-  }
-
-  angle(event) {
-    const [x, y] = pointed(event, this.svg);
-    return Math.atan2(x - KNOB.middle, KNOB.middle - y);
   }
 
   take(held) {

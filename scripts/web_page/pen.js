@@ -19,7 +19,8 @@ class PenStage {
     this.seen = this.pen.state();
     this.lead = [this.seen.x, this.seen.y];
     const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    const leads = { point: (event) => this.point(event), steps, step: ([x, y]) => this.aim(this.lead[0] + x / 1000, this.lead[1] + y / 1000) };
+    const point = (event) => { const [x, y] = pointed(event, this.svg); this.aim((x - STAGE.x) / STAGE.per_m, (STAGE.y - y) / STAGE.per_m); };
+    const leads = { point, steps, step: ([x, y]) => this.aim(this.lead[0] + x / 1000, this.lead[1] + y / 1000) };
     Object.assign(this, make_stage(place, `0 0 ${STAGE.width} ${STAGE.height}`, "Pantograph: the pen follows the mouse, or the arrow keys by a millimetre", leads));
   }
 
@@ -33,11 +34,6 @@ class PenStage {
   material(stiffness, damping) {
     say(this.pen.set("stiffness", stiffness));
     say(this.pen.set("damping", damping));
-  }
-
-  point(event) {
-    const [x, y] = pointed(event, this.svg);
-    this.aim((x - STAGE.x) / STAGE.per_m, (STAGE.y - y) / STAGE.per_m);
   }
 
   aim(x, y) {
@@ -118,7 +114,7 @@ class PenTab {
     } else if (mode === "training") {
       this.stage.shown = this.squares.map((s) => [s.shape, s.label]);
       this.near = null;
-    } else if (entered) this.game.enter();
+    } else if (entered) this.game[this.game.shape ? "load" : "next"](); // the round that was left, or the first
   }
 
   /** The engine holds one shape: in training that of the square that the pen is next to. */

@@ -219,12 +219,9 @@ int main(int count, char** argv) {
                 {"gimbal", gimbal()},         {"planes", planes()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
-      if (design_named(design).phases == 3) {
-        out["recorded"].push_back(recorded(design, "knob_detents"));
-        continue;
-      }
-      if (design_named(design).scene_number("law") >= 0) {
-        out["recorded"].push_back(recorded(design, "detent"));
+      const bool knob = design_named(design).phases == 3;
+      if (knob || design_named(design).scene_number("law") >= 0) {
+        out["recorded"].push_back(recorded(design, knob ? "knob_detents" : "detent"));
         continue;
       }
       for (const std::string& scene : i == 1 ? scenes_of_default : scenes_of_others) {

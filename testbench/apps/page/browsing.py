@@ -22,6 +22,9 @@ except ImportError:
 DRIVER = shutil.which("chromedriver")
 ARGUMENTS = "--headless=new --no-sandbox --disable-dev-shm-usage --window-size=1400,1300".split()
 PATIENCE_S = 400  # of whole minutes on a machine that does other things too
+NOW = "feltgate.devices[0].now"
+ARMED = "return feltgate.devices[0].status && feltgate.devices[0].status.armed"
+BOX = "return document.querySelector(arguments[0]).getBoundingClientRect().toJSON()"
 READY = "return !!(window.feltgate && feltgate.ready && feltgate.frames.length > 3)"
 
 
@@ -122,3 +125,37 @@ class PageTest(unittest.TestCase):
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": mobile}
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
         self.addCleanup(self.driver.execute_cdp_cmd, "Emulation.clearDeviceMetricsOverride", {})
+
+
+class LeverTest(PageTest):
+    """Of the tab of the lever, which is open at first."""
+
+    def hold(self, lead=None):
+        self.js("feltgate.devices[0].take(true)")
+        if lead is not None:
+            self.js("feltgate.devices[0].aim(arguments[0])", lead)
+
+    def choose(self, scene):
+        self.js(f"document.querySelector('#scenes input[value={scene}]').click()")
+        self.until("return feltgate.devices[0].scene === arguments[0]", scene)
+
+    def now(self):
+        return self.js(f"return {NOW}")
+
+
+class TabTest(PageTest):
+    """Of another tab, which is opened before each test."""
+
+    TAB = ""  # its name
+    STATE = "seen"  # of its device
+
+    def setUp(self):
+        super().setUp()
+        self.open_tab(self.TAB)
+
+    def tab(self, what):
+        return self.js(f"return feltgate.{self.TAB}.{what}")
+
+    def settled(self, seconds):
+        """The state when the hand's swinging is over."""
+        return self.passed(f"feltgate.{self.TAB}.{self.STATE}", seconds)

@@ -180,11 +180,10 @@ val border(const std::string& design, const std::string& own_text, const std::st
 }
 
 /// A user's design file: on which design of this page it runs, and the values of its parameters.
-val own_design(const std::string& text) {
+val design_of(const std::string& text) {
   val out = val::object();
   out.set("error", said([&] {
-            const OwnDesign own =
-                feltgate::page::own_design(text, lever_designs(), "/designs/", registers);
+            const OwnDesign own = own_design(text, lever_designs(), "/designs/", registers);
             const auto of = [](const auto& value) {
               return object("name", value.first, "value", value.second);
             };
@@ -223,5 +222,5 @@ EMSCRIPTEN_BINDINGS(feltgate) {
   emscripten::function("hash", &hash);
   emscripten::function("closedLoop", &closed_loop);
   emscripten::function("border", &border);
-  emscripten::function("ownDesign", &own_design);
+  emscripten::function("ownDesign", &design_of);
 }

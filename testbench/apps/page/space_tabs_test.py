@@ -201,10 +201,10 @@ class Stylus(TabTest):
         self.assertIsNone(seen["proxy"])
         seen, lead = self.mouse(0.002, 0.02)
         self.assertGreater(seen["depth"], 2e-3)
-        self.assertAlmostEqual(math.hypot(*seen["force"]), 206 * seen["depth"], delta=206 * COUNT_M)
+        self.assertAlmostEqual(math.hypot(*seen["force"]), 206 * seen["depth"], delta=206 * 2 * COUNT_M)
         for force, pen, wanted in zip(seen["force"], seen["pen"], lead, strict=True):
-            self.assertAlmostEqual(force, HAND_N_M * (pen - wanted), delta=2e-3)
-        self.assertAlmostEqual(math.dist(seen["proxy"], seen["pen"]), seen["depth"], delta=COUNT_M)
+            self.assertAlmostEqual(force, HAND_N_M * (pen - wanted), delta=5e-3)
+        self.assertAlmostEqual(math.dist(seen["proxy"], seen["pen"]), seen["depth"], delta=2 * COUNT_M)
         self.assertAlmostEqual(math.hypot(*seen["proxy"]), 0.03, delta=5e-4)
         self.assertGreater(self.painted()[0], 30_000)
         for name, data, needle in (

@@ -28,13 +28,19 @@ feltgate_verilate(extremes_engine_axes engine "${extremes_engine_sources}"
   CLASS Vextremes_engine_axes -GAxisCount=3)
 list(APPEND extremes_blocks extremes_engine extremes_engine_axes)
 
-# A core of its own, with gains wider than any design for use needs them.
+# A core of its own: paper with one voltage gain, and gains wider than any design for use needs them, for every Kp of
+# the study of Jn/J. The cases write the values.
+find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 set(extremes_wide "${PROJECT_BINARY_DIR}/extremes_wide")
-set(extremes_wide_design "${extremes_folder}/designs/wide.toml")
+set(point_design "${FELTGATE_ROOT}/testbench/campaigns/explore/point_design.py")
+file(MAKE_DIRECTORY "${extremes_wide}")
 add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/wide.hpp"
-  COMMAND feltgate_generate "${FELTGATE_ROOT}"
-    --design "${extremes_wide_design}" --output "${extremes_wide}"
-  DEPENDS feltgate_generate "${extremes_wide_design}" "${FELTGATE_ROOT}/rtl/registers.toml"
+  COMMAND ${Python3_EXECUTABLE} -B "${point_design}" "${extremes_wide}/wide.toml" paper encoder.index=0
+          control.kp_1_kg_m2=4200.0 voltage.kv_low=1.0 voltage.kv_high=1.0 motor.motor_current_limit_a=19.677293
+          supervisor.polarity_current_a=1.0
+  COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${extremes_wide}/wide.toml" --output "${extremes_wide}"
+  DEPENDS feltgate_generate "${point_design}" "${FELTGATE_ROOT}/rtl/designs/paper.toml"
+          "${FELTGATE_ROOT}/scripts/exploration/design_text.py" "${FELTGATE_ROOT}/rtl/registers.toml"
           "${FELTGATE_ROOT}/rtl/schedule.toml"
   COMMENT "Generating the design wide" VERBATIM)
 feltgate_verilate(extremes_wide_core feltgate_core
@@ -44,6 +50,7 @@ file(GLOB extremes_sources CONFIGURE_DEPENDS "${extremes_folder}/*.cpp")
 list(FILTER extremes_sources EXCLUDE REGEX "_(main|test|defects)\\.cpp$")
 add_library(feltgate_extreme_cases STATIC ${extremes_sources} "${extremes_wide}/wide.hpp")
 target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
+target_compile_definitions(feltgate_extreme_cases PRIVATE FELTGATE_WIDE_DESIGN="${extremes_wide}/wide.toml")
 target_include_directories(feltgate_extreme_cases
   PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
 target_link_libraries(feltgate_extreme_cases

@@ -12,7 +12,6 @@
 #include <sstream>
 
 #include "campaigns/extremes/engine_pair.hpp"
-#include "campaigns/extremes/table.hpp"
 #include "law/compile.hpp"
 #include "law/evaluate.hpp"
 #include "law/load.hpp"
@@ -80,8 +79,8 @@ class LoadedLaw {
   void check(Outcome* o, const std::string& what, int axis, double expected) {
     const Both found = pair.torque(axis);
     if (std::fabs(expected) < 1e-12) expected = 0;
-    o->findings.push_back({what, "Nm", near(expected, bound(axis)), found.rtl * torque_lsb,
-                           found.twin * torque_lsb, real(axis)});
+    o->add(what, "Nm", near(expected, bound(axis)), found.rtl * torque_lsb, found.twin * torque_lsb,
+           real(axis));
   }
   double real(int axis) const {
     const double torque = real_.outputs()[static_cast<std::size_t>(axis)];
@@ -233,20 +232,15 @@ Outcome plane_lost(const Settings& settings) {
   }
   const double waited_ms = 1e-3 * kCheck / Pair::clocks_per_tick;  // ticks of 1 us
   const double step_ms = 1e-3 * EngineMap::mailbox_step;
-  o.findings.push_back({"from the last word to no torque",
-                        "ms",
-                        between(20 - 2 * step_ms, 20),
-                        ticks.rtl * 1e-3 + waited_ms,
-                        ticks.twin * 1e-3 + waited_ms,
-                        {}});
+  o.add("from the last word to no torque", "ms", between(20 - 2 * step_ms, 20),
+        ticks.rtl * 1e-3 + waited_ms, ticks.twin * 1e-3 + waited_ms);
   const Both second = law.pair.torque(1), status = law.pair.read(EngineMap::H::status);
   const auto late = [](double word) {
     return static_cast<double>(static_cast<unsigned>(word) >> EngineMap::S::status_mailbox_late &
                                1U);
   };
-  o.findings.push_back({"second motor then", "Nm", exactly(0), second.rtl, second.twin, {}});
-  o.findings.push_back(
-      {"the status says so", "", exactly(1), late(status.rtl), late(status.twin), {}});
+  o.add("second motor then", "Nm", exactly(0), second.rtl, second.twin);
+  o.add("the status says so", "", exactly(1), late(status.rtl), late(status.twin));
 
   law.set(plane);
   law.go(at);
@@ -266,10 +260,10 @@ std::vector<Case> axes_cases() {
   return {
       {group, "linkage_singular",
        "A pantograph stretched and folded: the force of a floor where a motor cannot give it.",
-       false, linkage_singular},
-      {group, "gimbal_lock", "A gimbal whose outer and inner ring turn about the same line.", false,
+       linkage_singular},
+      {group, "gimbal_lock", "A gimbal whose outer and inner ring turn about the same line.",
        gimbal_lock},
-      {group, "plane_lost", "A plane from a host that falls silent while the pen is in it.", false,
+      {group, "plane_lost", "A plane from a host that falls silent while the pen is in it.",
        plane_lost},
   };
 }

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core on a bench. Documentation: docs/extremes.md
+// A core on a bench, and closed loops. Documentation: docs/extremes.md
 #include "campaigns/extremes/bench.hpp"
+
+#include <Vextremes_wide.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "sim/backends/make_backends.hpp"
+#include "sim/plant/plant_file.hpp"
+#include "wide.hpp"
 
 namespace feltgate::extremes {
 
@@ -89,16 +95,48 @@ void Bench::report(Outcome* outcome) const {
   outcome->mismatches += lead.mismatches();
 }
 
-Finding finding(Cores cores, const std::string& what, const std::string& unit,
-                const Expected& expected, double core, std::optional<double> real) {
-  Finding f;
-  f.what = what;
-  f.unit = unit;
-  f.expected = expected;
-  if (cores == Cores::lock_step) f.rtl = core;
-  f.twin = core;
-  f.real = real;
-  return f;
+void use_wide_design() {
+  add_design({"wide", make_design_backend<Vextremes_wide, Wide>, make_design_chain<Wide>,
+              design_info<Wide>});
+}
+
+plant::Parameters shipped_plant(const Settings& settings, const std::string& name) {
+  return plant::read_plant_file(settings.root + "/vectors/plants/" + name + ".toml");
+}
+
+plant::Parameters linear_plant(const Settings& settings, double b_nm_s_rad) {
+  plant::Parameters p = shipped_plant(settings, "p24");
+  p.effects = {};
+  p.effects.dead_voltage = p.effects.lugre = p.effects.dead_time = false;
+  p.effects.viscous = b_nm_s_rad > 0;
+  p.lever.viscous_nm_s_rad = b_nm_s_rad;
+  return p;
+}
+
+RunResult run_loop(const Scenario& scenario, const plant::Parameters& plant,
+                   const std::string& design, Driver driver, Outcome* outcome,
+                   const std::function<void(const Row&)>& row) {
+  Scenario s = scenario;
+  s.effects = plant.effects;
+  RunOptions options;
+  options.design = design;
+  options.engine = driver == Driver::lock_step ? "all" : driver == Driver::twin ? "twin" : "double";
+  options.row = row;
+  const RunResult r = run_scenario(s, plant, options);
+  if (outcome->mismatches == 0) outcome->first_mismatch = r.first_mismatch;
+  outcome->mismatches += r.mismatches;
+  if (driver == Driver::lock_step) outcome->rtl_s += r.simulated_s;
+  if (driver != Driver::real) outcome->twin_s += r.simulated_s;
+  return r;
+}
+
+void fill(Finding* finding, Driver driver, double value) {
+  if (driver == Driver::lock_step) finding->rtl = value;
+  if (driver == Driver::real) {
+    finding->real = value;
+  } else {
+    finding->twin = value;
+  }
 }
 
 }  // namespace feltgate::extremes

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A core on a bench. Its inputs are encoder edges and register writes. Its output is one sample per
-// tick, from the core (RTL and twin in lock-step, or the twin alone) and from the same chain in
-// double. Documentation: docs/extremes.md
+// A core on a bench, whose inputs are encoder edges and register writes; its output is one sample
+// per tick, from the core (RTL and twin in lock-step, or the twin alone) and from the same chain in
+// double. And closed loops: a scenario made in code, run with a motor. Documentation:
+// docs/extremes.md
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "campaigns/extremes/case.hpp"
 #include "sim/loop/ensemble.hpp"
+#include "sim/loop/loop.hpp"
 
 namespace feltgate::extremes {
-
-enum class Cores { lock_step, twin };
 
 /// One set of signals, in SI units.
 struct Signals {
@@ -88,9 +90,43 @@ class Bench {
 /// Pins at a count: the Gray order 00, 01, 11, 10 of (A,B) counts up.
 EncoderPins pins_at(std::int64_t count);
 
-/// A row whose core column comes from a bench: RTL and twin where both ran (their outputs were
-/// compared on every clock), the twin alone otherwise.
-Finding finding(Cores cores, const std::string& what, const std::string& unit,
-                const Expected& expected, double core, std::optional<double> real = {});
+enum class Driver { lock_step, twin, real };
+
+/// Registers engines and chains of the design `wide`, `paper` with registers for every Kp; may be
+/// called more than once.
+void use_wide_design();
+
+/// Reads a plant from vectors/plants.
+plant::Parameters shipped_plant(const Settings& settings, const std::string& name);
+
+/// A motor and lever with only linear effects: inductance, back-EMF, and viscous friction `b`.
+plant::Parameters linear_plant(const Settings& settings, double b_nm_s_rad);
+
+/// Runs it, calls row(r) once per tick, and adds mismatches and device time to the outcome.
+RunResult run_loop(const Scenario& scenario, const plant::Parameters& plant,
+                   const std::string& design, Driver driver, Outcome* outcome,
+                   const std::function<void(const Row&)>& row);
+
+/// Puts a measured value into the columns of this driver.
+void fill(Finding* finding, Driver driver, double value);
+
+/// Root mean square and range of a signal.
+class Spread {
+ public:
+  void add(double v) {
+    sum_ += v * v;
+    low_ = n_ == 0 || v < low_ ? v : low_;
+    high_ = n_ == 0 || v > high_ ? v : high_;
+    ++n_;
+  }
+  double rms() const { return n_ == 0 ? 0 : std::sqrt(sum_ / static_cast<double>(n_)); }
+  double low() const { return low_; }
+  double high() const { return high_; }
+  double range() const { return high_ - low_; }
+
+ private:
+  double sum_ = 0, low_ = 0, high_ = 0;
+  std::int64_t n_ = 0;
+};
 
 }  // namespace feltgate::extremes

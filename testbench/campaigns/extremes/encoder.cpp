@@ -8,7 +8,6 @@
 #include <string>
 
 #include "campaigns/extremes/bench.hpp"
-#include "campaigns/extremes/table.hpp"
 #include "encoder/quad_decoder/adapter.hpp"
 #include "feltgate/largest.hpp"
 
@@ -76,11 +75,6 @@ namespace {
 constexpr double count_rad = 6.283185307179586 / 4096;
 constexpr double clock_hz = 50e6;
 
-void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
-         double rtl, double twin, std::optional<double> real = {}) {
-  o->findings.push_back({what, unit, expected, rtl, twin, real});
-}
-
 /// States per clock at `quarters`/4; the decoder can detect only jumps of two states as lost.
 Outcome states_per_clock(const std::vector<int>& rates) {
   Outcome o;
@@ -100,16 +94,14 @@ Outcome states_per_clock(const std::vector<int>& rates) {
     }
     d.settle(state);
     const std::string at = " at " + number(quarters / 4.0) + " states a clock";
-    add(&o, "counts" + at, "", exactly(static_cast<double>(singles - backs)),
-        static_cast<double>(d.rtl_moved()), static_cast<double>(d.twin_moved()),
-        static_cast<double>(state));
+    o.add("counts" + at, "", exactly(static_cast<double>(singles - backs)), d.rtl_moved(),
+          d.twin_moved(), state);
     o.findings.back().real_may_differ = singles - backs != state;
-    add(&o, "clocks flagged" + at, "", exactly(static_cast<double>(doubles)),
-        static_cast<double>(d.rtl_flags()), static_cast<double>(d.twin_flags()));
+    o.add("clocks flagged" + at, "", exactly(static_cast<double>(doubles)), d.rtl_flags(),
+          d.twin_flags());
     if (quarters <= 8) {
-      add(&o, "counts lost and not flagged" + at, "", exactly(0),
-          static_cast<double>(state - d.rtl_moved() - 2 * d.rtl_flags()),
-          static_cast<double>(state - d.twin_moved() - 2 * d.twin_flags()));
+      o.add("counts lost and not flagged" + at, "", exactly(0),
+            state - d.rtl_moved() - 2 * d.rtl_flags(), state - d.twin_moved() - 2 * d.twin_flags());
     }
     d.report(&o);
   }
@@ -120,7 +112,7 @@ Outcome decoder_limit(const Settings&) {
   Outcome o = states_per_clock({4});
   // One state per clock, in rad/s.
   const double limit = count_rad * clock_hz;
-  add(&o, "speed that this is, 1024 lines", "rad/s", near(76699, 0.5), limit, limit, limit);
+  o.add("speed that this is, 1024 lines", "rad/s", near(76699, 0.5), limit, limit, limit);
   o.note = "The double column is the motion itself.";
   return o;
 }
@@ -166,10 +158,10 @@ Outcome filter_limit(const Settings&) {
     // A channel keeps its level for two states; the filter accepts it after F + 1 samples.
     const int expected = (f + 2) / 2;
     const auto [rtl, twin] = least_dwell(f);
-    add(&o, "least clocks per state, filter " + number(f), "clock", exactly(expected), rtl, twin);
+    o.add("least clocks per state, filter " + number(f), "clock", exactly(expected), rtl, twin);
     if (f == 15) {
-      add(&o, "speed that this is, 1024 lines", "rad/s", near(9587, 0.5),
-          count_rad * clock_hz / rtl, count_rad * clock_hz / twin);
+      o.add("speed that this is, 1024 lines", "rad/s", near(9587, 0.5), count_rad * clock_hz / rtl,
+            count_rad * clock_hz / twin);
     }
   }
   o.note = "200 states per trial, the decoder alone.";
@@ -214,12 +206,12 @@ Outcome wrap_16(const Settings&) {
     const double exact = speed / count_rad * gain;
     const double start = exact * std::exp(-500 * 10.2e-3);
     const double step = std::string(design) == "paper" ? 4 : 2;
-    o.findings.push_back(finding(Cores::lock_step, "position at which travel wraps" + in, "count",
-                                 near(32768, 1), static_cast<double>(wrapped)));
-    o.findings.push_back(finding(Cores::lock_step, "lowest velocity over the wrap" + in, "rad/s",
-                                 between(exact - start - step, exact + step), low, real_low));
-    o.findings.push_back(finding(Cores::lock_step, "highest velocity over the wrap" + in, "rad/s",
-                                 between(exact - start - step, exact + step), high, real_high));
+    o.add(Cores::lock_step, "position at which travel wraps" + in, "count", near(32768, 1),
+          wrapped);
+    o.add(Cores::lock_step, "lowest velocity over the wrap" + in, "rad/s",
+          between(exact - start - step, exact + step), low, real_low);
+    o.add(Cores::lock_step, "highest velocity over the wrap" + in, "rad/s",
+          between(exact - start - step, exact + step), high, real_high);
     b.report(&o);
   }
   return o;
@@ -233,18 +225,18 @@ Outcome wrap_32(const Settings&) {
   constexpr std::int64_t over = 2147483648LL - DecoderPair::reset_position;  // counts to the wrap
   for (std::int64_t k = 1; k <= over; ++k) d.clock(k);
   d.settle(over);
-  add(&o, "position after 2^31 counts", "count", exactly(-2147483648.0), d.rtl_position(),
-      d.twin_position());
+  o.add("position after 2^31 counts", "count", exactly(-2147483648.0), d.rtl_position(),
+        d.twin_position());
   for (std::int64_t k = over; k <= 3 * over; ++k) d.clock(k);
   d.settle(3 * over);
-  add(&o, "counts from start across the wrap", "count", exactly(3 * over),
-      static_cast<double>(d.rtl_moved()), static_cast<double>(d.twin_moved()));
+  o.add("counts from start across the wrap", "count", exactly(3 * over), d.rtl_moved(),
+        d.twin_moved());
   for (std::int64_t k = 3 * over; k >= 0; --k) d.clock(k);
   d.settle(0);
-  add(&o, "back at the start", "count", exactly(DecoderPair::reset_position), d.rtl_position(),
-      d.twin_position());
+  o.add("back at the start", "count", exactly(DecoderPair::reset_position), d.rtl_position(),
+        d.twin_position());
   const double hours = 2147483648.0 * count_rad / 613.6 / 3600;
-  add(&o, "time to the wrap at 613.6 rad/s, one way", "h", near(1.49, 0.005), hours, hours, hours);
+  o.add("time to the wrap at 613.6 rad/s, one way", "h", near(1.49, 0.005), hours, hours, hours);
   d.report(&o);
   o.note = "The decoder alone; its count starts 648 below the wrap.";
   return o;
@@ -255,22 +247,21 @@ Outcome wrap_32(const Settings&) {
 std::vector<Case> encoder_cases() {
   return {
       {"Encoder", "decoder_limit", "One state on every clock: nothing is lost and nothing flagged.",
-       false, decoder_limit},
+       decoder_limit},
       {"Encoder", "decoder_beyond",
-       "Between one and two states a clock: everything that is not counted is flagged.", false,
+       "Between one and two states a clock: everything that is not counted is flagged.",
        decoder_beyond},
       {"Encoder", "decoder_aliasing",
        "From two to four states a clock: jumps of three count backwards, jumps of four vanish, "
        "without a flag.",
-       false, decoder_aliasing},
+       decoder_aliasing},
       {"Encoder", "filter_limit",
-       "With the glitch filter on, a state must last ceil((F+1)/2) clocks.", false, filter_limit},
+       "With the glitch filter on, a state must last ceil((F+1)/2) clocks.", filter_limit},
       {"Encoder", "wrap_16",
        "The 16-bit travel wraps in the middle of a turn at 613.6 rad/s; the velocity does not see "
        "it.",
-       false, wrap_16},
-      {"Encoder", "wrap_32", "The 32-bit position wraps forth and back; nothing is lost.", false,
-       wrap_32},
+       wrap_16},
+      {"Encoder", "wrap_32", "The 32-bit position wraps forth and back; nothing is lost.", wrap_32},
   };
 }
 

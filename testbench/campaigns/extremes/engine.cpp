@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "campaigns/extremes/engine_pair.hpp"
-#include "campaigns/extremes/table.hpp"
 #include "engine/machine/machine_programs.hpp"
 
 namespace feltgate::extremes {
@@ -19,11 +18,6 @@ using namespace test;
 using H = EngineMap::H;
 using Op = EngineOp;
 constexpr int clocks_per_tick = EnginePair::clocks_per_tick;  // of 1 us
-
-void add(Outcome* o, const std::string& what, const std::string& unit, const Expected& expected,
-         const Both& found) {
-  o->findings.push_back({what, unit, expected, found.rtl, found.twin, {}});
-}
 
 /// Returns the clocks to the next fresh result in RTL and twin, at most `limit`.
 Both until_fresh(EnginePair* pair, std::int64_t limit) {
@@ -244,14 +238,14 @@ Outcome law_threads_at_once(const Settings&) {
 std::vector<Case> engine_cases() {
   const char* group = "Laws";
   return {
-      {group, "law_table_ends", "A table read at its ends and beyond them.", false, law_table_ends},
-      {group, "law_age", "A law's last result, as old as its age allows and a tick older.", false,
+      {group, "law_table_ends", "A table read at its ends and beyond them.", law_table_ends},
+      {group, "law_age", "A law's last result, as old as its age allows and a tick older.",
        law_age},
-      {group, "law_events_full", "More events than places: 16 wait, the others are counted.", false,
+      {group, "law_events_full", "More events than places: 16 wait, the others are counted.",
        law_events_full},
-      {group, "law_program_512", "The longest program: its rate, and a tick too few.", false,
+      {group, "law_program_512", "The longest program: its rate, and a tick too few.",
        law_program_512},
-      {group, "law_threads_at_once", "Four threads, each with its event, in the same tick.", false,
+      {group, "law_threads_at_once", "Four threads, each with its event, in the same tick.",
        law_threads_at_once},
   };
 }

@@ -18,6 +18,11 @@ struct Both {
   double rtl = 0, twin = 0;
 };
 
+inline void add(Outcome* o, const std::string& what, const std::string& unit,
+                const Expected& expected, const Both& found) {
+  o->add(what, unit, expected, found.rtl, found.twin);
+}
+
 /// Of one axis, or of three with another Verilated class.
 template <int Axes = 1, class Rtl = Vengine>
 class EnginePairOf {

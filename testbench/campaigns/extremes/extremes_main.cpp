@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "apps/commands/commands.hpp"
-#include "campaigns/extremes/table.hpp"
+#include "campaigns/extremes/case.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/output_file.hpp"
 
@@ -83,16 +83,11 @@ int run(const ExtremesArguments& a) {
     progress.update(static_cast<double>(i) / static_cast<double>(cases.size()));
     results.push_back({cases[i], cases[i].run(settings)});
     if (!results.back().outcome.holds()) broken += std::string(" ") + cases[i].name;
-    if (!a.markdown) outputs.say(extremes::text(results.back()));
+    if (!a.markdown) outputs.say(extremes::markdown(results.back()) + "\n");
   }
   if (a.markdown) {
-    std::string out;
-    if (a.names.empty()) {
-      out = extremes::page(results, text_of(repository() + "/testbench/campaigns/extremes/table.md"));
-    } else {
-      for (const auto& r : results) out += extremes::markdown(r) + "\n";
-    }
-    outputs.say(out);
+    outputs.say(
+        extremes::page(results, text_of(repository() + "/testbench/campaigns/extremes/table.md")));
   } else {
     outputs.say(fmt::format("{} cases{}{}\n", results.size(),
                             broken.empty() ? ", all hold" : ", broken:", broken));
@@ -121,7 +116,8 @@ int main(int argc, char** argv) {
   app.add_option("--json", a.json, "the table as JSON")->type_name("FILE");
   app.add_option("--progress", a.progress_file, "day: how far it is and the time left")
       ->type_name("FILE");
-  app.add_flag("--markdown", a.markdown, "print the record testbench/campaigns/extremes/table.md instead");
+  app.add_flag("--markdown", a.markdown,
+               "print the record testbench/campaigns/extremes/table.md instead");
   app.add_flag("--long", a.long_too, "also cases that take an hour of CPU time");
   app.add_flag("--list", a.list, "only name the cases");
   int exit_code = exit_ok;

@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-#include "campaigns/extremes/closed_loop.hpp"
-#include "campaigns/extremes/table.hpp"
+#include "campaigns/extremes/bench.hpp"
 #include "feltgate/largest.hpp"
 #include "studies/stability/bit_loop.hpp"
 #include "studies/stability/linear_loop.hpp"
@@ -52,13 +51,12 @@ Outcome stall_pole(const Settings&) {
     b.report(&o);
     const std::string in = ", Kp = " + number(kp);
     if (kp > 0) {
-      o.findings.push_back(finding(Cores::lock_step, "2 % settling: ln 50/(g Jn Kp)" + in, "ms",
-                                   near(1e3 * settle, 4e-3 * 1e3 * settle), 1e3 * at,
-                                   1e3 * real_at));
+      o.add(Cores::lock_step, "2 % settling: ln 50/(g Jn Kp)" + in, "ms",
+            near(1e3 * settle, 4e-3 * 1e3 * settle), 1e3 * at, 1e3 * real_at);
     }
     const double rest = kp > 0 ? 0.2 * (1 - std::exp(-2.6 * std::log(50))) : 0;
-    o.findings.push_back(finding(Cores::lock_step, "tau_hat at the end" + in, "Nm",
-                                 near(rest, kp > 0 ? 4 * torque_lsb : 0), last, real_last));
+    o.add(Cores::lock_step, "tau_hat at the end" + in, "Nm",
+          near(rest, kp > 0 ? 4 * torque_lsb : 0), last, real_last);
   }
   o.note = "Test-only design `wide`: JnKp from 0 to 1.96, so beyond Kp = 1/Jn = 2042 too.";
   return o;
@@ -66,8 +64,7 @@ Outcome stall_pole(const Settings&) {
 
 /// Returns the design with this Kp, for the pole finder.
 design::Elaborated wide_at(double kp, const Settings& s) {
-  design::Design d =
-      design::read_design(s.root + "/testbench/campaigns/extremes/designs/wide.toml");
+  design::Design d = design::read_design(FELTGATE_WIDE_DESIGN);
   d.kp_1_kg_m2 = kp;
   return elaborate(d, design::read_registers(s.root + "/rtl/registers.toml"));
 }
@@ -215,14 +212,13 @@ Outcome border_015(const Settings&) {
   b.report(&o);
   const double v_below = 1.25 * 0.15 / ktn, v_above = 0.95 * 0.15 / ktn;
   const double nm_per_v = 0.0302 / 0.42;
-  o.findings.push_back(finding(Cores::lock_step, "voltage at 0.15 Nm: 1.25 tau/Ktn", "V",
-                               near(v_below, 2e-3), below, real_below));
-  o.findings.push_back(finding(Cores::lock_step, "voltage one step above: 0.95 tau/Ktn", "V",
-                               near(v_above, 2e-3), above, real_above));
-  o.findings.push_back(finding(Cores::lock_step, "motor torque across the border", "mNm",
-                               near(1e3 * nm_per_v * (v_above - v_below), 0.1),
-                               1e3 * nm_per_v * (above - below),
-                               1e3 * nm_per_v * (real_above - real_below)));
+  o.add(Cores::lock_step, "voltage at 0.15 Nm: 1.25 tau/Ktn", "V", near(v_below, 2e-3), below,
+        real_below);
+  o.add(Cores::lock_step, "voltage one step above: 0.95 tau/Ktn", "V", near(v_above, 2e-3), above,
+        real_above);
+  o.add(Cores::lock_step, "motor torque across the border", "mNm",
+        near(1e3 * nm_per_v * (v_above - v_below), 0.1), 1e3 * nm_per_v * (above - below),
+        1e3 * nm_per_v * (real_above - real_below));
   o.note = fmt::format(
       "Blocked lever, dead-time compensation off: a user who pushes deeper feels {:.1f} mNm less. "
       "Motor torque: Kt/R of the 24 V winding times the voltage.",
@@ -250,11 +246,10 @@ Outcome lever_monotone(const Settings&) {
     real_before = x.real.voltage_v;
   });
   b.report(&o);
-  o.findings.push_back(finding(Cores::lock_step, "least step of the voltage from -0.5 to 0.5 Nm",
-                               "V", at_least(0), least, real_least));
-  o.findings.push_back(finding(Cores::lock_step, "voltage at 0.5 Nm: R tau/Ktn + Vd", "V",
-                               near(0.42 * 0.5 / 0.0302 + 0.34 + 25.4 * 25 / 1000, 2e-2), before,
-                               real_before));
+  o.add(Cores::lock_step, "least step of the voltage from -0.5 to 0.5 Nm", "V", at_least(0), least,
+        real_least);
+  o.add(Cores::lock_step, "voltage at 0.5 Nm: R tau/Ktn + Vd", "V",
+        near(0.42 * 0.5 / 0.0302 + 0.34 + 25.4 * 25 / 1000, 2e-2), before, real_before);
   return o;
 }
 
@@ -342,21 +337,21 @@ Outcome wall_edge(const Settings& s) {
 std::vector<Case> loop_cases() {
   return {
       {"Loop", "stall_pole", "A blocked lever: tau_hat follows with the pole g Jn Kp, whatever Kp.",
-       false, stall_pole},
+       stall_pole},
       {"Loop", "inertia_ratio",
        "Nominal over true inertia, for five Kp: below the ratio of the poles the free lever is "
        "stable, above it runs away.",
-       false, inertia_ratio},
+       inertia_ratio},
       {"Loop", "lever_inertia", "`lever` around any inertia: no unstable pole, nothing grows.",
-       false, lever_inertia},
+       lever_inertia},
       {"Loop", "border_015",
        "The published voltage gain changes at 0.15 Nm: the torque falls while the reference rises.",
-       false, border_015},
-      {"Loop", "lever_monotone", "`lever` over the whole range: the voltage never falls.", false,
+       border_015},
+      {"Loop", "lever_monotone", "`lever` over the whole range: the voltage never falls.",
        lever_monotone},
       {"Loop", "wall_edge",
        "A wall at 0.95 and 1.05 of the largest stable stiffness: the swing decays and grows.",
-       false, wall_edge},
+       wall_edge},
   };
 }
 

@@ -7,8 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "campaigns/extremes/closed_loop.hpp"
-#include "campaigns/extremes/table.hpp"
+#include "campaigns/extremes/bench.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
@@ -83,15 +82,13 @@ Releases blocked(double seconds, Cores cores, Outcome* o) {
 
 void add_release(Outcome* o, const std::string& after, Cores cores, const Releases& r) {
   const double tau_ms = 1e3 / (g * jn * kp);
-  o->findings.push_back(finding(cores, "2 % settling of tau_hat" + after + ": ln 50/(g Jn Kp)",
-                                "ms", near(std::log(50) * tau_ms, 0.02), 1e3 * r.core.settling_s,
-                                1e3 * r.real.settling_s));
-  o->findings.push_back(finding(cores, "error above exp(-t/2.553 ms)" + after, "Nm",
-                                at_most(3 * torque_lsb), r.core.excess_nm, r.real.excess_nm));
-  o->findings.push_back(finding(cores, "ticks until the current turns" + after, "tick", exactly(0),
-                                static_cast<double>(r.core.sign_ticks),
-                                static_cast<double>(r.real.sign_ticks)));
-  o->findings.push_back(finding(cores, "faults" + after, "", exactly(0), r.core.faults));
+  o->add(cores, "2 % settling of tau_hat" + after + ": ln 50/(g Jn Kp)", "ms",
+         near(std::log(50) * tau_ms, 0.02), 1e3 * r.core.settling_s, 1e3 * r.real.settling_s);
+  o->add(cores, "error above exp(-t/2.553 ms)" + after, "Nm", at_most(3 * torque_lsb),
+         r.core.excess_nm, r.real.excess_nm);
+  o->add(cores, "ticks until the current turns" + after, "tick", exactly(0), r.core.sign_ticks,
+         r.real.sign_ticks);
+  o->add(cores, "faults" + after, "", exactly(0), r.core.faults);
 }
 
 Outcome windup_1_ms(const Settings&) {
@@ -107,10 +104,10 @@ Outcome windup_1_s(const Settings&) {
   // The RTL reaches the same state in a fraction of that time; afterwards no signal changes.
   const Releases part = blocked(60e-3, Cores::lock_step, &o);
   add_release(&o, " after 60 ms", Cores::lock_step, part);
-  o.findings.push_back(finding(Cores::twin, "last change of any signal while blocked", "ms",
-                               at_most(60), 1e-3 * static_cast<double>(all.last_change_ticks)));
-  o.findings.push_back(finding(Cores::twin, "tau_hat after 1 s less that after 60 ms", "Nm",
-                               exactly(0), all.tau_hat_before_nm - part.tau_hat_before_nm));
+  o.add(Cores::twin, "last change of any signal while blocked", "ms", at_most(60),
+        1e-3 * static_cast<double>(all.last_change_ticks));
+  o.add(Cores::twin, "tau_hat after 1 s less that after 60 ms", "Nm", exactly(0),
+        all.tau_hat_before_nm - part.tau_hat_before_nm);
   o.note = "RTL: blocked for 60 ms, after which torque, current, voltage and duty stand still.";
   return o;
 }
@@ -119,8 +116,8 @@ Outcome windup_60_s(const Settings&) {
   Outcome o;
   const Releases r = blocked(60.0, Cores::twin, &o);
   add_release(&o, " after 60 s", Cores::twin, r);
-  o.findings.push_back(finding(Cores::twin, "last change of any signal while blocked", "ms",
-                               at_most(60), 1e-3 * static_cast<double>(r.last_change_ticks)));
+  o.add(Cores::twin, "last change of any signal while blocked", "ms", at_most(60),
+        1e-3 * static_cast<double>(r.last_change_ticks));
   o.note =
       "The twin, whole. The estimated current of 4.7 A stays below the nominal 5.77 A. The RTL's "
       "60 ms of windup_1_s hold for this case as well.";
@@ -173,13 +170,11 @@ Outcome windup_trip(const Settings&) {
     });
     b.report(&o);
     const std::string in = ", budget " + number(budget) + " A^2 s";
-    o.findings.push_back(finding(cores, "I2t trip at 19.3 A" + in, "s",
-                                 near(expected, 2e-3 * expected + 3e-6),
-                                 static_cast<double>(trip - begin) * 1e-6));
-    o.findings.push_back(finding(cores, "faults: bit 4 is I2t" + in, "", exactly(16), faults));
-    o.findings.push_back(finding(cores, "gates open, duty, current and tau_hat at the end" + in, "",
-                                 exactly(0),
-                                 std::abs(tau_hat) + std::abs(current) + std::abs(duty) + open));
+    o.add(cores, "I2t trip at 19.3 A" + in, "s", near(expected, 2e-3 * expected + 3e-6),
+          static_cast<double>(trip - begin) * 1e-6);
+    o.add(cores, "faults: bit 4 is I2t" + in, "", exactly(16), faults);
+    o.add(cores, "gates open, duty, current and tau_hat at the end" + in, "", exactly(0),
+          std::abs(tau_hat) + std::abs(current) + std::abs(duty) + open);
   }
   o.note =
       "The twin, 60 s of 0.5 Nm against a blocked lever with the design's budget; RTL and twin, "
@@ -199,10 +194,8 @@ Outcome rest(const Settings& s) {
       real = larger(real, std::abs(x.real.tau_hat_nm));
       duty = larger(duty, std::abs(static_cast<double>(x.raw.duty)));
     });
-    o.findings.push_back(finding(Cores::lock_step, "largest tau_hat, armed, never moved", "Nm",
-                                 exactly(0), tau_hat, real));
-    o.findings.push_back(
-        finding(Cores::lock_step, "largest duty, never moved", "clock", exactly(0), duty));
+    o.add(Cores::lock_step, "largest tau_hat, armed, never moved", "Nm", exactly(0), tau_hat, real);
+    o.add(Cores::lock_step, "largest duty, never moved", "clock", exactly(0), duty);
     // A motion, then rest: the filters stop within their dead bands and stay there.
     b.turn(b.now(), 3000, 90);
     b.run(b.ticks(80e-3));
@@ -217,12 +210,11 @@ Outcome rest(const Settings& s) {
     });
     b.report(&o);
     const double band = 0.5 / -std::expm1(-500e-6) * std::exp2(-21);
-    o.findings.push_back(finding(Cores::lock_step, "states of the last 20 ms, 80 ms after a motion",
-                                 "", exactly(1), static_cast<double>(states.size())));
-    o.findings.push_back(finding(Cores::lock_step, "velocity that stays: half an LSB over a1",
-                                 "rad/s", at_most(band), velocity));
-    o.findings.push_back(
-        finding(Cores::lock_step, "tau_hat that stays", "Nm", at_most(torque_lsb), tau_hat, real));
+    o.add(Cores::lock_step, "states of the last 20 ms, 80 ms after a motion", "", exactly(1),
+          states.size());
+    o.add(Cores::lock_step, "velocity that stays: half an LSB over a1", "rad/s", at_most(band),
+          velocity);
+    o.add(Cores::lock_step, "tau_hat that stays", "Nm", at_most(torque_lsb), tau_hat, real);
   }
   // With motor and friction: the hand lets go of a moving lever.
   Finding edges{"counts in the last 60 ms of a free lever", "count", exactly(0), {}, {}, {}};
@@ -257,16 +249,14 @@ std::vector<Case> observer_cases() {
   return {
       {"Observer", "windup_1_ms",
        "A blocked lever, current at its limit for 1 ms, then the reference turns round: nothing "
-       "has "
-       "wound up.",
-       false, windup_1_ms},
-      {"Observer", "windup_1_s", "The same after 1 s.", false, windup_1_s},
-      {"Observer", "windup_60_s", "The same after 60 s, below the I2t limit.", false, windup_60_s},
-      {"Observer", "windup_trip", "60 s above the I2t limit: when the supervisor ends it.", false,
+       "has wound up.",
+       windup_1_ms},
+      {"Observer", "windup_1_s", "The same after 1 s.", windup_1_s},
+      {"Observer", "windup_60_s", "The same after 60 s, below the I2t limit.", windup_60_s},
+      {"Observer", "windup_trip", "60 s above the I2t limit: when the supervisor ends it.",
        windup_trip},
       {"Observer", "rest",
-       "At a torque reference of 0 the published observer shows 0 and nothing cycles.", false,
-       rest},
+       "At a torque reference of 0 the published observer shows 0 and nothing cycles.", rest},
   };
 }
 

@@ -5,8 +5,7 @@
 // ends this cycle, and the border in the published voltage gain. Documentation: docs/extremes.md
 #include <cmath>
 
-#include "campaigns/extremes/closed_loop.hpp"
-#include "campaigns/extremes/table.hpp"
+#include "campaigns/extremes/bench.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
@@ -61,14 +60,13 @@ Outcome charge_through_zero(const Settings&) {
       b.report(&o);
       const std::string in =
           std::string(" (") + design + ", " + (attract ? "attract" : "repel") + ")";
-      o.findings.push_back(finding(Cores::lock_step,
-                                   "worst distance from the law, x = 260 to -260" + in, "Nm",
-                                   at_most(raw ? 1.0 / 65536 : 2.0 / 65536), worst, real_worst));
-      o.findings.push_back(finding(Cores::lock_step, "torque at x = 0" + in, "Nm",
-                                   exactly(law(attract, 0, raw ? 0 : 0.2)), at_zero, real_at_zero));
+      o.add(Cores::lock_step, "worst distance from the law, x = 260 to -260" + in, "Nm",
+            at_most(raw ? 1.0 / 65536 : 2.0 / 65536), worst, real_worst);
+      o.add(Cores::lock_step, "torque at x = 0" + in, "Nm", exactly(law(attract, 0, raw ? 0 : 0.2)),
+            at_zero, real_at_zero);
       const double step = law(attract, -1, raw ? 0 : 0.2);
-      o.findings.push_back(finding(Cores::lock_step, "torque one count below" + in, "Nm",
-                                   near(step, 1.0 / 65536), beside, real_beside));
+      o.add(Cores::lock_step, "torque one count below" + in, "Nm", near(step, 1.0 / 65536), beside,
+            real_beside);
     }
   }
   return o;
@@ -129,12 +127,11 @@ std::vector<Case> scene_cases() {
       {"Scenes", "charge_through_zero",
        "A point charge from one side to the other, count by count: raw 1/x^2 in `paper`, with its "
        "linear core in `lever`.",
-       false, charge_through_zero},
+       charge_through_zero},
       {"Scenes", "charge_limit_cycle",
        "A hand held on an attracting charge: the raw law cycles at full torque, the core of 0.2 "
-       "rad "
-       "is quiet.",
-       false, charge_limit_cycle},
+       "rad is quiet.",
+       charge_limit_cycle},
   };
 }
 

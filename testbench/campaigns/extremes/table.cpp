@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The table of the cases. Documentation: docs/extremes.md
-#include "campaigns/extremes/table.hpp"
+// Verdicts, the list of all cases, and their table. Documentation: docs/extremes.md
+#include "campaigns/extremes/case.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -78,29 +79,66 @@ constexpr const char* head =
 
 }  // namespace
 
+Expected exactly(double value) { return {value, value, number(value)}; }
+
+Expected near(double value, double tolerance) {
+  return {value - tolerance, value + tolerance, number(value) + " ± " + number(tolerance)};
+}
+
+Expected between(double low, double high) {
+  return {low, high, number(low) + " to " + number(high)};
+}
+
+Expected at_most(double value) {
+  return {-std::numeric_limits<double>::infinity(), value, "≤ " + number(value)};
+}
+
+Expected at_least(double value) {
+  return {value, std::numeric_limits<double>::infinity(), "≥ " + number(value)};
+}
+
+bool Finding::holds() const {
+  const auto inside = [this](const std::optional<double>& v) {
+    return !v || (*v >= expected.low && *v <= expected.high);
+  };
+  if (!rtl && !twin && !real) return false;
+  return inside(rtl) && inside(twin) && (real_may_differ || inside(real));
+}
+
+bool Outcome::holds() const {
+  if (mismatches != 0 || findings.empty()) return false;
+  for (const Finding& f : findings) {
+    if (!f.holds()) return false;
+  }
+  return true;
+}
+
+Finding& Outcome::add(const std::string& what, const std::string& unit, const Expected& expected,
+                      std::optional<double> rtl, std::optional<double> twin,
+                      std::optional<double> real) {
+  findings.push_back({what, unit, expected, rtl, twin, real});
+  return findings.back();
+}
+
+Finding& Outcome::add(Cores cores, const std::string& what, const std::string& unit,
+                      const Expected& expected, std::optional<double> core,
+                      std::optional<double> real) {
+  return add(what, unit, expected, cores == Cores::lock_step ? core : std::nullopt, core, real);
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const auto group : {encoder_cases, velocity_cases, filter_cases, observer_cases, scene_cases,
+                           loop_cases, engine_cases, axes_cases, day_cases}) {
+    for (const Case& c : group()) all.push_back(c);
+  }
+  return all;
+}
+
 std::string number(double value) {
   if (value == 0) return "0";
   const bool whole = value == std::floor(value) && std::abs(value) < 1e12;
   return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
-}
-
-std::string text(const Result& result) {
-  std::ostringstream out;
-  const Outcome& o = result.outcome;
-  out << result.which.group << "." << result.which.name << ": " << (o.holds() ? "ok" : "FAIL")
-      << "\n  " << result.which.about << "\n";
-  for (const Finding& f : o.findings) {
-    out << "    " << f.what << (f.unit.empty() ? "" : " [" + f.unit + "]") << ": expected "
-        << f.expected.text << "; RTL " << cell(f.rtl) << ", twin " << cell(f.twin) << ", double "
-        << cell(f.real) << ": " << verdict(f) << "\n";
-  }
-  if (o.mismatches > 0) {
-    out << "    RTL and twin differ in " << o.mismatches << " clocks, first: " << o.first_mismatch
-        << "\n";
-  }
-  const std::string line = ran(o);
-  if (!line.empty()) out << "  " << line << "\n";
-  return out.str();
 }
 
 std::string json(const std::vector<Result>& results) {
@@ -137,6 +175,10 @@ std::string markdown(const Result& result) {
   std::string out = std::string("### ") + result.which.name + "\n\n" + result.which.about + "\n\n";
   out += head;
   for (const Finding& f : result.outcome.findings) out += row(f) + "\n";
+  if (result.outcome.mismatches > 0) {
+    out += fmt::format("\nRTL and twin differ in {} clocks, first: {}\n", result.outcome.mismatches,
+                       result.outcome.first_mismatch);
+  }
   const std::string line = ran(result.outcome);
   if (!line.empty()) out += "\n" + line + "\n";
   return out;
@@ -145,25 +187,11 @@ std::string markdown(const Result& result) {
 std::string page(const std::vector<Result>& results, const std::string& before) {
   std::string out =
       "# Extremes\n\n"
-      "Tests: [testbench/campaigns/extremes](../testbench/campaigns/extremes) · this page is "
-      "written by "
-      "`./feltgate extremes --markdown`; a test\n"
-      "fails when a row is out of date.\n\n"
-      "Each case takes the core to one of its limits. The case's own code computes the expected "
-      "value, from what the\n"
-      "text beside it says. *RTL* and *twin* run in lock-step where both have a value: every "
-      "output is compared in\n"
-      "every clock, and one difference fails the case. *double* is the same chain in binary64 "
-      "on the same sampled\n"
-      "counts; in closed loop it drives the motor itself. A dash means: not measured there. The "
-      "line below the table\n"
-      "says what each back-end ran. Everything is simulation.\n\n"
-      "```\n"
-      "./feltgate extremes                  every short case, as text\n"
-      "./feltgate extremes wrap_16 rest     only these\n"
-      "./feltgate extremes --json out.json  the same for a program\n"
-      "./feltgate extremes day --long       the 24 hours\n"
-      "```\n";
+      "Written by `./feltgate extremes --markdown`; a test fails when a row is out of date. "
+      "RTL and twin run in lock-step where\n"
+      "both have a value. *double* is the same chain in binary64 on the same sampled counts; in "
+      "closed loop it drives the\n"
+      "motor itself. A dash means: not measured there.\n";
   std::string group;
   for (const Case& c : cases()) {
     const auto it = std::find_if(results.begin(), results.end(), [&](const Result& r) {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "campaigns/extremes/bench.hpp"
-#include "campaigns/extremes/table.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::extremes {
@@ -56,12 +55,10 @@ Outcome one_count_per_second(const Settings&) {
     });
     b.report(&o);
     const double closed = w.step_rad_s * -std::expm1(-cutoff * w.length_s);
-    o.findings.push_back(finding(Cores::lock_step,
-                                 "peak after one count: 2^n (1 - exp(-wc m1 T))" + in, "rad/s",
-                                 near(closed, 2e-3 * closed), peak, real_peak));
-    o.findings.push_back(finding(Cores::lock_step, "falls to 1/e in 1/wc" + in, "ms",
-                                 near(1e3 / cutoff, 0.01), static_cast<double>(fallen) * 1e-3,
-                                 static_cast<double>(real_fallen) * 1e-3));
+    o.add(Cores::lock_step, "peak after one count: 2^n (1 - exp(-wc m1 T))" + in, "rad/s",
+          near(closed, 2e-3 * closed), peak, real_peak);
+    o.add(Cores::lock_step, "falls to 1/e in 1/wc" + in, "ms", near(1e3 / cutoff, 0.01),
+          static_cast<double>(fallen) * 1e-3, static_cast<double>(real_fallen) * 1e-3);
     // The mean over a second: the filter has gain 1, but stops half an LSB over a1 before its final
     // value.
     Bench day(design, Cores::twin);
@@ -74,12 +71,10 @@ Outcome one_count_per_second(const Settings&) {
     });
     day.report(&o);
     const double mean = w.step_rad_s * w.length_s;
-    o.findings.push_back(finding(Cores::twin,
-                                 "mean over a second: 2^n m1 T, within the filter's dead band" + in,
-                                 "rad/s", near(mean, dead_band(day.design())), sum, real_sum));
-    o.findings.push_back(finding(Cores::twin, "gain error of the mean in double" + in, "%",
-                                 near(100 * (mean / count_rad - 1), 0.01), 0,
-                                 100 * (real_sum / count_rad - 1)));
+    o.add(Cores::twin, "mean over a second: 2^n m1 T, within the filter's dead band" + in, "rad/s",
+          near(mean, dead_band(day.design())), sum, real_sum);
+    o.add(Cores::twin, "gain error of the mean in double" + in, "%",
+          near(100 * (mean / count_rad - 1), 0.01), 0, 100 * (real_sum / count_rad - 1));
     o.findings.back().twin.reset();
   }
   o.note =
@@ -118,12 +113,10 @@ Outcome dither_on_one_edge(const Settings&) {
     Bench b(design, Cores::lock_step);
     const auto [core, real] = dither(b, w.ticks, &positions);
     b.report(&o);
-    o.findings.push_back(
-        finding(Cores::lock_step, "range of the position" + in, "count", exactly(1), positions));
-    o.findings.push_back(
-        finding(Cores::lock_step,
-                "peak velocity, half-period " + number(w.ticks) + " us: 2^n tanh(wc m1 T/2)" + in,
-                "rad/s", near(worst, 4e-3 * worst), core, real));
+    o.add(Cores::lock_step, "range of the position" + in, "count", exactly(1), positions);
+    o.add(Cores::lock_step,
+          "peak velocity, half-period " + number(w.ticks) + " us: 2^n tanh(wc m1 T/2)" + in,
+          "rad/s", near(worst, 4e-3 * worst), core, real);
     const auto worst_of = [&](const std::vector<int>& shares) {
       std::pair<double, double> all{0, 0};
       for (const int percent : shares) {
@@ -135,12 +128,12 @@ Outcome dither_on_one_edge(const Settings&) {
       return all;
     };
     const auto quick = worst_of({12, 25, 50, 75, 90});
-    o.findings.push_back(finding(Cores::twin, "peak at half-periods of 0.12 to 0.9 windows" + in,
-                                 "rad/s", at_most(1.004 * worst), quick.first, quick.second));
+    o.add(Cores::twin, "peak at half-periods of 0.12 to 0.9 windows" + in, "rad/s",
+          at_most(1.004 * worst), quick.first, quick.second);
     const auto slow = worst_of({110, 150, 300, 700});
-    o.findings.push_back(finding(
-        Cores::twin, "peak at half-periods of 1.1 to 7 windows: single counts" + in, "rad/s",
-        between(worst, w.step_rad_s * -std::expm1(-cutoff * w.length_s)), slow.first, slow.second));
+    o.add(Cores::twin, "peak at half-periods of 1.1 to 7 windows: single counts" + in, "rad/s",
+          between(worst, w.step_rad_s * -std::expm1(-cutoff * w.length_s)), slow.first,
+          slow.second);
   }
   o.note =
       "RTL: half a period of one window, the worst square wave. A slower dither shows single "
@@ -171,11 +164,10 @@ Outcome speed_613_6(const Settings&) {
   b.report(&o);
   const double exact = speed / count_rad * w.step_rad_s * w.length_s;
   const double k = 1.0 / static_cast<double>(n);
-  o.findings.push_back(finding(Cores::lock_step, "mean velocity at 613.6 rad/s (100 kHz a channel)",
-                               "rad/s", near(exact, 0.05), sum * k, real_sum * k));
-  o.findings.push_back(finding(Cores::lock_step, "ticks at the velocity's limit", "", exactly(0),
-                               static_cast<double>(limits)));
-  o.findings.push_back(finding(Cores::lock_step, "faults", "", exactly(0), faults));
+  o.add(Cores::lock_step, "mean velocity at 613.6 rad/s (100 kHz a channel)", "rad/s",
+        near(exact, 0.05), sum * k, real_sum * k);
+  o.add(Cores::lock_step, "ticks at the velocity's limit", "", exactly(0), limits);
+  o.add(Cores::lock_step, "faults", "", exactly(0), faults);
   return o;
 }
 
@@ -216,14 +208,13 @@ Outcome speed_795(const Settings&) {
     real_last = x.real.velocity_rad_s;
   });
   b.report(&o);
-  o.findings.push_back(finding(Cores::lock_step, "over-speed fault at 795 rad/s, from standstill",
-                               "ms", near(1e3 * low, 0.02), 1e3 * at, 1e3 * real_at));
-  o.findings.push_back(finding(Cores::lock_step, "faults: bit 2 is speed", "", exactly(4), faults));
-  o.findings.push_back(finding(Cores::lock_step, "gates open at the end", "", exactly(0), open));
+  o.add(Cores::lock_step, "over-speed fault at 795 rad/s, from standstill", "ms",
+        near(1e3 * low, 0.02), 1e3 * at, 1e3 * real_at);
+  o.add(Cores::lock_step, "faults: bit 2 is speed", "", exactly(4), faults);
+  o.add(Cores::lock_step, "gates open at the end", "", exactly(0), open);
   const double exact = speed / count_rad * w.step_rad_s * w.length_s;
-  o.findings.push_back(finding(Cores::lock_step, "velocity at the end", "rad/s",
-                               near(exact, exact * std::exp(-cutoff * 23e-3) + w.step_rad_s), last,
-                               real_last));
+  o.add(Cores::lock_step, "velocity at the end", "rad/s",
+        near(exact, exact * std::exp(-cutoff * 23e-3) + w.step_rad_s), last, real_last);
   return o;
 }
 
@@ -234,17 +225,16 @@ std::vector<Case> velocity_cases() {
       {"Velocity", "one_count_per_second",
        "One count a second: a pulse, its decay, and the mean that the filter's dead band lets "
        "through.",
-       false, one_count_per_second},
+       one_count_per_second},
       {"Velocity", "dither_on_one_edge",
        "An edge that dithers: one count, and a velocity in closed form where half a period is one "
        "window.",
-       false, dither_on_one_edge},
-      {"Velocity", "speed_613_6", "The encoder's highest speed, inside every limit.", false,
-       speed_613_6},
+       dither_on_one_edge},
+      {"Velocity", "speed_613_6", "The encoder's highest speed, inside every limit.", speed_613_6},
       {"Velocity", "speed_795",
        "The motor's no-load speed: the supervisor opens the bridge when the estimate crosses 613.6 "
        "rad/s.",
-       false, speed_795},
+       speed_795},
   };
 }
 

@@ -13,7 +13,7 @@
 
 #include "apps/commands/commands.hpp"
 #include "campaigns/faults/clean.hpp"
-#include "campaigns/faults/option_faults.hpp"
+#include "campaigns/faults/pin_faults.hpp"
 #include "campaigns/faults/record.hpp"
 #include "campaigns/faults/world.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "campaigns/faults/clean.hpp"
-#include "campaigns/faults/option_faults.hpp"
+#include "campaigns/faults/pin_faults.hpp"
 #include "campaigns/faults/record.hpp"
 #include "campaigns/faults/world.hpp"
 #include "catch.hpp"

@@ -320,10 +320,6 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
                  std::uint64_t seed) {
   const DesignInfo& info = Rig<D>::info();
   const auto clocks = [](double s) { return static_cast<Clock>(s * D::clock_hz); };
-  const auto word = [&info](const char* name, double value) {
-    const ParameterInfo* p = info.find(name);
-    return Word{p->address, static_cast<std::uint32_t>(quantise_parameter(*p, value))};
-  };
   const auto p = plant::read_plant_file(root + "/vectors/plants/" + plant_name + ".toml");
   plant::Hand hand;
   if (!c.free) hand = moving_hand(c.from_rad, c.rad_s);
@@ -332,8 +328,8 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
   const auto scene = static_cast<std::uint32_t>(c.wall ? D::S::wall : D::S::setpoint);
   const std::uint32_t control = static_cast<std::uint32_t>(D::control_reset) |
                                 1u << D::C::control_host | scene << D::C::control_scene;
-  std::vector<Word> setup{word("setpoint_torque", c.torque_nm), {D::C::control, control}};
-  if (c.wall) setup.push_back(word("wall_contact", 0));
+  std::vector<Word> setup{word_of(info, "setpoint_torque", c.torque_nm), {D::C::control, control}};
+  if (c.wall) setup.push_back(word_of(info, "wall_contact", 0));
   if (!c.at_arming) {  // the torque at once
     setup.push_back({D::A::self_test_pulse, 0});
     setup.push_back({D::A::ramp_step, (1u << (D::P::ramp_step.width() - 1)) - 1});
@@ -371,22 +367,18 @@ Outcome run_case(const std::string& root, const Case& c, const char* plant_name,
     faulty.step();
     sound.step();
     const CoreOut &f = faulty.out(), &s = sound.out();
-    o.flagged |= f.faults & ~static_cast<unsigned>(s.faults);
-    const bool closed = !f.gates_enable && (s.gates_enable || o.flagged != 0);
-    if (closed && o.off_after < 0) {
-      o.off_after = (faulty.now() - from + D::clocks_per_tick - 1) / D::clocks_per_tick;
-      o.travel_rad = std::abs(faulty.shaft_rad() - from_rad);
-    }
-    if (!closed) o.off_after = -1;
+    const bool off = closed(f, s.faults, s.gates_enable,
+                            (faulty.now() - from + D::clocks_per_tick - 1) / D::clocks_per_tick,
+                            std::abs(faulty.shaft_rad() - from_rad), &o);
     o.both_clocks = std::max(o.both_clocks, faulty.both_clocks());
     judge.step(faulty.torque_nm() - sound.torque_nm(), faulty.torque_nm(),
-               1e6 * Rig<D>::kStep / D::clock_hz, faulty.on(), closed, &o);
+               1e6 * Rig<D>::kStep / D::clock_hz, faulty.on(), off, &o);
     position_wrong = !c.free && f.position != s.position;
     o.count_changed = o.count_changed || position_wrong;
     differed = differed || f.gates != s.gates || f.position != s.position || f.tau_ref != s.tau_ref;
     opened = opened || f.gates_enable;
     if (judge.unsafe(o)) break;
-    off_for = closed && !faulty.on() ? off_for + Rig<D>::kStep : 0;
+    off_for = off && !faulty.on() ? off_for + Rig<D>::kStep : 0;
   }
   settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,
          &o);

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <tuple>
 
+#include "feltgate/core_ports.hpp"
 #include "feltgate/largest.hpp"
 
 namespace feltgate::faults {
@@ -73,14 +75,24 @@ inline void settle(const Findings& seen, const Limits& limits, Outcome* o) {
   }
 }
 
+/// Takes the faults of a step into the outcome; whether the gates are closed by then, where those
+/// of a sound core are open or a fault is flagged: `after` ticks and `travel_rad` from the fault.
+inline bool closed(const CoreOut& faulty, unsigned sound_faults, bool sound_opens,
+                   std::int64_t after, double travel_rad, Outcome* o) {
+  o->flagged |= faulty.faults & ~sound_faults;
+  const bool is = !faulty.gates_enable && (sound_opens || o->flagged != 0);
+  if (is && o->off_after < 0) o->travel_rad = travel_rad;
+  if (!is || o->off_after < 0) o->off_after = is ? after : -1;
+  return is;
+}
+
 /// Gates of one tick: clocks for which each gate was on, and the longest run of clocks with both
 /// gates of a leg on.
 struct GateTimes {
   int a_hi = 0, a_lo = 0, b_hi = 0, b_lo = 0, both = 0;
   bool on() const { return (a_hi | a_lo | b_hi | b_lo) != 0; }
-  bool operator==(const GateTimes& o) const {
-    return a_hi == o.a_hi && a_lo == o.a_lo && b_hi == o.b_hi && b_lo == o.b_lo && both == o.both;
-  }
+  auto all() const { return std::tie(a_hi, a_lo, b_hi, b_lo, both); }
+  bool operator==(const GateTimes& o) const { return all() == o.all(); }
 };
 
 /// How far a torque is off, and for how long: what makes a run unsafe, or its torque wrong.

@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "campaigns/faults/broken_pins.hpp"
-#include "campaigns/faults/option_faults.hpp"
 #include "campaigns/faults/world.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_core.hpp"
@@ -50,18 +49,16 @@ const DesignInfo& info() {
   return all;
 }
 
-double share(Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
-
 /// A hand moves the lever at this speed through a scene that acts.
 Case moving(Random* r, double rad_s) {
   Case c;
   const char* scene = moving_scenes[r->below(moving_scenes.size())];
   c.scene = info().scene_number(scene);
-  const double sign = r->coin() ? 1 : -1;
+  const double way = sign(r);
   c.words = {word("wall_contact", 20), word("membrane_lower", 20), word("membrane_upper", 2000)};
-  c.hand = moving_hand(0, sign * rad_s);
+  c.hand = moving_hand(0, way * rad_s);
   c.warm_s = std::clamp(0.4 / rad_s, 0.02, 0.25);
-  c.what = fmt::format("{}, {:.3g} rad/s", scene, sign * rad_s);
+  c.what = fmt::format("{}, {:.3g} rad/s", scene, way * rad_s);
   return c;
 }
 
@@ -335,20 +332,15 @@ PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t
       continue;
     }
     const CoreOut &f = faulty.core.out(), &s = sound.core.out();
-    o.flagged |= f.faults & ~(c.alone ? 0u : static_cast<unsigned>(s.faults));
     if (std::abs(f.position - first_position) > 1) o.count_changed = true;
-    const bool closed = !f.gates_enable && (s.gates_enable || o.flagged != 0);
-    if (closed && o.off_after < 0) {
-      o.off_after = t - warm;
-      o.travel_rad = std::abs(lever.observables().theta_rad - at_fault_rad);
-    }
-    if (!closed) o.off_after = -1;
+    const bool off = closed(f, c.alone ? 0u : s.faults, s.gates_enable, t - warm,
+                            std::abs(lever.observables().theta_rad - at_fault_rad), &o);
     judge.tick(gates, other, lever.observables().omega_rad_s,
-               lever.observables().motor_torque_mean_nm, closed, &o);
+               lever.observables().motor_torque_mean_nm, off, &o);
     position_wrong = c.position_matters && f.position != s.position;
     differed = differed || !(gates == other) || f.position != s.position || f.tau_ref != s.tau_ref;
     if (judge.unsafe(o)) break;
-    off_for = closed && !gates.on() ? off_for + 1 : 0;
+    off_for = off && !gates.on() ? off_for + 1 : 0;
     if (off_for > 60) break;
   }
   settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits,

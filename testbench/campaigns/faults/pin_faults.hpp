@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Faults at the encoder's pins, at the stop and at the register port. The core's twin runs in
-// closed loop beside a sound twin on the same lever. Documentation: docs/testing.md
+// Faults at the encoder's pins, at the stop and at the register port of lever: the core's twin runs
+// in closed loop beside a sound twin on the same lever. And faults at the pins that lever does not
+// have: of a current loop, an absolute encoder, three phases, Hall lines. Documentation:
+// docs/testing.md
 #pragma once
 
 #include <cstdint>
@@ -31,7 +33,7 @@ struct PinKind {
   Promise promise;
   int within_us = 0;  ///< the gates are off by then, where it is flagged; 0: not promised
 };
-/// Of a design: lever, and those whose options have pins of their own (option_faults.hpp).
+/// Of a design: lever, and those whose options have pins of their own.
 const std::vector<PinKind>& pin_kinds(const std::string& design = "lever");
 
 struct PinResult {
@@ -45,5 +47,15 @@ struct PinResult {
 /// Runs one fault of a kind.
 PinResult run_pin_fault(const std::string& root, std::size_t kind, std::uint64_t seed,
                         const std::string& design = "lever");
+
+/// Names of the designs whose options have pins of their own.
+std::vector<std::string> option_designs();
+/// Those of one of these designs; none for another.
+const std::vector<PinKind>& option_kinds(const std::string& design);
+
+/// Runs one fault. The sound core has a motor and a hand of its own: what it measures is what its
+/// gates make.
+PinResult run_option_fault(const std::string& root, const std::string& design, std::size_t kind,
+                           std::uint64_t seed);
 
 }  // namespace feltgate::faults

@@ -48,13 +48,6 @@ class RtlState {
     in_ = o.in_;
   }
   bool same_state(const RtlState& o) const { return std::memcmp(begin(), o.begin(), size()) == 0; }
-  /// Lists the bytes that differ, by offset, for debugging.
-  template <class Each>
-  void differing(const RtlState& o, Each&& each) const {
-    for (std::size_t k = 0; k < size(); ++k) {
-      if (begin()[k] != o.begin()[k]) each(k);
-    }
-  }
 
   // Call flips between two clocks.
   void flip(int flop) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <deque>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "campaigns/faults/rtl_state.hpp"
@@ -87,32 +88,11 @@ class Pins {
   std::size_t next_ = 0;
 };
 
-struct Watched {
-  std::int64_t velocity;
-  std::int32_t position, tau_hat, tau_ref, current_ref, voltage;
-  std::int16_t duty, duty_active;
-  std::uint16_t limits, faults;
-  bool armed, gates_enable;
-  explicit Watched(const CoreOut& o)
-      : velocity(o.velocity),
-        position(o.position),
-        tau_hat(o.tau_hat),
-        tau_ref(o.tau_ref),
-        current_ref(o.current_ref),
-        voltage(o.voltage),
-        duty(o.duty),
-        duty_active(o.duty_active),
-        limits(o.limits),
-        faults(o.faults),
-        armed(o.armed),
-        gates_enable(o.gates_enable) {}
-  bool operator==(const Watched& o) const {
-    return velocity == o.velocity && position == o.position && tau_hat == o.tau_hat &&
-           tau_ref == o.tau_ref && current_ref == o.current_ref && voltage == o.voltage &&
-           duty == o.duty && duty_active == o.duty_active && limits == o.limits &&
-           faults == o.faults && armed == o.armed && gates_enable == o.gates_enable;
-  }
-};
+/// What a fault may change before it is seen.
+auto watched(const CoreOut& o) {
+  return std::tuple(o.velocity, o.position, o.tau_hat, o.tau_ref, o.current_ref, o.voltage, o.duty,
+                    o.duty_active, o.limits, o.faults, o.armed, o.gates_enable);
+}
 
 /// Runs an act with a sound core; faults branch off from it.
 class Branches {
@@ -221,22 +201,17 @@ class Branches {
       loop.gates = faulty_gates.take();
       sound_times = sound_gates.take();
       const CoreOut f = faulty_.out(), s = sound_.out();
-      o.flagged |= f.faults & ~static_cast<unsigned>(s.faults);
-      const bool closed = !f.gates_enable && (armed_before || o.flagged != 0);
-      if (closed && o.off_after < 0) {
-        o.off_after = t;
-        o.travel_rad = loop.plant.observables().theta_rad - begin_rad;
-      }
-      if (!closed) o.off_after = -1;
+      const bool off =
+          closed(f, s.faults, armed_before, t, loop.plant.observables().theta_rad - begin_rad, &o);
       judge.tick(loop.gates, sound_times, loop.plant.observables().omega_rad_s,
-                 loop.plant.observables().motor_torque_mean_nm, closed, &o);
+                 loop.plant.observables().motor_torque_mean_nm, off, &o);
       position_wrong = f.position != s.position;
-      if (!(Watched(f) == Watched(s)) || !(loop.gates == sound_times)) {
+      if (watched(f) != watched(s) || !(loop.gates == sound_times)) {
         differed = true;
         last_difference = t;
       }
       if (judge.unsafe(o)) break;
-      off_for = closed && !loop.gates.on() ? off_for + 1 : 0;
+      off_for = off && !loop.gates.on() ? off_for + 1 : 0;
       if (off_for > (fault.reset_clocks > 0 ? still_ticks : 60)) break;
       if (t > 0 && faulty_.same_state(sound_)) {
         same_ = true;
@@ -245,12 +220,12 @@ class Branches {
       same_ = false;
       if (t - last_difference > still_ticks) break;
     }
-    decide(judge, differed, position_wrong, off_for, &o);
+    settle({judge.unsafe(o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits_,
+           &o);
+    if (o.is == Class::masked && !same_) o.is = Class::latent;
     return o;
   }
   std::int64_t mismatches() const { return mismatches_; }
-  const RtlState& faulty() const { return faulty_; }
-  const RtlState& sound() const { return sound_; }
 
  private:
   static constexpr std::int64_t longest_ticks = 20000, still_ticks = 1200;
@@ -262,13 +237,6 @@ class Branches {
       if (b.kind == StateBit::Kind::parameter) faulty_.flip_parameter(b.at, b.bit);
       if (b.kind == StateBit::Kind::line) faulty_.flip_line(b.at, b.bit);
     }
-  }
-
-  void decide(const TorqueJudge& judge, bool differed, bool position_wrong, int off_for,
-              Outcome* o) {
-    settle({judge.unsafe(*o), off_for > 0, judge.torque_wrong(), position_wrong, differed}, limits_,
-           o);
-    if (o->is == Class::masked && !same_) o->is = Class::latent;
   }
 
   const Act& act_;

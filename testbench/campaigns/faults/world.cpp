@@ -44,10 +44,13 @@ Word counts(const std::string& parameter, double rad) { return word(parameter, r
 
 double count_rad() { return design().count_rad; }
 
-Word word(const std::string& parameter, double value) {
-  const ParameterInfo* info = design().find(parameter);
-  if (info == nullptr) throw std::invalid_argument(design().unknown(parameter));
+Word word_of(const DesignInfo& design, const std::string& parameter, double value) {
+  const ParameterInfo* info = design.find(parameter);
+  if (info == nullptr) throw std::invalid_argument(design.unknown(parameter));
   return {info->address, static_cast<std::uint32_t>(quantise_parameter(*info, value))};
+}
+Word word(const std::string& parameter, double value) {
+  return word_of(design(), parameter, value);
 }
 
 plant::Hand leaning_hand(double from_rad, double to_rad, double sway_rad, double sway_hz) {

@@ -16,6 +16,8 @@
 #include "campaigns/faults/outcome.hpp"
 #include "encoder_phase.hpp"
 #include "feltgate/core_ports.hpp"
+#include "feltgate/design_info.hpp"
+#include "random.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/plant.hpp"
 
@@ -40,8 +42,13 @@ struct Act {
 /// Wall, spring, damper, membrane, charge, setpoint, free, disarmed; of design `lever`.
 std::vector<Act> acts();
 
-/// Word of a parameter for a value in its unit. Throws std::invalid_argument.
+/// Word of a parameter for a value in its unit, of a design and of lever. Throws
+/// std::invalid_argument.
+Word word_of(const DesignInfo& design, const std::string& parameter, double value);
 Word word(const std::string& parameter, double value);
+/// 0 to 1, without its ends; and 1 or -1.
+inline double share(test::Random* r) { return 1e-6 * (1 + static_cast<double>(r->below(999998))); }
+inline double sign(test::Random* r) { return r->coin() ? 1 : -1; }
 /// Hands.
 plant::Hand leaning_hand(double from_rad, double to_rad, double sway_rad, double sway_hz);
 plant::Hand moving_hand(double from_rad, double rad_s);

@@ -148,7 +148,7 @@ file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/c
 list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
 # A first scene: nothing that it does not use. The RTL is a minute more, so it is left out where none
 # is asked for.
-set(run_names csv.cpp mismatch.cpp replay_command.cpp run_command.cpp run_json.cpp run_text.cpp)
+set(run_names csv.cpp mismatch.cpp replay_command.cpp run_command.cpp run_report.cpp)
 list(TRANSFORM run_names PREPEND "${FELTGATE_ROOT}/model/apps/commands/" OUTPUT_VARIABLE run_sources)
 set(run_libraries feltgate_command_line feltgate_loop feltgate_constants feltgate_files
   nlohmann_json::nlohmann_json fmt::fmt)

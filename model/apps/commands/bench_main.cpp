@@ -29,8 +29,7 @@ struct Arguments {
 
 /// The largest bounds over all works.
 bench::ErrorLimits bounds_of(const std::vector<bench::Work>& works) {
-  const auto e = elaborate(design::read_design(repository() + "/rtl/designs/lever.toml"),
-                           design::read_registers(repository() + "/rtl/registers.toml"));
+  const auto e = elaborated_design("lever");
   bench::ErrorLimits worst;
   for (const bench::Work& work : works) {
     const bounds::ErrorBounds b = bench::work_bounds(e, work);

@@ -71,16 +71,13 @@ const AxesDesignMakers* made_for(const AxesScene& scene) {
 /// A scene that names a device.
 Wanted wanted_device(const std::string& path, const RatesArguments& a, files::Outputs& outputs) {
   if (!a.plant.empty() || !a.design.empty() || !a.beside.empty()) {
-    throw std::invalid_argument(
-        fmt::format("{} is for scenes of one lever, and {} names a device; leave it out",
-                    !a.plant.empty()    ? "--plant"
-                    : !a.design.empty() ? "--design"
-                                        : "--beside",
-                    path));
+    refuse_for_device(!a.plant.empty()    ? "--plant"
+                      : !a.design.empty() ? "--design"
+                                          : "--beside",
+                      path);
   }
   Wanted w;
-  w.device = read_axes_scene(
-      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  w.device = device_scene(path);
   const Scenario& s = w.device->scenario;
   w.name = s.name;
   if (s.law.empty()) {
@@ -169,38 +166,13 @@ std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs)
   return all;
 }
 
-/// A margin of a scene's law, as `feltgate stability` prints it. Exit code 1: bits and linear loop
-/// differ by more than 5 % for a swing of enough counts.
-int print_gains(const rates::Report& r, files::Outputs& outputs) {
+/// Exit code 1: bits and linear loop differ by more than 5 % for a swing of enough counts.
+int verdict(const rates::Report& r) {
   constexpr double tolerance = 0.05;
-  bool off = false;
-  std::size_t shown = 0;
-  std::string text = fmt::format("scene {}: {}\nlaw {} at {}, {}{} without what is not linear\n",
-                                 r.scene, r.title, r.law, rates::rate_text(r.rows.back().rate_hz),
-                                 r.axes > 1 ? "device " : "plant ", r.plant);
-  text += fmt::format(
-      "friction of a joint {:g} Nm s/rad, also where the scene leaves it out; without noise and "
-      "lost words\n\n",
-      r.damping_nm_s_rad);
-  text += fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}\n", "factor on the torque",
-                      "linear", "bits", "off", "swing", "counts", "mNm");
-  for (const rates::GainMargin& g : r.gains) {
-    const double part = g.bits / g.linear - 1;
-    text += fmt::format("{:<24}{:>10.4g}", g.of, g.linear);
-    if (std::isnan(g.bits)) {
-      text += fmt::format("{:>10}  {}\n", "-", g.why);
-      off = off || g.disagrees;
-      continue;
-    }
-    text += fmt::format("{:>10.4g}{:>+8.1f} %{:>7.3g} Hz{:>8.3g}{:>9.3g}{}\n", g.bits, 100 * part,
-                        g.rad_s / 6.283185307179586, g.swing_counts, 1e3 * g.swing_nm,
-                        g.large ? "" : "  too small a swing to compare");
-    off = off || (g.large && !(std::abs(part) <= tolerance));
-    shown += g.large ? 1 : 0;
-  }
-  text += fmt::format("{} of {} compared with the bits\n", shown, r.gains.size());
-  for (const std::string& note : r.notes) text += "note: " + note + "\n";
-  outputs.say(text);
+  const bool off = std::any_of(r.gains.begin(), r.gains.end(), [](const rates::GainMargin& g) {
+    if (std::isnan(g.bits)) return g.disagrees;
+    return g.large && !(std::abs(g.bits / g.linear - 1) <= tolerance);
+  });
   return off ? exit_failed : exit_ok;
 }
 
@@ -218,11 +190,9 @@ int run(const RatesArguments& a) {
   if (!a.rates.empty()) options.rates_hz = a.rates;
   options.lock_step = a.lock_step;
   options.design = a.design;
-  const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
   for (const std::string& name : a.beside) {
-    const std::string path = find_file(name, "rtl/designs");
-    options.beside.push_back(elaborate(design::read_design(path), registers));
-    outputs.reads(path);
+    options.beside.push_back(elaborated_design(name));
+    outputs.reads(find_file(name, "rtl/designs"));
   }
   std::vector<rates::Report> reports;
   std::int64_t mismatches = 0;
@@ -269,9 +239,9 @@ int scene_stability(const std::string& scene, const std::string& json, bool bits
   options.whole_torque = true;
   const rates::Report report = measured(w, options);
   if (file != nullptr) file->write(rates::reports_json({report}));
-  const int status = print_gains(report, outputs);
+  outputs.say(rates::gains_text(report));
   outputs.commit();
-  return status;
+  return verdict(report);
 }
 
 void add_rates(CLI::App& app, int* exit_code) {

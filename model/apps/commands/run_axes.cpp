@@ -45,8 +45,7 @@ void write_row(std::FILE* to, const std::vector<double>& row) {
 }
 
 int run_axes_scene(const std::string& path, const RunArguments& a) {
-  AxesScene scene = read_axes_scene(
-      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  AxesScene scene = device_scene(path);
   if (a.columns) {
     fmt::print("{}\n", fmt::join(axes_columns(scene), "\n"));
     return exit_ok;
@@ -117,5 +116,10 @@ int run_axes_scene(const std::string& path, const RunArguments& a) {
 }();
 
 }  // namespace
+
+AxesScene device_scene(const std::string& path) {
+  return read_axes_scene(
+      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+}
 
 }  // namespace feltgate

@@ -64,6 +64,11 @@ void apply_settings(const std::vector<std::string>& set, const DesignInfo& desig
   }
 }
 
+void refuse_for_device(const std::string& option, const std::string& scene) {
+  throw std::invalid_argument(fmt::format(
+      "{} is for scenes of one lever, and {} names a device; leave it out", option, scene));
+}
+
 LawScenes& law_scenes() {
   static LawScenes all;
   return all;
@@ -161,9 +166,7 @@ int run(RunArguments a) {
                                         {"--record", a.record},
                                         {"--events", a.events},
                                         {"--states", a.states}}) {
-      if (value.empty()) continue;
-      throw std::invalid_argument(fmt::format(
-          "{} is for scenes of one lever, and {} names a device; leave it out", option, a.scene));
+      if (!value.empty()) refuse_for_device(option, a.scene);
     }
     if (a.torque_scale > 0) {
       throw std::invalid_argument("--torque-scale is for scenes of one lever; leave it out");

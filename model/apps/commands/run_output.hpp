@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -43,17 +44,19 @@ std::string run_json(const RunResult& result, const RunLabels& labels);
 /// The same as text for a terminal: what ran, the back-ends if there are several, what was felt.
 std::string run_text(const RunResult& result, const RunLabels& labels);
 
-/// The last part of that text: what was felt.
-std::string felt_text(const RunResult& result);
-
-// Parts of it.
+// Parts of both.
 std::string acted_text(const std::map<std::string, Acted>& all);
+nlohmann::ordered_json acted_json(const std::map<std::string, Acted>& all);
 std::string energy_lines(const FeltEnergy& energy);
+nlohmann::ordered_json energy_json(const FeltEnergy& energy);
 /// Warns that the law's torque was 0 because its mailbox was too old; empty if it never was.
 std::string stale_line(const Acted& stale);
 /// The first lines of a run: large errors without a proven bound.
 std::string large_error_lines(const SessionResult& r);
-std::string expectation_lines(const std::vector<Expected>& all);
+/// The expectations that are kept; run_text() and axes_text() end with those that are not.
+std::string expectation_line(const std::vector<Expected>& all);
+/// How long it was, what differed and from what.
+nlohmann::ordered_json session_json(const SessionResult& r);
 
 /// If RTL and twin differed, repeats the run, which is deterministic, with a waveform of the clocks
 /// around the first mismatch, and prints where it is. `run` gets the options of the run with it.
@@ -66,6 +69,10 @@ Scenario cut_after(Scenario scenario, const SessionResult& result, Clock clocks)
 /// (law/units.hpp). `law` may be nullptr. Throws std::invalid_argument.
 void apply_settings(const std::vector<std::string>& set, const DesignInfo& design,
                     const SceneLaw* law, Scenario& scenario);
+/// A scene that names a device, with its file in vectors/devices.
+AxesScene device_scene(const std::string& path);
+/// Throws std::invalid_argument: an option that a scene with a device does not have.
+[[noreturn]] void refuse_for_device(const std::string& option, const std::string& scene);
 /// The path of the law that a scene names; a relative path starts at the scene's folder.
 std::string law_file(const Scenario& scenario);
 

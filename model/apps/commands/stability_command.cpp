@@ -74,16 +74,12 @@ bool same_structure(const design::Elaborated& a, const design::Elaborated& b) {
 /// The design of a name, or of a file. The chain of a file is that of a built-in design of the same
 /// structure with the file's values in its registers. A file without one has no bits.
 design::Elaborated design_of(const StabilityArguments& a) {
-  const auto registers = design::read_registers(repository() + "/rtl/registers.toml");
-  const auto read = [&](const std::string& name) {
-    return elaborate(design::read_design(find_file(name, "rtl/designs")), registers);
-  };
   const bool file = a.design.find('/') != std::string::npos || fs::path(a.design).has_extension();
-  if (!file) return read(built_design(a.design));
-  design::Elaborated e = read(a.design);
+  if (!file) return elaborated_design(built_design(a.design));
+  design::Elaborated e = elaborated_design(a.design);
   if (a.no_bits && a.no_experiments) return e;
   for (const std::string& name : design_names()) {
-    if (!same_structure(e, read(name))) continue;
+    if (!same_structure(e, elaborated_design(name))) continue;
     e.design.name = name;
     return e;
   }

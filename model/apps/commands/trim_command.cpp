@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <ctime>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -16,8 +15,8 @@
 #include "apps/commands/commands.hpp"
 #include "apps/commands/run_output.hpp"
 #include "feltgate/largest.hpp"
-#include "files/json_text.hpp"
 #include "files/output_file.hpp"
+#include "files/table.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/scenario_check.hpp"
@@ -29,7 +28,8 @@ namespace feltgate {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using files::Columns;
+using files::Json;
 
 struct TrimArguments {
   std::string scene, plant, output, json, tolerance = "1%";
@@ -95,13 +95,18 @@ std::string joined(const std::vector<std::string>& words) {
 
 double cost(const trim::Felt& felt) { return felt.cpu_s / felt.simulated_s; }
 
-/// peak/rms in percent.
-std::string loss_text(const trim::Loss& l) {
-  return fmt::format("{:7.2f} {:6.2f}", 100 * l.peak, 100 * l.rms);
-}
-
-std::string difference_text(const trim::Difference& d) {
-  return loss_text(d.torque) + " " + loss_text(d.position) + " " + loss_text(d.force);
+/// Losses in torque, position and force, in the text in percent.
+template <class Row>
+void add_difference(Columns<Row>& to, const std::string& key, trim::Difference Row::*of) {
+  const auto loss = [&](const std::string& name, trim::Loss trim::Difference::*part) {
+    to.push_back({key + "/" + name + "/peak", [=](const Row& r) { return (r.*of.*part).peak; },
+                  name + " %\npeak", "{:.2f}", 100});
+    to.push_back({key + "/" + name + "/rms", [=](const Row& r) { return (r.*of.*part).rms; }, "rms",
+                  "{:.2f}", 100});
+  };
+  loss("torque", &trim::Difference::torque);
+  loss("position", &trim::Difference::position);
+  loss("force", &trim::Difference::force);
 }
 
 std::string verdict(const trim::PartReport& p) {
@@ -109,6 +114,29 @@ std::string verdict(const trim::PartReport& p) {
   if (p.dropped) return fmt::format("off; all so far {:.2f} %", 100 * p.so_far);
   if (p.so_far > 0) return fmt::format("stays; the set would be {:.2f} % off", 100 * p.so_far);
   return "stays";
+}
+
+Columns<trim::PartReport> part_columns() {
+  using trim::PartReport;
+  Columns<PartReport> all{{"name", &PartReport::name, "<left out\nalone"}};
+  add_difference(all, "alone", &PartReport::alone);
+  all.push_back({"saves", &PartReport::saves, "saves\nof time", "{:.1f} %", 100});
+  all.push_back({"", verdict, "< "});
+  all.push_back({"off", &PartReport::dropped});
+  all.push_back({"put_back", &PartReport::put_back});
+  return all;
+}
+
+Columns<trim::UnseenReport> motion_columns() {
+  using trim::UnseenReport;
+  Columns<UnseenReport> all{
+      {"", [](auto& u) { return u.searched ? "searched too" : "unseen"; }, "<motion"},
+      {"seed", &UnseenReport::seed, "seed"},
+      {"amplitude", &UnseenReport::amplitude, "way", "x{:.2f}"},
+      {"speed", &UnseenReport::speed, "speed", "x{:.2f}"},
+      {"searched", &UnseenReport::searched}};
+  add_difference(all, "difference", &UnseenReport::difference);
+  return all;
 }
 
 /// The speed of the trimmed model in that of the full one, with the spread of the runs.
@@ -127,20 +155,10 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
     << "full model: " << joined(t.subject.parts(r.full))
     << fmt::format(", {} clocks a step: {:.3g} s of CPU time per simulated second\n\n",
                    r.full.step_clocks, cost(r.full_run))
-    << "left out                torque %      position %         force %     saves\n"
-    << "alone                 peak    rms     peak    rms     peak    rms   of time\n";
-  for (const trim::PartReport& p : r.parts) {
-    s << fmt::format("{:<18}", p.name.c_str()) << difference_text(p.alone)
-      << fmt::format("  {:6.1f} %  ", 100 * p.saves) << verdict(p) << "\n";
-  }
-  s << "\neffects off: " << joined(off(t, r.trimmed)) << "\n"
-    << fmt::format("step: {} clocks\n", r.trimmed.step_clocks) << "own motion        "
-    << difference_text(r.own) << "\n";
-  for (const trim::UnseenReport& u : r.unseen) {
-    s << (u.searched ? "searched too      " : "unseen motion     ") << difference_text(u.difference)
-      << fmt::format("  way x{:.2f}, speed x{:.2f}, seed {}\n", u.amplitude, u.speed,
-                     static_cast<unsigned long long>(u.seed));
-  }
+    << table(part_columns(), r.parts) << "\neffects off: " << joined(off(t, r.trimmed)) << "\n"
+    << fmt::format("step: {} clocks\nown motion: {:.2f} % off at worst; others:\n",
+                   r.trimmed.step_clocks, 100 * r.own.worst())
+    << table(motion_columns(), r.unseen);
   if (r.full_run.states > 0) {
     s << fmt::format("states of the plant {} -> {}; ", r.full_run.states, r.trimmed_run.states);
   }
@@ -159,11 +177,6 @@ std::string text_of(const trim::Report& r, const Trimmed& t, const TrimArguments
   return s.str();
 }
 
-Json difference_json(const trim::Difference& d) {
-  const auto loss = [](const trim::Loss& l) { return Json{{"peak", l.peak}, {"rms", l.rms}}; };
-  return {{"torque", loss(d.torque)}, {"position", loss(d.position)}, {"force", loss(d.force)}};
-}
-
 Json model_json(const Trimmed& t, const trim::Model& model, const trim::Felt& felt) {
   return {{"effects_off", off(t, model)},
           {"step_clocks", model.step_clocks},
@@ -172,43 +185,29 @@ Json model_json(const Trimmed& t, const trim::Model& model, const trim::Felt& fe
 }
 
 std::string json_of(const trim::Report& r, const Trimmed& t, const TrimArguments& a) {
-  Json j{{"schema", "feltgate-trim/1"},
-         {"version", FELTGATE_VERSION},
-         {"date", today()},
-         {"scene", t.scene.name},
-         {"design", a.options.design},
-         {"plant", t.plant},
-         {"tolerance", a.options.tolerance},
-         {"window_s", a.options.window_s},
-         {"full", model_json(t, r.full, r.full_run)},
-         {"trimmed", model_json(t, r.trimmed, r.trimmed_run)},
-         {"faster",
-          {{"median", r.times_faster()},
-           {"least", r.faster.front()},
-           {"most", r.faster.back()},
-           {"runs", r.faster.size()}}},
-         {"own_motion", difference_json(r.own)},
-         {"parts", Json::array()},
-         {"unseen", Json::array()},
-         {"out_of_time", r.out_of_time},
-         {"expectations_broken", r.trimmed_run.broken},
-         {"runs", r.runs},
-         {"search_cpu_s", r.cpu_s}};
-  for (const trim::PartReport& p : r.parts) {
-    j["parts"].push_back({{"name", p.name},
-                          {"alone", difference_json(p.alone)},
-                          {"saves", p.saves},
-                          {"off", p.dropped},
-                          {"put_back", p.put_back}});
-  }
-  for (const trim::UnseenReport& u : r.unseen) {
-    j["unseen"].push_back({{"seed", u.seed},
-                           {"amplitude", u.amplitude},
-                           {"speed", u.speed},
-                           {"searched", u.searched},
-                           {"difference", difference_json(u.difference)}});
-  }
-  return files::json_text(j);
+  return files::json_text(
+      {{"schema", "feltgate-trim/1"},
+       {"version", FELTGATE_VERSION},
+       {"date", today()},
+       {"scene", t.scene.name},
+       {"design", a.options.design},
+       {"plant", t.plant},
+       {"tolerance", a.options.tolerance},
+       {"window_s", a.options.window_s},
+       {"full", model_json(t, r.full, r.full_run)},
+       {"trimmed", model_json(t, r.trimmed, r.trimmed_run)},
+       {"faster",
+        {{"median", r.times_faster()},
+         {"least", r.faster.front()},
+         {"most", r.faster.back()},
+         {"runs", r.faster.size()}}},
+       {"own_motion", object_of(motion_columns(), {0, 1, 1, r.own})["difference"]},
+       {"parts", array_of(part_columns(), r.parts)},
+       {"unseen", array_of(motion_columns(), r.unseen)},
+       {"out_of_time", r.out_of_time},
+       {"expectations_broken", r.trimmed_run.broken},
+       {"runs", r.runs},
+       {"search_cpu_s", r.cpu_s}});
 }
 
 std::string comment_of(const trim::Report& r, const Trimmed& t, const TrimArguments& a) {
@@ -280,12 +279,8 @@ Trimmed trimmed_lever(const std::string& path, TrimArguments& a, files::Outputs&
 
 Trimmed trimmed_device(const std::string& path, TrimArguments& a, files::Outputs& outputs) {
   const char* of_lever = !a.plant.empty() ? "--plant" : a.full_step ? "--full-step" : nullptr;
-  if (of_lever != nullptr) {
-    throw std::invalid_argument(fmt::format(
-        "{} is for scenes of one lever, and {} names a device; leave it out", of_lever, path));
-  }
-  AxesScene scene = read_axes_scene(
-      path, [](const std::string& name) { return find_file(name, "vectors/devices"); });
+  if (of_lever != nullptr) refuse_for_device(of_lever, path);
+  AxesScene scene = device_scene(path);
   if (a.design.empty()) a.options.design = own_design(scene);
   const AxesDesignMakers* made = find_axes_design(a.options.design);
   if (made == nullptr) {

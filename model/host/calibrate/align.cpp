@@ -144,8 +144,7 @@ std::string report_text(const Alignment& a) {
   }
   text += fmt::format("left over    {:.2g} degrees of an electrical turn, {} degrees of freedom\n",
                       360 * a.rest_turns, a.freedom);
-  for (const std::string& w : a.warnings) text += "note: " + w + "\n";
-  return text;
+  return text + notes_text(a.warnings);
 }
 
 nlohmann::ordered_json report_json(const Alignment& a) {

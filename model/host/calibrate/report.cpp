@@ -4,109 +4,125 @@
 // Text and JSON of a calibration's results. Documentation: docs/calibration.md
 #include "host/calibrate/report.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include "design/text_edit.hpp"
+#include "files/table.hpp"
 
 namespace feltgate::host {
 
 namespace {
 
-using nlohmann::ordered_json;
+using files::Columns;
+using files::Json;
+using files::when;
 
-std::string rows(const std::vector<Residual>& residuals, const char* command, bool relative) {
-  std::string text =
-      fmt::format("{:>10}  {:>10}  {:>10}  {:>10}  {}{}\n", command, "gauge Nm", "line Nm",
-                  "rest mNm", "in sigmas", relative ? "  error of the torque" : "");
-  for (const Residual& r : residuals) {
-    text += fmt::format("{:>10.4g}  {:>10.4f}  {:>10.4f}  {:>10.2f}  ", r.command, r.measured_nm,
-                        r.fitted_nm, 1e3 * r.residual_nm());
-    if (r.dead) {
-      text += "in the dead zone";
-    } else {
-      text += std::isfinite(r.studentised) ? fmt::format("{:>9.1f}", r.studentised) : "        -";
-      if (relative) text += fmt::format("  {:>+18.1f} %", 100 * (r.measured_nm / r.command - 1));
-    }
-    text += "\n";
+/// `command`: what was asked for, with its unit; a torque has an error relative to it.
+Columns<Residual> residual_columns(const std::string& command, bool relative) {
+  return {{"command", &Residual::command, command, "{:10.4g}"},
+          {"measured_nm", &Residual::measured_nm, "gauge Nm", "{:10.4f}"},
+          {"fitted_nm", &Residual::fitted_nm, "line Nm", "{:10.4f}"},
+          {"residual_nm", &Residual::residual_nm, "rest mNm", "{:10.2f}", 1e3},
+          {"dead", &Residual::dead},
+          {"studentised", &Residual::studentised},
+          {"", [](auto& r) { return r.dead ? Json("in the dead zone") : Json(r.studentised); },
+           "in sigmas", "{:.1f}"},
+          {"", [](auto& r) { return when(!r.dead, 100 * (r.measured_nm / r.command - 1)); },
+           relative ? "error of the torque" : "", "{:+.1f} %"}};
+}
+
+std::vector<Figure> figures_of(const OpenLoop& o) {
+  return {{"slope", "slope_nm_v", "Nm/V", o.slope_nm_v},
+          {"dead voltage", "dead_voltage_v", "V", o.dead_voltage_v},
+          {"R = Kt/slope", "resistance_ohm", "ohm", o.resistance_ohm},
+          {"gauge's offset", "gauge_offset_nm", "Nm", o.gauge_offset_nm},
+          {"observer's slope", "observer_slope_nm_v", "Nm/V", o.observer_slope_nm_v}};
+}
+
+std::vector<Figure> figures_of(const ClosedLoop& c) {
+  std::vector<Figure> all{{"slope", "slope", "(1 is right)", c.slope},
+                          {"offset", "offset_nm", "Nm (0 is right)", c.offset_nm}};
+  if (c.model) {
+    all.push_back({"R", "resistance_ohm", "ohm", c.model->resistance_ohm});
+    all.push_back(
+        {"dead voltage", "dead_voltage_v", "V with the dead time's part", c.model->dead_voltage_v});
   }
-  return text;
+  if (c.regions) {
+    const bool two = c.regions->border_nm.has_value();
+    all.push_back({"region border", "region_nm", "Nm", c.regions->border_nm});
+    all.push_back({two ? "Kv below" : "Kv", "kv_low", "", c.regions->low});
+    all.push_back({two ? "Kv above" : "", "kv_high", "", c.regions->high});
+  }
+  return all;
 }
 
-std::string warnings_text(const std::vector<std::string>& warnings) {
-  std::string text;
-  for (const std::string& w : warnings) text += "note: " + w + "\n";
-  return text;
-}
-
-std::string found(const std::string& what, const Interval& i, const std::string& unit) {
-  return fmt::format("{:<18} {} {}\n", what, text_of(i), unit);
-}
-
-std::string noise_text(double noise_nm, int freedom, double confidence) {
+/// What both calibrations end with.
+template <class Loop>
+std::string end_text(const Loop& l) {
   return fmt::format("{:<18} {:.2g} mNm, {} degree{} of freedom; intervals: {:g} %\n", "noise",
-                     1e3 * noise_nm, freedom, freedom == 1 ? "" : "s", 100 * confidence);
+                     1e3 * l.noise_nm, l.freedom, l.freedom == 1 ? "" : "s", 100 * l.confidence) +
+         notes_text(l.warnings);
 }
 
-ordered_json residuals_json(const std::vector<Residual>& residuals) {
-  ordered_json rows = ordered_json::array();
-  for (const Residual& r : residuals) {
-    ordered_json row{{"command", r.command},
-                     {"measured_nm", r.measured_nm},
-                     {"fitted_nm", r.fitted_nm},
-                     {"residual_nm", r.residual_nm()},
-                     {"dead", r.dead}};
-    row["studentised"] = std::isfinite(r.studentised) ? ordered_json(r.studentised) : nullptr;
-    rows.push_back(row);
+template <class Loop>
+Json loop_json(const char* procedure, const Loop& l) {
+  Json j{{"schema", "feltgate-calibrate/1"},
+         {"procedure", procedure},
+         {"confidence", l.confidence},
+         {"noise_nm", l.noise_nm},
+         {"freedom", l.freedom},
+         {"readings", array_of(residual_columns("", false), l.residuals)},
+         {"warnings", l.warnings}};
+  for (const Figure& f : figures_of(l)) {
+    if (f.value) j[f.key] = report_json(*f.value);
   }
-  return rows;
+  return j;
 }
 
 }  // namespace
 
-std::string report_text(const OpenLoop& open, const design::Elaborated& e) {
-  std::string text = rows(open.residuals, "V", false) + "\n";
-  text += found("slope", open.slope_nm_v, "Nm/V");
-  text += found("dead voltage", open.dead_voltage_v, "V");
-  text += found("R = Kt/slope", open.resistance_ohm, "ohm");
-  if (open.gauge_offset_nm) text += found("gauge's offset", *open.gauge_offset_nm, "Nm");
-  if (open.observer_slope_nm_v) {
-    text += found("observer's slope", *open.observer_slope_nm_v, "Nm/V");
-    if (!e.design.emf_in_law()) {
-      const Interval ratio = slope_ratio(open);
-      text += found("gauge/observer", ratio, "");
-      text += fmt::format("{:<18} voltage_to_current = {:.4g} brings the slopes together\n", "",
-                          open.slope_nm_v.value / e.design.torque_constant_nm_a);
-    }
+std::string figures_text(const std::vector<Figure>& figures) {
+  std::size_t width = 18;
+  for (const Figure& f : figures) width = std::max(width, f.name.size());
+  std::string text;
+  for (const Figure& f : figures) {
+    if (!f.value || f.name.empty()) continue;
+    text += fmt::format("{:<{}} {} {}\n", f.name, width, text_of(*f.value), f.unit);
   }
-  text += noise_text(open.noise_nm, open.freedom, open.confidence);
-  return text + warnings_text(open.warnings);
+  return text;
 }
 
-std::string report_text(const ClosedLoop& closed, const design::Elaborated& e) {
-  std::string text = rows(closed.residuals, "asked Nm", true) + "\n";
-  text += found("slope", closed.slope, "(1 is right)");
-  text += found("offset", closed.offset_nm, "Nm (0 is right)");
-  if (closed.model) {
-    text += found("R", closed.model->resistance_ohm, "ohm");
-    text += found("dead voltage", closed.model->dead_voltage_v, "V with the dead time's part");
-    if (closed.slope.contains(1) && closed.offset_nm.contains(0)) {
-      text += "the design's constants lie within the intervals: nothing to change\n";
-    }
+std::string notes_text(const std::vector<std::string>& notes) {
+  std::string text;
+  for (const std::string& note : notes) text += "note: " + note + "\n";
+  return text;
+}
+
+std::string report_text(const OpenLoop& open, const design::Elaborated& e) {
+  std::string text = table(residual_columns("V", false), open.residuals) + "\n";
+  text += figures_text(figures_of(open));
+  if (open.observer_slope_nm_v && !e.design.emf_in_law()) {
+    text += figures_text({{"gauge/observer", "", "", slope_ratio(open)}});
+    text += fmt::format("{:<18} voltage_to_current = {:.4g} brings the slopes together\n", "",
+                        open.slope_nm_v.value / e.design.torque_constant_nm_a);
+  }
+  return text + end_text(open);
+}
+
+std::string report_text(const ClosedLoop& closed) {
+  std::string text = table(residual_columns("asked Nm", true), closed.residuals) + "\n";
+  text += figures_text(figures_of(closed));
+  if (closed.model && closed.slope.contains(1) && closed.offset_nm.contains(0)) {
+    text += "the design's constants lie within the intervals: nothing to change\n";
   }
   if (closed.regions) {
-    const Regions& r = *closed.regions;
-    if (r.border_nm) text += found("region border", *r.border_nm, "Nm");
-    text += found(r.border_nm ? "Kv below" : "Kv", r.low, "");
-    if (r.border_nm) text += found("Kv above", r.high, "");
     text += fmt::format("{:<18} {:.1f} % at these torques, with the new gains\n", "error left",
-                        100 * r.worst_error);
+                        100 * closed.regions->worst_error);
   }
-  (void)e;
-  text += noise_text(closed.noise_nm, closed.freedom, closed.confidence);
-  return text + warnings_text(closed.warnings);
+  return text + end_text(closed);
 }
 
 std::string changes_text(const std::vector<Change>& changes) {
@@ -117,60 +133,34 @@ std::string changes_text(const std::vector<Change>& changes) {
   return text;
 }
 
-ordered_json report_json(const Interval& i) {
+Json report_json(const Interval& i) {
   return {{"value", i.value}, {"low", i.low}, {"high", i.high}};
 }
 
-ordered_json report_json(const OpenLoop& open) {
-  ordered_json j{{"schema", "feltgate-calibrate/1"},
-                 {"procedure", "open_loop"},
-                 {"confidence", open.confidence},
-                 {"slope_nm_v", report_json(open.slope_nm_v)},
-                 {"dead_voltage_v", report_json(open.dead_voltage_v)},
-                 {"resistance_ohm", report_json(open.resistance_ohm)}};
-  if (open.gauge_offset_nm) j["gauge_offset_nm"] = report_json(*open.gauge_offset_nm);
-  if (open.observer_slope_nm_v) j["observer_slope_nm_v"] = report_json(*open.observer_slope_nm_v);
+Json report_json(const OpenLoop& open) {
+  Json j = loop_json("open_loop", open);
   if (open.bend) {
     j["bend"] = {{"at_v", report_json(open.bend->at_v)},
                  {"slope_below_nm_v", report_json(open.bend->slope_below_nm_v)},
                  {"slope_above_nm_v", report_json(open.bend->slope_above_nm_v)},
                  {"chance", open.bend->chance}};
   }
-  j["noise_nm"] = open.noise_nm;
-  j["freedom"] = open.freedom;
-  j["readings"] = residuals_json(open.residuals);
-  j["warnings"] = open.warnings;
   return j;
 }
 
-ordered_json report_json(const ClosedLoop& closed) {
-  ordered_json j{{"schema", "feltgate-calibrate/1"},
-                 {"procedure", "closed_loop"},
-                 {"confidence", closed.confidence},
-                 {"slope", report_json(closed.slope)},
-                 {"offset_nm", report_json(closed.offset_nm)}};
-  if (closed.model) {
-    j["resistance_ohm"] = report_json(closed.model->resistance_ohm);
-    j["dead_voltage_v"] = report_json(closed.model->dead_voltage_v);
-  }
+Json report_json(const ClosedLoop& closed) {
+  Json j = loop_json("closed_loop", closed);
   if (closed.regions) {
-    j["kv_low"] = report_json(closed.regions->low);
-    j["kv_high"] = report_json(closed.regions->high);
-    j["region_nm"] = closed.regions->border_nm ? report_json(*closed.regions->border_nm) : nullptr;
+    if (!closed.regions->border_nm) j["region_nm"] = nullptr;
     j["worst_error"] = closed.regions->worst_error;
   }
-  j["noise_nm"] = closed.noise_nm;
-  j["freedom"] = closed.freedom;
-  j["readings"] = residuals_json(closed.residuals);
-  j["warnings"] = closed.warnings;
   return j;
 }
 
-ordered_json report_json(const std::vector<Change>& changes) {
-  ordered_json rows = ordered_json::array();
+Json report_json(const std::vector<Change>& changes) {
+  Json rows = Json::array();
   for (const Change& c : changes) {
-    ordered_json row{{"key", c.section + "." + c.key}, {"value", c.value}, {"reason", c.reason}};
-    rows.push_back(row);
+    rows.push_back({{"key", c.section + "." + c.key}, {"value", c.value}, {"reason", c.reason}});
   }
   return rows;
 }

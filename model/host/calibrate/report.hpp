@@ -4,6 +4,7 @@
 // Results of a calibration as text and JSON. Documentation: docs/calibration.md, docs/json.md
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,17 @@ std::string changed_design(const std::string& path, const std::string& name,
                            const std::vector<Change>& changes,
                            const design::RegisterMap& registers);
 
+/// A figure, once for text and JSON.
+struct Figure {
+  std::string name, key, unit;  ///< without a name in no text
+  std::optional<Interval> value;
+};
+std::string figures_text(const std::vector<Figure>& figures);
+std::string notes_text(const std::vector<std::string>& notes);
+
 /// One row per reading, with line and residual, then the results.
 std::string report_text(const OpenLoop& open, const design::Elaborated& design);
-std::string report_text(const ClosedLoop& closed, const design::Elaborated& design);
+std::string report_text(const ClosedLoop& closed);
 /// The values to write into the design, and into the registers to try them at once.
 std::string changes_text(const std::vector<Change>& changes);
 

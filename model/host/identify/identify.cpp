@@ -57,12 +57,6 @@ struct Known {
 double emf(const Vector& v, double) { return v[1] - v[0] * v[3]; }
 double inertia(const Vector& v, double r) { return v[0] * emf(v, r) / r; }
 
-/// A figure, once for text and JSON; without a value it is null, and in no text.
-struct Figure {
-  const char *name, *key, *unit;
-  std::optional<Interval> value;
-};
-
 std::vector<Figure> figures_of(const Drive& d) {
   return {{"J R/Kt", "j_r_over_kt_v_s2", "V s^2/rad", d.inertia_v_s2},
           {"Ke + B R/Kt", "ke_plus_b_r_over_kt_v_s", "V s/rad", d.speed_v_s},
@@ -81,13 +75,6 @@ std::vector<Figure> figures_of(const Constants& c) {
           {"dead voltage", "dead_voltage_v", "V with the dead time's part", c.dead_voltage_v}};
 }
 
-std::string lines(const std::vector<Figure>& figures) {
-  std::string text;
-  for (const Figure& f : figures) {
-    if (f.value) text += fmt::format("  {:<22} {} {}\n", f.name, text_of(*f.value), f.unit);
-  }
-  return text;
-}
 ordered_json json_of(const std::vector<Figure>& figures) {
   ordered_json j;
   for (const Figure& f : figures) j[f.key] = f.value ? report_json(*f.value) : nullptr;
@@ -126,9 +113,9 @@ Constants constants_of(const Drive& drive, const std::optional<Coast>& coast,
 
 std::string report_text(const Drive& drive, const std::optional<Coast>& coast, const Constants& c) {
   std::string text = fmt::format("driven; intervals: {:g} %\n", 100 * kConfidence);
-  text += lines(figures_of(drive));
-  if (coast) text += "coast-down:\n" + lines(figures_of(*coast));
-  text += "constants:\n" + lines(figures_of(c));
+  text += figures_text(figures_of(drive));
+  if (coast) text += "coast-down:\n" + figures_text(figures_of(*coast));
+  text += "constants:\n" + figures_text(figures_of(c));
   if (!c.emf_v_s_rad && !c.resistance_ohm) text += "  none yet: these recordings give products\n";
   for (const std::string& n : c.next) text += "next: " + n + "\n";
   return text;

@@ -8,27 +8,56 @@
 #include <time.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
-#include "files/json_text.hpp"
+#include "files/table.hpp"
 
 namespace feltgate::bench {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
+
+using files::Columns;
+using files::Json;
+using files::when;
 
 Json spread_json(const Spread& s) {
   return {{"median", s.median}, {"min", s.low}, {"max", s.high}};
 }
-Json error_json(const ErrorFigure& e) { return {{"max", e.max()}, {"rms", e.rms()}}; }
+std::string spread_text(const Spread& s, double factor = 1) {
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", factor * s.median, factor * s.low,
+                     factor * s.high);
+}
+Json spread_if(const std::optional<Spread>& s) { return s ? spread_json(*s) : files::absent; }
 
 std::string hex(std::uint64_t v) { return fmt::format("{:016x}", v); }
 
-template <class... Values>
-void print(std::string* out, const char* format, const Values&... values) {
-  *out += fmt::format(fmt::runtime(format), values...);
+Columns<BackendResult> columns() {
+  using Engine = const BackendResult&;
+  Columns<BackendResult> all{
+      {"", &BackendResult::name, "<engine"},
+      {"arithmetic", [](Engine e) { return e.integer ? "integer" : "real"; }},
+      {"ns_per_tick", [](Engine e) { return spread_json(e.ns_per_tick); }},
+      {"", [](Engine e) { return e.ns_per_tick.median; }, "ns/tick", "{:.4g}"},
+      {"", [](Engine e) { return e.ns_per_tick.low; }, "min", "{:.4g}"},
+      {"", [](Engine e) { return e.ns_per_tick.high; }, "max", "{:.4g}"},
+      {"", [](Engine e) { return e.speed.median; }, "x real time", "{:.4g}"},
+      {"simulated_s_per_s", [](Engine e) { return spread_json(e.speed); }},
+      {"clocks_per_s", [](Engine e) { return spread_if(e.clocks_per_s); }},
+      {"updates_per_s", [](Engine e) { return spread_if(e.updates_per_s); }}};
+  const auto error = [&](const std::string& key, const std::string& title,
+                         ErrorFigure BackendResult::*of) {
+    all.push_back({key + "/max", [of](Engine e) { return when(e.compared, (e.*of).max()); }, title,
+                   "{:.3g}"});
+    all.push_back({key + "/rms", [of](Engine e) { return when(e.compared, (e.*of).rms()); }, "rms",
+                   "{:.3g}"});
+  };
+  error("velocity_error_rad_s", "velocity error\nrad/s, max", &BackendResult::velocity_rad_s);
+  error("tau_hat_error_nm", "tau_hat error\nNm, max", &BackendResult::tau_hat_nm);
+  error("torque_error_nm", "torque error\nNm, max", &BackendResult::torque_nm);
+  all.push_back({"hash", [](Engine e) { return when(e.integer, hex(e.hash)); }});
+  all.push_back({"samples_ns_per_tick", &BackendResult::samples});
+  return all;
 }
 
 }  // namespace
@@ -65,21 +94,7 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
     j["scenes"].push_back(
         {{"name", w.name}, {"simulated_s", w.simulated_s}, {"ticks", w.ticks.size()}});
   }
-  for (const BackendResult& e : r.engines) {
-    Json& o = j["engines"][e.name];
-    o = {{"arithmetic", e.integer ? "integer" : "real"},
-         {"ns_per_tick", spread_json(e.ns_per_tick)},
-         {"simulated_s_per_s", spread_json(e.speed)}};
-    if (e.clocks_per_s) o["clocks_per_s"] = spread_json(*e.clocks_per_s);
-    if (e.updates_per_s) o["updates_per_s"] = spread_json(*e.updates_per_s);
-    if (e.compared) {
-      o["velocity_error_rad_s"] = error_json(e.velocity_rad_s);
-      o["tau_hat_error_nm"] = error_json(e.tau_hat_nm);
-      o["torque_error_nm"] = error_json(e.torque_nm);
-    }
-    if (e.integer) o["hash"] = hex(e.hash);
-    o["samples_ns_per_tick"] = e.samples;
-  }
+  for (const BackendResult& e : r.engines) j["engines"][e.name] = object_of(columns(), e);
   if (r.bounds) {
     j["bounds_of_integer_engines"] = {{"velocity_error_rad_s", r.bounds->velocity_rad_s},
                                       {"tau_hat_error_nm", r.bounds->tau_hat_nm},
@@ -102,33 +117,15 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
 }
 
 std::string text(const Result& r, const std::vector<Work>& works, const Circumstances& c) {
-  std::string s;
-  print(&s, "{}, {}, {}, design lever\nscenes:", c.machine.c_str(), c.compiler.c_str(),
-        c.date.c_str());
-  for (const Work& w : works) print(&s, " {} ({:g} s)", w.name.c_str(), w.simulated_s);
-  print(&s, "; {} ticks in all\n\n{:<11} {:>10} {:>21} {:>12} {:>21} {:>21} {:>21}\n", r.ticks,
-        "engine", "ns/tick", "min .. max", "x real time", "velocity error rad/s",
-        "tau_hat error Nm", "torque error Nm");
-  print(&s, "{:<11} {:>10} {:>21} {:>12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "", "", "",
-        "", "max", "rms", "max", "rms", "max", "rms");
-  for (const BackendResult& e : r.engines) {
-    print(&s, "{:<11} {:10.4g} {:10.4g} {:10.4g} {:12.4g}", e.name.c_str(), e.ns_per_tick.median,
-          e.ns_per_tick.low, e.ns_per_tick.high, e.speed.median);
-    if (e.compared) {
-      for (const ErrorFigure* f : {&e.velocity_rad_s, &e.tau_hat_nm, &e.torque_nm}) {
-        print(&s, " {:10.3g} {:10.3g}", f->max(), f->rms());
-      }
-      s += "\n";
-    } else {
-      s += e.name == "quad" ? "   the reference\n" : "\n";
-    }
-  }
+  std::string s = fmt::format("{}, {}, {}, design lever\nscenes:", c.machine, c.compiler, c.date);
+  for (const Work& w : works) s += fmt::format(" {} ({:g} s)", w.name, w.simulated_s);
+  s += fmt::format("; {} ticks in all\n\n{}", r.ticks, table(columns(), r.engines));
   if (r.bounds) {
-    print(&s, "{:<57} {:10.3g} {:>10} {:10.3g} {:>10} {:10.3g}\n",
-          "proven bound of the integers, no limit or ramp at work", r.bounds->velocity_rad_s, "",
-          r.bounds->tau_hat_nm, "", r.bounds->torque_nm);
+    s += fmt::format(
+        "proven bounds of the integers, no limit or ramp at work: velocity {:.3g} rad/s, tau_hat "
+        "{:.3g} Nm, torque {:.3g} Nm\n",
+        r.bounds->velocity_rad_s, r.bounds->tau_hat_nm, r.bounds->torque_nm);
   }
-  s += "\n";
   if (r.divergence.empty()) {
     std::string names;
     std::uint64_t hash = 0;
@@ -137,27 +134,22 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
       names += (names.empty() ? "" : ", ") + e.name;
       hash = e.hash;
     }
-    print(&s, "equal in every bit of every tick: {} (hash {})\n", names.c_str(), hex(hash).c_str());
+    s += fmt::format("\nequal in every bit of every tick: {} (hash {})\n", names, hex(hash));
   } else {
-    print(&s, "DIFFERENT: {}\n", r.divergence.c_str());
+    s += fmt::format("\nDIFFERENT: {}\n", r.divergence);
   }
   for (const BackendResult& e : r.engines) {
     if (!e.updates_per_s) continue;
-    const Spread& u = *e.updates_per_s;
-    print(&s, "million control updates simulated per second, {}: {:.3g} ({:.3g} .. {:.3g})\n",
-          e.name.c_str(), 1e-6 * u.median, 1e-6 * u.low, 1e-6 * u.high);
+    s += fmt::format("million control updates simulated per second, {}: {}\n", e.name,
+                     spread_text(*e.updates_per_s, 1e-6));
   }
   for (const LoopResult& l : r.loops) {
-    print(&s, "closed loop, {}: {:.3g} times real time ({:.3g} .. {:.3g})\n", l.scene.c_str(),
-          l.speed.median, l.speed.low, l.speed.high);
+    s += fmt::format("closed loop, {}, times real time: {}\n", l.scene, spread_text(l.speed));
   }
-  print(&s, "TwinDevice::tick_to, ns/tick: {:.4g} ({:.4g} .. {:.4g})\n", r.device_ns.median,
-        r.device_ns.low, r.device_ns.high);
-  s += "\n";
+  s += fmt::format("TwinDevice::tick_to, ns/tick: {}\n\n", spread_text(r.device_ns));
   for (const Goal& g : r.goals) {
-    print(&s, "{:<6} {}: {:.3g} ({:.3g} .. {:.3g}), goal {} {:g}\n", g.met() ? "met" : "MISSED",
-          g.text.c_str(), g.value.median, g.value.low, g.value.high,
-          g.at_most ? "at most" : "at least", g.goal);
+    s += fmt::format("{:<6} {}: {}, goal {} {:g}\n", g.met() ? "met" : "MISSED", g.text,
+                     spread_text(g.value), g.at_most ? "at most" : "at least", g.goal);
   }
   return s;
 }

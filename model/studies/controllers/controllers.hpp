@@ -318,6 +318,8 @@ std::unique_ptr<RealChain> make_estimator_chain(int estimator, bool observer, co
 EstimatorRow measure_estimator(const Bench& bench, int estimator);
 std::vector<EstimatorRow> measure_estimators(const Bench& bench,
                                              const std::function<void(double)>& progress = {});
+/// The largest wall; whether it is beyond what was tried.
+std::string wall_text(double nm_rad);
 /// A Markdown table, as it stands in docs/blocks/velocity.md.
 std::string estimators_text(const std::vector<EstimatorRow>& rows);
 std::string estimators_json(const std::vector<EstimatorRow>& rows);

@@ -9,18 +9,20 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/velocity_mt.hpp"
-#include "files/json_text.hpp"
+#include "files/table.hpp"
 #include "sim/loop/rest.hpp"
 #include "sim/reference/chain.hpp"
 #include "studies/controllers/controllers.hpp"
 #include "studies/controllers/fed_lever.hpp"
 
 namespace feltgate::controllers {
+
+using files::Columns;
+using files::Json;
 
 namespace {
 
@@ -252,68 +254,64 @@ std::vector<EstimatorRow> measure_estimators(const Bench& bench,
   return rows;
 }
 
-std::string estimators_text(const std::vector<EstimatorRow>& rows) {
-  std::string s = "| |", rule = "|---|";
-  for (const EstimatorRow& r : rows) {
-    s += fmt::format(" {} |", r.name);
-    rule += "---|";
-  }
-  s += "\n" + rule + "\n";
-  const auto line = [&](const std::string& what, const auto& cell) {
-    s += "| " + what + " |";
-    for (const EstimatorRow& r : rows) s += " " + cell(r) + " |";
-    s += "\n";
-  };
-  const auto wall = [](double nm_rad) {
-    return nm_rad >= stiffest_nm_rad ? fmt::format("over {:g}", stiffest_nm_rad)
-                                     : fmt::format("{:.1f}", nm_rad);
-  };
-  line("largest wall, pressed, Nm/rad", [&](const auto& r) { return wall(r.border_nm_rad); });
-  line("the same, observer fed back",
-       [&](const auto& r) { return wall(r.border_observer_nm_rad); });
-  const auto noises = [&](const char* what, double Noise::*figure) {
+std::string wall_text(double nm_rad) {
+  return nm_rad >= stiffest_nm_rad ? fmt::format("over {:g}", stiffest_nm_rad)
+                                   : fmt::format("{:.1f}", nm_rad);
+}
+
+namespace {
+
+Columns<EstimatorRow> columns() {
+  Columns<EstimatorRow> all{
+      {"name", &EstimatorRow::name, " "},
+      {"border_nm_rad", &EstimatorRow::border_nm_rad},
+      {"", [](auto& r) { return wall_text(r.border_nm_rad); }, "largest wall, pressed, Nm/rad"},
+      {"border_observer_nm_rad", &EstimatorRow::border_observer_nm_rad},
+      {"", [](auto& r) { return wall_text(r.border_observer_nm_rad); },
+       "the same, observer fed back"}};
+  const auto noises = [&](const std::string& key, const char* what, double Noise::*figure) {
+    const auto add = [&](const char* lines, auto EstimatorRow::*noise) {
+      all.push_back({key + lines, [=](auto& r) {
+                       Json of = Json::array();
+                       for (const Noise& n : r.*noise) of.push_back(n.*figure);
+                       return of;
+                     }});
+    };
+    add("_good_nm", &EstimatorRow::good);
+    add("_irregular_nm", &EstimatorRow::irregular);
     for (std::size_t k = 0; k <= estimator_speeds_rad_s.size(); ++k) {
       const std::string when =
           k == 0 ? "at rest" : fmt::format("at {:g} rad/s", estimator_speeds_rad_s[k - 1]);
-      line(fmt::format("{}, {}, mNm rms", what, when), [&](const auto& r) {
-        return fmt::format("{:.2f} / {:.2f}", 1e3 * (r.good[k].*figure),
-                           1e3 * (r.irregular[k].*figure));
-      });
+      all.push_back({"",
+                     [=](auto& r) {
+                       return fmt::format("{:.2f} / {:.2f}", 1e3 * (r.good[k].*figure),
+                                          1e3 * (r.irregular[k].*figure));
+                     },
+                     fmt::format("{}, {}, mNm rms", what, when)});
     }
   };
-  noises("tau_hat", &Noise::hat_nm);
-  noises("motor torque, observer fed back", &Noise::motor_nm);
-  line("drag of the free lever, mNm rms",
-       [](const auto& r) { return fmt::format("{:.2f}", 1e3 * r.drag_rms_nm); });
-  line("the same without friction and dead voltage: damping, mNm s/rad",
-       [](const auto& r) { return fmt::format("{:.3f}", 1e3 * r.drag_nm_s_rad); });
-  line("and inertia / J", [](const auto& r) { return fmt::format("{:.3f}", r.drag_inertia); });
-  return s;
+  noises("tau_hat", "tau_hat", &Noise::hat_nm);
+  noises("motor", "motor torque, observer fed back", &Noise::motor_nm);
+  const Columns<EstimatorRow> drag{
+      {"drag_rms_nm", &EstimatorRow::drag_rms_nm, "drag of the free lever, mNm rms", "{:.2f}", 1e3},
+      {"drag_nm_s_rad", &EstimatorRow::drag_nm_s_rad,
+       "the same without friction and dead voltage: damping, mNm s/rad", "{:.3f}", 1e3},
+      {"drag_inertia", &EstimatorRow::drag_inertia, "and inertia / J", "{:.3f}"}};
+  all.insert(all.end(), drag.begin(), drag.end());
+  return all;
+}
+
+}  // namespace
+
+std::string estimators_text(const std::vector<EstimatorRow>& rows) {
+  return markdown(columns(), rows);
 }
 
 std::string estimators_json(const std::vector<EstimatorRow>& rows) {
-  nlohmann::ordered_json j{{"schema", "feltgate-estimators/1"},
+  return files::json_text({{"schema", "feltgate-estimators/1"},
                            {"version", FELTGATE_VERSION},
                            {"speeds_rad_s", estimator_speeds_rad_s},
-                           {"estimators", nlohmann::ordered_json::array()}};
-  const auto noises = [](const auto& of, double Noise::*figure) {
-    std::vector<double> all;
-    for (const Noise& n : of) all.push_back(n.*figure);
-    return all;
-  };
-  for (const EstimatorRow& r : rows) {
-    j["estimators"].push_back({{"name", r.name},
-                               {"border_nm_rad", r.border_nm_rad},
-                               {"border_observer_nm_rad", r.border_observer_nm_rad},
-                               {"tau_hat_good_nm", noises(r.good, &Noise::hat_nm)},
-                               {"tau_hat_irregular_nm", noises(r.irregular, &Noise::hat_nm)},
-                               {"motor_good_nm", noises(r.good, &Noise::motor_nm)},
-                               {"motor_irregular_nm", noises(r.irregular, &Noise::motor_nm)},
-                               {"drag_rms_nm", r.drag_rms_nm},
-                               {"drag_nm_s_rad", r.drag_nm_s_rad},
-                               {"drag_inertia", r.drag_inertia}});
-  }
-  return files::json_text(j);
+                           {"estimators", array_of(columns(), rows)}});
 }
 
 }  // namespace feltgate::controllers

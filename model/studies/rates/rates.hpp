@@ -186,6 +186,8 @@ Report measure(const AxesScene& scene, const LawSource& law, const design::Elabo
 
 /// The report as text tables, as JSON (schema feltgate-rates/1), and as CSV with a row per rate.
 std::string report_text(const Report& report);
+/// The gains beside the bits as text.
+std::string gains_text(const Report& report);
 std::string reports_json(const std::vector<Report>& reports);
 std::string reports_csv(const std::vector<Report>& reports);
 

@@ -4,17 +4,20 @@
 // Documentation: docs/speed-for-accuracy.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "files/json_text.hpp"
+#include "files/table.hpp"
 #include "studies/rates/rates.hpp"
 
 namespace feltgate::rates {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using files::cell;
+using files::Columns;
+using files::Json;
+using files::when;
 
 constexpr double jump_share = 0.05;  ///< of the largest torque: less is not told
 
@@ -32,18 +35,20 @@ std::string slope_text(const Slope& s, double largest_nm) {
   return text;
 }
 
-/// The error (rms and largest) in mNm; "-" without ticks.
-std::string error_text(const ErrorFigure& e) {
-  if (e.count() == 0) return fmt::format("{:>9} {:>9}", "-", "-");
-  return fmt::format("{:>9.4g} {:>9.4g}", 1e3 * e.rms(), 1e3 * e.max());
-}
-
 /// Of an error; of no tick there is none.
-Json measured_json(const ErrorFigure& of, double value) {
+Json measured(const ErrorFigure& of, double value) {
   return of.count() == 0 ? Json(nullptr) : Json(value);
 }
-std::string measured_csv(const ErrorFigure& of, double value) {
-  return of.count() == 0 ? "" : fmt::format("{:.6g}", value);
+
+const char* margin_kind(const Margin& m) {
+  constexpr const char* kinds[] = {"stiffness", "damping", "torque", ""};
+  return kinds[static_cast<int>(m.of)];
+}
+
+/// Against the fastest, the last.
+double time_ratio(const Report& r, const RateRow& row) {
+  const double of = r.rows.back().cpu_s_per_s;
+  return of > 0 ? row.cpu_s_per_s / of : 0;
 }
 
 std::string kept_text(const RateRow& r) {
@@ -56,35 +61,120 @@ std::string ratio_text(const Margin& m) {
   return m.ratio >= 1e3 ? ">1000" : fmt::format("{:.3g}", m.ratio);
 }
 
-std::string margin_text(const Margin& m) {
-  if (m.of == Margin::Of::none) return fmt::format("{:>9} {:>8}", "-", "-");
-  return fmt::format("{:>9.4g} {:>8}", m.border, ratio_text(m));
-}
-
 std::string clocks_text(const RateRow& r) {
   if (r.clocks_available == 0) return "-";
   return fmt::format("{} of {}", r.clocks_used, r.clocks_available);
 }
 
-const char* margin_kind(const Margin& m) {
-  switch (m.of) {
-    case Margin::Of::stiffness:
-      return "stiffness";
-    case Margin::Of::damping:
-      return "damping";
-    case Margin::Of::torque:
-      return "torque";
-    case Margin::Of::none:
-      break;
-  }
-  return "";
+std::string notes_text(const Report& r) {
+  std::string s;
+  for (const std::string& note : r.notes) s += "note: " + note + "\n";
+  return s;
 }
 
-/// Against the fastest, the last.
-double time_ratio(const Report& r, const RateRow& row) {
-  const double of = r.rows.back().cpu_s_per_s;
-  return of > 0 ? row.cpu_s_per_s / of : 0;
+std::string border_title(const Report& r) {
+  if (r.rows.empty() || r.axes > 1) return "";
+  const Margin::Of of = r.rows.back().margin.of;
+  return of == Margin::Of::damping  ? "border\nNms/rad"
+         : of == Margin::Of::torque ? "torque/angle\nNm/rad"
+                                    : "border\nNm/rad";
 }
+
+const Columns<ErrorFigure> error_columns{
+    {"error_rms_nm", [](auto& e) { return measured(e, e.rms()); }, "torque error\nrms, mNm",
+     "{:.4g}", 1e3},
+    {"error_max_nm", [](auto& e) { return measured(e, e.max()); }, "worst, mNm", "{:.4g}", 1e3},
+    {"ticks_compared", &ErrorFigure::count}};
+
+Columns<RateRow> columns_of(const Report& r) {
+  const bool several = r.axes > 1;
+  const auto known = [](const RateRow& row) { return row.margin.of != Margin::Of::none; };
+  Columns<RateRow> all{
+      {"", [](auto& row) { return rate_text(row.rate_hz); }, "<torque\nrenewed at"},
+      {"by", [](auto& row) { return row.block ? "block" : "engine"; }, "<by"},
+      {"rate_hz", &RateRow::rate_hz},
+      {"ticks", &RateRow::ticks}};
+  for (const auto& c : error_columns) {
+    all.push_back(
+        {c.key, [c](auto& row) { return c.value(row.error); }, c.title, c.format, c.factor});
+  }
+  const Columns<RateRow> more{
+      {"error_mean_nm", [](auto& row) { return measured(row.error, row.mean_error_nm); }},
+      {"border", [=](auto& row) { return when(known(row), row.margin.border); }, border_title(r),
+       "{:.4g}"},
+      {"border_of", [=](auto& row) { return when(known(row), margin_kind(row.margin)); }},
+      {"margin", [=](auto& row) { return when(known(row), row.margin.ratio); }},
+      {"", [](auto& row) { return ratio_text(row.margin); }, "margin"},
+      {"axes", [=](auto& row) { return when(several, array_of(error_columns, row.of_axes)); }},
+      {"swing_nm", [=](auto& row) { return when(several, row.swing_nm); },
+       several ? "swing,\nmNm" : "", "{:.4g}", 1e3},
+      {"expected", [=](auto& row) { return when(several, row.expected); }},
+      {"broken", [=](auto& row) { return when(several, row.broken); }},
+      {"", kept_text, several ? "expected\nkept" : ""},
+      {"instructions", [](auto& row) { return when(!row.block, row.instructions); }},
+      {"runs", [](auto& row) { return when(!row.block, row.runs); }},
+      {"clocks_used", [](auto& row) { return when(!row.block, row.clocks_used); }},
+      {"clocks_available", [](auto& row) { return when(!row.block, row.clocks_available); }},
+      {"", clocks_text, "engine clocks\nof a run"},
+      {"cpu_s_per_s", &RateRow::cpu_s_per_s},
+      {"time_ratio", [&r](auto& row) { return time_ratio(r, row); }, "CPU\ntime", "{:.2f}"},
+      {"fault", &RateRow::fault},
+      {"mismatches", &RateRow::mismatches},
+      {"clocks_compared", &RateRow::clocks_compared}};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// What stands behind a factor that is not compared.
+std::string gain_note(const GainMargin& g) {
+  if (std::isnan(g.bits)) return g.why;
+  return g.large ? "" : "too small a swing to compare";
+}
+
+const Columns<GainMargin> gain_columns{
+    {"of", &GainMargin::of, "<factor on the torque"},
+    {"linear", &GainMargin::linear, "linear", "{:.4g}"},
+    {"bits", &GainMargin::bits, "bits", "{:.4g}"},
+    {"", [](auto& g) { return 100 * (g.bits / g.linear - 1); }, "off", "{:+.1f} %"},
+    {"rad_s", &GainMargin::rad_s, "swing", "{:.3g} Hz", 1 / 6.283185307179586},
+    {"swing_counts", &GainMargin::swing_counts, "counts", "{:.3g}"},
+    {"swing_nm", &GainMargin::swing_nm, "mNm", "{:.3g}", 1e3},
+    {"large", &GainMargin::large},
+    {"disagrees", &GainMargin::disagrees},
+    {"why", &GainMargin::why},
+    {"", gain_note, "< "}};
+
+const Columns<Beside> beside_columns{
+    {"design", &Beside::path},
+    {"counts_alone_rms_nm", [](auto& b) { return measured(b.floor, b.floor.rms()); }},
+    {"counts_alone_max_nm", [](auto& b) { return measured(b.floor, b.floor.max()); }},
+    {"margins", [](auto& b) {
+       Json all = Json::array();
+       for (const Margin& m : b.margins)
+         all.push_back(m.of == Margin::Of::none ? Json(nullptr) : Json(m.ratio));
+       return all;
+     }}};
+
+const Columns<Report> scene_columns{
+    {"scene", &Report::scene},
+    {"title", &Report::title},
+    {"law", &Report::law},
+    {"plant", [](auto& r) { return when(r.axes == 1, r.plant); }},
+    {"device", [](auto& r) { return when(r.axes > 1, r.plant); }},
+    {"axes", &Report::axes},
+    {"simulated_s", &Report::simulated_s},
+    {"largest_nm", &Report::largest_nm},
+    {"stiffness_nm_rad", [](auto& r) { return r.slope.stiffness_nm_rad; }},
+    {"damping_nm_s_rad", [](auto& r) { return r.slope.damping_nm_s_rad; }},
+    {"jump_nm", [](auto& r) { return r.slope.jump_nm; }},
+    {"lever_damping_nm_s_rad", &Report::damping_nm_s_rad},
+    {"counts_alone_rms_nm", [](auto& r) { return measured(r.floor, r.floor.rms()); }},
+    {"counts_alone_max_nm", [](auto& r) { return measured(r.floor, r.floor.max()); }},
+    {"block_gates", &Report::block_gates},
+    {"notes", &Report::notes},
+    {"rates", [](auto& r) { return array_of(columns_of(r), r.rows); }},
+    {"beside", [](auto& r) { return when(!r.beside.empty(), array_of(beside_columns, r.beside)); }},
+    {"gains", [](auto& r) { return when(!r.gains.empty(), array_of(gain_columns, r.gains)); }}};
 
 }  // namespace
 
@@ -93,54 +183,18 @@ std::string rate_text(double hz) {
   return hz >= 1e3 ? fmt::format("{:.3g} kHz", hz / 1e3) : fmt::format("{:.3g} Hz", hz);
 }
 
-namespace {
-
-/// One lever: error, margin, clocks and time.
-std::string lever_table(const Report& r) {
-  const Margin::Of of = r.rows.empty() ? Margin::Of::none : r.rows.back().margin.of;
-  std::string s = fmt::format(
-      "\n{:<17}  {:^19}  {:^18}  {:^16}  {:>5}\n{:<17}  {:>9} {:>9}  {:>9} {:>8}  {:>16}  {:>5}\n",
-      "torque renewed", "torque error, mNm",
-      of == Margin::Of::damping  ? "border Nms/rad"
-      : of == Margin::Of::torque ? "torque/angle Nm/rad"
-                                 : "border Nm/rad",
-      "engine clocks", "CPU", "at", "rms", "worst", "", "margin", "of a run", "time");
-  for (const RateRow& row : r.rows) {
-    s += fmt::format("{:<9} {:<7}  {}  {}  {:>16}  {:>5.2f}\n", rate_text(row.rate_hz),
-                     row.block ? "block" : "engine", error_text(row.error), margin_text(row.margin),
-                     clocks_text(row), time_ratio(r, row));
-  }
-  return s;
-}
-
-/// Several axes: what the bits show beside the margin.
-std::string axes_table(const Report& r) {
-  const char* line = "{:<17}  {:>9} {:>9}  {:>6}  {:>9}  {:>8}  {:>16}  {:>5}\n";
-  std::string s =
-      fmt::format("\n{:<17}  {:^19}  {:>6}  {:>9}  {:>8}  {:^16}  {:>5}\n", "torque renewed",
-                  "torque error, mNm", "", "swing,", "expec-", "engine clocks", "CPU");
-  s += fmt::format(line, "at", "rms", "worst", "margin", "mNm", "ted kept", "of a run", "time");
-  for (const RateRow& row : r.rows) {
-    s +=
-        fmt::format("{:<9} {:<7}  {}  {:>6}  {:>9.4g}  {:>8}  {:>16}  {:>5.2f}\n",
-                    rate_text(row.rate_hz), "engine", error_text(row.error), ratio_text(row.margin),
-                    1e3 * row.swing_nm, kept_text(row), clocks_text(row), time_ratio(r, row));
-  }
-  return s;
-}
-
-}  // namespace
-
 std::string report_text(const Report& r) {
   const bool several = r.axes > 1;
-  std::string s = fmt::format("scene {}: {}\nlaw {}", r.scene, r.title, r.law);
-  s += ", " + slope_text(r.slope, r.largest_nm);
-  s +=
-      fmt::format("; to {:.3g} Nm; {}, {:.3g} s\n", r.largest_nm,
+  const Json floor = object_of(error_columns, r.floor);
+  std::string s =
+      fmt::format("scene {}: {}\nlaw {}, {}; to {:.3g} Nm; {}, {:.3g} s\n\n", r.scene, r.title,
+                  r.law, slope_text(r.slope, r.largest_nm), r.largest_nm,
                   several ? fmt::format("device {}, {} axes", r.plant, r.axes) : "plant " + r.plant,
                   r.simulated_s);
-  s += several ? axes_table(r) : lever_table(r);
-  s += fmt::format("{:<17}  {}\n", "counts alone", error_text(r.floor));
+  s += table(columns_of(r), r.rows);
+  s += fmt::format("counts alone: torque error {} mNm rms, {} at worst\n",
+                   cell(floor["error_rms_nm"], "{:.4g}", 1e3),
+                   cell(floor["error_max_nm"], "{:.4g}", 1e3));
   for (const RateRow& row : r.rows) {
     const std::string rate = rate_text(row.rate_hz);
     if (!row.fault.empty()) {
@@ -149,113 +203,43 @@ std::string report_text(const Report& r) {
     for (const std::string& line : row.broken) s += fmt::format("not kept at {}: {}\n", rate, line);
   }
   for (const std::string& note : r.notes) s += "note: " + note + "\n";
-  s +=
-      fmt::format("gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
-                  r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
-                  several ? " with its glue to one axis" : "");
-  return s;
+  return s + fmt::format(
+                 "gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+                 r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
+                 several ? " with its glue to one axis" : "");
+}
+
+std::string gains_text(const Report& r) {
+  std::string s = fmt::format(
+      "scene {}: {}\nlaw {} at {}, {} {} without what is not linear\nfriction of a joint {:g} Nm "
+      "s/rad, also where the scene leaves it out; without noise and lost words\n\n",
+      r.scene, r.title, r.law, rate_text(r.rows.back().rate_hz), r.axes > 1 ? "device" : "plant",
+      r.plant, r.damping_nm_s_rad);
+  const auto shown = std::count_if(r.gains.begin(), r.gains.end(),
+                                   [](auto& g) { return !std::isnan(g.bits) && g.large; });
+  s += table(gain_columns, r.gains);
+  s += fmt::format("{} of {} compared with the bits\n", shown, r.gains.size());
+  return s + notes_text(r);
 }
 
 std::string reports_json(const std::vector<Report>& reports) {
-  Json j{{"schema", "feltgate-rates/1"}, {"version", FELTGATE_VERSION}, {"scenes", Json::array()}};
-  for (const Report& r : reports) {
-    Json scene{{"scene", r.scene},
-               {"title", r.title},
-               {"law", r.law},
-               {r.axes > 1 ? "device" : "plant", r.plant},
-               {"axes", r.axes},
-               {"simulated_s", r.simulated_s},
-               {"largest_nm", r.largest_nm}};
-    scene["stiffness_nm_rad"] = r.slope.stiffness_nm_rad;
-    scene["damping_nm_s_rad"] = r.slope.damping_nm_s_rad;
-    scene["jump_nm"] = r.slope.jump_nm;
-    scene["lever_damping_nm_s_rad"] = r.damping_nm_s_rad;
-    scene["counts_alone_rms_nm"] = measured_json(r.floor, r.floor.rms());
-    scene["counts_alone_max_nm"] = measured_json(r.floor, r.floor.max());
-    scene["block_gates"] = r.block_gates;
-    scene["notes"] = r.notes;
-    scene["rates"] = Json::array();
-    for (const RateRow& row : r.rows) {
-      Json one{{"rate_hz", row.rate_hz},
-               {"ticks", row.ticks},
-               {"by", row.block ? "block" : "engine"},
-               {"error_rms_nm", measured_json(row.error, row.error.rms())},
-               {"error_max_nm", measured_json(row.error, row.error.max())},
-               {"error_mean_nm", measured_json(row.error, row.mean_error_nm)},
-               {"ticks_compared", row.error.count()},
-               {"cpu_s_per_s", row.cpu_s_per_s},
-               {"time_ratio", time_ratio(r, row)},
-               {"fault", row.fault},
-               {"mismatches", row.mismatches},
-               {"clocks_compared", row.clocks_compared}};
-      if (row.margin.of != Margin::Of::none) {
-        one["margin"] = row.margin.ratio;
-        one["border"] = row.margin.border;
-        one["border_of"] = margin_kind(row.margin);
-      }
-      if (r.axes > 1) {
-        for (const ErrorFigure& e : row.of_axes) {
-          one["axes"].push_back({{"error_rms_nm", measured_json(e, e.rms())},
-                                 {"error_max_nm", measured_json(e, e.max())},
-                                 {"ticks_compared", e.count()}});
-        }
-        one["swing_nm"] = row.swing_nm;
-        one["expected"] = row.expected;
-        one["broken"] = row.broken;
-      }
-      if (!row.block) {
-        one["instructions"] = row.instructions;
-        one["runs"] = row.runs;
-        one["clocks_used"] = row.clocks_used;
-        one["clocks_available"] = row.clocks_available;
-      }
-      scene["rates"].push_back(one);
-    }
-    for (const Beside& b : r.beside) {
-      Json one{{"design", b.path},
-               {"counts_alone_rms_nm", measured_json(b.floor, b.floor.rms())},
-               {"counts_alone_max_nm", measured_json(b.floor, b.floor.max())},
-               {"margins", Json::array()}};
-      for (const Margin& m : b.margins) {
-        one["margins"].push_back(m.of == Margin::Of::none ? Json(nullptr) : Json(m.ratio));
-      }
-      scene["beside"].push_back(one);
-    }
-    for (const GainMargin& g : r.gains) {
-      scene["gains"].push_back({{"of", g.of},
-                                {"linear", g.linear},
-                                {"bits", std::isnan(g.bits) ? Json(nullptr) : Json(g.bits)},
-                                {"rad_s", g.rad_s},
-                                {"swing_counts", g.swing_counts},
-                                {"swing_nm", g.swing_nm},
-                                {"large", g.large},
-                                {"disagrees", g.disagrees},
-                                {"why", g.why}});
-    }
-    j["scenes"].push_back(scene);
-  }
-  return files::json_text(j);
+  return files::json_text({{"schema", "feltgate-rates/1"},
+                           {"version", FELTGATE_VERSION},
+                           {"scenes", array_of(scene_columns, reports)}});
 }
 
 std::string reports_csv(const std::vector<Report>& reports) {
-  std::string s =
-      "scene,by,rate_hz,ticks,error_rms_nm,error_max_nm,margin,border,border_of,clocks_used,"
-      "clocks_available,time_ratio,swing_nm,expected,broken\n";
+  Json rows = Json::array();
   for (const Report& r : reports) {
-    for (const RateRow& row : r.rows) {
-      const bool known = row.margin.of != Margin::Of::none;
-      s += fmt::format(
-          "{},{},{:.10g},{},{},{},{},{},{},{},{},{:.3g},{}\n", r.scene,
-          row.block ? "block" : "engine", row.rate_hz, row.ticks,
-          measured_csv(row.error, row.error.rms()), measured_csv(row.error, row.error.max()),
-          known ? fmt::format("{:.4g}", row.margin.ratio) : "",
-          known ? fmt::format("{:.4g}", row.margin.border) : "", margin_kind(row.margin),
-          row.clocks_used, row.clocks_available, time_ratio(r, row),
-          r.axes > 1 ? fmt::format("{:.6g},{},{}", row.swing_nm, row.expected, row.broken.size())
-                     : ",,");
+    for (Json& row : array_of(columns_of(r), r.rows)) {
+      row["scene"] = r.scene;
+      rows.push_back(row);
     }
   }
-  return s;
+  return files::csv({"scene", "by", "rate_hz", "ticks", "error_rms_nm", "error_max_nm", "margin",
+                     "border", "border_of", "clocks_used", "clocks_available", "time_ratio",
+                     "swing_nm", "expected", "broken"},
+                    rows);
 }
 
 }  // namespace feltgate::rates

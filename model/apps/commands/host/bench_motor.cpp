@@ -8,11 +8,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <thread>
 
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate::host {
+
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
 
 BenchMotor::BenchMotor(Device& device, Mode mode) : device_(device), hold_(device) {
   device_.disarm();

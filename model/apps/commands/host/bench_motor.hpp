@@ -13,6 +13,9 @@
 
 namespace feltgate::host {
 
+/// To stdout, at once.
+void say(const std::string& text);
+
 /// control.mode
 enum class Mode : std::uint32_t { closed_loop = 0, open_loop = 1, direct_voltage = 2 };
 

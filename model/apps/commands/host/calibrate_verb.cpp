@@ -36,11 +36,6 @@ constexpr double kSettle_s = 0.1;
 constexpr int kTicks = 20;     ///< read for a mean of tau_hat
 constexpr double kStill = 16;  ///< counts that a blocked lever may give
 
-void say(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
 /// "0.065" or "65mNm", "5.9N" with the arm of the pulley.
 double torque_typed(const std::string& text, double arm_m) {
   try {
@@ -213,7 +208,7 @@ int calibrate(Session& session, CalibrateArguments a) {
   std::string text;
   if (a.closed) {
     const ClosedLoop closed = fit_closed_loop(readings, e, a.gain, a.confidence);
-    text = report_text(closed, e);
+    text = report_text(closed);
     result = report_json(closed);
     changes = changes_of(closed, e, &warnings);
   } else {
@@ -222,9 +217,8 @@ int calibrate(Session& session, CalibrateArguments a) {
     result = report_json(open);
     changes = changes_of(open, e, kt, given, &warnings);
   }
-  for (const std::string& w : warnings) text += "note: " + w + "\n";
   result["changes"] = report_json(changes);
-  outputs.say(text + known.write(changes, write, a.write));
+  outputs.say(text + notes_text(warnings) + known.write(changes, write, a.write));
   if (json != nullptr) json->write(files::json_text(result));
   outputs.commit();
   return exit_ok;

@@ -33,11 +33,6 @@ struct IdentifyArguments {
 constexpr double kPlan[] = {0.5, -0.5, 0.35, -0.35, 0.75, -0.75, 0.4, -0.6, 1.0, -1.0, 0.9, -0.4};
 constexpr double kStep_s = 0.25, kSpin_s = 0.5, kStandsAfter_s = 0.3, kLongestCoast_s = 20;
 
-void say(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-}
-
 /// Drives a free lever and records its ticks.
 class Drives {
  public:

@@ -1,92 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Prints a run as text for a terminal. Documentation: docs/json.md
+// A run as text for a terminal and as JSON. Documentation: docs/json.md
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "apps/commands/run_output.hpp"
+#include "files/table.hpp"
 #include "sim/loop/scenario_bounds.hpp"
 
 namespace feltgate {
 
+using files::cell;
+using files::Cells;
+using files::Columns;
+using files::Json;
+using files::when;
+
 namespace {
 
-std::string engine_line(const BackendFigures& e, double simulated_s) {
-  const double speed = e.busy_s > 0 ? simulated_s / e.busy_s : 0;
-  if (!e.compared) {
-    return fmt::format("{:<8} {:>14} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9.3g}x\n", e.name, "-",
-                       "-", "-", "-", "-", "-", speed);
+const Columns<StepFigures> step_columns{
+    {"tau_ref_nm", &StepFigures::tau_ref_nm, "<step Nm", "{:.4g}"},
+    {"tau_hat_settling_ms", [](auto& s) { return s.tau_hat.settling_ms; }},
+    {"", [](auto& s) { return s.tau_hat_void ? Json("void") : Json(s.tau_hat.settling_ms); },
+     "tau_hat settles", "{:.3f} ms"},
+    {"torque_settling_ms", [](auto& s) { return s.torque.settling_ms; }, "motor settles",
+     "{:.3f} ms"},
+    {"overshoot_pct", [](auto& s) { return s.torque.overshoot_pct; }, "overshoot", "{:.2f} %"},
+    {"tau_hat_void", [](auto& s) { return when(s.tau_hat_void, true); }},
+    // A relative error of a step to 0 means nothing.
+    {"final_error_pct", [](auto& s) { return when(s.tau_ref_nm != 0, s.torque.final_error_pct); },
+     "final error", "{:.3f} %"},
+    {"tau_hat_final_error_pct",
+     [](auto& s) { return when(s.tau_ref_nm != 0, s.tau_hat.final_error_pct); }},
+    {"", [](auto& s) { return s.tau_hat_void ? Json("void") : Json(s.tau_hat.final_error_pct); },
+     "tau_hat error", "{:.4f} %"}};
+
+/// Where the bound holds, and beside it where it does not, if there are such ticks.
+Json error_json(const ErrorFigure& e) {
+  Json j{{"max_error", e.max()}, {"rms_error", e.rms()}};
+  if (e.outside() > 0) {
+    j["max_error_outside"] = e.max_outside();
+    j["ticks_outside"] = e.outside();
   }
-  return fmt::format(
-      "{:<8} {:>14.3g} {:>12.3g} {:>12.3g} {:>12.3g} {:>12.3g} {:>12.3g} {:>9.3g}x\n", e.name,
-      e.velocity_rad_s.max(), e.velocity_rad_s.rms(), e.tau_hat_nm.max(), e.tau_hat_nm.rms(),
-      e.torque_nm.max(), e.torque_nm.rms(), speed);
+  return j;
 }
 
-/// The bounds below the table of errors, and what there is in ticks for which they do not hold.
-std::string bound_lines(const RunResult& r) {
-  const auto line = [&r](const char* name, const auto& value) {
-    const auto told = [&](std::size_t i) {
-      const double x = value(r.felt.errors[i]);
-      return std::isfinite(x) ? fmt::format("{:.3g}", x) : "none";
-    };
-    return fmt::format("{:<8} {:>14} {:>12} {:>12} {:>12} {:>12}\n", name, told(0), "", told(1), "",
-                       told(2));
-  };
-  std::string text = line("bound", [](const FeltError& e) { return e.bound; });
-  if (const auto outside = r.felt.errors.back().error.outside(); outside > 0) {
-    text += line("outside", [](const FeltError& e) { return e.error.max_outside(); });
-    text += fmt::format(
-        "the bound is not for {} ticks, of a ramp or saturation and what follows: their largest "
-        "errors are \"outside\", and in no other figure\n",
-        outside);
+Json backend_json(const BackendFigures& e, const RunResult& r) {
+  Json j = Json::object();
+  if (e.compared) {
+    j["velocity_rad_s"] = error_json(e.velocity_rad_s);
+    j["tau_hat_nm"] = error_json(e.tau_hat_nm);
+    j["torque_nm"] = error_json(e.torque_nm);
   }
-  return text +
-         fmt::format(
-             "bound: proven for any motion up to this one's {:.4g} rad/s before the "
-             "low-pass\n",
-             r.largest_velocity_rad_s) +
-         r.bound_sources;
+  if (is_core(e) && !r.felt.errors.empty()) {
+    for (const FeltError& x : r.felt.errors) j[x.signal]["bound"] = x.bound;
+    j["ticks_out_of_bounds"] = e.torque_nm.outside();
+  }
+  if (!e.steps.empty()) {
+    j["step_responses"] = array_of(step_columns, e.steps);
+    j["ripple_nm"] = e.steps.back().torque.ripple_nm;
+  }
+  if (e.name == "rtl" || e.name == "twin") j["saturations"] = e.saturations;
+  if (e.busy_s > 0) j["speed"] = r.simulated_s / e.busy_s;
+  return j;
 }
 
 std::string engine_table(const RunResult& r) {
-  std::string text = fmt::format("\n{:<8} {:>14} {:>12} {:>12} {:>12} {:>12} {:>12} {:>10}\n",
-                                 "engine", "velocity max", "rms rad/s", "tau_hat max", "rms Nm",
-                                 "command max", "rms Nm", "speed");
-  for (const BackendFigures& e : r.engines) text += engine_line(e, r.simulated_s);
+  std::vector<Cells> lines{{"engine", "velocity max", "rms rad/s", "tau_hat max", "rms Nm",
+                            "command max", "rms Nm", "speed"}};
+  for (const BackendFigures& e : r.engines) {
+    const Json j = backend_json(e, r);
+    lines.push_back({e.name});
+    for (const std::string signal : {"/velocity_rad_s", "/tau_hat_nm", "/torque_nm"}) {
+      for (const char* of : {"/max_error", "/rms_error"}) {
+        lines.back().push_back(cell(j.value(Json::json_pointer(signal + of), Json()), "{:.3g}"));
+      }
+    }
+    lines.back().push_back(cell(j.value("speed", Json()), "{:.3g}x"));
+  }
+  std::string text =
+      "\n" + files::aligned(lines, {true, false, false, false, false, false, false, false});
   if (r.reference.empty()) return text + "errors: none, for without double or quad among them\n";
   text += fmt::format(
       "errors against {} on the same sampled counts; \"command\" is the torque that the core "
       "commands\n",
       r.reference);
-  if (r.felt.closed_loop) {
-    text += fmt::format(
-        "the motor's own torque was off from what the scene asked by {:.3g} Nm, rms {:.3g} Nm\n",
-        r.felt.torque.motor_error.max(), r.felt.torque.motor_error.rms());
-  }
-  return r.felt.errors.empty() ? text : text + bound_lines(r);
+  if (r.felt.errors.empty()) return text;
+  return text +
+         fmt::format(
+             "bound: proven for any motion up to this one's {:.4g} rad/s before the low-pass\n",
+             r.largest_velocity_rad_s) +
+         r.bound_sources;
 }
 
 std::string step_table(const RunResult& r) {
   for (const BackendFigures& e : r.engines) {
-    if (e.steps.empty()) continue;
-    std::string text =
-        fmt::format("\n{:<10} {:>16} {:>16} {:>12} {:>14} {:>16}\n", "step Nm", "tau_hat settles",
-                    "motor settles", "overshoot", "final error", "tau_hat error");
-    for (const StepFigures& f : e.steps) {
-      const auto observed = [&f](const char* format, double value) {
-        return f.tau_hat_void ? std::string("void") : fmt::format(fmt::runtime(format), value);
-      };
-      text += fmt::format("{:<10.4g} {:>16} {:>13.3f} ms {:>10.2f} % {:>12.3f} % {:>16}\n",
-                          f.tau_ref_nm, observed("{:.3f} ms", f.tau_hat.settling_ms),
-                          f.torque.settling_ms, f.torque.overshoot_pct, f.torque.final_error_pct,
-                          observed("{:.4f} %", f.tau_hat.final_error_pct));
-    }
-    return text;  // RTL and twin show the same
+    if (!e.steps.empty()) return "\n" + table(step_columns, e.steps);  // RTL and twin show the same
   }
   return {};
 }
@@ -103,6 +117,14 @@ std::string acted_text(const std::map<std::string, Acted>& all) {
     items.push_back(fmt::format("{} {:.4g} s (from {:.4g} s)", name, a.seconds, a.first_s));
   }
   return items.empty() ? "none" : fmt::format("{}", fmt::join(items, ", "));
+}
+
+Json acted_json(const Acted& a) { return {{"seconds", a.seconds}, {"first_s", a.first_s}}; }
+
+Json acted_json(const std::map<std::string, Acted>& all) {
+  Json j = Json::object();
+  for (const auto& [name, acted] : all) j[name] = acted_json(acted);
+  return j;
 }
 
 std::string large_error_lines(const SessionResult& r) {
@@ -130,6 +152,32 @@ std::string energy_lines(const FeltEnergy& e) {
                               e.peak_from_hand_j, owed));
 }
 
+Json energy_json(const FeltEnergy& e) {
+  return {{"taken_from_hand_j", e.taken_from_hand_j},
+          {"given_to_hand_j", e.given_to_hand_j},
+          {"net_from_hand_j", e.net_from_hand_j()},
+          {"peak_from_hand_j", e.peak_from_hand_j},
+          {"peak_to_hand_j", e.peak_to_hand_j}};
+}
+
+Json session_json(const SessionResult& r) {
+  Json j{{"simulated_s", r.simulated_s}, {"clocks", r.clocks}, {"ticks", r.ticks}};
+  if (r.lock_step) j["mismatches"] = r.mismatches;
+  if (!r.first_mismatch.empty()) j["first_mismatch"] = r.first_mismatch;
+  if (!r.reference.empty()) j["reference"] = r.reference;
+  if (r.law_stale.seconds > 0) j["law_stale"] = acted_json(r.law_stale);
+  return j;
+}
+
+std::string expectation_line(const std::vector<Expected>& all) {
+  std::vector<std::string> kept;
+  for (const Expected& e : all) {
+    if (e.kept()) kept.push_back(e.figure);
+  }
+  const std::string none = all.empty() ? "none was checked" : "none";
+  return line("kept", kept.empty() ? none : fmt::format("{}", fmt::join(kept, ", ")));
+}
+
 namespace {
 
 std::string error_text(const FeltError& e) {
@@ -146,23 +194,6 @@ std::string error_text(const FeltError& e) {
           : "";
   return fmt::format("{} {:.3g} {}, {} the proven {:.3g}{}", name, e.error.max(), unit,
                      e.holds() ? "within" : "ABOVE", e.bound, outside);
-}
-
-}  // namespace
-
-std::string expectation_lines(const std::vector<Expected>& all) {
-  std::vector<std::string> kept;
-  std::string broken;
-  for (const Expected& e : all) {
-    if (e.kept()) {
-      kept.push_back(e.figure);
-    } else {
-      broken +=
-          line("broken", fmt::format("{} = {:.6g}, expected {}", e.figure, e.value, e.wanted()));
-    }
-  }
-  const std::string none = all.empty() ? "none was checked" : "none";
-  return line("kept", kept.empty() ? none : fmt::format("{}", fmt::join(kept, ", "))) + broken;
 }
 
 std::string felt_text(const RunResult& r) {
@@ -193,11 +224,9 @@ std::string felt_text(const RunResult& r) {
                                         f.tau_hat_void.seconds, f.tau_hat_void.first_s));
   }
   text += line("faults", acted_text(f.faults));
-  if (f.closed_loop) text += expectation_lines(r.expectations);
+  if (f.closed_loop) text += expectation_line(r.expectations);
   return text;
 }
-
-namespace {
 
 /// Explains an unexpected result: constants that differ between plant and design.
 std::string differing_lines(const RunLabels& labels) {
@@ -216,7 +245,65 @@ std::string differing_lines(const RunLabels& labels) {
              labels.plant_as_named);
 }
 
+Json peak_json(const Peak& p) { return {{"peak_nm", p.value}, {"at_s", p.at_s}}; }
+
+Json felt_json(const RunResult& r) {
+  const Felt& f = r.felt;
+  Json j;
+  j["torque"] = {{"asked", peak_json(f.torque.asked)},
+                 {"commanded", peak_json(f.torque.commanded)}};
+  if (f.closed_loop) {
+    j["torque"]["motor"] = peak_json(f.torque.motor);
+    j["torque"]["hand"] = peak_json(f.torque.hand);
+    j["torque"]["motor_less_asked_nm"] = error_json(f.torque.motor_error);
+    j["energy"] = energy_json(f.energy);
+  }
+  for (const FeltError& x : f.errors) {
+    j["errors"][x.signal] = error_json(x.error);
+    j["errors"][x.signal].update({{"bound", x.bound}, {"holds", x.holds()}});
+  }
+  j["limits"] = acted_json(f.limits);
+  if (f.tau_hat_void.seconds > 0) j["tau_hat_void"] = acted_json(f.tau_hat_void);
+  j["faults"] = acted_json(f.faults);
+  if (f.closed_loop) j["expectations"] = Json::array();
+  for (const Expected& x : r.expectations) {
+    Json e{{"figure", x.figure}, {"value", x.value}};
+    if (std::isfinite(x.low)) e["low"] = x.low;
+    if (std::isfinite(x.high)) e["high"] = x.high;
+    e["line"] = x.line;
+    e["kept"] = x.kept();
+    j["expectations"].push_back(e);
+  }
+  return j;
+}
+
 }  // namespace
+
+std::string run_json(const RunResult& r, const RunLabels& labels) {
+  Json j{{"schema", "feltgate-run/1"}, {"version", FELTGATE_VERSION}, {"design", r.design}};
+  j[labels.subject_key] = r.subject;
+  if (!labels.probes.empty()) j["probes"] = labels.probes;
+  if (!labels.plant.empty()) j["plant"] = labels.plant;
+  j.update(session_json(r));
+  j["position"] = {{"steps", r.position.steps},
+                   {"illegal", r.position.illegal},
+                   {"reversals", r.position.reversals}};
+  for (const BackendFigures& e : r.engines) j["engines"][e.name] = backend_json(e, r);
+  j["felt"] = felt_json(r);
+  if (r.felt.closed_loop) {
+    j["plant_step_clocks"] = labels.step_clocks;
+    j["plant_longest_step_clocks"] = r.longest_step_clocks;
+    j["effects_off"] = labels.effects_off;
+    if (!labels.speed_jumps.empty()) j["speed_jumps"] = labels.speed_jumps;
+    for (const stability::Constant& c : labels.differing) {
+      j["plant_differs"].push_back(
+          {{"constant", c.key}, {"design", c.of_design}, {"plant", c.of_plant}});
+    }
+    j["figures"] = r.figures;
+    j["expectations"] = {{"checked", r.expectations.size()}, {"broken", r.broken}};
+  }
+  return files::json_text(j);
+}
 
 std::string run_text(const RunResult& r, const RunLabels& labels) {
   std::string text = large_error_lines(r);

@@ -66,9 +66,11 @@ Json array_of(const Columns<Row>& columns, const std::vector<Row>& rows) {
 
 using Cells = std::vector<std::string>;
 
-/// Lines of cells, two blanks apart, each column as wide as its widest; `left`: flush left.
-inline std::string aligned(const std::vector<Cells>& lines, const std::vector<bool>& left) {
-  std::vector<std::size_t> widths(left.size());
+/// Lines of cells, two blanks apart, each column as wide as its widest cell and flush right unless
+/// `left` says otherwise.
+inline std::string aligned(const std::vector<Cells>& lines, std::vector<bool> left = {true}) {
+  std::vector<std::size_t> widths(lines[0].size());
+  left.resize(widths.size());
   for (const Cells& line : lines) {
     for (std::size_t c = 0; c < line.size(); ++c) widths[c] = std::max(widths[c], line[c].size());
   }

@@ -87,8 +87,8 @@ std::string axes_text(const AxesResult& r) {
       lines.back().push_back(fmt::format("{:.6g}", r.figures.at(signal + of)));
     }
   }
-  text += "\n" + files::aligned(lines, {true, false, false, false, false}) + "\n" +
-          energy_lines(r.energy) + expectation_line(r.expectations);
+  text += "\n" + files::aligned(lines) + "\n" + energy_lines(r.energy) +
+          expectation_line(r.expectations);
   for (const std::string& jump : r.speed_jumps) text += fmt::format("note: {}\n", jump);
   for (const std::string& broken : r.broken) text += fmt::format("not as expected: {}\n", broken);
   return text;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/commands/run_output.hpp"
@@ -83,8 +84,7 @@ std::string engine_table(const RunResult& r) {
     }
     lines.back().push_back(cell(j.value("speed", Json()), "{:.3g}x"));
   }
-  std::string text =
-      "\n" + files::aligned(lines, {true, false, false, false, false, false, false, false});
+  std::string text = "\n" + files::aligned(lines);
   if (r.reference.empty()) return text + "errors: none, for without double or quad among them\n";
   text += fmt::format(
       "errors against {} on the same sampled counts; \"command\" is the torque that the core "
@@ -196,20 +196,23 @@ std::string error_text(const FeltError& e) {
                      e.holds() ? "within" : "ABOVE", e.bound, outside);
 }
 
+/// Motor and hand only where there are some.
+std::vector<std::pair<const char*, Peak>> peaks(const Felt& f) {
+  const FeltTorque& t = f.torque;
+  if (!f.closed_loop) return {{"asked", t.asked}, {"commanded", t.commanded}};
+  return {{"asked", t.asked}, {"commanded", t.commanded}, {"motor", t.motor}, {"hand", t.hand}};
+}
+
 std::string felt_text(const RunResult& r) {
   const Felt& f = r.felt;
   std::string text =
       f.closed_loop ? "\nWhat was felt (motor and hand: means over 1 ms)\n" : "\nWhat was felt\n";
-  const auto peak = [](const Peak& p) {
-    return fmt::format("{:.4g} Nm at {:.4g} s", p.value, p.at_s);
-  };
-  text += line("asked", "up to " + peak(f.torque.asked));
-  text += line("commanded", "up to " + peak(f.torque.commanded));
+  for (const auto& [name, peak] : peaks(f)) {
+    text += line(name, fmt::format("up to {:.4g} Nm at {:.4g} s", peak.value, peak.at_s));
+  }
   if (f.closed_loop) {
-    text += line("motor", fmt::format("up to {}; off from asked by up to {:.3g} Nm, rms {:.3g} Nm",
-                                      peak(f.torque.motor), f.torque.motor_error.max(),
-                                      f.torque.motor_error.rms()));
-    text += line("hand", "up to " + peak(f.torque.hand));
+    text += line("motor off", fmt::format("from asked by up to {:.3g} Nm, rms {:.3g} Nm",
+                                          f.torque.motor_error.max(), f.torque.motor_error.rms()));
     text += energy_lines(f.energy);
   }
   bool first = true;
@@ -245,16 +248,13 @@ std::string differing_lines(const RunLabels& labels) {
              labels.plant_as_named);
 }
 
-Json peak_json(const Peak& p) { return {{"peak_nm", p.value}, {"at_s", p.at_s}}; }
-
 Json felt_json(const RunResult& r) {
   const Felt& f = r.felt;
   Json j;
-  j["torque"] = {{"asked", peak_json(f.torque.asked)},
-                 {"commanded", peak_json(f.torque.commanded)}};
+  for (const auto& [name, peak] : peaks(f)) {
+    j["torque"][name] = {{"peak_nm", peak.value}, {"at_s", peak.at_s}};
+  }
   if (f.closed_loop) {
-    j["torque"]["motor"] = peak_json(f.torque.motor);
-    j["torque"]["hand"] = peak_json(f.torque.hand);
     j["torque"]["motor_less_asked_nm"] = error_json(f.torque.motor_error);
     j["energy"] = energy_json(f.energy);
   }

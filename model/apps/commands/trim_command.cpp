@@ -109,7 +109,7 @@ void add_difference(Columns<Row>& to, const std::string& key, trim::Difference R
   loss("force", &trim::Difference::force);
 }
 
-std::string verdict(const trim::PartReport& p) {
+std::string part_text(const trim::PartReport& p) {
   if (p.put_back) return "put back by the final check";
   if (p.dropped) return fmt::format("off; all so far {:.2f} %", 100 * p.so_far);
   if (p.so_far > 0) return fmt::format("stays; the set would be {:.2f} % off", 100 * p.so_far);
@@ -121,7 +121,7 @@ Columns<trim::PartReport> part_columns() {
   Columns<PartReport> all{{"name", &PartReport::name, "<left out\nalone"}};
   add_difference(all, "alone", &PartReport::alone);
   all.push_back({"saves", &PartReport::saves, "saves\nof time", "{:.1f} %", 100});
-  all.push_back({"", verdict, "< "});
+  all.push_back({"", part_text, "< "});
   all.push_back({"off", &PartReport::dropped});
   all.push_back({"put_back", &PartReport::put_back});
   return all;

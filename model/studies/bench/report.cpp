@@ -24,23 +24,19 @@ using files::when;
 Json spread_json(const Spread& s) {
   return {{"median", s.median}, {"min", s.low}, {"max", s.high}};
 }
-std::string spread_text(const Spread& s, double factor = 1) {
-  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", factor * s.median, factor * s.low,
-                     factor * s.high);
+std::string spread_text(const Spread& s) {
+  return fmt::format("{:.3g} ({:.3g} .. {:.3g})", s.median, s.low, s.high);
 }
 Json spread_if(const std::optional<Spread>& s) { return s ? spread_json(*s) : files::absent; }
-
-std::string hex(std::uint64_t v) { return fmt::format("{:016x}", v); }
 
 Columns<BackendResult> columns() {
   using Engine = const BackendResult&;
   Columns<BackendResult> all{
       {"", &BackendResult::name, "<engine"},
       {"arithmetic", [](Engine e) { return e.integer ? "integer" : "real"; }},
-      {"ns_per_tick", [](Engine e) { return spread_json(e.ns_per_tick); }},
-      {"", [](Engine e) { return e.ns_per_tick.median; }, "ns/tick", "{:.4g}"},
-      {"", [](Engine e) { return e.ns_per_tick.low; }, "min", "{:.4g}"},
-      {"", [](Engine e) { return e.ns_per_tick.high; }, "max", "{:.4g}"},
+      {"ns_per_tick/median", [](Engine e) { return e.ns_per_tick.median; }, "ns/tick", "{:.4g}"},
+      {"ns_per_tick/min", [](Engine e) { return e.ns_per_tick.low; }, "min", "{:.4g}"},
+      {"ns_per_tick/max", [](Engine e) { return e.ns_per_tick.high; }, "max", "{:.4g}"},
       {"", [](Engine e) { return e.speed.median; }, "x real time", "{:.4g}"},
       {"simulated_s_per_s", [](Engine e) { return spread_json(e.speed); }},
       {"clocks_per_s", [](Engine e) { return spread_if(e.clocks_per_s); }},
@@ -55,7 +51,8 @@ Columns<BackendResult> columns() {
   error("velocity_error_rad_s", "velocity error\nrad/s, max", &BackendResult::velocity_rad_s);
   error("tau_hat_error_nm", "tau_hat error\nNm, max", &BackendResult::tau_hat_nm);
   error("torque_error_nm", "torque error\nNm, max", &BackendResult::torque_nm);
-  all.push_back({"hash", [](Engine e) { return when(e.integer, hex(e.hash)); }});
+  all.push_back(
+      {"hash", [](Engine e) { return when(e.integer, fmt::format("{:016x}", e.hash)); }, "hash"});
   all.push_back({"samples_ns_per_tick", &BackendResult::samples});
   return all;
 }
@@ -126,23 +123,8 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
         "{:.3g} Nm, torque {:.3g} Nm\n",
         r.bounds->velocity_rad_s, r.bounds->tau_hat_nm, r.bounds->torque_nm);
   }
-  if (r.divergence.empty()) {
-    std::string names;
-    std::uint64_t hash = 0;
-    for (const BackendResult& e : r.engines) {
-      if (!e.integer) continue;
-      names += (names.empty() ? "" : ", ") + e.name;
-      hash = e.hash;
-    }
-    s += fmt::format("\nequal in every bit of every tick: {} (hash {})\n", names, hex(hash));
-  } else {
-    s += fmt::format("\nDIFFERENT: {}\n", r.divergence);
-  }
-  for (const BackendResult& e : r.engines) {
-    if (!e.updates_per_s) continue;
-    s += fmt::format("million control updates simulated per second, {}: {}\n", e.name,
-                     spread_text(*e.updates_per_s, 1e-6));
-  }
+  s += r.divergence.empty() ? "\nthe integer engines are equal in every bit of every tick\n"
+                            : fmt::format("\nDIFFERENT: {}\n", r.divergence);
   for (const LoopResult& l : r.loops) {
     s += fmt::format("closed loop, {}, times real time: {}\n", l.scene, spread_text(l.speed));
   }

@@ -202,11 +202,11 @@ std::string report_text(const Report& r) {
     }
     for (const std::string& line : row.broken) s += fmt::format("not kept at {}: {}\n", rate, line);
   }
-  for (const std::string& note : r.notes) s += "note: " + note + "\n";
-  return s + fmt::format(
-                 "gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
-                 r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
-                 several ? " with its glue to one axis" : "");
+  return s + notes_text(r) +
+         fmt::format(
+             "gates, at every rate: {}engine 1265 LUT4 eq, 2 MULT18, 4 BRAM{}, its law none\n",
+             r.block_gates.empty() ? "" : "block " + r.block_gates + "; ",
+             several ? " with its glue to one axis" : "");
 }
 
 std::string gains_text(const Report& r) {

@@ -141,7 +141,7 @@ TEST_CASE("where the torque ramps all the time nothing is compared") {
                             Options{{1e3}, false, {}}, 0.0025);
   REQUIRE(r.rows.size() == 3);
   CHECK(r.rows[0].error.count() == 0);
-  CHECK(report_text(r).find(" -         -") != std::string::npos);
+  CHECK(report_text(r).find(" -           - ") != std::string::npos);
   CHECK(report_text(r).find("note: where there is a -, nothing was compared") != std::string::npos);
   const std::string json = reports_json({r}), csv = reports_csv({r});
   CHECK(json.find("\"error_rms_nm\": null") != std::string::npos);

@@ -84,7 +84,7 @@ module tang_nano_9k #(
     .encoder_select_no(encoder_select_n),
     .encoder_clock_o(encoder_clock),
     .encoder_command_o(encoder_command),
-    .current_data_i('1),
+    .current_data_i(1'b1),
     .current_clock_o(),
     .driver_fault_i(1'b0),
     .heartbeat_o(),

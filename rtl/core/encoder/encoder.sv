@@ -188,7 +188,9 @@ module encoder (
     assign polarity_holds_o = !waits_q;
     localparam logic [4:0] Jump = 5'(1 << feltgate_map_pkg::ABSOLUTE_JUMP_BIT);
     assign starts = waits_q && unblemished;
-    assign absolute_state_o = {starts, ((faults | seen_q) & ~5'(starts)) | 5'(waits_q && !starts)};
+    logic [4:0] told;
+    assign told = ((faults | seen_q) & {4'b1111, !starts}) | {4'b0000, waits_q && !starts};
+    assign absolute_state_o = {starts, told};
 
     assign count_o = count_q;
 

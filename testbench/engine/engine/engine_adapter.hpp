@@ -129,10 +129,4 @@ class EngineHost {
   int held_ = 0;
 };
 
-// The engine of AXES axes in lock-step.
-
-using Twin = EngineTwin<AXES>;
-using Bench = LockStep<Vengine, Twin, EngineAdapter<AXES>>;
-using Host = EngineHost;
-
 }  // namespace feltgate::test

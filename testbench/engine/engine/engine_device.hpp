@@ -14,6 +14,12 @@
 
 namespace feltgate::test {
 
+// The engine of AXES axes in lock-step.
+
+using Twin = EngineTwin<AXES>;
+using Bench = LockStep<Vengine, Twin, EngineAdapter<AXES>>;
+using Host = EngineHost;
+
 using H = EngineMap::H;
 
 constexpr int kTick = 50;

@@ -6,7 +6,7 @@
 #include "feltgate/engine.hpp"
 
 #include "catch.hpp"
-#include "engine_adapter.hpp"
+#include "engine_device.hpp"
 #include "random_programs.hpp"
 
 using namespace feltgate;

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include FELTGATE_DESIGN_HEADER
+
 #include "catch.hpp"
 #include "feltgate/generated/map.hpp"
 #include "feltgate/lowpass.hpp"

@@ -14,52 +14,52 @@ using namespace feltgate::law;
 namespace {
 
 /// The value of a number without unit.
-double at(const std::string& e, double x = 0) {
+double value_at(const std::string& e, double x = 0) {
   return torque_of("rate = 1 kHz\nout torque = 1 Nm * (" + e + ")", x);
 }
 
 }  // namespace
 
 TEST_CASE("operators bind as in mathematics") {
-  CHECK(at("1 + 2 * 3") == 7);
-  CHECK(at("(1 + 2) * 3") == 9);
-  CHECK(at("2 - 3 - 4") == -5);
-  CHECK(at("8 / 4 / 2") == 1);
-  CHECK(at("-2^2") == -4);
-  CHECK(at("(-2)^2") == 4);
-  CHECK(at("2 * -position", 3) == -6);
-  CHECK(at("- - position", 3) == 3);
-  CHECK(at("+position", 3) == 3);
-  CHECK(at("position^3", 2) == 8);
-  CHECK(at("position^-2", 2) == 0.25);
-  CHECK(at("position^8", -2) == 256);
-  CHECK(at("1e-3 + .5 + 2.5E1") == Approx(25.501));
-  CHECK(at("position - 1", 4) == 3);
-  CHECK(at("2 / position", 4) == 0.5);
-  CHECK(at("position / position^2", 4) == 0.25);
+  CHECK(value_at("1 + 2 * 3") == 7);
+  CHECK(value_at("(1 + 2) * 3") == 9);
+  CHECK(value_at("2 - 3 - 4") == -5);
+  CHECK(value_at("8 / 4 / 2") == 1);
+  CHECK(value_at("-2^2") == -4);
+  CHECK(value_at("(-2)^2") == 4);
+  CHECK(value_at("2 * -position", 3) == -6);
+  CHECK(value_at("- - position", 3) == 3);
+  CHECK(value_at("+position", 3) == 3);
+  CHECK(value_at("position^3", 2) == 8);
+  CHECK(value_at("position^-2", 2) == 0.25);
+  CHECK(value_at("position^8", -2) == 256);
+  CHECK(value_at("1e-3 + .5 + 2.5E1") == Approx(25.501));
+  CHECK(value_at("position - 1", 4) == 3);
+  CHECK(value_at("2 / position", 4) == 0.5);
+  CHECK(value_at("position / position^2", 4) == 0.25);
 }
 
 TEST_CASE("functions") {
-  CHECK(at("min(position, 2, 3)", 5) == 2);
-  CHECK(at("max(position, 2, 3)", 5) == 5);
-  CHECK(at("clamp(position, -1, 1)", 5) == 1);
-  CHECK(at("clamp(position, -1, 1)", -5) == -1);
-  CHECK(at("clamp(position, -1, 1)", 0.5) == 0.5);
-  CHECK(at("abs(position)", -5) == 5);
-  CHECK(at("sgn(position)", -5) == -1);
-  CHECK(at("sgn(position)", 0) == 1);
-  CHECK(at("sin(position)", 1000) == Approx(std::sin(1000.0)));
-  CHECK(at("cos(position)", 2) == Approx(std::cos(2.0)));
-  CHECK(at("sqrt(position)", 2) == Approx(std::sqrt(2.0)));
-  CHECK(at("log(position)", 3) == Approx(std::log(3.0)));
-  CHECK(at("exp(position)", -2) == Approx(std::exp(-2.0)));
-  CHECK(at("pi") == Approx(kPi));
-  CHECK(at("sin(pi / 6) + cos(0) + sqrt(4) + exp(0) + log(exp(1))") == Approx(5.5));
+  CHECK(value_at("min(position, 2, 3)", 5) == 2);
+  CHECK(value_at("max(position, 2, 3)", 5) == 5);
+  CHECK(value_at("clamp(position, -1, 1)", 5) == 1);
+  CHECK(value_at("clamp(position, -1, 1)", -5) == -1);
+  CHECK(value_at("clamp(position, -1, 1)", 0.5) == 0.5);
+  CHECK(value_at("abs(position)", -5) == 5);
+  CHECK(value_at("sgn(position)", -5) == -1);
+  CHECK(value_at("sgn(position)", 0) == 1);
+  CHECK(value_at("sin(position)", 1000) == Approx(std::sin(1000.0)));
+  CHECK(value_at("cos(position)", 2) == Approx(std::cos(2.0)));
+  CHECK(value_at("sqrt(position)", 2) == Approx(std::sqrt(2.0)));
+  CHECK(value_at("log(position)", 3) == Approx(std::log(3.0)));
+  CHECK(value_at("exp(position)", -2) == Approx(std::exp(-2.0)));
+  CHECK(value_at("pi") == Approx(kPi));
+  CHECK(value_at("sin(pi / 6) + cos(0) + sqrt(4) + exp(0) + log(exp(1))") == Approx(5.5));
 }
 
 TEST_CASE("atan2") {
   const auto angle = [](const std::string& y, double x) {
-    return at("atan2(" + y + ", clamp(position, -1, 1))", x);
+    return value_at("atan2(" + y + ", clamp(position, -1, 1))", x);
   };
   for (const double x : {-1.0, -0.5, -0.03, 0.0, 0.02, 0.25, 1.0}) {
     for (const double y : {-1.0, -0.25, 0.25, 0.6, 1.0}) {
@@ -70,19 +70,19 @@ TEST_CASE("atan2") {
   // Below 1/128 of both ranges it goes to a right angle.
   CHECK(angle("0", 0) == Approx(kPi / 2));
   CHECK(angle("0", 1.0 / 256) == Approx(std::atan2(0.5, 0.5)));
-  CHECK(at("atan2(-1, -1) + atan2(0, 0)") == Approx(-kPi / 4));
+  CHECK(value_at("atan2(-1, -1) + atan2(0, 0)") == Approx(-kPi / 4));
 }
 
 TEST_CASE("floor and mod") {
   for (const double x : {-4.5, -2.0, -0.25, 0.0, 0.75, 3.0, 4.99}) {
-    CHECK(at("floor(clamp(position, -5, 5))", x) == std::floor(x));
-    CHECK(at("floor(2 * clamp(position, -5, 5) + 0.5)", x) == std::floor(2 * x + 0.5));
-    CHECK(at("mod(clamp(position, -5, 5), 1.5)", x) == Approx(x - 1.5 * std::floor(x / 1.5)));
-    CHECK(at("mod(clamp(position, -5, 5), 90 deg) / 90 deg", x) ==
+    CHECK(value_at("floor(clamp(position, -5, 5))", x) == std::floor(x));
+    CHECK(value_at("floor(2 * clamp(position, -5, 5) + 0.5)", x) == std::floor(2 * x + 0.5));
+    CHECK(value_at("mod(clamp(position, -5, 5), 1.5)", x) == Approx(x - 1.5 * std::floor(x / 1.5)));
+    CHECK(value_at("mod(clamp(position, -5, 5), 90 deg) / 90 deg", x) ==
           Approx(2 * x / kPi - std::floor(2 * x / kPi)));
   }
-  CHECK(at("floor(2.7) + floor(-2.7)") == -1);
-  CHECK(at("floor(clamp(position, 0, 5))", 9) == 5);
+  CHECK(value_at("floor(2.7) + floor(-2.7)") == -1);
+  CHECK(value_at("floor(clamp(position, 0, 5))", 9) == 5);
   for (const int n : {-7, -3, -1, 0, 2, 5, 9}) {
     const std::string state =
         "state n = " + std::to_string(n) + " in -9 .. 9 whole\nnext n = n\nout torque = 1 Nm * ";
@@ -97,9 +97,10 @@ TEST_CASE("floor and mod") {
 
 TEST_CASE("round: halves go up, as floor(x + 0.5)") {
   for (const double x : {-2.51, -2.5, -0.5, -0.49, 0.0, 0.49, 0.5, 1.5, 2.49, 9.0}) {
-    CHECK(at("round(clamp(position, -5, 5))", x) == std::floor(std::clamp(x, -5.0, 5.0) + 0.5));
+    CHECK(value_at("round(clamp(position, -5, 5))", x) ==
+          std::floor(std::clamp(x, -5.0, 5.0) + 0.5));
   }
-  CHECK(at("round(2.5) + 10 * round(-2.5)") == -17);
+  CHECK(value_at("round(2.5) + 10 * round(-2.5)") == -17);
   CHECK(torque_of("param n = 3 in 0 .. 9 whole\nout torque = 1 Nm * round(n)") == 3);
   CHECK(torque_of("let round = 2\nlet time = 3\nout torque = 1 Nm * round * time") == 6);
 }
@@ -166,7 +167,7 @@ TEST_CASE("noise: even from -1 to 1, without an echo, another for each seed") {
 
 TEST_CASE("conditions") {
   const auto truth = [](const std::string& c, double x) {
-    return at("if " + c + " then 1 else 0", x);
+    return value_at("if " + c + " then 1 else 0", x);
   };
   CHECK(truth("position < 1", 1) == 0);
   CHECK(truth("position <= 1", 1) == 1);
@@ -216,8 +217,8 @@ TEST_CASE("conditions") {
       CHECK(held("b == b", b, x) == 1);
     }
   }
-  CHECK(at("if position < 0 then -1 else if position < 1 then 0 else 1", 0.5) == 0);
-  CHECK(at("2 * (if position < 0 then 3 else 4)", -1) == 6);
+  CHECK(value_at("if position < 0 then -1 else if position < 1 then 0 else 1", 0.5) == 0);
+  CHECK(value_at("2 * (if position < 0 then 3 else 4)", -1) == 6);
 }
 
 TEST_CASE("units scale, and 0 has any") {
@@ -375,10 +376,10 @@ TEST_CASE("loops are unrolled") {
     CHECK(law.torque({{"position", x}}) == Approx(expected));
   }
   CHECK(law.law().arrays.size() == 1);
-  CHECK(at("sum(i in 1 .. 4: i * position)", 2) == 20);
-  CHECK(at("min(i in -1 .. 1: (position - i)^2)", 0.9) == Approx(0.01));
-  CHECK(at("max(i in -1 .. 1: i * position)", -3) == 3);
-  CHECK(at("sum(i in 0 .. 2: sum(j in 0 .. i: 1))") == 6);
+  CHECK(value_at("sum(i in 1 .. 4: i * position)", 2) == 20);
+  CHECK(value_at("min(i in -1 .. 1: (position - i)^2)", 0.9) == Approx(0.01));
+  CHECK(value_at("max(i in -1 .. 1: i * position)", -3) == 3);
+  CHECK(value_at("sum(i in 0 .. 2: sum(j in 0 .. i: 1))") == 6);
 }
 
 TEST_CASE("events happen when their condition becomes true") {

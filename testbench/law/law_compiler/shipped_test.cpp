@@ -107,8 +107,6 @@ TEST_CASE("a law of one input and no state is run over all of its positions") {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The image of the flywheel in the interpreter, its states in SI.
 class Wheel {
  public:

@@ -25,7 +25,7 @@ namespace {
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-std::string refusal(const std::string& text) {
+std::string why_not(const std::string& text) {
   try {
     (void)compiled(text);
   } catch (const LawError& e) {
@@ -228,7 +228,7 @@ TEST_CASE("a run is left out where words and law go different ways, not where bo
 }
 
 TEST_CASE("a bound as large as its output's range is refused, one of 1 % of it told") {
-  CHECK_THAT(refusal("param k = 1 in 0 .. 30\nlet x = velocity / (1 rad/s)\n"
+  CHECK_THAT(why_not("param k = 1 in 0 .. 30\nlet x = velocity / (1 rad/s)\n"
                      "table f(x) on [-10, 30] = exp(x)\n"
                      "out torque = 1 Nm * min(f(clamp(k * x, -10, 30)), 1)\n"),
              Contains("x.law:4:5: the proven bound of torque, 1 Nm, is as large as its range") &&
@@ -365,7 +365,7 @@ TEST_CASE("words that the host computes are told as parameters are") {
 TEST_CASE("a step that is larger than a parameter's range is told, with a mend that works") {
   const auto said = [](const std::string& declared) {
     const std::string law = "param k = " + declared + "\nout torque = k\n";
-    const std::string refused = refusal(law);
+    const std::string refused = why_not(law);
     return refused == "compiled" ? text(verdict(compiled(law), {})) : refused;
   };
   const std::string mend = ": give it a value of 7.63e+04 nNm or more, and a range with that value";
@@ -455,7 +455,7 @@ TEST_CASE("a largest error that is no number stays one, and fails") {
 }
 
 TEST_CASE("a table that an if keeps from what is no number is one") {
-  CHECK(refusal("table f(x) on [-1, 1] = if x < 0 then 0 else sqrt(x)\n"
+  CHECK(why_not("table f(x) on [-1, 1] = if x < 0 then 0 else sqrt(x)\n"
                 "out torque = 0.1 Nm * f(position)\n") == "compiled");
 }
 

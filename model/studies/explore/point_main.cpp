@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "Vpoint.h"
+#include POINT_HEADER
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/causes.hpp"
 #include "feltgate/largest.hpp"

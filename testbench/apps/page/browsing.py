@@ -105,11 +105,12 @@ class PageTest(unittest.TestCase):
             value,
         )
 
-    def actions(self, picture, *places):
-        """The mouse goes to these places, in the units of the picture's view box."""
+    def actions(self, picture, *places, held=False):
+        """The mouse goes to these places, in the units of the picture's view box; `held`: from the
+        first on with its button down."""
         stage = self.one(picture)
         actions = ActionChains(self.driver, duration=50)
-        for place in places:
+        for number, place in enumerate(places):
             x, y = self.js(
                 "const [svg, [x, y]] = arguments, b = svg.getBoundingClientRect(), v = svg.viewBox.baseVal;"
                 "const size = Math.min(b.width / v.width, b.height / v.height);"
@@ -118,6 +119,8 @@ class PageTest(unittest.TestCase):
                 place,
             )
             actions.move_to_element_with_offset(stage, round(x), round(y))
+            if held and number == 0:
+                actions.click_and_hold()
         return actions
 
     def screen(self, width, height, mobile=False):

@@ -443,7 +443,7 @@ def texture_force():
     where: DIMPLE, 5.1, F = dt k nt + ds k ns
     closed_form: 0.8 mm high, 0.5 mm below the surface, normal (0.6, 0, 0.8), 1000 N/m: our example
     simulation: a ramp of texels of 1 mm, five steps of 0.75 mm down, in real numbers; in the engine's words in
-      [texture](devices/texture.md)
+      [shapes](devices/shapes.md)
     why: it does. It points a little more upward than the texture, as the report says
     gives: sideways | N | near 0.48 ± 0.001; upward | N | near 1.14 ± 0.001"""
     x, y = texture([1, 0.8, 0.6, 0.4, 0.2, 0], (3.75 - 0.8) / 0.75 * 1e-3, 0.5e-3, 1e-3, 3.75e-3, 1000)

@@ -16,9 +16,10 @@ import re
 import sys
 from pathlib import Path
 
-COUNT = re.compile(r"vlSymsp->__Vcoverage\[(\d+)\]\.fetch_add\(1, std::memory_order_relaxed\);")
+COUNT = re.compile(r"\+\+\(vlSymsp->__Vcoverage\[(\d+)\]\);")
+ATOMIC = re.compile(r"(vlSymsp->__Vcoverage\[\d+\])\.fetch_add\(1, std::memory_order_relaxed\);")
 POINT = re.compile(r"__vlCoverInsert\(&\(vlSymsp->__Vcoverage\[(\d+)\]\), first, [^;]*?\"v_(\w+)/")
-ARRAY = re.compile(r"std::atomic<uint32_t> __Vcoverage\[(\d+)\];")
+ARRAY = re.compile(r"uint32_t __Vcoverage\[(\d+)\];")
 BORN = "if (VL_UNLIKELY(!vlSymsp->__Vm_didInit)) {"
 
 STATE = """\
@@ -66,8 +67,17 @@ def once(text, old, new, where):
     return text.replace(old, new)
 
 
+def plain(text):
+    """Verilator 5.006 counts in atomic words, later ones in plain ones: all plain."""
+    text = ATOMIC.sub(r"++(\1);", text)
+    text = text.replace("assert(sizeof(uint32_t) == sizeof(std::atomic<uint32_t>));", "")
+    text = text.replace("reinterpret_cast<uint32_t*>(countp)", "countp")
+    return text.replace("std::atomic<uint32_t>", "uint32_t")
+
+
 def changed(files, name):
     """{file: new text} of the generated files."""
+    files = {file: plain(text) for file, text in files.items()}
     toggles = {
         int(n) for text in files.values() for n, page in POINT.findall(text) if page == "toggle"
     }
@@ -80,13 +90,11 @@ def changed(files, name):
             + ("vlSymsp->coverage_toggles;" if int(m[1]) in toggles else "1;"),
             text,
         )
-        text = text.replace("std::atomic<uint32_t>* countp", "uint32_t* countp")
         text = text.replace(
-            "uint32_t* count32p = reinterpret_cast<uint32_t*>(countp);",
+            "uint32_t* count32p = countp;",
             "if (!vlSymsp->coverage_writes) return;\n    uint32_t* count32p = countp;",
         )
         text = text.replace("    *count32p = 0;\n", "")
-        text = text.replace("assert(sizeof(uint32_t) == sizeof(std::atomic<uint32_t>));", "")
         if file == f"{name}__Syms.h":
             size = ARRAY.search(text)
             if not size:
@@ -110,11 +118,7 @@ def changed(files, name):
                 file,
             )
         out[file] = text
-    left = [
-        file
-        for file, text in out.items()
-        if ".fetch_add(" in text or "std::atomic<uint32_t>" in text
-    ]
+    left = [file for file, text in out.items() if ".fetch_add(" in text or COUNT.search(text)]
     if left:
         raise InstrumentError(f"{left[0]}: counts in another way")
     return out
@@ -131,7 +135,7 @@ def main(directory, name):
         for file, text in changed(files, name).items():
             (folder / file).write_text(text, encoding="utf-8")
     except InstrumentError as error:
-        print(f"instrument.py: {folder}/{error}; made for Verilator 5.006", file=sys.stderr)
+        print(f"instrument.py: {folder}/{error}; made for Verilator 5.006 and 5.032", file=sys.stderr)
         return 1
     return 0
 

@@ -10,7 +10,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 
 # What the programs with commands share. CLI11 is headers: a program's words are read once, so that
 # -O1 does.
-add_library(feltgate_command_line STATIC "${FELTGATE_ROOT}/model/apps/commands/checks.cpp"
+add_library(feltgate_command_line STATIC
   "${FELTGATE_ROOT}/model/apps/commands/commands.cpp" "${FELTGATE_ROOT}/model/apps/commands/command_line.cpp")
 target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_command_line PRIVATE
@@ -145,10 +145,10 @@ feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
   "${FELTGATE_ROOT}/model/apps/commands/*.cpp")
-list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
+list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(commands|command_line)\\.cpp$")
 # A first scene: nothing that it does not use. The RTL is a minute more, so it is left out where none
 # is asked for.
-set(run_names csv.cpp mismatch.cpp replay_command.cpp run_command.cpp run_report.cpp)
+set(run_names replay_command.cpp run_command.cpp run_report.cpp)
 list(TRANSFORM run_names PREPEND "${FELTGATE_ROOT}/model/apps/commands/" OUTPUT_VARIABLE run_sources)
 set(run_libraries feltgate_command_line feltgate_loop feltgate_constants feltgate_files
   nlohmann_json::nlohmann_json fmt::fmt)

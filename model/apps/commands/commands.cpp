@@ -143,7 +143,8 @@ design::Elaborated elaborated_design(const std::string& name) {
 
 void check_design_files() {
   check_designs([](const DesignInfo& design) {
-    const fs::path file = fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
+    const fs::path file =
+        fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
     if (!fs::exists(file)) return;
     design::require_current(
         elaborated_design(design.name), design.file_sum,

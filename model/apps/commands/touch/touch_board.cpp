@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The planes of a mesh for a board.
-#include "apps/commands/touch/touch_board.hpp"
+#include "apps/commands/touch/touch.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Text, JSON and CSV of `feltgate touch`.
-#include "apps/commands/touch/touch_report.hpp"
+#include "apps/commands/touch/touch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

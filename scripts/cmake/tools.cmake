@@ -225,7 +225,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
   if(design IN_LIST FELTGATE_DESIGNS)
     set(twin "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp" $<TARGET_OBJECTS:design_${design}>)
   endif()
-  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" "${FELTGATE_ROOT}/model/apps/fmu/scene_model.cpp" ${twin})
+  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" ${twin})
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/${design}_alone/designs.inc"
     CONTENT "FELTGATE_DESIGN(${design})\n")
   set_target_properties(${name} PROPERTIES PREFIX "" POSITION_INDEPENDENT_CODE ON EXCLUDE_FROM_ALL ON)

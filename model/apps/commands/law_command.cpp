@@ -17,7 +17,7 @@
 
 #include "apps/commands/commands.hpp"
 #include "design/engine_map.hpp"
-#include "files/json_text.hpp"
+#include "files/table.hpp"
 #include "files/output_file.hpp"
 #include "files/program.hpp"
 #include "law/compile.hpp"

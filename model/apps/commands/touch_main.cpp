@@ -56,31 +56,19 @@ std::pair<std::string, PlaneMaterial> material_of(const std::string& text, const
 }
 
 touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh) {
-  touch::TouchRequest r;
-  r.press_n = a.press_n;
-  r.proxy.friction = a.friction;
-  r.proxy.shading = a.shading;
-  r.proxy.edges = a.edges;
-  r.distance = a.distance;
-  r.host.stiffness_n_m = a.stiffness;
-  r.host.damping_ns_m = a.damping;
-  r.host.friction = a.drag;
-  r.host.rate_hz = a.rate_hz;
-  r.host.latency_s = a.latency_s;
-  r.host.jitter_s = a.jitter_s;
-  r.host.lost = a.lost;
+  touch::TouchRequest r = a.request;
   for (const std::string& text : a.materials)
-    r.materials.insert(material_of(text, mesh, a.stiffness));
-  double most_drag = a.drag;
+    r.materials.insert(material_of(text, mesh, a.request.host.stiffness_n_m));
+  double most_drag = a.request.host.friction;
   for (const auto& [name, material] : r.materials)
     most_drag = std::max(most_drag, material.friction);
-  if (a.edges && most_drag > 1)
+  if (a.request.proxy.edges && most_drag > 1)
     throw std::invalid_argument("--edges takes a drag of at most 1, as the law local_edge");
   if (!a.motion.empty()) r.mesh_way = touch::read_stroke(a.motion, true);
   if (!a.board.empty()) return r;
   r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
-                                                   a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
-                                                   a.press_n > 0 ? 0.5 : 0.9)
+                                                   a.request.press_n > 0 ? 0 : a.depth_m,
+                                                   a.speed_m_s, a.request.press_n > 0 ? 0.5 : 0.9)
                               : touch::read_stroke(a.stroke);
   if (r.stroke.back().time_s < touch::shortest_s(r.host)) {
     throw std::invalid_argument(fmt::format(
@@ -141,7 +129,7 @@ Decimation decimate(const TouchArguments& a, touch::Mesh& mesh) {
   }
   d.jumps = touch::jumps_of(few);
   d.before = touch::jumps_of(mesh);
-  d.force_step_n = a.stiffness * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
+  d.force_step_n = a.request.host.stiffness_n_m * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
   d.file = mesh.report;
   mesh = std::move(few);
   return d;
@@ -252,37 +240,40 @@ void add_options(CLI::App& sub, TouchArguments& a) {
       ->excludes(stroke);
   defaulted(sub, "--speed", a.speed_m_s, "M/S", "of the stroke", checks::number(0.01, 1, "m/s"))
       ->excludes(stroke);
-  defaulted(sub, "--press", a.press_n, "N", "the hand presses down with it, in place of a depth",
-            checks::number(0, 3.3, "N"))
+  defaulted(sub, "--press", a.request.press_n, "N",
+            "the hand presses down with it, in place of a depth", checks::number(0, 3.3, "N"))
       ->excludes(stroke);
-  defaulted(sub, "--stiffness", a.stiffness, "N/M", "of the surface",
+  defaulted(sub, "--stiffness", a.request.host.stiffness_n_m, "N/M", "of the surface",
             checks::number(0, 1000, "N/m"));
-  defaulted(sub, "--damping", a.damping, "NS/M", "of the push", checks::number(0, 2, "N s/m"));
-  defaulted(sub, "--drag", a.drag, "MU", "friction of the law: against the speed, at 100 kHz",
-            checks::number(0, 2, ""));
+  defaulted(sub, "--damping", a.request.host.damping_ns_m, "NS/M", "of the push",
+            checks::number(0, 2, "N s/m"));
+  defaulted(sub, "--drag", a.request.host.friction, "MU",
+            "friction of the law: against the speed, at 100 kHz", checks::number(0, 2, ""));
   option(sub, "--material", a.materials, "NAME=N/M,NS/M,MU",
          "stiffness, damping and drag of the parts of one material, then a vibration if it has "
          "one, N and Hz; or stone, fabric, water, object; repeat it");
-  CLI::Option* friction = defaulted(sub, "--friction", a.friction, "MU",
+  CLI::Option* friction = defaulted(sub, "--friction", a.request.proxy.friction, "MU",
                                     "friction of the proxy: it stays within the cone, by the host",
                                     checks::number(0, 2, ""));
-  CLI::Option* shading = sub.add_flag("--shading", a.shading,
+  CLI::Option* shading = sub.add_flag("--shading", a.request.proxy.shading,
                                       "normals between the corners', so that facets feel round");
   CLI::Option* edges =
       sub.add_flag(
-             "--edges", a.edges,
+             "--edges", a.request.proxy.edges,
              "both planes of an edge, by the law local_edge at 50 kHz: no step at a cube's edge")
           ->excludes(friction);
-  sub.add_flag("--distance", a.distance,
+  sub.add_flag("--distance", a.request.distance,
                "the nearest surface of a closed mesh, by a signed distance, in place of the proxy")
       ->excludes(friction)
       ->excludes(shading)
       ->excludes(edges);
-  defaulted(sub, "--rate", a.rate_hz, "HZ", "of the planes", checks::number(10, 10e3, "Hz"));
-  defaulted(sub, "--latency", a.latency_s, "S", "shortest time from a pose to its plane",
+  defaulted(sub, "--rate", a.request.host.rate_hz, "HZ", "of the planes",
+            checks::number(10, 10e3, "Hz"));
+  defaulted(sub, "--latency", a.request.host.latency_s, "S",
+            "shortest time from a pose to its plane", checks::number(0, 0.1, "s"));
+  defaulted(sub, "--jitter", a.request.host.jitter_s, "S", "most that comes to it",
             checks::number(0, 0.1, "s"));
-  defaulted(sub, "--jitter", a.jitter_s, "S", "most that comes to it", checks::number(0, 0.1, "s"));
-  defaulted(sub, "--lost", a.lost, "SHARE", "share of the planes that are lost",
+  defaulted(sub, "--lost", a.request.host.lost, "SHARE", "share of the planes that are lost",
             checks::number(0, 0.9, ""));
   CLI::Option* board =
       option(sub, "--board", a.board, "PORT",
@@ -328,6 +319,8 @@ Exit code: 0 all well, 1 a mismatch or a torque beyond its proven bound, 2 unusa
 no GLB, cut off, empty, not finite, with files beside it, out of reach, or a stroke that
 begins inside; nothing is written then. 3 the line to a board broke down.)");
   TouchArguments a;
+  a.request.host.stiffness_n_m = 300;
+  a.request.host.latency_s = a.request.host.jitter_s = 1e-3;
   add_options(*sub, a);
   sub->callback([&] {
     if (a.mesh_only && !a.csv.empty())

@@ -17,7 +17,7 @@
 
 #include "apps/commands/commands.hpp"
 #include "feltgate/generated/map.hpp"
-#include "files/json_text.hpp"
+#include "files/table.hpp"
 
 namespace feltgate::host {
 

@@ -22,16 +22,14 @@ namespace feltgate {
 struct TouchArguments {
   std::string glb, stroke, motion, engine = "twin,double", json, csv, make, out;
   std::vector<std::string> materials;
-  std::int64_t faces = 0;  ///< at most so many; 0: all of the file
-  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1, friction = 0, press_n = 0;
+  std::int64_t faces = 0;       ///< at most so many; 0: all of the file
+  touch::TouchRequest request;  ///< without stroke, materials and way of the mesh
+  double size_m = 0.06, depth_m = 2e-3, speed_m_s = 0.1;
   std::array<double, 3> centre_m{};
-  double stiffness = 300, damping = 0, drag = 0;
-  double rate_hz = 1000, latency_s = 1e-3, jitter_s = 1e-3, lost = 0;
   std::string board;   ///< port of one; empty: the simulated device
   int baud = 1000000;  ///< of its line
   double seconds = 0;  ///< how long at a board; 0: until Ctrl-C
-  bool as_is = false, shading = false, edges = false, distance = false, mesh_only = false,
-       quiet = false;
+  bool as_is = false, mesh_only = false, quiet = false;
 };
 
 /// What fewer faces cost.

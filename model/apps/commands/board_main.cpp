@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -45,17 +44,13 @@ struct Arguments {
 std::string default_hand(const std::string& design, std::size_t axes) {
   if (axes == 1 || design == "pantograph_law") return "free";
   const std::string line = fmt::format("device = \"{}\"", design.substr(0, design.rfind("_law")));
-  std::vector<std::string> scenes;
-  for (const auto& file : std::filesystem::directory_iterator(repository() + "/vectors/scenes")) {
-    std::ifstream in(file.path());
+  for (const std::string& scene : names_in("vectors/scenes")) {
+    std::ifstream in(repository() + "/vectors/scenes/" + scene + ".toml");
     for (std::string text; std::getline(in, text);) {
-      if (text == line) scenes.push_back(file.path().stem().string());
+      if (text == line) return scene;
     }
   }
-  if (scenes.empty()) {
-    throw std::invalid_argument(fmt::format("--hand: {} needs a scene file of its device", design));
-  }
-  return *std::min_element(scenes.begin(), scenes.end());
+  throw std::invalid_argument(fmt::format("--hand: {} needs a scene file of its device", design));
 }
 
 /// Sets hand and plant where none is given.

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ void add_scripts(CLI::App& app, int* exit_code);
 
 /// Path of the repository: FELTGATE_ROOT, or the folder from which this program was built.
 std::string repository();
+
+/// Names of the files in a folder of the repository that end so, without that end.
+std::set<std::string> names_in(const std::string& folder, const std::string& suffix = ".toml");
 
 /// `name` itself if it is a path (has a slash or the suffix), else folder/name.toml in the
 /// repository. Throws std::invalid_argument with a list of the existing names.

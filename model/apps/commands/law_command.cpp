@@ -17,9 +17,9 @@
 
 #include "apps/commands/commands.hpp"
 #include "design/engine_map.hpp"
-#include "files/table.hpp"
 #include "files/output_file.hpp"
 #include "files/program.hpp"
+#include "files/table.hpp"
 #include "law/compile.hpp"
 #include "law/gappa.hpp"
 #include "law/listing.hpp"

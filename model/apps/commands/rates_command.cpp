@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -25,8 +24,6 @@
 namespace feltgate {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RatesArguments {
   std::vector<std::string> scenes, beside;
@@ -149,13 +146,8 @@ rates::Report measured(const Wanted& w, const rates::Options& options) {
 
 /// All scenes of vectors/scenes that render a law; the others are reported.
 std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / "vectors/scenes")) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
   std::vector<Wanted> all;
-  for (const std::string& name : names) {
+  for (const std::string& name : names_in("vectors/scenes")) {
     try {
       all.push_back(wanted(name, a, outputs));
     } catch (const std::exception& error) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Blocks and ports that are in no property of a proof, with the reason. If such a block or port is
-missing here, prove.scripts fails. Documentation: docs/testing.md"""
+missing here, campaigns.judges fails. Documentation: docs/testing.md"""
 
 import rtl_sources
 

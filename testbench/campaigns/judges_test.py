@@ -19,7 +19,7 @@ import mutate
 import rtl_sources
 from fault_campaign import results as fault_results
 from mutation import netlist, runs
-from proofs import catalog, record, results, tasks, tools, unproven
+from proofs import catalog, record, results, tasks, tools
 from rtl_coverage import data, report, waivers
 
 
@@ -132,14 +132,6 @@ class Proofs(Scratch):
     def setUp(self):
         super().setUp()
         self.proofs = catalog.read(ROOT)
-
-    def test_every_port_is_in_a_property_or_its_block_is_named(self):
-        found = catalog.open_ports(ROOT, self.proofs)
-        without = {block for block, names in found.items() if names}
-        self.assertEqual(without, set(unproven.SOME_PORTS))
-        # A block that is in a property by now is no longer one of which nothing is proven.
-        self.assertEqual(found.keys() & unproven.BLOCKS.keys(), set())
-        self.assertEqual(found.keys() | unproven.BLOCKS.keys(), rtl_sources.module_files(ROOT).keys())
 
     def test_the_records_are_of_the_proofs_as_they_are(self):
         self.assertEqual(results.counted(ROOT, self.proofs), [])

@@ -162,7 +162,7 @@ class Sweep(Bench):
                 self.assertLessEqual(len(self.evaluations()), 12 + 2)
 
     def test_a_failing_point_is_named(self):
-        name = self.whole().split(b'"id":"')[3][:12].decode()
+        name = space.point_id(space.read_space(ROOT, self.space).points[3])
         words = (self.space, "-o", self.folder / "fails")
         done = self.ended(self.explore(*words, FAKE_POINT_FAIL=name), 2)
         self.assertRegex(done.stderr.splitlines()[-1],

@@ -12,7 +12,7 @@ import rtl_sources
 from seeded_defects import patches
 
 KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "show",
-        "sources", "defines", "cut", "abstract", "fast", "property", "cover"}
+        "sources", "defines", "cut", "abstract", "slow", "property", "cover"}
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
 COVER = re.compile(r"\b(\w+):\s*cover\b")
 INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
@@ -134,7 +134,7 @@ def read_proof(root, block, path, table):
         defines=tuple(table.get("defines", [])),
         cut=tuple(table.get("cut", [])),
         abstract=tuple(table.get("abstract", [])),
-        fast=table.get("fast", False),
+        fast=not table.get("slow", False),
         properties=tuple(properties),
         covers=covers,
         wrapper=wrapper,

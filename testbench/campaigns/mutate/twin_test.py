@@ -17,12 +17,12 @@ from unittest import mock
 from testing import ROOT, Scratch, ran
 
 import mutate
-from mutation import twin, twin_parser, twin_source
+from mutation import twin, twin_places, twin_source
 
 BUILD, OPTIONS = Path(sys.argv[1] if len(sys.argv) > 1 else "none"), sys.argv[2:]
 try:
-    LANGUAGE = twin_parser.cpp_language(BUILD / "venv-mutate")
-except twin_parser.SourceError:
+    LANGUAGE = twin_places.cpp_language(BUILD / "venv-mutate")
+except twin_places.SourceError:
     LANGUAGE = None
 NO_PARSER = LANGUAGE is None and not os.environ.get("CI")
 MUTANT = ROOT / "testbench/campaigns/mutate/twin"
@@ -50,7 +50,7 @@ class Compiled(Scratch):
         return {m.what: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
 
     def test_every_header_is_understood(self):
-        with mock.patch.object(twin_parser, "cpp_language", lambda _: LANGUAGE):
+        with mock.patch.object(twin_places, "cpp_language", lambda _: LANGUAGE):
             self.assertTrue(all(h.mutants for h in twin.parse(ROOT, twin.tests(ROOT, []), {})))
 
     def test_each_does_what_its_name_says(self):

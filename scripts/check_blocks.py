@@ -3,11 +3,11 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """Each block has one name everywhere: fails when a block lacks one of its files.
 
-Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp
-(scene_* blocks may share a folder of testbench/scenes), at least one seeded defect, and a page that links its
-RTL; blocks that help one another share a page. The twin is the class with the block's name. It is in
-model/include/feltgate/<b>.hpp if the product uses it, else in the test, or beside it in <b>_twin.hpp where several
-tests use it; then the law that it evaluates, if any, is in the former.
+Every rtl/core/<room>/<b>.sv, rtl/link/<b>.sv and so on has a twin, testbench/<room>/<b>/<b>_test.cpp,
+at least one seeded defect, and a page that links its RTL; blocks that help one another share a page. The twin is
+the class with the block's name. It is in model/include/feltgate/<b>.hpp if the product uses it, else in the test, or
+beside it in <b>_twin.hpp where several tests use it (those of the scenes in one file); then the law that it
+evaluates, if any, is in the former.
 Further checks: a strobe is connected to the clock of its name, and the lists made from the blocks are up to date:
 docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
@@ -27,6 +27,7 @@ import rtl_sources
 
 EXEMPT = {*rtl_sources.CELL_WRAPPERS, *rtl_sources.NO_BLOCKS}
 BOARD_DESIGN = "lever"
+SCENE_TWINS = Path("testbench/scenes/scenes/scene_twins.hpp")
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"
@@ -69,15 +70,6 @@ def has_class(path, name):
     return path.is_file() and re.search(rf"\bclass {class_name(name)}\b", path.read_text(encoding="utf-8"))
 
 
-def shared_scene_test(root, name):
-    """The first test in a folder of testbench/scenes that names the block, if any."""
-    for test in sorted(root.glob("testbench/scenes/*/*_test.cpp")):
-        names = rf"\b({name}|{class_name(name)})(?![A-Za-z0-9])"
-        if re.search(names, test.read_text(encoding="utf-8")):
-            return test.relative_to(root)
-    return None
-
-
 def page_links(root):
     """{page: files that it links}, pages of blocks first."""
     found = [*sorted(root.glob("docs/blocks/*.md")), *sorted(root.glob("docs/*.md"))]
@@ -106,20 +98,16 @@ def find_blocks(root):
         room = rtl_sources.room_of(path)
         folder = Path("testbench", room, name)
         test = folder / f"{name}_test.cpp"
-        if name.startswith("scene_") and not (root / test).exists():
-            test = shared_scene_test(root, name) or test
         public = Path(f"model/include/feltgate/{name}.hpp")
-        beside = folder / f"{name}_twin.hpp"
-        if has_class(root / test, name):
-            beside = test
-        tested = (root / beside).exists()
+        places = (test, folder / f"{name}_twin.hpp", SCENE_TWINS)
+        beside = next((path for path in places if has_class(root / path, name)), None)
         blocks.append(
             Block(
                 name=name,
                 room=room,
                 rtl=rtl.relative_to(root),
-                law=public if tested and (root / public).exists() else None,
-                twin=beside if tested else public,
+                law=public if beside and (root / public).exists() else None,
+                twin=beside or public,
                 test=test,
                 doc=page_of(pages, rtl.relative_to(root)),
                 defects=tuple(patches.names(root / folder / "defects.diff")[0]),

@@ -37,7 +37,7 @@ def subcommands():
 
 def host_verbs():
     """As their table lists them."""
-    table = (ROOT / "model/apps/commands/host/verbs.cpp").read_text(encoding="utf-8")
+    table = (ROOT / "model/apps/commands/host_main.cpp").read_text(encoding="utf-8")
     return re.findall(r'^ +\{"([a-z]+)", "', table, re.M)
 
 

@@ -27,7 +27,7 @@ import sys
 
 import command_line
 import outputs
-from proofs import catalog, record, results, tasks, unproven
+from proofs import catalog, record, results, tasks
 from proofs.tools import Broken, Tools
 
 SCHEMA = "feltgate-prove/1"
@@ -41,7 +41,7 @@ def arguments(argv):
     )
     add.add_flags(
         parser,
-        list="what there is, and which ports are in no property; runs nothing",
+        list="what there is; runs nothing",
         fast="only what every test run looks after: short proofs, on their first design",
         changed=f"not those whose inputs are on record as proven, in {record.FILE}",
         record="enter the inputs of proofs that were good into that record",
@@ -91,15 +91,6 @@ def print_list(root, proofs):
             print(f"  {name:28} is reached: {says}")
     count = sum(len(proof.properties) for proof in proofs)
     print(f"{count} properties in {len(proofs)} proofs of {len({p.block for p in proofs})} blocks")
-
-
-def print_open(blocks):
-    """Ports that no property names, and blocks that have none in any."""
-    for block, names in blocks.items():
-        if names:
-            print(f"{block}: in no property: {', '.join(names)}")
-    for block, why in unproven.BLOCKS.items():
-        print(f"{block}: in no property: {why}")
 
 
 def prove(options, root, proofs, folder):
@@ -153,8 +144,6 @@ def run(options):
         return 0
     if options.list:
         print_list(root, proofs)
-        if not options.proof and not options.fast:
-            print_open(catalog.open_ports(root, proofs))
         return 0
     with outputs.kept_or_temporary(options.keep, "prove") as folder:
         rows, versions = prove(options, root, proofs, folder)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Columns of a report, each described once: JSON, the table for readers and CSV follow from the
-// description. Documentation: docs/json.md
+// JSON as text; and columns of a report, each described once: JSON, the table for readers and CSV
+// follow from the description. Documentation: docs/json.md
 #pragma once
 
 #include <fmt/format.h>
@@ -15,11 +15,15 @@
 #include <string>
 #include <vector>
 
-#include "files/json_text.hpp"
-
 namespace feltgate::files {
 
 using Json = nlohmann::ordered_json;
+
+/// The JSON, pretty-printed, with a final newline. In a text that is not UTF-8, such as a file name
+/// in Latin-1, U+FFFD replaces each invalid byte.
+inline std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 /// A figure of a row.
 template <class Row>

@@ -47,7 +47,7 @@ feltgate_verilate(extremes_wide_core feltgate_core
   "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide FASTEST)
 
 file(GLOB extremes_sources CONFIGURE_DEPENDS "${extremes_folder}/*.cpp")
-list(FILTER extremes_sources EXCLUDE REGEX "_(main|test|defects)\\.cpp$")
+list(FILTER extremes_sources EXCLUDE REGEX "_(main|test)\\.cpp$")
 add_library(feltgate_extreme_cases STATIC ${extremes_sources} "${extremes_wide}/wide.hpp")
 target_compile_options(feltgate_extreme_cases PRIVATE ${FELTGATE_WARNINGS})
 target_compile_definitions(feltgate_extreme_cases PRIVATE FELTGATE_WIDE_DESIGN="${extremes_wide}/wide.toml")
@@ -55,14 +55,8 @@ target_include_directories(feltgate_extreme_cases
   PUBLIC "${FELTGATE_ROOT}/testbench" "${FELTGATE_ROOT}/testbench/common" PRIVATE "${extremes_wide}")
 target_link_libraries(feltgate_extreme_cases
   PUBLIC feltgate_rtl feltgate_loop feltgate_law feltgate_design feltgate_stability
-  PRIVATE extremes_wide_core nlohmann_json::nlohmann_json fmt::fmt)
-# Whoever links the cases links these blocks, or others with defects.
-add_dependencies(feltgate_extreme_cases ${extremes_blocks})
-foreach(block IN LISTS extremes_blocks)
-  target_include_directories(feltgate_extreme_cases SYSTEM PRIVATE
-    "$<TARGET_PROPERTY:${block},INTERFACE_INCLUDE_DIRECTORIES>")
-endforeach()
+  PRIVATE extremes_wide_core ${extremes_blocks} nlohmann_json::nlohmann_json fmt::fmt)
 
 feltgate_program(feltgate_extremes ""
-  feltgate_command_line feltgate_files feltgate_extreme_cases ${extremes_blocks})
+  feltgate_command_line feltgate_files feltgate_extreme_cases)
 target_sources(feltgate_extremes PRIVATE "${extremes_folder}/extremes_main.cpp")

@@ -6,7 +6,7 @@
 include_guard(GLOBAL)
 
 set(FELTGATE_MUTANTS 400 CACHE STRING "mutants of each block")
-set(FELTGATE_MUTANTS_SHARE 40 CACHE STRING "mutants that every test run tries of each")
+set(FELTGATE_MUTANTS_SHARE 20 CACHE STRING "mutants that every test run tries of each")
 # Blocks of which these are tried; of the others with --whole.
 set(FELTGATE_MUTANT_BLOCKS dob limiter link_receiver ramp scene_wall sequencer velocity_jump)
 # Blocks whose children have mutants of their own: only their own cells and the children's pins change.

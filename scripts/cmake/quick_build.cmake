@@ -3,7 +3,7 @@
 #
 # Tools that make a build quicker where they are installed: ccache and another linker.
 
-# Compiles through ccache if it is installed. testbench/apps/launcher/ccache_test.py checks that ccache
+# Compiles through ccache if it is installed. testbench/apps/launcher/checkout_test.py checks that ccache
 # gives no outdated result.
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(FELTGATE_CCACHE ccache DOC "Keeps what was compiled; FALSE: not used")

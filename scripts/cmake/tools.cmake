@@ -10,7 +10,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 
 # What the programs with commands share. CLI11 is headers: a program's words are read once, so that
 # -O1 does.
-add_library(feltgate_command_line STATIC "${FELTGATE_ROOT}/model/apps/commands/checks.cpp"
+add_library(feltgate_command_line STATIC
   "${FELTGATE_ROOT}/model/apps/commands/commands.cpp" "${FELTGATE_ROOT}/model/apps/commands/command_line.cpp")
 target_compile_options(feltgate_command_line PRIVATE ${FELTGATE_WARNINGS} -O1)
 target_compile_definitions(feltgate_command_line PRIVATE
@@ -145,10 +145,10 @@ feltgate_program(feltgate_generate generate_main.cpp feltgate_design)
 
 file(GLOB tool_sources CONFIGURE_DEPENDS RELATIVE "${FELTGATE_ROOT}/model/apps/commands"
   "${FELTGATE_ROOT}/model/apps/commands/*.cpp")
-list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(checks|commands|command_line)\\.cpp$")
+list(FILTER tool_sources EXCLUDE REGEX "_main\\.cpp$|^(commands|command_line)\\.cpp$")
 # A first scene: nothing that it does not use. The RTL is a minute more, so it is left out where none
 # is asked for.
-set(run_names csv.cpp mismatch.cpp replay_command.cpp run_command.cpp run_report.cpp)
+set(run_names replay_command.cpp run_command.cpp run_report.cpp)
 list(TRANSFORM run_names PREPEND "${FELTGATE_ROOT}/model/apps/commands/" OUTPUT_VARIABLE run_sources)
 set(run_libraries feltgate_command_line feltgate_loop feltgate_constants feltgate_files
   nlohmann_json::nlohmann_json fmt::fmt)
@@ -225,7 +225,7 @@ foreach(design IN LISTS FELTGATE_DESIGNS FELTGATE_CORE_PRESETS)
   if(design IN_LIST FELTGATE_DESIGNS)
     set(twin "${FELTGATE_ROOT}/model/sim/backends/built_in_designs.cpp" $<TARGET_OBJECTS:design_${design}>)
   endif()
-  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" "${FELTGATE_ROOT}/model/apps/fmu/scene_model.cpp" ${twin})
+  add_library(${name} MODULE "${FELTGATE_ROOT}/model/apps/fmu/fmu.cpp" ${twin})
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/backends/${design}_alone/designs.inc"
     CONTENT "FELTGATE_DESIGN(${design})\n")
   set_target_properties(${name} PROPERTIES PREFIX "" POSITION_INDEPENDENT_CODE ON EXCLUDE_FROM_ALL ON)

@@ -15,7 +15,7 @@ import command_line
 import outputs
 from command_line import say
 
-from . import twin_parser, twin_programs, twin_source
+from . import twin_places, twin_programs, twin_source
 from .runs import MutateError, Subject
 
 TESTS = "testbench/campaigns/mutate/twin.toml"
@@ -33,7 +33,7 @@ def tests(root, names):
 
 def parse(root, names, dropped):
     """The mutated headers; numbers run through all of them, from 1."""
-    language = twin_parser.cpp_language(command_line.build_folder() / "venv-mutate")
+    language = twin_places.cpp_language(command_line.build_folder() / "venv-mutate")
     headers, first = [], 1
     for name in names:
         text = (root / twin_programs.HEADERS / f"{name}.hpp").read_text(encoding="utf-8")

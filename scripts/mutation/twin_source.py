@@ -8,8 +8,7 @@ template arguments, is not changed. Documentation: docs/testing.md
 
 import re
 
-from .twin_parser import parsed
-from .twin_places import Places
+from .twin_places import Places, parsed
 
 OPERATORS = {
     # operator: (function of mutant.hpp, what it becomes)

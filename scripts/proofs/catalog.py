@@ -2,7 +2,6 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """The proofs to make: testbench/ROOM/BLOCK/proofs/proofs.toml, one table per proof."""
 
-import fnmatch
 import re
 import tomllib
 from dataclasses import dataclass
@@ -12,10 +11,8 @@ from command_line import Refused
 import rtl_sources
 from seeded_defects import patches
 
-from . import unproven
-
-KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "assumes", "show",
-        "sources", "defines", "cut", "abstract", "fast", "property", "cover"}
+KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "show",
+        "sources", "defines", "cut", "abstract", "slow", "property", "cover"}
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
 COVER = re.compile(r"\b(\w+):\s*cover\b")
 INCLUDE = re.compile(r'^ *`include "(\w+\.svh)"\n', re.M)
@@ -31,7 +28,6 @@ class Property:
     name: str
     says: str
     defect: Path  # FILE/NAME of the patch that must break it
-    ports: tuple
     from_any: object  # the defect shows too late after a reset: true, from any state that meets the rest;
     # "next", from any that met the rest up to the clock before; "alone", from any state, where the assertion
     # is inductive without the rest
@@ -48,7 +44,6 @@ class Proof:
     cover_depth: int
     defect_depth: int
     designs: tuple
-    assumes: tuple
     show: tuple  # signals printed for a failed step
     sources: tuple  # modules beside those that the wrapper instantiates
     defines: tuple
@@ -104,14 +99,13 @@ def read_proof(root, block, path, table):
     for label, entry in table["property"].items():
         if label not in ASSERTION.findall(text):
             raise wrong(f"{wrapper.name} has no assertion '{label}'")
-        for key in ("says", "defect", "ports"):
+        for key in ("says", "defect"):
             if key not in entry:
                 raise wrong(f"property '{label}' without '{key}'")
         defect = defect_path(root, block, entry["defect"])
         if defect.name not in sum(patches.names(defect.parent), []):
             raise wrong(f"property '{label}': no defect {defect.relative_to(root)}")
-        properties.append(Property(label, entry["says"], defect, tuple(entry["ports"].split()),
-                                   entry.get("from_any", False)))
+        properties.append(Property(label, entry["says"], defect, entry.get("from_any", False)))
     unsaid = [
         name
         for name in ASSERTION.findall(text)
@@ -135,13 +129,12 @@ def read_proof(root, block, path, table):
         cover_depth=table.get("cover_depth", 20),
         defect_depth=table.get("defect_depth", 20),
         designs=tuple(table.get("designs", ["lever"])),
-        assumes=tuple(table.get("assumes", [])),
         show=tuple(table.get("show", [])),
         sources=tuple(table.get("sources", [])),
         defines=tuple(table.get("defines", [])),
         cut=tuple(table.get("cut", [])),
         abstract=tuple(table.get("abstract", [])),
-        fast=table.get("fast", False),
+        fast=not table.get("slow", False),
         properties=tuple(properties),
         covers=covers,
         wrapper=wrapper,
@@ -159,35 +152,3 @@ def read(root):
             raise CatalogError(f"{path.relative_to(root)}: {error}") from error
         proofs += [read_proof(root, block, path, table) for table in tables.get("proof", [])]
     return proofs
-
-
-def ports(root, block):
-    """Names of a block's ports."""
-    path = root / "rtl" / rtl_sources.module_files(root)[block]
-    text = rtl_sources.code_only(path.read_text(encoding="utf-8"))
-    header = text[: text.index(");")]
-    return re.findall(r"^\s*(?:input|output)\b[^,;]*?\b(\w+)\s*(?:,|$)", header, re.M)
-
-
-def open_ports(root, proofs):
-    """{block: its ports that no property names}, without the blocks of unproven.BLOCKS; clock and
-    reset are in all. A property names a port of a block inside as BLOCK.PORT; a * in a name stands
-    for any letters (at_*: all strobes of steps)."""
-    named = {}
-    for proof in proofs:
-        for entry in proof.properties:
-            for name in entry.ports:
-                block, _, port = name.rpartition(".")
-                named.setdefault(block or proof.block, set()).add(port)
-    found = {}
-    files = rtl_sources.module_files(root)
-    for block in sorted(files.keys() - (unproven.BLOCKS.keys() - named.keys())):
-        there = set(ports(root, block))
-        matches = {pattern: fnmatch.filter(there, pattern) for pattern in named.pop(block, ())}
-        found[block] = sorted(there.difference(*matches.values(), ("clk_i", "rst_ni")))
-        strange = {pattern for pattern, ports_of in matches.items() if not ports_of}
-        if strange:
-            raise CatalogError(f"{block}: rtl/{files[block]} has no port {', '.join(sorted(strange))}")
-    if named:
-        raise CatalogError(f"no block {', '.join(sorted(named))} in rtl/")
-    return found

@@ -8,11 +8,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "feltgate/largest.hpp"
 #include "files/output_file.hpp"
-#include "studies/bench/report.hpp"
+#include "studies/bench/measure.hpp"
 #include "studies/bench/work.hpp"
 
 namespace {
@@ -81,35 +80,29 @@ int main(int argc, char** argv) {
   CLI::App app{"feltgate bench: the same scenes through every back-end, time against error"};
   app.name("feltgate bench");
   app.footer(
-      "Scenes run once in closed loop; what reached the core is recorded and then given to every\n"
-      "engine. Errors are against 113 bits on the same counts. Times are CPU time, in interleaved\n"
-      "repetitions: median and ends. Back-ends:\n"
-      "  rtl         the Verilated RTL, every pin in every clock\n"
-      "  twin_clock  the C++ twin, every pin in every clock\n"
-      "  twin_event  the same from event to event\n"
-      "  twin_tick   the twin's arithmetic alone, a tick at a time\n"
-      "  double, float, quad   the same laws in binary64, binary32 and binary128\n"
-      "Examples:\n"
-      "  feltgate bench                        a few minutes\n"
-      "  feltgate bench --quick                half a minute; rougher\n"
-      "  feltgate bench --json bench.json      for programs; docs/json.md has the keys\n"
-      "  feltgate bench --engine rtl,twin_event --scene membrane\n"
-      "A missed goal is printed and is no error. Exit code: 0 the integer back-ends agree, 1 they "
-      "do\n"
-      "not, 2 unusable input.");
+      R"(Scenes run once in closed loop; what reached the core is recorded and then given to every
+engine. Errors are against 113 bits on the same counts. Times are CPU time, in interleaved
+repetitions: median and ends. Back-ends:
+  rtl         the Verilated RTL, every pin in every clock
+  twin_clock  the C++ twin, every pin in every clock
+  twin_event  the same from event to event
+  twin_tick   the twin's arithmetic alone, a tick at a time
+  double, float, quad   the same laws in binary64, binary32 and binary128
+Examples:
+  feltgate bench                        a few minutes
+  feltgate bench --quick                half a minute; rougher
+  feltgate bench --json bench.json      for programs; docs/json.md has the keys
+  feltgate bench --engine rtl,twin_event --scene membrane
+A missed goal is printed and is no error. Exit code: 0 the integer back-ends agree, 1 they do
+not, 2 unusable input.)");
   Arguments a;
-  app.add_option("--json", a.json, "figures as JSON, schema feltgate-bench/1")->type_name("FILE");
-  app.add_option("--engine", a.engines, "only these; errors need quad")
-      ->type_name("ENGINES")
+  option(app, "--json", a.json, "FILE", "figures as JSON, schema feltgate-bench/1");
+  option(app, "--engine", a.engines, "ENGINES", "only these; errors need quad")->delimiter(',');
+  option(app, "--scene", a.scenes, "SCENES",
+         "names in vectors/scenes instead of torque_step_cord, damper, wall")
       ->delimiter(',');
-  old_spelling(&app, "--engines", a.engines, CLI::Validator())->delimiter(',');
-  app.add_option("--scene", a.scenes,
-                 "names in vectors/scenes instead of torque_step_cord, damper, wall")
-      ->type_name("SCENES")
-      ->delimiter(',');
-  old_spelling(&app, "--scenes", a.scenes, CLI::Validator())->delimiter(',');
-  app.add_option("--repetitions", a.repetitions, "default 3, with --quick 1")
-      ->transform(checks::whole(1, 1000));
+  option(app, "--repetitions", a.repetitions, "", "default 3, with --quick 1",
+         checks::whole(1, 1000));
   app.add_flag("--quick", a.quick, "one short scene");
   app.add_flag("--quiet", a.quiet, "print nothing");
   int exit_code = exit_ok;

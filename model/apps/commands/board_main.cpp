@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -16,7 +15,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "files/output_file.hpp"
 #include "host/board/board.hpp"
@@ -46,17 +44,13 @@ struct Arguments {
 std::string default_hand(const std::string& design, std::size_t axes) {
   if (axes == 1 || design == "pantograph_law") return "free";
   const std::string line = fmt::format("device = \"{}\"", design.substr(0, design.rfind("_law")));
-  std::vector<std::string> scenes;
-  for (const auto& file : std::filesystem::directory_iterator(repository() + "/vectors/scenes")) {
-    std::ifstream in(file.path());
+  for (const std::string& scene : names_in("vectors/scenes")) {
+    std::ifstream in(repository() + "/vectors/scenes/" + scene + ".toml");
     for (std::string text; std::getline(in, text);) {
-      if (text == line) scenes.push_back(file.path().stem().string());
+      if (text == line) return scene;
     }
   }
-  if (scenes.empty()) {
-    throw std::invalid_argument(fmt::format("--hand: {} needs a scene file of its device", design));
-  }
-  return *std::min_element(scenes.begin(), scenes.end());
+  throw std::invalid_argument(fmt::format("--hand: {} needs a scene file of its device", design));
 }
 
 /// Sets hand and plant where none is given.
@@ -170,62 +164,44 @@ int main(int argc, char** argv) {
   CLI::App app{"feltgate board: a board without hardware, behind a pseudo-terminal"};
   app.name("feltgate board");
   app.footer(
-      "Prints the name of a terminal; behind it are the UART's pins, link, core, bridge, motor,\n"
-      "lever and hand. A host cannot tell it from a board, except by the bit `simulated` of its\n"
-      "features.\n"
-      "  feltgate board                              then, in another window,\n"
-      "  feltgate host /dev/pts/7 info               with the name that was printed\n"
-      "  feltgate board --link /tmp/lever --hand swing --scene wall --arm\n"
-      "  feltgate board --rtl                        the RTL by Verilator, slower than real time\n"
-      "  feltgate board --record day.board           and again:  feltgate board --replay "
-      "day.board\n"
-      "  feltgate board --for 5 --unpaced            how fast it can go\n"
-      "Ctrl-C ends it. Exit code: 0 all well, 1 a replay differs, 2 unusable input.\n"
-      "docs/host.md teaches.");
+      R"(Prints the name of a terminal; behind it are the UART's pins, link, core, bridge, motor,
+lever and hand. A host cannot tell it from a board, except by the bit `simulated` of its
+features.
+  feltgate board                              then, in another window,
+  feltgate host /dev/pts/7 info               with the name that was printed
+  feltgate board --link /tmp/lever --hand swing --scene wall --arm
+  feltgate board --rtl                        the RTL by Verilator, slower than real time
+  feltgate board --record day.board           and again:  feltgate board --replay day.board
+  feltgate board --for 5 --unpaced            how fast it can go
+Ctrl-C ends it. Exit code: 0 all well, 1 a replay differs, 2 unusable input.
+docs/host.md teaches.)");
   Arguments a;
   a.setup.hand.clear();
   app.add_flag("--twin", a.twin, "the bit-exact twin; the default");
   app.add_flag("--rtl", a.rtl, "the RTL of core and link, compiled by Verilator, at 1 Mbaud");
-  app.add_option("--design", a.setup.design, "a name in rtl/designs")
-      ->capture_default_str()
-      ->type_name("DESIGN");
-  app.add_option("--plant", a.setup.plant,
-                 "motor and lever: a name in vectors/plants or a path; default: p24, for three "
-                 "phases gimbal_motor, for Hall lines hall_motor")
-      ->type_name("PLANT");
-  app.add_option(
-         "--hand", a.setup.hand,
+  defaulted(app, "--design", a.setup.design, "DESIGN", "a name in rtl/designs");
+  option(app, "--plant", a.setup.plant, "PLANT",
+         "motor and lever: a name in vectors/plants or a path; default: p24, for three "
+         "phases gimbal_motor, for Hall lines hall_motor");
+  option(app, "--hand", a.setup.hand, "HAND",
          "who holds the lever: free, locked, hold, swing, or a scene file whose [hand] it is; "
-         "default: free, with a stylus, a gimbal or two levers the first scene of the device")
-      ->type_name("HAND");
-  app.add_option("--scene", a.setup.scene, "what the panel's switches choose")
-      ->capture_default_str()
-      ->type_name("SCENE");
+         "default: free, with a stylus, a gimbal or two levers the first scene of the device");
+  defaulted(app, "--scene", a.setup.scene, "SCENE", "what the panel's switches choose");
   app.add_flag("--arm", a.setup.arm, "the panel's arm switch goes on after 10 ms");
-  app.add_option("--baud", a.setup.baud, "bits per second on the wire")
-      ->capture_default_str()
-      ->type_name("BAUD")
-      ->transform(checks::whole(9600, 3'000'000));
-  app.add_option("--bad-line", a.setup.bad_line,
-                 "share of bytes that the line loses, doubles or turns a bit of, each way")
-      ->type_name("SHARE")
-      ->check(checks::number(0, 1, ""));
-  app.add_option("--seed", a.setup.seed, "of the bad line")
-      ->type_name("SEED")
-      ->capture_default_str()
-      ->check(checks::seed());
-  app.add_option("--link", a.link, "a symbolic link to the terminal while the board runs")
-      ->type_name("NAME");
-  app.add_option("--for", a.for_s, "end after so much simulated time; else Ctrl-C ends it")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
+  defaulted(app, "--baud", a.setup.baud, "BAUD", "bits per second on the wire",
+            checks::whole(9600, 3'000'000));
+  option(app, "--bad-line", a.setup.bad_line, "SHARE",
+         "share of bytes that the line loses, doubles or turns a bit of, each way",
+         checks::number(0, 1, ""));
+  defaulted(app, "--seed", a.setup.seed, "SEED", "of the bad line", checks::seed());
+  option(app, "--link", a.link, "NAME", "a symbolic link to the terminal while the board runs");
+  option(app, "--for", a.for_s, "SECONDS", "end after so much simulated time; else Ctrl-C ends it",
+         checks::seconds());
   app.add_flag("--unpaced", a.unpaced, "do not wait for the clock on the wall");
-  app.add_option("--record", a.record, "write all that came, with its clock, to this file")
-      ->type_name("FILE");
-  app.add_option("--replay", a.replay,
-                 "run a recording again, without a terminal: the ticks must be the same")
-      ->type_name("FILE")
-      ->check(checks::no_folder());
+  option(app, "--record", a.record, "FILE", "write all that came, with its clock, to this file");
+  option(app, "--replay", a.replay, "FILE",
+         "run a recording again, without a terminal: the ticks must be the same",
+         checks::no_folder());
   int exit_code = exit_ok;
   app.callback([&] {
     // Names a design that is none; make_core() names the program of one that is not in this.

@@ -50,13 +50,11 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Names of the TOML files in a folder of the repository.
-std::set<std::string> names_in(const std::string& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / folder)) {
-    if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
-  }
-  return names;
+[[noreturn]] void refuse_name(const std::string& name, const std::string& folder,
+                              const std::set<std::string>& names) {
+  throw std::invalid_argument(
+      fmt::format("\"{}\" is not in {}; {}choose one of {}, or give the path of a file", name,
+                  folder, config::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 /// The mend for a path that does not exist.
@@ -101,6 +99,14 @@ std::string repository() {
   return root != nullptr ? root : FELTGATE_SOURCE_DIR;
 }
 
+std::set<std::string> names_in(const std::string& folder, const std::string& suffix) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / folder)) {
+    if (entry.path().extension() == suffix) names.insert(entry.path().stem().string());
+  }
+  return names;
+}
+
 std::string find_file(const std::string& name, const std::string& folder) {
   if (is_path(name)) {
     std::error_code error;
@@ -114,26 +120,16 @@ std::string find_file(const std::string& name, const std::string& folder) {
   }
   const fs::path path = fs::path(repository()) / folder / (name + ".toml");
   if (fs::exists(path)) return path.string();
-  const std::set<std::string> names = names_in(folder);
-  throw std::invalid_argument(
-      fmt::format("\"{}\" is not in {}; {}choose one of {}, or give the path of a file", name,
-                  folder, config::did_you_mean(name, names), fmt::join(names, ", ")));
+  refuse_name(name, folder, names_in(folder));
 }
 
 std::string find_law(const std::string& name) {
   const bool path_like = name.find_first_not_of('.') == std::string::npos || is_path(name);
   if (path_like) refuse_folder(name, "rtl/laws");
   if (name.find('/') != std::string::npos || fs::path(name).extension() == ".law") return name;
-  const fs::path folder = fs::path(repository()) / "rtl/laws", path = folder / (name + ".law");
+  const fs::path path = fs::path(repository()) / "rtl/laws" / (name + ".law");
   if (fs::exists(path)) return path.string();
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".law") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  throw std::invalid_argument(
-      fmt::format("\"{}\" is not in rtl/laws; {}choose one of {}, or give the path of a file", name,
-                  config::did_you_mean(name, names), fmt::join(names, ", ")));
+  refuse_name(name, "rtl/laws", names_in("rtl/laws", ".law"));
 }
 
 design::Elaborated elaborated_design(const std::string& name) {
@@ -143,7 +139,8 @@ design::Elaborated elaborated_design(const std::string& name) {
 
 void check_design_files() {
   check_designs([](const DesignInfo& design) {
-    const fs::path file = fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
+    const fs::path file =
+        fs::path(repository()) / "rtl/designs" / (design.name + std::string(".toml"));
     if (!fs::exists(file)) return;
     design::require_current(
         elaborated_design(design.name), design.file_sum,

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,9 @@ void add_scripts(CLI::App& app, int* exit_code);
 
 /// Path of the repository: FELTGATE_ROOT, or the folder from which this program was built.
 std::string repository();
+
+/// Names of the files in a folder of the repository that end so, without that end.
+std::set<std::string> names_in(const std::string& folder, const std::string& suffix = ".toml");
 
 /// `name` itself if it is a path (has a slash or the suffix), else folder/name.toml in the
 /// repository. Throws std::invalid_argument with a list of the existing names.
@@ -74,16 +79,18 @@ inline constexpr const char* design_help =
 /// throws std::invalid_argument, which explains how to build that design in.
 std::string built_design(const std::string& given);
 
-/// Adds a former spelling of an option: still accepted, but hidden from the help.
+/// Adds an option. `type`: what its value is called in the help; empty: by the type of `value`.
 template <class Value>
-CLI::Option* old_spelling(CLI::App* app, const std::string& name, Value& value,
-                          const CLI::Validator& check) {
-  // Messages do not name a hidden option, so its check does.
-  const auto named = [name, check](std::string& word) {
-    const std::string error = check(word);
-    return error.empty() ? error : name + ": " + error;
-  };
-  return app->add_option(name, value)->group("")->transform(CLI::Validator(named, ""));
+CLI::Option* option(CLI::App& to, const std::string& name, Value& value, const std::string& type,
+                    const std::string& about, const CLI::Validator& check = {}) {
+  CLI::Option* added = to.add_option(name, value, about)->transform(check);
+  return type.empty() ? added : added->type_name(type);
+}
+/// The same; the help shows the value that it has now.
+template <class Value>
+CLI::Option* defaulted(CLI::App& to, const std::string& name, Value& value, const std::string& type,
+                       const std::string& about, const CLI::Validator& check = {}) {
+  return option(to, name, value, type, about, check)->capture_default_str();
 }
 
 /// Shows progress, rate and remaining time on a terminal; silent elsewhere.
@@ -103,3 +110,24 @@ class Progress {
 };
 
 }  // namespace feltgate
+
+// Checks of words on the command line: finite and within a range, which the message names.
+
+namespace feltgate::checks {
+
+/// A finite number from min to max. `unit` follows the range in help and message; it may be empty.
+/// With a unit, attach the check by transform(), because a number with another unit of the same
+/// quantity is converted (law/units.hpp).
+CLI::Validator number(double min, double max, const std::string& unit);
+/// A finite number above 0, at most max.
+CLI::Validator positive(double max, const std::string& unit);
+/// A whole number from min to max, also written as 1e6. Attach it by transform().
+CLI::Validator whole(std::int64_t min, std::int64_t max, const std::string& unit = "");
+/// A seed: a whole number from 0 to 2^64 - 1.
+CLI::Validator seed();
+/// A path that is no folder; whether there is a file is not looked at.
+CLI::Validator no_folder();
+/// A duration that can be simulated: above 0, at most 100000 s.
+CLI::Validator seconds();
+
+}  // namespace feltgate::checks

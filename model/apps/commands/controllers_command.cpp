@@ -60,23 +60,21 @@ void add_controllers(CLI::App& app, int* exit_code) {
       "controllers",
       "the disturbance observer beside feed-forward, PI, PID and a reaction-torque observer");
   sub->footer(
-      "Five torque controllers around the same velocity estimate, voltage law, motor and hand,\n"
-      "each in fixed point and in double. The observer is the chain of the core with the paper's\n"
-      "Jn*Kp; feed-forward is the design `lever` as it is. The experiments: torque steps at "
-      "stall,\n"
-      "also with R +20 % and Kt -50 %; a push on the free lever; a hand of 0 to 20 Nm/rad; Jn/J\n"
-      "from 0.5 to 4; encoders of 500 to 10000 lines; the largest wall that does not swing.\n"
-      "It prints Markdown tables, in ten seconds.\n"
-      "With --estimators instead: feed-forward with the N-method and with M/T, walls, noise, "
-      "drag.\n"
-      "  feltgate controllers\n"
-      "  feltgate controllers --estimators\n"
-      "  feltgate controllers --json all.json -o all.svg\n"
-      "Exit code: 0 measured, 2 unusable input. docs/speed-for-accuracy.md explains every row.");
+      R"(Five torque controllers around the same velocity estimate, voltage law, motor and hand,
+each in fixed point and in double. The observer is the chain of the core with the paper's
+Jn*Kp; feed-forward is the design `lever` as it is. The experiments: torque steps at stall,
+also with R +20 % and Kt -50 %; a push on the free lever; a hand of 0 to 20 Nm/rad; Jn/J
+from 0.5 to 4; encoders of 500 to 10000 lines; the largest wall that does not swing.
+It prints Markdown tables, in ten seconds.
+With --estimators instead: feed-forward with the N-method and with M/T, walls, noise, drag.
+  feltgate controllers
+  feltgate controllers --estimators
+  feltgate controllers --json all.json -o all.svg
+Exit code: 0 measured, 2 unusable input. docs/speed-for-accuracy.md explains every row.)");
   sub->add_flag("--estimators", a->estimators,
                 "velocity estimators around the lever instead: docs/blocks/velocity.md");
-  sub->add_option("-o,--output", a->picture, "the comparison as a picture, SVG")->type_name("FILE");
-  sub->add_option("--json", a->json, "all figures and step responses as JSON")->type_name("FILE");
+  option(*sub, "-o,--output", a->picture, "FILE", "the comparison as a picture, SVG");
+  option(*sub, "--json", a->json, "FILE", "all figures and step responses as JSON");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }
 

@@ -139,37 +139,33 @@ void add_design(CLI::App& app, int* exit_code) {
   CLI::App* sub = app.add_subcommand(
       "design", "the table of a design point: value, integer, error, range, headroom");
   sub->footer(
-      "  feltgate design lever --plant p24                  the table and the poles of the loop\n"
-      "  feltgate design --for-plant p48 --nominal-current 3.1 -o rtl/designs/mine.toml\n"
-      "                                                     lever with the constants of p48\n"
-      "  feltgate design lever --for membrane               the design file with that scene alone\n"
-      "  feltgate design lever --for membrane torque_step -o rtl/designs/mine.toml\n"
-      "                                                     a design of its own: feltgate "
-      "generate\n"
-      "Exit code: 0 fine, 2 a design that cannot work, is unstable around the plant, or unusable "
-      "input.");
-  sub->add_option("design", a->name, "name in rtl/designs or a path")->type_name("DESIGN");
-  auto* plant =
-      sub->add_option("--plant", a->plant,
-                      "name in vectors/plants or a path: also the poles of the loop around it; an "
-                      "unstable one is refused");
+      R"(  feltgate design lever --plant p24                  the table and the poles of the loop
+  feltgate design --for-plant p48 --nominal-current 3.1 -o rtl/designs/mine.toml
+                                                     lever with the constants of p48
+  feltgate design lever --for membrane               the design file with that scene alone
+  feltgate design lever --for membrane torque_step -o rtl/designs/mine.toml
+                                                     a design of its own: feltgate generate
+Exit code: 0 fine, 2 a design that cannot work, is unstable around the plant, or unusable input.)");
+  option(*sub, "design", a->name, "DESIGN", "name in rtl/designs or a path");
+  auto* plant = option(*sub, "--plant", a->plant, "",
+                       "name in vectors/plants or a path: also the poles of the loop around it; an "
+                       "unstable one is refused");
   plant->type_name("PLANT");
-  auto* scenes = sub->add_option(
-      "--for", a->scenes,
-      "torque laws or scene files: print the design file that builds only what these need");
+  auto* scenes =
+      option(*sub, "--for", a->scenes, "",
+             "torque laws or scene files: print the design file that builds only what these need");
   scenes->type_name("SCENE")->excludes(plant);
-  auto* for_plant = sub->add_option(
-      "--for-plant", a->for_plant,
+  auto* for_plant = option(
+      *sub, "--for-plant", a->for_plant, "",
       "name in vectors/plants or a path: print DESIGN (default: lever) with the constants of this "
       "plant, once it is stable around it");
   for_plant->type_name("PLANT")->excludes(plant)->excludes(scenes);
   auto* nominal =
-      sub->add_option("--nominal-current", a->nominal_a,
-                      "with --for-plant: the current that the motor carries without limit in time, "
-                      "as its data sheet has it; all limits follow from it");
+      option(*sub, "--nominal-current", a->nominal_a, "",
+             "with --for-plant: the current that the motor carries without limit in time, "
+             "as its data sheet has it; all limits follow from it");
   nominal->type_name("AMPERES")->check(CLI::Range(0.01, 100.0))->needs(for_plant);
-  sub->add_option("-o,--output", a->output, "with --for or --for-plant: write it here")
-      ->type_name("FILE");
+  option(*sub, "-o,--output", a->output, "FILE", "with --for or --for-plant: write it here");
   sub->callback([a, exit_code] {
     if (!a->output.empty() && a->scenes.empty() && a->for_plant.empty()) {
       throw std::invalid_argument(

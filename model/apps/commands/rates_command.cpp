@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
@@ -26,8 +24,6 @@
 namespace feltgate {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RatesArguments {
   std::vector<std::string> scenes, beside;
@@ -150,13 +146,8 @@ rates::Report measured(const Wanted& w, const rates::Options& options) {
 
 /// All scenes of vectors/scenes that render a law; the others are reported.
 std::vector<Wanted> all_scenes(const RatesArguments& a, files::Outputs& outputs) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(repository()) / "vectors/scenes")) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
   std::vector<Wanted> all;
-  for (const std::string& name : names) {
+  for (const std::string& name : names_in("vectors/scenes")) {
     try {
       all.push_back(wanted(name, a, outputs));
     } catch (const std::exception& error) {
@@ -249,47 +240,44 @@ void add_rates(CLI::App& app, int* exit_code) {
   CLI::App* sub = app.add_subcommand(
       "rates", "what a slower torque costs: error, stability, clocks and time of a scene by rate");
   sub->footer(
-      "The scene's torque is renewed only so often and held in between, by the engine in the\n"
-      "core's own bits: a law of the same name stands for the core's block, which is the last\n"
-      "row. Error is against the law in double at the device's true angles and speeds in\n"
-      "every tick; 'counts alone' is what encoder and velocity estimate leave of it at any\n"
-      "rate. Margin: the largest stable stiffness by eigenvalues over the scene's; below 1\n"
-      "the lever, or the device with nobody at it, swings by itself. Of several axes the\n"
-      "swing of the torques in the last quarter and the scene's expectations that are kept\n"
-      "stand beside it. Time: of the twin, against the last row. Without SCENE all of\n"
-      "vectors/scenes, in about ten minutes.\n"
-      "  feltgate rates wall\n"
-      "  feltgate rates detent --rate 200,2000,20000\n"
-      "  feltgate rates coupled_levers                 a device with several axes\n"
-      "  feltgate rates wall -o wall.svg --json wall.json --csv wall.csv\n"
-      "  feltgate rates -o all.svg                     every scene, one picture\n"
-      "Exit code: 0 measured, 1 RTL and twin differed (--lock-step), 2 unusable input.\n"
-      "docs/speed-for-accuracy.md explains every column.");
-  sub->add_option("scene", a->scenes, "scenes: names in vectors/scenes or paths; default: all")
-      ->type_name("SCENE");
-  sub->add_option("--rate", a->rates,
-                  "rates in Hz; default 144,490,1000,10000,40000,100000; the fastest is added")
-      ->delimiter(',')
-      ->transform(checks::number(1, 1e6, "Hz"));
-  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
-      ->type_name("PLANT");
-  sub->add_option("--design", a->design,
-                  "the built design whose block runs, or whose engine of a scene \"law\"; default: "
-                  "lever and lever_law")
-      ->type_name("DESIGN");
-  sub->add_option(
-         "--beside", a->beside,
+      R"(The scene's torque is renewed only so often and held in between, by the engine in the
+core's own bits: a law of the same name stands for the core's block, which is the last
+row. Error is against the law in double at the device's true angles and speeds in
+every tick; 'counts alone' is what encoder and velocity estimate leave of it at any
+rate. Margin: the largest stable stiffness by eigenvalues over the scene's; below 1
+the lever, or the device with nobody at it, swings by itself. Of several axes the
+swing of the torques in the last quarter and the scene's expectations that are kept
+stand beside it. Time: of the twin, against the last row. Without SCENE all of
+vectors/scenes, in about ten minutes.
+  feltgate rates wall
+  feltgate rates detent --rate 200,2000,20000
+  feltgate rates coupled_levers                 a device with several axes
+  feltgate rates wall -o wall.svg --json wall.json --csv wall.csv
+  feltgate rates -o all.svg                     every scene, one picture
+Exit code: 0 measured, 1 RTL and twin differed (--lock-step), 2 unusable input.
+docs/speed-for-accuracy.md explains every column.)");
+  option(*sub, "scene", a->scenes, "SCENE",
+         "scenes: names in vectors/scenes or paths; default: all");
+  option(*sub, "--rate", a->rates, "",
+         "rates in Hz; default 144,490,1000,10000,40000,100000; the fastest is added",
+         checks::number(1, 1e6, "Hz"))
+      ->delimiter(',');
+  option(*sub, "--plant", a->plant, "PLANT",
+         "plant in vectors/plants, or a path; default: the scene's");
+  option(*sub, "--design", a->design, "DESIGN",
+         "the built design whose block runs, or whose engine of a scene \"law\"; default: "
+         "lever and lever_law");
+  option(*sub, "--beside", a->beside, "DESIGN,...",
          "other designs, names or files: in the JSON their counts alone, by their velocity "
          "estimate in double, and their margins")
-      ->type_name("DESIGN,...")
       ->delimiter(',');
   sub->add_flag("--lock-step", a->lock_step,
                 "the RTL beside the twin, every output compared: about 20 times slower");
-  sub->add_option("-o,--output", a->picture, "error and margin over the rate as a picture, SVG")
-      ->type_name("FILE");
-  sub->add_option("--json", a->json, "the figures as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_option("--csv", a->csv, "the figures as a table, a row for each rate of each scene")
-      ->type_name("FILE");
+  option(*sub, "-o,--output", a->picture, "FILE",
+         "error and margin over the rate as a picture, SVG");
+  option(*sub, "--json", a->json, "FILE", "the figures as JSON (docs/json.md)");
+  option(*sub, "--csv", a->csv, "FILE",
+         "the figures as a table, a row for each rate of each scene");
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }

@@ -13,9 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
-#include "apps/commands/csv.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
 #include "sim/loop/scenario_bounds.hpp"
@@ -41,24 +39,18 @@ struct TraceArguments {
     return options;
   }
   void add_to(CLI::App* sub) {
-    sub->add_option("trace", path, "recording: .sr, VCD, CSV, or a vector of this project")
-        ->required()
-        ->type_name("TRACE");
-    sub->add_option("--probes", probes, "names of the signals A,B[,Z]; default: guessed")
-        ->type_name("NAMES");
-    sub->add_option("--step", options.step, "name of the STEP signal; with --dir")
-        ->type_name("NAME");
-    sub->add_option("--dir", options.dir, "name of the DIR signal")->type_name("NAME");
-    sub->add_option("--time-column", options.time_column, "column with the time")
-        ->type_name("NAME");
-    sub->add_option("--count-column", options.count_column, "column with counts or an angle")
-        ->type_name("NAME");
-    sub->add_option("--time-unit", options.time_unit,
-                    "s, ms, us or ns of that column; default: as its name says, else s")
-        ->type_name("UNIT")
-        ->check(CLI::IsMember({"s", "ms", "us", "ns"}));
-    sub->add_option("--scale", scale, "counts per unit of that column, e.g. 2048/2pi for radians")
-        ->type_name("SCALE");
+    option(*sub, "trace", path, "TRACE", "recording: .sr, VCD, CSV, or a vector of this project")
+        ->required();
+    option(*sub, "--probes", probes, "NAMES", "names of the signals A,B[,Z]; default: guessed");
+    option(*sub, "--step", options.step, "NAME", "name of the STEP signal; with --dir");
+    option(*sub, "--dir", options.dir, "NAME", "name of the DIR signal");
+    option(*sub, "--time-column", options.time_column, "NAME", "column with the time");
+    option(*sub, "--count-column", options.count_column, "NAME", "column with counts or an angle");
+    option(*sub, "--time-unit", options.time_unit, "UNIT",
+           "s, ms, us or ns of that column; default: as its name says, else s",
+           CLI::IsMember({"s", "ms", "us", "ns"}));
+    option(*sub, "--scale", scale, "SCALE",
+           "counts per unit of that column, e.g. 2048/2pi for radians");
     sub->add_option_function<std::string>(
            "--wrap",
            [this](const std::string& text) {
@@ -81,19 +73,15 @@ struct TraceArguments {
               }
             },
             ""));
-    sub->add_option("--sample-hz", options.sample_hz,
-                    "rate of the capture, where the file does not say it; rows without a time are "
-                    "its samples")
-        ->type_name("HZ")
-        ->transform(checks::whole(1, 1'000'000'000'000, "Hz"));
-    sub->add_option("--format", format,
-                    "sigrok, vcd, saleae, levels, columns or vector; default: by content")
-        ->type_name("FORMAT");
+    option(*sub, "--sample-hz", options.sample_hz, "HZ",
+           "rate of the capture, where the file does not say it; rows without a time are "
+           "its samples",
+           checks::whole(1, 1'000'000'000'000, "Hz"));
+    option(*sub, "--format", format, "FORMAT",
+           "sigrok, vcd, saleae, levels, columns or vector; default: by content");
     sub->add_flag("--no-jitter", no_jitter,
                   "edges at the start of their sample instead of a seeded place inside");
-    sub->add_option("--seed", options.seed, "of that place")
-        ->capture_default_str()
-        ->check(checks::seed());
+    defaulted(*sub, "--seed", options.seed, "", "of that place", checks::seed());
   }
 };
 
@@ -199,33 +187,23 @@ void add_replay(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<ReplayArguments>();
   CLI::App* sub =
       app.add_subcommand("replay", "open loop on an encoder recording, through every back-end");
-  sub->footer(
-      "  feltgate replay hand.sr --probes XA,XB\n"
-      "  feltgate replay axis.sr --step 5 --dir 6\n"
-      "  feltgate replay log.csv --time-column t --count-column theta --scale 2048/2pi\n"
-      "  feltgate replay hand.sr --engine twin,double,float --csv hand.csv    fixed beside float\n"
-      "Exit code: 0 no mismatch and no error above its bound, 1 one, 2 the recording or an option "
-      "cannot be used.");
+  sub->footer(R"(  feltgate replay hand.sr --probes XA,XB
+  feltgate replay axis.sr --step 5 --dir 6
+  feltgate replay log.csv --time-column t --count-column theta --scale 2048/2pi
+  feltgate replay hand.sr --engine twin,double,float --csv hand.csv    fixed beside float
+Exit code: 0 no mismatch and no error above its bound, 1 one, 2 the recording or an option cannot be used.)");
   a->trace.add_to(sub);
-  sub->add_option("--design", a->design, "design point in rtl/designs")
-      ->type_name("DESIGN")
-      ->capture_default_str();
-  sub->add_option("--engine", a->engine, backend_help)->type_name("ENGINES")->capture_default_str();
-  sub->add_option("--scene", a->scene, "torque law that the core renders meanwhile")
-      ->type_name("SCENE")
-      ->capture_default_str();
-  sub->add_option("--duration", a->seconds, "stop after so much of it; default: its end")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
-  old_spelling(sub, "--seconds", a->seconds, checks::seconds());
-  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
-      ->type_name("FILE");
-  sub->add_option("--every", a->every, every_help)
-      ->transform(checks::whole(1, 1'000'000'000))
-      ->type_name("TICKS");
-  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: with --duration)")
-      ->type_name("FILE");
+  defaulted(*sub, "--design", a->design, "DESIGN", "design point in rtl/designs");
+  defaulted(*sub, "--engine", a->engine, "ENGINES", backend_help);
+  defaulted(*sub, "--scene", a->scene, "SCENE", "torque law that the core renders meanwhile");
+  option(*sub, "--duration", a->seconds, "SECONDS", "stop after so much of it; default: its end",
+         checks::seconds());
+  option(*sub, "--json", a->json, "FILE", "figures as JSON (docs/json.md)");
+  option(*sub, "--csv", a->csv, "FILE",
+         "a row per tick, the columns of every back-end (docs/json.md)");
+  option(*sub, "--every", a->every, "TICKS", every_help, checks::whole(1, 1'000'000'000));
+  option(*sub, "--fst", a->fst, "FILE",
+         "waveform of every clock of the RTL (large: with --duration)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] {
     a->design = built_design(a->design);
@@ -242,15 +220,12 @@ void add_import(CLI::App& app, int* exit_code) {
   CLI::App* sub =
       app.add_subcommand("import", "convert an encoder recording to this project's vector format");
   a->trace.add_to(sub);
-  sub->footer(
-      "  feltgate import hand.sr hand.vec --probes XA,XB\n"
-      "  feltgate import log.csv --count-column theta --scale 2048/2pi -o hand.vec\n"
-      "Exit code: 0 written, 2 the recording or an option cannot be used.");
-  sub->add_option("out", a->place, "vector file to write")->type_name("FILE");
-  sub->add_option("-o,--output", a->out, "the same")->type_name("FILE");
-  sub->add_option("--design", a->design, "design whose clock stamps the edges")
-      ->type_name("DESIGN")
-      ->capture_default_str();
+  sub->footer(R"(  feltgate import hand.sr hand.vec --probes XA,XB
+  feltgate import log.csv --count-column theta --scale 2048/2pi -o hand.vec
+Exit code: 0 written, 2 the recording or an option cannot be used.)");
+  option(*sub, "out", a->place, "FILE", "vector file to write");
+  option(*sub, "-o,--output", a->out, "FILE", "the same");
+  defaulted(*sub, "--design", a->design, "DESIGN", "design whose clock stamps the edges");
   sub->callback([a, exit_code] {
     if (!a->out.empty() && !a->place.empty()) {
       throw std::invalid_argument("import: two files to write; leave out one of " + a->place +

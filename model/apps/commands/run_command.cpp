@@ -8,16 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
-#include "apps/commands/csv.hpp"
-#include "apps/commands/run_laws.hpp"
 #include "apps/commands/run_output.hpp"
 #include "files/output_file.hpp"
 #include "sim/loop/loop.hpp"
@@ -67,6 +65,40 @@ void apply_settings(const std::vector<std::string>& set, const DesignInfo& desig
 void refuse_for_device(const std::string& option, const std::string& scene) {
   throw std::invalid_argument(fmt::format(
       "{} is for scenes of one lever, and {} names a device; leave it out", option, scene));
+}
+
+namespace {
+
+/// In mismatch/ in the build folder, or in the current folder.
+std::string waveform_path(const SessionResult& r) {
+  const char* build = std::getenv("FELTGATE_BUILD");
+  const fs::path folder = build != nullptr ? fs::path(build) / "mismatch" : fs::path("mismatch");
+  fs::create_directories(folder);
+  return (folder / (r.subject + "." + r.design + ".fst")).string();
+}
+
+}  // namespace
+
+void show_mismatch(const SessionResult& r, BackendOptions options,
+                   const std::function<void(const BackendOptions& again)>& run) {
+  if (r.mismatches == 0) return;
+  constexpr Clock before = 200, after = 20;
+  files::OutputFile waveform("waveform", waveform_path(r));
+  options.fst = waveform.named();
+  options.fst_from = r.first_mismatch_clock - before;
+  options.fst_to = r.first_mismatch_clock + after;
+  run(options);
+  waveform.commit();
+  fmt::print(stderr,
+             "first mismatch: {}\nwaveform: gtkwave {} {}/scripts/gtkwave/feltgate_core.gtkw\n",
+             r.first_mismatch, waveform.path(), repository());
+}
+
+Scenario cut_after(Scenario scenario, const SessionResult& r, Clock clocks) {
+  scenario.duration_s =
+      std::max(1e-5, r.simulated_s * static_cast<double>(clocks) / static_cast<double>(r.clocks));
+  scenario.expectations.clear();
+  return scenario;
 }
 
 LawScenes& law_scenes() {
@@ -314,58 +346,43 @@ void add_run(CLI::App& app, int* exit_code) {
   auto a = std::make_shared<RunArguments>();
   CLI::App* sub =
       app.add_subcommand("run", "one scene in closed loop: core, motor, lever and hand");
-  sub->footer(
-      "SCENE is a name in vectors/scenes or the path of a scene file (docs/scenes.md).\n"
-      "  feltgate run membrane                      RTL and twin in lock-step, float, double, "
-      "quad\n"
-      "  feltgate run torque_step --design paper --report out\n"
-      "  feltgate run damper --engine twin,double,float --csv damper.csv    fixed beside float\n"
-      "  feltgate run detent                        a scene with a law of its own (docs/laws.md)\n"
-      "Exit code: 0 no mismatch, every expectation of the scene holds and every error is within "
-      "its\n"
-      "proven bound (a torque without one: within 10 % of the largest asked), 1 otherwise, 2\n"
-      "unusable input.");
-  sub->add_option("scene", a->scene, "scene")->type_name("SCENE");
-  sub->add_option("--design", a->design,
-                  "design point in rtl/designs; default: the scene's, else lever")
-      ->type_name("DESIGN");
-  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
-      ->type_name("PLANT");
-  sub->add_option(
-         "--torque-scale", a->torque_scale,
-         "of a scene made for another design: multiply its torques by this (docs/scenes.md)")
-      ->type_name("FACTOR")
-      ->check(checks::number(1e-3, 1e3, ""));
-  sub->add_option("--engine", a->engine, backend_help)->type_name("ENGINES")->capture_default_str();
-  sub->add_option(
-         "--set", a->set,
+  sub->footer(R"(SCENE is a name in vectors/scenes or the path of a scene file (docs/scenes.md).
+  feltgate run membrane                      RTL and twin in lock-step, float, double, quad
+  feltgate run torque_step --design paper --report out
+  feltgate run damper --engine twin,double,float --csv damper.csv    fixed beside float
+  feltgate run detent                        a scene with a law of its own (docs/laws.md)
+Exit code: 0 no mismatch, every expectation of the scene holds and every error is within its
+proven bound (a torque without one: within 10 % of the largest asked), 1 otherwise, 2
+unusable input.)");
+  option(*sub, "scene", a->scene, "SCENE", "scene");
+  option(*sub, "--design", a->design, "DESIGN",
+         "design point in rtl/designs; default: the scene's, else lever");
+  option(*sub, "--plant", a->plant, "PLANT",
+         "plant in vectors/plants, or a path; default: the scene's");
+  option(*sub, "--torque-scale", a->torque_scale, "FACTOR",
+         "of a scene made for another design: multiply its torques by this (docs/scenes.md)",
+         checks::number(1e-3, 1e3, ""));
+  defaulted(*sub, "--engine", a->engine, "ENGINES", backend_help);
+  option(*sub, "--set", a->set, "NAME=VALUE",
          "parameter to set before arming, in its unit or with one: wall_stiffness=0.1Nm/deg; may "
-         "be repeated")
-      ->type_name("NAME=VALUE");
-  sub->add_option("--seed", a->seed, "of the RTL's state before reset")
-      ->capture_default_str()
-      ->check(checks::seed());
-  sub->add_option("--report", a->report, "folder for an HTML report with pictures, JSON and CSV")
-      ->type_name("DIR");
-  sub->add_option("--json", a->json, "figures as JSON (docs/json.md)")->type_name("FILE");
-  sub->add_option("--csv", a->csv, "a row per tick, the columns of every back-end (docs/json.md)")
-      ->type_name("FILE");
-  sub->add_option("--every", a->every, every_help)
-      ->transform(checks::whole(1, 1'000'000'000))
-      ->type_name("TICKS");
+         "be repeated");
+  defaulted(*sub, "--seed", a->seed, "", "of the RTL's state before reset", checks::seed());
+  option(*sub, "--report", a->report, "DIR",
+         "folder for an HTML report with pictures, JSON and CSV");
+  option(*sub, "--json", a->json, "FILE", "figures as JSON (docs/json.md)");
+  option(*sub, "--csv", a->csv, "FILE",
+         "a row per tick, the columns of every back-end (docs/json.md)");
+  option(*sub, "--every", a->every, "TICKS", every_help, checks::whole(1, 1'000'000'000));
   sub->add_flag("--columns", a->columns,
                 "print the CSV columns of SCENE, of one lever without, and end");
-  sub->add_option("--fst", a->fst, "waveform of every clock of the RTL (large: short scenes only)")
-      ->type_name("FILE");
-  sub->add_option("--record", a->record, "the encoder's edges as a vector file (docs/traces.md)")
-      ->type_name("FILE");
-  sub->add_option(
-         "--events", a->events,
-         "events of the scene's law as lines for Pure Data (docs/devices/strings-and-drums.md)")
-      ->type_name("FILE");
-  sub->add_option("--states", a->states,
-                  "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)")
-      ->type_name("FILE");
+  option(*sub, "--fst", a->fst, "FILE",
+         "waveform of every clock of the RTL (large: short scenes only)");
+  option(*sub, "--record", a->record, "FILE",
+         "the encoder's edges as a vector file (docs/traces.md)");
+  option(*sub, "--events", a->events, "FILE",
+         "events of the scene's law as lines for Pure Data (docs/devices/strings-and-drums.md)");
+  option(*sub, "--states", a->states, "FILE",
+         "states of the scene's law after each of its runs, CSV, SI (docs/laws.md)");
   sub->add_flag("--quiet", a->quiet, "print only what went wrong");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }

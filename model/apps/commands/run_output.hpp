@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Prints a run's figures as JSON and as text. Documentation: docs/json.md
+// What the commands around a run share: its options, its figures as JSON and as text, its rows as
+// CSV. Documentation: docs/json.md, docs/architecture.md
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "sim/axes_loop/axes_run.hpp"
+#include "sim/loop/columns.hpp"
 #include "sim/loop/loop.hpp"
+#include "sim/loop/scene_law.hpp"
 #include "studies/stability/constants.hpp"
 
 namespace feltgate {
@@ -76,8 +82,45 @@ AxesScene device_scene(const std::string& path);
 /// The path of the law that a scene names; a relative path starts at the scene's folder.
 std::string law_file(const Scenario& scenario);
 
-/// The same for a scene whose device has several axes (docs/devices.md).
-std::string axes_text(const AxesResult& result);
-std::string axes_json(const AxesResult& result);
+/// Default limit of the rows in a file; the user may choose the ticks instead.
+constexpr std::int64_t most_rows = 100'000;
+
+/// The smallest step of 1, 2, 5, 10, 20, ... that selects at most most_rows of `ticks` ticks.
+int sane_every(std::int64_t ticks);
+
+/// Header and rows, one value per column.
+class CsvWriter {
+ public:
+  CsvWriter(std::FILE* to, std::vector<Column> columns);
+  void add(const Row& row);
+  /// The expected file size as one line for the user; every `every`-th of `ticks` ticks has a row.
+  std::string forecast(std::int64_t ticks, int every) const;
+
+ private:
+  std::FILE* to_;
+  std::vector<Column> columns_;
+};
+
+/// Options of `feltgate run`.
+struct RunArguments {
+  std::string scene, design, plant, engine = "all", report, json, csv, fst, record, events, states;
+  std::vector<std::string> set;
+  std::uint64_t seed = 1;
+  int every = 0;            ///< 0: sane_every()
+  double torque_scale = 0;  ///< 0: the scene as it is
+  bool quiet = false;
+  bool columns = false;  ///< only print the names of the columns
+};
+
+/// Scenes with a law or a device of several axes: functions that run_axes.cpp, if linked, sets
+/// before main(). A program that runs only scenes of the core does not link them.
+struct LawScenes {
+  /// As make_scene_law().
+  std::unique_ptr<SceneLaw> (*law)(const std::string& path, const DesignInfo& design) = nullptr;
+  /// Runs the scene of this file and prints the result; returns the exit code.
+  int (*axes)(const std::string& scene_path, const RunArguments& arguments) = nullptr;
+};
+/// The functions of this program.
+LawScenes& law_scenes();
 
 }  // namespace feltgate

@@ -9,13 +9,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "files/output_file.hpp"
 #include "files/toml/toml_reader.hpp"
 #include "sim/loop/scenario.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "studies/stability/report.hpp"
+#include "studies/stability/study.hpp"
 
 namespace feltgate {
 
@@ -143,51 +142,41 @@ void add_stability(CLI::App& app, int* exit_code) {
   CLI::App* sub = app.add_subcommand(
       "stability", "how stiff a wall may be before it shakes, by damping and scene rate");
   sub->footer(
-      "The border of a wall's stiffness three ways: by bisection on the chain's own bits around a\n"
-      "linear plant, by the eigenvalues of the loop, and by (b+B)/(T/2+td). Between two updates "
-      "of\n"
-      "the scene its torque is held: a host reads, computes and writes the setpoint; at the tick\n"
-      "rate it is the core's own wall. Then counts, friction and noise in the full plant.\n"
-      "Of a scene: the factor on its law's torque at which the device begins to swing by itself, "
-      "by\n"
-      "the linear loop of the law's own derivative (filters, states, delay lines, and the host of "
-      "a\n"
-      "tracker or a plane) and by the swing of the core's bits; without a hand, and with the "
-      "scene's\n"
-      "if it has a mass.\n"
-      "  feltgate stability lever                          all of it, about 40 s\n"
-      "  feltgate stability wall_tracked                   a scene, in a minute\n"
-      "  feltgate stability lever --plot out               with pictures in out/\n"
-      "  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments\n"
-      "Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1\n"
-      "otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.");
-  sub->add_option("design", a->design,
-                  "a scene, in vectors/scenes or a path; or a design that was built in, by its "
-                  "name in rtl/designs; or a file, whose bits are "
-                  "those of a built-in design of the same structure with its cut-offs")
-      ->capture_default_str()
-      ->type_name("SCENE|DESIGN");
-  sub->add_option("--linear-plant", a->linear,
-                  "plant of the borders, in vectors/plants or a path: without friction, dead "
-                  "voltage and dead time")
-      ->type_name("PLANT")
-      ->capture_default_str();
-  sub->add_option("--plant", a->plant, "plant of counts, friction and noise")
-      ->type_name("PLANT")
-      ->capture_default_str();
-  sub->add_option("--rate", a->rates, "scene rates in Hz; default 144,490,1000,40000,1000000")
-      ->delimiter(',')
-      ->transform(checks::number(1, 1e6, "Hz"));
-  sub->add_option("--damping", a->damping,
-                  "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02")
-      ->delimiter(',')
-      ->transform(checks::number(0, 1, "Nm s/rad"));
+      R"(The border of a wall's stiffness three ways: by bisection on the chain's own bits around a
+linear plant, by the eigenvalues of the loop, and by (b+B)/(T/2+td). Between two updates of
+the scene its torque is held: a host reads, computes and writes the setpoint; at the tick
+rate it is the core's own wall. Then counts, friction and noise in the full plant.
+Of a scene: the factor on its law's torque at which the device begins to swing by itself, by
+the linear loop of the law's own derivative (filters, states, delay lines, and the host of a
+tracker or a plane) and by the swing of the core's bits; without a hand, and with the scene's
+if it has a mass.
+  feltgate stability lever                          all of it, about 40 s
+  feltgate stability wall_tracked                   a scene, in a minute
+  feltgate stability lever --plot out               with pictures in out/
+  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments
+Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1
+otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.)");
+  defaulted(*sub, "design", a->design, "SCENE|DESIGN",
+            "a scene, in vectors/scenes or a path; or a design that was built in, by its "
+            "name in rtl/designs; or a file, whose bits are "
+            "those of a built-in design of the same structure with its cut-offs");
+  defaulted(*sub, "--linear-plant", a->linear, "PLANT",
+            "plant of the borders, in vectors/plants or a path: without friction, dead "
+            "voltage and dead time");
+  defaulted(*sub, "--plant", a->plant, "PLANT", "plant of counts, friction and noise");
+  option(*sub, "--rate", a->rates, "", "scene rates in Hz; default 144,490,1000,40000,1000000",
+         checks::number(1, 1e6, "Hz"))
+      ->delimiter(',');
+  option(*sub, "--damping", a->damping, "",
+         "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02",
+         checks::number(0, 1, "Nm s/rad"))
+      ->delimiter(',');
   sub->add_flag("--no-bits", a->no_bits,
                 "without the chain's bits: 6 s; with --no-experiments 0.3 s");
   sub->add_flag("--no-experiments", a->no_experiments, "borders only");
-  sub->add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
-  sub->add_option("--plot", a->plot, "draw the K-B plot and the eigenvalue locus into this folder")
-      ->type_name("DIR");
+  option(*sub, "--json", a->json, "FILE", "write all numbers to this file");
+  option(*sub, "--plot", a->plot, "DIR",
+         "draw the K-B plot and the eigenvalue locus into this folder");
   sub->callback([a, exit_code] { *exit_code = is_scene(a->design) ? scene(*a) : run(*a); });
 }
 

@@ -11,10 +11,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "apps/commands/host/session.hpp"
-#include "apps/commands/touch/touch_board.hpp"
+#include "apps/commands/touch/touch.hpp"
 #include "sim/axes_loop/axes_run.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
@@ -57,31 +56,19 @@ std::pair<std::string, PlaneMaterial> material_of(const std::string& text, const
 }
 
 touch::TouchRequest request_of(const TouchArguments& a, const touch::Mesh& mesh) {
-  touch::TouchRequest r;
-  r.press_n = a.press_n;
-  r.proxy.friction = a.friction;
-  r.proxy.shading = a.shading;
-  r.proxy.edges = a.edges;
-  r.distance = a.distance;
-  r.host.stiffness_n_m = a.stiffness;
-  r.host.damping_ns_m = a.damping;
-  r.host.friction = a.drag;
-  r.host.rate_hz = a.rate_hz;
-  r.host.latency_s = a.latency_s;
-  r.host.jitter_s = a.jitter_s;
-  r.host.lost = a.lost;
+  touch::TouchRequest r = a.request;
   for (const std::string& text : a.materials)
-    r.materials.insert(material_of(text, mesh, a.stiffness));
-  double most_drag = a.drag;
+    r.materials.insert(material_of(text, mesh, a.request.host.stiffness_n_m));
+  double most_drag = a.request.host.friction;
   for (const auto& [name, material] : r.materials)
     most_drag = std::max(most_drag, material.friction);
-  if (a.edges && most_drag > 1)
+  if (a.request.proxy.edges && most_drag > 1)
     throw std::invalid_argument("--edges takes a drag of at most 1, as the law local_edge");
   if (!a.motion.empty()) r.mesh_way = touch::read_stroke(a.motion, true);
   if (!a.board.empty()) return r;
   r.stroke = a.stroke.empty() ? touch::stroke_over(mesh, touch::TriangleTree(mesh),
-                                                   a.press_n > 0 ? 0 : a.depth_m, a.speed_m_s,
-                                                   a.press_n > 0 ? 0.5 : 0.9)
+                                                   a.request.press_n > 0 ? 0 : a.depth_m,
+                                                   a.speed_m_s, a.request.press_n > 0 ? 0.5 : 0.9)
                               : touch::read_stroke(a.stroke);
   if (r.stroke.back().time_s < touch::shortest_s(r.host)) {
     throw std::invalid_argument(fmt::format(
@@ -142,7 +129,7 @@ Decimation decimate(const TouchArguments& a, touch::Mesh& mesh) {
   }
   d.jumps = touch::jumps_of(few);
   d.before = touch::jumps_of(mesh);
-  d.force_step_n = a.stiffness * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
+  d.force_step_n = a.request.host.stiffness_n_m * a.depth_m * 2 * std::sin(d.jumps.most_rad / 2);
   d.file = mesh.report;
   mesh = std::move(few);
   return d;
@@ -223,106 +210,86 @@ int make(const TouchArguments& a) {
 }
 
 void add_options(CLI::App& sub, TouchArguments& a) {
-  sub.add_option("glb", a.glb, "binary glTF; all that it needs is inside. Or --make one")
-      ->type_name("FILE")
-      ->check(checks::no_folder());
-  const auto amount = [&](const std::string& name, double& value, const std::string& about,
-                          const CLI::Validator& check, const char* type) {
-    return sub.add_option(name, value, about)
-        ->type_name(type)
-        ->transform(check)
-        ->capture_default_str();
-  };
-  CLI::Option* size = amount("--size", a.size_m, "largest side of the mesh",
-                             checks::number(1e-3, 2 * touch::reach_m, "m"), "M");
+  option(sub, "glb", a.glb, "FILE", "binary glTF; all that it needs is inside. Or --make one",
+         checks::no_folder());
+  CLI::Option* size = defaulted(sub, "--size", a.size_m, "M", "largest side of the mesh",
+                                checks::number(1e-3, 2 * touch::reach_m, "m"));
   CLI::Option* centre =
-      sub.add_option("--centre", a.centre_m, "its middle, m; x to the right, y away, z up")
-          ->type_name("X Y Z")
-          ->transform(checks::number(-touch::reach_m, touch::reach_m, "m"))
-          ->capture_default_str();
+      defaulted(sub, "--centre", a.centre_m, "X Y Z", "its middle, m; x to the right, y away, z up",
+                checks::number(-touch::reach_m, touch::reach_m, "m"));
   sub.add_flag("--as-is", a.as_is, "size and place as in the file, in metres")
       ->excludes(size)
       ->excludes(centre);
-  sub.add_option("--faces", a.faces, "at most so many faces, the others merged; 0: all")
-      ->type_name("N")
-      ->transform(checks::whole(0, 4000000))
-      ->capture_default_str();
-  CLI::Option* out = sub.add_option("-o,--output", a.out, "the file of --make")->type_name("FILE");
-  sub.add_option("--make", a.make,
-                 "no FILE: write one to touch, ball or torus, of --faces and --size; CC0")
-      ->type_name("SHAPE")
+  defaulted(sub, "--faces", a.faces, "N", "at most so many faces, the others merged; 0: all",
+            checks::whole(0, 4000000));
+  CLI::Option* out = option(sub, "-o,--output", a.out, "FILE", "the file of --make");
+  option(sub, "--make", a.make, "SHAPE",
+         "no FILE: write one to touch, ball or torus, of --faces and --size; CC0")
       ->needs(out);
   sub.add_flag("--mesh-only", a.mesh_only, "what the mesh is, without a stroke");
   CLI::Option* stroke =
-      sub.add_option("--stroke", a.stroke,
-                     "a hand's way: CSV with time_s,x_m,y_m,z_m; default: over it, left to right")
-          ->type_name("FILE")
-          ->check(checks::no_folder());
-  sub.add_option("--motion", a.motion,
-                 "the mesh moves, turns about a direction by its length, and grows: CSV with "
-                 "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale; default: it stands")
-      ->type_name("FILE")
-      ->check(checks::no_folder());
-  amount("--depth", a.depth_m, "of the stroke below what is seen from above",
-         checks::number(0, 0.02, "m"), "M")
+      option(sub, "--stroke", a.stroke, "FILE",
+             "a hand's way: CSV with time_s,x_m,y_m,z_m; default: over it, left to right",
+             checks::no_folder());
+  option(sub, "--motion", a.motion, "FILE",
+         "the mesh moves, turns about a direction by its length, and grows: CSV with "
+         "time_s,x_m,y_m,z_m,turn_x_rad,turn_y_rad,turn_z_rad,scale; default: it stands",
+         checks::no_folder());
+  defaulted(sub, "--depth", a.depth_m, "M", "of the stroke below what is seen from above",
+            checks::number(0, 0.02, "m"))
       ->excludes(stroke);
-  amount("--speed", a.speed_m_s, "of the stroke", checks::number(0.01, 1, "m/s"), "M/S")
+  defaulted(sub, "--speed", a.speed_m_s, "M/S", "of the stroke", checks::number(0.01, 1, "m/s"))
       ->excludes(stroke);
-  amount("--press", a.press_n, "the hand presses down with it, in place of a depth",
-         checks::number(0, 3.3, "N"), "N")
+  defaulted(sub, "--press", a.request.press_n, "N",
+            "the hand presses down with it, in place of a depth", checks::number(0, 3.3, "N"))
       ->excludes(stroke);
-  amount("--stiffness", a.stiffness, "of the surface", checks::number(0, 1000, "N/m"), "N/M");
-  amount("--damping", a.damping, "of the push", checks::number(0, 2, "N s/m"), "NS/M");
-  amount("--drag", a.drag, "friction of the law: against the speed, at 100 kHz",
-         checks::number(0, 2, ""), "MU");
-  sub.add_option(
-         "--material", a.materials,
+  defaulted(sub, "--stiffness", a.request.host.stiffness_n_m, "N/M", "of the surface",
+            checks::number(0, 1000, "N/m"));
+  defaulted(sub, "--damping", a.request.host.damping_ns_m, "NS/M", "of the push",
+            checks::number(0, 2, "N s/m"));
+  defaulted(sub, "--drag", a.request.host.friction, "MU",
+            "friction of the law: against the speed, at 100 kHz", checks::number(0, 2, ""));
+  option(sub, "--material", a.materials, "NAME=N/M,NS/M,MU",
          "stiffness, damping and drag of the parts of one material, then a vibration if it has "
-         "one, N and Hz; or stone, fabric, water, object; repeat it")
-      ->type_name("NAME=N/M,NS/M,MU");
-  CLI::Option* friction = amount("--friction", a.friction,
-                                 "friction of the proxy: it stays within the cone, by the host",
-                                 checks::number(0, 2, ""), "MU");
-  CLI::Option* shading = sub.add_flag("--shading", a.shading,
+         "one, N and Hz; or stone, fabric, water, object; repeat it");
+  CLI::Option* friction = defaulted(sub, "--friction", a.request.proxy.friction, "MU",
+                                    "friction of the proxy: it stays within the cone, by the host",
+                                    checks::number(0, 2, ""));
+  CLI::Option* shading = sub.add_flag("--shading", a.request.proxy.shading,
                                       "normals between the corners', so that facets feel round");
   CLI::Option* edges =
       sub.add_flag(
-             "--edges", a.edges,
+             "--edges", a.request.proxy.edges,
              "both planes of an edge, by the law local_edge at 50 kHz: no step at a cube's edge")
           ->excludes(friction);
-  sub.add_flag("--distance", a.distance,
+  sub.add_flag("--distance", a.request.distance,
                "the nearest surface of a closed mesh, by a signed distance, in place of the proxy")
       ->excludes(friction)
       ->excludes(shading)
       ->excludes(edges);
-  amount("--rate", a.rate_hz, "of the planes", checks::number(10, 10e3, "Hz"), "HZ");
-  amount("--latency", a.latency_s, "shortest time from a pose to its plane",
-         checks::number(0, 0.1, "s"), "S");
-  amount("--jitter", a.jitter_s, "most that comes to it", checks::number(0, 0.1, "s"), "S");
-  amount("--lost", a.lost, "share of the planes that are lost", checks::number(0, 0.9, ""),
-         "SHARE");
+  defaulted(sub, "--rate", a.request.host.rate_hz, "HZ", "of the planes",
+            checks::number(10, 10e3, "Hz"));
+  defaulted(sub, "--latency", a.request.host.latency_s, "S",
+            "shortest time from a pose to its plane", checks::number(0, 0.1, "s"));
+  defaulted(sub, "--jitter", a.request.host.jitter_s, "S", "most that comes to it",
+            checks::number(0, 0.1, "s"));
+  defaulted(sub, "--lost", a.request.host.lost, "SHARE", "share of the planes that are lost",
+            checks::number(0, 0.9, ""));
   CLI::Option* board =
-      sub.add_option("--board", a.board,
-                     "port of a board with the design stylus_law, or the name that feltgate board "
-                     "prints: its pen feels the mesh")
-          ->type_name("PORT")
+      option(sub, "--board", a.board, "PORT",
+             "port of a board with the design stylus_law, or the name that feltgate board "
+             "prints: its pen feels the mesh")
           ->excludes(stroke);
-  sub.add_option("--baud", a.baud, "bits per second at the board, as it was built")
-      ->type_name("BAUD")
-      ->transform(checks::whole(1200, 4000000))
-      ->capture_default_str()
+  defaulted(sub, "--baud", a.baud, "BAUD", "bits per second at the board, as it was built",
+            checks::whole(1200, 4000000))
       ->needs(board);
-  sub.add_option("--for", a.seconds, "end at the board after so long; default: Ctrl-C")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds())
+  option(sub, "--for", a.seconds, "SECONDS", "end at the board after so long; default: Ctrl-C",
+         checks::seconds())
       ->needs(board);
-  sub.add_option("--engine", a.engine,
-                 "twin, double, quad; all: with the RTL, which takes a minute to build")
-      ->type_name("LIST")
-      ->capture_default_str();
-  sub.add_option("--json", a.json, "the figures as one JSON object")->type_name("FILE");
-  sub.add_option("--csv", a.csv, "pen, proxy, normal and force, a row for each plane")
-      ->type_name("FILE");
+  defaulted(sub, "--engine", a.engine, "LIST",
+            "twin, double, quad; all: with the RTL, which takes a minute to build");
+  option(sub, "--json", a.json, "FILE", "the figures as one JSON object");
+  option(sub, "--csv", a.csv, "FILE", "pen, proxy, normal and force, a row for each plane");
   sub.add_flag("--quiet", a.quiet, "print nothing");
 }
 
@@ -338,21 +305,22 @@ int main(int argc, char** argv) {
   int exit_code = exit_ok;
   CLI::App* sub = app.add_subcommand("touch", "a mesh under the pen of the stylus, in closed loop");
   sub->footer(
-      "Reads the mesh, tells what it is, and leads the stylus over it. A proxy (god-object) finds\n"
-      "the plane under the pen 1000 times a second; it is sent to the law local_space, which the\n"
-      "engine renders at 100 kHz (docs/touch.md). Nothing of the mesh needs to be closed.\n"
-      "  feltgate touch --make ball -o ball.glb           a mesh to begin with\n"
-      "  feltgate touch part.glb                          over it, 2 mm deep\n"
-      "  feltgate touch part.glb --mesh-only              edges, components, genus\n"
-      "  feltgate touch part.glb --size 80mm --shading    facets feel round\n"
-      "  feltgate touch part.glb --faces 8000             merges faces, and says what that "
-      "changes\n"
-      "  feltgate touch part.glb --stroke way.csv --csv felt.csv --engine all\n"
-      "  feltgate touch part.glb --board /dev/ttyUSB0     a pen on three slides feels it\n"
-      "Exit code: 0 all well, 1 a mismatch or a torque beyond its proven bound, 2 unusable input:\n"
-      "no GLB, cut off, empty, not finite, with files beside it, out of reach, or a stroke that\n"
-      "begins inside; nothing is written then. 3 the line to a board broke down.");
+      R"(Reads the mesh, tells what it is, and leads the stylus over it. A proxy (god-object) finds
+the plane under the pen 1000 times a second; it is sent to the law local_space, which the
+engine renders at 100 kHz (docs/touch.md). Nothing of the mesh needs to be closed.
+  feltgate touch --make ball -o ball.glb           a mesh to begin with
+  feltgate touch part.glb                          over it, 2 mm deep
+  feltgate touch part.glb --mesh-only              edges, components, genus
+  feltgate touch part.glb --size 80mm --shading    facets feel round
+  feltgate touch part.glb --faces 8000             merges faces, and says what that changes
+  feltgate touch part.glb --stroke way.csv --csv felt.csv --engine all
+  feltgate touch part.glb --board /dev/ttyUSB0     a pen on three slides feels it
+Exit code: 0 all well, 1 a mismatch or a torque beyond its proven bound, 2 unusable input:
+no GLB, cut off, empty, not finite, with files beside it, out of reach, or a stroke that
+begins inside; nothing is written then. 3 the line to a board broke down.)");
   TouchArguments a;
+  a.request.host.stiffness_n_m = 300;
+  a.request.host.latency_s = a.request.host.jitter_s = 1e-3;
   add_options(*sub, a);
   sub->callback([&] {
     if (a.mesh_only && !a.csv.empty())

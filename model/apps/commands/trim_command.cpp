@@ -11,7 +11,6 @@
 #include <sstream>
 #include <thread>
 
-#include "apps/commands/checks.hpp"
 #include "apps/commands/commands.hpp"
 #include "apps/commands/run_output.hpp"
 #include "feltgate/largest.hpp"
@@ -342,49 +341,34 @@ void add_trim(CLI::App& app, int* exit_code) {
   CLI::App* sub = app.add_subcommand(
       "trim", "which effects of the plant a scene needs: the least model within a tolerance");
   sub->footer(
-      "SCENE is a name in vectors/scenes or the path of a scene file. The full model has every "
-      "effect and\nswitching gates. Torque, position and force at the hand, as means over 1 ms, "
-      "are "
-      "kept within the\ntolerance on the scene's own motion and on others "
-      "(docs/speed-for-accuracy.md).\n"
-      "  feltgate trim membrane                           one percent\n"
-      "  feltgate trim coupled_levers                     a device: its effects alone\n"
-      "  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml\n"
-      "Exit code: 0 a smaller model was found, 1 nothing can be left out or an expectation is "
-      "broken,\n2 unusable input.");
-  sub->add_option("scene", a->scene, "scene")->required()->type_name("SCENE");
-  sub->add_option("--tolerance", a->tolerance, "share of the full model's peak and of its rms")
-      ->type_name("SHARE")
-      ->capture_default_str();
-  sub->add_option("--design", a->design, design_help)->type_name("DESIGN");
-  sub->add_option("--plant", a->plant, "plant in vectors/plants, or a path; default: the scene's")
-      ->type_name("PLANT");
-  sub->add_option("-o,--output", a->output, "the trimmed scene as a file for feltgate run")
-      ->type_name("FILE");
-  sub->add_option("--json", a->json, "the figures as JSON")->type_name("FILE");
-  sub->add_option("--duration", a->duration_s, "of the scene; default: its own")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
-  sub->add_option("--window", a->window_ms, "length of the means, ms")
-      ->capture_default_str()
-      ->transform(checks::number(0.01, 1000, "ms"));
-  sub->add_option("--full-step", a->options.full_step_clocks, "step of the full model, clocks")
-      ->capture_default_str()
-      ->transform(checks::whole(1, 5));
-  sub->add_option("--unseen", a->options.unseen, "motions of the final check")
-      ->capture_default_str()
-      ->transform(checks::whole(1, 100));
-  sub->add_option("--seed", a->options.seed, "of these motions")
-      ->capture_default_str()
-      ->check(checks::seed());
-  sub->add_option("--jobs", a->options.threads, "runs at a time")
-      ->capture_default_str()
-      ->transform(checks::whole(1, 64));
-  old_spelling(sub, "--threads", a->options.threads, checks::whole(1, 64));
-  sub->add_option("--search-limit", a->options.longest_s,
-                  "ends the search: everything stays on; default: no end")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
+      R"(SCENE is a name in vectors/scenes or the path of a scene file. The full model has every effect and
+switching gates. Torque, position and force at the hand, as means over 1 ms, are kept within the
+tolerance on the scene's own motion and on others (docs/speed-for-accuracy.md).
+  feltgate trim membrane                           one percent
+  feltgate trim coupled_levers                     a device: its effects alone
+  feltgate trim damper --tolerance 5% -o fast.toml && feltgate run fast.toml
+Exit code: 0 a smaller model was found, 1 nothing can be left out or an expectation is broken,
+2 unusable input.)");
+  option(*sub, "scene", a->scene, "SCENE", "scene")->required();
+  defaulted(*sub, "--tolerance", a->tolerance, "SHARE",
+            "share of the full model's peak and of its rms");
+  option(*sub, "--design", a->design, "DESIGN", design_help);
+  option(*sub, "--plant", a->plant, "PLANT",
+         "plant in vectors/plants, or a path; default: the scene's");
+  option(*sub, "-o,--output", a->output, "FILE", "the trimmed scene as a file for feltgate run");
+  option(*sub, "--json", a->json, "FILE", "the figures as JSON");
+  option(*sub, "--duration", a->duration_s, "SECONDS", "of the scene; default: its own",
+         checks::seconds());
+  defaulted(*sub, "--window", a->window_ms, "", "length of the means, ms",
+            checks::number(0.01, 1000, "ms"));
+  defaulted(*sub, "--full-step", a->options.full_step_clocks, "", "step of the full model, clocks",
+            checks::whole(1, 5));
+  defaulted(*sub, "--unseen", a->options.unseen, "", "motions of the final check",
+            checks::whole(1, 100));
+  defaulted(*sub, "--seed", a->options.seed, "", "of these motions", checks::seed());
+  defaulted(*sub, "--jobs", a->options.threads, "", "runs at a time", checks::whole(1, 64));
+  option(*sub, "--search-limit", a->options.longest_s, "SECONDS",
+         "ends the search: everything stays on; default: no end", checks::seconds());
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, sub, exit_code] {
     a->full_step = sub->count("--full-step") > 0;

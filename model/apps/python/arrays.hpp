@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Converts between std::vector and numpy, and lets Ctrl-C end a long run. Documentation:
-// docs/python.md
+// Converts between std::vector and numpy, lets Ctrl-C end a long run, and translates C++ errors.
+// Documentation: docs/python.md
 #pragma once
 
 #include <fmt/format.h>
@@ -12,15 +12,22 @@
 
 #include <cmath>
 #include <cstddef>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "files/toml/toml_reader.hpp"
+#include "sim/traces/error.hpp"
 
 namespace feltgate::python {
 
 namespace py = pybind11;
+using namespace py::literals;
 
 /// Any sequence of numbers, converted to contiguous doubles.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -43,6 +50,15 @@ py::array_t<T> to_array(std::vector<T>&& values) {
   const py::capsule keeper(owner.release(),
                            [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return contiguous(size, data, keeper);
+}
+
+/// An array of a member, or a function, of each row.
+template <class Rows, class Of>
+auto column(const Rows& rows, Of of) {
+  std::vector<std::decay_t<decltype(std::invoke(of, *rows.begin()))>> values;
+  values.reserve(rows.size());
+  for (const auto& row : rows) values.push_back(std::invoke(of, row));
+  return to_array(std::move(values));
 }
 
 /// A one-dimensional array of finite numbers as a vector. Throws std::invalid_argument, which names
@@ -71,10 +87,21 @@ inline void check_interrupt() {
 /// A progress callback for runs: checks Ctrl-C, then calls the caller's function with 0..1, if any.
 inline auto progress_for(const py::object& callback) {
   return [callback](double done) {
+    check_interrupt();
     const py::gil_scoped_acquire hold;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (!callback.is_none()) callback(done);
   };
+}
+
+/// An unusable file becomes a ValueError, like every other unusable input.
+inline void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const config::ConfigError& e) {
+    PyErr_SetString(PyExc_ValueError, e.what());
+  } catch (const traces::TraceError& e) {
+    PyErr_SetString(PyExc_ValueError, e.what());
+  }
 }
 
 }  // namespace feltgate::python

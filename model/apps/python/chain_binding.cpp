@@ -4,8 +4,6 @@
 // The chain of one design in one arithmetic for Python: counts in, arrays out.
 // Documentation: docs/python.md, docs/speed-for-accuracy.md
 #include "apps/python/bindings.hpp"
-#include "apps/python/design_names.hpp"
-#include "sim/backends/backend.hpp"
 #include "sim/reference/real_chain.hpp"
 
 namespace feltgate::python {
@@ -40,34 +38,26 @@ class PyChain {
     in.mode = mode_of(mode);
     const auto size = static_cast<std::size_t>(counts.size());
     const std::int32_t* count = counts.data();
-    std::vector<double> velocity(size), tau_hat(size), tau_ref(size), current(size), voltage(size),
-        duty(size);
+    std::vector<ChainOut> rows(size);
+    const double period = design().pwm_period;
     {
       const py::gil_scoped_release free;
-      const double period = design().pwm_period;
       for (std::size_t i = 0; i < size; ++i) {
         if (i % 100'000 == 99'999) check_interrupt();
         in.position = count[i];
         in.travel = static_cast<std::int16_t>(
             static_cast<std::uint16_t>(static_cast<std::uint32_t>(count[i]) & 0xffffu));
         chain_->tick(in);
-        const ChainOut& out = chain_->out();
-        velocity[i] = out.velocity_rad_s;
-        tau_hat[i] = out.tau_hat_nm;
-        tau_ref[i] = out.tau_ref_nm;
-        current[i] = out.current_a;
-        voltage[i] = out.voltage_v;
-        duty[i] = out.duty_clocks / period;
+        rows[i] = chain_->out();
       }
     }
-    py::dict out;
-    out["velocity_rad_s"] = to_array(std::move(velocity));
-    out["tau_hat_nm"] = to_array(std::move(tau_hat));
-    out["tau_ref_nm"] = to_array(std::move(tau_ref));
-    out["current_a"] = to_array(std::move(current));
-    out["voltage_v"] = to_array(std::move(voltage));
-    out["duty"] = to_array(std::move(duty));
-    return out;
+    const auto duty = [=](const ChainOut& out) { return out.duty_clocks / period; };
+    return py::dict("velocity_rad_s"_a = column(rows, &ChainOut::velocity_rad_s),
+                    "tau_hat_nm"_a = column(rows, &ChainOut::tau_hat_nm),
+                    "tau_ref_nm"_a = column(rows, &ChainOut::tau_ref_nm),
+                    "current_a"_a = column(rows, &ChainOut::current_a),
+                    "voltage_v"_a = column(rows, &ChainOut::voltage_v),
+                    "duty"_a = column(rows, duty));
   }
 
  private:
@@ -80,11 +70,8 @@ py::dict parameters(const std::string& design) {
   py::dict all;
   for (int i = 0; i < d.parameter_count; ++i) {
     const ParameterInfo& p = d.parameters[i];
-    py::dict one;
-    one["value"] = p.si;
-    one["unit"] = p.unit;
-    one["step"] = std::ldexp(1.0, -p.format.fraction);
-    all[p.name] = one;
+    all[p.name] = py::dict("value"_a = p.si, "unit"_a = p.unit,
+                           "step"_a = std::ldexp(1.0, -p.format.fraction));
   }
   return all;
 }
@@ -97,25 +84,19 @@ void bind_chain(py::module_& m) {
   m.def("formats", [](const std::string& design) {
     const DesignInfo d = design_named(design);
     const auto widths = [](Format f) { return py::make_tuple(f.sign, f.integer, f.fraction); };
-    py::dict all;
-    all["velocity_rad_s"] = widths(d.velocity);
-    all["torque_nm"] = widths(d.torque);
-    all["current_a"] = widths(d.current);
-    all["voltage_v"] = widths(d.voltage);
-    return all;
+    return py::dict("velocity_rad_s"_a = widths(d.velocity), "torque_nm"_a = widths(d.torque),
+                    "current_a"_a = widths(d.current), "voltage_v"_a = widths(d.voltage));
   });
   m.def("rates", [](const std::string& design) {
     const DesignInfo d = design_named(design);
     return std::make_pair(d.clock_hz, d.tick_hz);
   });
   py::class_<PyChain>(m, "Chain")
-      .def(py::init<const std::string&, const std::string&>(), py::arg("design"),
-           py::arg("arithmetic"))
+      .def(py::init<const std::string&, const std::string&>(), "design"_a, "arithmetic"_a)
       .def_property_readonly("arithmetic", &PyChain::arithmetic)
       .def("reset", &PyChain::reset)
-      .def("set", &PyChain::set, py::arg("name"), py::arg("value"))
-      .def("run", &PyChain::run, py::arg("counts"), py::arg("scene"), py::arg("mode"),
-           py::arg("armed"));
+      .def("set", &PyChain::set, "name"_a, "value"_a)
+      .def("run", &PyChain::run, "counts"_a, "scene"_a, "mode"_a, "armed"_a);
 }
 
 }  // namespace feltgate::python

@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "apps/python/arrays.hpp"
-#include "apps/python/errors.hpp"
 #include "design/engine_map.hpp"
 #include "host/capture.hpp"
 #include "host/keep_alive.hpp"
@@ -52,48 +51,30 @@ class PyDevice {
   py::dict info() {
     const host::BoardInfo& b = device().board();
     const host::Tick tick = unlocked([&] { return device().tick(); });
-    py::dict d;
-    d["board"] = b.board_name();
-    d["simulated"] = b.simulated;
-    d["design"] = device().design().design.name;
-    d["design_crc"] = b.design_crc;
-    d["tick_hz"] = b.tick_hz();
-    d["capture_rows"] = b.has_capture ? b.capture_rows : 0;
-    d["inputs"] = b.inputs;
-    d["armed"] = device().armed(tick);
-    d["scene"] = device().scene_name(tick);
-    d["faults"] = device().fault_names(tick);
-    d["limits"] = device().limit_names(tick);
-    d["in_words"] = device().in_words(tick);
-    return d;
+    return py::dict(
+        "board"_a = b.board_name(), "simulated"_a = b.simulated,
+        "design"_a = device().design().design.name, "design_crc"_a = b.design_crc,
+        "tick_hz"_a = b.tick_hz(), "capture_rows"_a = b.has_capture ? b.capture_rows : 0,
+        "inputs"_a = b.inputs, "armed"_a = device().armed(tick),
+        "scene"_a = device().scene_name(tick), "faults"_a = device().fault_names(tick),
+        "limits"_a = device().limit_names(tick), "in_words"_a = device().in_words(tick));
   }
   py::dict link() {
     const host::LinkCounts c = link_.counts();
-    py::dict d;
-    d["requests"] = c.requests;
-    d["retries"] = c.retries;
-    d["damaged"] = c.frames.bad_crc + c.frames.bad_slip + c.frames.too_long;
-    d["streamed"] = c.streamed;
-    d["lost"] = c.lost;
-    return d;
+    return py::dict("requests"_a = c.requests, "retries"_a = c.retries,
+                    "damaged"_a = c.frames.bad_crc + c.frames.bad_slip + c.frames.too_long,
+                    "streamed"_a = c.streamed, "lost"_a = c.lost);
   }
   py::dict names() {
     py::dict d;
     for (const Quantity& q : device().quantities().all()) {
-      py::dict of;
-      of["unit"] = q.unit;
-      of["doc"] = q.doc;
-      of["settable"] = q.writable;
-      d[q.name.c_str()] = of;
+      d[q.name.c_str()] = py::dict("unit"_a = q.unit, "doc"_a = q.doc, "settable"_a = q.writable);
     }
     const host::LawEngine* engine = unlocked([&] { return laws(); });
     if (engine == nullptr) return d;
     for (const law::ImageWord* w : engine->parameters()) {
-      py::dict of;
-      of["unit"] = w->unit;
-      of["doc"] = "of the law " + engine->image()->name;
-      of["settable"] = true;
-      d[("law." + w->name).c_str()] = of;
+      d[("law." + w->name).c_str()] = py::dict(
+          "unit"_a = w->unit, "doc"_a = "of the law " + engine->image()->name, "settable"_a = true);
     }
     return d;
   }
@@ -105,11 +86,7 @@ class PyDevice {
       host::keep_law(host::laws_folder(), image);
       return report;
     });
-    py::dict d;
-    d["name"] = engine.image()->name;
-    d["words"] = r.words;
-    d["written"] = r.written;
-    return d;
+    return py::dict("name"_a = engine.image()->name, "words"_a = r.words, "written"_a = r.written);
   }
   py::list events(double seconds) {
     host::LawEngine& engine = engine_of_laws();
@@ -318,14 +295,10 @@ class PyDevice {
   }
   py::dict columns(const Names& names, const std::vector<host::Tick>& ticks) {
     py::dict all;
-    std::vector<double> time;
-    for (const host::Tick& t : ticks) time.push_back(t.time_s);
-    all["time_s"] = to_array(std::move(time));
+    all["time_s"] = column(ticks, &host::Tick::time_s);
     for (const std::string& name : names) {
       const Quantity& q = device().quantities().streamed(name);
-      std::vector<double> values;
-      for (const host::Tick& t : ticks) values.push_back(t.value(q));
-      all[name.c_str()] = to_array(std::move(values));
+      all[name.c_str()] = column(ticks, [&](const host::Tick& t) { return t.value(q); });
     }
     return all;
   }
@@ -347,27 +320,26 @@ PYBIND11_MODULE(_host, m) {
   py::register_exception<host::Refused>(m, "Refused", PyExc_RuntimeError);
   py::class_<PyDevice>(m, "Device")
       .def(py::init<const std::string&, const std::string&, const std::string&, int, double>(),
-           py::arg("port"), py::arg("root"), py::arg("design"), py::arg("baud"),
-           py::arg("patience_s"))
+           "port"_a, "root"_a, "design"_a, "baud"_a, "patience_s"_a)
       .def("info", &PyDevice::info)
       .def("link", &PyDevice::link)
       .def("names", &PyDevice::names)
-      .def("get", &PyDevice::get, py::arg("name"))
+      .def("get", &PyDevice::get, "name"_a)
       .def("tick", &PyDevice::tick)
-      .def("set", &PyDevice::set, py::arg("name"), py::arg("value"))
-      .def("law", &PyDevice::law, py::arg("path"))
-      .def("events", &PyDevice::events, py::arg("seconds"))
-      .def("arm", &PyDevice::arm, py::arg("scene"))
-      .def("hold", &PyDevice::hold, py::arg("seconds"))
+      .def("set", &PyDevice::set, "name"_a, "value"_a)
+      .def("law", &PyDevice::law, "path"_a)
+      .def("events", &PyDevice::events, "seconds"_a)
+      .def("arm", &PyDevice::arm, "scene"_a)
+      .def("hold", &PyDevice::hold, "seconds"_a)
       .def("kick", &PyDevice::kick)
       .def("disarm", &PyDevice::disarm)
       .def("stop", &PyDevice::stop)
       .def("clear_faults", &PyDevice::clear_faults)
       .def("set_zero", &PyDevice::set_zero)
-      .def("select", &PyDevice::select, py::arg("scene"))
-      .def("stream", &PyDevice::stream, py::arg("names"), py::arg("every_s"), py::arg("seconds"))
-      .def("capture", &PyDevice::capture, py::arg("names"), py::arg("trigger"), py::arg("before"),
-           py::arg("span_s"), py::arg("wait_s"))
+      .def("select", &PyDevice::select, "scene"_a)
+      .def("stream", &PyDevice::stream, "names"_a, "every_s"_a, "seconds"_a)
+      .def("capture", &PyDevice::capture, "names"_a, "trigger"_a, "before"_a, "span_s"_a,
+           "wait_s"_a)
       .def("close", &PyDevice::close);
 }
 

@@ -4,12 +4,12 @@
 // The extension module feltgate._core. Designs beyond lever and paper, presets and files given to
 // the build (FELTGATE_EXTRA_DESIGNS), are in a separate module, _designs, which is loaded when one
 // of them is first used. Documentation: docs/python.md
+#include <algorithm>
+#include <stdexcept>
 #include <vector>
 
-#include "apps/python/arrays.hpp"
 #include "apps/python/bindings.hpp"
-#include "apps/python/errors.hpp"
-#include "sim/backends/backend.hpp"
+#include "feltgate/nearest.hpp"
 #include "sim/reference/real_chain.hpp"
 
 namespace feltgate::python {
@@ -45,6 +45,41 @@ std::vector<std::string> add_extra_designs() {
 
 }  // namespace
 
+design::Elaborated elaborated_files(const std::string& design_path,
+                                    const std::string& registers_path) {
+  auto d = design::read_design(design_path);
+  d.allow_coarse = true;
+  return design::elaborate(d, design::read_registers(registers_path));
+}
+
+const ParameterInfo& parameter_of(const DesignInfo& design, const std::string& name) {
+  if (const ParameterInfo* info = design.find(name)) return *info;
+  std::vector<std::string> names;
+  for (int i = 0; i < design.parameter_count; ++i) names.emplace_back(design.parameters[i].name);
+  throw std::invalid_argument(
+      fmt::format("parameter \"{}\" is unknown; {}feltgate.parameters(\"{}\") lists them", name,
+                  config::did_you_mean(name, names), design.name));
+}
+
+int scene_of(const DesignInfo& design, const std::string& name) {
+  const int number = design.scene_number(name);
+  if (number >= 0) return number;
+  throw std::invalid_argument(
+      fmt::format("scene \"{}\" is not built in design {}; feltgate.laws(\"{}\") lists them", name,
+                  design.name, design.name));
+}
+
+int mode_of(const std::string& name) {
+  const std::vector<std::string> modes{"closed_loop", "open_loop", "voltage"};
+  const auto found = std::find(modes.begin(), modes.end(), name);
+  if (found == modes.end()) {
+    throw std::invalid_argument(
+        fmt::format("mode \"{}\" is unknown; {}choose closed_loop, open_loop or voltage", name,
+                    config::did_you_mean(name, modes)));
+  }
+  return static_cast<int>(found - modes.begin());
+}
+
 PYBIND11_MODULE(_core, m) {
   m.doc() = "The C++ side of the package feltgate.";
   py::register_exception_translator(translate);
@@ -56,7 +91,6 @@ PYBIND11_MODULE(_core, m) {
   bind_chain(m);
   bind_twin(m);
   bind_recordings(m);
-  bind_bounds(m);
   bind_runs(m);
 }
 

@@ -2,13 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The plant for Python. Documentation: docs/python.md
-#include "apps/python/plant_binding.hpp"
-
 #include <cmath>
 
 #include "apps/python/bindings.hpp"
 #include "files/toml/toml_reader.hpp"
-#include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
 #include "sim/plant/plant_table.hpp"
 
@@ -74,59 +71,49 @@ py::dict PyPlant::run(const Doubles& duty, Clock step_clocks, bool gates_on) {
         fmt::format("step_clocks is {}; give 1 to 250, 25 is usual", step_clocks));
   }
   const std::vector<double> duties = to_vector(duty, "duty");
-  const struct {
-    const char* name;
-    double plant::Observables::*value;
-  } shown[] = {{"theta_rad", &plant::Observables::theta_rad},
-               {"omega_rad_s", &plant::Observables::omega_rad_s},
-               {"motor_current_a", &plant::Observables::motor_current_a},
-               {"motor_torque_nm", &plant::Observables::motor_torque_nm},
-               {"friction_nm", &plant::Observables::friction_nm},
-               {"hand_torque_nm", &plant::Observables::hand_torque_nm},
-               {"supply_current_a", &plant::Observables::supply_current_a},
-               {"bus_v", &plant::Observables::bus_v}};
-  std::vector<std::vector<double>> columns(std::size(shown));
-  std::vector<double> times;
-  std::vector<std::int64_t> positions;
+  struct Shown {
+    double time_s;
+    plant::Observables of;
+    std::int64_t counts;
+  };
+  std::vector<Shown> rows;
+  rows.reserve(duties.size());
   {
     const py::gil_scoped_release free;
-    for (auto& column : columns) column.reserve(duties.size());
-    times.reserve(duties.size());
-    positions.reserve(duties.size());
     for (std::size_t i = 0; i < duties.size(); ++i) {
       if (i % 100'000 == 99'999) check_interrupt();
       if (!(std::abs(duties[i]) <= 1)) {
         throw std::invalid_argument(fmt::format("duty[{}] is {}; give -1 to 1", i, duties[i]));
       }
       plant_->advance(plant::Bridge::averaged(duties[i], gates_on), step_clocks);
-      for (std::size_t k = 0; k < std::size(shown); ++k) {
-        columns[k].push_back(plant_->observables().*shown[k].value);
-      }
-      times.push_back(time_s());
-      positions.push_back(counts());
+      rows.push_back({time_s(), plant_->observables(), counts()});
     }
   }
-  py::dict out;
-  out["time_s"] = to_array(std::move(times));
-  for (std::size_t k = 0; k < std::size(shown); ++k) {
-    out[shown[k].name] = to_array(std::move(columns[k]));
-  }
-  out["counts"] = to_array(std::move(positions));
-  return out;
+  using Of = plant::Observables;
+  const auto of = [&](double Of::*value) {
+    return column(rows, [value](const Shown& s) { return s.of.*value; });
+  };
+  return py::dict(
+      "time_s"_a = column(rows, &Shown::time_s), "theta_rad"_a = of(&Of::theta_rad),
+      "omega_rad_s"_a = of(&Of::omega_rad_s), "motor_current_a"_a = of(&Of::motor_current_a),
+      "motor_torque_nm"_a = of(&Of::motor_torque_nm), "friction_nm"_a = of(&Of::friction_nm),
+      "hand_torque_nm"_a = of(&Of::hand_torque_nm),
+      "supply_current_a"_a = of(&Of::supply_current_a), "bus_v"_a = of(&Of::bus_v),
+      "counts"_a = column(rows, &Shown::counts));
 }
 
 void bind_plant(py::module_& m) {
   py::class_<PyPlant>(m, "Plant")
       .def(py::init<const std::string&, const std::map<std::string, double>&, const std::string&,
                     const plant::Hand&>(),
-           py::arg("path"), py::arg("set"), py::arg("design"), py::arg("hand"))
+           "path"_a, "set"_a, "design"_a, "hand"_a)
       .def_property_readonly("name", [](const PyPlant& p) { return p.constants().name; })
       .def_property_readonly("parameters", &PyPlant::parameters)
       .def_property_readonly("theta_rad", &PyPlant::theta_rad)
       .def_property_readonly("counts", &PyPlant::counts)
       .def_property_readonly("time_s", &PyPlant::time_s)
       .def("reset", &PyPlant::reset)
-      .def("run", &PyPlant::run, py::arg("duty"), py::arg("step_clocks"), py::arg("gates_on"));
+      .def("run", &PyPlant::run, "duty"_a, "step_clocks"_a, "gates_on"_a);
 }
 
 }  // namespace feltgate::python

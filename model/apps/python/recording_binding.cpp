@@ -3,8 +3,6 @@
 //
 // Recordings for Python: files of any known format, and motions that a program made up.
 // Documentation: docs/python.md
-#include "apps/python/recording_binding.hpp"
-
 #include <filesystem>
 
 #include "apps/python/bindings.hpp"
@@ -20,7 +18,7 @@ PyRecording read(const std::string& path, const traces::Options& options) {
   traces::Options telling = options;
   telling.warn = [&r](const std::string& what) { r.warnings.push_back(what); };
   const py::gil_scoped_release free;
-  r.edges = traces::read_all(*traces::open(path, telling));
+  r.edges = read_all(*traces::open(path, telling));
   return r;
 }
 
@@ -70,27 +68,17 @@ PyRecording of_counts(const Doubles& times, const Doubles& positions, std::int64
 }
 
 py::dict arrays(const PyRecording& r) {
-  const std::size_t size = r.edges.events.size();
-  std::vector<Clock> clocks;
-  std::vector<std::int64_t> counts;
-  std::vector<std::uint8_t> pins;
-  clocks.reserve(size);
-  counts.reserve(size);
-  pins.reserve(size);
   traces::StepCounter counter(r.edges.initial);
-  for (const EncoderEvent& e : r.edges.events) {
+  const auto counts = column(r.edges.events, [&](const EncoderEvent& e) {
     counter.add(e);
-    clocks.push_back(e.clock);
-    counts.push_back(counter.result().position);
-    pins.push_back(static_cast<std::uint8_t>(e.pins.a | e.pins.b << 1 | e.pins.z << 2));
-  }
-  py::dict out;
-  out["clock"] = to_array(std::move(clocks));
-  out["counts"] = to_array(std::move(counts));
-  out["pins"] = to_array(std::move(pins));
-  out["illegal"] = counter.result().illegal;
-  out["reversals"] = counter.result().reversals;
-  return out;
+    return counter.result().position;
+  });
+  const auto pins = column(r.edges.events, [](const EncoderEvent& e) {
+    return static_cast<std::uint8_t>(e.pins.a | e.pins.b << 1 | e.pins.z << 2);
+  });
+  return py::dict("clock"_a = column(r.edges.events, &EncoderEvent::clock), "counts"_a = counts,
+                  "pins"_a = pins, "illegal"_a = counter.result().illegal,
+                  "reversals"_a = counter.result().reversals);
 }
 
 }  // namespace
@@ -121,12 +109,9 @@ void bind_recordings(py::module_& m) {
             o.clock_hz = clock_hz;
             return read(path, o);
           },
-          py::arg("path"), py::arg("probes"), py::arg("step"), py::arg("dir"),
-          py::arg("time_column"), py::arg("time_unit"), py::arg("count_column"), py::arg("scale"),
-          py::arg("wrap"), py::arg("sample_hz"), py::arg("format"), py::arg("jitter"),
-          py::arg("seed"), py::arg("clock_hz"))
-      .def_static("of_counts", &of_counts, py::arg("time_s"), py::arg("counts"),
-                  py::arg("clock_hz"))
+          "path"_a, "probes"_a, "step"_a, "dir"_a, "time_column"_a, "time_unit"_a, "count_column"_a,
+          "scale"_a, "wrap"_a, "sample_hz"_a, "format"_a, "jitter"_a, "seed"_a, "clock_hz"_a)
+      .def_static("of_counts", &of_counts, "time_s"_a, "counts"_a, "clock_hz"_a)
       .def_readonly("name", &PyRecording::name)
       .def_readonly("warnings", &PyRecording::warnings)
       .def_readonly("clock_hz", &PyRecording::clock_hz)

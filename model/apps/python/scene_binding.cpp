@@ -101,7 +101,7 @@ Hand impedance(const Doubles& times, const Doubles& angles, const plant::Impedan
 
 void bind_scenes(py::module_& m) {
   py::class_<Scenario>(m, "Scene")
-      .def(py::init(&read_scenario), py::arg("path"))
+      .def(py::init(&read_scenario), "path"_a)
       .def_readonly("name", &Scenario::name)
       .def_readonly("title", &Scenario::title)
       .def_readonly("about", &Scenario::about)
@@ -112,9 +112,8 @@ void bind_scenes(py::module_& m) {
 
   py::class_<Hand>(m, "Hand")
       .def(py::init<>())
-      .def_static("motion", &motion, py::arg("time_s"), py::arg("angle_rad"))
-      .def_static("torque", &torque, py::arg("time_s"), py::arg("torque_nm"),
-                  py::arg("start_rad") = 0.0)
+      .def_static("motion", &motion, "time_s"_a, "angle_rad"_a)
+      .def_static("torque", &torque, "time_s"_a, "torque_nm"_a, "start_rad"_a = 0.0)
       .def_static(
           "impedance",
           [](const Doubles& time_s, const Doubles& angle_rad, double mass, double damping,
@@ -122,11 +121,11 @@ void bind_scenes(py::module_& m) {
             return impedance(time_s, angle_rad,
                              {mass, damping, stiffness, grip_stiffness, grip_damping});
           },
-          py::arg("time_s"), py::arg("angle_rad"), py::arg("mass_kg") = plant::Impedance{}.mass_kg,
-          py::arg("damping_ns_m") = plant::Impedance{}.damping_ns_m,
-          py::arg("stiffness_n_m") = plant::Impedance{}.stiffness_n_m,
-          py::arg("grip_stiffness_n_m") = plant::Impedance{}.grip_stiffness_n_m,
-          py::arg("grip_damping_ns_m") = plant::Impedance{}.grip_damping_ns_m);
+          "time_s"_a, "angle_rad"_a, "mass_kg"_a = plant::Impedance{}.mass_kg,
+          "damping_ns_m"_a = plant::Impedance{}.damping_ns_m,
+          "stiffness_n_m"_a = plant::Impedance{}.stiffness_n_m,
+          "grip_stiffness_n_m"_a = plant::Impedance{}.grip_stiffness_n_m,
+          "grip_damping_ns_m"_a = plant::Impedance{}.grip_damping_ns_m);
 }
 
 }  // namespace feltgate::python

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "apps/python/bindings.hpp"
-#include "apps/python/design_names.hpp"
 #include "feltgate/while_armed.hpp"
-#include "sim/backends/backend.hpp"
 #include "sim/traces/options.hpp"
 
 namespace feltgate::python {
@@ -52,18 +50,19 @@ class PyTwin {
     const std::int64_t* wanted = counts.data();
     const auto size = static_cast<std::size_t>(counts.size());
     check(wanted, size);
-    Columns all;
+    std::vector<Snapshot> rows;
+    rows.reserve(size);
     {
       const py::gil_scoped_release free;
-      all.reserve(size);
       for (std::size_t i = 0; i < size; ++i) {
         if (i % 100'000 == 99'999) check_interrupt();
         move(wanted[i]);
         backend_->advance(design().clocks_per_tick, edges_.data(), edges_.data() + edges_.size());
-        for (const Snapshot& s : backend_->snapshots()) keep(all, s);
+        const auto& shown = backend_->snapshots();
+        rows.insert(rows.end(), shown.begin(), shown.end());
       }
     }
-    return take(all);
+    return columns(rows);
   }
 
  private:
@@ -71,21 +70,6 @@ class PyTwin {
     throw std::runtime_error(what +
                              " cannot change while armed: the torque could jump; disarm() first");
   }
-
-  struct Columns {
-    std::vector<double> velocity, tau_hat, tau_ref, torque, current, voltage, duty;
-    std::vector<std::int64_t> position;
-    std::vector<std::uint16_t> limits, faults;
-    std::vector<std::uint8_t> armed;
-    void reserve(std::size_t n) {
-      for (auto* c : {&velocity, &tau_hat, &tau_ref, &torque, &current, &voltage, &duty}) {
-        c->reserve(n);
-      }
-      position.reserve(n);
-      for (auto* c : {&limits, &faults}) c->reserve(n);
-      armed.reserve(n);
-    }
-  };
 
   /// Edges of a tick come in its first half, so that the next sample sees them all.
   Clock most_steps() const { return design().clocks_per_tick / 2; }
@@ -111,37 +95,25 @@ class PyTwin {
                         traces::pins_at(static_cast<unsigned>(count_ & 3))});
     }
   }
-  void keep(Columns& all, const Snapshot& s) const {
-    const auto real = [](std::int64_t raw, Format f) {
-      return std::ldexp(static_cast<double>(raw), -f.fraction);
-    };
+  py::dict columns(const std::vector<Snapshot>& rows) const {
     const DesignInfo& d = design();
-    all.position.push_back(s.position);
-    all.velocity.push_back(real(s.velocity, d.velocity));
-    all.tau_hat.push_back(real(s.tau_hat, d.torque));
-    all.tau_ref.push_back(real(s.tau_ref, d.torque));
-    all.current.push_back(real(s.current_ref, d.current));
-    all.torque.push_back(d.torque_constant_nm_a * all.current.back());
-    all.voltage.push_back(real(s.voltage, d.voltage));
-    all.duty.push_back(static_cast<double>(s.duty) / d.pwm_period);
-    all.limits.push_back(s.limits);
-    all.faults.push_back(s.faults);
-    all.armed.push_back(s.armed);
-  }
-  static py::dict take(Columns& all) {
-    py::dict out;
-    out["position"] = to_array(std::move(all.position));
-    out["velocity_rad_s"] = to_array(std::move(all.velocity));
-    out["tau_ref_nm"] = to_array(std::move(all.tau_ref));
-    out["tau_hat_nm"] = to_array(std::move(all.tau_hat));
-    out["torque_nm"] = to_array(std::move(all.torque));
-    out["current_a"] = to_array(std::move(all.current));
-    out["voltage_v"] = to_array(std::move(all.voltage));
-    out["duty"] = to_array(std::move(all.duty));
-    out["limits"] = to_array(std::move(all.limits));
-    out["faults"] = to_array(std::move(all.faults));
-    out["armed"] = to_array(std::move(all.armed));
-    return out;
+    const auto real = [&](std::int64_t Snapshot::*raw, Format f, double factor = 1) {
+      return column(rows, [=](const Snapshot& s) {
+        return factor * std::ldexp(static_cast<double>(s.*raw), -f.fraction);
+      });
+    };
+    return py::dict(
+        "position"_a = column(rows, [](const Snapshot& s) { return std::int64_t{s.position}; }),
+        "velocity_rad_s"_a = real(&Snapshot::velocity, d.velocity),
+        "tau_ref_nm"_a = real(&Snapshot::tau_ref, d.torque),
+        "tau_hat_nm"_a = real(&Snapshot::tau_hat, d.torque),
+        "torque_nm"_a = real(&Snapshot::current_ref, d.current, d.torque_constant_nm_a),
+        "current_a"_a = real(&Snapshot::current_ref, d.current),
+        "voltage_v"_a = real(&Snapshot::voltage, d.voltage),
+        "duty"_a = column(
+            rows, [&](const Snapshot& s) { return static_cast<double>(s.duty) / d.pwm_period; }),
+        "limits"_a = column(rows, &Snapshot::limits), "faults"_a = column(rows, &Snapshot::faults),
+        "armed"_a = column(rows, [](const Snapshot& s) { return std::uint8_t{s.armed}; }));
   }
 
   std::unique_ptr<Backend> backend_;
@@ -155,14 +127,14 @@ class PyTwin {
 
 void bind_twin(py::module_& m) {
   py::class_<PyTwin>(m, "Twin")
-      .def(py::init<const std::string&>(), py::arg("design"))
+      .def(py::init<const std::string&>(), "design"_a)
       .def("reset", &PyTwin::reset)
-      .def("set", &PyTwin::set, py::arg("name"), py::arg("value"))
-      .def("control", &PyTwin::control, py::arg("scene"), py::arg("mode"), py::arg("arm"))
+      .def("set", &PyTwin::set, "name"_a, "value"_a)
+      .def("control", &PyTwin::control, "scene"_a, "mode"_a, "arm"_a)
       .def("clear_faults", &PyTwin::clear_faults)
-      .def("stop", &PyTwin::stop, py::arg("pressed"))
+      .def("stop", &PyTwin::stop, "pressed"_a)
       .def_property_readonly("count", &PyTwin::count)
-      .def("run", &PyTwin::run, py::arg("counts"));
+      .def("run", &PyTwin::run, "counts"_a);
 }
 
 }  // namespace feltgate::python

@@ -79,4 +79,15 @@ struct Options {
 Result measure(const std::vector<std::unique_ptr<Runner>>& runners, const std::vector<Work>& works,
                const std::vector<Scene>& closed_loops, const Options& options);
 
+/// Where and when the figures were measured.
+struct Circumstances {
+  std::string version, machine, compiler, date;
+};
+/// The circumstances of this program, now.
+Circumstances circumstances();
+
+/// The result as JSON (schema feltgate-bench/1) and as text.
+std::string json(const Result& result, const std::vector<Work>& works, const Circumstances& c);
+std::string text(const Result& result, const std::vector<Work>& works, const Circumstances& c);
+
 }  // namespace feltgate::bench

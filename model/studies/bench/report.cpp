@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The benchmark's result as JSON and as text. Documentation: docs/speed-for-accuracy.md
-#include "studies/bench/report.hpp"
+#include "studies/bench/measure.hpp"
 
 #include <fmt/format.h>
 #include <time.h>

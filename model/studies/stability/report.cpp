@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Documentation: docs/speed-for-accuracy.md
-#include "studies/stability/report.hpp"
+#include "studies/stability/study.hpp"
 
 #include <fmt/format.h>
 

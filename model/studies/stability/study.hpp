@@ -76,4 +76,10 @@ Study run_study(const design::Elaborated& design, const plant::Parameters& linea
 /// Numbers of the textbook loop; needs no design.
 std::vector<KnownNumber> known_numbers();
 
+/// The study as text for a terminal.
+std::string study_text(const Study& study);
+
+/// Schema feltgate-stability/1, pretty-printed.
+std::string study_json(const Study& study);
+
 }  // namespace feltgate::stability

@@ -16,11 +16,11 @@ SECONDS = "a number above 0, to 100000 s"
 NUMBERS = (
     ("stability", "--rate", ("nan", "inf", "0", "1e300", "1000,nan", "x"), "1 to 1000000 Hz"),
     ("stability", "--damping", ("nan", "-1", "-nan", "2"), "a number from 0 to 1 Nm s/rad"),
-    ("replay x.vec", "--seconds", ("nan", "-1", "0", "1e300", "inf", "x"), SECONDS),
+    ("replay x.vec", "--duration", ("nan", "-1", "0", "1e300", "inf", "x"), SECONDS),
     ("replay x.vec", "--sample-hz", ("nan", "0", "-1", "inf", "2.5"), "number from 1 to 1000000000000 Hz"),
     ("trim membrane", "--duration", ("nan", "1e300", "-1", "0"), SECONDS),
     ("trim membrane", "--window", ("nan", "0"), "a number from 0.01 to 1000 ms"),
-    ("trim membrane", "--threads", ("0", "65", "1e-1", "nan"), "a whole number from 1 to 64"),
+    ("trim membrane", "--jobs", ("0", "65", "1e-1", "nan"), "a whole number from 1 to 64"),
     ("run membrane", "--every", ("0", "-1", "1.5", "nan", "99999999999"), "from 1 to 1000000000"),
     ("run membrane", "--seed", ("-1", "1.5", "nan", "18446744073709551616", "0x1"), SEED),
     ("replay x.vec", "--seed", ("-1",), SEED),
@@ -109,7 +109,7 @@ class CommandLine(Bench):
             (("run", "wall", "--set", "wall_contact=nan rad"), "is no number"),
             (("trim", "wall", "--duration", "5V"), "--duration: 5V is not in s; give it in s"),
             (("trim", "wall", "--duration", "1us"), "shorter than 10 windows"),
-            (("replay", "x.vec", "--seconds=2m"), "2m is not in s; give it in s"),
+            (("replay", "x.vec", "--duration=2m"), "2m is not in s; give it in s"),
             (("stability", "--damping", "2V"), "2V is not in Nm s/rad"),
         ):
             with self.subTest(words):

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "files/json_text.hpp"
+#include "files/table.hpp"
 
 namespace feltgate::extremes {
 

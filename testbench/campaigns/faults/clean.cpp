@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // False alarms. Documentation: docs/testing.md
-#include "campaigns/faults/clean.hpp"
+#include "campaigns/faults/faults.hpp"
 
 #include <fmt/format.h>
 

@@ -12,9 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/commands/commands.hpp"
-#include "campaigns/faults/clean.hpp"
-#include "campaigns/faults/pin_faults.hpp"
-#include "campaigns/faults/record.hpp"
+#include "campaigns/faults/faults.hpp"
 #include "campaigns/faults/world.hpp"
 
 namespace feltgate {

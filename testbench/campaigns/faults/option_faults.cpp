@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Faults at the pins that lever does not have. Documentation: docs/testing.md
-#include "campaigns/faults/pin_faults.hpp"
+#include "campaigns/faults/faults.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A fault as one line of JSON. Documentation: docs/testing.md
-#include "campaigns/faults/record.hpp"
+#include "campaigns/faults/faults.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The readers that are fuzzed, each as a function of one file, and the seeded changes of its input.
-// Documentation: docs/testing.md
+// The readers that are fuzzed, each as a function of one file. Documentation: docs/testing.md
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "random.hpp"
 
 namespace feltgate::fuzz {
 
@@ -34,8 +31,5 @@ const std::vector<Reader>& readers();
 
 /// Where the plants, designs and the register map of the project lie.
 void set_root(const std::filesystem::path& root);
-
-/// `input` after a few random changes; parts of `other` may get into it.
-std::string mutated(std::string input, const std::string& other, test::Random& random);
 
 }  // namespace feltgate::fuzz

@@ -363,28 +363,6 @@ Ending use_trace(const fs::path& file) {
   return use_recording(file, Format);
 }
 
-/// A reader with every fault that fuzzing must find. The input names the fault.
-Ending use_faulty(const fs::path& file) {
-  std::string fault;
-  std::ifstream(file) >> fault;
-  Ending ending;
-  ending.read = true;
-  if (fault == "crash") {
-    const std::vector<int> values(fault.size());
-    ending.read = values.data()[fault.size()] == 0;  // one beyond the end
-  } else if (fault == "hang") {
-    for (volatile bool for_ever = true; for_ever;) {
-    }
-  } else if (fault == "write") {
-    std::ofstream("left_behind") << fault;
-  } else if (fault == "message") {
-    ending = {false, "something is wrong", ""};
-  } else if (fault == "throw") {
-    throw std::out_of_range("of the reader's own");
-  }
-  return ending;
-}
-
 }  // namespace
 
 void set_root(const fs::path& root) {
@@ -416,7 +394,6 @@ const std::vector<Reader>& readers() {
       {"svg", "input.svg", as_it_is, use_file<shape::read_svg>},
       {"board", "input.board", as_it_is, use_file<board::read_recording>},
       {"png", "input.png", as_it_is, use_file<texture::read_png>},
-      {"faulty", "input.txt", as_it_is, use_faulty},
   };
   return all;
 }

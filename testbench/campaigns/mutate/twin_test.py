@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Mutants of C++ headers: what is offered, that each does what its name says, and that some are killed.
+"""Mutants of C++ headers: each does what its name says, and some are killed.
 
 twin_test.py BUILD OPTION...: the folder with the programs, and what mutate --twin is called with.
 Documentation: docs/testing.md
@@ -17,82 +17,22 @@ from unittest import mock
 from testing import ROOT, Scratch, ran
 
 import mutate
-from mutation import twin, twin_parser, twin_programs, twin_source
-from mutation.runs import Mutant
+from mutation import twin, twin_places, twin_source
 
 BUILD, OPTIONS = Path(sys.argv[1] if len(sys.argv) > 1 else "none"), sys.argv[2:]
 try:
-    LANGUAGE = twin_parser.cpp_language(BUILD / "venv-mutate")
-except twin_parser.SourceError:
+    LANGUAGE = twin_places.cpp_language(BUILD / "venv-mutate")
+except twin_places.SourceError:
     LANGUAGE = None
 NO_PARSER = LANGUAGE is None and not os.environ.get("CI")
 MUTANT = ROOT / "testbench/campaigns/mutate/twin"
-
-
-def header(text, **more):
-    return twin_source.Header("h", text, 1, LANGUAGE, **more)
-
-
-def names(text):
-    return [m.what for m in header(text).mutants]
-
-
-class Plans(unittest.TestCase):
-    """Which commands of a build folder are taken."""
-
-    def plan(self, launcher):
-        lines = [
-            f"{launcher}/usr/bin/c++ -DX -O3 -MF a.o.d -o t.dir/a.o -c /r/model/a.cpp",
-            ": && /usr/bin/c++ -O3  t.dir/a.o -o testbench/t  lib.a && :",
-        ]
-        maker = twin_programs.Maker(Path("/b"), Path("/r"), Path("/f"), ["h"], 1, 1)
-        with mock.patch.object(twin_programs, "ninja", return_value=("\n".join(lines), 0)), \
-                mock.patch.object(twin_programs, "dependencies", return_value={}):
-            return maker.plan("t")[0]["t.dir/a.o"]
-
-    def test_a_launcher_is_left_out_with_its_options(self):
-        plain = self.plan("")
-        self.assertEqual(plain[0], "/usr/bin/c++")
-        for launcher in ("/usr/bin/ccache ", "/usr/bin/cmake -E env A=b /usr/bin/ccache "):
-            self.assertEqual(self.plan(launcher), plain)
-
-
-@unittest.skipIf(NO_PARSER, "no tree-sitter; ./feltgate test fetches it")
-class Offered(unittest.TestCase):
-    def test_operators(self):
-        found = names("int f(int a, int b) { return a < b ? a + b : a << b; }")
-        self.assertEqual(found, ["f: a < b -> a <= b", "f: a < b -> a >= b", "f: a + b -> a - b",
-                                 "f: a << b -> a >> b"])
-
-    def test_rounding(self):
-        found = names("int f(int x) { return round<Round::half_up, Overflow::saturate>(x); }")
-        self.assertEqual(len(found), 2)
-        self.assertIn("Round::truncate", found[0])
-        self.assertIn("Overflow::wrap", found[1])
-
-    def test_what_only_the_compiler_sees_stays(self):
-        for text in ("constexpr int k = 3 + 2;", "static_assert(3 + 2 == 5);",
-                     "template <int N = 3 + 2> struct S;",
-                     "enum E { a = 1 + 1 };", "struct In { int a = 3; };", "int a[3 + 1];",
-                     "void f() { if constexpr (A + 1 == 2) { } }",
-                     "void f(int a) { switch (a) { case 1 + 1: default: } }"):
-            self.assertEqual(names(text), [], text)
-
-    def test_a_dropped_one_is_not_offered(self):
-        text = "int f(int a) { return -a; }"
-        (one,) = header(text).mutants
-        self.assertEqual(header(text, dropped=[one.what]).mutants, [])
-
-    def test_every_header_is_understood(self):
-        with mock.patch.object(twin_parser, "cpp_language", lambda _: LANGUAGE):
-            self.assertTrue(all(h.mutants for h in twin.parse(ROOT, twin.tests(ROOT, []), {})))
 
 
 @unittest.skipIf(NO_PARSER, "no tree-sitter; ./feltgate test fetches it")
 class Compiled(Scratch):
     def results(self, body, calls, expected):
         """The header's calls in every mutant, printed; {name: what they print}."""
-        found = header(body)
+        found = twin_source.Header("h", body, 1, LANGUAGE)
         printed = f'std::printf("{"%d " * len(calls)}", {", ".join(calls)});'
         main = self.put("main.cpp", '#include "mutant.hpp"\n#include <cstdio>\n' + found.result +
                         f"\nint main() {{ {printed} }}\n")
@@ -108,6 +48,10 @@ class Compiled(Scratch):
         run(FELTGATE_MUTANTS_REACHED=str(self.folder / "reached"))
         self.reached = (self.folder / "reached").read_text(encoding="ascii").splitlines()
         return {m.what: run(FELTGATE_MUTANT=str(m.number)) for m in found.mutants}
+
+    def test_every_header_is_understood(self):
+        with mock.patch.object(twin_places, "cpp_language", lambda _: LANGUAGE):
+            self.assertTrue(all(h.mutants for h in twin.parse(ROOT, twin.tests(ROOT, []), {})))
 
     def test_each_does_what_its_name_says(self):
         body = """
@@ -143,15 +87,6 @@ inline int keeps() { return mixed(7, Other()); }
         self.assertEqual(got["count: k < n -> k <= n"][4], 6)
         self.assertEqual(got["swaps: minus(7, 4) -> minus(4, 7)"][6], -3)
         self.assertEqual(len(got) - len(self.reached), 3)  # never(), and keeps() has no such call
-
-
-class Subjects(Scratch):
-    def test_a_compiler_drops_what_its_message_is_about(self):
-        one = mock.Mock(kinds={1: "arguments", 2: "arithmetic"}, mutants=[Mutant(1, "swap", []), Mutant(2, "add", [])],
-                        result="x\n(::feltgate_mutant::on(1) ? f(b, a) : ::feltgate_mutant::plus<2>(a, b))\n")
-        one.name = "h"
-        said = "a/mutants/twin/h/include/feltgate/h.hpp:2:7: error: no match\n"
-        self.assertEqual(twin.refused([one], Path("mutants/twin/h"), said), {("h", "swap")})
 
 
 @unittest.skipIf(NO_PARSER or not OPTIONS, "no tree-sitter; ./feltgate test fetches it")

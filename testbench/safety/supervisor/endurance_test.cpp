@@ -13,8 +13,6 @@
 using namespace feltgate::test;
 using feltgate::Fault;
 
-namespace {}  // namespace
-
 TEST_CASE("supervisor: eight encoder errors trip, one is forgiven every 1024 ticks") {
   Script s;
   s.arm();

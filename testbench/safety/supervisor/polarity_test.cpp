@@ -14,8 +14,6 @@ using namespace feltgate::test;
 using feltgate::Fault;
 using feltgate::Map;
 
-namespace {}  // namespace
-
 TEST_CASE("supervisor: the speed grows against the commanded current, window after window") {
   Script s;
   s.now.words.polarity_ticks = 12;

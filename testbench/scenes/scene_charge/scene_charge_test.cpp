@@ -6,9 +6,9 @@
 #include <Vscene_charge.h>
 
 #include "../scenes/scene_bench.hpp"
+#include "../scenes/scene_twins.hpp"
 #include "catch.hpp"
 #include "ports.hpp"
-#include "scene_charge_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

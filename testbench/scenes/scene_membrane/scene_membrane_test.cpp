@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "../scenes/scene_bench.hpp"
+#include "../scenes/scene_twins.hpp"
 #include "catch.hpp"
 #include "ports.hpp"
-#include "scene_membrane_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

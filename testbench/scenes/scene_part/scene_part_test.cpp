@@ -6,9 +6,9 @@
 #include <Vscene_part.h>
 
 #include "../scenes/scene_bench.hpp"
+#include "../scenes/scene_twins.hpp"
 #include "catch.hpp"
 #include "feltgate/quad.hpp"
-#include "scene_part_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

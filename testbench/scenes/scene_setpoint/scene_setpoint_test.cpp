@@ -6,10 +6,10 @@
 #include <Vscene_setpoint.h>
 
 #include "../scenes/scene_bench.hpp"
+#include "../scenes/scene_twins.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_setpoint.hpp"
 #include "ports.hpp"
-#include "scene_setpoint_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

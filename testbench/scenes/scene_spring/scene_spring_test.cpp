@@ -6,10 +6,10 @@
 #include <Vscene_spring.h>
 
 #include "../scenes/scene_bench.hpp"
+#include "../scenes/scene_twins.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_spring.hpp"
 #include "ports.hpp"
-#include "scene_spring_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

@@ -8,10 +8,10 @@
 #include <algorithm>
 
 #include "../scenes/scene_bench.hpp"
+#include "../scenes/scene_twins.hpp"
 #include "catch.hpp"
 #include "feltgate/scene_wall.hpp"
 #include "ports.hpp"
-#include "scene_wall_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

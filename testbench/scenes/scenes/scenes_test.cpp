@@ -9,17 +9,12 @@
 #include <array>
 #include <cstdint>
 
-#include "../scene_charge/scene_charge_twin.hpp"
-#include "../scene_damper/scene_damper_twin.hpp"
-#include "../scene_membrane/scene_membrane_twin.hpp"
-#include "../scene_setpoint/scene_setpoint_twin.hpp"
-#include "../scene_spring/scene_spring_twin.hpp"
-#include "../scene_wall/scene_wall_twin.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/quad.hpp"
 #include "feltgate/scenes.hpp"
 #include "scene_bench.hpp"
+#include "scene_twins.hpp"
 
 // Twin of rtl/core/scenes/scenes.sv, clock by clock, made of the twins of the scenes.
 

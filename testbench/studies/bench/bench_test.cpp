@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
-#include "studies/bench/report.hpp"
+#include "studies/bench/measure.hpp"
 
 namespace {
 

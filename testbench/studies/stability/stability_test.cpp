@@ -15,7 +15,7 @@
 #include "sim/plant/plant_file.hpp"
 #include "studies/stability/bit_loop.hpp"
 #include "studies/stability/linear_loop.hpp"
-#include "studies/stability/report.hpp"
+#include "studies/stability/study.hpp"
 
 using namespace feltgate;
 using namespace feltgate::stability;

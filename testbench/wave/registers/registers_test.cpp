@@ -200,15 +200,6 @@ TEST_CASE("registers: while armed a word acts, ramps or is refused, as the map s
     }
     host.play();
   }
-  // Not from the map: what the docs say of some of them.
-  using feltgate::while_armed;
-  using feltgate::WhileArmed;
-  REQUIRE(while_armed(Lever::A::setpoint_torque, Lever::S::setpoint) == WhileArmed::acts);
-  REQUIRE(while_armed(Lever::A::torque_limit, Lever::S::setpoint) == WhileArmed::ramps);
-  REQUIRE(while_armed(Lever::A::wall_contact, Lever::S::wall) == WhileArmed::ramps);
-  REQUIRE(while_armed(Lever::A::wall_contact, Lever::S::damper) == WhileArmed::acts);
-  REQUIRE(while_armed(Lever::A::voltage_gain_high, Lever::S::free) == WhileArmed::refused);
-  REQUIRE(while_armed(Lever::A::current_limit, Lever::S::wall) == WhileArmed::refused);
 }
 
 TEST_CASE("registers: setting zero restarts the ramp, but not of an input") {

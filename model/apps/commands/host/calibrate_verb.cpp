@@ -11,14 +11,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/checks.hpp"
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/bench_design.hpp"
-#include "apps/commands/host/bench_motor.hpp"
+#include "apps/commands/host/bench.hpp"
 #include "apps/commands/host/verbs.hpp"
-#include "files/json_text.hpp"
-#include "files/output_file.hpp"
-#include "host/calibrate/report.hpp"
+#include "host/calibrate/align.hpp"
 #include "law/units.hpp"
 
 namespace feltgate::host {
@@ -155,23 +150,81 @@ std::string readings_csv(const std::vector<Reading>& readings, bool closed) {
   return text;
 }
 
-int calibrate(Session& session, CalibrateArguments a) {
-  if (a.what == "align") {
-    return calibrate_align(session, {a.from, a.write, a.json, a.save, a.voltage_v, a.confidence});
+/// The voltage with which an alignment turns the rotor. At most the nominal current flows.
+double aligning_volts(const design::Design& d, double asked_v) {
+  const double most_v = d.resistance_ohm * d.nominal_current_a;
+  if (asked_v <= 0) return most_v / 2;
+  if (asked_v <= most_v) return asked_v;
+  throw std::invalid_argument(
+      fmt::format("--voltage {:g}: is more than the {:.3g} V with which the nominal current flows; "
+                  "give less",
+                  asked_v, most_v));
+}
+
+/// Turns the rotor of the board's motor with the voltage, and back.
+std::vector<AlignReading> turned(Session& session, double volts) {
+  constexpr double rests_s = 0.2;
+  BenchMotor motor(session.device(), Mode::direct_voltage);
+  const KeptWords kept(motor, {"commutation_gain", "commutation_offset", "voltage_setpoint"});
+  for (const char* word : {"commutation_gain", "commutation_offset", "voltage_setpoint"}) {
+    motor.set(word, 0);
   }
+  const Quantity& position = session.device().quantities().find("position");
+  motor.arm("free");
+  motor.set("voltage_setpoint", volts);
+  return take_readings(
+      [&](double turns) {
+        motor.set("commutation_offset", turns);
+        motor.wait_on_board(rests_s);
+        return !Interruptible::interrupted();
+      },
+      [&] { return session.device().tick().value(position); });
+}
+
+int align(Session& session, const CalibrateArguments& a) {
+  if (!a.from.empty() && (!a.save.empty() || a.voltage_v > 0)) {
+    throw std::invalid_argument(
+        "--save and --voltage are for readings that are taken now; leave out --from");
+  }
+  Bench bench(session, "calibrate align", a.from, a.write, a.json);
+  const design::Design& d = bench.design().design;
+  if (d.phases != 3) {
+    throw std::invalid_argument(
+        fmt::format("design {} drives no motor with three phases; give one that does with "
+                    "--design",
+                    d.name));
+  }
+  files::Outputs saved;  // whatever becomes of the fit
+  files::OutputFile* save = saved.open("--save", a.save);
+  std::vector<AlignReading> readings;
+  if (a.from.empty()) {
+    const Interruptible interruptible;
+    const double volts = aligning_volts(d, a.voltage_v);
+    bench.outputs().say(fmt::format("{}{:.3g} V turn the rotor by an electrical turn and back\n",
+                                    simulated_banner(session.board()), volts));
+    readings = turned(session, volts);
+    if (Interruptible::interrupted()) return exit_signal + 2;
+    if (save != nullptr) save->write(readings_csv(readings));
+    saved.commit();
+  } else {
+    readings = align_readings(ColumnTable::of_file(a.from));
+  }
+  const Alignment found = fit_alignment(readings, 4.0 * d.lines, a.confidence);
+  bench.finish(report_text(found), report_json(found), changes_of(found, bench.design()));
+  return exit_ok;
+}
+
+int calibrate(Session& session, CalibrateArguments a) {
+  if (a.what == "align") return align(session, a);
   if (a.voltage_v > 0) throw std::invalid_argument("--voltage belongs to calibrate align");
   if (!a.from.empty() && !a.save.empty()) {
     throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
   }
-  const BenchDesign known(session, a.from.empty() ? "calibrate" : "");
+  Bench bench(session, "calibrate", a.from, a.write, a.json);
   if (a.points.empty()) {
     a.points = a.closed ? std::vector<double>{0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}
                         : std::vector<double>{1.5, 2.5, 3.5, 4.5, 5.5};
   }
-  files::Outputs outputs;
-  if (!a.from.empty() && a.from != "-") outputs.reads(a.from);
-  files::OutputFile* json = outputs.open("--json", a.json);
-  files::OutputFile* write = outputs.open("--write", a.write);
   files::Outputs saved;  // whatever becomes of the fit
   files::OutputFile* save = saved.open("--save", a.save);
   std::vector<Reading> readings;
@@ -199,28 +252,19 @@ int calibrate(Session& session, CalibrateArguments a) {
     const ColumnTable table = ColumnTable::of_file(a.from);
     readings = a.closed ? closed_loop_readings(table, a.arm_m) : open_loop_readings(table, a.arm_m);
   }
-  const design::Elaborated& e = known.design();
-  const bool given = a.torque_constant > 0;
-  const double kt = given ? a.torque_constant : e.design.torque_constant_nm_a;
-  std::vector<Change> changes;
+  const design::Elaborated& e = bench.design();
   std::vector<std::string> warnings;
-  nlohmann::ordered_json result;
-  std::string text;
   if (a.closed) {
     const ClosedLoop closed = fit_closed_loop(readings, e, a.gain, a.confidence);
-    text = report_text(closed);
-    result = report_json(closed);
-    changes = changes_of(closed, e, &warnings);
+    const std::vector<Change> changes = changes_of(closed, e, &warnings);
+    bench.finish(report_text(closed) + notes_text(warnings), report_json(closed), changes);
   } else {
+    const bool given = a.torque_constant > 0;
+    const double kt = given ? a.torque_constant : e.design.torque_constant_nm_a;
     const OpenLoop open = fit_open_loop(readings, kt, a.confidence);
-    text = report_text(open, e);
-    result = report_json(open);
-    changes = changes_of(open, e, kt, given, &warnings);
+    const std::vector<Change> changes = changes_of(open, e, kt, given, &warnings);
+    bench.finish(report_text(open, e) + notes_text(warnings), report_json(open), changes);
   }
-  result["changes"] = report_json(changes);
-  outputs.say(text + notes_text(warnings) + known.write(changes, write, a.write));
-  if (json != nullptr) json->write(files::json_text(result));
-  outputs.commit();
   return exit_ok;
 }
 
@@ -229,55 +273,41 @@ int calibrate(Session& session, CalibrateArguments a) {
 Run add_calibrate(CLI::App& sub) {
   auto a = std::make_shared<CalibrateArguments>();
   sub.footer(
-      "The paper's two calibrations against a blocked shaft and a gauge, step by step: open loop\n"
-      "gives R and the dead voltage, closed loop the voltage gains (or R and dead voltage again).\n"
-      "  feltgate host /dev/ttyUSB0 calibrate --arm 0.011 --write mine.toml\n"
-      "  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv\n"
-      "  feltgate host - calibrate --from open.csv             readings of a file, no board\n"
-      "  feltgate host /dev/ttyUSB0 calibrate align --write mine.toml        the motor turns\n"
-      "A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), "
-      "and\n"
-      "perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.\n"
-      "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that\n"
-      "do not say it, 3 the link broke down.");
-  sub.add_option("what", a->what, "align: pole pairs and angle of a motor with three phases")
-      ->type_name("align")
-      ->check(CLI::IsMember({"align"}));
-  sub.add_option("--voltage", a->voltage_v,
-                 "of align: that turns the rotor; default: half of the nominal current's")
-      ->type_name("V")
-      ->transform(checks::positive(100, "V"));
+      R"(The paper's two calibrations against a blocked shaft and a gauge, step by step: open loop
+gives R and the dead voltage, closed loop the voltage gains (or R and dead voltage again).
+  feltgate host /dev/ttyUSB0 calibrate --arm 0.011 --write mine.toml
+  feltgate host /dev/ttyUSB0 calibrate --closed --save closed.csv
+  feltgate host - calibrate --from open.csv             readings of a file, no board
+  feltgate host /dev/ttyUSB0 calibrate align --write mine.toml        the motor turns
+A file has the columns voltage_v (or tau_ref_nm) and torque_nm (or force_n with --arm), and
+perhaps tau_hat_nm. Read docs/calibration.md first: the motor pushes.
+Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or readings that
+do not say it, 3 the link broke down.)");
+  option(sub, "what", a->what, "align", "align: pole pairs and angle of a motor with three phases",
+         CLI::IsMember({"align"}));
+  option(sub, "--voltage", a->voltage_v, "V",
+         "of align: that turns the rotor; default: half of the nominal current's",
+         checks::positive(100, "V"));
   sub.add_flag("--closed", a->closed, "the closed-loop calibration");
-  sub.add_option("--from", a->from, "readings of this file instead of a board; - is the input")
-      ->type_name("FILE")
-      ->check(checks::no_folder());
-  sub.add_option("--points", a->points,
-                 "voltages (V) or torques (Nm) to take; default: those of the paper")
-      ->delimiter(',')
-      ->check(checks::number(-24, 24, ""));
-  sub.add_option("--arm", a->arm_m, "of the pulley, for readings in N")
-      ->type_name("M")
-      ->transform(checks::positive(10, "m"));
-  sub.add_option("--torque-constant", a->torque_constant,
-                 "Kt that turns the slope into R; default: the design's")
-      ->type_name("NM/A")
-      ->transform(checks::positive(100, "Nm/A"));
-  sub.add_option("--gain", a->gain, "both voltage gains during --closed, of a law in regions")
-      ->type_name("KV")
-      ->capture_default_str()
-      ->check(checks::positive(10, ""));
-  sub.add_option("--hold", a->hold_s, "longest time that a value stands")
-      ->type_name("SECONDS")
-      ->capture_default_str()
-      ->transform(checks::positive(30, "s"));
-  sub.add_option("--confidence", a->confidence, "of the intervals")
-      ->type_name("SHARE")
-      ->capture_default_str()
-      ->check(checks::number(0.5, 0.9999, ""));
-  sub.add_option("--save", a->save, "write the readings as CSV")->type_name("FILE");
-  sub.add_option("--write", a->write, "write the design file with what was found")
-      ->type_name("FILE");
-  sub.add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
+  option(sub, "--from", a->from, "FILE", "readings of this file instead of a board; - is the input",
+         checks::no_folder());
+  option(sub, "--points", a->points, "",
+         "voltages (V) or torques (Nm) to take; default: those of the paper",
+         checks::number(-24, 24, ""))
+      ->delimiter(',');
+  option(sub, "--arm", a->arm_m, "M", "of the pulley, for readings in N",
+         checks::positive(10, "m"));
+  option(sub, "--torque-constant", a->torque_constant, "NM/A",
+         "Kt that turns the slope into R; default: the design's", checks::positive(100, "Nm/A"));
+  defaulted(sub, "--gain", a->gain, "KV", "both voltage gains during --closed, of a law in regions",
+            checks::positive(10, ""));
+  defaulted(sub, "--hold", a->hold_s, "SECONDS", "longest time that a value stands",
+            checks::positive(30, "s"));
+  defaulted(sub, "--confidence", a->confidence, "SHARE", "of the intervals",
+            checks::number(0.5, 0.9999, ""));
+  option(sub, "--save", a->save, "FILE", "write the readings as CSV");
+  option(sub, "--write", a->write, "FILE", "write the design file with what was found");
+  option(sub, "--json", a->json, "FILE", "write all numbers to this file");
   return [a](Session& session) { return calibrate(session, *a); };
 }
 

@@ -9,10 +9,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/commands/checks.hpp"
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/live.hpp"
-#include "apps/commands/host/session.hpp"
+#include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "files/output_file.hpp"
 #include "host/capture.hpp"
@@ -106,11 +103,7 @@ void write_trace(Device& device, const Captured& c, const CaptureSetup& setup,
 std::string why_off(Device& device, const Hold& hold) {
   const Tick tick = hold.holds() ? device.tick() : Tick{};
   if (!hold.holds() || device.armed(tick)) return "";
-  std::string text = "the motor went off meanwhile";
-  for (const std::string& words : device.in_words(tick)) {
-    if (words.rfind("fault", 0) == 0) text += "\n  " + words;
-  }
-  return text;
+  return "the motor went off meanwhile" + fault_lines(device, tick);
 }
 
 int draw(const CaptureArguments& a, const std::string& csv, bool simulated) {
@@ -175,46 +168,30 @@ int capture(Session& session, const CaptureArguments& a) {
 Run add_capture(CLI::App& sub) {
   auto a = std::make_shared<CaptureArguments>();
   sub.footer(
-      "  feltgate host /dev/ttyUSB0 capture --arm wall --trigger 'tau_ref>0.05' --csv wall.csv "
-      "--picture wall.svg\n"
-      "  feltgate host /dev/ttyUSB0 capture angle tau_ref --span 0.5 --csv push.csv --picture "
-      "push.png --xy angle,tau_ref\n"
-      "  feltgate host /dev/ttyUSB0 capture --trigger fault --wait 3600 --csv fault.csv\n"
-      "  feltgate host /dev/ttyUSB0 capture tick angle tau_ref --arm law --trigger event:hit\n"
-      "  feltgate host /dev/ttyUSB0 capture position velocity --vector moved.vec\n"
-      "Triggers: 'velocity>5' rises to the value or above, 'angle<-10deg' falls below; 'fault',\n"
-      "'fault:speed,stop', 'limit:current', 'armed'; 'event:hit', an event of the board's law, "
-      "'event' any;\n"
-      "'now'. The memory is the board's: 1024 rows of 8 words, one row a tick unless --span asks "
-      "for\n"
-      "longer. The CSV has its time in seconds from the trigger on, for PlotJuggler and "
-      "spreadsheets.\n"
-      "Exit code: 0 captured, 1 the trigger did not come or the motor went off, 2 unusable input "
-      "or port, 3 the link "
-      "broke down.");
-  sub.add_option("names", a->names, "words of a tick, at most 8 different ones")
-      ->type_name("NAME")
-      ->capture_default_str();
-  sub.add_option("--trigger", a->trigger, "when")->type_name("WHEN")->capture_default_str();
-  sub.add_option("--before", a->before, "share of the rows that lie before the trigger")
-      ->type_name("SHARE")
-      ->capture_default_str()
-      ->check(checks::number(0, 1, ""));
-  sub.add_option("--span", a->span_s, "time that all rows cover; default: a tick a row")
-      ->type_name("SECONDS")
-      ->transform(checks::positive(1e6, "s"));
-  sub.add_option("--wait", a->wait_s, "for the trigger")
-      ->type_name("SECONDS")
-      ->capture_default_str()
-      ->transform(checks::positive(1e6, "s"));
-  sub.add_option("--arm", a->arm, "arm this scene, kick the watchdog, disarm at the end")
-      ->type_name("SCENE");
-  sub.add_option("--csv", a->csv, "a row each, time in seconds")->type_name("FILE");
-  sub.add_option("--picture", a->picture, "picture of the CSV, .svg or .png")->type_name("FILE");
-  sub.add_option("--xy", a->xy, "with --picture: one quantity over another instead of over time")
-      ->type_name("X,Y");
-  sub.add_option("--vector", a->vector, "encoder trace for replay: every tick as the core saw it")
-      ->type_name("FILE");
+      R"(  feltgate host /dev/ttyUSB0 capture --arm wall --trigger 'tau_ref>0.05' --csv wall.csv --picture wall.svg
+  feltgate host /dev/ttyUSB0 capture angle tau_ref --span 0.5 --csv push.csv --picture push.png --xy angle,tau_ref
+  feltgate host /dev/ttyUSB0 capture --trigger fault --wait 3600 --csv fault.csv
+  feltgate host /dev/ttyUSB0 capture tick angle tau_ref --arm law --trigger event:hit
+  feltgate host /dev/ttyUSB0 capture position velocity --vector moved.vec
+Triggers: 'velocity>5' rises to the value or above, 'angle<-10deg' falls below; 'fault',
+'fault:speed,stop', 'limit:current', 'armed'; 'event:hit', an event of the board's law, 'event' any;
+'now'. The memory is the board's: 1024 rows of 8 words, one row a tick unless --span asks for
+longer. The CSV has its time in seconds from the trigger on, for PlotJuggler and spreadsheets.
+Exit code: 0 captured, 1 the trigger did not come or the motor went off, 2 unusable input or port, 3 the link broke down.)");
+  defaulted(sub, "names", a->names, "NAME", "words of a tick, at most 8 different ones");
+  defaulted(sub, "--trigger", a->trigger, "WHEN", "when");
+  defaulted(sub, "--before", a->before, "SHARE", "share of the rows that lie before the trigger",
+            checks::number(0, 1, ""));
+  option(sub, "--span", a->span_s, "SECONDS", "time that all rows cover; default: a tick a row",
+         checks::positive(1e6, "s"));
+  defaulted(sub, "--wait", a->wait_s, "SECONDS", "for the trigger", checks::positive(1e6, "s"));
+  option(sub, "--arm", a->arm, "SCENE", "arm this scene, kick the watchdog, disarm at the end");
+  option(sub, "--csv", a->csv, "FILE", "a row each, time in seconds");
+  option(sub, "--picture", a->picture, "FILE", "picture of the CSV, .svg or .png");
+  option(sub, "--xy", a->xy, "X,Y",
+         "with --picture: one quantity over another instead of over time");
+  option(sub, "--vector", a->vector, "FILE",
+         "encoder trace for replay: every tick as the core saw it");
   return [a](Session& session) { return capture(session, *a); };
 }
 

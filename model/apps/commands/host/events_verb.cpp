@@ -3,18 +3,19 @@
 //
 // feltgate host PORT events. Documentation: docs/host.md
 #include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <thread>
 
-#include "apps/commands/checks.hpp"
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/line_server.hpp"
-#include "apps/commands/host/session.hpp"
 #include "apps/commands/host/verbs.hpp"
 
 namespace feltgate::host {
@@ -30,14 +31,66 @@ struct EventsArguments {
   std::optional<int> tcp;
 };
 
+/// Sends lines of text to all programs on this computer that connect; it listens only on 127.0.0.1
+/// and never waits: a client that does not accept a complete line is
+/// disconnected.
+class LineServer {
+ public:
+  /// Port 0 means any free port. Throws std::invalid_argument when it cannot listen.
+  explicit LineServer(int port) {
+    listener_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_port = htons(static_cast<std::uint16_t>(port));
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int yes = 1;
+    socklen_t size = sizeof at;
+    auto* const address = reinterpret_cast<sockaddr*>(&at);
+    if (listener_ < 0 || setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) != 0 ||
+        bind(listener_, address, size) != 0 || listen(listener_, 4) != 0 ||
+        getsockname(listener_, address, &size) != 0) {
+      const int error = errno;
+      if (listener_ >= 0) close(listener_);
+      throw std::invalid_argument(
+          fmt::format("--tcp {}: {}; give another port, or 0 for any", port, std::strerror(error)));
+    }
+    port_ = ntohs(at.sin_port);
+  }
+  ~LineServer() {
+    for (const int client : clients_) close(client);
+    close(listener_);
+  }
+  LineServer(const LineServer&) = delete;
+  LineServer& operator=(const LineServer&) = delete;
+
+  int port() const { return port_; }
+  /// Accepts the clients that have connected since the last call.
+  void poll() {
+    for (;;) {
+      const int client = accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+      if (client < 0) return;
+      clients_.push_back(client);
+    }
+  }
+  /// Sends `line`, which includes its line end, to all clients.
+  void send(const std::string& line) {
+    const auto gone = [&line](int client) {
+      const ssize_t sent = ::send(client, line.data(), line.size(), MSG_NOSIGNAL);
+      if (sent == static_cast<ssize_t>(line.size())) return false;
+      close(client);
+      return true;
+    };
+    clients_.erase(std::remove_if(clients_.begin(), clients_.end(), gone), clients_.end());
+  }
+
+ private:
+  int listener_ = -1, port_ = 0;
+  std::vector<int> clients_;
+};
+
 void check_armed(Device& device) {
   const Tick tick = device.tick();
-  if (device.armed(tick)) return;
-  std::string why;
-  for (const std::string& words : device.in_words(tick)) {
-    if (words.rfind("fault", 0) == 0) why += "\n  " + words;
-  }
-  throw Refused("the motor is off" + why);
+  if (!device.armed(tick)) throw Refused("the motor is off" + fault_lines(device, tick));
 }
 
 int events(Session& session, const EventsArguments& a) {
@@ -45,18 +98,13 @@ int events(Session& session, const EventsArguments& a) {
   LawEngine& laws = session.laws();
   std::optional<LineServer> server;
   if (a.tcp) server.emplace(*a.tcp);
-  const std::string banner = simulated_banner(device.board());
-  std::fputs(banner.c_str(), stderr);
+  std::fputs(simulated_banner(device.board()).c_str(), stderr);
   if (server) {
     std::fputs(fmt::format("lines also at 127.0.0.1:{}\n", server->port()).c_str(), stderr);
   }
   const Interruptible interruptible;
   Hold hold(device);
-  if (a.arm.empty()) {
-    hold.take_over();
-  } else {
-    hold.arm(a.arm);
-  }
+  hold.begin(a.arm);
   const Deadline end = within(a.seconds > 0 ? a.seconds : 1e9);
   Deadline look = within(look_s);
   int told = 0;
@@ -70,8 +118,7 @@ int events(Session& session, const EventsArguments& a) {
     if (event) {
       const std::string line =
           fmt::format("{} {} {:.9g}\n", event->tick, event->name, event->value);
-      std::fputs(line.c_str(), stdout);
-      std::fflush(stdout);
+      say(line);
       if (server) server->send(line);
       ++told;
       continue;
@@ -98,28 +145,21 @@ int events(Session& session, const EventsArguments& a) {
 Run add_events(CLI::App& sub) {
   auto a = std::make_shared<EventsArguments>();
   sub.footer(
-      "  feltgate host /dev/ttyUSB0 events --arm law           arm, hold, tell; Ctrl-C disarms\n"
-      "  feltgate host /dev/ttyUSB0 events --arm law --tcp 4711\n"
-      "  nc 127.0.0.1 4711                                     in another window\n"
-      "A line each: the tick, the name in the law, the value in SI units. The board keeps 16 "
-      "events "
-      "until\n"
-      "the host takes them; those beyond are counted and told. One host at a time has the port.\n"
-      "Exit code: 0 done, 1 no engine, or the motor went off, 2 unusable input or port, 3 the link "
-      "broke\n"
-      "down.");
-  sub.add_option("--arm", a->arm, "arm this scene, kick the watchdog, disarm at the end")
-      ->type_name("SCENE");
-  sub.add_option("--for", a->seconds, "end after so long; default: Ctrl-C")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
-  sub.add_option("--count", a->count, "end after so many events")
-      ->type_name("EVENTS")
-      ->transform(checks::whole(1, 1'000'000'000));
-  sub.add_option("--tcp", a->tcp,
-                 "send the lines to those who connect to this port of 127.0.0.1 too; 0: any")
-      ->type_name("PORT")
-      ->transform(checks::whole(0, 65535));
+      R"(  feltgate host /dev/ttyUSB0 events --arm law           arm, hold, tell; Ctrl-C disarms
+  feltgate host /dev/ttyUSB0 events --arm law --tcp 4711
+  nc 127.0.0.1 4711                                     in another window
+A line each: the tick, the name in the law, the value in SI units. The board keeps 16 events until
+the host takes them; those beyond are counted and told. One host at a time has the port.
+Exit code: 0 done, 1 no engine, or the motor went off, 2 unusable input or port, 3 the link broke
+down.)");
+  option(sub, "--arm", a->arm, "SCENE", "arm this scene, kick the watchdog, disarm at the end");
+  option(sub, "--for", a->seconds, "SECONDS", "end after so long; default: Ctrl-C",
+         checks::seconds());
+  option(sub, "--count", a->count, "EVENTS", "end after so many events",
+         checks::whole(1, 1'000'000'000));
+  option(sub, "--tcp", a->tcp, "PORT",
+         "send the lines to those who connect to this port of 127.0.0.1 too; 0: any",
+         checks::whole(0, 65535));
   return [a](Session& session) { return events(session, *a); };
 }
 

@@ -9,14 +9,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/checks.hpp"
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/bench_design.hpp"
-#include "apps/commands/host/bench_motor.hpp"
+#include "apps/commands/host/bench.hpp"
 #include "apps/commands/host/verbs.hpp"
-#include "files/json_text.hpp"
-#include "files/output_file.hpp"
-#include "host/calibrate/report.hpp"
 #include "host/identify/identify.hpp"
 
 namespace feltgate::host {
@@ -128,20 +122,15 @@ int identify(Session& session, const IdentifyArguments& a) {
     throw std::invalid_argument(
         "--coast belongs to --from FILE, and --save to recordings that are made now");
   }
-  const BenchDesign known(session, a.from.empty() ? "identify" : "");
-  files::Outputs outputs;
-  for (const std::string& file : {a.from, a.coast}) {
-    if (!file.empty()) outputs.reads(file);
-  }
-  files::OutputFile* json = outputs.open("--json", a.json);
-  files::OutputFile* write = outputs.open("--write", a.write);
+  Bench bench(session, "identify", a.from, a.write, a.json);
+  if (!a.coast.empty()) bench.outputs().reads(a.coast);
   files::Outputs saved;  // whatever becomes of the fit
   const auto save = [&](const char* part) {
     return a.save.empty() ? nullptr : saved.open("--save", a.save + part);
   };
   files::OutputFile *drive_csv = save(".drive.csv"), *coast_csv = save(".coast.csv");
   const auto file = [&](const std::string& path, bool voltage) {
-    return recording_of(ColumnTable::of_file(path), known.design().design.count_rad(), voltage);
+    return recording_of(ColumnTable::of_file(path), bench.design().design.count_rad(), voltage);
   };
   Recording driven;
   std::optional<Recording> coasting;
@@ -171,12 +160,8 @@ int identify(Session& session, const IdentifyArguments& a) {
   std::optional<Coast> coast;
   if (coasting) coast = identify_coast(*coasting);
   const Constants constants = constants_of(drive, coast, a.resistance);
-  const auto changes = changes_of(constants, known.design());
-  auto result = report_json(drive, coast, constants);
-  result["changes"] = report_json(changes);
-  outputs.say(report_text(drive, coast, constants) + known.write(changes, write, a.write));
-  if (json != nullptr) json->write(files::json_text(result));
-  outputs.commit();
+  bench.finish(report_text(drive, coast, constants), report_json(drive, coast, constants),
+               changes_of(constants, bench.design()));
   return exit_ok;
 }
 
@@ -185,34 +170,28 @@ int identify(Session& session, const IdentifyArguments& a) {
 Run add_identify(CLI::App& sub) {
   auto a = std::make_shared<IdentifyArguments>();
   sub.footer(
-      "Drives the free lever to and fro, lets it run down, and says what voltage and position\n"
-      "know of the motor, with intervals, and what to measure for the rest.\n"
-      "  feltgate host /dev/ttyUSB0 identify --free --resistance 0.42 --save lever\n"
-      "  feltgate host - identify --from lever.drive.csv --coast lever.coast.csv\n"
-      "A file has the columns time_s, position_rad (or position, counts) and voltage_v, a row a\n"
-      "millisecond. docs/calibration.md explains.\n"
-      "Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or recordings\n"
-      "that do not say it, 3 the link broke down.");
+      R"(Drives the free lever to and fro, lets it run down, and says what voltage and position
+know of the motor, with intervals, and what to measure for the rest.
+  feltgate host /dev/ttyUSB0 identify --free --resistance 0.42 --save lever
+  feltgate host - identify --from lever.drive.csv --coast lever.coast.csv
+A file has the columns time_s, position_rad (or position, counts) and voltage_v, a row a
+millisecond. docs/calibration.md explains.
+Exit code: 0 done, 1 the board refused or a fault came, 2 unusable input or recordings
+that do not say it, 3 the link broke down.)");
   sub.add_flag("--free", a->yes, "the lever may turn as it likes: drive it now");
-  sub.add_option("--volts", a->volts, "largest voltage of the drive")
-      ->type_name("V")
-      ->capture_default_str()
-      ->transform(checks::positive(48, "V"));
-  sub.add_option("--from", a->from, "a driven recording instead of a board")
-      ->type_name("FILE")
-      ->check(checks::no_folder());
-  sub.add_option("--coast", a->coast, "its coast-down")->type_name("FILE");
-  sub.add_option("--resistance", a->resistance, "R by ohmmeter, with wiring and bridge")
-      ->type_name("OHM")
-      ->transform(checks::positive(1e4, "ohm"));
-  sub.add_option("--electrical-time", a->electrical_s, "L/R: makes J right to a permille")
-      ->type_name("SECONDS")
-      ->transform(checks::number(0, 0.01, "s"));
-  sub.add_option("--save", a->save, "write the recordings as PREFIX.drive.csv and PREFIX.coast.csv")
-      ->type_name("PREFIX");
-  sub.add_option("--write", a->write, "write the design file with what was found")
-      ->type_name("FILE");
-  sub.add_option("--json", a->json, "write all numbers to this file")->type_name("FILE");
+  defaulted(sub, "--volts", a->volts, "V", "largest voltage of the drive",
+            checks::positive(48, "V"));
+  option(sub, "--from", a->from, "FILE", "a driven recording instead of a board",
+         checks::no_folder());
+  option(sub, "--coast", a->coast, "FILE", "its coast-down");
+  option(sub, "--resistance", a->resistance, "OHM", "R by ohmmeter, with wiring and bridge",
+         checks::positive(1e4, "ohm"));
+  option(sub, "--electrical-time", a->electrical_s, "SECONDS", "L/R: makes J right to a permille",
+         checks::number(0, 0.01, "s"));
+  option(sub, "--save", a->save, "PREFIX",
+         "write the recordings as PREFIX.drive.csv and PREFIX.coast.csv");
+  option(sub, "--write", a->write, "FILE", "write the design file with what was found");
+  option(sub, "--json", a->json, "FILE", "write all numbers to this file");
   return [a](Session& session) { return identify(session, *a); };
 }
 

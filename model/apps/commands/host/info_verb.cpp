@@ -7,9 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/law_text.hpp"
-#include "apps/commands/host/session.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "files/output_file.hpp"
 
@@ -130,11 +127,9 @@ int info(Session& session, const std::string& json_path) {
 
 Run add_info(CLI::App& sub) {
   auto json = std::make_shared<std::string>();
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 info\n"
-      "Exit code: 0 no fault is latched, 1 one is, 2 unusable input or port, 3 the link broke "
-      "down.");
-  sub.add_option("--json", *json, "the same as JSON (docs/json.md)")->type_name("FILE");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 info
+Exit code: 0 no fault is latched, 1 one is, 2 unusable input or port, 3 the link broke down.)");
+  option(sub, "--json", *json, "FILE", "the same as JSON (docs/json.md)");
   return [json](Session& session) { return info(session, *json); };
 }
 

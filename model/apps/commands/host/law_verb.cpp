@@ -9,9 +9,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/law_text.hpp"
-#include "apps/commands/host/session.hpp"
 #include "apps/commands/host/verbs.hpp"
 
 namespace feltgate::host {
@@ -87,26 +84,18 @@ int run_law(Session& session, const std::string& file) {
 
 Run add_law(CLI::App& sub) {
   auto file = std::make_shared<std::string>();
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 law detent                 one of rtl/laws\n"
-      "  feltgate host /dev/ttyUSB0 law mine.law               yours (docs/laws.md)\n"
-      "  feltgate host /dev/ttyUSB0 set clicks=12 amplitude=80mNm\n"
-      "  feltgate host /dev/ttyUSB0 arm law --hold\n"
-      "Compiles the law for the board's design, loads it while the motor is disarmed, and reads "
-      "all "
-      "of it\n"
-      "back. The board computes the CRC of what it holds at each arming and arms the scene law "
-      "only "
-      "if it\n"
-      "is that of a law that was loaded whole. Its parameters are known by name from then on.\n"
-      "Exit code: 0 loaded, 1 refused: armed, no engine; 2 unusable input, a law that cannot be "
-      "read or\n"
-      "proven, with line, reason and mend; 3 the link broke down.");
-  sub.add_option(
-         "law", *file,
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 law detent                 one of rtl/laws
+  feltgate host /dev/ttyUSB0 law mine.law               yours (docs/laws.md)
+  feltgate host /dev/ttyUSB0 set clicks=12 amplitude=80mNm
+  feltgate host /dev/ttyUSB0 arm law --hold
+Compiles the law for the board's design, loads it while the motor is disarmed, and reads all of it
+back. The board computes the CRC of what it holds at each arming and arms the scene law only if it
+is that of a law that was loaded whole. Its parameters are known by name from then on.
+Exit code: 0 loaded, 1 refused: armed, no engine; 2 unusable input, a law that cannot be read or
+proven, with line, reason and mend; 3 the link broke down.)");
+  option(sub, "law", *file, "LAW",
          "name in rtl/laws, a law file, or an image of feltgate law --output; without it says "
-         "which law runs")
-      ->type_name("LAW");
+         "which law runs");
   return [file](Session& session) { return run_law(session, *file); };
 }
 

@@ -8,9 +8,6 @@
 #include <memory>
 #include <thread>
 
-#include "apps/commands/checks.hpp"
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/session.hpp"
 #include "apps/commands/host/verbs.hpp"
 
 namespace feltgate::host {
@@ -23,9 +20,8 @@ struct ArmArguments {
   double seconds = 0;
 };
 
-void say(Device& device, const std::string& what) {
-  std::fputs((simulated_banner(device.board()) + what + "\n").c_str(), stdout);
-  std::fflush(stdout);
+void tell(Device& device, const std::string& what) {
+  say(simulated_banner(device.board()) + what + "\n");
 }
 
 /// The law's text for the message of arming; empty in another scene.
@@ -41,17 +37,14 @@ int hold_armed(Device& device, Hold& hold, double seconds) {
     hold.poll();
     const Tick tick = device.tick();
     if (!device.armed(tick)) {
-      std::string why;
-      for (const std::string& words : device.in_words(tick)) {
-        if (words.rfind("fault", 0) == 0) why += "\n  " + words;
-      }
+      const std::string why = fault_lines(device, tick);
       throw Refused("the motor is off" +
                     (why.empty() ? std::string("; the stop was pressed") : why));
     }
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(hold.next_in_s(), 0.02)));
   }
   hold.release();
-  std::fputs("disarmed\n", stdout);
+  say("disarmed\n");
   return exit_ok;
 }
 
@@ -62,111 +55,84 @@ int arm(Session& session, const ArmArguments& a) {
   }
   if (!a.hold) {
     device.arm(a.scene, false);
-    say(device, fmt::format("armed, scene {}{}; nobody watches it: 'stop' or 'disarm' ends it",
-                            device.scene_name(device.tick()), of_law(device)));
+    tell(device, fmt::format("armed, scene {}{}; nobody watches it: 'stop' or 'disarm' ends it",
+                             device.scene_name(device.tick()), of_law(device)));
     return exit_ok;
   }
   const Interruptible interruptible;
   Hold hold(device);
   hold.arm(a.scene);
-  say(device,
-      fmt::format("armed, scene {}, held{}; Ctrl-C disarms, and so does the watchdog {:g} s "
-                  "after a last kick",
-                  device.scene_name(device.tick()), of_law(device), device.watchdog_s()));
+  tell(device,
+       fmt::format("armed, scene {}, held{}; Ctrl-C disarms, and so does the watchdog {:g} s "
+                   "after a last kick",
+                   device.scene_name(device.tick()), of_law(device), device.watchdog_s()));
   return hold_armed(device, hold, a.seconds);
 }
 
 /// A verb without options.
-Run simple(CLI::App& sub, const char* footer, int (*run)(Device&)) {
+Run simple(CLI::App& sub, const char* footer, void (Device::*does)(), const char* done) {
   sub.footer(footer);
-  return [run](Session& session) { return run(session.device()); };
+  return [=](Session& session) {
+    (session.device().*does)();
+    tell(session.device(), done);
+    return int{exit_ok};
+  };
 }
 
 }  // namespace
 
 Run add_arm(CLI::App& sub) {
   auto a = std::make_shared<ArmArguments>();
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 arm spring_tension --hold  until Ctrl-C, which disarms\n"
-      "With --hold the host kicks the core's watchdog; when host or cable fail, the core disarms "
-      "by\n"
-      "itself. Without it the motor stays armed when this program has ended. Once the watchdog "
-      "was\n"
-      "kicked it stays awake until a reset, so then only --hold keeps the motor armed.\n"
-      "Exit code: 0 armed (and disarmed again), 1 refused or ended by a fault, 2 unusable input "
-      "or\n"
-      "port, 3 the link broke down.");
-  sub.add_option("scene", a->scene, "what to render; default: the scene that is chosen")
-      ->type_name("SCENE");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 arm spring_tension --hold  until Ctrl-C, which disarms
+With --hold the host kicks the core's watchdog; when host or cable fail, the core disarms by
+itself. Without it the motor stays armed when this program has ended. Once the watchdog was
+kicked it stays awake until a reset, so then only --hold keeps the motor armed.
+Exit code: 0 armed (and disarmed again), 1 refused or ended by a fault, 2 unusable input or
+port, 3 the link broke down.)");
+  option(sub, "scene", a->scene, "SCENE", "what to render; default: the scene that is chosen");
   sub.add_flag("--hold", a->hold, "stay, kick the watchdog, disarm at the end");
-  sub.add_option("--for", a->seconds, "with --hold: end after so long")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
+  option(sub, "--for", a->seconds, "SECONDS", "with --hold: end after so long", checks::seconds());
   return [a](Session& session) { return arm(session, *a); };
 }
 
 Run add_disarm(CLI::App& sub) {
-  return simple(sub,
-                "  feltgate host /dev/ttyUSB0 disarm\n"
-                "The motor is off at the end of the tick. The host has the say from then on.\n"
-                "Exit code: 0 done, 2 unusable input or port, 3 the link broke down.",
-                [](Device& device) {
-                  device.disarm();
-                  say(device, "disarmed");
-                  return int{exit_ok};
-                });
+  return simple(sub, R"(  feltgate host /dev/ttyUSB0 disarm
+The motor is off at the end of the tick. The host has the say from then on.
+Exit code: 0 done, 2 unusable input or port, 3 the link broke down.)",
+                &Device::disarm, "disarmed");
 }
 
 Run add_stop(CLI::App& sub) {
-  return simple(sub,
-                "  feltgate host /dev/ttyUSB0 stop\n"
-                "The same as the stop at the board, by wire: gates off within clocks, a fault that "
-                "'clear' forgets.\nIt is no substitute for a stop that cuts the supply.\n"
-                "Exit code: 0 done, 2 unusable input or port, 3 the link broke down.",
-                [](Device& device) {
-                  device.stop();
-                  say(device, "stopped; 'clear' before the motor can be armed again");
-                  return int{exit_ok};
-                });
+  return simple(sub, R"(  feltgate host /dev/ttyUSB0 stop
+The same as the stop at the board, by wire: gates off within clocks, a fault that 'clear' forgets.
+It is no substitute for a stop that cuts the supply.
+Exit code: 0 done, 2 unusable input or port, 3 the link broke down.)",
+                &Device::stop, "stopped; 'clear' before the motor can be armed again");
 }
 
 Run add_clear(CLI::App& sub) {
-  return simple(sub,
-                "  feltgate host /dev/ttyUSB0 clear\n"
-                "Exit code: 0 no fault is left, 1 a cause still stands, 2 unusable input or port, "
-                "3 the link broke down.",
-                [](Device& device) {
-                  device.clear_faults();
-                  say(device, "no fault; disarmed");
-                  return int{exit_ok};
-                });
+  return simple(sub, R"(  feltgate host /dev/ttyUSB0 clear
+Exit code: 0 no fault is left, 1 a cause still stands, 2 unusable input or port, 3 the link broke down.)",
+                &Device::clear_faults, "no fault; disarmed");
 }
 
 Run add_zero(CLI::App& sub) {
-  return simple(sub,
-                "  feltgate host /dev/ttyUSB0 zero\n"
-                "An armed motor ramps its torque again: the scene moves with the zero.\n"
-                "Exit code: 0 done, 2 unusable input or port, 3 the link broke down.",
-                [](Device& device) {
-                  device.set_zero();
-                  say(device, "the position is 0 here");
-                  return int{exit_ok};
-                });
+  return simple(sub, R"(  feltgate host /dev/ttyUSB0 zero
+An armed motor ramps its torque again: the scene moves with the zero.
+Exit code: 0 done, 2 unusable input or port, 3 the link broke down.)",
+                &Device::set_zero, "the position is 0 here");
 }
 
 Run add_scene(CLI::App& sub) {
   auto scene = std::make_shared<std::string>();
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 scene membrane\n"
-      "An armed motor ramps over to it. The host has the say from then on, not the panel's "
-      "switches.\n"
-      "Exit code: 0 done, 1 the panel has armed the motor, 2 unusable input or port, 3 the link "
-      "broke down.");
-  sub.add_option("scene", *scene, "a scene of the board's design")->required()->type_name("SCENE");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 scene membrane
+An armed motor ramps over to it. The host has the say from then on, not the panel's switches.
+Exit code: 0 done, 1 the panel has armed the motor, 2 unusable input or port, 3 the link broke down.)");
+  option(sub, "scene", *scene, "SCENE", "a scene of the board's design")->required();
   return [scene](Session& session) {
     Device& device = session.device();
     device.select(*scene);
-    say(device, "scene " + *scene);
+    tell(device, "scene " + *scene);
     return int{exit_ok};
   };
 }

@@ -9,8 +9,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/live.hpp"
 #include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "files/output_file.hpp"
@@ -37,15 +35,7 @@ int record(Session& session, RecordArguments a) {
   if (std::find(a.names.begin(), a.names.end(), "position") == a.names.end()) {
     a.names.emplace_back("position");
   }
-  const std::uint32_t fastest =
-      device.shortest_period(stream_mask(device, a), session.options.baud);
-  const double asked = a.every_s > 0 ? std::round(a.every_s * device.board().tick_hz()) : fastest;
-  const auto period = static_cast<std::uint32_t>(std::clamp(asked, 1.0, 4e9));
-  if (period < fastest) {
-    throw std::invalid_argument(fmt::format(
-        "--every {:g}: the wire carries these words every {:.3g} s at most; leave words out",
-        a.every_s, fastest / device.board().tick_hz()));
-  }
+  const std::uint32_t period = stream_period(session, a);
   const std::vector<const Quantity*> columns = stream_columns(device, a);
   if (csv != nullptr) csv->write(csv_head(columns));
   std::vector<PositionAt> positions;
@@ -89,23 +79,18 @@ int record(Session& session, RecordArguments a) {
 Run add_record(CLI::App& sub) {
   auto a = std::make_shared<RecordArguments>();
   a->names = {"position", "angle", "velocity", "tau_ref", "status", "faults"};
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 record --for 10 --csv moved.csv\n"
-      "  feltgate host /dev/ttyUSB0 record position --for 10 --vector moved.vec\n"
-      "  feltgate replay moved.vec                              the same motion through every "
-      "back-end\n"
-      "  feltgate replay moved.csv --count-column position\n"
-      "The wire carries no pins and not every tick. The trace of --vector has edges spread evenly\n"
-      "between recorded positions, no index, no glitches and no illegal steps; for every tick "
-      "exactly\n"
-      "as the core saw it: capture --vector.\n"
-      "Exit code: 0 recorded, 1 a fault ended an armed motor, 2 unusable input or port, 3 the link "
-      "broke down.");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 record --for 10 --csv moved.csv
+  feltgate host /dev/ttyUSB0 record position --for 10 --vector moved.vec
+  feltgate replay moved.vec                              the same motion through every back-end
+  feltgate replay moved.csv --count-column position
+The wire carries no pins and not every tick. The trace of --vector has edges spread evenly
+between recorded positions, no index, no glitches and no illegal steps; for every tick exactly
+as the core saw it: capture --vector.
+Exit code: 0 recorded, 1 a fault ended an armed motor, 2 unusable input or port, 3 the link broke down.)");
   add_stream_options(sub, *a);
   sub.get_option("--every")->default_str("as the wire allows");
-  sub.add_option("--csv", a->csv, "a row for each tick that came, time in seconds")
-      ->type_name("FILE");
-  sub.add_option("--vector", a->vector, "encoder trace for replay")->type_name("FILE");
+  option(sub, "--csv", a->csv, "FILE", "a row for each tick that came, time in seconds");
+  option(sub, "--vector", a->vector, "FILE", "encoder trace for replay");
   return [a](Session& session) { return record(session, *a); };
 }
 

@@ -151,6 +151,19 @@ void Hold::arm(const std::string& scene) {
   keep_.arm(scene, [] { return !Interruptible::interrupted(); });
 }
 
+std::string fault_lines(const Device& device, const Tick& tick) {
+  std::string text;
+  for (const std::string& words : device.in_words(tick)) {
+    if (words.rfind("fault", 0) == 0) text += "\n  " + words;
+  }
+  return text;
+}
+
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
 std::string simulated_banner(const BoardInfo& board) {
   return board.simulated ? "*** SIMULATED: no board, no motor; these values come from a model ***\n"
                          : "";

@@ -61,16 +61,6 @@ class Session {
   bool looked_ = false;
 };
 
-/// A verb of feltgate host. To add one, write its add function and list it in verbs().
-struct Verb {
-  const char* name;
-  const char* about;
-  /// Adds options to `sub`; returns the function that runs the verb and returns the exit code.
-  std::function<int(Session&)> (*add)(CLI::App& sub);
-};
-/// All verbs in the order of the help.
-const std::vector<Verb>& verbs();
-
 /// During its lifetime, Ctrl-C, SIGTERM and SIGHUP only set a flag.
 class Interruptible {
  public:
@@ -92,6 +82,8 @@ class Hold {
   /// Arms the motor with the watchdog enabled; Ctrl-C ends the wait.
   void arm(const std::string& scene);
   void take_over() { keep_.take_over(); }
+  /// Arms, or without a scene takes over what the host has armed.
+  void begin(const std::string& scene) { scene.empty() ? take_over() : arm(scene); }
   bool holds() const { return keep_.holds(); }
   void poll() { keep_.poll(); }
   double next_in_s() const { return keep_.next_in_s(); }
@@ -100,6 +92,12 @@ class Hold {
  private:
   KeepAlive keep_;
 };
+
+/// The faults of a tick, each in a line of its own after "\n  ".
+std::string fault_lines(const Device& device, const Tick& tick);
+
+/// To stdout, at once.
+void say(const std::string& text);
 
 /// The banner above values of a simulated board; empty for a real one.
 std::string simulated_banner(const BoardInfo& board);

@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
-#include "apps/commands/checks.hpp"
+#include "apps/commands/commands.hpp"
 
 namespace feltgate::host {
 
@@ -32,19 +33,24 @@ class StreamOff {
   Device& device_;
 };
 
+/// The unit in the name of a column: "_rad_s" for rad/s; empty for counts and shares.
+std::string unit_suffix(const std::string& unit) {
+  if (unit == "rad/s") return "_rad_s";
+  if (unit == "rad" || unit == "s") return "_" + unit;
+  if (unit == "Nm") return "_nm";
+  if (unit == "A") return "_a";
+  return unit == "V" ? "_v" : "";
+}
+
 }  // namespace
 
 void add_stream_options(CLI::App& sub, StreamArguments& a) {
-  sub.add_option("names", a.names, "words of a tick")->type_name("NAME")->capture_default_str();
-  sub.add_option("--arm", a.arm, "arm this scene, kick the watchdog, disarm at the end")
-      ->type_name("SCENE");
-  sub.add_option("--every", a.every_s, "time from one tick shown to the next")
-      ->type_name("SECONDS")
-      ->capture_default_str()
-      ->transform(checks::positive(3600, "s"));
-  sub.add_option("--for", a.seconds, "end after so long; default: Ctrl-C")
-      ->type_name("SECONDS")
-      ->transform(checks::seconds());
+  defaulted(sub, "names", a.names, "NAME", "words of a tick");
+  option(sub, "--arm", a.arm, "SCENE", "arm this scene, kick the watchdog, disarm at the end");
+  defaulted(sub, "--every", a.every_s, "SECONDS", "time from one tick shown to the next",
+            checks::positive(3600, "s"));
+  option(sub, "--for", a.seconds, "SECONDS", "end after so long; default: Ctrl-C",
+         checks::seconds());
 }
 
 std::vector<const Quantity*> stream_columns(Device& device, const StreamArguments& a) {
@@ -62,15 +68,39 @@ WordMask stream_mask(Device& device, const StreamArguments& a) {
   return mask;
 }
 
+std::uint32_t stream_period(Session& session, const StreamArguments& a) {
+  Device& device = session.device();
+  const std::uint32_t fastest =
+      device.shortest_period(stream_mask(device, a), session.options.baud);
+  if (a.every_s == 0) return fastest;
+  const double asked = std::round(a.every_s * device.board().tick_hz());
+  const auto period = static_cast<std::uint32_t>(std::clamp(asked, 1.0, 4e9));
+  if (period < fastest) {
+    throw std::invalid_argument(
+        fmt::format("--every {:g}: the wire carries these words every {:.3g} s at most; leave "
+                    "words out, or use capture, which sees every tick",
+                    a.every_s, fastest / device.board().tick_hz()));
+  }
+  return period;
+}
+
+std::string csv_head(const std::vector<const Quantity*>& columns) {
+  std::string text = "time_s";
+  for (const Quantity* q : columns) text += "," + q->name + unit_suffix(q->unit);
+  return text + "\n";
+}
+
+std::string csv_row(const std::vector<const Quantity*>& columns, const Tick& tick) {
+  std::string text = fmt::format("{:.9g}", tick.time_s);
+  for (const Quantity* q : columns) text += fmt::format(",{:.12g}", tick.value(*q));
+  return text + "\n";
+}
+
 void follow_stream(Device& device, const StreamArguments& a, std::uint32_t period,
                    const std::function<void(const Tick&)>& show) {
   const Interruptible interruptible;
   Hold hold(device);
-  if (a.arm.empty()) {
-    hold.take_over();
-  } else {
-    hold.arm(a.arm);
-  }
+  hold.begin(a.arm);
   const WordMask mask = stream_mask(device, a);
   device.stream(mask, period);
   const StreamOff off(device);
@@ -86,11 +116,7 @@ void follow_stream(Device& device, const StreamArguments& a, std::uint32_t perio
       show(*tick);
       was_armed = was_armed || device.armed(*tick);
       if (hold.holds() && was_armed && !device.armed(*tick)) {
-        std::string why;
-        for (const std::string& words : device.in_words(*tick)) {
-          if (words.rfind("fault", 0) == 0) why += "\n  " + words;
-        }
-        throw Refused("the motor is off" + why);
+        throw Refused("the motor is off" + fault_lines(device, *tick));
       }
     } else if (HostClock::now() > silent) {
       // Silence means a lost link (then this throws) or a board that was reset.

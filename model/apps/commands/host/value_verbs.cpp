@@ -10,9 +10,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/law_text.hpp"
-#include "apps/commands/host/session.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/output_file.hpp"
@@ -175,31 +172,25 @@ int set(Session& session, const std::vector<std::string>& texts) {
 
 Run add_get(CLI::App& sub) {
   auto a = std::make_shared<GetArguments>();
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 get angle velocity torque_limit\n"
-      "  feltgate host /dev/ttyUSB0 get --all                  all names, and what can be set\n"
-      "Parameters of a law that runs are there too, where it was loaded from here or --law gives "
-      "its file.\n"
-      "Words of a tick are all of the same one. Other words are of the moment that each is read.\n"
-      "Exit code: 0 read, 2 unusable input or port, 3 the link broke down.");
-  sub.add_option("names", a->names, "parameters, words of a tick, bits such as status.armed")
-      ->type_name("NAME");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 get angle velocity torque_limit
+  feltgate host /dev/ttyUSB0 get --all                  all names, and what can be set
+Parameters of a law that runs are there too, where it was loaded from here or --law gives its file.
+Words of a tick are all of the same one. Other words are of the moment that each is read.
+Exit code: 0 read, 2 unusable input or port, 3 the link broke down.)");
+  option(sub, "names", a->names, "NAME", "parameters, words of a tick, bits such as status.armed");
   sub.add_flag("--all", a->all, "everything, with its meaning");
-  sub.add_option("--json", a->json, "the same as JSON (docs/json.md)")->type_name("FILE");
+  option(sub, "--json", a->json, "FILE", "the same as JSON (docs/json.md)");
   return [a](Session& session) { return get(session, *a); };
 }
 
 Run add_set(CLI::App& sub) {
   auto settings = std::make_shared<std::vector<std::string>>();
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 set torque_limit=0.1 wall_contact=0.2rad\n"
-      "A bare value is in the unit that get prints. One with another unit of the kind is "
-      "converted:\n"
-      "0.1Nm/deg, 50ms for ticks. What is set holds until the FPGA is configured anew.\n"
-      "Parameters of a law come into force together, with a ramp.\n"
-      "Exit code: 0 set, 1 refused by the board, 2 unusable input: nothing is set, 3 the link "
-      "broke down.");
-  sub.add_option("settings", *settings, "what to set")->required()->type_name("NAME=VALUE");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 set torque_limit=0.1 wall_contact=0.2rad
+A bare value is in the unit that get prints. One with another unit of the kind is converted:
+0.1Nm/deg, 50ms for ticks. What is set holds until the FPGA is configured anew.
+Parameters of a law come into force together, with a ramp.
+Exit code: 0 set, 1 refused by the board, 2 unusable input: nothing is set, 3 the link broke down.)");
+  option(sub, "settings", *settings, "NAME=VALUE", "what to set")->required();
   return [settings](Session& session) { return set(session, *settings); };
 }
 

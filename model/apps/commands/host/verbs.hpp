@@ -5,13 +5,11 @@
 // Documentation: docs/host.md
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
-#include <optional>
+#include "apps/commands/commands.hpp"
+#include "apps/commands/host/session.hpp"
 
 namespace feltgate::host {
 
-class Session;
 using Run = std::function<int(Session&)>;
 
 Run add_info(CLI::App& sub);
@@ -31,19 +29,11 @@ Run add_record(CLI::App& sub);
 Run add_calibrate(CLI::App& sub);
 Run add_identify(CLI::App& sub);
 
-/// The options of calibrate align.
-struct AlignArguments {
-  std::string from, write, json, save;
-  double voltage_v = 0;  ///< 0: half of the nominal current's
-  double confidence = 0;
-};
-/// Pole pairs and offset of a motor with three phases, from a file or from the board's motor.
-int calibrate_align(Session& session, const AlignArguments& a);
-
-/// Reads a line that a user types while a motor is held armed; calls `meanwhile` about twenty times
-/// a second while it waits. Returns nothing when `go_on` returns false. Throws
-/// std::invalid_argument at the end of the input; the message names `what` was expected.
-std::optional<std::string> typed_line(const std::string& what, const std::function<bool()>& go_on,
-                                      const std::function<void()>& meanwhile);
+/// A value in the unit of a law's parameter: "0.05 Nm".
+std::string law_text(const law::ImageWord& of, double value);
+/// The range of the parameter: "0 .. 0.5 Nm".
+std::string range_text(const law::ImageWord& of);
+/// The name and state of the law that runs.
+std::string law_state(LawEngine& laws);
 
 }  // namespace feltgate::host

@@ -3,15 +3,16 @@
 //
 // feltgate host PORT watch. Documentation: docs/host.md
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <memory>
+#include <utility>
 
-#include "apps/commands/commands.hpp"
-#include "apps/commands/host/live.hpp"
 #include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "sim/plant/pantograph/linkage.hpp"
@@ -20,6 +21,146 @@
 namespace feltgate::host {
 
 namespace {
+
+/// A value from lowest to highest in eighths of a line: "▁▂▅█".
+std::string sparkline(const std::deque<double>& values) {
+  static const char* const bars[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  if (values.empty()) return "";
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  std::string text;
+  for (const double v : values) {
+    const double share = *high > *low ? (v - *low) / (*high - *low) : 0.0;
+    text += bars[std::min(7, static_cast<int>(share * 8))];
+  }
+  return text;
+}
+
+/// What is shown of a tick.
+struct LiveColumn {
+  std::string name, unit;
+  std::function<double(const Tick&)> value;
+};
+std::vector<LiveColumn> live_columns(const std::vector<const Quantity*>& quantities) {
+  std::vector<LiveColumn> columns;
+  for (const Quantity* q : quantities) {
+    columns.push_back(
+        {q->name, q->unit == "1" ? "" : q->unit, [q](const Tick& tick) { return tick.value(*q); }});
+  }
+  return columns;
+}
+
+/// The display of the verb watch.
+class Live {
+ public:
+  enum class Form { terminal, lines, teleplot };
+  Live(Device& device, std::vector<LiveColumn> columns, Form form);
+  void show(const Tick& tick);
+  /// Moves the cursor below the display.
+  void finish();
+
+ private:
+  void on_terminal(const Tick& tick);
+  void as_line(const Tick& tick);
+  void as_teleplot(const Tick& tick);
+  std::string status(const Tick& tick) const;
+
+  Device& device_;
+  std::vector<LiveColumn> columns_;
+  Form form_;
+  std::vector<std::deque<double>> history_;
+  int lines_ = 0;
+  unsigned lost_ = 0;
+};
+
+constexpr std::size_t most_history = 200;
+
+std::size_t terminal_width() {
+  winsize size{};
+  const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
+/// "-" for a value that there is not, as of a pen where the rods do not reach each other.
+std::string shown(double value) {
+  return !std::isfinite(value) ? "-" : fmt::format("{:.5g}", value);
+}
+
+Live::Live(Device& device, std::vector<LiveColumn> columns, Form form)
+    : device_(device), columns_(std::move(columns)), form_(form), history_(columns_.size()) {}
+
+std::string Live::status(const Tick& tick) const {
+  const std::string faults = device_.fault_names(tick), limits = device_.limit_names(tick);
+  return fmt::format("{} {}{}{}{}", device_.armed(tick) ? "ARMED" : "disarmed",
+                     device_.scene_name(tick), limits.empty() ? "" : ", limits: " + limits,
+                     faults.empty() ? "" : ", FAULTS: " + faults,
+                     lost_ > 0 ? fmt::format(", {} frames lost", lost_) : "");
+}
+
+void Live::show(const Tick& tick) {
+  lost_ += tick.lost;
+  switch (form_) {
+    case Form::terminal:
+      return on_terminal(tick);
+    case Form::lines:
+      return as_line(tick);
+    case Form::teleplot:
+      return as_teleplot(tick);
+  }
+}
+
+void Live::on_terminal(const Tick& tick) {
+  const std::size_t width = terminal_width();
+  constexpr std::size_t before_bars = 58;
+  std::string text = lines_ > 0 ? fmt::format("\x1b[{}A", lines_) : "";
+  const std::string badge = device_.board().simulated ? "  *** SIMULATED ***" : "";
+  text += fmt::format("\r\x1b[K{:10.2f} s{}\n", tick.time_s, badge);
+  for (std::size_t n = 0; n < columns_.size(); ++n) {
+    const LiveColumn& q = columns_[n];
+    std::deque<double>& h = history_[n];
+    const double value = q.value(tick);
+    if (std::isfinite(value)) h.push_back(value);
+    if (h.size() > most_history) h.pop_front();
+    const std::size_t room = width > before_bars ? width - before_bars : 0;
+    const std::deque<double> seen(
+        h.size() > room ? h.end() - static_cast<std::ptrdiff_t>(room) : h.begin(), h.end());
+    text += fmt::format("\r\x1b[K{:>14} {:>11} {:<7}", q.name, shown(value), q.unit);
+    if (!h.empty()) {
+      const auto [low, high] = std::minmax_element(h.begin(), h.end());
+      text += fmt::format("{:>9.3g} to {:<9.3g} {}", *low, *high, sparkline(seen));
+    }
+    text += "\n";
+  }
+  text += fmt::format("\r\x1b[K{}\n", status(tick).substr(0, width - 1));
+  lines_ = static_cast<int>(columns_.size()) + 2;
+  say(text);
+}
+
+void Live::as_line(const Tick& tick) {
+  std::string text = fmt::format("{:.3f} s", tick.time_s);
+  for (const LiveColumn& q : columns_) {
+    text += fmt::format("  {} {} {}", q.name, shown(q.value(tick)), q.unit);
+    if (q.unit.empty()) text.pop_back();
+  }
+  text += "  " + status(tick);
+  if (device_.board().simulated) text += "  (simulated)";
+  say(text + "\n");
+}
+
+void Live::as_teleplot(const Tick& tick) {
+  std::string text;
+  for (const LiveColumn& q : columns_) {
+    if (!std::isfinite(q.value(tick))) continue;
+    text += fmt::format(">{}:{:.3f}:{:.9g}{}\n", q.name, 1e3 * tick.time_s, q.value(tick),
+                        q.unit.empty() ? "" : "§" + q.unit);
+  }
+  say(text);
+}
+
+void Live::finish() {
+  if (form_ == Form::terminal && lost_ > 0) {
+    std::fputs(fmt::format("{} frames lost on the way\n", lost_).c_str(), stdout);
+  }
+}
 
 struct WatchArguments : StreamArguments {
   bool teleplot = false, pen = false;
@@ -65,16 +206,7 @@ int watch(Session& session, WatchArguments a) {
   } else {
     columns = live_columns(stream_columns(device, a));
   }
-  const std::uint32_t fastest =
-      device.shortest_period(stream_mask(device, a), session.options.baud);
-  const double asked = std::round(a.every_s * device.board().tick_hz());
-  const auto period = static_cast<std::uint32_t>(std::clamp(asked, 1.0, 4e9));
-  if (period < fastest) {
-    throw std::invalid_argument(
-        fmt::format("--every {:g}: the wire carries these words every {:.3g} s at most; leave "
-                    "words out, or use capture, which sees every tick",
-                    a.every_s, fastest / device.board().tick_hz()));
-  }
+  const std::uint32_t period = stream_period(session, a);
   const bool terminal = ::isatty(STDOUT_FILENO) == 1;
   const Live::Form form = a.teleplot ? Live::Form::teleplot
                           : terminal ? Live::Form::terminal
@@ -93,16 +225,12 @@ Run add_watch(CLI::App& sub) {
   auto a = std::make_shared<WatchArguments>();
   a->names = {"angle", "velocity", "tau_ref", "tau_hat", "current_ref", "voltage"};
   a->every_s = 0.1;
-  sub.footer(
-      "  feltgate host /dev/ttyUSB0 watch                      until Ctrl-C\n"
-      "  feltgate host /dev/ttyUSB0 watch angle tau_ref --arm wall --for 10\n"
-      "  feltgate host /dev/ttyUSB0 watch --teleplot --every 0.01 | nc -u -w1 127.0.0.1 47269\n"
-      "On a terminal a sparkline each, else a line for each tick. A motor that the host has armed "
-      "is\n"
-      "kept alive meanwhile and disarmed at the end; one that the panel has armed is only "
-      "watched.\n"
-      "Exit code: 0 ended, 1 a fault ended an armed motor, 2 unusable input or port, 3 the link "
-      "broke down.");
+  sub.footer(R"(  feltgate host /dev/ttyUSB0 watch                      until Ctrl-C
+  feltgate host /dev/ttyUSB0 watch angle tau_ref --arm wall --for 10
+  feltgate host /dev/ttyUSB0 watch --teleplot --every 0.01 | nc -u -w1 127.0.0.1 47269
+On a terminal a sparkline each, else a line for each tick. A motor that the host has armed is
+kept alive meanwhile and disarmed at the end; one that the panel has armed is only watched.
+Exit code: 0 ended, 1 a fault ended an armed motor, 2 unusable input or port, 3 the link broke down.)");
   add_stream_options(sub, *a);
   sub.add_flag("--teleplot", a->teleplot, "lines '>name:milliseconds:value§unit' for Teleplot");
   sub.add_flag("--pen", a->pen, "x, y, Fx, Fy at the pen of a pantograph, in place of NAME");

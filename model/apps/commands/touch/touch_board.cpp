@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The planes of a mesh for a board.
-#include "apps/commands/touch/touch_board.hpp"
+#include "apps/commands/touch/touch.hpp"
 
 #include <fmt/format.h>
 
@@ -104,9 +104,9 @@ BoardTouch touch_board(const TouchArguments& a, const touch::Mesh& mesh,
   const auto writes = static_cast<double>(plane_words(seeker.host(), {}, {}, {}).size() + 1);
   const double fits_hz = most_of_line * a.baud / (bits_per_write * writes);
   const double tick_hz = session.board().tick_hz();
-  const auto period =
-      std::max(device.shortest_period(host::stream_mask(device, stream), a.baud),
-               static_cast<std::uint32_t>(std::ceil(tick_hz / std::min(a.rate_hz, fits_hz))));
+  const auto period = std::max(
+      device.shortest_period(host::stream_mask(device, stream), a.baud),
+      static_cast<std::uint32_t>(std::ceil(tick_hz / std::min(a.request.host.rate_hz, fits_hz))));
   b.rate_hz = tick_hz / period;
   const auto columns = host::stream_columns(device, stream);
   double shown_s = -shown_every_s;

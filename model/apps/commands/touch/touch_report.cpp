@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Text, JSON and CSV of `feltgate touch`.
-#include "apps/commands/touch/touch_report.hpp"
+#include "apps/commands/touch/touch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -115,7 +115,7 @@ std::string mesh_text(const TouchArguments& a, const touch::Soup& soup, const to
         "{:g} N/m\n",
         degrees(fewer->jumps.most_rad), degrees(fewer->jumps.largest_rad),
         degrees(fewer->before.most_rad), degrees(fewer->before.largest_rad), fewer->force_step_n,
-        1e3 * a.depth_m, a.stiffness);
+        1e3 * a.depth_m, a.request.host.stiffness_n_m);
     for (const std::string& w : fewer->warnings()) s += "  warning: " + w + "\n";
   }
   return s;
@@ -144,8 +144,8 @@ std::string run_text(const TouchArguments& a, const touch::TouchRun& run) {
   s += fmt::format(
       "\n{} planes at {:g} Hz, {:.0f} % touching, up to {} constraints; {:.0f} arrived, {:.0f} "
       "lost\n",
-      u.size(), a.rate_hz, 100 * m.touching, m.constraints, o.figures.at("planes_arrived"),
-      o.figures.at("planes_lost"));
+      u.size(), a.request.host.rate_hz, 100 * m.touching, m.constraints,
+      o.figures.at("planes_arrived"), o.figures.at("planes_lost"));
   s += fmt::format("depth up to {:.3f} mm, force up to {:.3f} N\n", 1e3 * m.depth_m, m.force_n);
   s += fmt::format(
       "a plane in force is up to {:.1f} ms old and {:.1f} degrees off the newest; at a new one the "

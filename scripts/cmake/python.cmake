@@ -88,13 +88,8 @@ target_link_libraries(feltgate_python_host PRIVATE feltgate_hostlink feltgate_tr
 if(FELTGATE_PYTHON)
   # pip compiles once and on two cores: what reads files and laws is not in a loop, and headers are
   # read once for several sources.
-  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/toml_parser.cpp"
-    CONTENT "#define TOML_IMPLEMENTATION\n#include <toml++/toml.h>\n")
-  target_sources(feltgate_config PRIVATE "${PROJECT_BINARY_DIR}/toml_parser.cpp")
-  target_compile_definitions(feltgate_config PUBLIC TOML_HEADER_ONLY=0)
-  set_source_files_properties("${PROJECT_BINARY_DIR}/toml_parser.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  foreach(library bounds design law traces plant_files units)
-    target_compile_options(feltgate_${library} PRIVATE -O1)
+  foreach(library bounds config design files hostlink law plant_files python python_host traces units)
+    target_compile_options(feltgate_${library} PRIVATE -O0)
   endforeach()
   foreach(library law design)
     target_precompile_headers(feltgate_${library} PRIVATE

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sim/loop/felt.hpp"
-#include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 
 namespace feltgate::trim {

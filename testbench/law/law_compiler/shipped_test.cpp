@@ -35,8 +35,8 @@ TEST_CASE("shipped laws are proven, fit their rate and stay within their bounds"
       CHECK(static_cast<int>(c.assembled.instructions.size()) <= goal->second.instructions);
       CHECK(c.rate_hz >= goal->second.rate_hz);
     }
-    check_within(c, measure(c, 1, 4000));
-    if (c.bound.states_bounded) check_within(c, measure(c, 2, 4000, true));
+    check_within(c, measure(c, 1, 3000));
+    if (c.bound.states_bounded) check_within(c, measure(c, 2, 3000, true));
   }
 }
 

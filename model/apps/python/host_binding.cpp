@@ -10,7 +10,7 @@
 #include "apps/python/arrays.hpp"
 #include "design/engine_map.hpp"
 #include "host/capture.hpp"
-#include "host/keep_alive.hpp"
+#include "host/host_device.hpp"
 #include "host/law_engine.hpp"
 #include "law/compile.hpp"
 

@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "axes_parameters.hpp"
 #include "brushed_motor.hpp"
 #include "encoder.hpp"
-#include "lugre.hpp"
+#include "mechanics.hpp"
 #include "parameters.hpp"
 
 namespace feltgate::plant {

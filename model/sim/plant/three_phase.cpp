@@ -341,17 +341,14 @@ double ThreePhaseMotor::amplitude_a(double torque_nm) const {
 }
 
 MotorStep ThreePhaseMotor::advance(const Legs& legs, double bus_v, const Shaft& middle) {
-  if (on_.dead_time && legs.mode == Legs::Mode::kAveraged) ++evaluations_.dead_time;
   if (legs.shoots_through()) shoot_through_ = true;
   const Phases form = shape(electrical_rad(middle.theta_rad));
   Phases emf_v{};
   if (on_.back_emf) {
-    ++evaluations_.back_emf;
     for (std::size_t k = 0; k < kPhases; ++k) {
       emf_v[k] = p_.back_emf_v_s_rad * middle.omega_rad_s * form[k];
     }
   }
-  if (on_.inductance) ++evaluations_.inductance;
   const auto& curves = legs_.curves(legs, bus_v, star_.connected());
   const StarStep step =
       on_.inductance ? star_.advance(curves, emf_v, bus_v) : star_.settle(curves, emf_v, bus_v);
@@ -364,11 +361,6 @@ void ThreePhasePlant::advance(const Legs& legs, Clock clocks) {
   step(motor_, clocks, [this, &legs](double bus_v, const Shaft& middle) {
     return motor_.advance(legs, bus_v, middle);
   });
-}
-
-std::vector<StateValue> ThreePhasePlant::state() const {
-  if (!inductance_) return state_with({});
-  return state_with({{"phase_a_a", motor_.phase_a()[0]}, {"phase_b_a", motor_.phase_a()[1]}});
 }
 
 }  // namespace feltgate::plant

@@ -141,7 +141,6 @@ class ThreePhaseMotor {
   }
   /// Whether both gates of a leg were ever on at once.
   bool shoot_through() const { return shoot_through_; }
-  const Evaluations& evaluations() const { return evaluations_; }
 
  private:
   double torque(const Phases& shape, const Phases& current_a) const;
@@ -153,7 +152,6 @@ class ThreePhaseMotor {
   StarWinding star_;
   Phases mean_a_{};
   bool shoot_through_ = false;
-  Evaluations evaluations_;
 };
 
 /// The plant of a lever whose motor has three phases; `parameters.motor` does not count.
@@ -172,9 +170,8 @@ class ThreePhasePlant : public ShaftPlant {
   void open_phase(std::size_t phase) { motor_.open_phase(phase); }
 
   const ThreePhaseMotor& motor() const { return motor_; }
-  /// The continuous states with their names; two of the three currents are independent.
-  std::vector<StateValue> state() const;
-  Evaluations evaluations() const { return evaluations_with(motor_.evaluations()); }
+  /// Number of continuous states; two of the three currents are independent.
+  std::size_t state_size() const { return shaft_states() + (inductance_ ? 2 : 0); }
 
  private:
   ThreePhaseMotor motor_;

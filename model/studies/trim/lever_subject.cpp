@@ -52,7 +52,6 @@ Felt feel(const Scenario& scene, const plant::Parameters& plant, const std::stri
   felt.force = {std::move(force)};
   felt.simulated_s = run.simulated_s;
   felt.states = run.plant_states;
-  felt.evaluations = run.evaluations;
   felt.broken = run.broken;
   felt.fault = first_fault(run.felt.faults);
   return felt;

@@ -52,7 +52,6 @@ struct Felt {
   double simulated_s = 0;
   double cpu_s = 0;                 ///< CPU time of the thread that ran it
   std::size_t states = 0;           ///< of the plant; of several axes not counted
-  plant::Evaluations evaluations;   ///< of one lever
   std::vector<std::string> broken;  ///< expectations of the scene that do not hold
   std::string fault;                ///< the first that opened the gates, with its time; or none
 };

@@ -11,7 +11,6 @@
 #include "design/design.hpp"
 #include "design_fixture.hpp"
 #include "feltgate/absolute_encoder.hpp"
-#include "sim/backends/absolute_sensor.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
@@ -323,29 +322,6 @@ TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encode
 namespace feltgate {
 
 constexpr double turn_rad = 2 * M_PI;
-
-TEST_CASE("encoder: the table takes a sensor's error away") {
-  // A magnet off its axis by half a degree, and a second harmonic.
-  const std::vector<double> error_rad{7.5e-3, 4.5e-3, -1.2e-3, 0.9e-3};
-  constexpr int bits = 14, angles = 10'000;
-  AbsoluteSensor sensor(AbsoluteEncoder::Parameters{});
-  sensor.set_error(error_rad);
-  design::Design d;
-  d.absolute_bits = bits;
-  for (const double term : error_rad) d.absolute_error_mrad.push_back(1e3 * term);
-  const auto table = d.absolute_corrections();
-  const double count_rad = std::ldexp(turn_rad, -bits);
-  double before = 0, after = 0;
-  for (int k = 0; k < angles; ++k) {
-    const double rad = k * turn_rad / angles;
-    const auto count = static_cast<std::int32_t>(std::floor(sensor.shown_rad(rad) / count_rad));
-    before = std::max(before, std::abs((count + 0.5) * count_rad - rad));
-    after =
-        std::max(after, std::abs((corrected(count, table.data(), bits) + 0.5) * count_rad - rad));
-  }
-  CHECK(before > 8.7e-3);
-  CHECK(after < before / 10);
-}
 
 TEST_CASE("encoder: the corrections are within half a count of the curve, and half an entry") {
   for (const int bits : {12, 14, 19}) {

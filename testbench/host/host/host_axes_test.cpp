@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/pantograph_law.hpp"
-#include "host/mailbox_burst.hpp"
+#include "host/law_engine.hpp"
 #include "law_on_board.hpp"
 
 using namespace feltgate;

@@ -7,14 +7,32 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "../axis_set.hpp"
 #include "../plant.hpp"
-#include "pantograph_parameters.hpp"
+#include "linkage_mechanics.hpp"
 #include "pen_hand.hpp"
 
 namespace feltgate::plant {
+
+/// Constants of a pantograph.
+struct PantographParameters : AxesParameters {
+  std::string name;
+  LinkageGeometry linkage;
+  LinkageBodies bodies;  ///< includes joint_inertia_kg_m2
+  AngleStops stops;      ///< of theta5 - theta1
+  Vec2 start_m;          ///< pen at clock 0, unless the hand gives a start
+};
+
+// Reader of vectors/devices/NAME.toml for pantographs.
+
+/// Reads and checks a pantograph; every key is required, unknown keys are errors.
+/// Errors: config::ConfigError "file:line: what; mend".
+PantographParameters read_pantograph_file(const std::string& path);
+/// The same from a text; errors name it `path`.
+PantographParameters read_pantograph_text(const std::string& text, const std::string& path);
 
 /// Outputs at the end of the last step unless stated as mean. Pairs: joint 1, joint 5.
 struct PantographSeen {

@@ -51,8 +51,6 @@ class AxisDrive {
 
   double current_a() const { return motor_.current_a(); }
   double bristle_rad() const { return lugre_.z_rad(); }
-  /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const { return motor_.shoot_through(); }
 
  private:
   BrushedMotor motor_;
@@ -127,13 +125,6 @@ class AxisSet {
   }
   double bus_v() const { return supply_.bus_v(); }
   double supply_a() const { return supply_a_; }
-  /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const {
-    for (const AxisDrive& drive : drives_) {
-      if (drive.shoot_through()) return true;
-    }
-    return false;
-  }
 
  private:
   template <std::size_t... I>

@@ -112,7 +112,6 @@ class BrushedMotor {
 
   /// One step with this bridge; bus voltage (V) and speed (rad/s) are held.
   MotorStep advance(const Bridge& bridge, double bus_v, double omega_rad_s) {
-    if (bridge.shoots_through()) shoot_through_ = true;
     const BridgeVoltage voltage = bridge_.voltage(bridge, bus_v, current_a_);
     double positive_v = voltage.at_positive_v(bus_v);
     double negative_v = voltage.at_negative_v(bus_v);
@@ -141,8 +140,6 @@ class BrushedMotor {
   /// The same at any angle.
   double current_a(double /*theta_rad*/ = 0.0) const { return current_a_; }
   double torque_nm(double /*theta_rad*/) const { return motor_.torque_constant_nm_a * current_a_; }
-  /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const { return shoot_through_; }
 
  private:
   MotorParameters motor_;
@@ -150,7 +147,6 @@ class BrushedMotor {
   BridgeModel bridge_;
   Winding winding_;
   double current_a_ = 0.0;
-  bool shoot_through_ = false;
 };
 
 // A source with a current limit and a bus capacitor; a clamp absorbs what the motor returns above

@@ -81,7 +81,6 @@ struct Observables {
   double hand_force_n = 0.0;          ///< hand torque over the radius of the hand
   double supply_current_a = 0.0;      ///< mean of the last step
   double bus_v = 0.0;
-  bool shoot_through = false;  ///< whether both gates of a leg were ever on at once
 };
 
 /// A motion that cannot be simulated: faster than one encoder state per clock, or not finite.
@@ -202,7 +201,6 @@ void ShaftPlant::step(Motor& motor, Clock clocks, const Advance& drive) {
                                      : before_rad_s + 0.5 * dt_s_ * acceleration_rad_s2_;
   const Shaft middle{before_rad + 0.5 * dt_s_ * omega_mid_rad_s, omega_mid_rad_s};
   const MotorStep moved = drive(supply_.bus_v(), middle);
-  seen_.shoot_through = motor.shoot_through();
   seen_.supply_current_a = moved.bridge_a;
   if (on_.supply_limit) {
     seen_.supply_current_a = supply_.advance(moved.bridge_a, dt_s_);

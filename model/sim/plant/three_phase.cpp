@@ -113,13 +113,6 @@ Legs Legs::gates(double a_hi, double a_lo, double b_hi, double b_lo, double c_hi
   return {Mode::kSwitched, {}, {a_hi, b_hi, c_hi}, {a_lo, b_lo, c_lo}};
 }
 
-bool Legs::shoots_through() const {
-  for (std::size_t k = 0; k < kPhases; ++k) {
-    if (high[k] + low[k] > 1.0 + 1e-9) return true;
-  }
-  return false;
-}
-
 LegModel::LegModel(const Drive& drive, const SupplyParameters& supply, const PhaseParameters& motor,
                    const Effects& effects)
     : diode_v_(supply.diode_drop_v),
@@ -341,7 +334,6 @@ double ThreePhaseMotor::amplitude_a(double torque_nm) const {
 }
 
 MotorStep ThreePhaseMotor::advance(const Legs& legs, double bus_v, const Shaft& middle) {
-  if (legs.shoots_through()) shoot_through_ = true;
   const Phases form = shape(electrical_rad(middle.theta_rad));
   Phases emf_v{};
   if (on_.back_emf) {

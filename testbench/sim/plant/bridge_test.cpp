@@ -66,7 +66,6 @@ Means switched(const Parameters& p, const Drive& drive, double duty) {
     torque.add(1, plant.observables().motor_torque_mean_nm);
     supply.add(1, plant.observables().supply_current_a);
   }
-  CHECK_FALSE(plant.observables().shoot_through);
   return {torque.mean(), supply.mean()};
 }
 
@@ -222,16 +221,6 @@ TEST_CASE("supply limit: the bus gives way until the source delivers its limit",
   run(brake, Bridge::averaged(0.1), 1e-3);
   CHECK(brake.observables().supply_current_a < 0.0);
   CHECK(brake.observables().bus_v == 24.0);
-}
-
-TEST_CASE("two gates of a leg at once are reported", "[bridge]") {
-  const Parameters p = shipped("p24");
-  Plant plant(p, p.effects, Drive{}, Hand{});
-  plant.advance(Bridge::gates(0.5, 0.5, 0.5, 0.5), 25);
-  CHECK_FALSE(plant.observables().shoot_through);
-  plant.advance(Bridge::gates(0.6, 0.5, 0, 1), 25);
-  plant.advance(Bridge::off(), 25);
-  CHECK(plant.observables().shoot_through);
 }
 
 // The winding behind gates that switch clock by clock, beside closed forms, and the modulator at

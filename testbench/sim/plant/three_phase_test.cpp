@@ -295,7 +295,6 @@ Period switched(ThreePhasePlant& plant, const std::array<int, 3>& on, int dead, 
       last.mean_a[k] += plant.motor().phase_mean_a()[k] / kPwmClocks;
     }
   }
-  REQUIRE_FALSE(plant.observables().shoot_through);
   return last;
 }
 
@@ -606,18 +605,4 @@ TEST_CASE("three phases: what is not a number ends the run", "[phases]") {
   Drive shortest = drive_50khz();
   shortest.shortest_s = 9.6e-6;  // with the dead time of 0.5 us more than half a period
   refused(m, shortest);
-}
-
-TEST_CASE("three phases: two gates of a leg at once are reported", "[phases]") {
-  const Parameters p = shaft_on(5);
-  for (int leg = 0; leg < 3; ++leg) {
-    ThreePhasePlant plant = locked(p, gimbal_motor());
-    plant.advance(Legs::gates(0.5, 0.5, 0, 1, 1, 0), 25);
-    CHECK_FALSE(plant.observables().shoot_through);
-    Legs both = Legs::gates(0, 1, 0, 1, 0, 1);
-    both.high[static_cast<std::size_t>(leg)] = 0.1;
-    plant.advance(both, 25);
-    plant.advance(Legs::off(), 25);
-    CHECK(plant.observables().shoot_through);
-  }
 }

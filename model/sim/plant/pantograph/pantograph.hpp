@@ -45,7 +45,6 @@ struct PantographSeen {
   Vec2 hand_m;              ///< of a hand with a mass
   double bus_v = 0.0;
   double supply_a = 0.0;  ///< mean of the last step
-  bool shoot_through = false;
   /// Energies since the start, J: inputs by pen and motors, and losses. stored_j is the energy in
   /// the motion and in the stops; it equals its first value plus inputs minus losses.
   double hand_work_j = 0.0, motor_work_j = 0.0;

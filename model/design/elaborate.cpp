@@ -429,9 +429,9 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
   const auto value_of = [&](const Parameter& p, const std::string& name) {
     const auto it = values.find(name);
     if (it != values.end()) return it->second;
-    throw config::ConfigError(fmt::format(
-        "{}: no design gives a value to \"{}\"; add it to model/design/parameter_values.cpp",
-        p.place, name));
+    throw config::ConfigError(
+        fmt::format("{}: no design gives a value to \"{}\"; add it to model/design/elaborate.cpp",
+                    p.place, name));
   };
   for (const Parameter& p : registers.parameters) {
     if (p.option == "three_phases" && design.phases != 3) continue;

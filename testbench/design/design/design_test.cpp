@@ -249,25 +249,6 @@ TEST_CASE("a parameter that does not fit its word is refused", "[design]") {
       "a value that makes it smaller");
 }
 
-TEST_CASE("what is generated names what it came from", "[generate]") {
-  const Elaborated e = shipped("paper");
-  for (const std::string& text : {systemverilog_package(e), cpp_header(e)}) {
-    CHECK(text.find("rtl/designs/paper.toml") != std::string::npos);
-    CHECK(text.find("do not edit") != std::string::npos);
-  }
-  const std::string table = design_table(e);
-  for (const Word& w : e.words) {
-    INFO(w.parameter.name);
-    CHECK(table.find(w.parameter.name) != std::string::npos);
-    CHECK(register_page(e).find("`" + w.parameter.name + "`") != std::string::npos);
-  }
-  for (const auto& [name, format] : named_formats(e.formats)) {
-    INFO(name);
-    CHECK(table.find(name) != std::string::npos);
-    CHECK(format.width() > 0);
-  }
-}
-
 TEST_CASE("three phases with two shunts: the words of the loop, and what it refuses") {
   const std::string good = file_text(design_path("gimbal_motor"));
   // Two shunts: the window of the currents is around the begin of a period, and P/sqrt(3) is the

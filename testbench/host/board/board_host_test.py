@@ -188,13 +188,6 @@ class ThreePhases(BoardTest):
         again = self.host("-", "--design", "gimbal_motor", "calibrate", "align", "--from", "a.csv")
         self.assertIn(again.splitlines()[0], said)
 
-    def test_a_motor_of_another_kind_is_refused(self):
-        words = ("--design", "gimbal_motor", "--plant", "p24")
-        said = self.run_program(board_program(words), *words, status=2)
-        self.assertIn("plant p24 has a motor with brushes", said)
-        said = self.run_program("feltgate_board", "--plant", "gimbal_motor", status=2)
-        self.assertIn("design lever drives one with brushes", said)
-
 
 class Lines(BoardTest):
     def test_a_host_that_vanishes_leaves_no_motor_armed(self):

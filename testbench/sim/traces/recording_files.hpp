@@ -34,7 +34,7 @@ class Folder {
 
 std::string bytes_of(const std::filesystem::path& path);
 
-/// All events, at most `most`; throws what the source throws.
+/// All events; throws what the source throws.
 std::vector<EncoderEvent> all_events(EncoderSource& source);
 
 /// "clock:AB clock:AB ... end", the pins as 0 and 1; or the message of the TraceError.

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "core_script.hpp"
-#include "feltgate/generated/lever.hpp"
 #include "feltgate/while_armed.hpp"
 
 using namespace feltgate;
@@ -14,11 +13,11 @@ using namespace feltgate::test;
 
 namespace {
 
-using D = Lever;
+using D = Design;
 using A = D::A;
 using C = D::C;
 using S = D::S;
-using Script = CoreScript<D>;
+using Script = CoreScript;
 
 constexpr std::int64_t kMilli = 66;  // 1 mNm in torque LSB
 constexpr int kFine = D::f.ramp.fraction - D::f.torque.fraction;

@@ -17,7 +17,6 @@
 #include "feltgate/largest.hpp"
 #include "law/compile.hpp"
 #include "law/engine/machine.hpp"
-#include "law/evaluate.hpp"
 #include "law/host_machine.hpp"
 #include "law/load.hpp"
 #include "law/read_law.hpp"
@@ -216,38 +215,6 @@ TEST_CASE("at 1 kHz the string has no pitch of its own: slips come as the force 
     CHECK(play(fast, kept(0.1, 0.2, force_n)).helmholtz());
   }
   CHECK(most_s > 1.5 * least_s);
-}
-
-TEST_CASE(
-    "words and law in double: alike until a slip falls into another run, then alike in kind") {
-  const law::Compiled law = BowedString::compiled();
-  BowedString words(law);
-  law::Evaluation<double> real(law.law);
-  for (std::size_t n = 0; n < law.law.parameters.size(); ++n) {
-    const law::Parameter& p = law.law.parameters[n];
-    if (p.derived < 0) real.set_parameter(n, words.value(p.name));
-  }
-  int alike = 0, word_slips = 0, real_slips = 0;
-  bool same = true;
-  double off_nm = 0;
-  for (int i = 0; i < 40000; ++i) {
-    const double bow_m_s = 0.2 * std::min(1.0, i / 2000.0), reach = words.value("reach");
-    const int bits = law.target.velocity.fraction;
-    const double torque = words.run(bow_m_s);
-    real.run({std::ldexp(std::nearbyint(std::ldexp(bow_m_s / reach, bits)), -bits)});
-    same = same && real.happened(0) == words.slipped();
-    if (same) {
-      ++alike;
-      off_nm = feltgate::larger(off_nm, std::fabs(torque - real.outputs()[0]));
-    }
-    if (i < 20000) continue;
-    word_slips += words.slipped() ? 1 : 0;
-    real_slips += real.happened(0) ? 1 : 0;
-  }
-  CHECK(alike > 1000);
-  CHECK(off_nm < 1e-4);
-  CHECK(word_slips == Approx(0.5 * 196).margin(5));
-  CHECK(std::abs(real_slips - word_slips) <= 2);
 }
 
 TEST_CASE("four strings: no bow, however it moves and changes strings, takes more than it gave") {

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -192,19 +191,6 @@ TEST_CASE("every n-th row is one of all rows") {
   for (std::size_t i = 0; i < some.at("theta_rad").size(); ++i) {
     REQUIRE(some.at("theta_rad")[i] == all.at("theta_rad")[7 * i]);
     REQUIRE(some.at("hand_torque_nm")[i] == all.at("hand_torque_nm")[7 * i]);
-  }
-}
-
-TEST_CASE("names are unique, and a replay has no plant") {
-  std::set<std::string> names;
-  for (const Column& c : row_columns(true, choose_backends("all").names())) {
-    CHECK(names.insert(c.name).second);
-    CHECK(!c.meaning.empty());
-  }
-  CHECK(names.count("motor_torque_nm") == 1);
-  for (const Column& c : row_columns(false, {"twin"})) {
-    CHECK(c.name.find("theta") == std::string::npos);
-    CHECK(c.name.find("motor") == std::string::npos);
   }
 }
 

@@ -173,16 +173,6 @@ TEST_CASE("three phases: the torque over a turn is the one asked for", "[phases]
   }
 }
 
-TEST_CASE("three phases: gates clock by clock give what the mean legs give", "[phases]") {
-  Scenario s = asked(0.03, gimbal_motor());
-  const double electrical = 1.0 / kPolePairs;
-  const Errors mean = over(0.03, electrical, 2, s);
-  s.switched = s.step_given = true;
-  s.step_clocks = 1;
-  const Errors gates = over(0.03, electrical, 2, s);
-  CHECK(std::abs(gates.mean - mean.mean) < 1);
-}
-
 TEST_CASE("three phases: the self-test sees an offset that is wrong by a quarter or more",
           "[phases]") {
   for (int degrees = 0; degrees < 360; degrees += 45) {

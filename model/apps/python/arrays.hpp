@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "files/toml/toml_reader.hpp"
-#include "sim/traces/error.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::python {
 

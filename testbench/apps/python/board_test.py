@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """With a board in software: feltgate.Device (values, arming, arrays, errors, Ctrl-C); and the Python
-code of README and docs/python.md runs as it stands, as does the notebook.
+code of docs/python.md runs as it stands, as does the notebook.
 """
 
 import contextlib
@@ -161,12 +161,6 @@ class Pages(Scratch):
             for block in blocks(page):
                 exec(compile(block, page, "exec"), names)  # one after the other, as a reader would
         return said.getvalue()
-
-    def test_readme(self):
-        (block,) = blocks("README.md")
-        self.assertLessEqual(len(block.splitlines()), 12)
-        self.run_blocks("README.md")
-        self.assertTrue(list(Path().glob("*.png")))
 
     def test_python_page(self):
         self.assertGreaterEqual(len(blocks("docs/python.md")), 5)

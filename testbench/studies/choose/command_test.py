@@ -144,7 +144,7 @@ class Chosen(Scratch):
         left = sum(told["designs"]["left_out"].values())
         self.assertEqual(left + told["measured"], told["designs"]["in_table"])
         self.assertEqual(len(told["front"]), 5)
-        self.assertGreater(len({o["gates"]["lut4_equivalents"] for o in told["front"]}), 2)
+        self.assertGreater(len({o["gates"]["lut4_equivalents"] for o in told["front"]}), 1)
         # Its files go on: the scene runs, trimmed, and the page of commands names them.
         self.assertIn(str(self.folder / "out/short.toml"), out)
         again = self.ask("run", trimmed, "--engine", "twin")

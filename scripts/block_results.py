@@ -18,37 +18,15 @@ import outputs
 
 SCHEMA = "feltgate-results/2"
 FOLDER = "docs/verification"
-# kind: {key: what it is}; a key is a count [reached, of] unless it is said to be a number.
+# kind: {key: its heading}
 KINDS = {
-    "proofs": {"properties": "proven, and seen to fail with a defect (number)"},
-    "coverage": {
-        "line": "lines",
-        "branch": "branches",
-        "toggle": "bits that changed twice at least",
-        "cover": "cover points",
-    },
-    "mutants": {
-        "rtl": "mutants of the RTL killed, of those tried",
-        "twin": "mutants of the twin killed, of those tried",
-    },
-    "faults": {
-        "unsafe": "single flips of the safety state that ended unsafe",
-        "silent": "the same, in a torque or position that is wrong and unflagged",
-    },
+    "proofs": {"properties": "properties proven"},
+    "coverage": {"line": "lines", "branch": "branches", "toggle": "toggles", "cover": "cover points"},
+    "mutants": {"rtl": "RTL mutants killed", "twin": "twin mutants killed"},
+    "faults": {"unsafe": "flips unsafe", "silent": "flips silent"},
 }
 CORE = "whole core"  # a row beside the blocks
 HEADERS = "model/include/feltgate"
-HEADINGS = {
-    "properties": "properties proven",
-    "line": "lines",
-    "branch": "branches",
-    "toggle": "toggles",
-    "cover": "cover points",
-    "rtl": "RTL mutants killed",
-    "twin": "twin mutants killed",
-    "unsafe": "flips unsafe",
-    "silent": "flips silent",
-}
 DASH = "-"
 
 
@@ -143,7 +121,7 @@ def table(root, names):
     if strange:
         raise ResultsError(f"{FOLDER}: results of {', '.join(strange)}, which is no block")
     keys = [(kind, key) for kind, them in KINDS.items() for key in them]
-    lines = ["| block | " + " | ".join(HEADINGS[key] for _, key in keys) + " | s of CPU |",
+    lines = ["| block | " + " | ".join(KINDS[kind][key] for kind, key in keys) + " | s of CPU |",
              "|---|" + "---|" * (len(keys) + 1)]
     for name in [*names, *beside]:
         of = {kind: found["blocks"].get(name, {}) for kind, found in kinds.items()}

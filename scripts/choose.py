@@ -210,7 +210,7 @@ def verified(choosing, files, best, seconds):
         choosing.leave_out("margin on the bits", "in each tick only on designs that are built in")
     elif best["margin"] is not None and choosing.report["rates"][-1].get("border_of") == "stiffness":
         words = ("--linear-plant", choosing.plant, "--rate", f"{best['rate_hz']:.9g}")
-        words += ("--damping", f"{choosing.report['damping_nm_s_rad']:.9g}", "--no-experiments")
+        words += ("--damping", f"{choosing.report['damping_nm_s_rad']:.9g}")
         border = ask("stability", choosing.of_chain(best, design), *words)["borders"][0]["bits_nm_rad"]
         bits = (border or 0.0) / choosing.report["stiffness_nm_rad"]
         said = best["margin"]["margin"]

@@ -37,8 +37,9 @@ def results(root):
 
 
 def figures(root):
-    files = [*sorted(root.glob("testbench/campaigns/figures/*.md")), root / "testbench/studies/controllers/tables.md"]
-    return "What tests measured last.\n\n" + "\n".join(f"## {file.stem}\n\n{file.read_text(encoding='utf-8')}" for file in files)
+    tables = (root / "testbench/studies/controllers/tables.md").read_text(encoding="utf-8")
+    measured = (root / "testbench/campaigns/figures.md").read_text(encoding="utf-8").partition("\n\n")[2]
+    return f"{measured}\n## tables\n\n{tables}"
 
 
 def tables(root):

@@ -7,23 +7,19 @@ Documentation: docs/speed-for-accuracy.md
 """
 
 import argparse
-import dataclasses
 import importlib
 import sys
 from pathlib import Path
 
 import command_line
-from exploration import front, points_table, presets, space
+from exploration import front, points_table, space
 from exploration import sweep as sweeps
 
-VERBS = ("page", "presets", "point")
+VERBS = ("page", "point")
 EXAMPLES = """examples:
   feltgate explore smoke                          four points: does it work here?
   feltgate explore trade                          the shipped space: points.csv, explore.html
-  feltgate explore trade -o /data/trade --part 3/16
-                                                  one of 16 parts, on machines that share the folder
   feltgate explore page vectors/spaces/trade.csv  explore.html and explore.svg of the shipped table, at once
-  feltgate explore presets /data/trade            fast.toml, balanced.toml, exact.toml
   feltgate explore point my_point.toml            one design point alone
 
 A sweep that was stopped is continued by the same command. Exit code: 0 done, 1 a point's RTL
@@ -71,15 +67,10 @@ def parser_of_verbs():
     everything.add_argument("space", metavar="SPACE", help="a file, or a name in vectors/spaces")
     command_line.add_folder(everything, "default: explore/ in build")
     everything.add_argument("--no-route", action="store_true", help="leave out place and route")
-    everything.add_argument("--part", metavar="I/N", help="evaluate only part I of N, and no more")
     command_line.add_jobs(everything, "points")
-    for name, what in (
-        ("page", "write explore.html and explore.svg"),
-        ("presets", "write fast, balanced and exact as design files"),
-    ):
-        one = verbs.add_parser(name, help=what, **help_of(name))
-        one.add_argument("folder", type=Path, metavar="DIR | TABLE.csv")
-        command_line.add_folder(one, "default: DIR, or explore/ in build")
+    page = verbs.add_parser("page", help="explore.html and explore.svg of a table", **help_of("page"))
+    page.add_argument("table", type=Path, metavar="TABLE.csv", help="a space, of the same name, stands beside it")
+    command_line.add_folder(page, "default: explore/ in build")
     verbs.add_parser("point", help="evaluate one design point", add_help=False)
     return parser
 
@@ -94,52 +85,31 @@ def report_mismatches(rows):
 
 def act_all(options):
     root = command_line.root()
-    part = sweeps.parse_part(options.part) if options.part else None
     found = space.read_space(root, find_space(options.space))
     sweep = sweeps.start(root, found, options.out or default_folder(options.space))
-    structures = len({space.structure(point) for point in sweep.points})
-    print(f"explore: {len(sweep.points)} points of {structures} structures in {sweep.folder}", file=sys.stderr)
-    sweeps.run(sweep, sweep.part(*part) if part else sweep.points, options.jobs)
-    if part:
-        return 0
-    rows = points_table.write(sweep, root)
+    points = found.points
+    structures = len({space.structure(point) for point in points})
+    print(f"explore: {len(points)} points of {structures} structures in {sweep.folder}", file=sys.stderr)
+    sweeps.run(sweep, points, options.jobs)
+    rows = points_table.write(sweep, points, root)
     if not options.no_route:
         on_front = {row["id"] for row in front.find(rows)}
-        chosen = [point for point in sweep.points if space.point_id(point) in on_front]
-        sweeps.run(sweep, chosen, options.jobs, sweeps.ROUTED)
-        rows = points_table.write(sweep, root)
-    print(sweep.folder / points_table.LINES)
-    print(importlib.import_module("exploration.explore_page").write(sweep, rows)[-1])
+        sweeps.run(sweep, [p for p in points if space.point_id(p) in on_front], options.jobs, sweeps.ROUTED)
+        rows = points_table.write(sweep, points, root)
+    print(sweep.folder / points_table.TABLE)
+    print(importlib.import_module("exploration.explore_page").write(sweep.folder, found, rows)[-1])
     return report_mismatches(rows)
 
 
-def merged(options):
-    """(plan, rows) of a folder, or of a committed table with its space file beside it."""
-    if options.folder.suffix != ".csv":
-        plan = sweeps.load(options.folder)
-        rows = points_table.read(plan.folder)
-    else:
-        table = options.folder
-        rows = points_table.read_table(table)
-        found = space.read_space(command_line.root(), table.with_suffix(".toml"))
-        plan = sweeps.Sweep(default_folder(table.stem), found.name, found.description)
-    if options.out:
-        plan = dataclasses.replace(plan, folder=options.out)
+def act_page(options):
+    rows = points_table.read_table(options.table)
+    found = space.read_space(command_line.root(), options.table.with_suffix(".toml"))
+    folder = options.out or default_folder(options.table)
     try:
-        plan.folder.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(parents=True, exist_ok=True)
     except FileExistsError:
-        raise sweeps.SweepError(f"{plan.folder}: is no folder; give -o a folder's name") from None
-    return plan, rows
-
-
-def show(options):
-    """page and presets: what is made of the results."""
-    plan, rows = merged(options)
-    if options.verb == "page":
-        paths = importlib.import_module("exploration.explore_page").write(plan, rows)
-    else:
-        paths = presets.write(plan, rows, command_line.root())
-    print("\n".join(map(str, paths)))
+        raise sweeps.SweepError(f"{folder}: is no folder; give -o a folder's name") from None
+    print("\n".join(map(str, importlib.import_module("exploration.explore_page").write(folder, found, rows))))
     return 0
 
 
@@ -154,7 +124,7 @@ def main():
         words.insert(0, "all")
     options = parser_of_verbs().parse_args(words)
     hint = "; the same command goes on from here"
-    act = act_all if options.verb == "all" else show
+    act = act_all if options.verb == "all" else act_page
     return command_line.ended("explore", lambda: act(options), hint=hint)
 
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include "feltgate/backends/make_device.hpp"
 #include "feltgate/plant/drive.hpp"
+#include "feltgate/plant/hand.hpp"
 #include "feltgate/plant/plant.hpp"
 #include "feltgate/plant/plant_file.hpp"
-#include "feltgate/plant/pushing_hand.hpp"
 using namespace feltgate;
 int main(int, char** argv) {  // argv[1]: a plant, such as plants/p24.toml of the package
   const auto device = make_device("lever");

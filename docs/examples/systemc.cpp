@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 // Twin and motor as sc_modules: a hand pushes against a virtual spring; waveform in lever.vcd.
 #include "feltgate/generated/paper.hpp"
+#include "feltgate/plant/hand.hpp"
 #include "feltgate/plant/plant_file.hpp"
-#include "feltgate/plant/pushing_hand.hpp"
 #include "feltgate/systemc/motor_module.hpp"
 #include "feltgate/systemc/twin_module.hpp"
 using namespace feltgate;

@@ -13,11 +13,125 @@
 #include <string>
 #include <vector>
 
-#include "host/board_info.hpp"
+#include "design/design.hpp"
 #include "host/link.hpp"
-#include "host/quantity.hpp"
 
 namespace feltgate::host {
+
+/// The words of the link that describe the board.
+struct BoardInfo {
+  int major = 0, minor = 0;      ///< version of the link
+  std::uint32_t design_crc = 0;  ///< identifies the design
+  std::int64_t clock_hz = 0;
+  int clocks_per_tick = 1;
+  bool simulated = false, has_capture = false, has_stream = false;
+  bool has_engine = false;  ///< it can run laws
+  int capture_rows = 0, capture_columns = 0;
+  std::uint32_t frames_good = 0, frames_bad = 0;  ///< as counted by the board
+  int board = 0;
+  std::uint32_t inputs = 0;  ///< board inputs; see the board's page
+
+  double tick_hz() const { return static_cast<double>(clock_hz) / clocks_per_tick; }
+  /// Names such as "DE0-Nano", "board 7".
+  std::string board_name() const;
+};
+
+/// Reads them. Errors: std::runtime_error if something other than a feltgate answers, or with a
+/// version that this host does not know; LinkLost if nothing answers.
+BoardInfo read_board(Link& link);
+
+/// A design with all values derived from it, and its CRC.
+struct KnownDesign {
+  design::Elaborated design;
+  std::uint32_t crc = 0;
+  const std::string& name() const { return design.design.name; }
+};
+
+/// Reads the design file `path` with rtl/registers.toml of the folder `root`.
+KnownDesign read_known_design(const std::string& root, const std::string& path);
+/// The design in rtl/designs of `root` that has this CRC; skips files that cannot be read.
+std::optional<KnownDesign> design_by_crc(const std::string& root, std::uint32_t crc);
+
+/// A quantity of the board: its place, and its meaning in a unit.
+struct Quantity {
+  enum class Kind { parameter, snapshot, field, link };
+  Kind kind = Kind::link;
+  std::string name;  ///< torque_limit, velocity, status.armed, frames_bad
+  std::string unit;  ///< empty for a word of bits
+  std::string doc;
+  int address = 0;          ///< word address on the link
+  int bit = 0, width = 32;  ///< the bits of the word
+  bool is_signed = false;
+  double scale = 1;  ///< unit per step: value = integer * scale
+  int word = -1;     ///< snapshot: number of its bit in a WordMask; else -1
+  bool writable = false;
+  Format format{};          ///< of a parameter
+  std::string while_armed;  ///< parameter: effect of a write while the motor is armed
+
+  /// The value, from the word at its address.
+  double value_of(std::uint32_t word_there) const;
+  /// The integer, from the word at its address.
+  std::int64_t raw_of(std::uint32_t word_there) const;
+  /// Text such as "0.25 Nm", "3 count", "0x12", with as many digits as the format has.
+  std::string text_of(std::uint32_t word_there) const;
+  /// Smallest and largest value that the word can hold, in the unit.
+  double low() const, high() const;
+};
+
+/// A user's request for one parameter.
+struct Setting {
+  const Quantity* of = nullptr;
+  double asked = 0;        ///< in the parameter's unit
+  std::uint32_t word = 0;  ///< rounded to the nearest step of its format
+  double value() const { return of->value_of(word); }
+};
+
+/// Words of the snapshots of all axes: those of axis n begin at bit n * Quantities::words().
+using WordMask = std::uint64_t;
+
+/// All quantities of a board with a given design. Those of axis 1 and above have its number behind
+/// their name: position, position.1, status.armed.1. The name position.0 means position.
+class Quantities {
+ public:
+  explicit Quantities(const design::Elaborated& design, int axes = 1);
+
+  const std::vector<Quantity>& all() const { return all_; }
+  /// Errors: std::invalid_argument with the nearest name, for an unknown one.
+  const Quantity& find(const std::string& name) const;
+  /// What is wrong with a name whose axis the board does not have; empty for any other name.
+  std::string missing_axis(const std::string& name) const;
+  /// The same; nullptr for an unknown name.
+  const Quantity* look(const std::string& name) const;
+  /// A quantity of a stream or capture: a word of the snapshot. Errors: std::invalid_argument for
+  /// another quantity.
+  const Quantity& streamed(const std::string& name) const;
+  /// Number of words in the snapshot of an axis.
+  int words() const { return words_; }
+  int axes() const { return axes_; }
+  static WordMask bit(const Quantity& q) { return WordMask{1} << q.word; }
+  /// "" for axis 0, ".1" for axis 1.
+  static std::string suffix(int axis);
+
+  /// Parses "NAME=VALUE" with an optional unit after the value (law/units.hpp). Errors:
+  /// std::invalid_argument with advice: no '=', unknown name, not writable, no number, a wrong
+  /// unit, out of range.
+  Setting setting(const std::string& text) const;
+  /// The same for a value in the parameter's unit.
+  Setting setting(const Quantity& of, double value) const;
+  /// Converts a value with an optional unit to the unit of `of`.
+  double value_in(const Quantity& of, const std::string& text) const;
+
+ private:
+  void add_parameters(const design::Elaborated& design);
+  void add_snapshot(const design::Elaborated& design);
+  void add_fields(const design::Elaborated& design);
+  void add_axes();
+  void add_link(const design::Elaborated& design);
+
+  std::vector<Quantity> all_;
+  int words_ = 0, axes_ = 1;
+  double count_rad_ = 0, tick_hz_ = 0;
+};
 
 /// Number of words in a capture with this mask: its set bits.
 inline int words_in(WordMask mask) { return static_cast<int>(std::bitset<64>(mask).count()); }
@@ -157,6 +271,35 @@ class Device {
   std::optional<std::uint32_t> stream_tick_;
   double stream_time_s_ = 0;
   double watchdog_s_ = 0;
+};
+
+/// Arms a motor, or takes over an armed one, and kicks its watchdog four times as often as
+/// necessary. Its owner must call release() on every way out.
+class KeepAlive {
+ public:
+  explicit KeepAlive(Device& device) : device_(device) {}
+
+  /// Arms with the watchdog enabled; `go_on` as in Device::arm(). Errors: those of Device::arm().
+  /// After an error the motor is disarmed; only if the link broke down, release() must still be
+  /// called.
+  void arm(
+      const std::string& scene, const std::function<bool()>& go_on = [] { return true; });
+  /// Takes over a motor that the host has armed before, not one that the panel has armed.
+  void take_over();
+  bool holds() const { return holds_; }
+  /// Kicks if it is time; call it at least every next_in_s() seconds.
+  void poll();
+  /// Time to the next kick, s, at most `idle_s`.
+  double next_in_s() const;
+  /// Disarms the motor that it holds. Errors: LinkLost if the request does not reach the board.
+  void release();
+
+  static constexpr double idle_s = 0.1;
+
+ private:
+  Device& device_;
+  bool holds_ = false;
+  Deadline next_{};
 };
 
 }  // namespace feltgate::host

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Names, units and words of a board's quantities. Documentation: docs/host.md
-#include "host/quantity.hpp"
+#include "host/host_device.hpp"
 
 #include <fmt/format.h>
 

@@ -294,7 +294,6 @@ void BackEnd::add_term(const Term& term, double scale, NodeId id, Chain& chain) 
   if (term.factors.size() == 1) {
     if (chain.steps && has_ends(term.factors[0])) {
       v = with_ends(term.factors[0], scale / std::fabs(term.number), false);
-      v.scale *= std::fabs(term.number);
     }
     const double ratio = v.scale * term.number / scale;
     if (same_scale(std::fabs(ratio), 1)) {

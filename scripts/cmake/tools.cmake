@@ -205,7 +205,7 @@ foreach(kind twin rtl)
     set(cores core_stylus_law)
   endif()
   feltgate_program(${name}
-    "touch_main.cpp;touch/touch_report.cpp;touch/touch_board.cpp;host/session.cpp;host/streaming.cpp"
+    "touch_main.cpp;touch/touch_report.cpp;host/session.cpp;host/streaming.cpp"
     feltgate_command_line feltgate_files feltgate_mesh feltgate_axes_loop feltgate_hostlink ${cores} nlohmann_json::nlohmann_json)
   target_sources(${name} PRIVATE ${objects})
   if(kind STREQUAL "rtl" OR NOT FELTGATE_TESTS)

@@ -216,7 +216,7 @@ class Choosing:
             self.leave_out("delay of PWM and winding", "`feltgate stability` takes one lever")
             return None
         self.plant = self.programs.put("linear_viscous.toml", made_scene.linear_plant(q.scene))
-        words = ("--linear-plant", self.plant, "--damping", 0, "--rate", 1e6, "--no-bits", "--no-experiments")
+        words = ("--linear-plant", self.plant, "--damping", 0, "--rate", 1e6, "--no-bits")
         self.actuator_s = self.programs.ask("stability", "lever", *words)["actuator_delay_s"]
         return rounding_part(self.programs, self.path, self.design)
 

@@ -8,7 +8,7 @@ Documentation: docs/speed-for-accuracy.md
 import outputs
 from reports import page, plots
 
-from exploration import front, presets
+from exploration import front
 from exploration.design_text import toml_value
 
 NAME = "explore.html"
@@ -62,7 +62,7 @@ def draw_axes(axes, rows, across, factor, label):
             look = {"markersize": 5, "label": name, "zorder": 3} if is_front else {"markersize": 4, "fillstyle": "none"}
             if part:
                 axes.plot(*zip(*part), "o", color=colour, markeredgewidth=0.9, **look)
-    for level, (name, row) in enumerate(presets.choose(rows).items()):
+    for level, (name, row) in enumerate(front.presets(rows).items()):
         axes.annotate(name, place(row), xytext=(6, 9 + 22 * level), textcoords="offset points", fontweight="bold",
                       fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.6})
     axes.set(yscale="log", xlabel=label, ylabel="rms torque error, µNm")
@@ -85,7 +85,7 @@ def table_of(rows):
     return page.table(head, lines, words=(0,))
 
 
-def picture(plan, rows):
+def picture(rows):
     figure, axes = plots.stacked("", [2.6, 2.6], apart=2)
     draw_axes(axes[0], rows, "lut4_equivalents", 1, "LUT4 equivalents on ECP5")
     draw_axes(axes[1], rows, "delay_s", 1e3, "delay of the velocity, ms")
@@ -103,14 +103,14 @@ INTRODUCTION = (
 )
 
 
-def write(plan, rows):
+def write(folder, found, rows):
     """Writes page and picture of a sweep's results; their paths."""
     good = [row for row in rows if front.good(row)]
-    drawn = picture(plan, good)
-    body = f"<h1>{page.escape(plan.name)}: {page.escape(plan.description)}</h1>"
+    drawn = picture(good)
+    body = f"<h1>{page.escape(found.name)}: {page.escape(found.description)}</h1>"
     body += page.paragraph(INTRODUCTION.format(points=len(rows), refused=len(rows) - len(good)))
     body += page.pictures([drawn]) + page.section("front", "The front", table_of(front.find(rows)))
     body += page.fold("Every design", table_of(good))
-    outputs.write_whole(plan.folder / "explore.svg", drawn.svg)
-    outputs.write_whole(plan.folder / NAME, page.document(f"feltgate explore: {plan.name}", body))
-    return [plan.folder / "explore.svg", plan.folder / NAME]
+    outputs.write_whole(folder / "explore.svg", drawn.svg)
+    outputs.write_whole(folder / NAME, page.document(f"feltgate explore: {found.name}", body))
+    return [folder / "explore.svg", folder / NAME]

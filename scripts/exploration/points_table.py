@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The results of a sweep in one file: points.jsonl has all of every point, points.csv the figures as a table.
+"""The results of a sweep as a table, points.csv, and such a table read again.
 
 Documentation: docs/speed-for-accuracy.md
 """
@@ -19,7 +19,7 @@ from exploration import design_text, front, point, space
 from exploration.sweep import ROUTED, SweepError
 
 PLANT = "p24"
-LINES, TABLE = "points.jsonl", "points.csv"
+TABLE = "points.csv"
 
 
 def count_ripple_rad_s(design):
@@ -59,18 +59,17 @@ def finished(root, row):
     return row
 
 
-def write(sweep, root):
-    """Writes points.jsonl and points.csv in the order of the space; the rows."""
+def write(sweep, points, root):
+    """Writes points.csv in the order of the space; the rows."""
     rows, gaps = [], 0
-    for point in sweep.points:
+    for point in points:
         result = sweep.result(point)
         gaps += result is None
         if not gaps:
             result |= sweep.result(point, ROUTED) or {}
             rows.append(finished(root, {"id": space.point_id(point), **point, "result": result}))
     if gaps:
-        raise SweepError(f"{sweep.folder}: {gaps} of {len(sweep.points)} points have no result; run the sweep on")
-    outputs.write_whole(sweep.folder / LINES, "".join(space.canonical(row) + "\n" for row in rows))
+        raise SweepError(f"{sweep.folder}: {gaps} of {len(points)} points have no result; run the sweep on")
     outputs.write_whole(sweep.folder / TABLE, table(rows))
     return rows
 
@@ -98,15 +97,6 @@ def table(rows):
         flag = "f" if row["id"] in on_front else ""
         writer.writerow([row["id"], flag, *map(shown, values)])
     return text.getvalue()
-
-
-def read(folder):
-    """The rows of points.jsonl."""
-    path = Path(folder) / LINES
-    try:
-        return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-    except OSError as error:
-        raise SweepError(f"{path}: {error.strerror}; run a sweep there first") from None
 
 
 def value_of(text):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """A sweep: every point of a space is evaluated by a process of its own, which leaves the result in a file of
-the sweep's folder. So a sweep that was stopped goes on, and machines that share the folder can each take a part.
+the sweep's folder. So a sweep that was stopped goes on.
 
 Documentation: docs/speed-for-accuracy.md
 """
@@ -10,7 +10,6 @@ import hashlib
 import importlib
 import json
 import os
-import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +20,6 @@ from command_line import Refused
 from crew import Crew
 from exploration import space
 
-SCHEMA = "feltgate-explore-plan/1"
 SCRIPT = Path(__file__).resolve().parents[1] / "explore.py"
 EVALUATOR = "FELTGATE_EXPLORE_POINT"  # tests put their own module here
 MEASURED, ROUTED = "measured", "routed"  # folders of results: with place and route, and without
@@ -34,16 +32,13 @@ SOURCES = (
 
 
 class SweepError(Refused):
-    """An evaluation that failed, or a folder of another sweep."""
+    """An evaluation that failed, or a table that cannot be used."""
 
 
 @dataclass(frozen=True)
 class Sweep:
     folder: Path
-    name: str
-    description: str
-    points: tuple = ()
-    sources: str = ""
+    sources: str
 
     def result(self, point, kind=MEASURED):
         """What was measured of a point, or None: it was not, or of other sources."""
@@ -51,50 +46,18 @@ class Sweep:
         found = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
         return found.get("result") if found.get("sources") == self.sources else None
 
-    def part(self, index, count):
-        """The points of part `index` of `count`, from 1: those of one structure are together."""
-        groups = {}
-        for point in self.points:
-            groups.setdefault(space.structure(point), []).append(point)
-        return [p for number, group in enumerate(groups.values()) if number % count == index - 1 for p in group]
-
 
 def start(root, found, folder):
-    """The sweep of a Space in a folder, in which no other one is."""
+    """The sweep of a Space in a folder."""
     folder = Path(folder).resolve()
-    head = {"schema": SCHEMA, "name": found.name, "description": found.description, "points": found.points}
-    text = space.canonical(head) + "\n"
-    path = folder / "plan.json"
-    if path.exists() and path.read_text(encoding="utf-8") != text:
-        raise SweepError(f"{path}: the plan of another space; choose another folder")
     folder.mkdir(parents=True, exist_ok=True)
-    outputs.write_whole(path, text)
-    digest = sources_digest(root, {point["base"] for point in found.points})
-    return Sweep(folder, found.name, found.description, tuple(found.points), digest)
+    return Sweep(folder, sources_digest(root, found.base))
 
 
-def load(folder):
-    """The head of a sweep that was started in a folder."""
-    path = Path(folder) / "plan.json"
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return Sweep(Path(folder).resolve(), found["name"], found["description"], tuple(found["points"]))
-    except (OSError, ValueError, KeyError) as error:
-        raise SweepError(f"{path}: {error}; start a sweep there: explore SPACE -o {folder}") from None
-
-
-def parse_part(text):
-    """(i, n) of 'i/n'."""
-    found = re.fullmatch(r"(\d+)/(\d+)", text)
-    if not found or not 1 <= int(found[1]) <= int(found[2]):
-        raise SweepError(f"--part {text}: wanted I/N with I from 1 to N, such as 3/16")
-    return int(found[1]), int(found[2])
-
-
-def sources_digest(root, bases):
+def sources_digest(root, base):
     """Of everything that decides the figures of a point."""
     digest = hashlib.sha256()
-    paths = [space.design_path(root, base) for base in bases]
+    paths = [space.design_path(root, base)]
     for pattern in SOURCES:
         paths += [p for p in Path(root).glob(pattern) if "/generated/" not in str(p)]
     for path in sorted(set(paths)):

@@ -459,7 +459,7 @@ def forty_khz():
     why: the actuator is ideal. On our lever the winding's 0.2 ms leaves a factor of about 3
     gives: 40 kHz over 1 kHz, `lever` | | at least 38; ideal actuator | | if near 40 ± 2; `lever` at 1 kHz | Nm/rad; at
       40 kHz | Nm/rad"""
-    words = "stability lever --rate 1000,40000 --damping 0.005 --no-bits --no-experiments"
+    words = "stability lever --rate 1000,40000 --damping 0.005 --no-bits"
     slow, fast = feltgate(*words.split())["borders"]
     closed, found = "closed_nm_rad", "eigenvalues_nm_rad"
     ideal = [stiffest(0.206 / T, m=0.1, b=0.103, T=T) for T in (25e-6, 1e-3)]

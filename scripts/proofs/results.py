@@ -7,7 +7,6 @@ import block_results
 from .tasks import BASE, COVERS, INDUCTION
 
 
-
 def seconds(result):
     return f"{result.seconds:.1f}" if result else "-"
 
@@ -59,17 +58,3 @@ def per_block(result):
         name: {"properties": len(row["properties"]), "seconds": round(row["seconds"], 1)}
         for name, row in blocks.items()
     }
-
-
-def counted(root, proofs):
-    """What docs/verification/proofs.json lacks of the proofs as they are."""
-    found = block_results.read(root, "proofs")
-    there = {name: row["properties"] for name, row in found["blocks"].items()} if found else {}
-    wanted = {}
-    for proof in proofs:
-        wanted[proof.block] = wanted.get(proof.block, 0) + len(proof.properties)
-    return (
-        []
-        if there == wanted
-        else [f"the properties of each block in {block_results.path_of('', 'proofs')}"]
-    )

@@ -27,12 +27,12 @@ def board_program(words, kind=""):
 
 
 class BoardProcess:
-    """with BoardProcess() as board: board.port, board.order("fault 2"). Of its line this noise."""
+    """with BoardProcess() as board: board.port, board.order("fault 2")."""
 
-    def __init__(self, *noise):
+    def __init__(self):
         need_terminals()
         self.process = subprocess.Popen(
-            [Path(os.environ["FELTGATE_BUILD"]) / "feltgate_software_board", *map(str, noise)],
+            [Path(os.environ["FELTGATE_BUILD"]) / "feltgate_software_board"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,

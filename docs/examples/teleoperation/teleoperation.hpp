@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "host/board/board_wire.hpp"
-#include "host/board_info.hpp"
 #include "host/host_device.hpp"
 #include "host/link.hpp"
 #include "sim/plant/plant_file.hpp"

@@ -93,8 +93,7 @@ Examples:
   feltgate bench --quick                half a minute; rougher
   feltgate bench --json bench.json      for programs; docs/json.md has the keys
   feltgate bench --engine rtl,twin_event --scene membrane
-A missed goal is printed and is no error. Exit code: 0 the integer back-ends agree, 1 they do
-not, 2 unusable input.)");
+Exit code: 0 the integer back-ends agree, 1 they do not, 2 unusable input.)");
   Arguments a;
   option(app, "--json", a.json, "FILE", "figures as JSON, schema feltgate-bench/1");
   option(app, "--engine", a.engines, "ENGINES", "only these; errors need quad")->delimiter(',');

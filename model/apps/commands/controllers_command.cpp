@@ -15,7 +15,6 @@ namespace {
 
 struct ControllersArguments {
   std::string json, picture;
-  bool estimators = false;
 };
 
 int run(const ControllersArguments& a) {
@@ -31,21 +30,13 @@ int run(const ControllersArguments& a) {
                                  plant::read_plant_file(linear)};
   Progress progress("controllers", false);
   const auto update = [&progress](double done) { progress.update(done); };
-  std::string text;
-  if (a.estimators) {
-    const auto rows = controllers::measure_estimators(bench, update);
-    progress.finish();
-    outputs.say(controllers::estimators_text(rows));
-    text = controllers::estimators_json(rows);
-  } else {
-    const controllers::Report report = controllers::measure(bench, update);
-    progress.finish();
-    outputs.say(controllers::report_text(report));
-    text = controllers::report_json(report);
-  }
+  const controllers::Report report = controllers::measure(bench, update);
+  progress.finish();
+  outputs.say(controllers::report_text(report));
+  const std::string text = controllers::report_json(report);
   if (json != nullptr) json->write(text);
   if (picture != nullptr) {
-    const int status = draw_from_json("controllers_picture.py", text, picture->named(), outputs);
+    const int status = draw_from_json("study_pictures.py", text, picture->named(), outputs);
     if (status != exit_ok) return status;
   }
   outputs.commit();
@@ -66,13 +57,9 @@ Jn*Kp; feed-forward is the design `lever` as it is. The experiments: torque step
 also with R +20 % and Kt -50 %; a push on the free lever; a hand of 0 to 20 Nm/rad; Jn/J
 from 0.5 to 4; encoders of 500 to 10000 lines; the largest wall that does not swing.
 It prints Markdown tables, in ten seconds.
-With --estimators instead: feed-forward with the N-method and with M/T, walls, noise, drag.
   feltgate controllers
-  feltgate controllers --estimators
   feltgate controllers --json all.json -o all.svg
 Exit code: 0 measured, 2 unusable input. docs/speed-for-accuracy.md explains every row.)");
-  sub->add_flag("--estimators", a->estimators,
-                "velocity estimators around the lever instead: docs/blocks/velocity.md");
   option(*sub, "-o,--output", a->picture, "FILE", "the comparison as a picture, SVG");
   option(*sub, "--json", a->json, "FILE", "all figures and step responses as JSON");
   sub->callback([a, exit_code] { *exit_code = run(*a); });

@@ -27,7 +27,7 @@ namespace {
 
 struct RatesArguments {
   std::vector<std::string> scenes, beside;
-  std::string design, plant, json, csv, picture;
+  std::string design, plant, json, picture;
   std::vector<double> rates;
   bool lock_step = false, quiet = false;
 };
@@ -174,7 +174,6 @@ int run(const RatesArguments& a) {
   const bool all = a.scenes.empty();
   if (all) scenes = all_scenes(a, outputs);
   files::OutputFile* json = outputs.open("--json", a.json);
-  files::OutputFile* csv = outputs.open("--csv", a.csv);
   files::OutputFile* picture = outputs.open("--output", a.picture);
   if (picture != nullptr) (void)picture->named();  // not stdout: told before the work
   rates::Options options;
@@ -208,7 +207,6 @@ int run(const RatesArguments& a) {
   }
   const std::string text = rates::reports_json(reports);
   if (json != nullptr) json->write(text);
-  if (csv != nullptr) csv->write(rates::reports_csv(reports));
   if (picture != nullptr) {
     const int status = draw_from_json("rates_picture.py", text, picture->named(), outputs);
     if (status != exit_ok) return status;
@@ -252,7 +250,7 @@ vectors/scenes, in about ten minutes.
   feltgate rates wall
   feltgate rates detent --rate 200,2000,20000
   feltgate rates coupled_levers                 a device with several axes
-  feltgate rates wall -o wall.svg --json wall.json --csv wall.csv
+  feltgate rates wall -o wall.svg --json wall.json
   feltgate rates -o all.svg                     every scene, one picture
 Exit code: 0 measured, 1 RTL and twin differed (--lock-step), 2 unusable input.
 docs/speed-for-accuracy.md explains every column.)");
@@ -276,8 +274,6 @@ docs/speed-for-accuracy.md explains every column.)");
   option(*sub, "-o,--output", a->picture, "FILE",
          "error and margin over the rate as a picture, SVG");
   option(*sub, "--json", a->json, "FILE", "the figures as JSON (docs/json.md)");
-  option(*sub, "--csv", a->csv, "FILE",
-         "the figures as a table, a row for each rate of each scene");
   sub->add_flag("--quiet", a->quiet, "print nothing");
   sub->callback([a, exit_code] { *exit_code = run(*a); });
 }

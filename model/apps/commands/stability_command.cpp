@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct StabilityArguments {
   std::string design = "lever", linear = "linear", plant = "p24", json, plot;
   std::vector<double> rates, damping;
-  bool no_bits = false, no_experiments = false;
+  bool no_bits = false;
 };
 
 /// Exit code: 1 when the chain's bits and the eigenvalues differ by more than 5 % for a swing that
@@ -76,7 +76,7 @@ design::Elaborated design_of(const StabilityArguments& a) {
   const bool file = a.design.find('/') != std::string::npos || fs::path(a.design).has_extension();
   if (!file) return elaborated_design(built_design(a.design));
   design::Elaborated e = elaborated_design(a.design);
-  if (a.no_bits && a.no_experiments) return e;
+  if (a.no_bits) return e;
   for (const std::string& name : design_names()) {
     if (!same_structure(e, elaborated_design(name))) continue;
     e.design.name = name;
@@ -84,7 +84,7 @@ design::Elaborated design_of(const StabilityArguments& a) {
   }
   throw std::invalid_argument(
       fmt::format("{}: no design in this program has its formats, tick and window, so its bits "
-                  "cannot run; add --no-bits --no-experiments for the eigenvalues alone",
+                  "cannot run; add --no-bits for the eigenvalues alone",
                   a.design));
 }
 
@@ -108,7 +108,6 @@ int run(const StabilityArguments& a) {
   if (!a.rates.empty()) options.rates_hz = a.rates;
   if (!a.damping.empty()) options.damping_nm_s_rad = a.damping;
   options.bits = !a.no_bits;
-  options.experiments = !a.no_experiments;
   Progress progress("stability of " + e.design.name, false);
   options.progress = [&progress](double done) { progress.update(done); };
   const auto study = run_study(e, linear, full, options);
@@ -118,7 +117,7 @@ int run(const StabilityArguments& a) {
   }
   outputs.commit();
   if (!a.plot.empty()) {
-    const int status = run_script("stability.py", {"--", json_path, a.plot}, outputs.text());
+    const int status = run_script("study_pictures.py", {"--", json_path, a.plot}, outputs.text());
     if (status != 0) return status < exit_signal ? exit_unusable : status;
   }
   return options.bits ? verdict(study, outputs) : exit_ok;
@@ -145,15 +144,15 @@ void add_stability(CLI::App& app, int* exit_code) {
       R"(The border of a wall's stiffness three ways: by bisection on the chain's own bits around a
 linear plant, by the eigenvalues of the loop, and by (b+B)/(T/2+td). Between two updates of
 the scene its torque is held: a host reads, computes and writes the setpoint; at the tick
-rate it is the core's own wall. Then counts, friction and noise in the full plant.
+rate it is the core's own wall.
 Of a scene: the factor on its law's torque at which the device begins to swing by itself, by
 the linear loop of the law's own derivative (filters, states, delay lines, and the host of a
 tracker or a plane) and by the swing of the core's bits; without a hand, and with the scene's
 if it has a mass.
-  feltgate stability lever                          all of it, about 40 s
+  feltgate stability lever                          half a minute
   feltgate stability wall_tracked                   a scene, in a minute
-  feltgate stability lever --plot out               with pictures in out/
-  feltgate stability lever --rate 500 --damping 0.003,0.004 --no-experiments
+  feltgate stability lever --plot out               with a picture in out/
+  feltgate stability lever --rate 500 --damping 0.003,0.004
 Exit code: 0 bits and eigenvalues agree within 5 % (where the swing is large enough), 1
 otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.)");
   defaulted(*sub, "design", a->design, "SCENE|DESIGN",
@@ -163,7 +162,8 @@ otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.)"
   defaulted(*sub, "--linear-plant", a->linear, "PLANT",
             "plant of the borders, in vectors/plants or a path: without friction, dead "
             "voltage and dead time");
-  defaulted(*sub, "--plant", a->plant, "PLANT", "plant of counts, friction and noise");
+  defaulted(*sub, "--plant", a->plant, "PLANT",
+            "plant of the friction that holds a lever between two counts");
   option(*sub, "--rate", a->rates, "", "scene rates in Hz; default 144,490,1000,40000,1000000",
          checks::number(1, 1e6, "Hz"))
       ->delimiter(',');
@@ -171,12 +171,9 @@ otherwise, 2 unusable input. docs/speed-for-accuracy.md explains every column.)"
          "dampings B of the wall in Nm s/rad; default 0,0.001,0.002,0.005,0.01,0.02",
          checks::number(0, 1, "Nm s/rad"))
       ->delimiter(',');
-  sub->add_flag("--no-bits", a->no_bits,
-                "without the chain's bits: 6 s; with --no-experiments 0.3 s");
-  sub->add_flag("--no-experiments", a->no_experiments, "borders only");
+  sub->add_flag("--no-bits", a->no_bits, "without the chain's bits: 0.3 s");
   option(*sub, "--json", a->json, "FILE", "write all numbers to this file");
-  option(*sub, "--plot", a->plot, "DIR",
-         "draw the K-B plot and the eigenvalue locus into this folder");
+  option(*sub, "--plot", a->plot, "DIR", "draw the K-B plot into this folder");
   sub->callback([a, exit_code] { *exit_code = is_scene(a->design) ? scene(*a) : run(*a); });
 }
 

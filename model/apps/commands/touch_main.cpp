@@ -255,18 +255,11 @@ void add_options(CLI::App& sub, TouchArguments& a) {
   CLI::Option* friction = defaulted(sub, "--friction", a.request.proxy.friction, "MU",
                                     "friction of the proxy: it stays within the cone, by the host",
                                     checks::number(0, 2, ""));
-  CLI::Option* shading = sub.add_flag("--shading", a.request.proxy.shading,
-                                      "normals between the corners', so that facets feel round");
-  CLI::Option* edges =
-      sub.add_flag(
-             "--edges", a.request.proxy.edges,
-             "both planes of an edge, by the law local_edge at 50 kHz: no step at a cube's edge")
-          ->excludes(friction);
-  sub.add_flag("--distance", a.request.distance,
-               "the nearest surface of a closed mesh, by a signed distance, in place of the proxy")
-      ->excludes(friction)
-      ->excludes(shading)
-      ->excludes(edges);
+  sub.add_flag("--shading", a.request.proxy.shading,
+               "normals between the corners', so that facets feel round");
+  sub.add_flag("--edges", a.request.proxy.edges,
+               "both planes of an edge, by the law local_edge at 50 kHz: no step at a cube's edge")
+      ->excludes(friction);
   defaulted(sub, "--rate", a.request.host.rate_hz, "HZ", "of the planes",
             checks::number(10, 10e3, "Hz"));
   defaulted(sub, "--latency", a.request.host.latency_s, "S",

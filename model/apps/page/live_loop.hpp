@@ -20,7 +20,6 @@
 #include "sim/loop/ensemble.hpp"
 #include "sim/loop/scene_law.hpp"
 #include "sim/loop/step_plan.hpp"
-#include "sim/plant/period_mean.hpp"
 #include "sim/plant/plant.hpp"
 
 namespace feltgate::page {

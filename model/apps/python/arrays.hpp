@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "files/toml/toml_reader.hpp"
-#include "sim/traces/error.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::python {
 
@@ -76,6 +76,13 @@ inline std::vector<double> to_vector(const Doubles& array, const char* name) {
     }
   }
   return values;
+}
+
+/// Throws std::invalid_argument for counts that are no single row.
+inline void check_counts(const py::array& counts) {
+  if (counts.ndim() == 1) return;
+  throw std::invalid_argument(
+      fmt::format("counts has {} dimensions; give one count for each tick", counts.ndim()));
 }
 
 /// Raises a pending Ctrl-C; for a run that has released the interpreter's lock.

@@ -28,10 +28,7 @@ class PyChain {
 
   py::dict run(const Counts& counts, const std::string& scene, const std::string& mode,
                bool armed) {
-    if (counts.ndim() != 1) {
-      throw std::invalid_argument(
-          fmt::format("counts has {} dimensions; give one count for each tick", counts.ndim()));
-    }
+    check_counts(counts);
     ChainIn in;
     in.armed = armed;
     in.scene = scene_of(design(), scene);

@@ -10,7 +10,7 @@
 #include "apps/python/arrays.hpp"
 #include "design/engine_map.hpp"
 #include "host/capture.hpp"
-#include "host/keep_alive.hpp"
+#include "host/host_device.hpp"
 #include "host/law_engine.hpp"
 #include "law/compile.hpp"
 
@@ -155,23 +155,15 @@ class PyDevice {
       }
     });
   }
-  void kick() {
-    unlocked([&] { device().kick(); });
-  }
   void disarm() {
     unlocked([&] {
       device().disarm();
       keep_->release();
     });
   }
-  void stop() {
-    unlocked([&] { device().stop(); });
-  }
-  void clear_faults() {
-    unlocked([&] { device().clear_faults(); });
-  }
-  void set_zero() {
-    unlocked([&] { device().set_zero(); });
+  /// One of the board's commands.
+  void does(void (host::Device::*command)()) {
+    unlocked([&] { (device().*command)(); });
   }
   void select(const std::string& scene) {
     unlocked([&] { device().select(scene); });
@@ -331,11 +323,11 @@ PYBIND11_MODULE(_host, m) {
       .def("events", &PyDevice::events, "seconds"_a)
       .def("arm", &PyDevice::arm, "scene"_a)
       .def("hold", &PyDevice::hold, "seconds"_a)
-      .def("kick", &PyDevice::kick)
+      .def("kick", [](PyDevice& d) { d.does(&host::Device::kick); })
       .def("disarm", &PyDevice::disarm)
-      .def("stop", &PyDevice::stop)
-      .def("clear_faults", &PyDevice::clear_faults)
-      .def("set_zero", &PyDevice::set_zero)
+      .def("stop", [](PyDevice& d) { d.does(&host::Device::stop); })
+      .def("clear_faults", [](PyDevice& d) { d.does(&host::Device::clear_faults); })
+      .def("set_zero", [](PyDevice& d) { d.does(&host::Device::set_zero); })
       .def("select", &PyDevice::select, "scene"_a)
       .def("stream", &PyDevice::stream, "names"_a, "every_s"_a, "seconds"_a)
       .def("capture", &PyDevice::capture, "names"_a, "trigger"_a, "before"_a, "span_s"_a,

@@ -43,10 +43,7 @@ class PyTwin {
   std::int64_t count() const { return count_; }
 
   py::dict run(const py::array_t<std::int64_t, py::array::c_style>& counts) {
-    if (counts.ndim() != 1) {
-      throw std::invalid_argument(
-          fmt::format("counts has {} dimensions; give one count for each tick", counts.ndim()));
-    }
+    check_counts(counts);
     const std::int64_t* wanted = counts.data();
     const auto size = static_cast<std::size_t>(counts.size());
     check(wanted, size);

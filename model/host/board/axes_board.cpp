@@ -15,7 +15,7 @@
 #include "sim/axes_loop/axes_scene.hpp"
 #include "sim/axes_loop/homing.hpp"
 #include "sim/plant/drive.hpp"
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 
 namespace feltgate::board {
 

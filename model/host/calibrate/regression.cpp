@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "sim/traces/text.hpp"
@@ -42,13 +41,6 @@ Interval Interval::under(double top) const {
 double student_t(double confidence, int freedom) {
   const boost::math::students_t distribution(freedom);
   return boost::math::quantile(boost::math::complement(distribution, (1 - confidence) / 2));
-}
-
-double f_tail(double f, int top_freedom, int bottom_freedom) {
-  if (!(f > 0)) return 1;
-  if (std::isinf(f)) return 0;
-  const boost::math::fisher_f distribution(top_freedom, bottom_freedom);
-  return boost::math::cdf(boost::math::complement(distribution, f));
 }
 
 Regression::Regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double confidence) {

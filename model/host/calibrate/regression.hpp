@@ -75,8 +75,6 @@ class Regression {
 
 /// Value of Student's t whose magnitude is exceeded with probability 1 - confidence.
 double student_t(double confidence, int freedom);
-/// Probability of an F of at least this value.
-double f_tail(double f, int top_freedom, int bottom_freedom);
 
 // Tables of numbers in named columns, from a file or typed in.
 

@@ -137,16 +137,7 @@ Json report_json(const Interval& i) {
   return {{"value", i.value}, {"low", i.low}, {"high", i.high}};
 }
 
-Json report_json(const OpenLoop& open) {
-  Json j = loop_json("open_loop", open);
-  if (open.bend) {
-    j["bend"] = {{"at_v", report_json(open.bend->at_v)},
-                 {"slope_below_nm_v", report_json(open.bend->slope_below_nm_v)},
-                 {"slope_above_nm_v", report_json(open.bend->slope_above_nm_v)},
-                 {"chance", open.bend->chance}};
-  }
-  return j;
-}
+Json report_json(const OpenLoop& open) { return loop_json("open_loop", open); }
 
 Json report_json(const ClosedLoop& closed) {
   Json j = loop_json("closed_loop", closed);

@@ -11,8 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "design/design.hpp"
-#include "host/calibrate/closed_loop.hpp"
-#include "host/calibrate/open_loop.hpp"
+#include "host/calibrate/gauge.hpp"
 
 namespace feltgate::host {
 

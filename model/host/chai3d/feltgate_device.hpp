@@ -18,9 +18,7 @@
 #include <vector>
 
 #include "devices/CGenericHapticDevice.h"
-#include "host/board_info.hpp"
 #include "host/host_device.hpp"
-#include "host/keep_alive.hpp"
 #include "host/transport.hpp"
 
 namespace chai3d {

@@ -13,7 +13,7 @@
 #include "files/toml/toml_reader.hpp"
 #include "sim/loop/speed_jumps.hpp"
 #include "sim/plant/gimbal/gimbal.hpp"
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/plant_table.hpp"
 

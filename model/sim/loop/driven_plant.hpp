@@ -42,10 +42,7 @@ class DrivenPlant {
     return std::visit([](auto& p) -> plant::ShaftPlant& { return p; }, plant_);
   }
   std::size_t state_size() const {
-    return std::visit([](const auto& p) { return p.state().size(); }, plant_);
-  }
-  plant::Evaluations evaluations() const {
-    return std::visit([](const auto& p) { return p.evaluations(); }, plant_);
+    return std::visit([](const auto& p) { return p.state_size(); }, plant_);
   }
   /// Of a design with a current loop: the next bits of the modulators at its shunts, bit n of the
   /// n-th; the shunts are in the motor's line, or in those of phases A and B.

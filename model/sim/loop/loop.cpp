@@ -21,7 +21,7 @@
 #include "sim/loop/scenario_bounds.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/loop/step_plan.hpp"
-#include "sim/plant/period_mean.hpp"
+#include "sim/plant/plant.hpp"
 #include "sim/traces/capture.hpp"
 #include "sim/traces/vector_file.hpp"
 
@@ -255,7 +255,6 @@ class ScenarioRun : public SteppedRun {
     session_.fill_result(out);
     out.longest_step_clocks = longest_step_clocks_;
     out.plant_states = driven_.state_size();
-    out.evaluations = driven_.evaluations();
     const traces::Statistics& p = counter_.result();
     out.position = {p.steps, p.illegal, p.reversals};
     out.largest_velocity_rad_s = core_.largest_velocity_rad_s();

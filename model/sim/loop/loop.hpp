@@ -68,11 +68,10 @@ struct RunResult : SessionResult {
   double largest_velocity_rad_s = 0;  ///< N-method, before the low-pass; needs a rider
   std::vector<BackendFigures> engines;
   Felt felt;
-  std::string bound_sources;       ///< what each block adds to the bounds of felt.errors, as text
-  std::vector<RunEvent> events;    ///< of the scene's law
-  Clock longest_step_clocks = 0;   ///< of the plant
-  std::size_t plant_states = 0;    ///< continuous states of the plant at the end
-  plant::Evaluations evaluations;  ///< of the plant's effects
+  std::string bound_sources;      ///< what each block adds to the bounds of felt.errors, as text
+  std::vector<RunEvent> events;   ///< of the scene's law
+  Clock longest_step_clocks = 0;  ///< of the plant
+  std::size_t plant_states = 0;   ///< continuous states of the plant at the end
 };
 
 /// All inputs of the core during a run; enough to repeat it without the plant.

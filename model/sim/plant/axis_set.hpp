@@ -11,55 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "axes_parameters.hpp"
 #include "brushed_motor.hpp"
 #include "encoder.hpp"
-#include "lugre.hpp"
+#include "mechanics.hpp"
 #include "parameters.hpp"
 
 namespace feltgate::plant {
-
-/// Means over one step, at the motor's shaft.
-struct AxisStep {
-  double current_a = 0.0;
-  double motor_nm = 0.0;     ///< Kt*i, before friction
-  double friction_nm = 0.0;  ///< bristles; opposes positive speed, excludes sigma2*omega
-  double bridge_a = 0.0;     ///< drawn from the bus
-};
-
-/// The drive of one motor, step by step.
-class AxisDrive {
- public:
-  /// Errors: std::invalid_argument for an impossible drive (see BridgeModel).
-  AxisDrive(const MotorParameters& motor, const LugreParameters& lugre,
-            const SupplyParameters& supply, const Drive& drive, const Effects& effects)
-      : motor_(motor, supply, drive, effects), lugre_on_(effects.lugre), lugre_(lugre) {}
-
-  /// Sets the length of the following steps, s.
-  void set_step(double dt_s) {
-    motor_.set_step(dt_s);
-    if (lugre_on_) lugre_.set_step(dt_s);
-  }
-
-  /// One step with this bridge; bus voltage (V) and motor speed (rad/s) are held.
-  AxisStep advance(const Bridge& bridge, double bus_v, double motor_rad_s) {
-    const MotorStep s = motor_.advance(bridge, bus_v, motor_rad_s);
-    return {s.current_a, s.torque_nm, friction_nm(motor_rad_s), s.bridge_a};
-  }
-
-  /// Mean torque of the bristles over one step, Nm, for a motor that something else drives.
-  double friction_nm(double motor_rad_s) { return lugre_on_ ? lugre_.advance(motor_rad_s) : 0.0; }
-
-  double current_a() const { return motor_.current_a(); }
-  double bristle_rad() const { return lugre_.z_rad(); }
-  /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const { return motor_.shoot_through(); }
-
- private:
-  BrushedMotor motor_;
-  bool lugre_on_;
-  Lugre lugre_;
-};
 
 /// The drives and encoders of N joints on one supply.
 template <std::size_t N>
@@ -81,7 +38,10 @@ class AxisSet {
   void begin(double dt_s) {
     if (dt_s != dt_s_) {
       dt_s_ = dt_s;
-      for (AxisDrive& drive : drives_) drive.set_step(dt_s);
+      for (BrushedMotor& motor : motors_) motor.set_step(dt_s);
+      if (lugre_on_) {
+        for (Lugre& lugre : lugres_) lugre.set_step(dt_s);
+      }
     }
     for (auto& events : events_) events.clear();
   }
@@ -90,9 +50,10 @@ class AxisSet {
     Torques t;
     double drawn_a = 0.0;
     for (std::size_t i = 0; i < N; ++i) {
-      const AxisStep s = drives_[i].advance(bridges[i], supply_.bus_v(), ratio_ * middle_rad_s[i]);
-      t.motor[i] = ratio_ * s.motor_nm;
-      t.dry[i] = ratio_ * s.friction_nm;
+      const double rad_s = ratio_ * middle_rad_s[i];
+      const MotorStep s = motors_[i].advance(bridges[i], supply_.bus_v(), rad_s);
+      t.motor[i] = ratio_ * s.torque_nm;
+      t.dry[i] = ratio_ * friction_nm(i, rad_s);
       drawn_a += s.bridge_a;
     }
     supply_a_ = limited_ ? supply_.advance(drawn_a, dt_s_) : drawn_a;
@@ -102,7 +63,7 @@ class AxisSet {
   Torques drive(const Axes& torque_nm, const Axes& middle_rad_s) {
     Torques t{torque_nm, {}};
     for (std::size_t i = 0; i < N; ++i) {
-      t.dry[i] = ratio_ * drives_[i].friction_nm(ratio_ * middle_rad_s[i]);
+      t.dry[i] = ratio_ * friction_nm(i, ratio_ * middle_rad_s[i]);
     }
     return t;
   }
@@ -123,18 +84,11 @@ class AxisSet {
   const Encoder& encoder(std::size_t axis) const { return encoders_[axis]; }
   Axes current_a() const {
     Axes a;
-    for (std::size_t i = 0; i < N; ++i) a[i] = drives_[i].current_a();
+    for (std::size_t i = 0; i < N; ++i) a[i] = motors_[i].current_a();
     return a;
   }
   double bus_v() const { return supply_.bus_v(); }
   double supply_a() const { return supply_a_; }
-  /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const {
-    for (const AxisDrive& drive : drives_) {
-      if (drive.shoot_through()) return true;
-    }
-    return false;
-  }
 
  private:
   template <std::size_t... I>
@@ -143,11 +97,17 @@ class AxisSet {
       : ratio_(p.joint.ratio()),
         encoder_ratio_(p.joint.encoder_ratio()),
         limited_(on.supply_limit),
-        drives_{((void)I, AxisDrive(p.motor, p.lugre, p.supply, drive, on))...},
+        lugre_on_(on.lugre),
+        motors_{((void)I, BrushedMotor(p.motor, p.supply, drive, on))...},
+        lugres_{((void)I, Lugre(p.lugre))...},
         supply_(p.supply),
         encoders_{Encoder(seeded(p.encoder, I), on.encoder_imperfect,
                           p.joint.encoder_ratio() * start_rad[I])...} {
     for (auto& events : events_) events.reserve(16);
+  }
+  /// Mean torque of the bristles at a motor's shaft over one step, Nm; excludes sigma2*omega.
+  double friction_nm(std::size_t axis, double motor_rad_s) {
+    return lugre_on_ ? lugres_[axis].advance(motor_rad_s) : 0.0;
   }
   static EncoderParameters seeded(EncoderParameters e, std::size_t axis) {
     e.seed += axis;
@@ -157,7 +117,9 @@ class AxisSet {
   double ratio_;          ///< turns of the motor per turn of the joint
   double encoder_ratio_;  ///< turns of the encoder per turn of the joint
   bool limited_;
-  std::array<AxisDrive, N> drives_;
+  bool lugre_on_;
+  std::array<BrushedMotor, N> motors_;
+  std::array<Lugre, N> lugres_;
   Supply supply_;
   std::array<Encoder, N> encoders_;
   double dt_s_ = 0.0;

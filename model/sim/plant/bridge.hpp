@@ -32,11 +32,6 @@ struct Bridge {
   /// `enabled` = false gives off() for any duty.
   static Bridge averaged(double duty, bool enabled = true);
   static Bridge gates(double a_hi, double a_lo, double b_hi, double b_lo);
-  /// Whether the gates of a leg overlap: a short circuit, which is not simulated.
-  bool shoots_through() const { return a_hi + a_lo > kWhole || b_hi + b_lo > kWhole; }
-
- private:
-  static constexpr double kWhole = 1.0 + 1e-9;
 };
 
 /// Properties of the drive electronics that the averaged mode needs.

@@ -45,7 +45,6 @@ Encoder::Encoder(const EncoderParameters& parameters, bool imperfect, double sta
 double Encoder::edge_rad(std::int64_t edge) const {
   double counts = static_cast<double>(edge);
   if (!offset_counts_.empty()) {
-    ++offset_edges_;
     counts += offset_counts_[static_cast<std::size_t>(wrapped(edge, counts_per_rev_))];
   }
   return counts * count_rad_;

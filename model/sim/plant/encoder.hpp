@@ -37,7 +37,6 @@ class Encoder {
   /// Angle of the edge between counts `edge` - 1 and `edge`, rad; both directions share it.
   double edge_rad(std::int64_t edge) const;
   double count_rad() const { return count_rad_; }
-  std::uint64_t offset_edges() const { return offset_edges_; }
 
  private:
   void cross(double theta_rad, Clock begin, Clock clocks, std::vector<EncoderEvent>& events);
@@ -47,7 +46,6 @@ class Encoder {
   std::int64_t counts_per_rev_;
   double count_rad_;
   std::vector<double> offset_counts_;  ///< empty for an ideal encoder
-  mutable std::uint64_t offset_edges_ = 0;
   double theta_rad_;
   std::int64_t count_ = 0;
   double low_rad_ = 0.0;  ///< edges around the present count

@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "sim/plant/plant_table.hpp"
-#include "sim/traces/error.hpp"
 #include "sim/traces/table.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::plant {
 namespace {

@@ -74,7 +74,6 @@ void ShaftPlant::advance_shaft(double motor_nm, double friction_nm, const Shaft&
   torque.constant_nm += motor_nm - friction_nm;
   torque.omega_nm_s_rad -= smooth_nm_s_rad_;
   if (hand_.has_mass()) {
-    ++evaluations_.hand_dynamics;
     mechanics_.step(shaft_, hand_.mass(), torque, hand_.dynamics(), dt_s_);
   } else {
     mechanics_.step(shaft_, torque, dt_s_);
@@ -97,30 +96,9 @@ void ShaftPlant::refuse_motion(double way_rad, double motor_nm) const {
       time_s, way_rad * per_s_, std::abs(way_rad) / most_way_rad_));
 }
 
-std::vector<StateValue> ShaftPlant::state_with(const std::vector<StateValue>& motor) const {
-  std::vector<StateValue> values;
-  if (!hand_.imposes()) {
-    values.push_back({"theta_rad", shaft_.theta_rad});
-    values.push_back({"omega_rad_s", shaft_.omega_rad_s});
-  }
-  values.insert(values.end(), motor.begin(), motor.end());
-  if (on_.lugre) values.push_back({"bristle_rad", lugre_.z_rad()});
-  if (on_.supply_limit) values.push_back({"bus_v", supply_.bus_v()});
-  if (hand_.has_mass()) {
-    values.push_back({"hand_rad", hand_.mass().theta_rad});
-    values.push_back({"hand_rad_s", hand_.mass().omega_rad_s});
-  }
-  return values;
-}
-
-Evaluations ShaftPlant::evaluations_with(const Evaluations& motor) const {
-  Evaluations counted = evaluations_;
-  counted.inductance = motor.inductance;
-  counted.back_emf = motor.back_emf;
-  counted.dead_voltage = motor.dead_voltage;
-  counted.dead_time = motor.dead_time;
-  counted.encoder_imperfect = encoder_.offset_edges();
-  return counted;
+std::size_t ShaftPlant::shaft_states() const {
+  const std::size_t lever = hand_.imposes() ? 0 : 2, hand = hand_.has_mass() ? 2 : 0;
+  return lever + hand + (on_.lugre ? 1 : 0) + (on_.supply_limit ? 1 : 0);
 }
 
 void Plant::advance(const Bridge& bridge, Clock clocks) {
@@ -132,11 +110,6 @@ void Plant::advance(const Bridge& bridge, Clock clocks) {
 void Plant::short_motor(double wiring_ohm, double wiring_h) {
   motor_.short_terminals(wiring_ohm, wiring_h);
   renew_step();
-}
-
-std::vector<StateValue> Plant::state() const {
-  if (!inductance_) return state_with({});
-  return state_with({{"motor_current_a", motor_.current_a()}});
 }
 
 }  // namespace feltgate::plant

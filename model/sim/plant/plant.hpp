@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,12 +16,57 @@
 #include "brushed_motor.hpp"
 #include "encoder.hpp"
 #include "feltgate/encoder_source.hpp"
-#include "hand_run.hpp"
-#include "lugre.hpp"
+#include "hand.hpp"
 #include "mechanics.hpp"
 #include "parameters.hpp"
 
 namespace feltgate::plant {
+
+/// Gets step means, e.g. Observables::motor_torque_mean_nm; periods start at clock `phase`.
+class PeriodMean {
+ public:
+  /// Errors: std::invalid_argument if the period is below one clock.
+  explicit PeriodMean(Clock period_clocks, Clock phase = 0)
+      : period_(period_clocks), left_(period_clocks) {
+    if (period_clocks < 1) throw std::invalid_argument("PWM period below one clock");
+    const Clock offset = phase % period_;
+    if (offset > 0) left_ = offset;
+    partial_ = offset > 0;
+  }
+
+  /// Adds `value`, held over `clocks`; returns how many periods ended in that time.
+  int add(Clock clocks, double value) {
+    int ended = 0;
+    while (clocks > 0) {
+      const Clock part = clocks < left_ ? clocks : left_;
+      sum_ += value * static_cast<double>(part);
+      clocks -= part;
+      left_ -= part;
+      if (left_ > 0) continue;
+      if (!partial_) {
+        mean_ = sum_ / static_cast<double>(period_);
+        ++periods_;
+        ++ended;
+      }
+      partial_ = false;
+      sum_ = 0.0;
+      left_ = period_;
+    }
+    return ended;
+  }
+
+  /// Mean of the last full period, in the unit of the signal; 0 before the first.
+  double mean() const { return mean_; }
+  std::int64_t periods() const { return periods_; }
+
+ private:
+  Clock period_;
+  Clock left_;
+  bool partial_ = false;
+  double sum_ = 0.0;
+  double mean_ = 0.0;
+  std::int64_t periods_ = 0;
+};
 
 /// Outputs of the plant, at the end of the last step unless stated as mean.
 struct Observables {
@@ -35,13 +81,6 @@ struct Observables {
   double hand_force_n = 0.0;          ///< hand torque over the radius of the hand
   double supply_current_a = 0.0;      ///< mean of the last step
   double bus_v = 0.0;
-  bool shoot_through = false;  ///< whether both gates of a leg were ever on at once
-};
-
-/// One continuous state of the plant.
-struct StateValue {
-  std::string name;  ///< with unit
-  double value;
 };
 
 /// A motion that cannot be simulated: faster than one encoder state per clock, or not finite.
@@ -82,9 +121,8 @@ class ShaftPlant {
   void step(Motor& motor, Clock clocks, const Advance& drive);
   /// The motor gets its step's length again: for one whose constants have changed.
   void renew_step() { step_clocks_ = -1; }
-  /// The states with the motor's own among them.
-  std::vector<StateValue> state_with(const std::vector<StateValue>& motor) const;
-  Evaluations evaluations_with(const Evaluations& motor) const;
+  /// Number of continuous states beside those of the motor.
+  std::size_t shaft_states() const;
 
  private:
   void set_step(Clock clocks);
@@ -113,7 +151,6 @@ class ShaftPlant {
   double acceleration_rad_s2_ = 0.0;  ///< mean of the last step; predicts the next middle
   std::vector<EncoderEvent> events_;
   Observables seen_;
-  Evaluations evaluations_;
 };
 
 /// The plant of a lever whose motor has brushes.
@@ -141,10 +178,7 @@ class Plant : public ShaftPlant {
   void short_motor(double wiring_ohm, double wiring_h);
 
   /// Number of continuous states that the present hand and the effects that are on need.
-  std::size_t state_size() const { return state().size(); }
-  /// These states with their names, in a fixed order.
-  std::vector<StateValue> state() const;
-  Evaluations evaluations() const { return evaluations_with(motor_.evaluations()); }
+  std::size_t state_size() const { return shaft_states() + (inductance_ ? 1 : 0); }
 
  private:
   BrushedMotor motor_;
@@ -159,8 +193,6 @@ void ShaftPlant::step(Motor& motor, Clock clocks, const Advance& drive) {
   }
   events_.clear();
   hand_.begin_step(now_, dt_s_, shaft_);
-  if (hand_.kind() != HandPhase::Kind::kFree) ++evaluations_.hand;
-  if (on_.viscous) ++evaluations_.viscous;
 
   const double before_rad = shaft_.theta_rad;
   const double before_rad_s = shaft_.omega_rad_s;
@@ -169,18 +201,13 @@ void ShaftPlant::step(Motor& motor, Clock clocks, const Advance& drive) {
                                      : before_rad_s + 0.5 * dt_s_ * acceleration_rad_s2_;
   const Shaft middle{before_rad + 0.5 * dt_s_ * omega_mid_rad_s, omega_mid_rad_s};
   const MotorStep moved = drive(supply_.bus_v(), middle);
-  seen_.shoot_through = motor.shoot_through();
   seen_.supply_current_a = moved.bridge_a;
   if (on_.supply_limit) {
-    ++evaluations_.supply_limit;
     seen_.supply_current_a = supply_.advance(moved.bridge_a, dt_s_);
     seen_.bus_v = supply_.bus_v();
   }
   double friction_nm = 0.0;
-  if (on_.lugre) {
-    ++evaluations_.lugre;
-    friction_nm = lugre_.advance(omega_mid_rad_s);
-  }
+  if (on_.lugre) friction_nm = lugre_.advance(omega_mid_rad_s);
   advance_shaft(moved.torque_nm, friction_nm, middle);
   acceleration_rad_s2_ = hand_.imposes() ? 0.0 : (shaft_.omega_rad_s - before_rad_s) * per_s_;
 

@@ -9,11 +9,9 @@
 #include <string>
 
 #include "files/toml/toml_reader.hpp"
-#include "sim/plant/axes_parameters.hpp"
 #include "sim/plant/gimbal/gimbal.hpp"
 #include "sim/plant/hand.hpp"
 #include "sim/plant/pantograph/pen_hand.hpp"
-#include "sim/plant/parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -113,13 +113,6 @@ Legs Legs::gates(double a_hi, double a_lo, double b_hi, double b_lo, double c_hi
   return {Mode::kSwitched, {}, {a_hi, b_hi, c_hi}, {a_lo, b_lo, c_lo}};
 }
 
-bool Legs::shoots_through() const {
-  for (std::size_t k = 0; k < kPhases; ++k) {
-    if (high[k] + low[k] > 1.0 + 1e-9) return true;
-  }
-  return false;
-}
-
 LegModel::LegModel(const Drive& drive, const SupplyParameters& supply, const PhaseParameters& motor,
                    const Effects& effects)
     : diode_v_(supply.diode_drop_v),
@@ -341,17 +334,13 @@ double ThreePhaseMotor::amplitude_a(double torque_nm) const {
 }
 
 MotorStep ThreePhaseMotor::advance(const Legs& legs, double bus_v, const Shaft& middle) {
-  if (on_.dead_time && legs.mode == Legs::Mode::kAveraged) ++evaluations_.dead_time;
-  if (legs.shoots_through()) shoot_through_ = true;
   const Phases form = shape(electrical_rad(middle.theta_rad));
   Phases emf_v{};
   if (on_.back_emf) {
-    ++evaluations_.back_emf;
     for (std::size_t k = 0; k < kPhases; ++k) {
       emf_v[k] = p_.back_emf_v_s_rad * middle.omega_rad_s * form[k];
     }
   }
-  if (on_.inductance) ++evaluations_.inductance;
   const auto& curves = legs_.curves(legs, bus_v, star_.connected());
   const StarStep step =
       on_.inductance ? star_.advance(curves, emf_v, bus_v) : star_.settle(curves, emf_v, bus_v);
@@ -364,11 +353,6 @@ void ThreePhasePlant::advance(const Legs& legs, Clock clocks) {
   step(motor_, clocks, [this, &legs](double bus_v, const Shaft& middle) {
     return motor_.advance(legs, bus_v, middle);
   });
-}
-
-std::vector<StateValue> ThreePhasePlant::state() const {
-  if (!inductance_) return state_with({});
-  return state_with({{"phase_a_a", motor_.phase_a()[0]}, {"phase_b_a", motor_.phase_a()[1]}});
 }
 
 }  // namespace feltgate::plant

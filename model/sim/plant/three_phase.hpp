@@ -32,8 +32,6 @@ struct Legs {
   /// `enabled` = false gives off() for any duty.
   static Legs averaged(const Phases& duty, bool enabled = true);
   static Legs gates(double a_hi, double a_lo, double b_hi, double b_lo, double c_hi, double c_lo);
-  /// Whether the gates of a leg overlap: a short circuit, which is not simulated.
-  bool shoots_through() const;
 };
 
 /// Voltage of a leg: share*bus + diode_v. The supply delivers this share of the leg's current.
@@ -139,9 +137,6 @@ class ThreePhaseMotor {
   double torque_nm(double theta_rad) const {
     return torque(shape(electrical_rad(theta_rad)), star_.current_a());
   }
-  /// Whether both gates of a leg were ever on at once.
-  bool shoot_through() const { return shoot_through_; }
-  const Evaluations& evaluations() const { return evaluations_; }
 
  private:
   double torque(const Phases& shape, const Phases& current_a) const;
@@ -152,8 +147,6 @@ class ThreePhaseMotor {
   LegModel legs_;
   StarWinding star_;
   Phases mean_a_{};
-  bool shoot_through_ = false;
-  Evaluations evaluations_;
 };
 
 /// The plant of a lever whose motor has three phases; `parameters.motor` does not count.
@@ -172,9 +165,8 @@ class ThreePhasePlant : public ShaftPlant {
   void open_phase(std::size_t phase) { motor_.open_phase(phase); }
 
   const ThreePhaseMotor& motor() const { return motor_; }
-  /// The continuous states with their names; two of the three currents are independent.
-  std::vector<StateValue> state() const;
-  Evaluations evaluations() const { return evaluations_with(motor_.evaluations()); }
+  /// Number of continuous states; two of the three currents are independent.
+  std::size_t state_size() const { return shaft_states() + (inductance_ ? 2 : 0); }
 
  private:
   ThreePhaseMotor motor_;

@@ -210,29 +210,6 @@ class SharpEdges {
   std::optional<TriangleTree> tree_;  ///< none where there is no such edge
 };
 
-/// What there is without a proxy: the nearest surface, and on which side of it the pen is. It
-/// remembers no way, so the pen gets through what is thinner than twice its depth. The mesh must
-/// outlive it.
-class SignedDistance {
- public:
-  /// Errors: std::invalid_argument where the mesh is not closed, or looks inwards.
-  explicit SignedDistance(const Mesh& mesh);
-
-  struct Place {
-    double distance_m = 0;   ///< negative inside
-    Vec3 point_m, gradient;  ///< nearest point of the surface; unit vector outwards
-    std::size_t triangle = 0;
-  };
-  Place at(Vec3 point_m);
-  /// The tangent plane at the nearest point.
-  Touched touched(Vec3 pen_m);
-
- private:
-  const Mesh& mesh_;
-  TriangleTree tree_;
-  std::vector<Near> near_;
-};
-
 /// A proxy on its way. The mesh must outlive it.
 class Proxy {
  public:

@@ -236,7 +236,6 @@ inline PlaneMaterial material_of(const MaterialPreset& preset, double stiffness_
 /// What a stroke is run with; `host` has material, rate and delay of the planes.
 struct TouchRequest {
   ProxySettings proxy;
-  bool distance = false;  ///< planes of a signed distance in place of the proxy
   PlaneHostSettings host;
   std::map<std::string, PlaneMaterial> materials;  ///< of parts that have one of their own, by name
   Stroke stroke;
@@ -305,18 +304,16 @@ inline void let_go(plant::Hand& hand, double from_s, double force_n, double caps
   press.profile.push_back(s);
 }
 
-/// The planes of a mesh for the poses of a pen, by the proxy or the signed distance. The mesh must
-/// outlive it.
+/// The planes of a mesh for the poses of a pen, by the proxy. The mesh must outlive it.
 class Seeker {
  public:
-  /// Errors: std::invalid_argument for a vibration with edges, and those of SignedDistance.
+  /// Errors: std::invalid_argument for a vibration with edges.
   Seeker(const Mesh& mesh, const TouchRequest& request)
       : mesh_(mesh),
         proxy_(mesh, request.proxy),
         actor_(mesh, request.mesh_way),
         host_(request.host),
         materials_(std::max<std::size_t>(1, mesh.materials.size()), request.host) {
-    if (request.distance) distance_.emplace(mesh);
     host_.axes = 3;
     host_.edges = request.proxy.edges;
     host_.moves = !request.mesh_way.empty();
@@ -341,7 +338,7 @@ class Seeker {
                                        std::vector<TouchUpdate>& updates) {
     const auto from = std::chrono::steady_clock::now();
     const Vec3 in_mesh = actor_.in_mesh(pen_m, time_s);
-    const Touched found = distance_ ? distance_->touched(in_mesh) : proxy_.move(in_mesh);
+    const Touched found = proxy_.move(in_mesh);
     const Touched t = actor_.in_device(found, time_s);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
     updates.push_back({time_s, pen_m, t, took.count()});
@@ -355,7 +352,6 @@ class Seeker {
  private:
   const Mesh& mesh_;
   Proxy proxy_;
-  std::optional<SignedDistance> distance_;
   Actor actor_;
   PlaneHostSettings host_;
   std::vector<PlaneMaterial> materials_;

@@ -5,7 +5,6 @@
 #include "sim/traces/capture.hpp"
 
 #include "feltgate/nearest.hpp"
-#include "sim/traces/error.hpp"
 #include "sim/traces/text.hpp"
 
 namespace feltgate::traces {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "error.hpp"
 #include "feltgate/encoder_source.hpp"
 #include "options.hpp"
+#include "text.hpp"
 
 namespace feltgate::traces {
 

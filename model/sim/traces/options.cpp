@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "feltgate/nearest.hpp"
-#include "sim/traces/error.hpp"
 #include "sim/traces/text.hpp"
 
 namespace feltgate::traces {

@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "sim/traces/error.hpp"
 #include "sim/traces/text.hpp"
 
 namespace feltgate::traces {

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "feltgate/nearest.hpp"
-#include "sim/traces/error.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::traces {
 namespace {

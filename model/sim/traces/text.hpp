@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Text of bounded memory: bytes, lines and numbers of a file, with positions for messages.
-// Documentation: docs/traces.md
+// What every reader of recordings throws; text of bounded memory: bytes, lines and numbers of a
+// file, with positions for messages. Documentation: docs/traces.md
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,22 @@
 #include "feltgate/fixed.hpp"
 
 namespace feltgate::traces {
+
+/// A recording that cannot be read. what() is one line: `file:position: what is wrong; mend`.
+class TraceError : public std::runtime_error {
+ public:
+  /// Control characters in the message are shown as '?', so that it stays one line.
+  explicit TraceError(const std::string& message);
+};
+
+/// Throws TraceError("where: what; mend").
+[[noreturn]] void fail(const std::string& where, const std::string& what, const std::string& mend);
+
+/// The text in single quotes, cut after 40 bytes, safe to print whatever a broken file holds.
+std::string shown(std::string_view text);
+
+/// The names as one text for messages, the first 32 of them.
+std::string list_names(const std::vector<std::string>& names);
 
 std::string_view trim(std::string_view text);
 std::string lower(std::string_view text);

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/traces/error.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::traces {
 namespace {

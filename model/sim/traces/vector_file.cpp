@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "sim/traces/error.hpp"
 #include "sim/traces/options.hpp"
+#include "sim/traces/text.hpp"
 
 namespace feltgate::traces {
 namespace {

@@ -53,26 +53,6 @@ Spread scaled_inverse(const Spread& s, double numerator) {
   return {numerator / s.median, numerator / s.high, numerator / s.low};
 }
 
-/// Median of the ratios of samples that were taken side by side: a busy machine slows both. Where
-/// one side ran more passes, each repetition's median counts.
-Spread ratio(const BackendResult& a, const BackendResult& b, int repetitions) {
-  const auto n = static_cast<std::size_t>(repetitions);
-  std::vector<double> ratios;
-  if (a.samples.size() == b.samples.size()) {
-    for (std::size_t i = 0; i < a.samples.size(); ++i) {
-      ratios.push_back(a.samples[i] / b.samples[i]);
-    }
-    return spread(std::move(ratios));
-  }
-  const auto of_repetition = [n](const BackendResult& e, std::size_t k) {
-    const auto passes = static_cast<std::ptrdiff_t>(e.samples.size() / n);
-    const auto first = e.samples.begin() + static_cast<std::ptrdiff_t>(k) * passes;
-    return spread({first, first + passes}).median;
-  };
-  for (std::size_t k = 0; k < n; ++k) ratios.push_back(of_repetition(a, k) / of_repetition(b, k));
-  return spread(std::move(ratios));
-}
-
 class Measurement {
  public:
   Measurement(const std::vector<std::unique_ptr<Runner>>& runners, const std::vector<Work>& works,
@@ -169,7 +149,6 @@ class Measurement {
 
   void repeat() {
     std::vector<std::vector<double>> spent(runners_.size());
-    std::vector<double> twin_s(static_cast<std::size_t>(options_.passes));  // in the closed loops
     for (const Work& work : works_) {
       for (int pass = 0; pass < options_.passes; ++pass) {
         for (std::size_t i = 0; i < runners_.size(); ++i) {
@@ -180,9 +159,6 @@ class Measurement {
           const double s = cpu_seconds([&] { runner.run(work); });
           if (spent[i].size() <= static_cast<std::size_t>(pass)) spent[i].push_back(0);
           spent[i][static_cast<std::size_t>(pass)] += s;
-          if (e.name == "twin_event" && is_closed_loop(work)) {
-            twin_s[static_cast<std::size_t>(pass)] += s;
-          }
           tell(inspect_s_.at(e.name) * work.simulated_s / result_.simulated_s);
         }
       }
@@ -193,25 +169,13 @@ class Measurement {
       }
     }
     device_ns_.push_back(device_ns_per_tick(100'000));
-    double loops_s = 0, simulated_s = 0;
     for (const Scene& scene : closed_loops_) {
       RunOptions options;
       options.engine = "twin";
       const double s = cpu_seconds([&] { run_scenario(scene.scenario, scene.plant, options); });
       loop_samples_[scene.scenario.name].push_back(scene.scenario.duration_s / s);
-      loops_s += s;
-      simulated_s += scene.scenario.duration_s;
       tell(0.1 * scene.scenario.duration_s);
     }
-    if (loops_s <= 0) return;
-    loop_total_.push_back(simulated_s / loops_s);
-    twin_s.erase(std::remove(twin_s.begin(), twin_s.end(), 0.0), twin_s.end());
-    if (!twin_s.empty()) loop_over_twin_.push_back(loops_s / spread(twin_s).median);
-  }
-
-  bool is_closed_loop(const Work& work) const {
-    return std::any_of(closed_loops_.begin(), closed_loops_.end(),
-                       [&work](const Scene& s) { return s.scenario.name == work.name; });
   }
 
   void conclude() {
@@ -233,34 +197,6 @@ class Measurement {
           {s.scenario.name, s.scenario.duration_s, spread(loop_samples_[s.scenario.name])});
     }
     result_.device_ns = spread(device_ns_);
-    const BackendResult* rtl = result_.find("rtl");
-    const BackendResult* event = result_.find("twin_event");
-    auto& goals = result_.goals;
-    if (event != nullptr && rtl != nullptr) {
-      goals.push_back({"event_over_rtl", "twin_event, times as fast as rtl", 80, false,
-                       ratio(*rtl, *event, options_.repetitions)});
-    }
-    if (event != nullptr) {
-      goals.push_back(
-          {"event_over_real_time", "twin_event, times real time", 40, false, event->speed});
-    }
-    if (!loop_total_.empty()) {
-      goals.push_back({"closed_loop_over_real_time",
-                       "closed loop with motor, friction and hand, times real time", 10, false,
-                       spread(loop_total_)});
-    }
-    if (!loop_over_twin_.empty()) {
-      goals.push_back({"closed_loop_over_twin", "closed loop, time over the twin_event in it", 2.5,
-                       true, spread(loop_over_twin_)});
-    }
-    if (rtl != nullptr) {
-      goals.push_back({"rtl_clocks_per_s",
-                       "rtl, million clocks per second",
-                       20,
-                       false,
-                       {rtl->clocks_per_s->median / 1e6, rtl->clocks_per_s->low / 1e6,
-                        rtl->clocks_per_s->high / 1e6}});
-    }
   }
 
   const std::vector<std::unique_ptr<Runner>>& runners_;
@@ -270,7 +206,7 @@ class Measurement {
   Result result_;
   std::map<std::string, double> inspect_s_;
   std::map<std::string, std::vector<double>> loop_samples_;
-  std::vector<double> loop_total_, loop_over_twin_, device_ns_;
+  std::vector<double> device_ns_;
   double total_s_ = 0, done_s_ = 0;
 };
 

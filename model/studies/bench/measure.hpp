@@ -42,15 +42,6 @@ struct LoopResult {
   Spread speed;
 };
 
-/// A promised figure and the measured one.
-struct Goal {
-  std::string key, text;
-  double goal = 0;
-  bool at_most = false;  ///< the value shall stay below the goal instead of above
-  Spread value;
-  bool met() const { return at_most ? value.median <= goal : value.median >= goal; }
-};
-
 /// Proven bounds of the integer back-ends' errors: the largest over all works.
 struct ErrorLimits {
   double velocity_rad_s = 0, tau_hat_nm = 0, torque_nm = 0;
@@ -60,8 +51,7 @@ struct Result {
   std::optional<ErrorLimits> bounds;
   std::vector<BackendResult> engines;
   std::vector<LoopResult> loops;
-  Spread device_ns;  ///< a tick of TwinDevice::tick_to
-  std::vector<Goal> goals;
+  Spread device_ns;        ///< a tick of TwinDevice::tick_to
   std::string divergence;  ///< first tick and signal in which integer back-ends differ, or empty
   double simulated_s = 0;  ///< simulated time of all works together
   std::size_t ticks = 0;

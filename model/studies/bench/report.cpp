@@ -104,12 +104,6 @@ std::string json(const Result& r, const std::vector<Work>& works, const Circumst
                                  {"simulated_s_per_s", spread_json(l.speed)}};
   }
   j["device"] = {{"tick_to_ns", spread_json(r.device_ns)}};
-  for (const Goal& g : r.goals) {
-    Json& o = j["goals"][g.key];
-    o = spread_json(g.value);
-    o[g.at_most ? "at_most" : "at_least"] = g.goal;
-    o["met"] = g.met();
-  }
   return files::json_text(j);
 }
 
@@ -128,12 +122,7 @@ std::string text(const Result& r, const std::vector<Work>& works, const Circumst
   for (const LoopResult& l : r.loops) {
     s += fmt::format("closed loop, {}, times real time: {}\n", l.scene, spread_text(l.speed));
   }
-  s += fmt::format("TwinDevice::tick_to, ns/tick: {}\n\n", spread_text(r.device_ns));
-  for (const Goal& g : r.goals) {
-    s += fmt::format("{:<6} {}: {}, goal {} {:g}\n", g.met() ? "met" : "MISSED", g.text,
-                     spread_text(g.value), g.at_most ? "at most" : "at least", g.goal);
-  }
-  return s;
+  return s + fmt::format("TwinDevice::tick_to, ns/tick: {}\n", spread_text(r.device_ns));
 }
 
 }  // namespace feltgate::bench

@@ -9,12 +9,38 @@
 #include <limits>
 #include <stdexcept>
 
+#include "feltgate/generated/lever.hpp"
 #include "sim/reference/chain.hpp"
-#include "studies/controllers/fed_lever.hpp"
 
 namespace feltgate::controllers {
 
 namespace {
+
+/// Wide enough for an observer that is fed back; `lever` feeds none back.
+constexpr Format fed_gain{1, 3, 14};
+
+constexpr BaseFormats fed(BaseFormats b) {
+  b.observer_gain = fed_gain;
+  return b;
+}
+constexpr auto fed_parameters() {
+  std::array<ParameterInfo, sizeof(Lever::parameters) / sizeof(ParameterInfo)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = Lever::parameters[i];
+    if (all[i].address == Lever::A::observer_gain) all[i].format = fed_gain;
+  }
+  return all;
+}
+
+/// Design `lever` with that word.
+struct FedLever : Lever {
+  struct P : Lever::P {
+    static constexpr Format observer_gain = fed_gain;
+  };
+  static constexpr BaseFormats base = fed(Lever::base);
+  static constexpr Formats f = derive(base);
+  static constexpr auto parameters = fed_parameters();
+};
 
 /// Another encoder: a window of the velocity estimator whose gain is 2^shift, near that of `lever`.
 template <int Lines>
@@ -104,9 +130,10 @@ class Step {
   std::vector<double>* trace_;
 };
 
-/// The largest stiffness that `holds`: doubled from `low` on, Nm/rad, then between two to 3 %; 0
-/// where `low` does not hold.
-double largest(const std::function<bool(double)>& holds, double low = 1.0) {
+/// The largest stiffness that `holds`: doubled from 1 Nm/rad on, then between two to 3 %; 0 where
+/// that does not hold.
+double largest(const std::function<bool(double)>& holds) {
+  double low = 1.0;
   if (!holds(low)) return 0.0;
   double high = 2.0 * low;
   while (high <= stiffest_nm_rad && holds(high)) low = high, high *= 2.0;
@@ -283,21 +310,16 @@ double tremor_noise_nm(const Bench& bench, Kind kind, bool fixed, int lines) {
   return std::sqrt(std::max(0.0, squares / count - sum / count * (sum / count)));
 }
 
-double pressed_border(const Bench& bench, stability::BitLoopSetting s, double from_nm_rad) {
-  const auto holds = [&](double stiffness) {
-    s.wall = {stiffness, wall_damping_nm_s_rad};
-    const double expected_rad_s = std::sqrt(stiffness / s.plant.lever.inertia_kg_m2);
-    return stability::swing(bench.design, s, expected_rad_s).rate_1_s <= 0;
-  };
-  return largest(holds, from_nm_rad);
-}
-
 double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio) {
   stability::BitLoopSetting s;
   s.plant = with_inertia_ratio(bench.linear, inertia_ratio);
   const Tuning tuning = tuning_of(bench, s.plant);
   s.made_chain = [&] { return make_chain(kind, fixed, tuning); };
-  return pressed_border(bench, s);
+  return largest([&](double stiffness) {
+    s.wall = {stiffness, wall_damping_nm_s_rad};
+    const double expected_rad_s = std::sqrt(stiffness / s.plant.lever.inertia_kg_m2);
+    return stability::swing(bench.design, s, expected_rad_s).rate_1_s <= 0;
+  });
 }
 
 double held_border(const Bench& bench, Kind kind, bool fixed, double damping) {

@@ -186,10 +186,6 @@ class ControlledChain : public ChainTick<D, N> {
   Law<D, N> law_{Tuning{1, 1, 1, 1, 0, 0, 1}};  // until tune()
 };
 
-}  // namespace feltgate::controllers
-
-namespace feltgate::controllers {
-
 enum class Kind { observer, feed_forward, pi, pid, reaction };
 constexpr std::array<Kind, 5> kinds{Kind::observer, Kind::feed_forward, Kind::pi, Kind::pid,
                                     Kind::reaction};
@@ -261,10 +257,6 @@ constexpr double stiffest_nm_rad = 64;
 /// Largest wall that does not make the pressed lever swing, Nm/rad; 0: no wall. Damping 0.005
 /// Nm s/rad, frictionless. `inertia_ratio` is Jn/J.
 double border(const Bench& bench, Kind kind, bool fixed, double inertia_ratio = 1.0);
-/// The same with the chain and the plant of a setting, whose wall and hand are not used; 0: not
-/// even `from_nm_rad`.
-double pressed_border(const Bench& bench, stability::BitLoopSetting setting,
-                      double from_nm_rad = 1.0);
 /// The same while a hand (0.55 kg, 1.35 Nm/rad) leans on the wall, with friction: the swing stays
 /// under three counts. `damping` scales that of the hand and its grip.
 double held_border(const Bench& bench, Kind kind, bool fixed, double damping = 1.0);
@@ -295,34 +287,6 @@ struct Report {
 };
 /// All experiments with all controllers. `progress` gets the completed share; it may be empty.
 Report measure(const Bench& bench, const std::function<void(double)>& progress = {});
-
-/// Rms around the mean.
-struct Noise {
-  double hat_nm = 0;    ///< of tau_hat, feed-forward
-  double motor_nm = 0;  ///< of the motor's torque, observer fed back
-};
-constexpr std::array<double, 2> estimator_speeds_rad_s{1, 10};
-/// A velocity estimator in design `lever`, whose observer is displayed only unless it says so.
-struct EstimatorRow {
-  std::string name;
-  double border_nm_rad = 0, border_observer_nm_rad = 0;  ///< as border()
-  /// tau_ref = 0.1 Nm: while a hand at rest trembles, and at each of estimator_speeds_rad_s.
-  std::array<Noise, estimator_speeds_rad_s.size() + 1> good, irregular;  ///< lines of the encoder
-  /// A hand swings the free lever by 0.5 rad at 2 Hz: its torque; and of the linear plant the
-  /// shares in phase with speed and acceleration, the latter over the lever's inertia.
-  double drag_rms_nm = 0, drag_nm_s_rad = 0, drag_inertia = 0;
-};
-int estimator_count();
-/// Throws std::invalid_argument for a number of no estimator.
-std::unique_ptr<RealChain> make_estimator_chain(int estimator, bool observer, const Tuning& tuning);
-EstimatorRow measure_estimator(const Bench& bench, int estimator);
-std::vector<EstimatorRow> measure_estimators(const Bench& bench,
-                                             const std::function<void(double)>& progress = {});
-/// The largest wall; whether it is beyond what was tried.
-std::string wall_text(double nm_rad);
-/// A Markdown table, as it stands in docs/blocks/velocity.md.
-std::string estimators_text(const std::vector<EstimatorRow>& rows);
-std::string estimators_json(const std::vector<EstimatorRow>& rows);
 
 /// The tables as Markdown, as they stand in docs/speed-for-accuracy.md.
 std::string report_text(const Report& report);

@@ -21,7 +21,11 @@ std::string number(double value) {
 std::string milli(double value) { return number(1e3 * value); }
 
 /// A border: none, beyond what was tried, or its value.
-std::string border_text(double nm_rad) { return nm_rad == 0 ? "under 1" : wall_text(nm_rad); }
+std::string border_text(double nm_rad) {
+  if (nm_rad == 0) return "under 1";
+  return nm_rad >= stiffest_nm_rad ? fmt::format("over {:g}", stiffest_nm_rad)
+                                   : fmt::format("{:.1f}", nm_rad);
+}
 
 std::string lut4_text(const Row& row) {
   const Size size = size_of(row.kind);

@@ -16,7 +16,6 @@
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/loop.hpp"
 #include "studies/rates/sweep.hpp"
-#include "studies/stability/experiments.hpp"
 
 namespace feltgate::rates {
 

@@ -184,12 +184,11 @@ Report measure(const Scenario& scene, const LawSource& law, const plant::Paramet
 Report measure(const AxesScene& scene, const LawSource& law, const design::Elaborated& e,
                const Options& options);
 
-/// The report as text tables, as JSON (schema feltgate-rates/1), and as CSV with a row per rate.
+/// The report as text tables, and as JSON (schema feltgate-rates/1).
 std::string report_text(const Report& report);
 /// The gains beside the bits as text.
 std::string gains_text(const Report& report);
 std::string reports_json(const std::vector<Report>& reports);
-std::string reports_csv(const std::vector<Report>& reports);
 
 /// A rate as text: "490 Hz", "1 kHz", "0.5 MHz".
 std::string rate_text(double hz);

@@ -228,18 +228,4 @@ std::string reports_json(const std::vector<Report>& reports) {
                            {"scenes", array_of(scene_columns, reports)}});
 }
 
-std::string reports_csv(const std::vector<Report>& reports) {
-  Json rows = Json::array();
-  for (const Report& r : reports) {
-    for (Json& row : array_of(columns_of(r), r.rows)) {
-      row["scene"] = r.scene;
-      rows.push_back(row);
-    }
-  }
-  return files::csv({"scene", "by", "rate_hz", "ticks", "error_rms_nm", "error_max_nm", "margin",
-                     "border", "border_of", "clocks_used", "clocks_available", "time_ratio",
-                     "swing_nm", "expected", "broken"},
-                    rows);
-}
-
 }  // namespace feltgate::rates

@@ -15,7 +15,6 @@
 #include "feltgate/engine_ops.hpp"
 #include "law/diagnostics.hpp"
 #include "sim/law_loop/scene_law.hpp"
-#include "studies/stability/experiments.hpp"
 
 namespace feltgate::rates {
 

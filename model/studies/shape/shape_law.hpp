@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "studies/shape/rounded.hpp"
+#include "studies/shape/outline.hpp"
 
 namespace feltgate::shape {
 

@@ -11,8 +11,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "studies/stability/axis_chain.hpp"
-
 namespace feltgate::stability {
 
 namespace {

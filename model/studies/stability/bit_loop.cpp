@@ -35,9 +35,6 @@ BitLoop::BitLoop(const design::Elaborated& design, const BitLoopSetting& s)
       pwm_clocks_(design.design.pwm_period_clocks()),
       clocks_per_tick_(design.design.clocks_per_tick()),
       setpoint_address_(address("setpoint_torque")) {
-  if (s.encoder) {
-    encoder_.emplace(s.plant.encoder, s.plant.effects.encoder_imperfect, theta_rad());
-  }
   const bool own = s.wall.scene_ticks == 1;
   in_.armed = true;
   in_.scene = design.registers.scene_number(own ? "wall" : "setpoint");
@@ -80,12 +77,7 @@ void BitLoop::tick() {
   if (every > 1 && k_ >= host_ticks && (k_ - host_ticks) % every == 0) {
     chain_->set_parameter(setpoint_address_, host_torque_);
   }
-  if (encoder_) {
-    edges_.clear();
-    encoder_->advance(theta_rad(), 0, clocks_per_tick_, edges_);
-    position_ = static_cast<std::int32_t>(encoder_->count());
-    in_.edge_clock = edges_.empty() ? 0 : static_cast<int>(edges_.back().clock) - 1;
-  } else if (!design_.design.absolute) {
+  if (!design_.design.absolute) {
     position_ = counts();
   } else {
     const int period = design_.design.absolute_period_ticks();

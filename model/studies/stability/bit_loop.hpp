@@ -9,12 +9,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "design/design.hpp"
-#include "sim/plant/encoder.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/reference/real_chain.hpp"
 #include "studies/stability/linear_loop.hpp"
@@ -62,9 +60,6 @@ struct BitLoopSetting {
   plant::Hand hand;
   /// Nothing in the voltage law but gains: dead voltage 0, one region, limits as far as words go.
   bool linear = true;
-  /// The plant's encoder, with its irregular lines and the clocks of its edges, which M/T needs;
-  /// else counts are exact at each tick.
-  bool encoder = false;
 };
 
 /// The loop; the wall's face is at 0 rad and the wall extends above it.
@@ -83,7 +78,6 @@ class BitLoop {
   double motor_torque_nm() const { return plant_.observables().motor_torque_mean_nm; }
   double tau_ref_nm() const { return chain_->out().tau_ref_nm; }
   double tau_hat_nm() const { return chain_->out().tau_hat_nm; }
-  std::int32_t position() const { return position_; }
 
   /// A host's wall: torque from the position and velocity that the host has read, rad and rad/s.
   /// The default is the law of the core's wall. Only with scene_ticks > 1.
@@ -97,8 +91,6 @@ class BitLoop {
   Wall wall_;
   std::unique_ptr<RealChain> chain_;
   plant::Plant plant_;
-  std::optional<plant::Encoder> encoder_;
-  std::vector<EncoderEvent> edges_;
   HostLaw host_;
   double count_rad_;
   int pwm_ticks_, pwm_clocks_, clocks_per_tick_, setpoint_address_;

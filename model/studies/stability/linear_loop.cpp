@@ -12,8 +12,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "studies/stability/axis_chain.hpp"
-
 namespace feltgate::stability {
 
 namespace {
@@ -155,6 +153,14 @@ LinearLoop make_linear_loop(const design::Elaborated& e, const plant::Parameters
 
 int pwm_ticks(const design::Design& d) {
   return std::max(1, d.pwm_period_clocks() / d.clocks_per_tick());
+}
+
+int scene_ticks(const design::Design& d, double rate_hz) {
+  const double ticks = static_cast<double>(d.tick_hz) / rate_hz;
+  const int pwm = pwm_ticks(d);
+  const int whole = std::max(1, static_cast<int>(std::lround(ticks / pwm))) * pwm;
+  if (std::abs(whole - ticks) < 0.01 * ticks) return whole;
+  return std::max(1, static_cast<int>(std::lround(ticks)));
 }
 
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& p) {

@@ -96,6 +96,10 @@ int apart_ticks(const LoopModel& model, int period_ticks);
 /// core: the borders are on the safe side.
 int pwm_ticks(const design::Design& d);
 
+/// Ticks of a scene period: the nearest; a multiple of the PWM period where that changes the rate
+/// by less than 1 %, so that the loop repeats after one of them.
+int scene_ticks(const design::Design& design, double rate_hz);
+
 /// Of two voltage gains, the low one.
 LoopModel make_model(const design::Elaborated& e, const plant::Parameters& plant);
 
@@ -134,5 +138,69 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 /// exp(a*t) - 1 of a square matrix `a` and a time t >= 0 in the inverse of its unit, by a Taylor
 /// series and doubling, so that small results keep their digits.
 Eigen::MatrixXd matrix_exp_minus_one(const Eigen::MatrixXd& a, double t);
+
+// The state of an axis of the core from tick to tick, without quantisation: estimator, observer,
+// torque of a scene or a host, voltage.
+
+/// Period and delay of a torque, which is held in between.
+struct Renewal {
+  int scene_ticks = 1;
+  int delay_ticks = 0;  ///< from the samples to the first tick in which their torque acts
+};
+
+/// A tick calls, in this order: begin(), see() with the angle, ask() for a torque, drive().
+struct AxisChain {
+  double velocity = 0, observer = 0, reference = 0;
+  double volts_new = 0, volts = 0;     ///< newest, and in force in this PWM period
+  double torque = 0, torque_next = 0;  ///< of the host: in force, and under way
+  std::vector<double> window;          ///< angles of the last m1 ticks, a ring
+  std::size_t oldest = 0;
+
+  static constexpr Eigen::Index scalars = 7;
+
+  void begin(const LoopModel& m, const Renewal& r, long k) {
+    if (k % m.pwm_ticks == 0) volts = volts_new;
+    if (r.delay_ticks > 0 && (k - r.delay_ticks) % r.scene_ticks == 0) torque = torque_next;
+  }
+  void see(const LoopModel& m, double angle) {
+    const double travel = angle - window[oldest];
+    window[oldest] = angle;
+    if (++oldest == window.size()) oldest = 0;
+    velocity += m.velocity_a1 * (m.raw_rad_s_rad * travel - velocity);
+    observer += m.observer_a1 * (m.torque_constant * reference + inertia(m) - observer);
+  }
+  /// The observer's torque, the law's tau_hat.
+  double observed(const LoopModel& m) const { return observer - inertia(m); }
+  void ask(const Renewal& r, long k, double asked) {
+    if (k % r.scene_ticks != 0) return;
+    torque_next = asked;
+    if (r.delay_ticks == 0) torque = asked;
+  }
+  void drive(const LoopModel& m) {
+    reference = m.torque_gain * torque + m.observer_gain * observed(m);
+    volts_new = m.applied * (m.voltage_gain * reference + m.emf_constant * velocity);
+  }
+
+  /// From a vector of scalars + m1 numbers, and to one: the window with its oldest angle first.
+  void unpack(const LoopModel& m, const double* v) {
+    velocity = v[0];
+    observer = v[1];
+    reference = v[2];
+    volts_new = v[3];
+    volts = v[4];
+    torque = v[5];
+    torque_next = v[6];
+    window.assign(v + scalars, v + scalars + m.m1);
+    oldest = 0;
+  }
+  void pack(double* v) const {
+    const double all[] = {velocity, observer, reference, volts_new, volts, torque, torque_next};
+    for (const double x : all) *v++ = x;
+    for (std::size_t i = 0; i < window.size(); ++i) *v++ = window[(oldest + i) % window.size()];
+  }
+
+ private:
+  double inertia(const LoopModel& m) const { return m.inertia_gain * velocity; }
+};
 
 }  // namespace feltgate::stability

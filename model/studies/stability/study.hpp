@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/stability/experiments.hpp"
-#include "studies/stability/law_loop.hpp"
+#include "studies/stability/linear_loop.hpp"
 
 namespace feltgate::stability {
 
@@ -26,45 +25,17 @@ struct BorderPoint {
   double z_width = 0;           ///< border over the impedance of the free lever at 10 Hz
 };
 
-/// Poles of the core's own wall while its stiffness grows.
-struct LocusPoint {
-  double stiffness_nm_rad = 0;
-  std::vector<Pole> poles_rad_s;
-};
-
-/// The textbook loop against numbers that others published for it.
-struct KnownNumber {
-  std::string what;
-  double published = 0, computed = 0;
-};
-
-struct HostRow {
-  std::string what;
-  HostCase setting;
-  HostFigures figures;
-};
-
 struct Study {
   std::string design, linear_plant, full_plant;
   LoopModel model;
   std::vector<BorderPoint> borders;
-  double locus_damping_nm_s_rad = 0;
-  std::vector<LocusPoint> locus;
-  std::vector<KnownNumber> known;
-  double friction_nm = 0;  ///< f of the encoder rule
-  double rule_nm_rad = 0;
-  double rest_damping_nm_s_rad = 0;
-  std::vector<Rest> rests;
-  std::vector<HostRow> hosts;
-  double count_rad = 0;
-  std::vector<HeldWall> held;  ///< 2 Nm/deg at three rates
+  double rule_nm_rad = 0;  ///< 2 f / q: below it friction can hold a lever between two counts
 };
 
 struct StudyOptions {
   std::vector<double> rates_hz{144, 490, 1e3, 40e3, 1e6};
   std::vector<double> damping_nm_s_rad{0, 0.001, 0.002, 0.005, 0.01, 0.02};
   bool bits = true;                           ///< bisection on the bit-exact loop
-  bool experiments = true;                    ///< counts, friction and noise in the full plant
   std::function<void(double done)> progress;  ///< 0..1; may be empty
 };
 
@@ -72,9 +43,6 @@ struct StudyOptions {
 /// `design` must be built in; `linear` has no friction, dead voltage and dead time.
 Study run_study(const design::Elaborated& design, const plant::Parameters& linear,
                 const plant::Parameters& full, const StudyOptions& options);
-
-/// Numbers of the textbook loop; needs no design.
-std::vector<KnownNumber> known_numbers();
 
 /// The study as text for a terminal.
 std::string study_text(const Study& study);

@@ -10,7 +10,6 @@
 #include "sim/axes_loop/axes_run.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/loop/felt.hpp"
-#include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 
 namespace feltgate::trim {

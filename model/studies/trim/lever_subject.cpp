@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sim/loop/felt.hpp"
-#include "studies/trim/motions.hpp"
 #include "studies/trim/subject.hpp"
 
 namespace feltgate::trim {
@@ -53,7 +52,6 @@ Felt feel(const Scenario& scene, const plant::Parameters& plant, const std::stri
   felt.force = {std::move(force)};
   felt.simulated_s = run.simulated_s;
   felt.states = run.plant_states;
-  felt.evaluations = run.evaluations;
   felt.broken = run.broken;
   felt.fault = first_fault(run.felt.faults);
   return felt;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Other motions of the same scene. Documentation: docs/speed-for-accuracy.md
-#include "studies/trim/motions.hpp"
+#include "studies/trim/subject.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -52,7 +52,6 @@ struct Felt {
   double simulated_s = 0;
   double cpu_s = 0;                 ///< CPU time of the thread that ran it
   std::size_t states = 0;           ///< of the plant; of several axes not counted
-  plant::Evaluations evaluations;   ///< of one lever
   std::vector<std::string> broken;  ///< expectations of the scene that do not hold
   std::string fault;                ///< the first that opened the gates, with its time; or none
 };
@@ -136,5 +135,35 @@ Subject lever_subject(const Scenario& scene, const plant::Parameters& plant, con
                       const LawMaker& law = {});
 /// The loop of several axes has mean voltages and steps of 250 clocks: only effects are parts.
 Subject axes_subject(const AxesScene& scene, const Options& options, const LawMaker& law);
+
+// Other motions of a scene, for checks on motions that a search did not use.
+
+/// A scene with its plant.
+struct Motion {
+  Scenario scene;
+  plant::Parameters plant;
+  double amplitude = 1, speed = 1;  ///< factors against the scene's own
+};
+
+/// The scene with the hand's way 0.7 to 1.3 times as long and everything in it 0.7 to 1.4 times as
+/// fast, started up to two counts away, on an encoder of another seed; a hand with a mass is
+/// another person's (each constant 0.8 to 1.25 times). Where the host moves instead of the hand,
+/// the set-points of torque and voltage are scaled by the amplitude. The same seed gives the same
+/// motion; consecutive seeds go round far and near, fast and slow.
+Motion perturbed(const Scenario& scene, const plant::Parameters& plant, std::uint64_t seed);
+
+/// A scene of a device.
+struct AxesMotion {
+  AxesScene scene;
+  double amplitude = 1, speed = 1;  ///< factors against the scene's own
+};
+
+/// The same for a device. The way is 0.9 to 1.1 times as long, because a linkage has an end; only
+/// levers and slides start elsewhere. A plane's host stays as it is.
+AxesMotion perturbed(const AxesScene& scene, std::uint64_t seed);
+
+/// Whether an impedance holds it.
+bool has_mass(const plant::Hand& hand);
+bool has_mass(const DeviceSetup& device);
 
 }  // namespace feltgate::trim

@@ -361,26 +361,6 @@ class Search {
 
 bool Report::smaller() const { return !equal(full, trimmed); }
 
-std::vector<UnseenReport> check_unseen(const Subject& subject, const Model& model,
-                                       const Options& options,
-                                       const std::vector<std::uint64_t>& seeds) {
-  Runner runner(options, subject.full, static_cast<int>(seeds.size()));
-  std::vector<Course> motions;
-  for (const std::uint64_t seed : seeds) motions.push_back(subject.other(seed));
-  std::vector<Job> jobs;
-  for (const Course& m : motions) {
-    jobs.push_back({&m, subject.full});
-    jobs.push_back({&m, model});
-  }
-  const std::vector<Felt> felt = runner.run(jobs);
-  std::vector<UnseenReport> all;
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    all.push_back({seeds[i], motions[i].amplitude, motions[i].speed,
-                   compare(felt[2 * i], felt[2 * i + 1]), false});
-  }
-  return all;
-}
-
 Report trim(const Subject& subject, const Options& options) {
   return Search(subject, options).run();
 }

@@ -52,11 +52,6 @@ struct Report {
   double times_faster() const { return faster[faster.size() / 2]; }
 };
 
-/// Losses of `model` on motions made with these seeds, one report per motion.
-std::vector<UnseenReport> check_unseen(const Subject& subject, const Model& model,
-                                       const Options& options,
-                                       const std::vector<std::uint64_t>& seeds);
-
 /// Greedy removal. First the gates; then every effect alone, out of the model that is left; then,
 /// the least loss first, each is left out for good when the set stays within the share of the
 /// tolerance on the scene's own motion; then the coarsest step that does. The set is

@@ -211,7 +211,7 @@ class OtherCommands(Bench):
         return {
             "import": (("import", vector), None),
             "design": (("design", "lever", "--for", "wall"), "-o"),
-            "stability": ((*study, "--no-experiments"), "--json"),
+            "stability": (study, "--json"),
             "extremes": (("extremes", "wrap_32"), "--json"),
             "replay": (("replay", vector, "--engine", "twin"), "--json"),
             "trim": (("trim", trim, "--tolerance", "20%", "--unseen", "1"), "--json"),

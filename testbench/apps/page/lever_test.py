@@ -243,7 +243,7 @@ class Border(LeverTest):
         """The rows of the command: rate, damping and border by eigenvalues."""
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "stability.json"
-            words = "stability lever --no-bits --no-experiments --rate".split()
+            words = "stability lever --no-bits --rate".split()
             lists = [",".join(map(str, TICKS)), "--damping", ",".join(map(str, DAMPINGS))]
             environment = {**os.environ, "FELTGATE_ROOT": str(ROOT)}
             done = ran(BUILD / "feltgate", *words, *lists, "--json", file, env=environment)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 """With a board in software: feltgate.Device (values, arming, arrays, errors, Ctrl-C); and the Python
-code of README and docs/python.md runs as it stands, as does the notebook.
+code of docs/python.md runs as it stands, as does the notebook.
 """
 
 import contextlib
@@ -13,7 +13,6 @@ import sys
 import threading
 import time
 import unittest
-from pathlib import Path
 
 import numpy as np
 
@@ -21,9 +20,8 @@ import feltgate
 
 from board_process import BoardProcess
 
-from testing import ROOT, Scratch, ran
+from testing import ROOT, Scratch, ran, text_of
 
-BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NOTEBOOK = ROOT / "docs/fixed_against_float.ipynb"
 
 
@@ -144,33 +142,17 @@ class Device(unittest.TestCase):
             self.assertEqual(board.order("armed?"), "0")
 
 
-def blocks(page):
-    return BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
-
-
 class Pages(Scratch):
-    def setUp(self):
-        super().setUp()
+    def test_python_page(self):
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.folder)
-
-    def run_blocks(self, page):
-        said = io.StringIO()
-        with BoardProcess() as board, contextlib.redirect_stdout(said):
+        page = "docs/python.md"
+        blocks = re.findall(r"^```python\n(.*?)^```$", text_of(page), re.M | re.S)
+        self.assertGreaterEqual(len(blocks), 5)
+        with BoardProcess() as board, contextlib.redirect_stdout(io.StringIO()):
             names = {"port": board.port}
-            for block in blocks(page):
+            for block in blocks:
                 exec(compile(block, page, "exec"), names)  # one after the other, as a reader would
-        return said.getvalue()
-
-    def test_readme(self):
-        (block,) = blocks("README.md")
-        self.assertLessEqual(len(block.splitlines()), 12)
-        self.run_blocks("README.md")
-        self.assertTrue(list(Path().glob("*.png")))
-
-    def test_python_page(self):
-        self.assertGreaterEqual(len(blocks("docs/python.md")), 5)
-        self.run_blocks("docs/python.md")
 
     def test_notebook(self):
         self.ended(ran(sys.executable, ROOT / "scripts/notebook.py", NOTEBOOK, "--check"))

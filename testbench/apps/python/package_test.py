@@ -34,6 +34,8 @@ class Columns(unittest.TestCase):
         code = re.search(r"^## In Python\n.*?^```python\n(.*?)^```", page, re.M | re.S)[1]
         with tempfile.TemporaryDirectory() as folder:
             done = ran(sys.executable, "-c", code, cwd=folder, check=True)
+            self.assertTrue(list(Path(folder).glob("*.png")))
+        self.assertLessEqual(len(code.splitlines()), 12)
         proven, outside = done.stdout.splitlines()
         error, bound = re.fullmatch(r"(\S+) Nm, proven: (\S+)", proven).groups()
         self.assertGreater(float(error), 0)

@@ -24,50 +24,6 @@ namespace {
 using plant::length;
 using touch::Mesh;
 
-TEST_CASE("touch: a mesh that comes to the pen is felt as one that the pen goes to") {
-  // A plate rises with 20 mm/s under a pen that is held.
-  const Mesh plate = touch::clean(box({0.02, 0.02, 0.002}));
-  touch::TouchRequest request;
-  request.host.stiffness_n_m = 300;
-  request.stroke = {{0, {0.003, 0, 0.004}}, {0.2, {0.003, 0, 0.004}}};
-  request.mesh_way = {{0, {0, 0, 0}, {}}, {0.2, {0, 0, 4e-3}, {0, 0, 3}}};
-  const touch::TouchRun rising = run_on(plate, "twin,double", request);
-  CHECK(rising.result.broken.empty());
-  int felt = 0;
-  for (const touch::TouchRow& row : rising.rows) {
-    const double deep_m = std::max(0.0, 0.02 * row.time_s + 0.002 - 0.004);
-    if (row.time_s < 0.12) continue;
-    ++felt;
-    // A plane is up to 3.1 ms old, the pen is counted to 15 um.
-    CHECK(row.force_n.z < 300 * (deep_m + 15e-6));
-    CHECK(row.force_n.z > 300 * (deep_m - 0.02 * 3.1e-3 - 15e-6));
-    CHECK(std::hypot(row.force_n.x, row.force_n.y) < 1e-3);
-  }
-  CHECK(felt > 70);
-}
-
-TEST_CASE("touch: a wall that turns about the vertical turns the force with it") {
-  // The pen presses into the side y = -10 mm of a box, 1.5 mm deep; then the box turns by 0.3 rad.
-  const Mesh wall = touch::clean(box({0.03, 0.01, 0.02}));
-  touch::TouchRequest request;
-  request.host.stiffness_n_m = 300;
-  request.stroke = {{0, {0, -0.012, 0}}, {0.03, {0, -0.0085, 0}}, {0.2, {0, -0.0085, 0}}};
-  request.mesh_way = {{0, {}}, {0.05, {}}, {0.15, {}, {0, 0, 0.3}}, {0.2, {}, {0, 0, 0.3}}};
-  const touch::TouchRun run = run_on(wall, "twin,double", request);
-  CHECK(run.result.broken.empty());
-  int felt = 0;
-  for (const touch::TouchRow& row : run.rows) {
-    if (row.time_s < 0.04) continue;
-    ++felt;
-    const double turn_rad = std::clamp((row.time_s - 0.05) / 0.1, 0.0, 1.0) * 0.3;
-    // 3 rad/s for 3.1 ms, and a count of 15 um along each axis of 1.5 mm.
-    CHECK(std::abs(std::atan2(row.force_n.x, -row.force_n.y) - turn_rad) < 0.01 + 0.02);
-    const double deep_m = 0.01 - 0.0085 * std::cos(turn_rad);
-    CHECK(length(row.force_n) == Approx(300 * deep_m).margin(300 * 40e-6));
-  }
-  CHECK(felt > 150);
-}
-
 /// Rodrigues' formula: v turned about `by_rad` by its length.
 Vec3 turned(Vec3 v, Vec3 by_rad) {
   const double rad = length(by_rad), c = std::cos(rad), s = std::sin(rad);
@@ -290,12 +246,12 @@ TEST_CASE("touch: over a cube's edge, RTL and twin in every clock", "[lockstep]"
   const touch::TouchRun run = run_on(touch::clean(box({0.02, 0.02, 0.02})), "all",
                                      edge_stroke({{0, {0.016, 0.003, 0.022}},
                                                   {0.01, {0.016, 0.003, 0.018}},
-                                                  {0.022, {0.0165, 0.003, 0.018}},
-                                                  {0.039, {0.0202, 0.003, 0.018}}},
+                                                  {0.016, {0.0165, 0.003, 0.018}},
+                                                  {0.026, {0.0202, 0.003, 0.018}}},
                                                  true));
   CHECK(run.result.lock_step);
   CHECK(run.result.mismatches == 0);
-  CHECK(run.result.clocks > 1'800'000);
+  CHECK(run.result.clocks > 1'200'000);
   CHECK(run.result.broken.empty());
   CHECK(run.result.figures.at("tau_ref_nm.0.max") > 2e-3);
   CHECK(run.result.figures.at("tau_ref_nm.2.max") > 3e-3);
@@ -337,8 +293,6 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   const std::string whole = glb_of(json_of(sphere, R"({"mesh":0})"), binary_of(sphere));
   write_file(ball, whole);
   write_file(cut, whole.substr(0, 2000));
-  const std::string open = temporary("feltgate_touch_open.glb");
-  write_glb(open, sheet(0.06, 2));
   std::string text;
   const auto run = [&](const std::string& words) {
     std::filesystem::remove(json);
@@ -359,14 +313,10 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   CHECK(text.find("% of its size away: another shape is felt; take more") != std::string::npos);
   CHECK(run(ball + " --size 20mm --speed 1m/s --json " + json) == 0);
   CHECK(text.find("engine off the law") != std::string::npos);
-  CHECK(run(ball + " --size 20mm --speed 1m/s --distance --material none=stone") == 0);
-  // What merging opened is open for a signed distance too.
+  CHECK(run(ball + " --size 20mm --speed 1m/s --material none=stone") == 0);
   const std::string fine = temporary("feltgate_touch_fine.glb");
   CHECK(run("--make ball --faces 80000 -o " + fine) == 0);
   CHECK(text.find("79380 faces, 39692 vertices, 60.0 mm; CC0-1.0") != std::string::npos);
-  CHECK(run(fine + " --mesh-only --faces 8000") == 0);
-  const bool opened = text.find("edges more at a border") != std::string::npos;
-  CHECK(run(fine + " --faces 8000 --distance --speed 1") == (opened ? 2 : 0));
   const std::string fast = temporary("feltgate_touch_fast.csv");
   write_file(fast, "time_s,x_m,y_m,z_m\n0,0,0,0.04\n0.0005,0,0,0.04\n");
   CHECK(run(ball + " --stroke " + fast) == 2);
@@ -376,26 +326,14 @@ TEST_CASE("touch: the command tells of a mesh, and refuses in one line without w
   CHECK(text.find("2.5 is not a whole number from 0 to 4000000") != std::string::npos);
   CHECK(run(ball + " --engine rtl") == 2);
   CHECK(text.find("--engine rtl: this program has the twin alone; ") != std::string::npos);
-  for (const std::string& words : {cut,
-                                   ball + " --faces 3",
-                                   ball + " --latency 100ms --size 1mm --speed 1",
-                                   ball + " --make ball -o x",
-                                   ball + " -o x",
-                                   std::string("--make cone -o x"),
-                                   std::string("--make ball --faces 20 -o x"),
-                                   said + ".none",
-                                   ball + " --centre nan 0 0",
-                                   ball + " --size 0.5m --centre 0.1 0 0",
-                                   ball + " --stroke " + ball,
-                                   ball + " --material moss=1,2,3",
-                                   ball + " --material none=1,2",
-                                   ball + " --mesh-only --csv x",
-                                   open + " --distance",
-                                   ball + " --edges --drag 1.5",
-                                   ball + " --edges --distance",
-                                   ball + " --material none=steel",
-                                   ball + " --engine fast",
-                                   ball + " --faces -1"}) {
+  for (const std::string& words :
+       {cut, ball + " --faces 3", ball + " --latency 100ms --size 1mm --speed 1",
+        ball + " --make ball -o x", ball + " -o x", std::string("--make cone -o x"),
+        std::string("--make ball --faces 20 -o x"), said + ".none", ball + " --centre nan 0 0",
+        ball + " --size 0.5m --centre 0.1 0 0", ball + " --stroke " + ball,
+        ball + " --material moss=1,2,3", ball + " --material none=1,2",
+        ball + " --mesh-only --csv x", ball + " --edges --drag 1.5",
+        ball + " --material none=steel", ball + " --engine fast", ball + " --faces -1"}) {
     INFO(words);
     CHECK(run(words + " --json " + json) == 2);
     CHECK(std::count(text.begin(), text.end(), '\n') == 1);

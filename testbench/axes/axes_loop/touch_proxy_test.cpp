@@ -344,7 +344,7 @@ TEST_CASE("touch: a hand that presses and gives way is as deep as its force says
                       {0.02, {-0.01, 0.001, top_m + 3e-3}},
                       {0.04, {-0.01, 0.001, top_m}},
                       {0.2, {-0.01, 0.001, top_m}},
-                      {0.6, {0.01, 0.001, top_m}}};
+                      {0.35, {-0.0025, 0.001, top_m}}};
     const touch::TouchRun run = run_on(mesh, "twin,double", request);
     CHECK(run.result.broken.empty());
     CHECK(run.result.figures.at("faults") == 0);

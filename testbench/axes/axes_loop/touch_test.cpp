@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Meshes of GLB files: import, what is refused, edges, components, genus; and under the stylus in
-// closed loop, RTL and twin. Documentation: docs/touch.md
+// closed loop. Documentation: docs/touch.md
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,7 +11,6 @@
 #include <string>
 
 #include "catch.hpp"
-#include "feltgate/random.hpp"
 #include "touch_meshes.hpp"
 
 using namespace feltgate;
@@ -128,19 +127,6 @@ TEST_CASE("touch: a file that is broken, empty, huge or not alone is refused in 
             .find("needs the extension EXT_meshopt_compression, which is not read; ") == 0);
   CHECK(told("solid cube, a file of another kind").find("no GLB file") == 0);
   CHECK(told(whole.substr(0, whole.size() - 100)).find("cut off") == 0);
-  // Whatever is cut off or changed is refused or read, and never a crash: run with a sanitizer,
-  // this looks at every access.
-  for (std::size_t length = 0; length < whole.size(); length += 7)
-    CHECK(told(whole.substr(0, length)) != "read");
-  SplitMix64 random(7);
-  for (int n = 0; n < 400; ++n) {
-    std::string bad = whole;
-    for (int k = 0; k < 3; ++k) {
-      bad[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(bad.size())))] =
-          static_cast<char>(random.below(256));
-    }
-    CHECK_FALSE(told(bad).empty());
-  }
   const auto with = [&](const std::string& from, const std::string& to) {
     return told(glb_of(replaced(json, from, to), binary));
   };
@@ -238,13 +224,12 @@ touch::Stroke around_ball(double until_s) {
   return stroke;
 }
 
-touch::TouchRun run_ball(const Mesh& mesh, const std::string& engine, double until_s,
-                         bool shading) {
+touch::TouchRun run_ball(const Mesh& mesh, double until_s, bool shading) {
   touch::TouchRequest request;
   request.proxy.shading = shading;
   request.host.stiffness_n_m = 300;
   request.stroke = around_ball(until_s);
-  return run_on(mesh, engine, request);
+  return run_on(mesh, "twin,double", request);
 }
 
 }  // namespace
@@ -253,7 +238,7 @@ TEST_CASE("touch: the stylus feels the ball of facets as the sphere says, in clo
   const Mesh ball = touch::clean(icosphere(0.03, 3));
   constexpr double facet_rad = 0.0953, flat_m = 0.137e-3;  // 30 mm (1 - cos) of a facet
   for (const bool shading : {false, true}) {
-    const touch::TouchRun run = run_ball(ball, "twin,double", 0.1, shading);
+    const touch::TouchRun run = run_ball(ball, 0.1, shading);
     CHECK(run.result.broken.empty());
     CHECK(run.result.figures.at("faults") == 0);
     CHECK(run.result.figures.at("plane_age_s.max") < 3.1e-3);
@@ -276,15 +261,6 @@ TEST_CASE("touch: the stylus feels the ball of facets as the sphere says, in clo
     CHECK(least_n > 300 * (2e-3 - flat_m - counts_m));
     CHECK(most_n < 300 * (2e-3 + old_m + counts_m + beyond_m));
   }
-}
-
-TEST_CASE("touch: the ball in closed loop, RTL and twin in every clock", "[lockstep]") {
-  const touch::TouchRun run = run_ball(touch::clean(icosphere(0.03, 3)), "all", 0.04, true);
-  CHECK(run.result.lock_step);
-  CHECK(run.result.mismatches == 0);
-  CHECK(run.result.clocks > 1'900'000);
-  CHECK(run.result.broken.empty());
-  CHECK(run.result.figures.at("tau_ref_nm.0.max") > 1e-3);
 }
 
 TEST_CASE("touch: a stroke over a mesh goes over its top; one of a file is refused with its line") {

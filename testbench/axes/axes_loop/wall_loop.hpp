@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "sim/plant/pantograph/linkage_mechanics.hpp"
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 #include "studies/stability/linear_loop.hpp"
 
 namespace feltgate::test {

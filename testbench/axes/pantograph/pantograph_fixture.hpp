@@ -10,7 +10,6 @@
 
 #include "../../sim/plant/plant_fixture.hpp"
 #include "sim/plant/pantograph/pantograph.hpp"
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "sim/plant/axes_loop.hpp"
-#include "sim/plant/axes_parameters.hpp"
+#include "sim/plant/parameters.hpp"
 
 namespace feltgate::plant {
 

@@ -15,7 +15,7 @@ from unittest import mock
 
 from testing import BUILD, ROOT, Scratch, ran, weekly
 
-from exploration import point, points_table, presets, space
+from exploration import front, point, points_table, space
 from exploration.design_text import design_text
 from seeded_defects import patches
 
@@ -179,18 +179,18 @@ class Presets(Scratch):
         return found[0]
 
     def test_stable_and_for_use(self):
-        for name in presets.NAMES:
+        for name in front.PRESETS:
             self.ended(ran(BUILD / "feltgate", "design", name, "--plant", "p24"))
 
     def test_tabled(self):
-        for name in presets.NAMES:
+        for name in front.PRESETS:
             with self.subTest(name):
                 design = design_of(name)[1]
                 self.assertIn("gives up", design["description"])
                 self.assertEqual(self.row_of(design)["front"], "f")
 
     def test_equal_to_their_twins_and_as_tabled(self):
-        for name in presets.NAMES if WHOLE else ():  # a usual run evaluates a design above
+        for name in front.PRESETS if WHOLE else ():  # a usual run evaluates a design above
             with self.subTest(name):
                 text, design = design_of(name)
                 result = point.evaluate_design(text, BUILD / "explore/presets", area=False)

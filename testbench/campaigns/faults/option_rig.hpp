@@ -32,7 +32,7 @@
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
-#include "sim/plant/period_mean.hpp"
+#include "sim/plant/plant.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/sigma_delta.hpp"
 #include "sim/plant/three_phase.hpp"

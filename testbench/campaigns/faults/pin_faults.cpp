@@ -18,7 +18,7 @@
 #include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "random.hpp"
-#include "sim/plant/pushing_hand.hpp"
+#include "sim/plant/hand.hpp"
 
 namespace feltgate::faults {
 

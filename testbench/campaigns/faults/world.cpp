@@ -11,8 +11,8 @@
 #include "feltgate/generated/lever.hpp"
 #include "sim/backends/backend.hpp"
 #include "sim/plant/drive.hpp"
+#include "sim/plant/hand.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "sim/plant/pushing_hand.hpp"
 
 namespace feltgate::faults {
 

@@ -23,7 +23,7 @@
 #include "law/read_law.hpp"
 #include "sim/loop/scenario_check.hpp"
 #include "sim/plant/gimbal/gimbal.hpp"
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 #include "sim/plant/plant_file.hpp"
 #include "sim/plant/plant_table.hpp"
 #include "sim/plant/profile.hpp"

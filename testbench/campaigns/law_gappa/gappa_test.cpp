@@ -10,102 +10,17 @@
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 
+#include "compiled.hpp"
 #include "feltgate/largest.hpp"
 #include "feltgate/random.hpp"
 #include "files/program.hpp"
-#include "law/diagnostics.hpp"
+#include "law_tree.hpp"
 #include "mismatch.hpp"
 
 namespace feltgate::law {
-
-/// A law of random formulas over position, velocity, two parameters and sometimes a state.
-class RandomLaw {
- public:
-  explicit RandomLaw(std::uint64_t seed) : random_(seed) {}
-
-  std::string text() {
-    std::string s = fmt::format("param p = {:.3f} in 0 .. {:.3f}\n", random_.between(0.1, 0.9),
-                                random_.between(1, 3));
-    s += fmt::format("param q = 0 in -{:.3f} .. 1\n", random_.between(0.5, 2));
-    const bool memory = random_.below(3) == 0;
-    if (memory) {
-      s += "state kept = 0.25 in -2 .. 2\n";
-      state_ = true;
-    }
-    std::string first = expression(2), out = expression(3);
-    if (memory) {
-      s += random_.below(2) == 0
-               ? fmt::format("next kept = clamp({}, -2, 2)\n", first)
-               : fmt::format("next kept = kept + {:.3f} * (clamp({}, -2, 2) - kept)\n",
-                             random_.between(0.01, 1), first);
-    }
-    s += fmt::format("out torque = 1 Nm * clamp({} + 0 * (p + q) + {}, -4, 4)\n", out,
-                     memory ? "0.5 * kept" : "0");
-    return s;
-  }
-
- private:
-  std::string leaf() {
-    switch (random_.below(state_ ? 7 : 6)) {
-      case 0:
-        return fmt::format("clamp(position, -{:.3f}, {:.3f})", random_.between(0.1, 3),
-                           random_.between(0.1, 3));
-      case 1:
-        return "clamp(0.02 s * velocity, -2, 2)";
-      case 2:
-        return "p";
-      case 3:
-        return "q";
-      case 4:
-        return fmt::format("{:.4f}", random_.between(0.1, 2));
-      case 5:
-        return fmt::format("(position / {:.2f})", random_.between(50, 300));
-      default:
-        return "kept";
-    }
-  }
-
-  std::string expression(int depth) {
-    if (depth == 0) return leaf();
-    const std::string a = expression(depth - 1), b = expression(depth - 1);
-    switch (random_.below(14)) {
-      case 0:
-      case 1:
-        return fmt::format("({} + {})", a, b);
-      case 2:
-        return fmt::format("({} - {})", a, b);
-      case 3:
-      case 4:
-        return fmt::format("({} * {})", a, b);
-      case 5:
-        return fmt::format("min({}, {})", a, b);
-      case 6:
-        return fmt::format("max({}, {})", a, b);
-      case 7:
-        return fmt::format("abs({})", a);
-      case 8:
-        return fmt::format("(if {} < {} then {} else {})", a, b, expression(1), expression(1));
-      case 9:
-        return fmt::format("sin({} * position + {})", 1 + random_.below(20), a);
-      case 10:
-        return fmt::format("sqrt({:.2f} + abs({}))", random_.between(0.05, 1), a);
-      case 11:
-        return fmt::format("({} / ({:.2f} + abs({})))", a, random_.between(0.3, 1), b);
-      case 12:
-        return fmt::format("(if position > q and {} > 0 then {} else {})", a, a, b);
-      default:
-        return fmt::format("(sgn(position - q) * {})", a);
-    }
-  }
-
-  SplitMix64 random_;
-  bool state_ = false;
-};
 
 namespace {
 
@@ -144,10 +59,6 @@ class Prover {
   int nowhere_;
 };
 
-Compiled shipped(const std::string& name) {
-  return compile_file(std::string(FELTGATE_ROOT) + "/rtl/laws/" + name + ".law", Target{});
-}
-
 void require_all(const Prover& gappa, const Compiled& c, int cells) {
   const GappaCount count = gappa.count(c, cells);
   INFO(c.law.name << ": " << count.steps - static_cast<int>(count.uncovered.size()) << " of "
@@ -161,16 +72,11 @@ void require_all(const Prover& gappa, const Compiled& c, int cells) {
 
 TEST_CASE("Gappa proves every instruction of the shipped laws") {
   const Prover gappa;
-  std::set<std::string> names;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(FELTGATE_ROOT) + "/rtl/laws")) {
-    if (entry.path().extension() == ".law") names.insert(entry.path().stem().string());
-  }
   // A usual run proves every sixth law.
   const int every = test::whole_run() ? 1 : 6;
   int i = 0;
-  for (const std::string& name : names) {
-    if (i++ % every == 0) require_all(gappa, shipped(name), long_run() ? 0 : 1);
+  for (const std::string& name : shipped_names()) {
+    if (i++ % every == 0) require_all(gappa, compiled_shipped(name), long_run() ? 0 : 1);
   }
 }
 
@@ -196,7 +102,7 @@ TEST_CASE("Gappa's rounding is the engine's", "[defects]") {
 }
 
 TEST_CASE("what the tables say is looked up word by word") {
-  const Compiled c = shipped("charge");
+  const Compiled c = compiled_shipped("charge");
   for (std::size_t i = 0; i < c.program.steps.size(); ++i) {
     if (c.program.steps[i].op != EngineOp::lrp) continue;
     const TableUse& t = c.program.tables[static_cast<std::size_t>(c.program.steps[i].table)];
@@ -217,50 +123,48 @@ TEST_CASE("a bound that is too small is not proven", "[defects]") {
   const Prover gappa;
   // A sum of two values that were rounded; a long law would take Gappa a minute to come to one.
   require_all(gappa,
-              compile_text("param k = 0.3 in -1 .. 1\n"
-                           "let x = clamp(position, -1, 1)\n"
-                           "out torque = 1 Nm * (abs(k * x) + abs(x * x))\n",
-                           "sum.law", Target{}),
+              compiled("param k = 0.3 in -1 .. 1\n"
+                       "let x = clamp(position, -1, 1)\n"
+                       "out torque = 1 Nm * (abs(k * x) + abs(x * x))\n"),
               2);
   for (const char* name : {"wall", "charge_far", "quaternion"}) {
-    require_all(gappa, shipped(name), 2);
+    require_all(gappa, compiled_shipped(name), 2);
   }
   require_all(gappa,
-              compile_text("rate = 40 kHz\n"
-                           "param k = 0.3 Nm in -1 .. 1 Nm\n"
-                           "state held = 0 in -1 .. 1\n"
-                           "let x = clamp(position, -1, 1)\n"
-                           "next held = lowpass(abs(x) * x, 100 Hz)\n"
-                           "let y = sin(3 * position) * sqrt(abs(x) + 0.01)\n"
-                           "let side = if position < 0.5 then 0.5 - position else 0\n"
-                           "out torque = k * min(held, 0.7 * x) + 0.1 Nm * y + 1 mNm * side\n",
-                           "made.law", Target{}),
+              compiled("rate = 40 kHz\n"
+                       "param k = 0.3 Nm in -1 .. 1 Nm\n"
+                       "state held = 0 in -1 .. 1\n"
+                       "let x = clamp(position, -1, 1)\n"
+                       "next held = lowpass(abs(x) * x, 100 Hz)\n"
+                       "let y = sin(3 * position) * sqrt(abs(x) + 0.01)\n"
+                       "let side = if position < 0.5 then 0.5 - position else 0\n"
+                       "out torque = k * min(held, 0.7 * x) + 0.1 Nm * y + 1 mNm * side\n"),
               6);
 }
 
 TEST_CASE("Gappa proves what the language brings along") {
   const Prover gappa;
-  for (const char* name : {"cogging", "counts", "equal", "latch", "rough", "since"}) {
-    require_all(gappa,
-                compile_file(fmt::format("{}/testbench/law/laws/{}.law", FELTGATE_BUILD_DIR, name),
-                             Target{}),
-                2);
+  const std::set<std::string> names{"cogging", "counts", "equal", "latch", "rough", "since"};
+  for (const Construct& c : constructs()) {
+    if (names.count(c.name) > 0) require_all(gappa, compiled(c.text), 2);
   }
 }
 
 TEST_CASE("Gappa proves random laws") {
   const Prover gappa;
-  int compiled = 0;
+  int proven = 0;
   for (int i = 0; i < (long_run() ? 200 : 6); ++i) {
-    const std::string text = RandomLaw(static_cast<std::uint64_t>(i) + 5001).text();
+    const auto seed = static_cast<std::uint64_t>(i) + 5001;
+    const judge::Law random = judge::random_law(seed, judge::Shape::formula);
+    const std::string text = judge::Printer(random).text();
     INFO("law " << i << ":\n" << text);
     try {
-      require_all(gappa, compile_text(text, "random.law", Target{}), 2);
-      ++compiled;
+      require_all(gappa, compiled(text), 2);
+      ++proven;
     } catch (const LawError&) {
     }
   }
-  CHECK(compiled > 2);
+  CHECK(proven > 2);
 }
 
 }  // namespace

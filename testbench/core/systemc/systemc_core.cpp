@@ -21,8 +21,8 @@
 #include "feltgate/generated/lever.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/drive.hpp"
+#include "sim/plant/hand.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "sim/plant/pushing_hand.hpp"
 #include "sim/systemc/motor_module.hpp"
 #include "sim/systemc/twin_module.hpp"
 

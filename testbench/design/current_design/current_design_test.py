@@ -52,7 +52,6 @@ class Edited(Scratch):
         vector = ROOT / "vectors/traces/membrane.vec"
         for program, *words in (
             ("feltgate", "run", "wall", "--engine", "twin"),
-            ("feltgate", "run", "wall", "--design", "lever", "--engine", "all"),
             ("feltgate", "replay", vector, "--engine", "twin"),
             ("feltgate", "trim", "wall"),
             ("feltgate", "stability", "lever"),
@@ -67,8 +66,6 @@ class Edited(Scratch):
     def test_scripts(self):
         self.edit()
         self.script("product.py", "verilog")
-        self.script("product.py", "board")
-        self.script("product.py", "fmu", "--scene", "wall")
         self.script("synth.py", "--block", "pwm", "--no-route")
         self.script("synth.py", "--board", "ulx3s", "--no-route")
         self.script("page.py")

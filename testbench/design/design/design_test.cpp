@@ -11,7 +11,6 @@
 #include "design/design.hpp"
 #include "design_fixture.hpp"
 #include "feltgate/absolute_encoder.hpp"
-#include "sim/backends/absolute_sensor.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
@@ -250,25 +249,6 @@ TEST_CASE("a parameter that does not fit its word is refused", "[design]") {
       "a value that makes it smaller");
 }
 
-TEST_CASE("what is generated names what it came from", "[generate]") {
-  const Elaborated e = shipped("paper");
-  for (const std::string& text : {systemverilog_package(e), cpp_header(e)}) {
-    CHECK(text.find("rtl/designs/paper.toml") != std::string::npos);
-    CHECK(text.find("do not edit") != std::string::npos);
-  }
-  const std::string table = design_table(e);
-  for (const Word& w : e.words) {
-    INFO(w.parameter.name);
-    CHECK(table.find(w.parameter.name) != std::string::npos);
-    CHECK(register_page(e).find("`" + w.parameter.name + "`") != std::string::npos);
-  }
-  for (const auto& [name, format] : named_formats(e.formats)) {
-    INFO(name);
-    CHECK(table.find(name) != std::string::npos);
-    CHECK(format.width() > 0);
-  }
-}
-
 TEST_CASE("three phases with two shunts: the words of the loop, and what it refuses") {
   const std::string good = file_text(design_path("gimbal_motor"));
   // Two shunts: the window of the currents is around the begin of a period, and P/sqrt(3) is the
@@ -323,29 +303,6 @@ TEST_CASE("Hall lines: a constant and a CRC of their own, and no absolute encode
 namespace feltgate {
 
 constexpr double turn_rad = 2 * M_PI;
-
-TEST_CASE("encoder: the table takes a sensor's error away") {
-  // A magnet off its axis by half a degree, and a second harmonic.
-  const std::vector<double> error_rad{7.5e-3, 4.5e-3, -1.2e-3, 0.9e-3};
-  constexpr int bits = 14, angles = 10'000;
-  AbsoluteSensor sensor(AbsoluteEncoder::Parameters{});
-  sensor.set_error(error_rad);
-  design::Design d;
-  d.absolute_bits = bits;
-  for (const double term : error_rad) d.absolute_error_mrad.push_back(1e3 * term);
-  const auto table = d.absolute_corrections();
-  const double count_rad = std::ldexp(turn_rad, -bits);
-  double before = 0, after = 0;
-  for (int k = 0; k < angles; ++k) {
-    const double rad = k * turn_rad / angles;
-    const auto count = static_cast<std::int32_t>(std::floor(sensor.shown_rad(rad) / count_rad));
-    before = std::max(before, std::abs((count + 0.5) * count_rad - rad));
-    after =
-        std::max(after, std::abs((corrected(count, table.data(), bits) + 0.5) * count_rad - rad));
-  }
-  CHECK(before > 8.7e-3);
-  CHECK(after < before / 10);
-}
 
 TEST_CASE("encoder: the corrections are within half a count of the curve, and half an entry") {
   for (const int bits : {12, 14, 19}) {

@@ -419,20 +419,6 @@ const std::set<std::string> scenes{"charge_attract", "charge_repel",       "damp
 
 }  // namespace
 
-TEST_CASE("a mistake is a letter more, less, other or swapped") {
-  CHECK(mistakes_between("", "") == 0);
-  CHECK(mistakes_between("wall", "") == 4);
-  CHECK(mistakes_between("", "wall") == 4);
-  CHECK(mistakes_between("wall", "wall") == 0);
-  CHECK(mistakes_between("wal", "wall") == 1);
-  CHECK(mistakes_between("walll", "wall") == 1);
-  CHECK(mistakes_between("wahl", "wall") == 1);
-  CHECK(mistakes_between("wlal", "wall") == 1);
-  CHECK(mistakes_between("WALL", "wall") == 0);
-  CHECK(mistakes_between("torque-step", "torque_step") == 0);
-  CHECK(mistakes_between("kitten", "sitting") == 3);
-}
-
 TEST_CASE("the nearest name is suggested") {
   CHECK(nearest("membrnae", scenes) == "membrane");
   CHECK(nearest("Damper", scenes) == "damper");

@@ -8,7 +8,6 @@
 #include <regex>
 
 #include "design_fixture.hpp"
-#include "feltgate/generated/map.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
@@ -174,16 +173,4 @@ TEST_CASE("a schedule that says nonsense is refused where it stands", "[schedule
           "voltage passes by with duty_limit, which is no product");
   refused(Texts().in_registers("bit = 3\ndoc = \"voltage at", "bit = 4\ndoc = \"voltage at"),
           "4 follows 2; list them in order; this one is 3");
-}
-
-TEST_CASE("the generated map says what the files say", "[schedule]") {
-  CHECK(Map::W::current_limit == 33);
-  CHECK(Map::M::observer_a1 == Map::W::observer_a1 + Map::multiplier_latency);
-  CHECK(Map::C::read_velocity == 0x300 + Map::W::inertia_gain);
-  CHECK(Map::T::duty + 1 - Map::T::sample == 47);
-  int clock = 0;
-  for (const Map::StepAt& step : Map::steps) {
-    CHECK(step.clock >= clock);
-    clock = step.clock;
-  }
 }

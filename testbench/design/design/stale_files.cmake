@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
 # cmake -DGENERATE=program -DROOT=repository -DCOPY=folder -P stale_files.cmake: in a copy, the
-# check of generated files passes, fails after a change of a design, and a bad design ends with 2.
+# check of generated files passes, fails after a change of a design, and a bad design ends with 2, as
+# does an output that cannot be written.
 file(REMOVE_RECURSE "${COPY}")
 foreach(folder rtl/designs rtl/generated model/include/feltgate/generated)
   file(COPY "${ROOT}/${folder}/" DESTINATION "${COPY}/${folder}")
@@ -59,3 +60,11 @@ if(NOT output MATCHES "lever.toml:[0-9]+: .*nonsense")
   message(FATAL_ERROR "no place in the error:\n${output}")
 endif()
 file(REMOVE_RECURSE "${COPY}")
+foreach(output /proc/x /dev/full /dev/null/x)
+  execute_process(
+    COMMAND "${GENERATE}" "${ROOT}" --design "${ROOT}/rtl/designs/paper.toml" --output ${output}
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(NOT code STREQUAL "2" OR NOT text MATCHES "^${output}: cannot be written [^\n]*; give a folder[^\n]*\n$")
+    message(FATAL_ERROR "${output}: ended with ${code}: ${text}")
+  endif()
+endforeach()

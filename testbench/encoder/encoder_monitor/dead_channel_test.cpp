@@ -20,9 +20,9 @@
 #include "feltgate/largest.hpp"
 #include "random.hpp"
 #include "sim/plant/drive.hpp"
+#include "sim/plant/hand.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "sim/plant/pushing_hand.hpp"
 
 // The core's twin closed over motor, lever and hand, with an encoder whose channels may fail.
 

@@ -3,7 +3,7 @@
 //
 // velocity_mt beside velocity_n: rms error and age at constant speeds, behind good and bad encoders
 // of 1024 lines. The table of docs/blocks/velocity.md is what this test prints;
-// FELTGATE_WRITE_FIGURES=1 writes it there.
+// FELTGATE_WRITE_FIGURES=1 writes it to campaigns/figures.md.
 #include <fmt/format.h>
 
 #include <array>

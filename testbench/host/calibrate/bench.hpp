@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "feltgate/random.hpp"
-#include "host/calibrate/open_loop.hpp"
+#include "host/calibrate/gauge.hpp"
 #include "host/identify/identify.hpp"
 #include "sim/plant/plant.hpp"
 #include "sim/plant/plant_file.hpp"

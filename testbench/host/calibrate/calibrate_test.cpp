@@ -13,7 +13,7 @@
 #include "design/text_edit.hpp"
 #include "feltgate/random.hpp"
 #include "files/toml/toml_reader.hpp"
-#include "host/calibrate/open_loop.hpp"
+#include "host/calibrate/gauge.hpp"
 #include "host/calibrate/regression.hpp"
 #include "host/calibrate/report.hpp"
 
@@ -78,7 +78,6 @@ TEST_CASE("open loop: a simulated motor's dead zone and slope lie in the interva
     CHECK(open.slope_nm_v.half() < 0.05 * kSlope);
     CHECK(open.dead_voltage_v.half() < 0.2);
     CHECK(open.noise_nm == Approx(noise_nm).epsilon(0.7));
-    CHECK_FALSE(open.bend);
     // The ends of R are those of the slope, exchanged.
     CHECK(open.resistance_ohm.low == Approx(0.0302 / open.slope_nm_v.high));
   }
@@ -110,19 +109,6 @@ TEST_CASE("open loop: both signs give the gauge's offset away", "[open]") {
       fit_open_loop(straight({1.5, 2.5, 3.5, 4.5, 5.5}, 0.072, 0.98, 1e-3, 3, 0.02), 0.0302, 0.99);
   CHECK_FALSE(half.gauge_offset_nm);
   CHECK_FALSE(half.dead_voltage_v.contains(0.98));
-}
-
-TEST_CASE("open loop: a bend is found where there is one", "[open]") {
-  const auto volts = {1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 6.5, 7.0};
-  auto readings = straight(volts, 0.072, 0.98, 5e-4, 4);
-  CHECK_FALSE(fit_open_loop(readings, 0.0302, 0.99).bend);
-  for (Reading& r : readings) r.torque_nm -= 0.02 * std::max(0.0, r.command - 4.25);
-  const OpenLoop open = fit_open_loop(readings, 0.0302, 0.99);
-  REQUIRE(open.bend);
-  CHECK(open.bend->at_v.contains(4.25));
-  CHECK(open.bend->slope_below_nm_v.value == Approx(0.072).epsilon(0.02));
-  CHECK(open.bend->slope_above_nm_v.value == Approx(0.052).epsilon(0.03));
-  REQUIRE_FALSE(open.warnings.empty());
 }
 
 TEST_CASE("open loop: a slip of the pen is pointed at", "[open]") {
@@ -306,11 +292,10 @@ TEST_CASE("regression: Anscombe's first set, whose line and errors are in every 
   CHECK(fit.coefficient(1).high == Approx(0.7668117).epsilon(1e-5));
 }
 
-TEST_CASE("regression: Student's t and F of the tables", "[regression]") {
+TEST_CASE("regression: Student's t of the tables", "[regression]") {
   CHECK(student_t(0.95, 1) == Approx(12.7062).epsilon(1e-5));
   CHECK(student_t(0.99, 3) == Approx(5.84091).epsilon(1e-5));
   CHECK(student_t(0.90, 30) == Approx(1.69726).epsilon(1e-5));
-  CHECK(f_tail(4.10282, 2, 10) == Approx(0.05).epsilon(1e-4));
 }
 
 TEST_CASE("regression: intervals hold the truth as often as they say", "[regression]") {

@@ -5,52 +5,20 @@
 // and twin on the whole script. Documentation: docs/testing.md
 #pragma once
 
-#include <Vfeltgate_core.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
 
+#include "../../core/feltgate_core/core_adapter.hpp"
 #include "catch.hpp"
-#include "feltgate/feltgate_core.hpp"
-#include "lock_step.hpp"
-#include "sim/backends/rtl_ports.hpp"
 
 namespace feltgate::test {
 
-template <class D>
-struct CoreAdapter {
-  static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs<D>(rtl, in); }
-  template <class Check>
-  static void compare(Check& check, const Vfeltgate_core& rtl, const CoreOut& twin) {
-    const CoreOut out = read_outputs<D>(rtl);
-    check("tick_count", out.tick_count, twin.tick_count);
-    check("position", out.position, twin.position);
-    check("velocity", out.velocity, twin.velocity);
-    check("tau_hat", out.tau_hat, twin.tau_hat);
-    check("tau_ref", out.tau_ref, twin.tau_ref);
-    check("current_ref", out.current_ref, twin.current_ref);
-    check("voltage", out.voltage, twin.voltage);
-    check("duty", out.duty, twin.duty);
-    check("duty_active", out.duty_active, twin.duty_active);
-    check("gates", out.gates, twin.gates);
-    check("scene", out.scene, twin.scene);
-    check("limits", out.limits, twin.limits);
-    check("faults", out.faults, twin.faults);
-    check("first_fault", out.first_fault, twin.first_fault);
-    check("armed", out.armed, twin.armed);
-    check("gates_enable", out.gates_enable, twin.gates_enable);
-    check("snapshot_valid", out.snapshot_valid, twin.snapshot_valid);
-    check("reg_busy", out.reg_busy, twin.reg_busy);
-    check("reg_rdata", out.reg_rdata, twin.reg_rdata);
-  }
-};
-
-template <class D>
 class CoreScript {
  public:
-  using C = typename D::C;
+  using D = Design;
+  using C = D::C;
   static constexpr int kLast = D::clocks_per_tick - 1;
   CoreIn in;
 
@@ -145,7 +113,7 @@ class CoreScript {
     return seen;
   }
   void play() {
-    LockStep<Vfeltgate_core, FeltgateCore<D>, CoreAdapter<D>> bench("feltgate_core", 1);
+    CoreBench bench("feltgate_core", 1);
     bench.run_list(list_);
   }
 
@@ -162,7 +130,7 @@ class CoreScript {
     before_ = o;
   }
 
-  FeltgateCore<D> twin_;
+  CoreTwin twin_;
   std::vector<CoreIn> list_;
   CoreOut before_;
   Steps steps_;

@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "feltgate/generated/pantograph_law.hpp"
-#include "host/mailbox_burst.hpp"
+#include "host/law_engine.hpp"
 #include "law_on_board.hpp"
 
 using namespace feltgate;
@@ -57,15 +57,6 @@ struct Pantograph {
   }
 };
 
-std::string told_by(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("host axes: names, and a clear word about an axis that is not there") {
@@ -77,9 +68,9 @@ TEST_CASE("host axes: names, and a clear word about an axis that is not there") 
   CHECK(b.device.get("position.0") == 12);
   CHECK(b.device.get("position.1") == -7);
   CHECK(std::abs(b.device.get("angle.1") + 7 * pen_count_rad) < 1e-9);
-  CHECK(told_by([&] { (void)b.device.get("position.2"); }) ==
+  CHECK(told([&] { (void)b.device.get("position.2"); }) ==
         "\"position.2\": there is no axis 2; this board has the axes 0 to 1");
-  CHECK(told_by([&] { (void)b.device.quantities().streamed("angle.7"); }) ==
+  CHECK(told([&] { (void)b.device.quantities().streamed("angle.7"); }) ==
         "\"angle.7\": there is no axis 7; this board has the axes 0 to 1");
   CHECK(b.device.set("torque_limit.1", 0.1).kept);
   CHECK(b.device.get("torque_limit.1") < 0.11);
@@ -117,7 +108,7 @@ TEST_CASE("host axes: a law is loaded, armed and felt at both axes; streamed and
     many.push_back(name);
     many.push_back(std::string(name) + ".1");
   }
-  CHECK(told_by([&] { b.device.show(host::mask_of(q, many)); }).find("leave some out") !=
+  CHECK(told([&] { b.device.show(host::mask_of(q, many)); }).find("leave some out") !=
         std::string::npos);
 
   // A capture that axis 1 triggers.

@@ -12,7 +12,6 @@
 #include "feltgate/generated/lever.hpp"
 #include "host/capture.hpp"
 #include "host/host_device.hpp"
-#include "host/position_encoder.hpp"
 #include "sim/traces/options.hpp"
 
 namespace {
@@ -241,54 +240,4 @@ TEST_CASE("host device: positions become edges that give the core the same posit
   CHECK(told([] {
           host::PositionEncoder e(lever().design, {{0, 0}, {1, 60}});
         }).find("more than a decoder sees") != std::string::npos);
-}
-
-TEST_CASE("host device: a captured motion, replayed from rest, gives the same ticks") {
-  // The first twin gets edges at any clock of a tick; only its positions at ticks are kept.
-  SplitMix64 random(11);
-  TwinDevice<Lever> first, again;
-  for (TwinDevice<Lever>* twin : {&first, &again}) {
-    twin->select("spring_tension");
-    twin->arm();
-  }
-  std::vector<host::PositionAt> positions;
-  std::vector<Reading> readings;
-  std::int64_t count = 0;
-  double rad_s = 0;
-  double place = 0;
-  for (std::int64_t tick = 0; tick < 6000; ++tick) {
-    rad_s += tick < 50 ? 0 : random.between(-2, 2) - 0.002 * rad_s;
-    place += rad_s * 1e-6 / Lever::count_rad;
-    std::vector<EncoderEvent> edges;
-    const std::int64_t target = std::llround(place);
-    if (target != count) {
-      count += count < target ? 1 : -1;
-      const Clock at = tick * Lever::clocks_per_tick + random.below(Lever::clocks_per_tick);
-      edges.push_back({at, traces::pins_at(static_cast<unsigned>(count & 3))});
-    }
-    first.run(Lever::clocks_per_tick, edges);
-    readings.push_back(first.reading());
-    positions.push_back({tick, static_cast<std::int32_t>(
-                                   std::lround(first.reading().angle_rad / Lever::count_rad))});
-  }
-  host::PositionEncoder encoder(lever().design, positions);
-  CHECK(encoder.initial() == EncoderPins{});
-  auto edge = encoder.next();
-  std::size_t moved = 0;
-  for (std::size_t tick = 0; tick < readings.size(); ++tick) {
-    const Clock end = static_cast<Clock>(tick + 1) * Lever::clocks_per_tick;
-    std::vector<EncoderEvent> edges;
-    for (; edge && edge->clock < end; edge = encoder.next()) edges.push_back(*edge);
-    moved += edges.size();
-    again.run(Lever::clocks_per_tick, edges);
-    const Reading &a = readings[tick], &b = again.reading();
-    REQUIRE(b.tick == a.tick);
-    REQUIRE(b.angle_rad == a.angle_rad);
-    REQUIRE(b.velocity_rad_s == a.velocity_rad_s);
-    REQUIRE(b.tau_hat_nm == a.tau_hat_nm);
-    REQUIRE(b.torque_nm == a.torque_nm);
-    REQUIRE(b.voltage_v == a.voltage_v);
-    REQUIRE(b.duty == a.duty);
-  }
-  CHECK(moved > 40);
 }

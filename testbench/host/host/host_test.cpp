@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "core_script.hpp"
-#include "feltgate/generated/lever.hpp"
 #include "feltgate/while_armed.hpp"
 
 using namespace feltgate;
@@ -14,11 +13,11 @@ using namespace feltgate::test;
 
 namespace {
 
-using D = Lever;
+using D = Design;
 using A = D::A;
 using C = D::C;
 using S = D::S;
-using Script = CoreScript<D>;
+using Script = CoreScript;
 
 constexpr std::int64_t kMilli = 66;  // 1 mNm in torque LSB
 constexpr int kFine = D::f.ramp.fraction - D::f.torque.fraction;
@@ -95,9 +94,8 @@ TEST_CASE("host: a change of scene and each word of the scene in use ramp") {
       // Moves through the membrane's face and into the wall; the speed lasts for the velocity's
       // window, for a damper.
       s.move(position, 120);
-      s.control(scene, false).ticks(2);
-      s.control(scene, true).ticks(4000);
-      REQUIRE(s.out().armed);
+      s.arm(scene);
+      if (scene == S::wall) s.ticks(3000);  // without the torque of its damping
       if (scene == S::membrane) s.move(400 - position, 120).settle();
       const bool speed = scene == S::damper || p.address == A::wall_damping;
       for (const std::int64_t word :
@@ -113,6 +111,7 @@ TEST_CASE("host: a change of scene and each word of the scene in use ramp") {
         felt = felt || std::abs(s.out().tau_ref - before) >= 15 * kStep;
       }
       s.play();
+      if (felt) break;
     }
     if (felt) ++moved;
     INFO(p.name);
@@ -156,13 +155,15 @@ TEST_CASE("host: the set-point acts at once, also where the zero is set") {
 }
 
 TEST_CASE("host: words behind the ramp are refused while armed, and it shows") {
-  int refused = 0;
+  std::vector<ParameterInfo> refused;
   for (const ParameterInfo& p : D::parameters) {
-    if (while_armed(p.address, S::spring_tension) != WhileArmed::refused) continue;
-    ++refused;
-    Script s = under_the_spring(false);
-    s.ticks(3000).steps();
-    const CoreOut before = s.out();
+    if (while_armed(p.address, S::spring_tension) == WhileArmed::refused) refused.push_back(p);
+  }
+  REQUIRE(refused.size() == 24);
+  Script s = under_the_spring(false);
+  s.ticks(3000).steps();
+  const CoreOut before = s.out();
+  for (const ParameterInfo& p : refused) {
     const std::uint32_t held = s.read(p.address);
     for (const std::int64_t word : {std::int64_t{0}, highest(p), highest(p) / 2}) {
       s.write(p.address, word).ticks(2);
@@ -176,23 +177,26 @@ TEST_CASE("host: words behind the ramp are refused while armed, and it shows") {
     REQUIRE(seen.voltage == 0);
     REQUIRE(seen.duty == 0);
     REQUIRE(s.out().duty == before.duty);
-    // When disarmed, the write is accepted.
-    s.control(S::spring_tension, false).ticks(1);
+  }
+  s.control(S::spring_tension, false).ticks(1);
+  for (const ParameterInfo& p : refused) {  // now accepted
     s.write(p.address, highest(p) / 2);
     REQUIRE(s.read(p.address) == static_cast<std::uint32_t>(highest(p) / 2));
     REQUIRE((s.status() >> C::status_refused & 1U) == 0);
-    s.play();
   }
-  REQUIRE(refused == 24);
+  s.play();
 }
 
 TEST_CASE("host: mode, polarities, PWM mode and filter hold while armed") {
+  Script s = under_the_spring(false);
+  s.ticks(3000);
+  const CoreOut before = s.out();
   for (int n = C::control_mode; n < C::control_width; ++n) {
-    Script s = under_the_spring(false);
-    s.ticks(3000).steps();
-    const CoreOut before = s.out();
     s.control(S::spring_tension, true, 1U << n).ticks(3);
     REQUIRE(s.out().duty == before.duty);
+  }
+  for (int n = C::control_mode; n < C::control_width; ++n) {
+    s.control(S::spring_tension, true, 1U << n);
     // The lever moves further; the position must count in the same direction.
     const std::int32_t position = s.out().position;
     s.move(8, 400).ticks(2);
@@ -201,17 +205,20 @@ TEST_CASE("host: mode, polarities, PWM mode and filter hold while armed") {
     REQUIRE(s.read(C::control) == Script::control_word(S::spring_tension, true));
     REQUIRE((s.status() >> C::status_mode & 3U) == 0);
     REQUIRE(s.out().gates_enable);
+  }
+  for (int n = C::control_mode; n < C::control_width; ++n) {
     // The word that disarms also contains the change.
     s.control(S::spring_tension, false, 1U << n);
     REQUIRE(s.read(C::control) == Script::control_word(S::spring_tension, false, 1U << n));
-    s.play();
+    s.arm(S::spring_tension);
   }
+  s.play();
 }
 
 TEST_CASE("host: a disarm acts at the end of the running tick, whatever waits") {
+  Script s = under_the_spring(false);
   for (int c = 0; c < Script::kLast; c += 3) {
     for (const bool held : {false, true}) {
-      Script s = under_the_spring();
       s.hold(A::torque_limit, 1000);  // waits
       if (c > 0) s.until(std::max(c, 2));
       const std::uint32_t word = Script::control_word(S::spring_tension, false);
@@ -228,12 +235,10 @@ TEST_CASE("host: a disarm acts at the end of the running tick, whatever waits") 
       s.ticks(3);
       REQUIRE_FALSE(s.out().armed);
       REQUIRE(s.out().tau_ref == 0);
-      // Arming works again afterwards.
-      s.control(S::spring_tension, true).ticks(2);
-      REQUIRE(s.out().armed);
-      s.play();
+      s.arm(S::spring_tension);  // works again afterwards
     }
   }
+  s.play();
 }
 
 TEST_CASE("host: an arm that waits does not pass a disarm or a stop") {
@@ -256,9 +261,9 @@ TEST_CASE("host: an arm that waits does not pass a disarm or a stop") {
 }
 
 TEST_CASE("host: a stop acts in three clocks, beside whatever waits, and stays") {
+  Script s = under_the_spring(false);
   for (int c = 0; c <= Script::kLast; ++c) {
     for (const int again : {0, 1, 5, 60}) {
-      Script s = under_the_spring();
       s.hold(C::command, 1U << C::command_clear_faults);  // waits; the stop lasts longer
       if (c > 0) s.until(std::max(c, 2));
       s.pulse(C::command, 1U << C::command_stop);
@@ -270,15 +275,15 @@ TEST_CASE("host: a stop acts in three clocks, beside whatever waits, and stays")
       REQUIRE_FALSE(s.out().armed);
       REQUIRE(s.out().first_fault == static_cast<int>(Fault::stop));
       // Arming needs a falling request and a cleared fault.
-      s.control(S::free, false).ticks(1);
-      s.control(S::free, true).ticks(2);
+      s.control(S::spring_tension, false).ticks(1);
+      s.control(S::spring_tension, true).ticks(2);
       REQUIRE_FALSE(s.out().armed);
-      s.control(S::free, false).command(C::command_clear_faults).ticks(1);
-      s.control(S::free, true).ticks(2);
+      s.control(S::spring_tension, false).command(C::command_clear_faults).ticks(1);
+      s.control(S::spring_tension, true).ticks(2);
       REQUIRE(s.out().armed);
-      if (c % 7 == 0) s.play();
     }
   }
+  s.play();
 }
 
 // A limit is a magnitude: under load a negative word acts as 0, and no word lets more through than
@@ -286,19 +291,8 @@ TEST_CASE("host: a stop acts in three clocks, beside whatever waits, and stays")
 
 namespace {
 
-constexpr std::int64_t kExtremes[] = {-1,
-                                      -65536,
-                                      -(1 << 20),
-                                      -(1 << 21),
-                                      INT32_MIN,
-                                      INT32_MIN + 1000,
-                                      INT32_MAX,
-                                      (1 << 20) - 1,
-                                      1 << 20,
-                                      (1 << 21) - 1,
-                                      1 << 21,
-                                      1 << 22,
-                                      (1 << 22) + 1000,
+constexpr std::int64_t kExtremes[] = {-1,        -(1 << 20),    INT32_MIN, INT32_MIN + 1000,
+                                      INT32_MAX, (1 << 20) - 1, 1 << 20,   1 << 22,
                                       0x40000000};
 
 /// One tick of a core with about 0.46 Nm from a spring whose rest position is beside the lever.
@@ -315,13 +309,13 @@ std::vector<Tick> under_load(int address, std::int64_t word, Script& s, int scen
   s.write(A::ramp_step, (5 * kMilli) << kFine);
   s.write(A::tension_rest, -600 * 256);
   s.write(address, word);
-  if (position != 0) s.move(position, 400).ticks(4000);
+  if (position != 0) s.move(position, 120).ticks(2500);
   s.control(scene, false).ticks(2);
   s.control(scene, true).ticks(2);
   REQUIRE(s.out().armed);
-  if (scene == S::membrane) s.move(-position / 4, 400);
+  if (scene == S::membrane) s.move(-position / 4, 120);
   std::vector<Tick> seen;
-  for (int k = 0; k < 400; ++k) {
+  for (int k = 0; k < 200; ++k) {
     s.ticks(1);
     seen.push_back({s.out().tau_ref, s.out().current_ref, s.out().voltage, s.out().duty});
   }
@@ -370,14 +364,14 @@ TEST_CASE(
 }
 
 TEST_CASE("limits: a negative ramp is the slowest, a negative dead voltage or membrane is none") {
-  for (const std::int64_t word : {-1, -65536, INT32_MIN}) {
+  const auto no_membrane = under_load(A::membrane_torque, 0, S::membrane, 500);
+  for (const std::int64_t word : {-1, INT32_MIN}) {
     INFO("word " << word);
     const auto slow = under_load(A::ramp_step, word);
-    for (const Tick& t : slow) REQUIRE(size(t.tau_ref) <= 2);  // 402 steps of 1/256 LSB
+    for (const Tick& t : slow) REQUIRE(size(t.tau_ref) <= 2);  // 202 steps of 1/256 LSB
     REQUIRE(slow.back().tau_ref != 0);
     REQUIRE(under_load(A::dead_voltage, word) == under_load(A::dead_voltage, 0));
-    REQUIRE(under_load(A::membrane_torque, word, S::membrane, 500) ==
-            under_load(A::membrane_torque, 0, S::membrane, 500));
+    REQUIRE(under_load(A::membrane_torque, word, S::membrane, 500) == no_membrane);
     // The border between the regions: a negative border acts as 0.
     REQUIRE(under_load(A::region_torque, word) == under_load(A::region_torque, 0));
   }
@@ -385,12 +379,12 @@ TEST_CASE("limits: a negative ramp is the slowest, a negative dead voltage or me
 }
 
 TEST_CASE("limits: the same words written to an armed core") {
-  for (const int address : {A::torque_limit, A::current_limit, A::voltage_window, A::duty_limit,
-                            A::region_torque, A::dead_voltage, A::ramp_step}) {
+  Script s;
+  const Tick before = under_load(A::setpoint_torque, 0, s, S::spring_tension, 0).back();
+  for (const int address : {A::current_limit, A::voltage_window, A::duty_limit, A::region_torque,
+                            A::dead_voltage, A::torque_limit, A::ramp_step}) {
     for (const std::int64_t word : kExtremes) {
-      Script s;
-      const Tick before = under_load(A::setpoint_torque, 0, s, S::spring_tension, 0).back();
-      s.write(address, word).ticks(300);
+      s.write(address, word).ticks(120);
       const Tick after{s.out().tau_ref, s.out().current_ref, s.out().voltage, s.out().duty};
       INFO("address " << address << ", word " << word);
       if (address == A::torque_limit) {
@@ -399,13 +393,13 @@ TEST_CASE("limits: the same words written to an armed core") {
       } else {
         REQUIRE(after == before);
       }
-      s.play();
     }
   }
+  s.play();
 }
 
 TEST_CASE("limits: a negative limit of the supervisor takes the torque away") {
-  for (const std::int64_t word : {-1, -1000, INT32_MIN}) {
+  for (const std::int64_t word : {-1, INT32_MIN}) {
     INFO("word " << word);
     {  // every speed is too fast, armed or not
       Script s;

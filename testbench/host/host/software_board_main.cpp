@@ -27,17 +27,8 @@ int open_terminal() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main() {
   std::signal(SIGPIPE, SIG_IGN);
-  feltgate::test::Noise noise;
-  for (int n = 1; n + 1 < argc; n += 2) {
-    const std::string name = argv[n];
-    const double value = std::strtod(argv[n + 1], nullptr);
-    if (name == "drop") noise.drop = value;
-    if (name == "flip") noise.flip = value;
-    if (name == "halve") noise.halve = value;
-    if (name == "junk") noise.junk = value;
-  }
   const int master = open_terminal();
   const std::string name = ::ptsname(master);
   // Kept open without a host: otherwise the terminal hangs up when a host ends.
@@ -46,7 +37,7 @@ int main(int argc, char** argv) {
   (void)::tcgetattr(slave, &raw);
   ::cfmakeraw(&raw);
   (void)::tcsetattr(slave, TCSANOW, &raw);
-  feltgate::test::SoftwareBoard board(master, noise);
+  feltgate::test::SoftwareBoard board(master);
   std::cout << name << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream words(line);

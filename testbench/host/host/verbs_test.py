@@ -222,31 +222,8 @@ class Verbs(VerbTest):
             self.assertIn("did not come within 0.3 s; nothing is written", said)
             self.assertFalse(self.path("n.csv").exists())
 
-    def test_noise_costs_time_and_nothing_else(self):
-        with BoardProcess("drop", 0.002, "flip", 0.002, "halve", 0.02, "junk", 0.05) as board:
-            self.host(board.port, "set", "torque_limit=0.25", "wall_contact=12")
-            self.assertEqual(board.order("word 0x18"), str(1 << 14))
-            said = self.host(board.port, "get", "torque_limit")
-            self.assertIn("0.25 Nm", said)
-            said = self.host(board.port, "--patience", 20, "capture", "angle", "--csv", "noisy.csv")
-            self.assertIn("requests repeated", said)
-            rows = self.path("noisy.csv").read_text(encoding="utf-8").splitlines()
-            self.assertEqual(len(rows), 1025)
-
 
 class Trouble(VerbTest):
-    def test_no_such_port(self):
-        said = self.host("/dev/ttyNOWHERE", "info", status=2)
-        self.assertIn("there is no such port; ", said)
-
-    def test_silence(self):
-        with BoardProcess() as board:
-            board.order("silent")
-            said = self.host(board.port, "--patience", 0.5, "info", status=3)
-            self.assertIn("no answer for 0.5 s", said)
-            board.order("loud")
-            self.host(board.port, "info")
-
     def test_the_cable_is_pulled(self):
         capture = ("capture", "--trigger", "velocity>99")
         for verb in (("arm", "wall", "--hold"), ("watch",), capture):

@@ -3,7 +3,6 @@
 //
 // A design that requires the watchdog arms only after a kick. The whole core, RTL against twin.
 // Documentation: docs/blocks/supervisor.md
-#include FELTGATE_DESIGN_HEADER
 #include "core_script.hpp"
 
 using namespace feltgate;
@@ -11,9 +10,9 @@ using namespace feltgate::test;
 
 namespace {
 
-using D = FELTGATE_DESIGN;
+using D = Design;
 using C = D::C;
-using Script = CoreScript<D>;
+using Script = CoreScript;
 
 bool unkicked(Script& s) { return (s.status() >> C::status_unkicked & 1U) != 0; }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,6 +45,22 @@ inline Law shipped(const std::string& name) {
     FAIL(error.what());
     throw;
   }
+}
+
+/// The laws of docs/laws.md.
+inline std::vector<std::string> laws_of_page() {
+  std::ifstream page(FELTGATE_ROOT "/docs/laws.md");
+  std::vector<std::string> laws;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("```", 0) == 0) {
+      inside = line == "```law";
+      if (inside) laws.emplace_back();
+    } else if (inside) {
+      laws.back() += line + "\n";
+    }
+  }
+  return laws;
 }
 
 /// A law that runs, with inputs and parameters by name. Unnamed inputs are 0.
@@ -99,18 +116,3 @@ inline double torque_of(const std::string& text, double x = 0) {
 }
 
 }  // namespace feltgate::law
-
-// A law that is refused, and its messages.
-
-struct Bad {
-  const char* text;
-  const char* messages;  ///< without the file's name, a line each
-};
-
-// A line that is well, so that only what is looked at is wrong.
-#define OUT "\nout torque = tau_hat"
-
-inline void check(const Bad& bad) {
-  INFO(bad.text);
-  CHECK(feltgate::law::messages_of(bad.text) == bad.messages);
-}

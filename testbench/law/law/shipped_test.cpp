@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "catch.hpp"
-#include "feltgate/largest.hpp"
 #include "law_case.hpp"
 
 using namespace feltgate::law;
@@ -103,17 +102,6 @@ double charge(double x, double core) {
   return -(std::abs(x) > core ? outside : strength / (core * core * core) * x);
 }
 
-/// The largest difference that sampling makes, over distances of up to `reach`.
-double sampling_error(const std::string& name, double reach) {
-  Running<> exact(shipped(name)), sampled(shipped(name), Tables::sampled);
-  double most = 0;
-  for (double x = -reach; x < reach; x += 0.00213) {
-    const double off = exact.torque({{"position", x}}) - sampled.torque({{"position", x}});
-    most = feltgate::larger(most, std::abs(off));
-  }
-  return most;
-}
-
 }  // namespace
 
 TEST_CASE("charge: the inverse square outside of a linear core") {
@@ -131,11 +119,6 @@ TEST_CASE("charge: the inverse square outside of a linear core") {
   CHECK(law.torque({{"position", 0.4}}) == Approx(-charge(0.4, core)));
   far.set("core", 0.15);
   CHECK(far.torque({{"position", 0.4}}) == Approx(charge(0.4, 0.15)));
-}
-
-TEST_CASE("charge: tables as sampled, before the compiler shares the error out") {
-  CHECK(sampling_error("charge", 3) == Approx(0.35e-3).margin(0.02e-3));
-  CHECK(sampling_error("charge_far", 12) == Approx(0.088e-3).margin(0.01e-3));
 }
 
 namespace {
@@ -250,33 +233,6 @@ TEST_CASE("gimbal: by matrices, from every side") {
       }
     }
   }
-}
-
-TEST_CASE("pantograph: kinematics, its transpose, floor and drag") {
-  Running<> law(shipped("pantograph"));
-  const auto run = [&](double one, double five, double w1, double w5) {
-    law.torque({{"position", one * kDegree},
-                {"position[1]", five * kDegree},
-                {"velocity", w1},
-                {"velocity[1]", w5}});
-    return std::array<double, 2>{law.output(0), law.output(1)};
-  };
-  // Both at 10 rad/s move the tip with (-1, 0) m/s: 1 N s/m of drag is the force (1, 0) N.
-  const auto drag = run(30, 150, 10, 10);
-  CHECK(drag[0] == Approx(-0.05));
-  CHECK(drag[1] == Approx(-0.05));
-  // Against each other (0, sqrt(3)) m/s: (0, -sqrt(3)) N.
-  const auto up = run(30, 150, 10, -10);
-  CHECK(up[0] == Approx(-std::sqrt(3) * 0.0866025403784));
-  CHECK(up[1] == Approx(std::sqrt(3) * 0.0866025403784));
-
-  const auto still = run(30, 150, 0, 0);  // the tip is at (0, 0.1), above the floor
-  CHECK(still[0] == Approx(0).margin(1e-12));
-  CHECK(still[1] == Approx(0).margin(1e-12));
-  law.set("floor", 0.102);  // 2 mm deep: (0, 1) N
-  const auto pushed = run(30, 150, 0, 0);
-  CHECK(pushed[0] == Approx(0.0866025403784));
-  CHECK(pushed[1] == Approx(-0.0866025403784));
 }
 
 TEST_CASE("pantograph: against formulas, over its range") {

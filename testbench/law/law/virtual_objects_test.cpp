@@ -4,12 +4,7 @@
 // Flywheel, pendulum and a body in space behind a spring and a damper: momentum, energy, and where
 // they are stable. Documentation: docs/devices/one-lever.md
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <complex>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <string>
 
 #include "catch.hpp"
@@ -51,21 +46,6 @@ class Object {
   Running<> run_;
   std::size_t speed_, twist_;
 };
-
-/// The larger of both absolute eigenvalues of a run, lever held; the columns are what runs make of
-/// a small twist and a small speed.
-double radius(Object& object) {
-  std::array<double, 4> m{};
-  for (std::size_t column = 0; column < 2; ++column) {
-    object.put(column == 0 ? 1e-9 : 0, column == 0 ? 0 : 1e-9);
-    object.run(0, 0);
-    m[column] = object.twist() / 1e-9;
-    m[2 + column] = object.speed() / 1e-9;
-  }
-  const double half = (m[0] + m[3]) / 2, det = m[0] * m[3] - m[1] * m[2];
-  const std::complex<double> root = std::sqrt(std::complex<double>(half * half - det));
-  return std::max(std::abs(half + root), std::abs(half - root));
-}
 
 }  // namespace
 
@@ -132,10 +112,10 @@ TEST_CASE("pendulum: swings with the period of its weight") {
   CHECK(lifted.run(1.2, 0) == Approx(-0.05 * std::sin(1.2 + lifted.twist())));
 }
 
-TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by eigenvalues and by its runs") {
+TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by its runs") {
   feltgate::SplitMix64 random(1);
   int stable = 0, unstable = 0;
-  for (const double rate_hz : {50.0, 100.0, 144.0, 490.0, 1000.0, 10e3, 250e3}) {
+  for (const double rate_hz : {50.0, 100.0, 144.0, 490.0, 1000.0}) {
     for (int i = 0; i < 200; ++i) {
       const double k = random.between(0.1, 8), b = random.between(0, 0.05),
                    inertia = 0.1e-3 * std::pow(50, random.uniform());
@@ -145,12 +125,10 @@ TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by eigenvalues and by i
       wheel.set("inertia", inertia);
       const double dt = wheel.dt();
       const double share = (k * dt * dt + 2 * b * dt) / (4 * inertia);
-      if (std::abs(share - 1) < 1e-3) continue;
+      if (std::abs(share - 1) < 0.1) continue;
       INFO(rate_hz << " Hz, k " << k << ", b " << b << ", J " << inertia << ": " << share);
       wheel.run(0, 0);
-      CHECK((radius(wheel) < 1) == (share < 1));
       ++(share < 1 ? stable : unstable);
-      if (rate_hz > 2000 || std::abs(share - 1) < 0.1) continue;
       // What it makes of a small push within 400 runs.
       wheel.put(1e-6, 0);
       for (int n = 0; n < 400; ++n) wheel.run(0, 0);
@@ -162,7 +140,7 @@ TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by eigenvalues and by i
       CHECK((largest < 1e-5) == (share < 1));
     }
   }
-  CHECK(stable > 300);
+  CHECK(stable > 200);
   CHECK(unstable > 100);
 }
 
@@ -235,16 +213,8 @@ Four product(const Four& a, const Four& b) {
           a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
 }
 
-/// The law with words of its text replaced.
-Law rigid_body(double rate_hz = 0, const std::map<std::string, std::string>& instead = {}) {
-  std::ifstream file(FELTGATE_ROOT "/rtl/laws/rigid_body.law");
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  for (const auto& [from, to] : instead) {
-    const auto at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    text.replace(at, from.size(), to);
-  }
-  return law_of(text, rate_hz);
+Law rigid_body(double rate_hz = 0) {
+  return read_law(FELTGATE_ROOT "/rtl/laws/rigid_body.law", rate_hz);
 }
 
 /// A body in space whose hand is where and as fast as one says.
@@ -284,41 +254,6 @@ class Body {
   Four o_{1, 0, 0, 0};
 };
 
-/// What it has at most and at least in so many runs, beginning with `speed` beside a held hand.
-struct Energies {
-  double begin = 0, most = 0, least = 0, end = 0;
-};
-Energies energies(Body& body, const Four& hand, const Three& speed, int runs) {
-  constexpr double inertia = 0.1e-3, stiffness = 0.1;
-  const auto energy = [&] {
-    const Three s = body.speed();
-    return inertia * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / 2 +
-           4 * stiffness * (1 - body.near());
-  };
-  body.hand(hand);
-  body.put(hand, speed);
-  Energies e{energy(), 0, 1e9, 0};
-  for (int n = 0; n < runs; ++n) {
-    (void)body.run();
-    e.most = feltgate::larger(e.most, energy());
-    e.least = std::min(e.least, energy());
-  }
-  e.end = energy();
-  return e;
-}
-
-/// Speeds of before in place of the new ones.
-const std::map<std::string, std::string> speed_after = {
-    {"(fx*dx + fy*dy + fz*dz)", "(sx*dx + sy*dy + sz*dz)"},
-    {"(fx*dw + fy*dz - fz*dy)", "(sx*dw + sy*dz - sz*dy)"},
-    {"(fy*dw + fz*dx - fx*dz)", "(sy*dw + sz*dx - sx*dz)"},
-    {"(fz*dw + fx*dy - fy*dx)", "(sz*dw + sx*dy - sy*dx)"}};
-/// The inverse of o times d in place of d times the inverse of o.
-const std::map<std::string, std::string> factors_exchanged = {
-    {"dx*ow - dw*ox + dz*oy - dy*oz", "dx*ow - dw*ox - dz*oy + dy*oz"},
-    {"dy*ow - dw*oy + dx*oz - dz*ox", "dy*ow - dw*oy - dx*oz + dz*ox"},
-    {"dz*ow - dw*oz + dy*ox - dx*oy", "dz*ow - dw*oz - dy*ox + dx*oy"}};
-
 }  // namespace
 
 TEST_CASE("rigid body: torque times time is its momentum, and its quaternion keeps its length") {
@@ -342,29 +277,24 @@ TEST_CASE("rigid body: torque times time is its momentum, and its quaternion kee
   CHECK(length2 == Approx(1).margin(1e-4));
 }
 
-TEST_CASE("rigid body: without damping no energy comes or goes; in reversed order it comes") {
-  constexpr int runs = 200000;  // 10 s
+TEST_CASE("rigid body: without damping no energy comes or goes") {
+  constexpr double inertia = 0.1e-3, stiffness = 0.1;
   const Four hand = turn_about({1, 1, 1}, 2.0944);
-  const Three speed{6, -4, 3};
-  Body body{rigid_body()}, reversed{rigid_body(0, speed_after)};
-  const double angle = std::sqrt(0.1 / 0.1e-3) * body.dt();
-  const Energies e = energies(body, hand, speed, runs);
-  INFO(e.begin << " " << e.least << " " << e.most);
-  CHECK(e.most - e.begin < 2 * angle * e.begin);
-  CHECK(e.begin - e.least < 2 * angle * e.begin);
-  // Of a swing a run makes 1 + k dt^2 / J.
-  const Energies r = energies(reversed, hand, speed, runs);
-  CHECK(r.end / r.begin == Approx(std::exp(angle * angle * runs)).epsilon(0.05));
-  // With the factors exchanged the spring turns about another axis: hand and body a third of a turn
-  // away from 0, a milliradian between them grows until it slips, as exp(27 t).
-  Body exchanged{rigid_body(0, factors_exchanged)}, right{rigid_body()};
-  for (Body* b : {&exchanged, &right}) {
-    b->hand(hand);
-    b->put(product(turn_about({1, -1, 0}, 1e-3), hand), {});
-    for (int n = 0; n < 8000; ++n) (void)b->run();
+  Body body{rigid_body()};
+  const auto energy = [&] {
+    const Three s = body.speed();
+    return inertia * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / 2 +
+           4 * stiffness * (1 - body.near());
+  };
+  body.hand(hand);
+  body.put(hand, {6, -4, 3});
+  const double begin = energy(), angle = std::sqrt(stiffness / inertia) * body.dt();
+  double off = 0;
+  for (int n = 0; n < 100000; ++n) {  // 5 s
+    (void)body.run();
+    off = feltgate::larger(off, std::abs(energy() - begin));
   }
-  CHECK(right.near() > std::cos(0.6e-3));
-  CHECK(exchanged.near() < std::cos(0.2));
+  CHECK(off < 2 * angle * begin);
 }
 
 TEST_CASE("rigid body: stable where k dt^2 + 2 b dt < 4 J, by its runs") {

@@ -11,9 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include "compiled.hpp"
-#include "feltgate/random.hpp"
 #include "law/allocate.hpp"
-#include "law/evaluate.hpp"
 #include "law/listing.hpp"
 #include "law/measure.hpp"
 #include "law/read_law.hpp"
@@ -22,12 +20,8 @@
 namespace feltgate::law {
 namespace {
 
-/// Checks that few runs are in strips and that the others are within the bound.
 void require_within(const Compiled& c, std::int64_t runs) {
-  const Measured m = measure(c, 5, runs);
-  INFO("measured " << m.output[0] << ", bound " << c.bound.output[0]);
-  CHECK(m.in_strips * 20 <= m.runs);
-  CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9) + 1e-8);
+  check_within(c, measure(c, 5, runs));
   CHECK(c.bound.output[0] < 5e-5);
 }
 
@@ -122,54 +116,20 @@ TEST_CASE("an input is compared with a number in its own words") {
   }
 }
 
-// A comparison that only changes another comparison, and truth values that are stored.
-TEST_CASE("comparisons of comparisons have strips") {
-  const std::string parameters = "param q = 0 in -1 .. 1\n";
-  for (const std::string formula :
-       {"if (if 0.02 s * velocity < position - q then 1 + q else q - 1) < 0.3 * q then 0.5 else "
-        "-0.5",
-        "if (if 0.02 s * velocity < position - q then q else 0.9) > 0.5 * q + 0.2 and position < 1 "
-        "then 0.5 else -0.5",
-        "sgn((if 0.02 s * velocity < 0.7 * position then 1 else -1) * 0.3 + 0.2 * q)",
-        "if (0.02 s * velocity < 0.7 * position or 0.03 s * velocity > q) and"
-        " (0.05 s * velocity < 0.3 * position or 0.07 s * velocity > 2 * q) then 0.5 else -0.5"}) {
-    INFO(formula);
-    const Compiled c = compiled(parameters + "out torque = 1 Nm * (" + formula + ")\n");
-    require_within(c, 20000);
-  }
-}
-
 // Exact values are compared exactly, even with a coarse step: four comparisons, on both sides.
 void require_thresholds(const std::string& declared, const std::string& what,
                         const std::vector<double>& thresholds) {
   for (const double threshold : thresholds) {
-    for (const char* comparison : {"<", "<=", ">", ">="}) {
-      for (const bool left : {false, true}) {
-        const std::string number = fmt::format("({})", threshold);
-        const std::string condition =
-            left ? number + comparison + what : what + comparison + number;
-        INFO(declared << condition);
-        const Compiled c =
-            compiled(declared + "out torque = if " + condition + " then 0.4 Nm else -0.3 Nm\n");
-        require_within(c, 600);
-      }
+    for (const char* comparison : {"{0} < ({1})", "({1}) <= {0}", "{0} > ({1})", "({1}) >= {0}"}) {
+      const std::string condition = fmt::format(fmt::runtime(comparison), what, threshold);
+      INFO(declared << condition);
+      require_within(
+          compiled(declared + "out torque = if " + condition + " then 0.4 Nm else -0.3 Nm\n"), 600);
     }
   }
 }
 
-TEST_CASE("whole states are compared as the law does") {
-  const std::pair<int, int> ranges[] = {{0, 1}, {0, 3}, {-2, 2}, {-5, -1}, {1, 7}, {0, 100}};
-  for (const auto& [low, high] : ranges) {
-    const std::string declared = fmt::format(
-        "state stage = {0} in {0} .. {1} whole\n"
-        "next stage = if position > 0.3 then {0} + 1 else if position < -0.3 then {0} else "
-        "min(stage + 1, {1})\n",
-        low, high);
-    require_thresholds(declared, "stage", {low + 0.5, high - 0.5, low + 0.25, high - 1.0});
-  }
-}
-
-TEST_CASE("what else is exact is compared as the law does") {
+TEST_CASE("what is exact is compared as the law does") {
   require_thresholds("", "position", {0.5, -0.1234, 0.0007});
   require_thresholds("", "(velocity * 1 s)", {0.0000003, -2.7});
   require_thresholds("state stage = 0 in 0 .. 5 whole\nnext stage = clamp(3 * position, 0, 5)\n",
@@ -186,20 +146,6 @@ TEST_CASE("what else is exact is compared as the law does") {
       "(edge - stage)", {0.5});
 }
 
-TEST_CASE("a whole parameter is a whole number, whatever multiplies it") {
-  const Compiled c = compiled(
-      "array list = [0.1, -0.2, 0.05, 0.3]\nparam count = 1 in 0 .. 3 whole\n"
-      "state stage = 0 in 0 .. 3 whole\nnext stage = min(stage + 1, count)\n"
-      "out torque = 1 Nm * (0.1807 * count * clamp(position, -1, 1) + list[count] + 0.1 * "
-      "stage)\n");
-  for (const ImageWord& w : c.image.words) {
-    if (w.name != "count") continue;
-    CHECK(w.initial * w.scale == 1);
-    CHECK(std::floor(w.upper * w.scale) == 3);
-  }
-  require_within(c, 5000);
-}
-
 TEST_CASE("a number that a state or a line keeps is known as it is kept") {
   for (const char* text :
        {"state kept = 0.25 in -2 .. 2\nnext kept = 1.3\nout torque = 1 Nm * sin(18 * position + "
@@ -211,9 +157,7 @@ TEST_CASE("a number that a state or a line keeps is known as it is kept") {
     INFO(text);
     const Compiled c = compiled(text);
     REQUIRE(c.bound.states_bounded);
-    const Measured m = measure(c, 7, 5000, true);
-    INFO("measured " << m.output[0] << ", bound " << c.bound.output[0]);
-    CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9) + 1e-8);
+    check_within(c, measure(c, 7, 5000, true));
     CHECK(c.bound.output[0] < 2e-3);
   }
 }
@@ -295,67 +239,16 @@ const char* const wide_laws[] = {
     "let r = sqrt(clamp(position, -10, 10)^2)\nout torque = 0.1 Nm * clamp(1 / (r + 0.1) - 3, -1, "
     "0.5)\n"};
 
-/// Laws whose bounds stay large: limits that are no numbers, within tables, behind conditions and
-/// in states.
-const char* const other_laws[] = {
-    "param q = 0 in -1 .. 1\n"
-    "out torque = 0.1 Nm * min(sqrt(abs(position)) / 30, max(q, velocity / (100 rad/s)))\n",
-    "table t(x) on [0, 2] = min(x, 0.5) + 0.1 * max(1, x)\n"
-    "out torque = 0.001 Nm * sqrt(abs(position)) * t(abs(position))\n",
-    "let r = sqrt(abs(position))\nlet c = clamp(r, 0, 3)\n"
-    "out torque = 0.1 Nm * (if velocity > 1 rad/s then min(c, 2) else max(r, c) / 100)\n",
-    "state kept = 0.25 in -2 .. 2\nnext kept = clamp(sqrt(abs(position)) - kept, -2, 2)\n"
-    "out torque = 0.1 Nm * min(max(0.1 - kept, velocity / (100 rad/s)), clamp(4 * position, -2, "
-    "2))\n"};
-
-void check_same_law(const char* text) {
-  const Law law = read_law_text(text, "x.law", 0);
-  const Target target;
-  int tried = 0;
-  const Program program = choose_formats(law, target, ranges(law, whole_cell(law, target)), &tried);
-  const Bound b = bound(law, target, program, 0);
-  std::size_t most = 0;
-  for (int pieces = 1; pieces <= kMostPieces; ++pieces) {
-    INFO(text << pieces << " pieces");
-    const Law made = in_pieces(law, target, program, b, pieces);
-    most = std::max(most, needed(made).size());
-    Evaluation<double> one(law), other(made);
-    SplitMix64 random(5);
-    for (int i = 0; i < 3000; ++i) {
-      std::vector<double> in;
-      for (std::size_t k = 0; k < law.inputs.size(); ++k) {
-        const auto any = static_cast<double>(random.below(20001) - 10000);
-        in.push_back(std::ldexp(any * 0.02, -static_cast<int>(random.below(20))));
-      }
-      one.run(in);
-      other.run(in);
-      for (std::size_t o = 0; o < law.outputs.size(); ++o) {
-        REQUIRE(std::fabs(one.outputs()[o] - other.outputs()[o]) < 1e-11);
-      }
-    }
-  }
-  CHECK(most > needed(law).size());
-}
-
-TEST_CASE("a law in pieces is the same law in real numbers") {
-  for (const char* text : wide_laws) check_same_law(text);
-  for (const char* text : other_laws) check_same_law(text);
-}
-
 TEST_CASE("functions over wide ranges have bounds that say something") {
   for (const char* text : wide_laws) {
     INFO(text);
-    const Compiled c = compile_text(text, "x.law", Target{});
+    const Compiled c = compiled(text);
     // A root inside a quotient has the errors of both.
     const bool both = std::string(text).find("r + 0.1") != std::string::npos;
     CHECK(largest_share(output_ranges(c.law, c.target), c.target, c.bound) < (both ? 0.1 : 0.02));
-    for (std::uint64_t seed = 1; seed < 4; ++seed) {
-      const Measured m = measure(c, seed, 20000);
-      CHECK(m.in_strips == 0);
-      for (std::size_t o = 0; o < m.output.size(); ++o) {
-        CHECK(m.output[o] <= c.bound.output[o] * (1 + 1e-9) + 1e-9);
-      }
-    }
+    const Measured m = measure(c, 1, 10000);
+    CHECK(m.in_strips == 0);
+    check_within(c, m);
   }
 }
 
@@ -374,26 +267,21 @@ TEST_CASE("a radius needs no limits of its own where only a part of it matters")
                         Case{"if q < 0.5 rad then 0 Nm else -k * min(q - 0.5 rad, 0.2 rad)", 0.1},
                         Case{"0.001 Nm/rad^2 * position^2", 5e-4}}) {
     INFO(k.torque);
-    const Compiled c = compile_text(radius + "out torque = " + k.torque + "\n", "x.law", Target{});
+    const Compiled c = compiled(radius + "out torque = " + k.torque + "\n");
     CHECK(c.bound.output[0] < k.least);
-    for (std::uint64_t seed = 1; seed < 4; ++seed) {
-      const Measured m = measure(c, seed, 20000);
-      CHECK(m.output[0] <= c.bound.output[0] * (1 + 1e-9));
-      CHECK(m.in_strips * 50 < m.runs);
-    }
+    check_within(c, measure(c, 1, 10000));
   }
 }
 
 TEST_CASE("the known range of x / r stays that of its own node when limits move") {
-  const Compiled c = compile_text(
+  const Compiled c = compiled(
       "let x = clamp(position[1], -1, 1)\nlet y = clamp(position[2], -1, 1)\n"
       "let w = sqrt(abs(tau_hat) / 1 Nm)\nlet q = sqrt(position^2 + (0.01 s * velocity)^2)\n"
       "let r = sqrt(x^2 + y^2 + 0.3^2)\nlet d = min(q, 1)\n"
       "let p = sum(i in 1 .. 8: 0.0001 * i * tau_hat)\n"
-      "out torque = (if d > 0.5 then 4 Nm * w else 1 Nm * d) + p + 0.1 Nm * x / r\n",
-      "x.law", Target{});
+      "out torque = (if d > 0.5 then 4 Nm * w else 1 Nm * d) + p + 0.1 Nm * x / r\n");
   CHECK(c.bound.output[0] > 0.05);  // 0.0245 was printed, 0.0442 measured
-  CHECK(measure(c, 1, 50000).output[0] <= c.bound.output[0]);
+  check_within(c, measure(c, 1, 10000));
   CHECK(output_ranges(c.law, c.target)[0].hi > 15);  // to 0.474 Nm, it said
 }
 
@@ -406,9 +294,9 @@ TEST_CASE("a table whose domain ends inside a segment is the function there") {
         "param k = 2 in 1 .. 3\ntable f(x) on [0.07, 1.33] = 1 + x with 8 segments\n"
         "out torque = 0.1 Nm * f(k * position)\n"}) {
     INFO(text);
-    const Compiled c = compile_text(text, "x.law", Target{});
+    const Compiled c = compiled(text);
     CHECK(c.bound.output[0] < 1e-5);
-    CHECK(measure(c, 3, 20000).output[0] <= c.bound.output[0]);
+    check_within(c, measure(c, 3, 5000));
   }
 }
 
@@ -426,18 +314,16 @@ TEST_CASE("a quotient by a radius near 0") {
                         Case{"0.1 Nm * u / sqrt(u^2 + v^2 + 0.0001)", 0.13},
                         Case{"0.1 Nm * u / sqrt(u^2 + v^2 + e^2)", 3}}) {
     INFO(k.torque);
-    const Compiled c = compile_text(axes + "out torque = " + k.torque + "\n", "x.law", Target{});
+    const Compiled c = compiled(axes + "out torque = " + k.torque + "\n");
     CHECK(c.bound.output[0] < k.least);
-    for (std::uint64_t seed = 1; seed < 4; ++seed) {
-      CHECK(measure(c, seed, 20000).output[0] <= c.bound.output[0]);
-    }
+    check_within(c, measure(c, 1, 10000));
   }
 }
 
 TEST_CASE("a law whose bound is small stays as it is written") {
   const std::string text = "out torque = 0.1 Nm * sqrt(min(abs(position), 1))\n";
   const Law law = read_law_text(text, "x.law", 0);
-  CHECK(compile_text(text, "x.law", Target{}).law.nodes.size() == law.nodes.size());
+  CHECK(compiled(text).law.nodes.size() == law.nodes.size());
 }
 
 TEST_CASE("a sum that reads its own terms again and again is looked at once") {

@@ -8,14 +8,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "compiled.hpp"
 #include "feltgate/largest.hpp"
-#include "law/diagnostics.hpp"
 #include "law/listing.hpp"
-#include "law/measure.hpp"
 #include "law/mends.hpp"
 #include "law/read_law.hpp"
 
@@ -24,15 +21,6 @@ namespace {
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-
-std::string why_not(const std::string& text) {
-  try {
-    (void)compiled(text);
-  } catch (const LawError& e) {
-    return e.what();
-  }
-  return "compiled";
-}
 
 TEST_CASE("a state that its words cannot move is reported") {
   const auto warnings = [](const std::string& law) {
@@ -143,7 +131,7 @@ TEST_CASE("runs that are left out are counted against the rarer side of their co
 }
 
 TEST_CASE("a law that acts near 0 only, and is rendered wrongly there, is told") {
-  const std::string k = "param k = 0.1 Nm in 0 .. 0.5 Nm\n", f = "param f = 0.5 Nm in 0 .. 1 Nm\n";
+  const std::string k = "param k = 0.1 Nm in 0 .. 0.5 Nm\n";
   const std::string edge = k + "param edge = 0.7 in 0.2 .. 1.5\n";
   const std::string r = "let r = sqrt(position^2 + 0.001)\n";
   const struct {
@@ -156,14 +144,6 @@ TEST_CASE("a law that acts near 0 only, and is rendered wrongly there, is told")
       {edge + r + "out torque = if r < edge then -k * (edge - r) else 0\n",
        "failed: line 4, column 19: by the law this comparison is true in 911 of 262145 runs; in "
        "911 (100 %)",
-       "911"},
-      {f + "let r = sqrt(position^2 + 0.01)\nout torque = if r < 0.3 then -f * (0.3 - r) else 0\n",
-       "failed: line 3, column 19: by the law this comparison is true in 369 of 262145 runs; in "
-       "369 (100 %)",
-       "369"},
-      {edge + r + "out torque = if r < edge then -k * (edge - r) * clamp(position, -1, 1) else 0\n",
-       "failed: line 4, column 19: by the law this comparison is true in 911 of 262145 runs; in "
-       "910 (99.89 %)",
        "911"},
       {k + r + "out torque = if r < 0.7 then -k * (0.7 - r) * clamp(position, -1, 1) else 0\n",
        "failed: line 3, column 19: by the law this comparison is true in 911 of 262145 runs; in "
@@ -228,7 +208,7 @@ TEST_CASE("a run is left out where words and law go different ways, not where bo
 }
 
 TEST_CASE("a bound as large as its output's range is refused, one of 1 % of it told") {
-  CHECK_THAT(why_not("param k = 1 in 0 .. 30\nlet x = velocity / (1 rad/s)\n"
+  CHECK_THAT(refusal("param k = 1 in 0 .. 30\nlet x = velocity / (1 rad/s)\n"
                      "table f(x) on [-10, 30] = exp(x)\n"
                      "out torque = 1 Nm * min(f(clamp(k * x, -10, 30)), 1)\n"),
              Contains("x.law:4:5: the proven bound of torque, 1 Nm, is as large as its range") &&
@@ -296,11 +276,9 @@ TEST_CASE("a mailbox's bound is not compared with runs of its first value") {
 
 TEST_CASE("the bound at the values that are set, of every shipped law") {
   int smaller = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(FELTGATE_ROOT) + "/rtl/laws")) {
-    if (entry.path().extension() != ".law") continue;
-    const Compiled c = compile_file(entry.path().string(), Target{});
-    INFO(c.law.name);
+  for (const std::string& name : shipped_names()) {
+    const Compiled& c = compiled_shipped(name);
+    INFO(name);
     REQUIRE(c.bound.as_set.size() == c.bound.output.size());
     for (std::size_t o = 0; o < c.bound.output.size(); ++o) {
       CHECK(c.bound.as_set[o] <= c.bound.output[o]);
@@ -365,7 +343,7 @@ TEST_CASE("words that the host computes are told as parameters are") {
 TEST_CASE("a step that is larger than a parameter's range is told, with a mend that works") {
   const auto said = [](const std::string& declared) {
     const std::string law = "param k = " + declared + "\nout torque = k\n";
-    const std::string refused = why_not(law);
+    const std::string refused = refusal(law);
     return refused == "compiled" ? text(verdict(compiled(law), {})) : refused;
   };
   const std::string mend = ": give it a value of 7.63e+04 nNm or more, and a range with that value";
@@ -435,7 +413,7 @@ TEST_CASE("torque beyond its format is told with the law's range") {
   CHECK_THAT(report(within, {}), !Contains("torque ends"));
 }
 
-TEST_CASE("a largest error that is no number stays one, and fails") {
+TEST_CASE("a largest error that is no number stays one") {
   const double none = std::nan("");
   CHECK(larger(1.0, 2.0) == 2);
   CHECK(larger(2.0, 1.0) == 2);
@@ -447,15 +425,10 @@ TEST_CASE("a largest error that is no number stays one, and fails") {
     CHECK(std::isnan(smaller(none, x)));
     CHECK(std::isnan(smaller(x, none)));
   }
-  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
-  Measured m = measure(c, 1, 100);
-  CHECK(verdict(c, m).failures.empty());
-  m.output[0] = none;
-  CHECK(verdict(c, m).failures.size() == 1);
 }
 
 TEST_CASE("a table that an if keeps from what is no number is one") {
-  CHECK(why_not("table f(x) on [-1, 1] = if x < 0 then 0 else sqrt(x)\n"
+  CHECK(refusal("table f(x) on [-1, 1] = if x < 0 then 0 else sqrt(x)\n"
                 "out torque = 0.1 Nm * f(position)\n") == "compiled");
 }
 

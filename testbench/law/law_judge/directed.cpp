@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 #include <cmath>
 
-#include "generate.hpp"
+#include "law_tree.hpp"
 
 namespace feltgate::judge {
 
@@ -320,6 +320,8 @@ void ends(std::vector<Directed>& all) {
   Law l;
   const Node gear = l.state("gear", 0, -20, 20, true);
   l.states[0].next = limited(position() / number("0.4363") + 0.5, -20, 20);
+  all.push_back({"a limited value beside a whole state, each times a number",
+                 of(l, times(0.1, limited(velocity(), -1, 1)) + times(0.01, gear))});
   all.push_back({"the rest of a whole state beside it",
                  of(l, times(0.01, gear) + times(0.1, make(Kind::modulo, {gear, number("3")})) +
                            told(make(Kind::equal, {number("2") * gear, number("40")})))});

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "feltgate/random.hpp"
-#include "generate.hpp"
 #include "law_tree.hpp"
 
 namespace feltgate::judge {

@@ -11,7 +11,6 @@
 #include "feltgate/random.hpp"
 #include "law/engine/machine.hpp"
 #include "law/load.hpp"
-#include "strips.hpp"
 
 namespace feltgate::judge {
 

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "generate.hpp"
 #include "judge.hpp"
 #include "law/diagnostics.hpp"
 #include "mismatch.hpp"
@@ -92,73 +91,54 @@ TEST_CASE("laws that come close to their bounds") {
 }
 
 /// A random law by its number.
-void add_random(Total& total, int i) {
+void add_random(Total& total, int i, Shape shape) {
   const auto seed = static_cast<std::uint64_t>(i) + 1;
-  total.add("law " + std::to_string(i), random_law(seed, static_cast<Shape>(i % shapes)), seed,
-            200);
+  total.add("law " + std::to_string(i), random_law(seed, shape), seed, 200);
 }
 
-TEST_CASE("laws that the judge called wrong once") {
-  // A floor whose strip reaches several whole numbers; a search that ended among those of a mod.
-  for (const int i : {35926, 39686}) {
-    Total total;
-    add_random(total, i);
-    CHECK(total.refused == 0);
-  }
-}
+Shape shape_of(int i) { return static_cast<Shape>(i % shapes); }
 
-/// Functions over the whole range of an input: the compiler moves limits into their arguments.
-TEST_CASE("random laws of wide functions stay within their bounds") {
-  const int first = from_environment("FELTGATE_JUDGE_FIRST",
-                                     whole_run() ? 0 : 20 * static_cast<int>(share_of_week(3)));
-  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? 10000 : 20);
-  Total total;
-  for (int i = first; i < first + count && total.failed <= 4; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i) + 1;
-    total.add("wide law " + std::to_string(i), random_law(seed, Shape::wide), seed, 200);
-  }
-  WARN(total.summary());
-  CHECK(total.refused * 10 <= total.laws + 50);
-  CHECK(total.left_out * 20 <= total.laws + 100);
-}
-
-/// Whole states of real numbers, states, floors and rests at their ends, with every operator.
-TEST_CASE("random laws that stay at ends go on as the law does") {
-  const int first = from_environment("FELTGATE_JUDGE_FIRST",
-                                     whole_run() ? 0 : 60 * static_cast<int>(share_of_week(2)));
-  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? 20000 : 60);
-  Total total;
-  for (int i = first; i < first + count && total.failed <= 4; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i) + 1;
-    total.add("ends law " + std::to_string(i), random_law(seed, Shape::ends), seed, 200);
-  }
-  WARN(total.summary());
-  CHECK(total.refused * 10 <= total.laws + 50);
-  CHECK(total.left_out * 100 <= total.laws + 50);
-  CHECK(total.left * 100 <= total.laws + 50);
-}
-
-/// FELTGATE_JUDGE_FIRST and FELTGATE_JUDGE_LAWS select the first law and the number of laws.
-TEST_CASE("random laws stay within their bounds") {
-  const int first = from_environment("FELTGATE_JUDGE_FIRST",
-                                     whole_run() ? 0 : 75 * static_cast<int>(share_of_week(4)));
-  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? 100000 : 75);
+/// So many laws in a usual run, others each week, and `all` in a whole one. FELTGATE_JUDGE_FIRST
+/// and FELTGATE_JUDGE_LAWS select the first law and the number of laws.
+template <class ShapeOf>
+Total random_laws(int usual, int week, int all, const ShapeOf& shape) {
+  const int first = from_environment(
+      "FELTGATE_JUDGE_FIRST", whole_run() ? 0 : usual * static_cast<int>(share_of_week(week)));
+  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? all : usual);
   const int most = from_environment("FELTGATE_JUDGE_MOST", 4);
   const auto began = std::chrono::steady_clock::now();
   Total total;
   // After enough failures no more laws are needed.
   for (int i = first; i < first + count && total.failed <= most; ++i) {
-    add_random(total, i);
+    add_random(total, i, shape(i));
     if (total.laws % 1000 != 0) continue;
     const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - began;
     std::cerr << fmt::format("law {}: {} of {} laws, {} wrong, {} refused; {:.0f} min to go\n", i,
                              total.laws, count, total.failed, total.refused,
                              gone.count() / 60 * (count - total.laws) / total.laws);
   }
-  const Verdict& r = total.runs;
   WARN(total.summary());
   // With few laws a share means little: 50 are added.
   CHECK(total.refused * 10 <= total.laws + 50);
+  return total;
+}
+
+/// Functions over the whole range of an input: the compiler moves limits into their arguments.
+TEST_CASE("random laws of wide functions stay within their bounds") {
+  const Total total = random_laws(10, 3, 10000, [](int) { return Shape::wide; });
+  CHECK(total.left_out * 20 <= total.laws + 100);
+}
+
+/// Whole states of real numbers, states, floors and rests at their ends, with every operator.
+TEST_CASE("random laws that stay at ends go on as the law does") {
+  const Total total = random_laws(40, 2, 20000, [](int) { return Shape::ends; });
+  CHECK(total.left_out * 100 <= total.laws + 50);
+  CHECK(total.left * 100 <= total.laws + 50);
+}
+
+TEST_CASE("random laws stay within their bounds") {
+  const Total total = random_laws(24, 4, 100000, shape_of);
+  const Verdict& r = total.runs;
   CHECK(total.left_out * 200 <= total.laws + 100);
   CHECK(r.turned * 100 <= r.runs + 1000);
   CHECK(r.unread_states * 100 <= total.laws + 100);

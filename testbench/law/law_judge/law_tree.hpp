@@ -161,6 +161,33 @@ struct Law {
   }
 };
 
+/// The main construct of a generated law. `wide`: a function over the whole range of an input;
+/// `ends`: values that stay at an end and are compared there.
+enum class Shape {
+  formula,
+  parameters_alone,
+  whole_states,
+  nested,
+  arrays,
+  tables,
+  memory,
+  axes,
+  wide,
+  ends
+};
+constexpr int shapes = 8;  ///< without `wide` and `ends`, whose laws have tests of their own
+
+Law random_law(std::uint64_t seed, Shape shape);
+
+/// Laws that were once compiled wrongly, and similar laws.
+struct Directed {
+  std::string name;
+  Law law;
+};
+std::vector<Directed> directed_laws();
+/// Laws whose errors come close to their bounds.
+std::vector<Directed> tight_laws();
+
 /// The inputs, three for each axis.
 inline Node position(int axis = 0) {
   return make(Kind::input, {}, 3 * axis,

@@ -41,77 +41,45 @@ std::string written(const Law& law, const Node& n, const Mark& mark, const Let& 
     }
     case Kind::line:
       return n->text + "[" + std::to_string(n->index) + "]";
-    case Kind::add:
-      return infix("+");
-    case Kind::subtract:
-      return infix("-");
-    case Kind::multiply:
-      return infix("*");
-    case Kind::divide:
-      return infix("/");
     case Kind::power:
       return "(" + p[0] + ")^" + std::to_string(n->index);
     case Kind::negate:
       return "(-" + p[0] + ")";
-    case Kind::minimum:
-      return call("min");
-    case Kind::maximum:
-      return call("max");
-    case Kind::clamp:
-      return call("clamp");
-    case Kind::absolute:
-      return call("abs");
-    case Kind::sine:
-      return call("sin");
-    case Kind::cosine:
-      return call("cos");
-    case Kind::root:
-      return call("sqrt");
-    case Kind::exponential:
-      return call("exp");
-    case Kind::logarithm:
-      return call("log");
     case Kind::table:
       return call(n->text);
     case Kind::element:
       return mark(n) + n->text + "[" + p[0] + "]";
-    case Kind::floor:
-      return mark(n) + call("floor");
-    case Kind::round:
-      return mark(n) + call("round");
-    case Kind::modulo:
-      return mark(n) + call("mod");
     case Kind::noise:
       return "noise(" + n->text + ")";
-    case Kind::angle:
-      return mark(n) + call("atan2");
-    case Kind::sign:
-      return mark(n) + call("sgn");
     case Kind::choice:
       return "(if " + p[0] + " then " + p[1] + " else " + p[2] + ")";
     case Kind::sum:
       return fmt::format("sum({} in {:.0f} .. {}: {})", n->text, static_cast<double>(n->value),
                          n->index, p[0]);
-    case Kind::less:
-      return infix(mark(n) + "<");
-    case Kind::less_equal:
-      return infix(mark(n) + "<=");
-    case Kind::more:
-      return infix(mark(n) + ">");
-    case Kind::more_equal:
-      return infix(mark(n) + ">=");
-    case Kind::equal:
-      return infix(mark(n) + "==");
-    case Kind::differs:
-      return infix(mark(n) + "!=");
-    case Kind::both:
-      return infix("and");
-    case Kind::either:
-      return infix("or");
     case Kind::opposite:
       return "(not " + p[0] + ")";
+    default:
+      break;
   }
-  return "";
+  static const std::map<Kind, const char*> signs{{Kind::add, "+"},      {Kind::subtract, "-"},
+                                                 {Kind::multiply, "*"}, {Kind::divide, "/"},
+                                                 {Kind::both, "and"},   {Kind::either, "or"}};
+  static const std::map<Kind, const char*> comparisons{
+      {Kind::less, "<"},        {Kind::less_equal, "<="}, {Kind::more, ">"},
+      {Kind::more_equal, ">="}, {Kind::equal, "=="},      {Kind::differs, "!="}};
+  static const std::map<Kind, const char*> functions{
+      {Kind::minimum, "min"},  {Kind::maximum, "max"},     {Kind::clamp, "clamp"},
+      {Kind::absolute, "abs"}, {Kind::sine, "sin"},        {Kind::cosine, "cos"},
+      {Kind::root, "sqrt"},    {Kind::exponential, "exp"}, {Kind::logarithm, "log"}};
+  static const std::map<Kind, const char*> deciding{{Kind::floor, "floor"},
+                                                    {Kind::round, "round"},
+                                                    {Kind::modulo, "mod"},
+                                                    {Kind::angle, "atan2"},
+                                                    {Kind::sign, "sgn"}};
+  if (signs.count(n->kind) > 0) return infix(signs.at(n->kind));
+  if (comparisons.count(n->kind) > 0) return infix(mark(n) + comparisons.at(n->kind));
+  if (functions.count(n->kind) > 0) return call(functions.at(n->kind));
+  return mark(n) + call(deciding.at(n->kind));
 }
 
 std::string full(const Law& law, const Node& n) {

@@ -16,7 +16,7 @@ import help_texts
 import pages
 
 
-PROGRAMS = ("feltgate", "cmake", "ctest", "ninja", "pip", "python", "python3", "parallel")
+PROGRAMS = ("feltgate", "cmake", "ctest", "ninja", "pip", "python", "python3")
 PROGRAMS += ("cp", "mv", "git", "source", "sudo", "apt-get", "g++", "c++")
 PROGRAMS += ("jupyter", "bash", "cd", "quartus_sh", "openFPGALoader", "fusesoc")
 COMMAND = re.compile(

@@ -33,7 +33,7 @@ RULES = (
     Rule(r"feltgate trim", "MORE", "--unseen 1 --jobs 1", status=(0, 1)),
     Rule(r"feltgate stability (?:SCENE|wall_tracked|ceiling)", "ELSEWHERE"),
     Rule(r"feltgate stability .*--rate", "WHOLE"),
-    Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002 --no-experiments"),
+    Rule(r"feltgate stability", "MORE", "--rate 490 --damping 0.002"),
     Rule(r"feltgate extremes", "MORE", "--list"),
     Rule(r"feltgate bench(?: --quick| --engine rtl.*)?$", "ELSEWHERE"),
     Rule(r"feltgate bench", "MORE", "--quick --engine twin_event"),

@@ -55,8 +55,7 @@ def program_of(words, folder):
 
 
 def argv_of(line, rule, folder):
-    text = re.sub(r"^parallel .*?(\./feltgate .*?) :::.*", r"\1", line.words)
-    text = text.replace("{}/", "1/").replace(" ...", "")
+    text = line.words.replace(" ...", "")
     text = re.sub(r"(^| )/(tmp|shared|data)/", rf"\1{folder}/\2/", text)
     text = re.sub(r" > \S+$", "", text)
     words = command_rules.filled([w for w in shlex.split(text) if w != "--yes"])
@@ -99,7 +98,7 @@ def wrong_with(line, names, folder):
     if line.names_only:
         name = line.words.split()[1]
         return None if name in names else f"there is no subcommand {name}", 0
-    rule = command_rules.rule_of(re.sub(r"^parallel .*?(?=\./)|^(?:[A-Z_]+=\S+ )+", "", line.words))
+    rule = command_rules.rule_of(re.sub(r"^(?:[A-Z_]+=\S+ )+", "", line.words))
     if rule is None:
         return "testbench/repository/docs/command_rules.py has no rule for it; add one", 0
     if rule.how == "NAMED":

@@ -2,13 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core of gimbal_motor in closed loop with a motor of three phases: its torque over a turn, a
-// wrong offset, an open phase. With FELTGATE_SHOW=1 it prints the tables of docs/plant.md and
-// docs/safety.md. Simulation. Documentation: docs/plant.md#three-phases-in-the-loop
-#include <fmt/format.h>
-
+// wrong offset, an open phase. Simulation. Documentation: docs/plant.md#three-phases-in-the-loop
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "catch.hpp"
@@ -84,8 +80,9 @@ struct Errors {
 };
 
 Errors over(double torque_nm, double turns, double turns_s, Scenario s) {
-  constexpr double settled_s = 0.12;
+  constexpr double settled_s = 0.04;
   s.hand = turning(turns_s);
+  s.parameters["ramp_step"] = 5 * design_named("gimbal_motor").find("ramp_step")->si;
   s.duration_s = settled_s + turns / std::abs(turns_s);
   Errors e;
   int rows = 0;
@@ -103,8 +100,6 @@ Errors over(double torque_nm, double turns, double turns_s, Scenario s) {
   e.mean /= rows;
   return e;
 }
-
-bool show() { return std::getenv("FELTGATE_SHOW") != nullptr; }
 
 /// What became of an arming with the self-test on.
 struct Start {
@@ -155,26 +150,18 @@ std::string told(const Scenario& s, const plant::Parameters& p, const RunOptions
 }  // namespace
 
 TEST_CASE("three phases: the torque over a turn is the one asked for", "[phases]") {
+  constexpr double kTurns = 3.0 / kPolePairs;  // three electrical ones
   const plant::Parameters p = gimbal_motor();
-  if (show()) fmt::print("| dead time | asked, mNm | turns/s | mean, % | least, % | most, % |\n");
-  const auto tell = [](bool dead_time, double nm, double turns_s, const Errors& e) {
-    if (!show()) return;
-    fmt::print("| {} | {:g} | {:g} | {:+.2f} | {:+.2f} | {:+.2f} |\n",
-               dead_time ? "0.5 us" : "none", 1e3 * nm, turns_s, e.mean, e.low, e.high);
-  };
-  for (const auto& [nm, turns_s] : {std::pair{0.005, 2.0}, {0.03, 2.0}, {0.03, -2.0}}) {
+  for (const auto& [nm, turns_s] : {std::pair{0.005, 2.0}, {0.03, -2.0}}) {
     Scenario s = asked(nm, p);
     without_dead_time(s);
-    const Errors e = over(nm, 1, turns_s, s);
-    tell(false, nm, turns_s, e);
+    const Errors e = over(nm, kTurns, turns_s, s);
     CHECK(std::abs(e.mean) < 0.5);
     CHECK(e.most() < 1);
   }
   // What the law gives back is right for a whole turn of a large current, not at each angle.
-  for (const auto& [nm, turns_s] :
-       {std::pair{0.002, 2.0}, {0.01, 2.0}, {0.03, 2.0}, {-0.03, 2.0}}) {
-    const Errors e = over(nm, 1, turns_s, asked(nm, p));
-    tell(true, nm, turns_s, e);
+  for (const auto& [nm, turns_s] : {std::pair{0.002, 2.0}, {0.01, 2.0}, {-0.03, 2.0}}) {
+    const Errors e = over(nm, kTurns, turns_s, asked(nm, p));
     CHECK(std::abs(e.mean) < (std::abs(nm) < 0.01 ? 10 : 1));
     CHECK(e.most() < (std::abs(nm) < 0.01 ? 25 : 5));
     if (std::abs(nm) < 0.03) continue;
@@ -186,27 +173,12 @@ TEST_CASE("three phases: the torque over a turn is the one asked for", "[phases]
   }
 }
 
-TEST_CASE("three phases: gates clock by clock give what the mean legs give", "[phases]") {
-  Scenario s = asked(0.03, gimbal_motor());
-  const double electrical = 1.0 / kPolePairs;
-  const Errors mean = over(0.03, electrical, 2, s);
-  s.switched = s.step_given = true;
-  s.step_clocks = 1;
-  const Errors gates = over(0.03, electrical, 2, s);
-  if (show()) fmt::print("averaged {:+.2f} %, gates {:+.2f} %\n", mean.mean, gates.mean);
-  CHECK(std::abs(gates.mean - mean.mean) < 1);
-}
-
 TEST_CASE("three phases: the self-test sees an offset that is wrong by a quarter or more",
           "[phases]") {
-  for (int degrees = 0; degrees < 360; degrees += 45) {
+  for (const int degrees : {0, 45, 90, 180, 270, 315}) {
     plant::Parameters p = gimbal_motor();
     p.phases->offset_rad = degrees / 360.0 * kTurn;
     const Start start = start_of(p, {}, -1);
-    if (show()) {
-      fmt::print("offset {} degrees off: fault {:.2f} ms after arming, at the end {:.1f} rad/s\n",
-                 degrees, 1e3 * start.fault_s, start.end_rad_s);
-    }
     INFO(degrees);
     const bool wrong = degrees >= 90 && degrees <= 270;
     CHECK((start.fault_s > 0) == wrong);
@@ -224,30 +196,28 @@ TEST_CASE("three phases: the self-test sees an offset that is wrong by a quarter
 TEST_CASE("three phases: half a turn off runs away unseen without the self-test", "[phases]") {
   // Against the command, until two back-EMFs, the motor's and the law's, have taken up its voltage:
   // at torque * R/(2 Kt Ke), less what friction takes.
-  for (const double nm : {0.01, 0.05}) {
-    plant::Parameters p = gimbal_motor();
-    p.phases->offset_rad = kTurn / 2;
-    Scenario s = asked(nm, p);
-    s.duration_s = 0.5;
-    double rad_s = 0;
-    RunOptions options = by_twin();
-    options.row = [&](const Row& r) { rad_s = r.omega_rad_s; };
-    const RunResult run = run_scenario(s, p, options);
-    if (show()) fmt::print("half a turn off, {:g} mNm: {:.1f} rad/s\n", 1e3 * nm, rad_s);
-    CHECK(rad_s == Approx(-nm * 2.9 / (2 * 0.0585 * 0.039)).epsilon(0.06));
-    CHECK(run.felt.faults.empty());
-  }
+  constexpr double nm = 0.05;
+  plant::Parameters p = gimbal_motor();
+  p.phases->offset_rad = kTurn / 2;
+  Scenario s = asked(nm, p);
+  s.duration_s = 0.5;
+  double rad_s = 0;
+  RunOptions options = by_twin();
+  options.row = [&](const Row& r) { rad_s = r.omega_rad_s; };
+  const RunResult run = run_scenario(s, p, options);
+  CHECK(rad_s == Approx(-nm * 2.9 / (2 * 0.0585 * 0.039)).epsilon(0.06));
+  CHECK(run.felt.faults.empty());
 }
 
 TEST_CASE("three phases: an open phase takes the torque's part and trips nothing", "[phases]") {
   // With phase a open, b and c carry V sqrt(3) sin(e)/(2 R), which gives sin(e)^2 of the torque.
   const plant::Parameters p = gimbal_motor();
-  for (const int degrees : {0, 30, 45, 60, 90, 150}) {
+  for (const int degrees : {0, 45, 150}) {
     const double e = degrees / 360.0 * kTurn;
     Scenario s = asked(0.03, p);
     without_dead_time(s);
     s.hand = held_at(e);
-    s.duration_s = 0.2;
+    s.duration_s = 0.12;
     Event open;
     open.at_s = 0.1;
     open.open_phase = 0;
@@ -264,22 +234,21 @@ TEST_CASE("three phases: an open phase takes the torque's part and trips nothing
     CHECK(run.felt.faults.empty());
   }
   Scenario free = asked(0.05, p);
-  free.duration_s = 0.5;
+  free.duration_s = 0.3;
   Event late;
-  late.at_s = 0.3;
+  late.at_s = 0.15;
   late.open_phase = 1;
   free.events = {late};
   CHECK(run_scenario(free, p, by_twin()).felt.faults.empty());
   CHECK(start_of(p, {}, 0, true).begun);  // at e = 0, where it has no torque at all
   int seen = 0, angles = 0;
-  for (int degrees = 0; degrees < 180; degrees += 15, ++angles) {
+  for (int degrees = 0; degrees < 180; degrees += 30, ++angles) {
     plant::Hand hand;
     hand.start_rad = degrees / 360.0 * kTurn / kPolePairs;
     const Start start = start_of(p, hand, 0);
     CHECK(start.begun == (start.fault_s < 0));
     if (start.fault_s > 0) ++seen;
   }
-  if (show()) fmt::print("open at arming: seen at {} of {}\n", seen, angles);
   CHECK(seen > 0);
   CHECK(seen < angles / 2);
 }
@@ -290,20 +259,17 @@ TEST_CASE("three phases: a sensor that fails, and an angle that freezes", "[phas
     double rad_s;
     double fault_ms;  ///< gates off at the latest; 0: nothing sees it
   };
-  if (show()) fmt::print("| defect | the hand turns, rad/s | gates off, ms | torque, mNm |\n");
-  for (const Case& c : {Case{"magnet_lost", 0, 2},
-                        {"magnet_lost", 20, 2},
+  for (const Case& c : {Case{"magnet_lost", 20, 2},
                         {"cut", 0, 2},
                         {"wrong_bit", 20, 2},
                         {"half_a_turn_off", 20, 2},
                         {"held", 5, 0},
-                        {"held", 20, 4},
-                        {"held", -60, 4}}) {
+                        {"held", -20, 4}}) {
     Scenario s = asked(0.03, gimbal_motor());
     s.hand = turning(c.rad_s / kTurn);
-    s.duration_s = 0.5;
+    s.duration_s = 0.2;
     Event broken;
-    broken.at_s = 0.2;
+    broken.at_s = 0.1;
     broken.encoder = c.defect;
     s.events = {broken};
     RunOptions options = by_twin();
@@ -317,10 +283,6 @@ TEST_CASE("three phases: a sensor that fails, and an angle that freezes", "[phas
     const auto fault = run.felt.faults.find("encoder");
     const bool seen = fault != run.felt.faults.end();
     const double after_ms = seen ? 1e3 * (fault->second.first_s - broken.at_s) : -1;
-    if (show()) {
-      fmt::print("| {} | {:g} | {:.2f} | {:.1f} to {:.1f} |\n", c.defect, c.rad_s, after_ms,
-                 1e3 * least_nm, 1e3 * most_nm);
-    }
     INFO(c.defect << " at " << c.rad_s);
     CHECK(seen == (c.fault_ms > 0));
     CHECK(after_ms < (seen ? c.fault_ms : 0));
@@ -344,7 +306,6 @@ TEST_CASE("three phases: a knob that is held at the limit is off before it is ho
   const RunResult run = run_scenario(s, gimbal_motor(), options);
   REQUIRE(run.felt.faults.count("i2t") == 1);
   const double off_s = run.felt.faults.at("i2t").first_s;
-  if (show()) fmt::print("i2t, 1 % of the budget: {:.3f} s, {:.1f} mNm\n", off_s, 1e3 * most_nm);
   // 7.4 A^2 s; 0.05 Nm are 0.855 A, and what the dead time takes counts as current too. 0.6 A heat
   // nobody. The ramp takes 0.1 s.
   const double squared = std::pow(0.855 + 8 / kTurn * 0.025 * (5 + 2 * 0.7) / 2.9, 2);

@@ -3,10 +3,7 @@
 //
 // Walls and ceilings with a sensor of the host: how quietly a lever rests on them with an encoder,
 // with a tracker, filtered and fused. Simulation. Documentation: docs/devices/strings-and-drums.md
-#include <fmt/format.h>
-
 #include <cmath>
-#include <cstdio>
 
 #include "catch.hpp"
 #include "files/toml/toml_reader.hpp"
@@ -21,7 +18,6 @@ using namespace feltgate;
 
 /// The sensor from which the host knows the lever's angle.
 struct Sensor {
-  const char* name;
   double rate_hz, noise_rad, resolution_rad, alpha;
   bool fused;  ///< with the core's encoder between two samples
 };
@@ -29,14 +25,14 @@ struct Sensor {
 constexpr double kTurn = 6.283185307179586, kDegree = kTurn / 360;
 constexpr double kStep = kTurn / 16384;
 constexpr double kNoise = 0.001745;  // as in the scenes
-constexpr Sensor kEncoder{"encoder, 14 bits, 490 Hz", 490, 0, kStep, 1, false};
-constexpr Sensor kRaw{"tracker, 144 Hz", 144, kNoise, 0, 1, false};
-constexpr Sensor kFiltered{"tracker, alpha = 0.5", 144, kNoise, 0, 0.5, false};
-constexpr Sensor kFused{"tracker, alpha = 0.5, and encoder", 144, kNoise, 0, 0.5, true};
+constexpr Sensor kEncoder{490, 0, kStep, 1, false};
+constexpr Sensor kRaw{144, kNoise, 0, 1, false};
+constexpr Sensor kFiltered{144, kNoise, 0, 0.5, false};
+constexpr Sensor kFused{144, kNoise, 0, 0.5, true};
 
 /// How a scene rests on a wall or ceiling of this stiffness.
 struct Rest {
-  double theta_rad, torque_nm, mean_nm;
+  double theta_rad, torque_nm;
   /// Our criterion: it moves, rms, by less than a step of the encoder of 14 bits, 38 um at the
   /// hand.
   bool quiet() const { return theta_rad < kStep; }
@@ -58,14 +54,7 @@ Rest rest(const std::string& scene, const Sensor& sensor, double stiffness) {
   options.engine = "twin";
   options.law = law.get();
   const auto figures = run_on_p24(s, options).figures;
-  return {figures.at("rest_theta_rms_rad"), figures.at("rest_tau_ref_rms_nm"),
-          figures.at("rest_tau_ref_mean_nm")};
-}
-
-void tell(const Sensor& sensor, double stiffness, const Rest& r) {
-  fmt::print("{:36} {:7.4g} {:8.2f} {:8.1f} {:8.1f} {}\n", sensor.name, stiffness,
-             1e3 * r.theta_rad, 1e3 * r.torque_nm, 1e3 * r.mean_nm, r.quiet() ? "quiet" : "");
-  std::fflush(stdout);
+  return {figures.at("rest_theta_rms_rad"), figures.at("rest_tau_ref_rms_nm")};
 }
 
 }  // namespace
@@ -190,22 +179,4 @@ TEST_CASE("hits as lines for Pure Data") {
   CHECK(event_lines(events, 50e-6) ==
         "150.000 hit 2 1.2 0.5;\n0.020 hit 3 0.6;\n249.980 hit 2 2;\n0.100 place 2 0.25;\n"
         "99.900 click 3;\n");
-}
-
-TEST_CASE("the tables of the page", "[.table]") {
-  std::puts("wall on               Nm/deg: lever mrad rms, torque mNm rms, torque mNm");
-  for (const Sensor& s : {kEncoder, kRaw, kFiltered, kFused}) {
-    for (const double k : {0.2, 2.0}) tell(s, k, rest("wall_tracked", s, k / kDegree));
-  }
-  std::puts("ceiling on            N/m");
-  for (const Sensor& s : {kRaw, kFiltered, kFused}) {
-    double quiet = 200, loud = 5000;
-    while (loud / quiet > 1.1) {
-      const double k = std::sqrt(quiet * loud);
-      const Rest r = rest("ceiling_tracked", s, k);
-      tell(s, k, r);
-      (r.quiet() ? quiet : loud) = k;
-    }
-    fmt::print("{}: quiet to {:.0f} N/m\n", s.name, quiet);
-  }
 }

@@ -6,7 +6,7 @@
 #include "feltgate/largest.hpp"
 #include "feltgate/pwm.hpp"
 #include "plant_fixture.hpp"
-#include "sim/plant/period_mean.hpp"
+#include "sim/plant/plant.hpp"
 #include "sim/plant/sigma_delta.hpp"
 
 using namespace feltgate;
@@ -66,7 +66,6 @@ Means switched(const Parameters& p, const Drive& drive, double duty) {
     torque.add(1, plant.observables().motor_torque_mean_nm);
     supply.add(1, plant.observables().supply_current_a);
   }
-  CHECK_FALSE(plant.observables().shoot_through);
   return {torque.mean(), supply.mean()};
 }
 
@@ -177,28 +176,6 @@ TEST_CASE("dead time takes t_dead*f per switching leg", "[bridge]") {
   CHECK_THROWS_AS(BridgeModel(drive, p.supply, p.motor, p.effects), std::invalid_argument);
 }
 
-TEST_CASE("all gates off: the current decays through the diodes into the supply", "[bridge]") {
-  const Parameters p = shipped("p24");
-  for (const double sign : {1.0, -1.0}) {
-    Plant plant(p, p.effects, Drive{}, hand_of(HandPhase::Kind::kLocked));
-    run(plant, volts(p, sign * 6.0), 5e-3);
-    const double start_a = std::abs(plant.observables().motor_current_a);
-    CHECK(start_a > 10.0);
-    const double tau_s = p.motor.inductance_h / p.motor.resistance_ohm;
-    const double against_a = (24.0 + 2 * 0.7 + 0.34) / p.motor.resistance_ohm;
-    const double expected_s = tau_s * std::log1p(start_a / against_a);
-    const Clock begin = plant.now();
-    while (plant.observables().motor_current_a != 0.0) {
-      plant.advance(Bridge::gates(0, 0, 0, 0), 1);
-      REQUIRE(plant.observables().supply_current_a <= 0.0);
-      REQUIRE(plant.observables().motor_current_a * sign >= 0.0);
-    }
-    CHECK(static_cast<double>(plant.now() - begin) / kClockHz == Approx(expected_s).margin(2e-8));
-    run(plant, Bridge::off(), 1e-4);
-    CHECK(plant.observables().motor_current_a == 0.0);
-  }
-}
-
 TEST_CASE("the current through zero is exact whatever the step", "[bridge]") {
   for (const double back_v : {-0.1, -2.0}) {  // the current stays at zero; the current continues
     Winding coarse(0.42, 82.3e-6);
@@ -246,30 +223,18 @@ TEST_CASE("supply limit: the bus gives way until the source delivers its limit",
   CHECK(brake.observables().bus_v == 24.0);
 }
 
-TEST_CASE("two gates of a leg at once are reported", "[bridge]") {
-  const Parameters p = shipped("p24");
-  Plant plant(p, p.effects, Drive{}, Hand{});
-  plant.advance(Bridge::gates(0.5, 0.5, 0.5, 0.5), 25);
-  CHECK_FALSE(plant.observables().shoot_through);
-  plant.advance(Bridge::gates(0.6, 0.5, 0, 1), 25);
-  plant.advance(Bridge::off(), 25);
-  CHECK(plant.observables().shoot_through);
-}
-
 // The winding behind gates that switch clock by clock, beside closed forms, and the modulator at
 // its shunt. docs/plant.md
 
 namespace {
 
 constexpr double kR = 0.42, kL = 82e-6, kTau = kL / kR, kV = 24, kClock = 20e-9;
-constexpr int kPeriod = 1000;  // clocks, 50 kHz
 
-/// The motor without brushes, whose diodes have this voltage.
-Parameters motor(double diode_v = 0.7) {
+/// The motor without brushes.
+Parameters motor() {
   Parameters p = shipped("p24");
   p.motor.resistance_ohm = kR;
   p.motor.inductance_h = kL;
-  p.supply.diode_drop_v = diode_v;
   p.effects = kNoEffects;
   p.effects.inductance = true;
   return p;
@@ -281,11 +246,7 @@ Plant locked(const Parameters& p) {
   return Plant(p, p.effects, drive, hand_of(HandPhase::Kind::kLocked));
 }
 
-Bridge gates(const Pwm::Out& out) {
-  const auto on = [](bool gate) { return gate ? 1.0 : 0.0; };
-  return Bridge::gates(on(out.gate_a_hi), on(out.gate_a_lo), on(out.gate_b_hi), on(out.gate_b_lo));
-}
-const Bridge kForward = Bridge::gates(1, 0, 0, 1), kLow = Bridge::gates(0, 1, 0, 1);
+const Bridge kForward = Bridge::gates(1, 0, 0, 1);
 const Bridge kOff = Bridge::gates(0, 0, 0, 0), kHalfOff = Bridge::gates(0, 0, 0, 1);
 
 double current(const Plant& plant) { return plant.observables().motor_current_a; }
@@ -293,24 +254,6 @@ double current(const Plant& plant) { return plant.observables().motor_current_a;
 /// Until `current_a` flows, at full voltage.
 void drive_to(Plant& plant, double current_a) {
   while (current(plant) < current_a) plant.advance(kForward, 1);
-}
-
-/// Mean over the last of 200 periods of a PWM with this duty.
-double mean_a(const Parameters& p, const Pwm& model, bool antiphase, int duty) {
-  Plant plant = locked(p);
-  Pwm pwm = model;
-  Pwm::In in;
-  in.enable = true;
-  in.mode = antiphase;
-  in.duty = static_cast<std::int16_t>(duty);
-  double sum = 0;
-  for (int clock = 0; clock < 200 * kPeriod; ++clock) {
-    pwm.clock(in);
-    plant.advance(gates(pwm.out()), 1);
-    if (clock >= 199 * kPeriod) sum += plant.observables().motor_current_mean_a;
-  }
-  REQUIRE_FALSE(plant.observables().shoot_through);
-  return sum / kPeriod;
 }
 
 }  // namespace
@@ -331,51 +274,6 @@ TEST_CASE("switched: a voltage step is the winding's exponential, in steps of an
       CHECK(current(plant) > 0.7 * final_a);
     }
   }
-}
-
-TEST_CASE("switched: ripple is V D (1 - D)/(L f), and its mean that of the duty", "[switched]") {
-  const Parameters p = motor();
-  constexpr double t_s = kPeriod * kClock;
-  for (const int on : {100, 290, 500, 900}) {
-    const double d = static_cast<double>(on) / kPeriod;
-    Plant plant = locked(p);
-    double low = 1e9, high = -1e9, sum = 0;
-    for (int clock = 0; clock < 150 * kPeriod; ++clock) {
-      plant.advance(clock % kPeriod < on ? kForward : kLow, 1);
-      if (clock < 149 * kPeriod) continue;
-      low = std::min(low, current(plant));
-      high = std::max(high, current(plant));
-      sum += plant.observables().motor_current_mean_a;
-    }
-    // The winding's two exponentials, which meet at both ends of the pulse.
-    const double exact = kV / kR * (1 - std::exp(-d * t_s / kTau)) *
-                         (1 - std::exp(-(1 - d) * t_s / kTau)) / (1 - std::exp(-t_s / kTau));
-    CAPTURE(on);
-    CHECK(high - low == Approx(exact).epsilon(1e-6));
-    CHECK(high - low == Approx(kV * d * (1 - d) / (kL * 50e3)).epsilon(0.002));
-    CHECK(sum / kPeriod == Approx(kV * d / kR).epsilon(1e-6));
-  }
-}
-
-TEST_CASE("switched: dead time takes V t_d f of each leg that switches, and of the diodes",
-          "[switched]") {
-  constexpr int dead = 25;
-  constexpr double share = static_cast<double>(dead) / kPeriod;
-  const Pwm pwm(kPeriod, dead, 1);
-  for (const double diode_v : {0.0, 0.7}) {
-    for (const bool antiphase : {false, true}) {
-      for (const int duty : {400, -400}) {
-        const double legs = antiphase ? 2 : 1, sign = duty > 0 ? 1 : -1;
-        // Two dead times in a period: in one the leg is low by a diode instead of high, in the
-        // other instead of by its gate.
-        const double lost = legs * share * (kV + 2 * diode_v);
-        const double mean = mean_a(motor(diode_v), pwm, antiphase, duty);
-        CAPTURE(diode_v, antiphase, duty);
-        CHECK(kR * mean - kV * duty / kPeriod == Approx(-sign * lost).epsilon(1e-5));
-      }
-    }
-  }
-  CHECK(kV * 2 * share == Approx(kV * 2 * 0.5e-6 * 50e3));
 }
 
 TEST_CASE("switched: a current through diodes ends at zero, at its time, and stays there",
@@ -400,27 +298,10 @@ TEST_CASE("switched: a current through diodes ends at zero, at its time, and sta
       const double exact =
           t < zero_s ? (begin_a + against_a) * std::exp(-t / kTau) - against_a : 0.0;
       REQUIRE(current(plant) == Approx(exact).margin(1e-9));
+      REQUIRE(plant.observables().supply_current_a <= 0.0);
     }
     CHECK(charge == Approx(begin_a * kTau - against_a * zero_s).epsilon(1e-9));
   }
-}
-
-TEST_CASE("switched: without the low gates the current is cut off in every period", "[switched]") {
-  // A leg with its high gate alone: up from 0 for the pulse, down by the diode to 0, then none.
-  constexpr int on = 50;
-  Plant plant = locked(motor());
-  double sum = 0;
-  for (int clock = 0; clock < 3 * kPeriod; ++clock) {
-    plant.advance(clock % kPeriod < on ? kForward : kOff, 1);
-    if (clock % kPeriod == kPeriod - 1) REQUIRE(current(plant) == 0.0);
-    if (clock >= 2 * kPeriod) sum += plant.observables().motor_current_mean_a;
-  }
-  constexpr double on_s = on * kClock, up_a = kV / kR, down_a = (kV + 1.4) / kR;
-  const double peak_a = up_a * (1 - std::exp(-on_s / kTau));
-  const double fall_s = kTau * std::log1p(peak_a / down_a);
-  // L di = (u - R i) dt: the charge of a part is (u t - L di)/R.
-  const double charge = up_a * on_s - kTau * peak_a + kTau * peak_a - down_a * fall_s;
-  CHECK(sum * kClock == Approx(charge).epsilon(1e-6));
 }
 
 TEST_CASE("switched: a short leaves the wiring alone", "[switched]") {

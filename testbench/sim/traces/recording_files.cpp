@@ -59,13 +59,9 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-std::vector<EncoderEvent> all_events(EncoderSource& source, std::size_t most) {
+std::vector<EncoderEvent> all_events(EncoderSource& source) {
   std::vector<EncoderEvent> events;
-  while (events.size() < most) {
-    const auto event = source.next();
-    if (!event) break;
-    events.push_back(*event);
-  }
+  while (const auto event = source.next()) events.push_back(*event);
   return events;
 }
 

@@ -34,8 +34,8 @@ class Folder {
 
 std::string bytes_of(const std::filesystem::path& path);
 
-/// All events, at most `most`; throws what the source throws.
-std::vector<EncoderEvent> all_events(EncoderSource& source, std::size_t most = 100'000);
+/// All events; throws what the source throws.
+std::vector<EncoderEvent> all_events(EncoderSource& source);
 
 /// "clock:AB clock:AB ... end", the pins as 0 and 1; or the message of the TraceError.
 std::string told(const std::filesystem::path& path, const Options& options);

@@ -10,7 +10,7 @@ from testing import ROOT, Scratch, script, text_of
 
 class BenchPicture(Scratch):
     def test_every_engine_is_labelled(self):
-        self.ended(script("bench_picture.py", ROOT / "docs/images/bench.json", self.folder / "bench.svg"))
+        self.ended(script("study_pictures.py", ROOT / "docs/images/bench.json", self.folder / "bench.svg"))
         drawn, committed = (self.folder / "bench.svg").read_text(encoding="utf-8"), text_of("docs/images/bench.svg")
         data = json.loads(text_of("docs/images/bench.json"))
         for word in (*data["engines"], data["date"]):

@@ -8,11 +8,12 @@ import json
 import math
 import subprocess
 import unittest
+from unittest import mock
 
 from testing import BUILD, ROOT, Scratch, called, ran
 
 import choose
-from exploration import choosing, made_scene
+from exploration import choice, choosing, made_scene
 
 PROGRAM = BUILD / "feltgate_lever_law"
 SCENE = """title = "Short"
@@ -63,6 +64,18 @@ AWK = "BEGIN { sum = counts > row ? counts : row; printf \"%.12g\", sum + roundi
 
 
 class Chosen(Scratch):
+    def setUp(self):
+        """Each sixteenth design of the table, `lever` itself, and those that it runs by a register."""
+        super().setUp()
+        with open(ROOT / choosing.TABLE, newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        kept = [r for k, r in enumerate(rows) if k % 16 == 0 or set(choice.settings(r)) <= {choice.CUTOFF, choice.OBSERVER}]
+        with (self.folder / "table.csv").open("w", newline="", encoding="utf-8") as file:
+            table = csv.DictWriter(file, rows[0])
+            table.writeheader()
+            table.writerows(kept)
+        self.enterContext(mock.patch.object(choosing, "TABLE", str(self.folder / "table.csv")))
+
     def call(self, status, *words):
         found, out, err = called(choose.main, *words, "-o", self.folder / "out")
         self.assertEqual(found, status, err)
@@ -127,11 +140,11 @@ class Chosen(Scratch):
         bits = checks["margin on the chain's bits"]["measured"]
         self.assertAlmostEqual(bits / product, 1, delta=0.05)
         # All of the table are accounted for, and the front is from it.
-        self.assertGreater(told["measured"], 80)
+        self.assertGreater(told["measured"], 10)
         left = sum(told["designs"]["left_out"].values())
         self.assertEqual(left + told["measured"], told["designs"]["in_table"])
         self.assertEqual(len(told["front"]), 5)
-        self.assertGreater(len({o["gates"]["lut4_equivalents"] for o in told["front"]}), 2)
+        self.assertGreater(len({o["gates"]["lut4_equivalents"] for o in told["front"]}), 1)
         # Its files go on: the scene runs, trimmed, and the page of commands names them.
         self.assertIn(str(self.folder / "out/short.toml"), out)
         again = self.ask("run", trimmed, "--engine", "twin")
@@ -220,7 +233,7 @@ class Border(Scratch):
         text = (ROOT / "rtl/designs/lever.toml").read_text(encoding="utf-8")
         file = self.put("quick.toml", text.replace("cutoff_rad_s = 500.0", "cutoff_rad_s = 950.0", 1))
         exact = self.put("exact.toml", text.replace("current = [1, 5, 16]", "current = [1, 5, 17]"))
-        words = ("--rate", "1000000", "--damping", "0.01", "--no-experiments")
+        words = ("--rate", "1000000", "--damping", "0.01")
         words += ("--json", self.folder / "a.json")
 
         def border(design, status=0):
@@ -232,7 +245,7 @@ class Border(Scratch):
         self.assertGreater(quick["eigenvalues_nm_rad"], 1.1 * own["eigenvalues_nm_rad"])
         for found in (own, quick):
             self.assertAlmostEqual(found["bits_nm_rad"] / found["eigenvalues_nm_rad"], 1, delta=0.02)
-        self.ended(ran(PROGRAM, "stability", exact, *words), 2, "add --no-bits --no-experiments")
+        self.ended(ran(PROGRAM, "stability", exact, *words), 2, "add --no-bits")
         self.assertEqual(ran(PROGRAM, "stability", exact, "--no-bits", *words).returncode, 0)
 
 

@@ -61,13 +61,6 @@ class Controllers(Scratch):
         for word in (*of, "largest wall, Nm/rad", "motor torque, mNm", "noise, mNm rms"):
             self.assertIn(word, svg)
 
-    def test_the_estimators(self):
-        done = self.ended(self.call("controllers", "--estimators", "--json", "c.json", "-o", "c.svg"))
-        self.assertIn(done.stdout.strip(), text_of(TABLES), f"{TABLES} is stale: paste this table")
-        data = json.loads((self.folder / "c.json").read_text(encoding="utf-8"))
-        self.assertEqual(data["schema"], "feltgate-estimators/1")
-        self.assertIn("observer fed back", (self.folder / "c.svg").read_text(encoding="utf-8"))
-
     def test_a_design_with_mt(self):
         text = re.sub(r"^(m1|n) = .*\n", "", text_of("rtl/designs/lever.toml"), flags=re.M)
         keys = 'estimator = "mt"\nwindow_s = 386e-6\ncycles = 16'
@@ -76,7 +69,7 @@ class Controllers(Scratch):
         self.assertIn("M/T over whole encoder cycles, 386 us or more, up to 16", done.stdout)
         for words in (
             ("design", path, "--plant", "p24"),
-            ("stability", path, "--no-bits", "--no-experiments"),
+            ("stability", path, "--no-bits"),
         ):
             with self.subTest(words=words):
                 self.ended(self.call(*words), 2, "knows the N-method alone; take estimator")

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/feltgate_core.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"
 #include "feltgate/random.hpp"
@@ -118,35 +117,6 @@ double inertia_by_hand(Kind kind, double push) {
   }
   return push * 0.01 / (w - w_10) / kJ;
 }
-
-/// A double that counts the multiplications with it.
-struct Counted {
-  double v = 0;
-  static inline int products = 0;
-  constexpr Counted(double x = 0) : v(x) {}  // NOLINT(google-explicit-constructor): as a number
-  friend Counted operator+(Counted a, Counted b) { return a.v + b.v; }
-  friend Counted operator-(Counted a, Counted b) { return a.v - b.v; }
-  friend Counted operator-(Counted a) { return -a.v; }
-  friend Counted operator*(Counted a, Counted b) { return ++products, a.v * b.v; }
-  friend bool operator>(Counted a, Counted b) { return a.v > b.v; }
-  friend bool operator<(Counted a, Counted b) { return a.v < b.v; }
-};
-
-template <template <class, class> class Law>
-int products_of() {
-  Law<Lever, Real<Counted>> law(tuning_of(bench(), bench().plant));
-  Counted::products = 0;
-  (void)law.tick(0.1, 0.05, 0.2);
-  return Counted::products;
-}
-
-/// Of the estimators of the study.
-enum : int { kPaper, kLever, kFastLever, kCycle, kWindow, kFast };
-
-/// `lever` with the study's M/T over 386 us.
-struct Spans : Lever {
-  static constexpr int m1 = 0, mt_counts = 4096, mt_window = 19300, mt_doublings = 4;
-};
 
 }  // namespace
 
@@ -294,85 +264,4 @@ TEST_CASE("controllers: every encoder's velocity is in rad/s") {
     within(sum, speed_rad_s, 1e-3);
   }
   CHECK_THROWS_AS(make_chain(Kind::pi, true, tuning_of(b, b.plant), 1000), std::invalid_argument);
-}
-
-TEST_CASE("controllers: multiplications and bits are those of the laws") {
-  CHECK(products_of<PiLaw>() == 2);
-  CHECK(products_of<PidWithDerivative>() == 4);
-  CHECK(products_of<ReactionLaw>() == 2);
-  CHECK(products_of<AsIs>() == 0);
-  // Ktn*I, g*Jn*w and a1 of the observer, torque_gain; the observer has observer_gain, too.
-  CHECK(size_of(Kind::pi).multiplications == 2 + 4);
-  CHECK(size_of(Kind::pid).multiplications == 4 + 4);
-  CHECK(size_of(Kind::reaction).multiplications == 2 + 4);
-  CHECK(size_of(Kind::observer).multiplications == 1 + 4);
-  CHECK(size_of(Kind::feed_forward).multiplications == 1);
-  CHECK(size_of(Kind::observer).state_bits == Lever::f.observer.width());
-}
-
-TEST_CASE("estimators: the chain with M/T is the core's twin, bit by bit") {
-  const Bench b = bench();
-  const auto chain = make_estimator_chain(kWindow, false, tuning_of(b, b.plant));
-  FeltgateCore<Spans> core;
-  CoreIn pins;
-  ChainIn in;
-  SplitMix64 random(5);
-  constexpr int clocks = Lever::clocks_per_tick;
-  constexpr int sample = Map::first_wave_clock + Map::T::sample;
-  std::int64_t changes_at = -1, count = 0, moved = 0, negative = 0;
-  int per_edge = 0, way = 1, left = 10;
-  for (std::int64_t tick = 0; tick < 300'000; ++tick) {
-    // One edge or none from this sample to the next.
-    int edge = -1;
-    if (left-- == 0) {
-      left = 200 + static_cast<int>(random.below(8'000));
-      per_edge = random.below(5) == 0 ? 0 : 2 + static_cast<int>(random.below(300));
-      if (random.below(3) == 0) way = -way;
-    }
-    if (per_edge != 0 && random.below(static_cast<std::uint64_t>(per_edge)) == 0) {
-      edge = static_cast<int>(random.below(clocks));
-    }
-    const auto step = [&](std::int64_t clock) {
-      if (clock == changes_at) {
-        count += way;
-        const auto phase = static_cast<unsigned>(count) & 3u;
-        pins.encoder = {phase >= 2, phase == 1 || phase == 2, false};
-      }
-      core.clock(pins);
-    };
-    for (int c = 0; c < sample; ++c) step(tick * clocks + c);
-    in.position = static_cast<std::int32_t>(count);
-    in.travel = static_cast<std::int16_t>(count);
-    chain->tick(in);
-    in.edge_clock = edge < 0 ? 0 : edge;
-    changes_at = edge < 0 ? -1 : tick * clocks + sample + edge;
-    for (int c = sample; c < clocks; ++c) step(tick * clocks + c);
-    REQUIRE(chain->raw()->velocity == core.out().velocity);
-    moved += core.out().velocity != 0;
-    negative += core.out().velocity < 0;
-  }
-  CHECK(moved > 200'000);
-  CHECK(negative > 50'000);
-  CHECK_THROWS_AS(make_estimator_chain(estimator_count(), false, {}), std::invalid_argument);
-}
-
-TEST_CASE("estimators: walls, noise and drag as closed forms and as the other studies have them") {
-  const Bench b = bench();
-  const EstimatorRow lever = measure_estimator(b, kLever), fast = measure_estimator(b, kFast);
-  // The same loop with counts that are exact at each tick.
-  CHECK(lever.border_nm_rad == Approx(border(b, Kind::feed_forward, true)).epsilon(0.04));
-  CHECK(lever.border_observer_nm_rad == Approx(border(b, Kind::observer, true)).epsilon(0.04));
-  CHECK(lever.good[0].motor_nm ==
-        Approx(tremor_noise_nm(b, Kind::observer, true, 1024)).epsilon(0.1));
-  CHECK(fast.border_nm_rad > 1.1 * lever.border_nm_rad);
-  // The back-EMF is given back late, and what is late by t is Kt*Ke/R*t more inertia; friction and
-  // the dead voltage hide it.
-  constexpr double lag_s = 767e-6 / 2 + 1 / kG;
-  CHECK(lever.drag_inertia == Approx(1 + kKt * kKt / kR * lag_s / kJ).margin(0.003));
-  CHECK(fast.drag_inertia == Approx(lever.drag_inertia).margin(0.01));
-  CHECK(fast.drag_rms_nm == Approx(lever.drag_rms_nm).epsilon(0.002));
-  // A count that comes and goes is 2 rad/s for 767 us: its ripple in velocity times g*Jn.
-  CHECK(lever.good[1].hat_nm > 1e-3);
-  CHECK(fast.good[1].hat_nm < lever.good[1].hat_nm / 100);
-  CHECK(fast.irregular[1].hat_nm < lever.irregular[1].hat_nm / 10);
 }

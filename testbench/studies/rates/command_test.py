@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""feltgate rates as a user calls it: table, JSON, CSV and picture of a short scene; what is wrong
+"""feltgate rates as a user calls it: table, JSON and picture of a short scene; what is wrong
 is told in a line, with exit code 2, and nothing is written."""
 
-import csv
 import json
 import os
 import sys
@@ -66,8 +65,7 @@ class Rates(Scratch):
 
     def test_everything_is_written(self):
         done = self.call(
-            *("short.toml", "--rate", "1000,10000", "--json", "a.json", "--csv", "a.csv"),
-            *("-o", "a.svg"),
+            *("short.toml", "--rate", "1000,10000", "--json", "a.json", "-o", "a.svg"),
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         for word in ("1 kHz", "10 kHz", "1 MHz", "block", "48 of 50000", "48 of 50", ENGINE):
@@ -79,11 +77,7 @@ class Rates(Scratch):
         for rate in scene["rates"]:
             self.assertGreater(rate["ticks_compared"], 20_000)
             self.assertGreater(rate["error_rms_nm"], 1e-4)
-        with (self.folder / "a.csv").open(encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([r["by"] for r in rows], ["engine", "engine", "engine", "block"])
-        for row, one in zip(rows, scene["rates"], strict=True):
-            self.assertAlmostEqual(float(row["error_rms_nm"]), one["error_rms_nm"], places=7)
+        self.assertEqual([r["by"] for r in scene["rates"]], ["engine", "engine", "engine", "block"])
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
         self.assertIn("torque error, mNm", svg)
         self.assertIn("border / scene", svg)
@@ -134,8 +128,7 @@ class Rates(Scratch):
 
     def test_a_device_has_its_axes_and_what_is_kept(self):
         done = self.call(
-            *("levers.toml", "--rate", "144,10000", "--json", "a.json", "--csv", "a.csv"),
-            *("-o", "a.svg"),
+            *("levers.toml", "--rate", "144,10000", "--json", "a.json", "-o", "a.svg"),
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         for word in ("device two_levers, 2 axes", "144 Hz", "10 kHz", "1 of 2", "at its steepest"):
@@ -159,9 +152,6 @@ class Rates(Scratch):
         self.assertEqual(margins, sorted(margins))
         slow, fast = scene["rates"][0], scene["rates"][-1]
         self.assertGreater(slow["error_rms_nm"], 3 * fast["error_rms_nm"])
-        with (self.folder / "a.csv").open(encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([(r["expected"], r["broken"]) for r in rows], [("2", "1")] * len(rows))
         svg = (self.folder / "a.svg").read_text(encoding="utf-8")
         for word in ("torque error, mNm", "border / scene", "swing, mNm"):
             self.assertIn(word, svg)
@@ -183,13 +173,14 @@ class Rates(Scratch):
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
 
     def test_rtl_and_twin_are_equal_at_every_rate(self):
+        self.put("short.toml", SCENE.replace("duration_s = 0.03\n[core]", "duration_s = 0.015\n[core]"))
         done = self.ended(self.call("short.toml", "--rate", "144,10000", "--lock-step", "--json", "-"))
         (scene,) = json.loads(done.stdout)["scenes"]
         # 6940 ticks are beyond the engine's divider, so two of its runs make an update.
         self.assertEqual([r.get("runs") for r in scene["rates"]], [2, 1, 1, None])
         for row in scene["rates"]:
             self.assertEqual(row["mismatches"], 0)
-            self.assertGreater(row["clocks_compared"], 1_400_000)
+            self.assertGreater(row["clocks_compared"], 700_000)
 
     def test_rtl_and_twin_of_a_device_are_equal(self):
         short = LEVERS.replace("duration_s = 0.03\n", "duration_s = 0.015\n", 1)
@@ -215,9 +206,8 @@ class Rates(Scratch):
             (("short.toml", "--json", "short.toml"), "short.toml"),
         ):
             with self.subTest(words=words):
-                done = self.ended(self.call(*words, "--csv", "c.csv"), 2, told)
+                done = self.ended(self.call(*words), 2, told)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-                self.assertFalse((self.folder / "c.csv").exists())
 
 
 if __name__ == "__main__":

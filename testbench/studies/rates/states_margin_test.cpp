@@ -11,9 +11,9 @@
 
 #include "feltgate/largest.hpp"
 #include "mismatch.hpp"
+#include "rates_case.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/loop/loop.hpp"
-#include "sim/plant/plant_file.hpp"
 #include "studies/rates/device_joints.hpp"
 #include "studies/rates/margin.hpp"
 #include "studies/rates/rates.hpp"
@@ -24,23 +24,9 @@ using namespace feltgate::rates;
 
 namespace {
 
-const std::string root = FELTGATE_ROOT, built = FELTGATE_BUILD_DIR;
+const std::string built = FELTGATE_BUILD_DIR;
 
-design::Elaborated law_core() {
-  return design::elaborate(design::read_design(root + "/rtl/designs/lever_law.toml"),
-                           design::read_registers(root + "/rtl/registers.toml"));
-}
-
-AxesScene scene_of(const std::string& name) {
-  return read_axes_scene(root + "/vectors/scenes/" + name + ".toml", [](const std::string& device) {
-    return root + "/vectors/devices/" + device + ".toml";
-  });
-}
-plant::Parameters lever() {
-  plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
-  p.effects.viscous = true;
-  return p;
-}
+design::Elaborated law_core() { return elaborated("lever_law"); }
 
 /// A spring on the filtered angle; `more`: a statement that no torque shows.
 LawSource filtered(const std::string& frequency, const std::string& more = "") {
@@ -71,7 +57,7 @@ Report measured(const std::string& law) {
          "}, { kind = \"minimum_jerk\", duration_s = 0.15, to_rad = 0.3 }]\n";
   Scenario scene = read_scenario(path);
   std::remove(path.c_str());
-  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
+  const plant::Parameters p = plant_named("linear");
   resolve_effects(scene, p.effects);
   Options options;
   options.rates_hz = {};
@@ -97,7 +83,7 @@ double swing_growth(const LawSource& source, double stiffness_nm) {
          "[[hand.phase]]\nkind = \"free\"\n";
   Scenario scene = read_scenario(path);
   std::remove(path.c_str());
-  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
+  const plant::Parameters p = plant_named("linear");
   resolve_effects(scene, p.effects);
   const DesignInfo& design = design_named("lever_law");
   const auto law = make_scene_law(fastest(source, law::target_of(design)), design);
@@ -134,7 +120,7 @@ TEST_CASE("a law without states has the poles of a wall") {
 TEST_CASE("a law is linear at a place: by its filter, its formula and its signs") {
   const double share = 1 - std::exp(-2 * 3.14159265358979323846 * 30 / 40e3);
   const law::Law law = read(filtered("30 Hz"), 40e3);
-  const auto linear = linearised(law, at(0.5), 2 * 3.14159265358979323846 / 4096);
+  const auto linear = linearised(law, at(0.5), count_rad);
   REQUIRE(linear);
   REQUIRE(linear->a.rows() == 1);
   CHECK(linear->a(0, 0) == Approx(1 - share));
@@ -153,20 +139,20 @@ TEST_CASE("a law is linear at a place: by its filter, its formula and its signs"
   const law::Law more = read(filtered("30 Hz", beside), 40e3);
   Place place = at(0.5);
   place.states.assign(more.states.size(), 0.01);
-  const auto of_more = linearised(more, place, 2 * 3.14159265358979323846 / 4096);
+  const auto of_more = linearised(more, place, count_rad);
   REQUIRE(of_more);
   CHECK(of_more->a.rows() == 1);
   // At a jump there is no slope.
   const LawSource jumps{"jumps.law",
                         "param stiffness = 0.1 Nm in 0.01 .. 2 Nm\nout torque = "
                         "if position < 0.01 then stiffness else 0 Nm\n"};
-  CHECK_FALSE(linearised(read(jumps, 40e3), at(0.5), 2 * 3.14159265358979323846 / 4096));
+  CHECK_FALSE(linearised(read(jumps, 40e3), at(0.5), count_rad));
 }
 
 TEST_CASE("a filtered spring ends where the closed form says, and where the bits swing") {
   const LawSource source = filtered("30 Hz");
   const stability::LoopModel m = stability::make_model(law_core(), lever());
-  const auto linear = linearised(read(source, 40e3), at(0.1), 2 * 3.14159265358979323846 / 4096);
+  const auto linear = linearised(read(source, 40e3), at(0.1), count_rad);
   REQUIRE(linear);
   const Margin found =
       margin(stability::make_axes_model(law_core(), lever()), *linear, 0.1, 25, 25);
@@ -230,8 +216,7 @@ TEST_CASE("a spring behind a delay line ends where its delay says, and where the
   for (const int runs : {20, 200}) {
     const LawSource source = late_spring(runs);
     const auto linear =
-        linearised(read(source, 40e3), Place{Eigen::Vector3d(0.01, 0, 0), {}, {0.1}},
-                   2 * 3.14159265358979323846 / 4096);
+        linearised(read(source, 40e3), Place{Eigen::Vector3d(0.01, 0, 0), {}, {0.1}}, count_rad);
     REQUIRE(linear);
     REQUIRE(linear->taps.size() == 1);
     const Margin found = margin(m, *linear, 0.1, 25, 25);
@@ -281,10 +266,9 @@ TEST_CASE("a filtered floor of two axes ends where its own matrix does") {
   // The pen stands at (0, 0.1) m: cranks of 0.1 m at 30 and 150 degrees.
   const double first = std::asin(0.5);
   const Eigen::Vector2d at(first, 3.14159265358979323846 - first);
-  const auto e = design::elaborate(design::read_design(root + "/rtl/designs/pantograph_law.toml"),
-                                   design::read_registers(root + "/rtl/registers.toml"));
+  const auto e = elaborated("pantograph_law");
   const auto model = stability::make_axes_model(e, joint_of(device, on), inertia_kg_m2(device, at));
-  const law::Law law = read({root + "/rtl/laws/pantograph_filtered.law", ""}, 1e3);
+  const law::Law law = read(shipped("pantograph_filtered"), 1e3);
   // before, speed, force of a pen at rest 10 mm deep in a floor of 50 N/m.
   Place place{Eigen::VectorXd::Zero(6), {0.1, 0, 0.5}, {0.11, 50, 0, 1}};
   place.inputs.head(2) = at;
@@ -301,15 +285,6 @@ TEST_CASE("a filtered floor of two axes ends where its own matrix does") {
 // Margins of laws whose host samples the device, and of scenes at rest: against closed forms and
 // the swing of the core's bits.
 
-namespace {
-
-design::Elaborated elaborated(const std::string& name) {
-  return design::elaborate(design::read_design(root + "/rtl/designs/" + name + ".toml"),
-                           design::read_registers(root + "/rtl/registers.toml"));
-}
-
-}  // namespace
-
 TEST_CASE("a wall on a tracker ends where its samples and their age say, and where bits swing") {
   if (!test::case_tried(0, 3)) return;  // half a minute
   // Samples of 1.87 kHz that are 0.5 ms old, in a law of 8 kHz: half of each period and the age
@@ -323,7 +298,7 @@ TEST_CASE("a wall on a tracker ends where its samples and their age say, and whe
          "\"minimum_jerk\", duration_s = 0.03, to_rad = 0.05 }]\n";
   Scenario scene = read_scenario(path);
   std::remove(path.c_str());
-  const plant::Parameters p = plant::read_plant_file(root + "/vectors/plants/linear.toml");
+  const plant::Parameters p = plant_named("linear");
   resolve_effects(scene, p.effects);
   Options options;
   options.rates_hz = {};
@@ -365,7 +340,7 @@ HostWords of_plane(const AxesScene& scene, const law::Law& law) {
 TEST_CASE("planes of a sphere: a pen slides off, and swings as on a floor") {
   AxesScene scene = scene_of("stylus_sphere");
   const auto e = elaborated("stylus_law");
-  const law::Law law = read({root + "/rtl/laws/local_space.law", ""}, 100e3);
+  const law::Law law = read(shipped("local_space"), 100e3);
   const HostWords words = of_plane(scene, law);
   const auto& p = std::get<StylusSetup>(scene.device).parameters;
   const double per_m = 1 / p.lever.lever.radius_m;
@@ -406,7 +381,7 @@ TEST_CASE("a floor whose forces a host sends ends where the host's period and ag
   AxesScene scene = scene_of("plane_floor");
   scene.plane->sends_force = true;
   const auto e = elaborated("pantograph_law");
-  const law::Law law = read({root + "/rtl/laws/sent_force.law", ""}, 100e3);
+  const law::Law law = read(shipped("sent_force"), 100e3);
   const HostWords words = of_plane(scene, law);
   // The pen stands at (0, 0.1) m, 10 mm deep: cranks of 0.1 m at 30 and 150 degrees.
   const double first = std::asin(0.5);

@@ -253,14 +253,6 @@ TEST_CASE("an unstable loop is refused with reason and mend", "[poles]") {
   CHECK_FALSE(contains(other, "inertia_kg_m2 ="));
 }
 
-TEST_CASE("the table shows the poles", "[poles]") {
-  const std::string table = loop_table(closed_loop(shipped("paper"), shipped_plant("p24")));
-  CHECK(contains(table, "closed loop around plant p24"));
-  CHECK(contains(table, "torque up to 0.15 Nm, gain 1.25 ohm:"));
-  CHECK(contains(table, "(stable)"));
-  CHECK(contains(table, "lever blocked: tau_hat at -391.6"));
-}
-
 TEST_CASE("the readings of an absolute encoder are a delay of the wall", "[poles]") {
   LoopModel m = make_model(shipped("lever_absolute"), shipped_plant("linear"));
   CHECK(m.reading_ticks == 96);

@@ -265,15 +265,4 @@ int Guesser::guess(const Trace& trace, const Cues& cues, const Memory& memory,
   return best;
 }
 
-double right(const Confusion& guesses) {
-  int hits = 0, all = 0;
-  for (std::size_t of = 0; of < guesses.size(); ++of) {
-    for (std::size_t as = 0; as < guesses.size(); ++as) {
-      all += guesses[of][as];
-      if (of == as) hits += guesses[of][as];
-    }
-  }
-  return all > 0 ? static_cast<double>(hits) / all : 0;
-}
-
 }  // namespace feltgate::test

@@ -119,8 +119,4 @@ class Guesser {
   std::array<std::vector<Point>, kShapes.size()> outlines_;  ///< about their middles
 };
 
-/// guesses[of][as].
-using Confusion = std::array<std::array<int, kShapes.size()>, kShapes.size()>;
-double right(const Confusion& guesses);
-
 }  // namespace feltgate::test

@@ -15,7 +15,6 @@
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
 #include "sim/plant/plant_file.hpp"
-#include "studies/trim/motions.hpp"
 #include "studies/trim/trim.hpp"
 
 using namespace feltgate;
@@ -37,9 +36,15 @@ trim::Model averaged(const Scenario& s, int step_clocks = 250) {
   return model;
 }
 
-double worst_of(const std::vector<trim::UnseenReport>& motions) {
+/// The largest loss of `model` on motions made with these seeds.
+double worst_on(const trim::Subject& subject, const trim::Model& model,
+                std::initializer_list<std::uint64_t> seeds) {
   double worst = 0;
-  for (const trim::UnseenReport& u : motions) worst = feltgate::larger(worst, u.difference.worst());
+  for (const std::uint64_t seed : seeds) {
+    const trim::Course other = subject.other(seed);
+    const auto difference = trim::compare(other.feel(subject.full), other.feel(model));
+    worst = feltgate::larger(worst, difference.worst());
+  }
   return worst;
 }
 
@@ -52,7 +57,7 @@ bool dropped(const trim::Report& r, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("what a run leaves out is neither computed nor a state of its plant") {
+TEST_CASE("what a run leaves out is no state of its plant") {
   Scenario push = scene("push");
   push.duration_s = 0.02;
   trim::Model all = averaged(push);
@@ -62,36 +67,21 @@ TEST_CASE("what a run leaves out is neither computed nor a state of its plant") 
 
   struct Case {
     const char* part;
-    std::uint64_t plant::Evaluations::*count;
     std::size_t states;
   };
   std::vector<std::string> seen;
-  for (const Case& c : {Case{"inductance", &plant::Evaluations::inductance, 1},
-                        Case{"back_emf", &plant::Evaluations::back_emf, 0},
-                        Case{"dead_voltage", &plant::Evaluations::dead_voltage, 0},
-                        Case{"lugre", &plant::Evaluations::lugre, 1},
-                        Case{"viscous", &plant::Evaluations::viscous, 0},
-                        Case{"supply_limit", &plant::Evaluations::supply_limit, 1},
-                        Case{"dead_time", &plant::Evaluations::dead_time, 0},
-                        Case{"encoder_imperfect", &plant::Evaluations::encoder_imperfect, 0},
-                        Case{"hand_dynamics", &plant::Evaluations::hand_dynamics, 4}}) {
+  for (const Case& c :
+       {Case{"inductance", 1}, Case{"back_emf", 0}, Case{"dead_voltage", 0}, Case{"lugre", 1},
+        Case{"viscous", 0}, Case{"supply_limit", 1}, Case{"dead_time", 0},
+        Case{"encoder_imperfect", 0}, Case{"hand_dynamics", 4}}) {
     trim::Model without = all;
     trim::set_part(without, c.part, false);
     const trim::Felt felt = trim::feel(push, p24(), "lever", without, kWindow_s);
     INFO(c.part);
-    CHECK(with.evaluations.*c.count > 0);
-    CHECK(felt.evaluations.*c.count == 0);
     CHECK(felt.states == with.states - c.states);
     seen.emplace_back(c.part);
   }
   CHECK(seen == trim::parts_of(all, true));  // no part without a test
-
-  // Fewer steps are fewer evaluations; gates that switch contain their dead time.
-  const trim::Felt fine = trim::feel(push, p24(), "lever", averaged(push, 50), kWindow_s);
-  CHECK(fine.evaluations.inductance == 5 * with.evaluations.inductance);
-  trim::Model gates = all;
-  gates.gates = true;
-  CHECK(trim::feel(push, p24(), "lever", gates, kWindow_s).evaluations.dead_time == 0);
 }
 
 TEST_CASE("the full model makes the torque that the averaged one makes") {
@@ -111,13 +101,16 @@ TEST_CASE("a trimmed scene holds on motions that the search did not see") {
     trim::Options options;
     options.tolerance = 0.02;
     options.timed_runs = 3;
-    const trim::Report r = trim::trim(trim::lever_subject(s, p24(), options), options);
+    options.longest_s = 1e9;
+    const trim::Subject subject = trim::lever_subject(s, p24(), options);
+    const trim::Report r = trim::trim(subject, options);
     INFO(name);
     REQUIRE(r.faster.size() == 3);
     CHECK(r.faster[0] <= r.faster[1]);
     CHECK(r.faster[1] <= r.faster[2]);
     CHECK(r.faster[0] > 2);
     CHECK(r.times_faster() == r.faster[1]);
+    CHECK_FALSE(r.out_of_time);
     CHECK(r.holds);
     CHECK(r.smaller());
     CHECK(r.own.worst() <= options.tolerance);
@@ -126,12 +119,10 @@ TEST_CASE("a trimmed scene holds on motions that the search did not see") {
     CHECK_FALSE(dropped(r, "dead_voltage"));
     CHECK(r.trimmed.step_clocks > r.full.step_clocks);
     CHECK(r.trimmed_run.states < r.full_run.states);
-    CHECK(r.trimmed_run.evaluations.inductance < r.full_run.evaluations.inductance);
-    // Seeds far from those of the search and of its own check: all four quarters.
-    const auto others = trim::check_unseen(trim::lever_subject(s, p24(), options), r.trimmed,
-                                           options, {100, 101, 102, 103});
-    CHECK(worst_of(others) <= options.tolerance);
-    CHECK(worst_of(others) > 0);
+    // Seeds far from those of the search and of its own check.
+    const double others = worst_on(subject, r.trimmed, {100, 103});
+    CHECK(others <= options.tolerance);
+    CHECK(others > 0);
   }
 }
 
@@ -145,7 +136,7 @@ TEST_CASE("a set that is too loose is refused, and mended by the final check") {
       trim::compare(with_emf, trim::feel(sweep, p24(), "lever", without, kWindow_s)).worst();
   trim::Options options;
   const trim::Subject subject = trim::lever_subject(sweep, p24(), options);
-  const double unseen = worst_of(trim::check_unseen(subject, without, options, {1, 2, 3, 4}));
+  const double unseen = worst_on(subject, without, {1, 2, 3, 4});
   INFO("without back-EMF: " << own << " on the own motion, " << unseen << " on others");
   REQUIRE(unseen > 1.2 * own);
   options.share = 1;  // nothing kept back for other motions
@@ -164,7 +155,7 @@ TEST_CASE("a set that is too loose is refused, and mended by the final check") {
   for (const std::string& part : subject.parts(nothing)) {
     trim::set_part(nothing, part, false);
   }
-  CHECK(worst_of(trim::check_unseen(subject, nothing, options, {1, 2, 3, 4})) > 0.5);
+  CHECK(worst_on(subject, nothing, {1}) > 0.5);
 }
 
 TEST_CASE("a search without time leaves everything on, and runs nothing a second time") {
@@ -178,8 +169,6 @@ TEST_CASE("a search without time leaves everything on, and runs nothing a second
   CHECK_FALSE(dropped(r, "gates"));
   CHECK(r.faster == std::vector<double>{1.0});
   CHECK(r.unseen.empty());
-  options.longest_s = 1e9;
-  CHECK_FALSE(trim::trim(subject, options).out_of_time);
 }
 
 TEST_CASE("the trimmed scene is a scene file that says what is off") {
@@ -369,8 +358,7 @@ TEST_CASE("two levers are trimmed to what both of them feel") {
     CHECK(p.name != "gates");
     CHECK((p.alone.worst() > 0) == (p.name != "supply_limit"));
   }
-  const auto others = trim::check_unseen(subject, r.trimmed, options, {100, 101});
-  for (const trim::UnseenReport& u : others) CHECK(u.difference.worst() <= options.tolerance);
+  CHECK(worst_on(subject, r.trimmed, {100, 101}) <= options.tolerance);
 
   // The file is a scene of the device again, with these effects and without a plant of one lever.
   const std::string file = std::string(FELTGATE_BUILD_DIR) + "/trimmed_levers.toml";

@@ -13,7 +13,6 @@
 #include "apps/commands/host/verbs.hpp"
 #include "files/output_file.hpp"
 #include "host/capture.hpp"
-#include "host/position_encoder.hpp"
 #include "sim/traces/vector_file.hpp"
 
 namespace feltgate::host {

@@ -12,7 +12,7 @@
 #include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "files/output_file.hpp"
-#include "host/position_encoder.hpp"
+#include "host/capture.hpp"
 #include "sim/traces/vector_file.hpp"
 
 namespace feltgate::host {

@@ -13,7 +13,6 @@
 #include <string>
 
 #include "host/host_device.hpp"
-#include "host/keep_alive.hpp"
 #include "host/law_engine.hpp"
 
 namespace feltgate::host {

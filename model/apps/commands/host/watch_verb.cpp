@@ -16,7 +16,7 @@
 #include "apps/commands/host/streaming.hpp"
 #include "apps/commands/host/verbs.hpp"
 #include "sim/plant/pantograph/linkage.hpp"
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 
 namespace feltgate::host {
 

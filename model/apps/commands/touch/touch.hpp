@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "host/mailbox_burst.hpp"
+#include "host/law_engine.hpp"
 #include "sim/axes_loop/axes_scene.hpp"
 #include "sim/touch/touch_run.hpp"
 

@@ -145,7 +145,6 @@ void Gimbal::finish(const AxisSet<axes>::Torques& torques, Clock clocks) {
   seen_.motor_nm = torques.motor;
   seen_.current_a = axes_.current_a();
   seen_.bus_v = axes_.bus_v();
-  seen_.shoot_through = axes_.shoot_through();
   seen_.hand_work_j = state_.hand_work_j;
   seen_.viscous_j = state_.viscous_j;
   seen_.stop_j = mechanics_.stop_loss_j();

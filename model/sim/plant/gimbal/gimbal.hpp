@@ -56,7 +56,6 @@ struct GimbalSeen {
   Vec3 hand_nm;                ///< of the hand on the handle, base's frame
   Quaternion target;           ///< of the hand's spring
   double bus_v = 0.0;
-  bool shoot_through = false;
   /// Energies since the start, J; stored_j() equals its first value plus these inputs minus the
   /// losses.
   double hand_work_j = 0.0, motor_work_j = 0.0;

@@ -7,14 +7,32 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "../axis_set.hpp"
 #include "../plant.hpp"
-#include "pantograph_parameters.hpp"
+#include "linkage_mechanics.hpp"
 #include "pen_hand.hpp"
 
 namespace feltgate::plant {
+
+/// Constants of a pantograph.
+struct PantographParameters : AxesParameters {
+  std::string name;
+  LinkageGeometry linkage;
+  LinkageBodies bodies;  ///< includes joint_inertia_kg_m2
+  AngleStops stops;      ///< of theta5 - theta1
+  Vec2 start_m;          ///< pen at clock 0, unless the hand gives a start
+};
+
+// Reader of vectors/devices/NAME.toml for pantographs.
+
+/// Reads and checks a pantograph; every key is required, unknown keys are errors.
+/// Errors: config::ConfigError "file:line: what; mend".
+PantographParameters read_pantograph_file(const std::string& path);
+/// The same from a text; errors name it `path`.
+PantographParameters read_pantograph_text(const std::string& text, const std::string& path);
 
 /// Outputs at the end of the last step unless stated as mean. Pairs: joint 1, joint 5.
 struct PantographSeen {
@@ -27,7 +45,6 @@ struct PantographSeen {
   Vec2 hand_m;              ///< of a hand with a mass
   double bus_v = 0.0;
   double supply_a = 0.0;  ///< mean of the last step
-  bool shoot_through = false;
   /// Energies since the start, J: inputs by pen and motors, and losses. stored_j is the energy in
   /// the motion and in the stops; it equals its first value plus inputs minus losses.
   double hand_work_j = 0.0, motor_work_j = 0.0;

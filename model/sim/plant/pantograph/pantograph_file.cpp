@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Reader of vectors/devices/NAME.toml for pantographs. Documentation: docs/devices/pantograph.md
-#include "sim/plant/pantograph/pantograph_parameters.hpp"
+#include "sim/plant/pantograph/pantograph.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Execution of the phases of a Hand. Documentation: docs/plant.md
-#include "sim/plant/hand_run.hpp"
+#include "sim/plant/hand.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The open-loop calibration: voltages against a blocked shaft, and the torques that a gauge shows.
-// Documentation: docs/calibration.md
+// The calibrations with a gauge: in open loop voltages, in closed loop torques against a blocked
+// shaft, and the torques that the gauge shows. Documentation: docs/calibration.md
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "design/design.hpp"
 #include "host/calibrate/regression.hpp"
 
 namespace feltgate::host {
@@ -36,21 +37,14 @@ struct Residual {
   double residual_nm() const { return measured_nm - fitted_nm; }
 };
 
-/// The bend of the line, if it has one.
-struct Bend {
-  Interval at_v, slope_below_nm_v, slope_above_nm_v;
-  double chance = 1;  ///< probability that noise alone gives such a bend
-};
-
 /// Result of the open-loop calibration.
 struct OpenLoop {
   double confidence = 0;
   Interval slope_nm_v, dead_voltage_v, resistance_ohm;
   std::optional<Interval> gauge_offset_nm;      ///< only with readings of both signs
   std::optional<Interval> observer_slope_nm_v;  ///< only with tau_hat
-  std::optional<Bend> bend;
-  std::vector<Residual> residuals;  ///< sorted by command
-  double noise_nm = 0;              ///< standard deviation
+  std::vector<Residual> residuals;              ///< sorted by command
+  double noise_nm = 0;                          ///< standard deviation
   int freedom = 0;
   std::vector<std::string> warnings;
 };
@@ -59,5 +53,38 @@ struct OpenLoop {
 /// signs were read. Errors: MeasurementError if the readings do not determine the result.
 OpenLoop fit_open_loop(std::vector<Reading> readings, double torque_constant_nm_a,
                        double confidence);
+
+/// The voltage gains of a law in two regions.
+struct Regions {
+  Interval low, high;
+  std::optional<Interval> border_nm;  ///< none: one gain fits all readings
+  double worst_error = 0;             ///< largest remaining error at the readings, relative
+};
+
+/// The constants of a law that models the motor.
+struct ModelConstants {
+  Interval resistance_ohm, dead_voltage_v;  ///< dead voltage including the effect of dead time
+};
+
+/// Result of the closed-loop calibration.
+struct ClosedLoop {
+  double confidence = 0;
+  Interval slope, offset_nm;  ///< torque = offset + slope*asked; ideal: 1 and 0
+  std::optional<Regions> regions;
+  std::optional<ModelConstants> model;
+  std::vector<Residual> residuals;
+  double noise_nm = 0;
+  int freedom = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Evaluates the readings of a core with this design. For a law in regions, both gains were `gain`
+/// during the readings. Errors: MeasurementError if the readings do not determine the result.
+ClosedLoop fit_closed_loop(std::vector<Reading> readings, const design::Elaborated& design,
+                           double gain, double confidence);
+
+/// Factor for Kp of the paper, which its first calibration adjusts: from the observer's slope to
+/// the gauge's; 1 if they agree already.
+Interval slope_ratio(const OpenLoop& open);
 
 }  // namespace feltgate::host

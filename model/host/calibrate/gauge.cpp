@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The open-loop calibration. Documentation: docs/calibration.md
-#include "host/calibrate/open_loop.hpp"
+// The calibrations with a gauge. Documentation: docs/calibration.md
+#include "host/calibrate/gauge.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,8 @@
 #include <cmath>
 #include <limits>
 #include <set>
+
+#include "feltgate/largest.hpp"
 
 namespace feltgate::host {
 
@@ -103,7 +105,6 @@ class OpenLoopFit {
     result.freedom = fit.freedom();
     note_residuals(fit, &result);
     fit_observer(&result);
-    find_bend(fit, &result);
     warn(&result);
     return result;
   }
@@ -218,67 +219,6 @@ class OpenLoopFit {
     if (x.norm() > 0) result->observer_slope_nm_v = Regression(x, y, confidence_).coefficient(0);
   }
 
-  /// Fits a line with another slope from some voltage on; keeps it if noise alone hardly explains
-  /// it.
-  void find_bend(const Regression& straight, OpenLoop* result) const {
-    const std::size_t live = readings_.size() - dead_;
-    if (live < 6 || !(straight.sigma() > 0)) return;
-    const double from = std::abs(readings_[dead_ + 1].command);
-    const double to = std::abs(readings_[readings_.size() - 2].command);
-    constexpr int steps = 400;
-    double best = straight.sum_of_squares();
-    std::vector<std::pair<double, double>> squares;  // of each voltage
-    for (int k = 1; k < steps; ++k) {
-      const double at = from + (to - from) * k / steps;
-      const auto fit = bent(at);
-      if (!fit) continue;
-      squares.emplace_back(at, fit->sum_of_squares());
-      best = std::min(best, squares.back().second);
-    }
-    const int freedom = straight.freedom() - 2;
-    const double gain = straight.sum_of_squares() - best;
-    const double f = best > 0 ? gain / 2 / (best / freedom) : 0;
-    Bend bend;
-    // The place was chosen too, which multiplies the chance by the number of places between
-    // readings.
-    bend.chance = std::min(1.0, static_cast<double>(live - 3) * f_tail(f, 2, freedom));
-    if (best > 0 && bend.chance > 1 - confidence_) return;
-    if (!(gain > 1e-12 * straight.sum_of_squares())) return;
-    const double t = student_t(confidence_, freedom);
-    const double limit = best * (1 + t * t / freedom);
-    bend.at_v = {0, to, from};
-    for (const auto& [at, sum] : squares) {
-      if (sum == best) bend.at_v.value = at;
-      if (sum > limit) continue;
-      bend.at_v.low = std::min(bend.at_v.low, at);
-      bend.at_v.high = std::max(bend.at_v.high, at);
-    }
-    const auto fit = bent(bend.at_v.value);
-    bend.slope_below_nm_v = fit->coefficient(0);
-    VectorXd both = VectorXd::Zero(fit->size());
-    both[0] = both[fit->size() - 1] = 1;
-    bend.slope_above_nm_v = fit->combination({0, both});
-    result->bend = bend;
-  }
-  std::optional<Regression> bent(double at) const {
-    const auto n = static_cast<Index>(readings_.size() - dead_);
-    MatrixXd x(n, both_ ? 4 : 3);
-    VectorXd y(n);
-    for (Index k = 0; k < n; ++k) {
-      const Reading& r = readings_[dead_ + static_cast<std::size_t>(k)];
-      x(k, 0) = r.command;
-      x(k, 1) = -sign(r.command);
-      if (both_) x(k, 2) = 1;
-      x(k, x.cols() - 1) = sign(r.command) * std::max(0.0, std::abs(r.command) - at);
-      y[k] = r.torque_nm;
-    }
-    try {
-      return Regression(x, y, confidence_);
-    } catch (const MeasurementError&) {
-      return {};
-    }
-  }
-
   void warn(OpenLoop* result) const {
     for (const Residual& e : result->residuals) {
       if (std::abs(e.studentised) < kFar) continue;
@@ -294,13 +234,6 @@ class OpenLoopFit {
           "a dead voltage below zero cannot be; set the unloaded gauge to zero, or take readings "
           "of "
           "both signs, which give its offset");
-    }
-    if (result->bend) {
-      result->warnings.push_back(fmt::format(
-          "the line bends at {:.3g} V ({:.3g} to {:.3g}): {:.4g} below and {:.4g} Nm/V above it; "
-          "one slope does not fit both",
-          result->bend->at_v.value, result->bend->at_v.low, result->bend->at_v.high,
-          result->bend->slope_below_nm_v.value, result->bend->slope_above_nm_v.value));
     }
   }
 
@@ -336,6 +269,143 @@ double rounding_nm(const std::vector<Reading>& readings) {
 OpenLoop fit_open_loop(std::vector<Reading> readings, double torque_constant_nm_a,
                        double confidence) {
   return OpenLoopFit(std::move(readings), confidence).run(torque_constant_nm_a);
+}
+
+namespace {
+
+/// Line through the readings of torque over command; readings of both signs are already folded onto
+/// one.
+Regression torque_line(const std::vector<Reading>& readings, double confidence) {
+  const auto n = static_cast<Index>(readings.size());
+  MatrixXd x(n, 2);
+  VectorXd y(n);
+  for (Index k = 0; k < n; ++k) {
+    const Reading& r = readings[static_cast<std::size_t>(k)];
+    x(k, 0) = 1;
+    x(k, 1) = r.command;
+    y[k] = r.torque_nm;
+  }
+  return {x, y, confidence};
+}
+
+/// Model: torque = offset + (K/gain)*slope*asked. Returns the gain K with the smallest sum of
+/// squared relative errors over the torques `asked`: (1 - offset*mean(1/asked))/(slope/gain).
+Interval best_gain(const Regression& fit, const std::vector<double>& asked, double gain) {
+  double mean = 0;
+  for (const double a : asked) mean += 1 / a / static_cast<double>(asked.size());
+  const auto k = fit.quotient(combination({-mean, 0}, 1), combination({0, 1 / gain}));
+  if (!k) throw MeasurementError("the torque does not follow what was asked for; check the gauge");
+  return *k;
+}
+
+Regions fit_regions(const Regression& fit, const std::vector<Reading>& readings, double gain,
+                    std::vector<std::string>* warnings) {
+  Regions regions;
+  std::vector<double> below, above;
+  // The torque at which the error changes its sign: offset + slope*torque = torque.
+  const auto border = fit.quotient(combination({1, 0}), combination({0, -1}, 1));
+  const double smallest = readings.front().command, largest = readings.back().command;
+  const bool inside = border && border->value > smallest && border->value < largest;
+  for (const Reading& r : readings) {
+    (inside && r.command > border->value ? above : below).push_back(r.command);
+  }
+  regions.low = best_gain(fit, below, gain);
+  regions.high = inside ? best_gain(fit, above, gain) : regions.low;
+  if (inside) regions.border_nm = border;
+  if (!inside) {
+    warnings->push_back(fmt::format(
+        "the error does not change its sign between {:g} and {:g} Nm: one gain does for all of it, "
+        "and both get the same",
+        smallest, largest));
+  }
+  for (const Reading& r : readings) {
+    const bool high = inside && r.command > border->value;
+    const double k = high ? regions.high.value : regions.low.value;
+    const double torque = fit.value(0) + fit.value(1) * k / gain * r.command;
+    regions.worst_error = larger(regions.worst_error, std::abs(torque / r.command - 1));
+  }
+  if (inside && regions.low.value > regions.high.value) {
+    const double step = fit.value(1) * (regions.high.value - regions.low.value) / gain;
+    warnings->push_back(
+        fmt::format("at the border the torque falls by {:.2g} Nm although more is asked for; the "
+                    "law of the motor, voltage.law = \"motor_model\", has no border",
+                    -step * border->value));
+  }
+  return regions;
+}
+
+ModelConstants fit_model(const Regression& fit, const design::Design& d, double dead_v) {
+  // torque = (V - V0)*Kt/R with V = Rd*asked/Kt + V0d, so slope = Rd/R, offset = (V0d - V0)*Kt/R.
+  ModelConstants m;
+  m.resistance_ohm = fit.coefficient(1).under(d.resistance_ohm);
+  const auto off = fit.quotient(combination({1, 0}), combination({0, 1}));
+  const double volts_per_nm = d.resistance_ohm / d.torque_constant_nm_a;
+  m.dead_voltage_v = off->times(-volts_per_nm).plus(dead_v);
+  return m;
+}
+
+}  // namespace
+
+Interval slope_ratio(const OpenLoop& open) {
+  return open.slope_nm_v.times(1 / open.observer_slope_nm_v->value);
+}
+
+ClosedLoop fit_closed_loop(std::vector<Reading> readings, const design::Elaborated& e, double gain,
+                           double confidence) {
+  const design::Design& d = e.design;
+  for (Reading& r : readings) {
+    if (r.command < 0) r.torque_nm = -r.torque_nm;
+    r.command = std::abs(r.command);
+  }
+  std::sort(readings.begin(), readings.end(),
+            [](const Reading& a, const Reading& b) { return a.command < b.command; });
+  const std::size_t all = readings.size();
+  // Below this torque the dead voltage acts only in part, which would be another line.
+  readings.erase(std::remove_if(readings.begin(), readings.end(),
+                                [&d](const Reading& r) {
+                                  return r.command < d.dead_voltage_linear_nm || r.command == 0;
+                                }),
+                 readings.end());
+  if (readings.size() < 3) {
+    throw MeasurementError(fmt::format(
+        "{} readings of {:g} Nm and more; take at least 3, as the paper's 0.05, 0.1, 0.2, 0.3 and "
+        "0.5 Nm",
+        readings.size(), d.dead_voltage_linear_nm));
+  }
+  if (readings.front().command == readings.back().command) {
+    throw MeasurementError("all readings are of one torque; take some between 0.05 and 0.5 Nm");
+  }
+  const Regression fit = torque_line(readings, confidence);
+  ClosedLoop result;
+  result.confidence = confidence;
+  result.offset_nm = fit.coefficient(0);
+  result.slope = fit.coefficient(1);
+  if (result.slope.low <= 0) {
+    throw MeasurementError(fmt::format(
+        "the torque does not rise with what is asked for, but for noise of {:.2g} Nm; check the "
+        "gauge's sign, and that the motor is armed",
+        fit.sigma()));
+  }
+  result.noise_nm = fit.sigma();
+  result.freedom = fit.freedom();
+  if (all > readings.size()) {
+    result.warnings.push_back(fmt::format(
+        "{} readings below {:g} Nm were left out: there the dead voltage is only partly "
+        "given",
+        all - readings.size(), d.dead_voltage_linear_nm));
+  }
+  if (d.emf_in_law()) {
+    result.model = fit_model(fit, d, e.word("dead_voltage").si);
+  } else {
+    result.regions = fit_regions(fit, readings, gain, &result.warnings);
+  }
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    const Reading& r = readings[k];
+    const auto row = static_cast<Index>(k);
+    result.residuals.push_back(
+        {r.command, r.torque_nm, r.torque_nm - fit.residuals()[row], fit.studentised(row), false});
+  }
+  return result;
 }
 
 }  // namespace feltgate::host

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // feltgate_core: signals between its blocks that random runs hardly change; each test makes one
-// visible at an output. Documentation: docs/architecture.md
+// visible at an output; and the torque of programs. Documentation: docs/architecture.md
 #include <algorithm>
 
 #include "core_life.hpp"
@@ -11,6 +11,16 @@ using namespace feltgate::test;
 using feltgate::Fault;
 using feltgate::Map;
 using D = feltgate::test::Design;
+
+namespace {
+
+constexpr int kSampled = Map::first_wave_clock + Map::T::law_torque;
+
+std::int32_t torque(double nm) {
+  return static_cast<std::int32_t>(nm * (1 << D::f.torque.fraction));
+}
+
+}  // namespace
 
 TEST_CASE("axis: none is armed before all ask and may be; all are disarmed with one") {
   Life s;
@@ -178,6 +188,58 @@ TEST_CASE("core: what an engine says is no matter outside of the scene of progra
     CHECK(s.out().armed);
     CHECK(s.shown().tau_ref == -torque / 64);
   }
+  s.play();
+}
+
+TEST_CASE("law: the torque of the port in its clock is the tick's, limited") {
+  if (!kPrograms) return;
+  Life s;
+  s.arm(Map::S::law);
+  s.ticks(2);
+  // The input matters only in its clock; before and after it may have any value.
+  for (const double nm : {0.1, -0.2, 0.0, 0.3}) {
+    s.to_clock(kSampled);
+    s.in.law_torque = torque(nm);
+    s.clocks(1);
+    s.in.law_torque = torque(0.4);
+    s.to_clock(0);
+    CHECK(s.shown().tau_ref == torque(nm));
+  }
+  s.in.law_torque = torque(3.0);
+  s.ticks(1);
+  CHECK(s.shown().tau_ref == static_cast<std::int32_t>(word_of_design(A::torque_limit)));
+  CHECK((s.shown().limits >> Map::L::torque & 1u) == 1);
+  // Another scene ignores the input, and when disarmed the torque is 0.
+  s.write(C::control, kHost | 1u << C::control_arm);
+  s.ticks(400);
+  CHECK(s.shown().tau_ref == 0);
+  s.disarm();
+  s.ticks(400);
+  CHECK(s.shown().tau_ref == 0);
+  s.play();
+}
+
+TEST_CASE("law: a late engine is a fault in the scene of programs alone, and no torque") {
+  if (!kPrograms) return;
+  Life s;
+  s.in.law_torque = torque(0.2);
+  s.arm(D::S::setpoint);
+  s.in.law_late = true;
+  s.ticks(3);
+  CHECK(s.out().gates_enable);
+  s.disarm();
+  s.in.law_late = false;
+  s.arm(Map::S::law);
+  s.ticks(3);
+  CHECK(s.shown().tau_ref == torque(0.2));
+  s.to_clock(kSampled - 1);
+  s.in.law_late = true;
+  s.clocks(1);
+  CHECK_FALSE(s.out().gates_enable);
+  CHECK(s.only(Fault::engine));
+  s.to_clock(0);
+  CHECK(s.shown().tau_ref == 0);
+  CHECK_FALSE(s.out().armed);
   s.play();
 }
 

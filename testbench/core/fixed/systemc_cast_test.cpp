@@ -76,7 +76,8 @@ struct Tally {
     const Number& want = oracle.narrowed(systemc_value(raw, cast.from.fraction));
     ++casts;
     saturated += got.saturated ? 1 : 0;
-    if (want == systemc_value(got.raw, cast.to.fraction)) return;
+    const bool limited = cast.overflow == Overflow::saturate && want.overflow_flag();
+    if (want == systemc_value(got.raw, cast.to.fraction) && got.saturated == limited) return;
     if (mismatches++ == 0) first = describe(cast, raw) + ": SystemC has " + want.to_string();
   }
 

@@ -10,14 +10,16 @@ from testing import BUILD, Scratch, ran, text_of
 
 PROGRAM = BUILD / "feltgate_lever_absolute"
 LONG = "duration_s = 1.2"
-BROKEN_S = 0.7
+SLOW = '{ kind = "minimum_jerk", duration_s = 0.5, to_rad = 0.6 }'
+BROKEN_S = 0.25
 
 
 class AbsoluteScene(Scratch):
     def run_of(self, defect, *words):
-        """The wall's scene, whose sensor breaks while the hand is in the wall."""
+        """The wall's scene with a quicker hand, whose sensor breaks while the hand is in the wall."""
         wall = text_of("vectors/scenes/wall.toml").split("[[expect]]")[0]
-        self.assertEqual(wall.count(LONG), 1)
+        self.assertEqual((wall.count(LONG), wall.count(SLOW)), (1, 1))
+        wall = wall.replace(SLOW, SLOW.replace("0.5", "0.1"))
         scene = self.put("broken.toml", wall.replace(LONG, f"duration_s = {BROKEN_S + 0.003}")
                          + f'[[event]]\nat_s = {BROKEN_S}\nencoder = "{defect}"\n')
         out = self.folder / "run.json"

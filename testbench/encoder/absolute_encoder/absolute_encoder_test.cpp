@@ -13,8 +13,8 @@
 #include "feltgate/generated/gimbal_current.hpp"
 #include "feltgate/generated/gimbal_motor.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
-#include "lock_step.hpp"
 #include "figures_record.hpp"
+#include "lock_step.hpp"
 #include "ports.hpp"
 #include "sensors.hpp"
 
@@ -37,14 +37,6 @@ struct Adapter {
 
 using Bench = LockStep<Vabsolute_encoder, AbsoluteEncoder, Adapter>;
 
-/// What a run has had.
-struct Tally {
-  std::int64_t good = 0, silent = 0, missing = 0, check = 0, sensor = 0, jump = 0, ignored = 0;
-  std::int64_t lost = 0, found = 0, unwell = 0, once_unwell = 0, frozen = 0, moved_again = 0;
-  std::int64_t first_refused = 0, last_accepted = 0, wraps = 0, below_zero = 0;
-  std::int64_t refused_late = 0, accepted_late = 0;  // after readings that were left out
-};
-
 /// Readings in any distance, also in a row and too early.
 struct Stimulus {
   Sensor sensor;
@@ -64,14 +56,14 @@ struct Stimulus {
 /// The block from the frames that the sensor sent, in plain numbers, once each reading is over.
 class Reference {
  public:
-  Reference(Log* log, Tally* tally) : log_(log), tally_(tally) {}
+  explicit Reference(Log* log) : log_(log) {}
 
   const char* operator()(const AbsoluteEncoder::In& in, const Vabsolute_encoder& rtl,
                          const AbsoluteEncoder&, bool in_reset) {
     ++clock_;
     if (!log_->wrong.empty()) return log_->wrong.c_str();
     if (in_reset) {
-      Reference fresh(log_, tally_);
+      Reference fresh(log_);
       fresh.used_ = log_->frames.size();
       *this = fresh;
     } else if (!busy_ && in.sample) {
@@ -151,39 +143,24 @@ class Reference {
     const double fastest = kEncoder.jump_step, size = std::fabs(step);
     const double speed = std::fmin(fastest, speed_ + std::ceil(fastest / 3));
     const double most = std::fmin(2 * fastest + left_out_ * speed, kTurn / 8.0);
-    if (!left_out && size > most && !lost()) {
-      wrong = AbsoluteEncoder::kJump;
-      tally_->first_refused += size == most + 1;
-      tally_->refused_late += size == most + 1 && left_out_ > 0;
-    }
-    tally_->missing += wrong == AbsoluteEncoder::kMissing;
-    tally_->check += wrong == AbsoluteEncoder::kCheck;
-    tally_->sensor += wrong == AbsoluteEncoder::kSensor;
-    tally_->jump += wrong == AbsoluteEncoder::kJump;
+    if (!left_out && size > most && !lost()) wrong = AbsoluteEncoder::kJump;
     if (wrong != 0) {
       kind_ = wrong;
-      tally_->lost += ++wrong_ == kEncoder.errors;
+      ++wrong_;
       return false;
     }
-    tally_->ignored += !is_angle;
     if (!is_angle) {
       if (command == kEncoder.diag_address) diagnosed(bits(frame.word, 8, 4) == 1);
       return false;
     }
-    ++tally_->good;
-    tally_->last_accepted += size == most && !lost();
-    tally_->accepted_late += size == most && left_out_ > 0 && !lost();
     left_out_ = 0;
     const double moved = lost() ? INFINITY : size;
     speed_ = std::fmax(moved, last_size_);
     last_size_ = moved;
-    tally_->wraps += turns != 0;
     const bool was_lost = lost();
-    tally_->found += was_lost;
     wrong_ = 0;
     angle_ = angle;
     position_ += static_cast<std::int64_t>(step);
-    tally_->below_zero += position_ < 0;
     steps_.push_back(was_lost ? NAN : step);
     freeze();
     return true;
@@ -193,28 +170,21 @@ class Reference {
   void diagnosed(bool well) {
     unwell_ = !well && (unwell_ || !last_well_);
     last_well_ = well;
-    tally_->unwell += unwell_;
-    tally_->once_unwell += !well && !unwell_;
   }
   /// Frozen: the last readings are equal, and just before them one differed by a motion.
   void freeze() {
     const auto reads = static_cast<std::size_t>(kEncoder.frozen_reads);
     if (steps_.back() != 0) {
-      tally_->moved_again += frozen_;
       frozen_ = false;
     } else if (steps_.size() > reads) {
       bool equal = true;
       for (std::size_t k = 0; k < reads; ++k) equal = equal && steps_[steps_.size() - 1 - k] == 0;
       const double before = std::fabs(steps_[steps_.size() - 1 - reads]);
-      if (equal && before >= kEncoder.frozen_step) {
-        tally_->frozen += !frozen_;
-        frozen_ = true;
-      }
+      frozen_ = frozen_ || (equal && before >= kEncoder.frozen_step);
     }
   }
 
   Log* log_;
-  Tally* tally_;
   std::size_t used_ = 0;
   std::int64_t clock_ = 0, began_ = 0, position_ = 0, last_position_ = 0;
   bool busy_ = false, first_ = true, frozen_ = false, last_well_ = true, unwell_ = false;
@@ -226,39 +196,12 @@ class Reference {
 }  // namespace
 
 TEST_CASE("absolute_encoder: all frames, errors and motions of a sensor") {
-  Tally tally;
   Log log;
   Bench bench("absolute_encoder", 1, AbsoluteEncoder(kEncoder));
   const Stimulus stimulus{Sensor(2, &log), Random(3)};
   // After a reset the line of BiSS-C still holds what was sent before it: see the case below.
   const bool biss = kEncoder.framing == AbsoluteEncoder::kBiss;
-  bench.run(stimulus, scaled_clocks(6'000'000), {biss ? 0U : 200'000U}, Reference(&log, &tally));
-  INFO("good " << tally.good << ", missing " << tally.missing << ", check " << tally.check
-               << ", sensor " << tally.sensor << ", jump " << tally.jump << ", ignored "
-               << tally.ignored << ", lost " << tally.lost << ", found " << tally.found
-               << ", frozen " << tally.frozen << ", moved again " << tally.moved_again
-               << ", first refused " << tally.first_refused << ", last accepted "
-               << tally.last_accepted << ", late " << tally.refused_late << " and "
-               << tally.accepted_late << ", wraps " << tally.wraps << ", below zero "
-               << tally.below_zero);
-  CHECK(tally.good > 3000);
-  CHECK((tally.missing > 100) == biss);
-  CHECK(tally.check > 100);
-  CHECK(tally.sensor > 50);
-  CHECK(tally.jump > 100);
-  CHECK((tally.ignored > 100) == (kEncoder.framing == AbsoluteEncoder::kSpi));
-  CHECK((tally.unwell > 10) == (kEncoder.framing == AbsoluteEncoder::kSpi));
-  CHECK((tally.once_unwell > 10) == (kEncoder.framing == AbsoluteEncoder::kSpi));
-  CHECK(tally.lost > 20);
-  CHECK(tally.found > 20);
-  CHECK(tally.frozen > 20);
-  CHECK(tally.moved_again > 10);
-  CHECK(tally.first_refused > 10);
-  CHECK(tally.last_accepted > 10);
-  CHECK(tally.refused_late > 2);
-  CHECK(tally.accepted_late > 2);
-  CHECK(tally.wraps > 100);
-  CHECK(tally.below_zero > 100);
+  bench.run(stimulus, scaled_clocks(6'000'000), {biss ? 0U : 200'000U}, Reference(&log));
 }
 
 TEST_CASE("absolute_encoder: any pin, with resets at any time") {

@@ -34,7 +34,7 @@ struct Lives {
   std::uint64_t first, number;
   std::int64_t clocks;
 };
-constexpr Lives kLives = D::hall != 0                ? Lives{9, 4, 1'200'000}
+constexpr Lives kLives = D::hall != 0                ? Lives{9, 3, 1'200'000}
                          : kLoop && D::phases == 3   ? Lives{17, 2, 2'000'000}
                          : kLoop                     ? Lives{0, 2, 2'000'000}
                          : !kEdges && D::phases == 3 ? Lives{4, 2, 1'500'000}

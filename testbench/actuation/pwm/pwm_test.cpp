@@ -353,38 +353,3 @@ TEST_CASE("pwm: the duty of the last enable never meets the gates of the next") 
     }
   }
 }
-
-TEST_CASE("pwm: the twin skips quiet clocks with the same result") {
-  Random random(9);
-  Pwm every(kPeriod, kDead);
-  Pwm skipping(kPeriod, kDead);
-  Pwm::In in;
-  std::int64_t skipped = 0;
-  std::int64_t total = 0;
-  for (int change = 0; change < 20'000; ++change) {
-    if (random.one_in(6)) in.enable = !in.enable;
-    in.clear = random.one_in(12);
-    if (random.one_in(6)) in.mode = !in.mode;
-    if (random.one_in(6)) in.polarity = !in.polarity;
-    in.duty = static_cast<std::int16_t>(random.between(-kPeriod, kPeriod));
-    int left = 1 + static_cast<int>(random.below(2 * kPeriod));
-    total += left;
-    while (left > 0) {
-      const int quiet = std::min(left, skipping.quiet_clocks(in));
-      skipping.skip(quiet);
-      for (int k = 0; k < quiet; ++k) {
-        every.clock(in);
-        if (!(every.out() == skipping.out())) FAIL("an output changed in a quiet clock");
-      }
-      skipped += quiet;
-      left -= quiet;
-      if (left == 0) break;
-      every.clock(in);
-      skipping.clock(in);
-      --left;
-      if (!(every.out() == skipping.out())) FAIL("the skipping twin went astray");
-    }
-  }
-  CAPTURE(skipped, total);
-  REQUIRE(4 * skipped > (kPeriod < 100 ? 1 : 3) * total);
-}

@@ -81,15 +81,14 @@ class Board {
            ((std::uint64_t{1} << f.width) - 1);
   }
 
-  /// Half a clock; the name of the first pin that differs, or "". A bit of flipped is one of the
-  /// netlist's pins that is taken for the other level.
-  std::string half(bool clock, std::uint64_t flipped = 0) {
+  /// Half a clock; the name of the first pin that differs, or "".
+  std::string half(bool clock) {
     pair_->clk = clock;
     pair_->in_i = static_cast<std::decay_t<decltype(pair_->in_i)>>(pins_);
     pair_->eval();
     for (const Field& f : kFields) {
       for (int n = f.first; n < f.first + f.width; ++n) {
-        if ((pair_->rtl_o >> n & 1U) != ((pair_->netlist_o ^ flipped) >> n & 1U)) return f.name;
+        if ((pair_->rtl_o >> n & 1U) != (pair_->netlist_o >> n & 1U)) return f.name;
       }
     }
     return "";
@@ -220,15 +219,4 @@ TEST_CASE("board: the netlist does at every pin what the RTL does") {
   REQUIRE(driving > clocks / 400);
   REQUIRE(lamps.size() > (kOutputs == 19 ? 30 : 12));
   REQUIRE(answered > 300);
-}
-
-TEST_CASE("board: a netlist with one wrong pin is found by that pin") {
-  int outputs = 0;
-  for (const Field& f : kFields) {
-    for (int n = f.first; n < f.first + f.width; ++n, ++outputs) {
-      Board board(3);
-      CHECK(board.half(false, std::uint64_t{1} << n) == f.name);
-    }
-  }
-  CHECK(outputs == kOutputs);
 }

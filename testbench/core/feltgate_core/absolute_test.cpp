@@ -68,8 +68,7 @@ struct Rig {
     constexpr auto scene = static_cast<std::uint32_t>(D::S::setpoint) << C::control_scene;
     const std::uint32_t rest = (kHost | scene) ^ (reversed ? 1u << C::control_encoder_polarity : 0);
     const auto write = [&](std::int64_t from, int address, std::uint32_t word) {
-      if (cycle == from) in.reg_addr = static_cast<std::uint16_t>(address), in.reg_wdata = word;
-      if (cycle >= from && cycle < from + kTick + 1) in.reg_write = cycle == from;
+      write_at(&in, cycle, from, address, word);
     };
     write(200, A::self_test_pulse, 0);
     write(host_at, C::control, rest);
@@ -105,12 +104,8 @@ struct Seen {
 /// RTL and twin.
 Seen run(const Rig& rig, std::int64_t clocks) {
   Seen seen;
-  std::int64_t cycle = 0;
-  CoreBench bench("feltgate_core", 5);
-  bench.run(rig, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
-    seen.add(cycle++, twin.out());
-    return static_cast<const char*>(nullptr);
-  });
+  beside(rig, clocks,
+         [&](const Rig&, std::int64_t cycle, const CoreOut& out) { seen.add(cycle, out); });
   return seen;
 }
 

@@ -98,8 +98,7 @@ struct Rig {
     if (direct) given |= static_cast<std::uint32_t>(feltgate::Map::mode_voltage) << C::control_mode;
     if (reversed) given ^= 1u << C::control_motor_polarity;
     const auto write = [&](std::int64_t at, int address, std::uint32_t word) {
-      if (cycle == at) in.reg_addr = static_cast<std::uint16_t>(address), in.reg_wdata = word;
-      if (cycle >= at && cycle < at + kTick + 1) in.reg_write = cycle == at;
+      write_at(&in, cycle, at, address, word);
     };
     const auto fixed = [](double v, int fraction) {
       return low(std::llround(std::ldexp(v, fraction)));
@@ -126,23 +125,15 @@ struct Seen {
 
 Seen run(const Rig& given, std::int64_t clocks) {
   Seen seen;
-  std::int64_t cycle = 0;
-  double torque = 0, rad = 0, sum = 0;
+  double sum = 0;
   int n = 0;
-  const auto stimulus = [rig = given, &torque, &rad](std::int64_t k, const CoreOut& out) mutable {
-    const CoreIn in = rig(k, out);
-    torque = rig.torque();
-    rad = rig.shaft_rad();
-    return in;
-  };
-  CoreBench bench("feltgate_core", 5);
-  bench.run(stimulus, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
-    const CoreOut& out = twin.out();
+  beside(given, clocks, [&](const Rig& rig, std::int64_t cycle, const CoreOut& out) {
+    const double rad = rig.shaft_rad();
     if (seen.began < 0 && out.gates_enable && (out.tau_ref != 0 || out.voltage != 0)) {
       seen.began = cycle;
     }
     if (seen.began >= 0 && seen.off < 0) {
-      sum += torque;
+      sum += rig.torque();
       if (++n == kPeriod) {
         seen.torque_nm.push_back(sum / n);
         seen.shaft_rad.push_back(rad);
@@ -154,8 +145,6 @@ Seen run(const Rig& given, std::int64_t clocks) {
     seen.current_a = out.current * kLsb;
     seen.reference_a = std::ldexp(out.current_ref, -D::f.current.fraction);
     seen.last = out;
-    ++cycle;
-    return static_cast<const char*>(nullptr);
   });
   return seen;
 }

@@ -79,8 +79,7 @@ struct Rig {
     const auto given = control | static_cast<std::uint32_t>(D::S::setpoint) << C::control_scene;
     const std::int64_t arm_at = early ? kArmed - 20'000 : kArmed;
     const auto write = [&](std::int64_t at, int address, std::uint32_t word) {
-      if (cycle == at) in.reg_addr = static_cast<std::uint16_t>(address), in.reg_wdata = word;
-      if (cycle >= at && cycle < at + kTick + 1) in.reg_write = cycle == at;
+      write_at(&in, cycle, at, address, word);
     };
     write(1'000, A::self_test_pulse, 0);
     write(2'000, A::ramp_step, 0x7ffffff);
@@ -115,16 +114,8 @@ struct Seen {
 Seen run(const Rig& rig, std::int64_t clocks) {
   const std::int64_t until = rig.event == Rig::Event::none ? clocks : kSettled;
   Seen seen;
-  std::int64_t cycle = 0;
-  double current_a = 0;
-  CoreBench bench("feltgate_core", 5);
-  const auto stimulus = [rig = rig, &current_a](std::int64_t k, const CoreOut& out) mutable {
-    const CoreIn in = rig(k, out);
-    current_a = rig.current_a;
-    return in;
-  };
-  bench.run(stimulus, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
-    const CoreOut& out = twin.out();
+  beside(rig, clocks, [&](const Rig& live, std::int64_t cycle, const CoreOut& out) {
+    const double current_a = live.current_a;
     if (out.armed && seen.armed < 0) seen.armed = cycle;
     if (cycle > kSettled && seen.beyond < 0 && std::abs(current_a) > 24) seen.beyond = cycle;
     if (seen.armed >= 0 && seen.off < 0 && cycle > kSettled && out.gates == 0 &&
@@ -149,8 +140,6 @@ Seen run(const Rig& rig, std::int64_t clocks) {
     seen.tau_hat_nm = std::ldexp(out.tau_hat, -D::f.torque.fraction);
     seen.reference_a = std::ldexp(out.current_ref, -D::f.current.fraction);
     seen.last = out;
-    ++cycle;
-    return static_cast<const char*>(nullptr);
   });
   return seen;
 }

@@ -67,12 +67,7 @@ struct Rig {
     return low(std::llround(std::ldexp(v, D::f.voltage.fraction)));
   }
   void write(std::int64_t cycle, std::int64_t from, int address, std::uint32_t data) {
-    if (cycle == from) {
-      in.reg_addr = static_cast<std::uint16_t>(address);
-      in.reg_wdata = data;
-      in.reg_write = true;
-    }
-    if (cycle == from + kTick) in.reg_write = false;
+    write_at(&in, cycle, from, address, data);
   }
   CoreIn operator()(std::int64_t cycle, const CoreOut& out) {
     write(cycle, 100, A::self_test_pulse, 0);
@@ -98,12 +93,8 @@ using Each = std::function<void(std::int64_t, const CoreOut&)>;
 
 /// RTL and twin.
 void run(const Rig& rig, std::int64_t clocks, const Each& each) {
-  std::int64_t cycle = 0;
-  CoreBench bench("feltgate_core", 5);
-  bench.run(rig, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
-    each(cycle++, twin.out());
-    return static_cast<const char*>(nullptr);
-  });
+  beside(rig, clocks,
+         [&](const Rig&, std::int64_t cycle, const CoreOut& out) { each(cycle, out); });
 }
 
 /// The last whole PWM period's worth of clocks.

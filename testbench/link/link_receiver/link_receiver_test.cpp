@@ -191,47 +191,6 @@ TEST_CASE("link_receiver: frames of random bytes are no requests, and each is co
   CHECK(accepted == 1);
 }
 
-TEST_CASE("link_receiver: the borders of what a request may be") {
-  const auto sound = [](const Bytes& wire) {
-    Twin twin;
-    bool good = false;
-    for (const std::uint8_t byte : wire) {
-      twin.clock({byte, true, false, false});
-      good = good || twin.out().good;
-      for (int k = 0; k < 9; ++k) twin.clock({});
-    }
-    return good;
-  };
-  CHECK(sound(request(1, 0, 0x3fc0, 64)));
-  CHECK(!sound(request(1, 0, 0x3fc1, 64)));
-  CHECK(sound(request(1, 0, 0x3fff, 1)));
-  CHECK(!sound(request(1, 0, 0x3fff, 2)));
-  CHECK(sound(request(1, 0, 0x4000, 1)) == (ENGINE != 0));
-  CHECK(sound(request(2, 0, 0x4000, 1)) == (ENGINE != 0));
-  CHECK(sound(request(1, 0, 0x7fc0, 64)) == (ENGINE != 0));
-  CHECK(!sound(request(1, 0, 0x7fc1, 64)));
-  CHECK(!sound(request(2, 0, 0xc000, 1)));
-  CHECK(!sound(request(2, 0, 0x8000, 1)));
-  CHECK(sound(request(2, 0, 0x3fff, 0xffffffff)));
-  CHECK(!sound(request(1, 0, 0, 0)));
-  CHECK(sound(request(1, 0, 0, 64)));
-  CHECK(!sound(request(1, 0, 0, 65)));
-  CHECK(!sound(request(1, 0, 0, 128 + 1)));
-  CHECK(!sound(request(1, 0, 0, 0x80000001)));
-  for (int kind = 0; kind < 256; ++kind) {
-    CHECK(sound(request(kind, 0, 0, 1)) == (kind == 1 || kind == 2));
-  }
-  // Every bit of a frame that is not one of its borders.
-  const Bytes wire = request(2, 0x55, 0x123, 0x456789ab);
-  for (std::size_t byte = 1; byte + 1 < wire.size(); ++byte) {
-    for (int bit = 0; bit < 8; ++bit) {
-      Bytes changed = wire;
-      changed[byte] ^= static_cast<std::uint8_t>(1U << bit);
-      CHECK(!sound(changed));
-    }
-  }
-}
-
 // link_receiver: when its twin says that it is idle, nothing changes without a byte.
 
 namespace {

@@ -206,35 +206,6 @@ TEST_CASE(
   CHECK(bytes == 0);
 }
 
-TEST_CASE("uart_rx: from event to event") {
-  RoughLine line(9, kBitClocks, {false, true});
-  Twin fast, slow;
-  bool level = true;
-  std::int64_t held = 0, skipped = 0;
-  for (int k = 0; k < 200'000; ++k) {
-    const bool next = line.next();
-    if (next != level) held = 0;
-    level = next;
-    slow.clock({level});
-    if (held == 0) {
-      held = fast.quiet(level);
-      if (held > 0) ++skipped;
-    } else {
-      ++skipped;
-    }
-    if (held > 0) {
-      fast.skip(1);
-      --held;
-    } else {
-      fast.clock({level});
-    }
-    REQUIRE(fast.out().valid == slow.out().valid);
-    REQUIRE(fast.out().error == slow.out().error);
-    REQUIRE(fast.out().byte == slow.out().byte);
-  }
-  CHECK(skipped > 100'000);
-}
-
 // uart_rx: clocks that the twin skips are those in which nothing changes.
 
 namespace {

@@ -5,10 +5,10 @@
 // design's clock. Documentation: docs/testing.md
 #include <gtkwave/fstapi.h>
 
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "Vcore_lever.h"

@@ -67,7 +67,12 @@ struct Rig {
     return low(std::llround(std::ldexp(v, D::f.voltage.fraction)));
   }
   void write(std::int64_t cycle, std::int64_t from, int address, std::uint32_t data) {
-    write_at(&in, cycle, from, address, data);
+    if (cycle == from) {
+      in.reg_addr = static_cast<std::uint16_t>(address);
+      in.reg_wdata = data;
+      in.reg_write = true;
+    }
+    if (cycle == from + kTick) in.reg_write = false;
   }
   CoreIn operator()(std::int64_t cycle, const CoreOut& out) {
     write(cycle, 100, A::self_test_pulse, 0);

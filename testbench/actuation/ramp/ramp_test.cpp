@@ -272,7 +272,7 @@ struct RandomWaves {
 /// The outputs of the RTL after each wave.
 struct Seen {
   std::int64_t tau = 0;
-  bool ramp = false, limit = false;
+  bool ramp = false;
 };
 
 template <class Next>
@@ -282,8 +282,7 @@ std::vector<Seen> play(Next next, int waves) {
   const auto keep = [&seen, beside](const Twin::In& in, const Vramp& rtl, const Twin& twin,
                                     bool in_reset) mutable {
     if (!in_reset && at(in, Map::T::tau_ref)) {
-      seen.push_back({sign_extend<Torque::width>(rtl.tau_ref_o), rtl.limit_ramp_o != 0,
-                      rtl.limit_torque_o != 0});
+      seen.push_back({sign_extend<Torque::width>(rtl.tau_ref_o), rtl.limit_ramp_o != 0});
     }
     return beside(in, rtl, twin, in_reset);
   };
@@ -293,10 +292,9 @@ std::vector<Seen> play(Next next, int waves) {
   return seen;
 }
 
-Wave wave(std::int64_t rendered, std::int64_t step, bool armed = true, int scene = 0) {
+Wave wave(std::int64_t rendered, std::int64_t step, bool armed = true) {
   Wave w;
   w.armed = armed;
-  w.scene = scene;
   w.rendered = rendered;
   w.step = step;
   return w;

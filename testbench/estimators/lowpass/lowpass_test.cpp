@@ -226,18 +226,6 @@ quad value(std::int64_t raw) { return static_cast<quad>(raw) * lsb(kState.fracti
 
 }  // namespace
 
-TEST_CASE("lowpass: the parameters of the RTL are those of the design") {
-  REQUIRE(kOperand.width() <= 35);
-  REQUIRE(Bench::kFirstReset > 0);
-#ifdef FELTGATE_OBSERVER
-  REQUIRE(kOperand.width() < kState.width() + 1);
-  REQUIRE(kDrop == 21);
-#else
-  REQUIRE(kOperand.width() == kState.width() + 1);
-  REQUIRE(kDrop == 27);
-#endif
-}
-
 TEST_CASE("lowpass: random steps, coefficients, gaps and resets") {
   Bench bench("lowpass", 1);
   bench.run(Samples<RandomSamples>(2, {}, 20), scaled_clocks(1500000), {2000}, PlainIntegers{});

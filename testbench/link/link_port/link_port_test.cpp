@@ -138,58 +138,6 @@ TEST_CASE("link_port: 2^17 frames, counted to the end of 16 bits and again") {
   bench.run(stimulus, (std::int64_t{1} << 17) + 1000);
 }
 
-TEST_CASE("link_port: a write is on the core's port until it is taken, and never again") {
-  Twin twin;
-  Twin::In in;
-  in.request = {true, true, 9, 0x18, 77};
-  in.reg_busy = true;
-  int offered = 0;
-  for (int k = 0; k < 40; ++k) {
-    in.reg_busy = k < 17;
-    const Twin::Out out = twin.peek(in);
-    offered += out.reg_write;
-    if (out.reg_write) {
-      CHECK(out.reg_addr == 0x18);
-      CHECK(out.reg_wdata == 77);
-    }
-    if (out.taken) in.request.valid = false;
-    twin.clock(in);
-  }
-  CHECK(offered == 18);
-  in.request.valid = true;  // the same sequence
-  for (int k = 0; k < 40; ++k) {
-    CHECK(!twin.peek(in).reg_write);
-    twin.clock(in);
-  }
-}
-
-TEST_CASE("link_port: a read beside a write takes its own word") {
-  // The words of the port follow the address by three clocks, as the core's do.
-  for (int at = 0; at < 12; ++at) {
-    Twin twin;
-    Twin::In in;
-    std::uint16_t addresses[3] = {};
-    in.request = {true, false, 1, 0x20, 2};
-    in.ready = true;
-    std::uint32_t sent[12] = {};
-    std::size_t bytes = 0;
-    for (int k = 0; k < 60; ++k) {
-      in.reg_rdata = 0x1000U + addresses[2];
-      in.clear_faults = k == at;
-      const Twin::Out out = twin.peek(in);
-      if (out.reply.valid && bytes < 12) sent[bytes++] = out.reply.byte;
-      twin.clock(in);
-      if (out.taken) in.request.valid = false;
-      addresses[2] = addresses[1];
-      addresses[1] = addresses[0];
-      addresses[0] = out.reg_addr;
-    }
-    REQUIRE(bytes == 12);
-    CHECK(sent[4] + 256 * sent[5] == 0x1020);
-    CHECK(sent[8] + 256 * sent[9] == 0x1021);
-  }
-}
-
 #ifdef LAW
 TEST_CASE("link_port: a word of the engine is taken 40 clocks after the port was last busy") {
   for (const int busy_until : {0, 30, 500}) {

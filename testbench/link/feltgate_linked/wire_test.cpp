@@ -30,7 +30,7 @@ struct Stimulus {
       }
       gap = static_cast<int>(random.below(random.one_in(4) ? 40'000 : 2'000));
     }
-    if (random.one_in(60'000)) low = 1 + static_cast<int>(random.below(300));
+    if (random.one_in(20'000)) low = 1 + static_cast<int>(random.below(300));
     in.uart_rx = line.level() && low == 0;
     if (low > 0) --low;
     line.clock(out.uart_tx);

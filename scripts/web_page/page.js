@@ -212,12 +212,6 @@ function build_controls() {
     select_tab("stylus");
     await page.stylus.open(file);
   });
-  const theme = (dark) => {
-    document.documentElement.classList.toggle("dark", dark);
-    press("theme", dark, dark ? "light" : "dark");
-  };
-  theme(window.matchMedia("(prefers-color-scheme: dark)").matches);
-  $("theme").onclick = () => theme(!document.documentElement.classList.contains("dark"));
   $("check").onclick = compare_bits;
 }
 
@@ -254,13 +248,6 @@ async function compare_bits() {
   };
   for (const r of page.numbers.recorded) await compare(r.design, r.scene, r.hash, "hash", r.design, r.inputs);
   for (const p of page.numbers.planes) await compare("planes of a stroke", p.mesh, p.hash, "planesHash", "", "", 0);
-  for (const c of page.numbers.closed) {
-    const rows = await page.worker.call("closedLoop", c.design);
-    const apart = [0, 1].map((n) => Math.max(...rows.map((row, i) => Math.abs(row[n] - c.rows[i][n]))));
-    page.closed = [...(page.closed || []), { design: c.design, rad: apart[0], nm: apart[1] }];
-    const said = `${c.design}: closed loop into a wall, against the native one: ${apart[0].toExponential(1)} rad, ${apart[1].toExponential(1)} Nm apart (another libm).`;
-    add_row(table, [said]).lastChild.colSpan = 4;
-  }
   page.done = true;
 }
 

@@ -10,14 +10,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "apps/page/recorded_inputs.hpp"
 #include "feltgate/design_info.hpp"
 #include "sim/loop/ensemble.hpp"
+#include "sim/loop/loop.hpp"
 #include "sim/loop/scene_law.hpp"
 #include "sim/loop/step_plan.hpp"
 #include "sim/plant/plant.hpp"
@@ -100,17 +99,16 @@ struct Sample {
 
 constexpr std::size_t sample_values = 10;  ///< numbers of a Sample
 
-/// A word of the snapshot: its number, and the format that gives it its unit.
+/// A word of the snapshot: its number, and how many of its bits are behind the point of its unit.
 struct Word {
   const char* name;
   const char* unit;
   std::int64_t (*value)(const Snapshot&);
-  Format (*format)(const DesignInfo&);
+  int (*fraction)(const DesignInfo&);
 };
 
 /// Every word of a snapshot, in the order of the struct.
 extern const std::array<Word, 14> snapshot_words;
-constexpr std::size_t most_ticks_kept = 1000;
 
 class LiveLoop {
  public:
@@ -149,9 +147,6 @@ class LiveLoop {
   const std::vector<Sample>& samples() const { return samples_; }
   /// The snapshot of the last tick.
   const Snapshot& snapshot() const { return last_; }
-  /// The snapshots of the last most_ticks_kept ticks, or of all where there were fewer; oldest
-  /// first.
-  std::vector<Snapshot> last_ticks() const;
   /// The hand's target of the lever's angle at the end of the last advance().
   double hand_rad() const { return held() ? hand_rad_ : plant_.observables().theta_rad; }
   const plant::Observables& observables() const { return plant_.observables(); }
@@ -192,26 +187,11 @@ class LiveLoop {
   std::int64_t ticks_ = 0;
   int every_ = 1;
   Snapshot last_;
-  std::vector<Snapshot> kept_;  ///< a ring; tick n since the start is at n % most_ticks_kept
   std::vector<Sample> samples_;
 };
 
-/// Angle of the lever and torque of the motor after a frame.
-struct ScriptRow {
-  double theta_rad = 0, torque_nm = 0;
-};
-
-/// Runs a fixed motion, to compare native program and page: a hand moves into the wall, stays and
-/// returns, frame by frame.
-std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant);
-
-/// Runs a design's twin with recorded inputs, by at most `most` clocks at once, and calls `each`
-/// after each of these stretches.
-void replay(const std::string& design, const Recording& inputs,
-            const std::function<void(const Backend&)>& each, Clock most);
-
-/// Hash (64-bit FNV-1a) over the words of all snapshots of a design's twin with these inputs, and
-/// the on-times of three legs. Equal bits give an equal hash on any machine.
-std::uint64_t hash_of(const std::string& design, const Recording& inputs);
+/// Hash (64-bit FNV-1a) over the words of all snapshots of a design's twin with recorded inputs.
+/// Equal bits give an equal hash on any machine.
+std::uint64_t hash_of(const std::string& design, const RunInputs& inputs);
 
 }  // namespace feltgate::page

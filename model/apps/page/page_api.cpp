@@ -74,24 +74,13 @@ class Loop {
   }
   /// The samples of the last advance() as one array of doubles; valid until the next call.
   val samples() const { return view_of<sample_values>(loop_.samples()); }
-  /// Names, units and formats of the words of a snapshot.
+  /// The words of the snapshot of the last tick.
   val words() const {
     return array_of(snapshot_words, [&](const Word& word) {
-      const feltgate::Format format = word.format(loop_.design());
-      return object("name", std::string(word.name), "unit", std::string(word.unit), "bits",
-                    format.width(), "fraction", format.fraction);
+      return object("name", std::string(word.name), "unit", std::string(word.unit), "fraction",
+                    word.fraction(loop_.design()), "value",
+                    static_cast<double>(word.value(loop_.snapshot())));
     });
-  }
-  /// The words of the last ticks as one array of doubles, oldest tick first; valid until the next
-  /// call.
-  val last_ticks() {
-    words_.clear();
-    for (const feltgate::Snapshot& s : loop_.last_ticks()) {
-      for (const Word& word : snapshot_words) {
-        words_.push_back(static_cast<double>(word.value(s)));
-      }
-    }
-    return view_of<1>(words_);
   }
   val status() const {
     const feltgate::Snapshot& s = loop_.snapshot();
@@ -118,7 +107,6 @@ class Loop {
  private:
   LiveLoop loop_;
   std::unique_ptr<UserLaw> law_;
-  std::vector<double> words_;
 };
 
 /// What is wrong with a law, by line; or the table of `feltgate law`.
@@ -154,14 +142,6 @@ std::string hash(const std::string& design, const std::string& inputs) {
   std::string out;
   const std::string error = said([&] { out = hex(hash_of(design, inputs_from_text(inputs))); });
   return error.empty() ? out : "error: " + error;
-}
-
-/// The closed loop of follow_script() as it goes here.
-val closed_loop(const std::string& design) {
-  const auto plant = feltgate::plant::read_plant_file(plant_path("p24"));
-  return array_of(follow_script(design, plant), [](const ScriptRow& row) {
-    return array_of({row.theta_rad, row.torque_nm});
-  });
 }
 
 /// Largest stable stiffness of the wall at this damping and rate, by eigenvalues, and the frequency
@@ -213,14 +193,12 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("advance", &Loop::advance)
       .function("samples", &Loop::samples)
       .function("words", &Loop::words)
-      .function("lastTicks", &Loop::last_ticks)
       .function("status", &Loop::status)
       .function("parameters", &Loop::parameters)
       .function("design", &Loop::design);
   emscripten::function("designNames", &design_names);
   emscripten::function("checkLaw", &check_law);
   emscripten::function("hash", &hash);
-  emscripten::function("closedLoop", &closed_loop);
   emscripten::function("border", &border);
   emscripten::function("ownDesign", &design_of);
 }

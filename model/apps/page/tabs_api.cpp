@@ -241,7 +241,7 @@ val stylus_state(const FeltLoop& l) {
                of_plane(plane.has_value(), &Plane::point_m), "normal",
                of_plane(plane.has_value(), &Plane::normal), "tilt", l.tilt_rad(), "second_point",
                of_plane(edge, &Plane::second_point_m), "second", of_plane(edge, &Plane::second),
-               "age", l.age_s(), "hollow", l.steady_hollow_m());
+               "age", l.age_s());
 }
 
 /// The knob on a motor of three phases.

@@ -97,8 +97,6 @@ void LiveLoop::select(const std::string& scene) {
 
 void LiveLoop::set(const std::string& parameter, double value) {
   core_.set_parameter(parameter, value);
-  motor_.note(parameter, value);
-  if (parameter == WarmMotor::limit) limit_nm_ = value;
 }
 
 void LiveLoop::run_law(std::unique_ptr<SceneLaw> law) {

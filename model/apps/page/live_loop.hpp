@@ -29,24 +29,15 @@ namespace feltgate::page {
 class WarmMotor {
  public:
   /// `torque_constant_nm_a` is the plant's. At power-up the motor counts as half warm.
-  WarmMotor(const DesignInfo& design, double torque_constant_nm_a)
-      : torque_constant_nm_a_(std::min(torque_constant_nm_a, design.torque_constant_nm_a)),
-        voltage_step_v_(std::ldexp(1.0, -design.voltage.fraction)),
-        velocity_step_rad_s_(std::ldexp(1.0, -design.velocity.fraction)) {
-    for (const char* name : {nominal, budget, limit, per_volt, per_speed}) {
-      note(name, design.find(name)->si);
-    }
-    heat_a2_ = budget_a2_ / 2;
-  }
+  WarmMotor(const DesignInfo& d, double torque_constant_nm_a)
+      : torque_constant_nm_a_(std::min(torque_constant_nm_a, d.torque_constant_nm_a)),
+        nominal_a2_(d.find("nominal_current_squared")->si),
+        budget_a2_(d.find("i2t_budget")->si),
+        most_nm_(d.find(limit)->si),
+        a_per_v_(std::ldexp(d.find("inverse_resistance")->si, -d.voltage.fraction)),
+        a_s_per_rad_(std::ldexp(d.find("emf_over_resistance")->si, -d.velocity.fraction)),
+        heat_a2_(budget_a2_ / 2) {}
 
-  /// Notes a parameter that the caller writes, in its unit.
-  void note(const std::string& parameter, double value) {
-    if (parameter == nominal) nominal_a2_ = value;
-    if (parameter == budget) budget_a2_ = value;
-    if (parameter == limit) most_nm_ = value;
-    if (parameter == per_volt) a_per_v_ = value * voltage_step_v_;
-    if (parameter == per_speed) a_s_per_rad_ = value * velocity_step_rad_s_;
-  }
   /// Counts a tick with these words of the snapshot.
   void pass(std::int64_t voltage, std::int64_t velocity) {
     const double current_a =
@@ -66,14 +57,8 @@ class WarmMotor {
   static constexpr const char* limit = "torque_limit";
 
  private:
-  static constexpr const char* nominal = "nominal_current_squared";
-  static constexpr const char* budget = "i2t_budget";
-  static constexpr const char* per_volt = "inverse_resistance";
-  static constexpr const char* per_speed = "emf_over_resistance";
-
-  double torque_constant_nm_a_, voltage_step_v_, velocity_step_rad_s_;
-  double nominal_a2_ = 0, budget_a2_ = 0, most_nm_ = 0, a_per_v_ = 0, a_s_per_rad_ = 0;
-  double heat_a2_ = 0;  ///< summed over the ticks
+  double torque_constant_nm_a_, nominal_a2_, budget_a2_, most_nm_, a_per_v_, a_s_per_rad_;
+  double heat_a2_;  ///< summed over the ticks
 };
 
 /// A fault of the wiring between core and plant.

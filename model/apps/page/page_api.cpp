@@ -2,17 +2,16 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The functions that the page in the browser calls: the loop, the hash over recorded inputs, the
-// stability border by eigenvalues, and a user's own design file. Only Emscripten compiles it.
-// Documentation: docs/page.md
+// stability border by eigenvalues. Only Emscripten compiles it. Documentation: docs/page.md
 #include <emscripten/bind.h>
 
 #include <memory>
 
 #include "apps/page/api.hpp"
 #include "apps/page/live_loop.hpp"
-#include "apps/page/own_design.hpp"
 #include "apps/page/recorded_inputs.hpp"
 #include "apps/page/user_law.hpp"
+#include "design/design.hpp"
 #include "feltgate/reading.hpp"
 #include "law/engine/machine.hpp"
 #include "sim/plant/plant_file.hpp"
@@ -22,8 +21,8 @@ namespace {
 
 using namespace feltgate::page;
 using feltgate::design_named;
+namespace design = feltgate::design;
 
-const char* registers = "/rtl/registers.toml";
 constexpr int law_runs = 5000;  ///< beside the law in double
 std::string plant_path(const std::string& name) { return "/plants/" + name + ".toml"; }
 
@@ -125,16 +124,12 @@ val check_law(const std::string& design, const std::string& text) {
 }
 
 /// The designs that drive a lever's motor, with brushes.
-std::vector<std::string> lever_designs() {
-  std::vector<std::string> names;
+val design_names() {
+  val names = val::array();
   for (const std::string& name : feltgate::design_names()) {
-    if (design_named(name).phases != 3) names.push_back(name);
+    if (design_named(name).phases != 3) names.call<void>("push", name);
   }
   return names;
-}
-
-val design_names() {
-  return array_of(lever_designs(), [](const std::string& name) { return name; });
 }
 
 /// Hash of a design's twin over inputs in the text form of recorded_inputs.hpp; "error: ..." else.
@@ -145,29 +140,17 @@ std::string hash(const std::string& design, const std::string& inputs) {
 }
 
 /// Largest stable stiffness of the wall at this damping and rate, by eigenvalues, and the frequency
-/// of the swing there; of a design of this page or the text of a file of one.
-val border(const std::string& design, const std::string& own_text, const std::string& plant,
-           double damping_nm_s_rad, int scene_ticks) {
+/// of the swing there.
+val border(const std::string& name, const std::string& plant, double damping_nm_s_rad,
+           int scene_ticks) {
   val out = val::object();
   out.set("error", said([&] {
-            const auto e = elaborated(own_text, "/designs/" + design + ".toml", registers);
+            const auto e = design::elaborate(design::read_design("/designs/" + name + ".toml"),
+                                             design::read_registers("/rtl/registers.toml"));
             const auto model = feltgate::stability::make_model(
                 e, feltgate::plant::read_plant_file(plant_path(plant)));
             const auto b = feltgate::stability::border(model, damping_nm_s_rad, scene_ticks);
             add_to(out, "stiffness_nm_rad", b.stiffness_nm_rad, "rad_s", b.rad_s);
-          }));
-  return out;
-}
-
-/// A user's design file: on which design of this page it runs, and the values of its parameters.
-val design_of(const std::string& text) {
-  val out = val::object();
-  out.set("error", said([&] {
-            const OwnDesign own = own_design(text, lever_designs(), "/designs/", registers);
-            const auto of = [](const auto& value) {
-              return object("name", value.first, "value", value.second);
-            };
-            add_to(out, "base", own.base, "values", array_of(own.values, of));
           }));
   return out;
 }
@@ -200,5 +183,4 @@ EMSCRIPTEN_BINDINGS(feltgate) {
   emscripten::function("checkLaw", &check_law);
   emscripten::function("hash", &hash);
   emscripten::function("border", &border);
-  emscripten::function("ownDesign", &design_of);
 }

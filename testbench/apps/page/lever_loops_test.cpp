@@ -140,8 +140,7 @@ TEST_CASE("page: levers in a stiff coupling swing in the hand as one mass") {
   CoupledLoop loop = levers(20, 0.05, 0);
   lead_held(loop, 0.3);
   loop.advance(loop.law().period_s());
-  const Swing swing(loop.grip.mass_kg + 2 * inertia_kg_m2, loop.grip.stiffness_n_m,
-                    loop.grip.damping_ns_m, 0);
+  const Swing swing(hand.mass_kg + 2 * inertia_kg_m2 / (Lever::radius_m * Lever::radius_m));
   for (int i = 1; i <= 40; ++i) {
     loop.advance(5e-3);
     const double t = 5e-3 * i, theta = 0.3 * (1 - swing.left(t));

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""The page's stylus, body in space and knob in Chromium: what mouse, keys and controls do, and that
-a mesh's planes are those of `feltgate touch`. Documentation: docs/page.md
+"""The page's stylus, body in space and knob in Chromium: what mouse, keys and controls do.
+Documentation: docs/page.md
 """
 
 import base64
-import json
 import math
 import tempfile
 import unittest
@@ -168,19 +167,6 @@ class Stylus(TabTest):
             self.assertIn((1, 0, 0), normals)
             self.assertIn((0, 0, 1) if edges else (), normals)
             self.js("document.getElementById('stylus-edges').click()")
-
-    def test_its_planes_are_those_of_the_program(self):
-        path = self.made("torus")
-        figures = path.with_suffix(".json")
-        self.touch(path, "--json", figures, "--quiet")
-        self.js(
-            f"const bytes = {BYTES};"
-            "feltgate.worker.call('planesHash', arguments[0], bytes, 0.06).then((hash) => { window.found = hash; })",
-            path.name,
-            base64.b64encode(path.read_bytes()).decode(),
-        )
-        native = json.loads(figures.read_text(encoding="utf-8"))
-        self.assertEqual(self.until("return window.found"), native["stroke_hash"])
 
     def test_the_knob_is_felt_with_and_without_smooth_edges(self):
         self.controls(world="mesh")

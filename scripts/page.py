@@ -31,7 +31,7 @@ EPILOG = """examples:
   feltgate page --design mine -o my.html  the page with rtl/designs/mine.toml first
   feltgate page --update                  docs/page.html anew, after a change of twin or page
   feltgate page --check                   is docs/page.html of this tree?
-  feltgate page --serve                   docs/page.html at http://localhost:8000, for Web Serial
+  feltgate page --serve                   http://localhost:8000/page.html, for Web Serial
 
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""

@@ -81,11 +81,11 @@ TEST_CASE("a hand gives way where the motor would get too hot, and a warm motor 
     CHECK(loop.snapshot().faults == 0);
     return std::pair{loop.samples().back(), loop.torque_limit_nm()};
   };
-  const auto [gentle, whole_nm] = after(Grip::hand, 4);
+  const auto [gentle, whole_nm] = after(Grip::hand, 1.5);
   CHECK(gentle.angle_rad < 0.55);
   CHECK(gentle.torque_nm == Approx(-0.0863).margin(0.008));
   CHECK(whole_nm == Approx(0.5).margin(1e-4));
-  const auto [strong, lowered_nm] = after(Grip::strong, 4);  // the fault was after 2.8 s
+  const auto [strong, lowered_nm] = after(Grip::strong, 3);  // the fault was after 2.8 s
   CHECK(lowered_nm < 0.2);
   CHECK(std::abs(strong.torque_nm) < 0.2);
 }

@@ -7,6 +7,7 @@ Documentation: docs/page.md
 """
 
 import base64
+import functools
 import gzip
 import hashlib
 import http.server
@@ -30,7 +31,7 @@ EPILOG = """examples:
   feltgate page --design mine -o my.html  the page with rtl/designs/mine.toml first
   feltgate page --update                  docs/page.html anew, after a change of twin or page
   feltgate page --check                   is docs/page.html of this tree?
-  feltgate page --serve                   docs/page.html at http://localhost:8000, for Web Serial
+  feltgate page --serve                   http://localhost:8000/page.html, for Web Serial
 
 It compiles for a minute or two. Exit code: 0 written or current, 1 --check found the page stale,
 2 a design or a tool cannot be used."""
@@ -77,11 +78,6 @@ def unpacked(page, name):
     return gzip.decompress(base64.b64decode(found[1])) if found else b""
 
 
-def version_of(root):
-    text = (root / "CMakeLists.txt").read_text(encoding="utf-8")
-    return re.search(r"VERSION (\d+\.\d+\.\d+)", text)[1]
-
-
 def stamp_of(root):
     """Hash of what the page says and how it calls the core; the core's bits have their own."""
     digest = hashlib.sha256()
@@ -100,7 +96,9 @@ def numbers_of(root, designs):
     done = interrupts.run([program, *designs], **interrupts.CAPTURED)
     if done.returncode:
         raise PageError(done.stderr.strip())
-    ours = {"laws": laws_of(root), "registers": registers_of(root), "version": version_of(root)}
+    project = (root / "CMakeLists.txt").read_text(encoding="utf-8")
+    version = re.search(r"VERSION (\d+\.\d+\.\d+)", project)[1]
+    ours = {"laws": laws_of(root), "registers": registers_of(root), "version": version}
     return {**json.loads(done.stdout), **ours}
 
 
@@ -117,38 +115,24 @@ def registers_of(root):
     bytes_of = re.findall(r"^csr_register,feltgate_(?:link_)?(\w+),(\w+)", rows, re.M)
     words = {name: int(address, 16) // 4 for name, address in bytes_of}
     every = table["control"] + table["snapshot"] + table["link_word"]
-    constants = {constant["name"]: constant["value"] for constant in table["link_constant"]}
     return {
         "words": words,
         "bits": {f"{w['name']}.{f['name']}": f["bit"] for w in every for f in w.get("fields", ())},
         "snapshot": sorted((word["name"] for word in table["snapshot"]), key=words.get),
         "scenes": {scene["name"]: scene["number"] for scene in table["scene"]},
-        "link": constants,
+        "link": {constant["name"]: constant["value"] for constant in table["link_constant"]},
     }
 
 
-def served(page, port):
-    """Serves one page, and nothing else, to this computer. Web Serial needs more than file://."""
-
-    class Handler(http.server.BaseHTTPRequestHandler):
-        def do_GET(self):  # noqa: N802
-            known = self.path.partition("?")[0] in ("/", "/page.html")
-            self.send_response(200 if known else 404)
-            self.send_header("Content-Type", "text/html; charset=utf-8")
-            self.send_header("Content-Length", str(len(page) if known else 0))
-            self.end_headers()
-            if known:
-                self.wfile.write(page)
-
-        def log_message(self, *_):
-            """Says nothing of each request."""
-
+def served(folder, port):
+    """Serves docs/ to this computer alone. Web Serial needs more than file://."""
+    handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=folder)
     try:
-        server = http.server.ThreadingHTTPServer(("127.0.0.1", port), Handler)
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", port), handler)
     except (OSError, OverflowError) as error:
         raise PageError(f"port {port} of localhost: {error}; name another: --serve 8001") from None
     with server:
-        print(f"http://localhost:{server.server_port}/ until Ctrl-C", file=sys.stderr, flush=True)
+        print(f"http://localhost:{server.server_port}/page.html until Ctrl-C", file=sys.stderr, flush=True)
         server.serve_forever()
 
 
@@ -216,13 +200,11 @@ def run(options):
         path = root / COMMITTED
         if not path.is_file():
             raise PageError(f"{COMMITTED} is not there; write it with feltgate page --update")
-        served(path.read_bytes(), options.serve)
+        served(path.parent, options.serve)
         return 0
     if options.check:
-        why = stale(root)
-        if why:
-            mend = "run feltgate page --update"
-            print(f"page: {COMMITTED} is stale: {why}; {mend}", file=sys.stderr)
+        if why := stale(root):
+            print(f"page: {COMMITTED} is stale: {why}; run feltgate page --update", file=sys.stderr)
             return 1
         print(f"{COMMITTED} is of this tree", file=sys.stderr)
         return 0

@@ -11,7 +11,7 @@ from command_line import Refused
 import rtl_sources
 from seeded_defects import patches
 
-KEYS = {"name", "title", "depth", "cover_depth", "defect_depth", "designs", "show",
+KEYS = {"name", "title", "depth", "cover_depth", "designs", "show",
         "sources", "defines", "cut", "abstract", "slow", "property", "cover"}
 ASSERTION = re.compile(r"\b(\w+):\s*assert\b")
 COVER = re.compile(r"\b(\w+):\s*cover\b")
@@ -42,7 +42,6 @@ class Proof:
     title: str
     depth: int  # of the induction at most, and of the base
     cover_depth: int
-    defect_depth: int
     designs: tuple
     show: tuple  # signals printed for a failed step
     sources: tuple  # modules beside those that the wrapper instantiates
@@ -53,6 +52,8 @@ class Proof:
     properties: tuple
     covers: dict  # name: what it shows
     wrapper: Path
+
+    defect_depth = 60  # of the search for a failure with a defect, which ends with the first
 
     @property
     def key(self):
@@ -127,7 +128,6 @@ def read_proof(root, block, path, table):
         title=table["title"],
         depth=table["depth"],
         cover_depth=table.get("cover_depth", 20),
-        defect_depth=table.get("defect_depth", 20),
         designs=tuple(table.get("designs", ["lever"])),
         show=tuple(table.get("show", [])),
         sources=tuple(table.get("sources", [])),

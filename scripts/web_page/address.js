@@ -30,12 +30,11 @@ class Address {
     }
   }
 
-  /** Scene, law and own design, before the first lever is made. */
+  /** Scene and law, before the first lever is made. */
   restore_lever() {
     const of = (name) => this.wanted.get(name);
     if (SCENES[of("scene")]) page.scene = of("scene");
     page.law = page.numbers.laws[of("law")] ?? of("law_text") ?? page.law;
-    if (of("own_text")) take_design(of("own") || "own", of("own_text"));
     this.opened("lever", false);
     page.grip = Number($("grip").value);
     const sliders = new Map(SCENES[page.scene].sliders.map((s) => [s.name, s]));
@@ -59,7 +58,6 @@ class Address {
       }
       const law = Object.keys(page.numbers.laws).find((name) => page.numbers.laws[name] === page.law);
       if (page.scene === "law") law ? say.set("law", law) : say.set("law_text", page.law);
-      if (page.own && Object.values(now).includes("own")) { say.set("own", page.own.name); say.set("own_text", page.own.text); }
     }
     for (const [key, value] of Object.entries(now)) if (value !== first[key]) say.set(key, value);
     return say.toString();

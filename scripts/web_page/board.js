@@ -232,8 +232,7 @@ class BoardTab {
   take({ words, values }) {
     const names = this.map.snapshot.filter((_, n) => words & (1 << n));
     names.forEach((name, n) => (this.shown[name] = name === "tick" ? values[n] : values[n] | 0));
-    this.trace.push([this.shown.position, this.shown.tau_ref]);
-    if (this.trace.length > 400) this.trace.shift();
+    keep(this.trace, 400, [this.shown.position, this.shown.tau_ref]);
   }
 
   frame() {

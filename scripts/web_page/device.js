@@ -16,10 +16,9 @@ const BROKEN = {
 };
 
 class Device {
-  constructor(core, design, own, plant, place) {
+  constructor(core, design, plant, place) {
     this.core = core;
-    this.own = own; // a user's design on the core of `design`, or null
-    this.name = own ? own.name : design;
+    this.name = design;
     this.loop = new core.Loop(design, plant);
     this.info = this.loop.design();
     this.words = {};
@@ -28,7 +27,6 @@ class Device {
       this.words[p.name] = p.value;
       this.ranges[p.name] = p;
     }
-    if (own) for (const { name, value } of own.values) this.set(name, value);
     this.chunk = [];
     this.traces = { theta: [], hand: [], torque: [], tau_ref: [], tau_hat: [], difference: [] };
     this.now = Object.fromEntries(SAMPLE.map((n) => [n, 0]));

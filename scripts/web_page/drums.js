@@ -12,20 +12,24 @@ const ATTACK_S = 0.002, DECAY_S = 0.05, SUSTAIN_S = 0.4, RELEASE_S = 0.08, SUSTA
 
 const in_hall = (across, ahead, height) => [HALL.x + HALL.across * across, HALL.y - HALL.ahead * ahead - HALL.up * height];
 
-/** One hit of drum 1 to 3, full scale 1; place 0 is the middle, 1 the rim. */
-function drum_samples(drum, speed_m_s, place, rate_hz) {
-  const sustain = SUSTAIN_S * (1 - Math.min(1, Math.max(0, place))), loud = Math.min(1, Math.max(0, speed_m_s) / LOUDEST_M_S);
-  const corners = [[0, 0], [ATTACK_S, 1], [ATTACK_S + DECAY_S, SUSTAIN_LEVEL], [ATTACK_S + DECAY_S + sustain, SUSTAIN_LEVEL], [ATTACK_S + DECAY_S + sustain + RELEASE_S, 0]];
-  const samples = new Float32Array(Math.floor(corners[4][0] * rate_hz)), whole = MODES.reduce((sum, _, n) => sum + 1 / (n + 1), 0);
-  let corner = 0;
-  for (let i = 0; i < samples.length; ++i) {
-    const t = i / rate_hz;
-    while (corner < 3 && t >= corners[corner + 1][0]) ++corner;
-    const [[t0, a], [t1, b]] = [corners[corner], corners[corner + 1]];
-    const tones = MODES.reduce((sum, mode, n) => sum + Math.sin(2 * Math.PI * PITCH_HZ[drum - 1] * mode * t) / (n + 1), 0);
-    samples[i] = (loud * (a + ((b - a) * (t - t0)) / (t1 - t0)) * tones) / whole;
-  }
-  return samples;
+/** Levels of a hit by time, s, straight between them; place 0 is the middle, 1 the rim. */
+function drum_envelope(speed_m_s, place) {
+  const loud = Math.min(1, Math.max(0, speed_m_s) / LOUDEST_M_S), held = ATTACK_S + DECAY_S + SUSTAIN_S * (1 - Math.min(1, Math.max(0, place)));
+  return [[0, 0], [ATTACK_S, loud], [ATTACK_S + DECAY_S, loud * SUSTAIN_LEVEL], [held, loud * SUSTAIN_LEVEL], [held + RELEASE_S, 0]];
+}
+
+/** Plays a hit of drum 1 to 3, full scale 1. */
+function play_drum(audio, drum, speed_m_s, place) {
+  const envelope = drum_envelope(speed_m_s, place), gain = new GainNode(audio, { gain: 0 }), now = audio.currentTime;
+  const whole = MODES.reduce((sum, _, n) => sum + 1 / (n + 1), 0);
+  for (const [after, level] of envelope) gain.gain.linearRampToValueAtTime(level, now + after);
+  gain.connect(audio.destination);
+  MODES.forEach((mode, n) => {
+    const tone = new OscillatorNode(audio, { frequency: PITCH_HZ[drum - 1] * mode });
+    tone.connect(new GainNode(audio, { gain: 1 / (n + 1) / whole })).connect(gain);
+    tone.start(now);
+    tone.stop(now + envelope.at(-1)[0]);
+  });
 }
 
 class DrumsTab {
@@ -88,7 +92,7 @@ class DrumsTab {
     add_row($("drums-hits"), [`drum ${drum}`, `${fixed(hit.speed, 2)} m/s`, `${fixed(place, 2)} to the rim`], 0);
     if ($("drums-hits").rows.length > 8) $("drums-hits").deleteRow(8);
     if (!this.is_heard()) return;
-    play(this.audio, drum_samples(drum, hit.speed, place, this.audio.sampleRate));
+    play_drum(this.audio, drum, hit.speed, place);
     ++this.played;
   }
 

@@ -53,13 +53,7 @@ class Game {
 
   /** All shapes once in random order, then again. */
   next() {
-    if (!this.bag.length) {
-      this.bag = [...this.names];
-      for (let n = this.bag.length - 1; n > 0; --n) {
-        const m = Math.floor(Math.random() * (n + 1));
-        [this.bag[n], this.bag[m]] = [this.bag[m], this.bag[n]];
-      }
-    }
+    if (!this.bag.length) this.bag = this.names.map((name) => [Math.random(), name]).sort(([a], [b]) => a - b).map(([, name]) => name);
     this.shape = this.bag.pop();
     this.cues = [$("cue-stiffness").checked, $("cue-damping").checked];
     this.open = true;

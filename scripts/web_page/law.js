@@ -68,26 +68,6 @@ class LawEditor {
   }
 }
 
-/** A head of an arrow in the middle of each stretch where the two ways are apart: up to the right, back to the left. */
-function way_arrows(pen, up, back, x, y, apart) {
-  const head = (n, ways, sign) => {
-    const from = Math.max(0, n - 4), to = Math.min(ways.length - 1, n + 4);
-    pen.save();
-    pen.translate(x(n), y(ways[n]));
-    pen.rotate(Math.atan2(y(ways[to]) - y(ways[from]), x(to) - x(from)) + (sign < 0 ? Math.PI : 0));
-    pen.beginPath(); pen.moveTo(6, 0); pen.lineTo(-4, 5); pen.lineTo(-4, -5); pen.fill();
-    pen.restore();
-  };
-  for (let n = 0; n < up.length; ++n) {
-    if (Math.abs(up[n] - back[n]) < apart) continue;
-    const first = n;
-    while (n + 1 < up.length && Math.abs(up[n + 1] - back[n + 1]) >= apart) ++n;
-    if (x(n) - x(first) < 3) continue;
-    head(Math.round((first + n) / 2), up, 1);
-    head(Math.round((first + n) / 2), back, -1);
-  }
-}
-
 /** Torque against position over a turn, up and back, as the words of the program say it, and where the lever is. */
 function draw_turn(device) {
   const paper = cleared($("turn")), { pen, width, height, colour } = paper;
@@ -96,18 +76,19 @@ function draw_turn(device) {
   const left = 46, right = width - 8, top = 24, bottom = height - 18;
   const most = Math.max(0.01, Math.abs(device.now.tau_ref), ...device.turn.map(Math.abs));
   const x = (rad) => left + ((rad + Math.PI) / (2 * Math.PI)) * (right - left);
-  const up = device.turn.slice(0, TURN_POINTS), back = device.turn.slice(TURN_POINTS).reverse(), apart = most / 100;
-  const loop = up.some((nm, n) => Math.abs(nm - back[n]) >= apart);
-  const y = draw_scale(paper, `torque over a turn at rest, Nm${loop ? ", up and back: arrows tell the way" : ""}`, [-most, 0, most], top, bottom);
+  const up = device.turn.slice(0, TURN_POINTS), back = device.turn.slice(TURN_POINTS).reverse();
+  const loop = up.some((nm, n) => Math.abs(nm - back[n]) >= most / 100);
+  const y = draw_scale(paper, `torque over a turn at rest, Nm${loop ? "; green: on the way back" : ""}`, [-most, 0, most], top, bottom);
   for (const rad of [-3, -2, -1, 0, 1, 2, 3]) {
     draw_line(pen, [[x(rad), top], [x(rad), bottom]]);
     pen.fillText(rad === 0 ? "0 rad" : `${fixed(rad, 0)}`, x(rad) - 4, height - 5);
   }
   const x_of = (n) => x(-Math.PI + (2 * Math.PI * n) / (TURN_POINTS - 1));
-  pen.strokeStyle = pen.fillStyle = colour("--blue");
   pen.lineWidth = 1.5;
-  for (const way of loop ? [up, back] : [up]) draw_line(pen, way.map((nm, n) => [x_of(n), y(nm)]));
-  if (loop) way_arrows(pen, up, back, x_of, y, apart);
+  for (const [way, name] of loop ? [[back, "--green"], [up, "--blue"]] : [[up, "--blue"]]) {
+    pen.strokeStyle = colour(name);
+    draw_line(pen, way.map((nm, n) => [x_of(n), y(nm)]));
+  }
   pen.lineWidth = 1;
   pen.strokeStyle = pen.fillStyle = colour("--red");
   const theta = Math.atan2(Math.sin(device.now.theta), Math.cos(device.now.theta));

@@ -2,7 +2,7 @@
 "use strict";
 
 const $ = (id) => document.getElementById(id);
-const page = { tab: "lever", scene: "wall", values: {}, devices: [], own: null, grip: 1, speed: 0, frames: [], errors: [], borders: {}, paused: false, told: false, shows: false, shown_s: 0, count: 0 };
+const page = { tab: "lever", scene: "wall", values: {}, devices: [], grip: 1, speed: 0, frames: [], errors: [], borders: {}, paused: false, told: false, shows: false, shown_s: 0, count: 0 };
 window.feltgate = page; // for whoever wants to look inside
 
 /** Of each tab its title, and what makes its device when it is first opened; the lever is there. */
@@ -15,10 +15,9 @@ const option = (value, text) => Object.assign(document.createElement("option"), 
 const devices = (act) => page.devices.forEach(act);
 
 function place_device(n, design) {
-  const law = page.scene === "law", own = design === "own" && !law ? page.own : null;
-  const device = new Device(page.core, own ? own.base : design, own, $("plant").value, $("stages"));
+  const device = new Device(page.core, design, $("plant").value, $("stages"));
   page.devices[n] = device;
-  if (law) {
+  if (page.scene === "law") {
     say(device.loop.runLaw(page.law));
     const parameters = device.loop.lawParameters();
     device.law_words = Object.fromEntries(parameters.map((p) => [p.name, p.value]));
@@ -132,8 +131,8 @@ function turned(slider, value, shown) {
 
 /** The border of a device's wall as `feltgate stability` has it: by eigenvalues, without friction and without a hand. */
 async function border_of(device, damping, rate) {
-  const own = device.own ? device.own.text : "", key = JSON.stringify([device.info.name, own, $("plant").value, damping, rate]);
-  return (page.borders[key] ??= await page.worker.call("border", device.info.name, own, $("plant").value, damping, rate));
+  const asked = [device.name, $("plant").value, damping, rate];
+  return (page.borders[asked.join()] ??= await page.worker.call("border", ...asked));
 }
 
 /** Borders and verdict of the present wall; while they are computed a later wish waits, the newest one alone. */
@@ -202,45 +201,15 @@ function build_controls() {
     const button = { a: "arm", s: "stop", c: "clear", p: "pause", n: "step" }[event.key.toLowerCase()];
     if (button) $(button).click();
   });
-  $("own").onchange = async () => { const file = $("own").files[0]; if (file) drop(file.name, await file.text()); };
   document.addEventListener("dragover", (event) => event.preventDefault());
   document.addEventListener("drop", async (event) => {
     event.preventDefault();
     const file = event.dataTransfer.files[0];
     if (!file) return;
-    if (page.tab !== "stylus" && !/\.glb$/i.test(file.name)) return drop(file.name, await file.text());
     select_tab("stylus");
     await page.stylus.open(file);
   });
-  const theme = (dark) => {
-    document.documentElement.classList.toggle("dark", dark);
-    press("theme", dark, dark ? "light" : "dark");
-  };
-  theme(window.matchMedia("(prefers-color-scheme: dark)").matches);
-  $("theme").onclick = () => theme(!document.documentElement.classList.contains("dark"));
   $("check").onclick = compare_bits;
-}
-
-/** A design file of the user, to be chosen as "own design"; says whether it can be. */
-function take_design(name, text) {
-  const own = page.core.ownDesign(text);
-  if (own.error) {
-    $("own-said").textContent = own.error.replace(/^own\.toml/, name);
-    return false;
-  }
-  page.own = { name: name.replace(/\.toml$/, ""), text, base: own.base, values: own.values };
-  for (const id of ["first", "second"]) {
-    if (![...$(id).options].some((o) => o.value === "own")) $(id).append(option("own", "own design"));
-  }
-  $("own-said").textContent = `${name}: on the core of ${own.base}, with its own parameters.`;
-  return true;
-}
-
-function drop(name, text) {
-  if (!take_design(name, text)) return;
-  $("second").value = "own";
-  place_devices();
-  ask_verdict();
 }
 
 async function compare_bits() {
@@ -253,14 +222,7 @@ async function compare_bits() {
     add_row(table, [design, scene, found, same ? "same" : `native ${hash}`]).lastChild.className = same ? "same" : "differs";
   };
   for (const r of page.numbers.recorded) await compare(r.design, r.scene, r.hash, "hash", r.design, r.inputs);
-  for (const p of page.numbers.planes) await compare("planes of a stroke", p.mesh, p.hash, "planesHash", "", "", 0);
-  for (const c of page.numbers.closed) {
-    const rows = await page.worker.call("closedLoop", c.design);
-    const apart = [0, 1].map((n) => Math.max(...rows.map((row, i) => Math.abs(row[n] - c.rows[i][n]))));
-    page.closed = [...(page.closed || []), { design: c.design, rad: apart[0], nm: apart[1] }];
-    const said = `${c.design}: closed loop into a wall, against the native one: ${apart[0].toExponential(1)} rad, ${apart[1].toExponential(1)} Nm apart (another libm).`;
-    add_row(table, [said]).lastChild.colSpan = 4;
-  }
+  for (const p of page.numbers.planes) await compare("planes of a stroke", p.mesh, p.hash, "planesHash");
   page.done = true;
 }
 
@@ -345,8 +307,7 @@ function frame(time) {
   const passed = Math.min((time - (page.last || time)) / 1000, 0.05);
   page.last = time;
   if (passed <= 0) return;
-  page.frames.push(time);
-  if (page.frames.length > 600) page.frames.shift();
+  keep(page.frames, 600, time);
   if (page.tab === "lever") lever_frame(passed);
   else page[page.tab].frame(passed);
   if (page.frames.length === 1) page.first_frame_ms = performance.now();

@@ -8,44 +8,30 @@ const JUDGED_S = 0.25; // as in docs/devices/strings-and-drums.md: every slip wi
 const SLOW_HZ = 0.4; // periods of the drawn string a second
 const LOUDEST = 2.5; // m/s that are full scale, as in scripts/bowed_string_sound.py
 const QUEUE_S = 0.05, QUEUE_MOST_S = 0.12; // of sound that waits to be played
-const HOST_HZ = 8000; // a law slower than this is heard as it is: each value held
+const LAW_HZ = 40_000; // of the string at its own rate
 
 /** Forces, N, between which a string has one slip a period: Schelleng 1973. */
 const schelleng = (bow_m_s, place) => [(WAVE_Z ** 2 * bow_m_s) / (2 * BRIDGE_R * place ** 2 * DROP), (2 * WAVE_Z * bow_m_s) / (place * DROP)];
 
-/** Plays what it is fed, in buffers end to end, never more than QUEUE_MOST_S late. */
+/** Plays what it is fed, in buffers end to end, never more than QUEUE_MOST_S late; the browser brings the law's rate to
+ * that of the loudspeaker, and a value of a slower law holds until the next. */
 class StringSound {
   constructor() {
-    this.audio = new AudioContext();
-    this.next = this.place = this.last = this.played = this.breaks = 0;
-  }
-
-  /** Values in m/s at rate_hz, at the rate of the audio: between two values straight, of a slow law held. */
-  resampled(values, rate_hz, faster = 1) {
-    const step = (rate_hz / this.audio.sampleRate) * faster, out = [], hold = rate_hz < HOST_HZ;
-    let at = this.place;
-    for (; at < values.length; at += step) {
-      const n = Math.floor(at), before = n ? values[n - 1] : this.last, part = hold ? 0 : at - n;
-      out.push(Math.max(-1, Math.min(1, (before + (values[n] - before) * part) / LOUDEST)));
-    }
-    this.place = at - values.length;
-    if (values.length) this.last = values[values.length - 1];
-    return Float32Array.from(out);
+    this.audio = new AudioContext({ sampleRate: LAW_HZ });
+    this.next = this.played = 0;
   }
 
   feed(values, rate_hz) {
-    if (this.audio.state !== "running") return;
-    const now = this.audio.currentTime, waits = this.next - now;
-    // Half a percent faster or slower keeps the queue at its length; too long a one loses this buffer.
-    const samples = this.resampled(values, rate_hz, 1 + 0.005 * Math.max(-1, Math.min(1, waits / QUEUE_S - 1)));
-    if (!samples.length || waits > QUEUE_MOST_S) return;
+    if (this.audio.state !== "running" || !values.length) return;
+    const now = this.audio.currentTime, waits = this.next - now, held = Math.round(LAW_HZ / rate_hz);
+    if (waits > QUEUE_MOST_S) return; // too long a queue loses this buffer
+    const samples = Float32Array.from({ length: held * values.length }, (_, n) => Math.max(-1, Math.min(1, values[Math.floor(n / held)] / LOUDEST)));
     if (waits < 0.003) { // it ran dry, or begins
-      this.breaks += this.next ? 1 : 0;
-      this.next = Math.ceil((now + QUEUE_S) * this.audio.sampleRate) / this.audio.sampleRate;
-      for (let i = 0; i < Math.min(100, samples.length); ++i) samples[i] *= i / 100; // no click
+      this.next = now + QUEUE_S;
+      for (let i = 0; i < 100; ++i) samples[i] *= i / 100; // no click
     }
     play(this.audio, samples, this.next);
-    this.next += samples.length / this.audio.sampleRate;
+    this.next += samples.length / LAW_HZ;
     this.played += samples.length;
   }
 
@@ -217,7 +203,7 @@ class StringTab {
     trace.forEach((v, i) => {
       const t = start + i * dt;
       if (t < from - 1e-9 || t > from + DRAWN_S) return;
-      if (seen.rate_hz < HOST_HZ && points.length) points.push([x(t), points[points.length - 1][1]]); // held
+      if (seen.rate_hz < LAW_HZ && points.length) points.push([x(t), points[points.length - 1][1]]); // held
       points.push([x(t), y(v)]);
     });
     line(points);

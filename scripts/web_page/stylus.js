@@ -183,8 +183,7 @@ class StylusTab {
       <path class="scale" d="${path([[STYLUS_CUT.right, 0], [STYLUS_CUT.right, STYLUS_CUT.height]])}"/><text x="8" y="18">cut at y = ${fixed(1000 * s.pen[1], 1)} mm, z up</text>${this.view_from_above()}${key}${large}`;
     const list = (v, digits, k = 1) => `(${v.map((part) => fixed(k * part, digits)).join(", ")})`;
     this.caption.textContent = `pen ${list(s.pen, 1, 1000)} mm; F = ${list(s.force, 2)} N${s.limited ? `: an axis gives ${this.most_n} N, no more` : ""}\n` +
-      (s.normal ? `n = ${list(s.normal, 3)} as sent, ${fixed(1000 * s.tilt, 1)} mrad off the true one; ` : "") + `the law's words at ${fixed(s.rate_hz / 1000, 0)} kHz\n` +
-      (s.hollow > 0 ? `border of stability: pressed so, in hollows below R = ${fixed(1000 * s.hollow, 1)} mm it would swing` : "border of stability: pressed so, it stays still in every hollow");
+      (s.normal ? `n = ${list(s.normal, 3)} as sent, ${fixed(1000 * s.tilt, 1)} mrad off the true one; ` : "") + `the law's words at ${fixed(s.rate_hz / 1000, 0)} kHz`;
   }
 
   draw_trace() {

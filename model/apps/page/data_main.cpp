@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Writes the reference data of the page: recorded pins and register writes of scenes, with the hash
-// of the native twin over them; the result of a closed loop; and the compiled laws that the page
-// runs without a core. Documentation: docs/page.md
+// of the native twin over them; and the compiled laws that the page runs without a core.
+// Documentation: docs/page.md
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -44,44 +44,23 @@ json recorded(const std::string& design, const std::string& scene) {
   Scenario scenario = read_scenario(vectors + "scenes/" + scene + ".toml");
   const auto plant = plant::read_plant_file(vectors + "plants/" + scenario.plant + ".toml");
   resolve_effects(scenario, plant.effects);
-  page::Recording inputs;
+  RunInputs inputs;
   RunOptions options;
   options.design = design;
   options.engine = "twin";
   options.inputs = &inputs;
-  const auto absolute = design_named(design).absolute;
-  if (absolute) {  // such a core goes clock by clock: a part is enough, over the knob's first crest
-    scenario.duration_s = std::min(scenario.duration_s, 0.45);
-    scenario.expectations.clear();
-  }
-  page::CountRecorder recorder(absolute ? absolute->bits : 0, &inputs);
-  if (absolute) {
-    options.plant_step = [&](Clock clocks, const plant::Observables& o) {
-      recorder.turned(o.theta_rad, clocks);
-    };
-  }
   std::unique_ptr<SceneLaw> law;
   if (!scenario.law.empty()) {
     law = make_scene_law(laws + scenario.law + ".law", design_named(design));
     options.law = law.get();
   }
   run_scenario(scenario, plant, options);
-  if (absolute) inputs.edges.clear();  // such a core has no pins for them
   const std::string text = page::text_of(inputs);
   return {{"design", design},
           {"scene", scene},
           {"seconds", scenario.duration_s},
           {"inputs", text},
           {"hash", page::hex(page::hash_of(design, page::inputs_from_text(text)))}};
-}
-
-json closed_loop(const std::string& design) {
-  json rows = json::array();
-  for (const page::ScriptRow& row :
-       page::follow_script(design, plant::read_plant_file(vectors + "plants/p24.toml"))) {
-    rows.push_back({row.theta_rad, row.torque_nm});
-  }
-  return {{"design", design}, {"scene", "wall"}, {"rows", rows}};
 }
 
 /// Seven shapes as the study had them, and four squares side by side for training.
@@ -140,9 +119,12 @@ json stylus() {
                       {"kind", static_cast<int>(w.world)},
                       {"centre", {w.centre_m.x, w.centre_m.y, w.centre_m.z}},
                       {"radius_m", w.radius_m}});
-    const auto& device = std::get<StylusSetup>(scene.device);
-    const page::Stylus s = page::Stylus::of(device.parameters.lever);
-    slides = {{"mass_kg", s.own_kg}, {"friction_ns_m", s.own_ns_m}, {"capstan_m", s.capstan_m}};
+    // A device file gives slides as rotation of a capstan.
+    const auto& capstan = std::get<StylusSetup>(scene.device).parameters.lever.lever;
+    const double r = capstan.radius_m;
+    slides = {{"mass_kg", capstan.inertia_kg_m2 / (r * r)},
+              {"friction_ns_m", capstan.viscous_nm_s_rad / (r * r)},
+              {"capstan_m", r}};
   }
   return {{"image", image_of("local_space", "stylus_law")},
           {"image_of_edges", image_of("local_edge", "stylus_law")},
@@ -211,23 +193,28 @@ int main(int count, char** argv) {
     return 2;
   }
   try {
-    json out = {{"recorded", json::array()},  {"closed", json::array()},
-                {"shapes", hidden_shapes()},  {"training", training_squares()},
-                {"drums", image_of("drums")}, {"material", image_of("material")},
-                {"materials", materials()},   {"coupled", coupled()},
-                {"strings", strings()},       {"stylus", stylus()},
-                {"gimbal", gimbal()},         {"planes", planes()}};
+    json out = {{"recorded", json::array()},
+                {"shapes", hidden_shapes()},
+                {"training", training_squares()},
+                {"drums", image_of("drums")},
+                {"material", image_of("material")},
+                {"materials", materials()},
+                {"coupled", coupled()},
+                {"strings", strings()},
+                {"stylus", stylus()},
+                {"gimbal", gimbal()},
+                {"planes", planes()}};
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
-      const bool knob = design_named(design).phases == 3;
-      if (knob || design_named(design).scene_number("law") >= 0) {
-        out["recorded"].push_back(recorded(design, knob ? "knob_detents" : "detent"));
+      const DesignInfo info = design_named(design);
+      if (info.phases == 3) continue;  // its tab has a core of its own
+      if (info.scene_number("law") >= 0) {
+        out["recorded"].push_back(recorded(design, "detent"));
         continue;
       }
       for (const std::string& scene : i == 1 ? scenes_of_default : scenes_of_others) {
         out["recorded"].push_back(recorded(design, scene));
       }
-      out["closed"].push_back(closed_loop(design));
     }
     std::printf("%s\n", out.dump().c_str());
   } catch (const std::exception& error) {

@@ -68,6 +68,12 @@ void ImageLaw::joint(int axis, double angle_rad, double speed_rad_s, double obse
   inputs_[first + 2] = word_of(observed_nm, t.fraction, t.width());
 }
 
+void ImageLaw::joints(plant::Vec3 rad, plant::Vec3 rad_s) {
+  joint(0, rad.x, rad_s.x);
+  joint(1, rad.y, rad_s.y);
+  joint(2, rad.z, rad_s.z);
+}
+
 void ImageLaw::run() {
   run_ = &machine_.run(0, inputs_);
   if (!run_->ended) throw std::runtime_error(fmt::format("law {} does not end", image_.name));

@@ -14,6 +14,7 @@
 #include "law/engine/machine.hpp"
 #include "law/image.hpp"
 #include "law/load.hpp"
+#include "sim/plant/rotation.hpp"
 
 namespace feltgate::page {
 
@@ -46,6 +47,8 @@ class ImageLaw {
   /// Inputs of joint `axis` (0 to 2) for the next run. The absolute angle is rounded down to
   /// counts; speed and observed torque are rounded to the design's words.
   void joint(int axis, double angle_rad, double speed_rad_s, double observed_nm = 0);
+  /// All three of them.
+  void joints(plant::Vec3 rad, plant::Vec3 rad_s);
   /// Counts of the joint for the next run.
   std::int32_t counts(int axis) const { return inputs_[static_cast<std::size_t>(3 * axis)]; }
   /// The angle of these counts, rad.
@@ -54,6 +57,7 @@ class ImageLaw {
   void run();
   /// Torque of the last run for a joint, Nm, limited to the design's torque word.
   double torque_nm(int axis) const;
+  plant::Vec3 torques_nm() const { return {torque_nm(0), torque_nm(1), torque_nm(2)}; }
   /// A state after the last run, SI.
   double state(const StateWord& s) const { return machine_.memory().data_at(s.address) * s.scale; }
   /// Events of the last run: numbers and words.

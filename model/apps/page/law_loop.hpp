@@ -19,7 +19,6 @@
 #include "apps/page/image_law.hpp"
 #include "sim/axes_loop/plane_host.hpp"
 #include "sim/plant/hand.hpp"
-#include "sim/plant/parameters.hpp"
 #include "sim/plant/rotation.hpp"
 #include "studies/shape/rhombus.hpp"
 
@@ -272,14 +271,6 @@ struct Stylus : PlainBody<plant::Vec3> {
   Clock host_runs = 0;                 ///< the clock of the host: runs since touch()
   std::map<std::string, double> sent;  ///< values of the plane in the mailbox
   bool limited = false;                ///< whether the law asked for more than most_n
-  /// With the slides of a device file with [slides], which gives them as rotation of a capstan.
-  static Stylus of(const plant::Parameters& slide) {
-    Stylus s;
-    s.capstan_m = slide.lever.radius_m;
-    s.own_kg = slide.lever.inertia_kg_m2 / (s.capstan_m * s.capstan_m);
-    s.own_ns_m = slide.lever.viscous_nm_s_rad / (s.capstan_m * s.capstan_m);
-    return s;
-  }
   static Place start() { return {0, 0, 0.05}; }
   static bool finite(Place p) { return std::isfinite(p.x + p.y + p.z); }
   static Place limited_to(double most, Place p) {
@@ -295,22 +286,18 @@ struct Stylus : PlainBody<plant::Vec3> {
     at = inside;
   }
   void sense(ImageLaw& law, Place at, Rate speed) {
-    const double r = capstan_m;
-    law.joint(0, at.x / r, speed.x / r);
-    law.joint(1, at.y / r, speed.y / r);
-    law.joint(2, at.z / r, speed.z / r);
+    law.joints(1 / capstan_m * at, 1 / capstan_m * speed);
     if (host && host_runs >= host->next()) {
       // The host knows the pen where the cores count it.
       const Place counted{law.counted_rad(0), law.counted_rad(1), law.counted_rad(2)};
-      auto words = host->act(host_runs, r * counted);
+      auto words = host->act(host_runs, capstan_m * counted);
       // The same plane once more changes nothing, and costs as much as a run of the law.
       if (!words.empty() && words != sent) law.set(sent = std::move(words));
     }
     ++host_runs;
   }
   Rate force(const ImageLaw& law, Place) {
-    const double r = capstan_m;
-    const Rate asked{law.torque_nm(0) / r, law.torque_nm(1) / r, law.torque_nm(2) / r};
+    const Rate asked = 1 / capstan_m * law.torques_nm();
     const Rate given = limited_to(most_n, asked);
     limited = plant::length(asked - given) > 0;
     return given;
@@ -338,25 +325,6 @@ class StylusLoop : public LawLoop<Stylus> {
   /// pose of that plane: at the end of the last advance(), 0 if no plane has arrived.
   double tilt_rad() const { return told_by_host()[3]; }
   double age_s() const { return told_by_host()[4]; }
-  /// In a hollow of a smaller radius the pen would swing sideways by itself, pressed as it is now,
-  /// m: by the linear loop of hand, pen and host with the mean age of a plane; 0: in none.
-  double steady_hollow_m() const {
-    const double force_n = plant::length(force());
-    if (!host || !(force_n > 0) || !(world_.stiffness_n_m > 0)) return 0;
-    // m s^2 + b s + k + F / (R + d) e^(-s age) = 0 at s = i w: what is left of the first two terms
-    // grows with w until age w = pi.
-    const double age_s =
-        world_.latency_s + 0.5 * (world_.jitter_s + 1 / world_.rate_hz + law().period_s());
-    const double m = grip.mass_kg + own_kg, b = grip.damping_ns_m + own_ns_m;
-    double low = 0, high = law::pi / age_s;
-    for (int half = 0; half < 60; ++half) {
-      const double w = 0.5 * (low + high);
-      const bool over = m * w * w - grip.stiffness_n_m > b * w / std::tan(w * age_s);
-      (over ? high : low) = w;
-    }
-    const double spring_n_m = b * low / std::sin(low * age_s);
-    return std::max(0.0, force_n / spring_n_m - force_n / world_.stiffness_n_m);
-  }
 
  private:
   /// As the rows of a native run have it: normal, tilt, age, step.
@@ -391,13 +359,9 @@ struct Handle : PlainBody<plant::Quaternion, plant::Vec3> {
       law.set({{"ow", at.w}, {"ox", at.x}, {"oy", at.y}, {"oz", at.z}});
     }
     // The law reads how fast the axes turn, and no angle.
-    law.joint(0, 0, speed.x);
-    law.joint(1, 0, speed.y);
-    law.joint(2, 0, speed.z);
+    law.joints({}, speed);
   }
-  static Rate force(const ImageLaw& law, const Place&) {
-    return {law.torque_nm(0), law.torque_nm(1), law.torque_nm(2)};
-  }
+  static Rate force(const ImageLaw& law, const Place&) { return law.torques_nm(); }
 };
 using GimbalLoop = LawLoop<Handle>;
 /// The hand turns by this vector, rad, about the axes of the base, during the next advance().

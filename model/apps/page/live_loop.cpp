@@ -36,31 +36,31 @@ std::int64_t number(const Snapshot& s) {
   return static_cast<std::int64_t>(s.*Member);
 }
 template <auto Member>
-Format format(const DesignInfo& d) {
-  return d.*Member;
+int fraction(const DesignInfo& d) {
+  return (d.*Member).fraction;
 }
-template <int sign, int integer, int fraction = 0>
-Format fixed(const DesignInfo& /*any*/) {
-  return {sign, integer, fraction};
+template <int bits>
+int fixed(const DesignInfo& /*any*/) {
+  return bits;
 }
 
 }  // namespace
 
 const std::array<Word, 14> snapshot_words{{
-    {"tick", "", number<&Snapshot::tick>, fixed<0, 32>},
-    {"position", "counts", number<&Snapshot::position>, fixed<1, 31>},
-    {"velocity", "rad/s", number<&Snapshot::velocity>, format<&DesignInfo::velocity>},
-    {"tau_hat", "Nm", number<&Snapshot::tau_hat>, format<&DesignInfo::torque>},
-    {"tau_ref", "Nm", number<&Snapshot::tau_ref>, format<&DesignInfo::torque>},
-    {"current_ref", "A", number<&Snapshot::current_ref>, format<&DesignInfo::current>},
-    {"voltage", "V", number<&Snapshot::voltage>, format<&DesignInfo::voltage>},
-    {"duty", "clocks", number<&Snapshot::duty>, fixed<1, 15>},
-    {"current", "of full scale", number<&Snapshot::current>, fixed<1, 1, 17>},
-    {"scene", "", number<&Snapshot::scene>, fixed<0, 4>},
-    {"limits", "", number<&Snapshot::limits>, fixed<0, 12>},
-    {"faults", "", number<&Snapshot::faults>, fixed<0, 16>},
-    {"first_fault", "", number<&Snapshot::first_fault>, fixed<0, 5>},
-    {"armed", "", number<&Snapshot::armed>, fixed<0, 1>},
+    {"tick", "", number<&Snapshot::tick>, fixed<0>},
+    {"position", "counts", number<&Snapshot::position>, fixed<0>},
+    {"velocity", "rad/s", number<&Snapshot::velocity>, fraction<&DesignInfo::velocity>},
+    {"tau_hat", "Nm", number<&Snapshot::tau_hat>, fraction<&DesignInfo::torque>},
+    {"tau_ref", "Nm", number<&Snapshot::tau_ref>, fraction<&DesignInfo::torque>},
+    {"current_ref", "A", number<&Snapshot::current_ref>, fraction<&DesignInfo::current>},
+    {"voltage", "V", number<&Snapshot::voltage>, fraction<&DesignInfo::voltage>},
+    {"duty", "clocks", number<&Snapshot::duty>, fixed<0>},
+    {"current", "of full scale", number<&Snapshot::current>, fixed<17>},
+    {"scene", "", number<&Snapshot::scene>, fixed<0>},
+    {"limits", "", number<&Snapshot::limits>, fixed<0>},
+    {"faults", "", number<&Snapshot::faults>, fixed<0>},
+    {"first_fault", "", number<&Snapshot::first_fault>, fixed<0>},
+    {"armed", "", number<&Snapshot::armed>, fixed<0>},
 }};
 
 LiveLoop::LiveLoop(const std::string& design, const plant::Parameters& plant)
@@ -97,8 +97,6 @@ void LiveLoop::select(const std::string& scene) {
 
 void LiveLoop::set(const std::string& parameter, double value) {
   core_.set_parameter(parameter, value);
-  motor_.note(parameter, value);
-  if (parameter == WarmMotor::limit) limit_nm_ = value;
 }
 
 void LiveLoop::run_law(std::unique_ptr<SceneLaw> law) {
@@ -220,12 +218,6 @@ void LiveLoop::host(const Snapshot& s) {
 
 void LiveLoop::tick(const Snapshot& s) {
   last_ = s;
-  const std::size_t place = static_cast<std::size_t>(ticks_) % most_ticks_kept;
-  if (place == kept_.size()) {
-    kept_.push_back(s);
-  } else {
-    kept_[place] = s;
-  }
   motor_.pass(s.voltage, s.velocity);
   if (s.faults != 0 && armed_) arm(false);  // as a panel does: nothing arms again by itself
   if (host_ticks_ > 1 && scene_ == "wall" && ticks_ % host_ticks_ == 0) host(s);
@@ -238,71 +230,28 @@ void LiveLoop::tick(const Snapshot& s) {
                       core_.velocity_rad_s(s), float_nm, s.position * design().count_rad});
 }
 
-std::vector<Snapshot> LiveLoop::last_ticks() const {
-  const std::size_t oldest =
-      kept_.size() < most_ticks_kept ? 0 : static_cast<std::size_t>(ticks_) % most_ticks_kept;
-  std::vector<Snapshot> list(kept_.begin() + static_cast<std::ptrdiff_t>(oldest), kept_.end());
-  list.insert(list.end(), kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(oldest));
-  return list;
-}
-
-std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant) {
-  constexpr int frames = 90, in = 40, out = 70;  // of 1/60 s; there, and off again
-  LiveLoop loop(design, plant);
-  loop.select("wall");
-  loop.arm(true);
-  loop.hold(Grip::strong);
-  std::vector<ScriptRow> rows;
-  for (int frame = 0; frame < frames; ++frame) {
-    const double way = frame < in    ? frame / static_cast<double>(in)
-                       : frame < out ? 1.0
-                                     : 1.0 - (frame - out) / 20.0;
-    loop.lead(0.8 * way);
-    loop.advance(loop.design().tick_hz / 60, 200);
-    rows.push_back({loop.observables().theta_rad, loop.samples().back().torque_nm});
-  }
-  return rows;
-}
-
-void replay(const std::string& design, const Recording& inputs,
-            const std::function<void(const Backend&)>& each, Clock most) {
-  const auto backend = make_backend(design, "twin");
-  backend->reset(1, inputs.pins);
-  backend->keep_gate_times(false);
-  std::size_t edge = 0, write = 0, count = 0;
-  while (backend->now() < inputs.clocks) {
-    const Clock now = backend->now();
+std::uint64_t hash_of(const std::string& design, const RunInputs& inputs) {
+  Fnv1a hash;
+  const auto twin = make_backend(design, "twin");
+  twin->reset(1, inputs.pins);
+  twin->keep_gate_times(false);
+  std::size_t edge = 0, write = 0;
+  while (twin->now() < inputs.clocks) {
+    const Clock now = twin->now();
     while (write < inputs.writes.size() && inputs.writes[write].clock <= now) {
-      backend->write(inputs.writes[write].address, inputs.writes[write].data);
+      twin->write(inputs.writes[write].address, inputs.writes[write].data);
       ++write;
     }
-    while (count < inputs.counts.size() && inputs.counts[count].clock <= now) {
-      const double middle = static_cast<double>(inputs.counts[count].count) + 0.5;
-      const double rad = middle * backend->design().count_rad;
-      backend->turn_encoder(rad, rad, inputs.clocks - now);
-      ++count;
-    }
-    Clock until = std::min(inputs.clocks, now + most);
+    Clock until = std::min(inputs.clocks, now + twin->design().pwm_period);
     if (write < inputs.writes.size()) until = std::min(until, inputs.writes[write].clock);
-    if (count < inputs.counts.size()) until = std::min(until, inputs.counts[count].clock);
     std::size_t last = edge;
     while (last < inputs.edges.size() && inputs.edges[last].clock < until) ++last;
-    backend->advance(until - now, inputs.edges.data() + edge, inputs.edges.data() + last);
+    twin->advance(until - now, inputs.edges.data() + edge, inputs.edges.data() + last);
     edge = last;
-    each(*backend);
-  }
-}
-
-std::uint64_t hash_of(const std::string& design, const Recording& inputs) {
-  Fnv1a hash;
-  const auto note = [&](const Backend& twin) {
-    for (const Snapshot& s : twin.snapshots()) {
+    for (const Snapshot& s : twin->snapshots()) {
       for (const Word& word : snapshot_words) hash.add(word.value(s));
     }
-    if (twin.design().phases != 3) return;
-    for (std::size_t leg = 0; leg < 3; ++leg) hash.add(twin.on_time(leg));
-  };
-  replay(design, inputs, note, design_named(design).pwm_period);
+  }
   return hash.value();
 }
 

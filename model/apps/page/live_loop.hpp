@@ -10,14 +10,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "apps/page/recorded_inputs.hpp"
 #include "feltgate/design_info.hpp"
 #include "sim/loop/ensemble.hpp"
+#include "sim/loop/loop.hpp"
 #include "sim/loop/scene_law.hpp"
 #include "sim/loop/step_plan.hpp"
 #include "sim/plant/plant.hpp"
@@ -30,24 +29,15 @@ namespace feltgate::page {
 class WarmMotor {
  public:
   /// `torque_constant_nm_a` is the plant's. At power-up the motor counts as half warm.
-  WarmMotor(const DesignInfo& design, double torque_constant_nm_a)
-      : torque_constant_nm_a_(std::min(torque_constant_nm_a, design.torque_constant_nm_a)),
-        voltage_step_v_(std::ldexp(1.0, -design.voltage.fraction)),
-        velocity_step_rad_s_(std::ldexp(1.0, -design.velocity.fraction)) {
-    for (const char* name : {nominal, budget, limit, per_volt, per_speed}) {
-      note(name, design.find(name)->si);
-    }
-    heat_a2_ = budget_a2_ / 2;
-  }
+  WarmMotor(const DesignInfo& d, double torque_constant_nm_a)
+      : torque_constant_nm_a_(std::min(torque_constant_nm_a, d.torque_constant_nm_a)),
+        nominal_a2_(d.find("nominal_current_squared")->si),
+        budget_a2_(d.find("i2t_budget")->si),
+        most_nm_(d.find(limit)->si),
+        a_per_v_(std::ldexp(d.find("inverse_resistance")->si, -d.voltage.fraction)),
+        a_s_per_rad_(std::ldexp(d.find("emf_over_resistance")->si, -d.velocity.fraction)),
+        heat_a2_(budget_a2_ / 2) {}
 
-  /// Notes a parameter that the caller writes, in its unit.
-  void note(const std::string& parameter, double value) {
-    if (parameter == nominal) nominal_a2_ = value;
-    if (parameter == budget) budget_a2_ = value;
-    if (parameter == limit) most_nm_ = value;
-    if (parameter == per_volt) a_per_v_ = value * voltage_step_v_;
-    if (parameter == per_speed) a_s_per_rad_ = value * velocity_step_rad_s_;
-  }
   /// Counts a tick with these words of the snapshot.
   void pass(std::int64_t voltage, std::int64_t velocity) {
     const double current_a =
@@ -67,14 +57,8 @@ class WarmMotor {
   static constexpr const char* limit = "torque_limit";
 
  private:
-  static constexpr const char* nominal = "nominal_current_squared";
-  static constexpr const char* budget = "i2t_budget";
-  static constexpr const char* per_volt = "inverse_resistance";
-  static constexpr const char* per_speed = "emf_over_resistance";
-
-  double torque_constant_nm_a_, voltage_step_v_, velocity_step_rad_s_;
-  double nominal_a2_ = 0, budget_a2_ = 0, most_nm_ = 0, a_per_v_ = 0, a_s_per_rad_ = 0;
-  double heat_a2_ = 0;  ///< summed over the ticks
+  double torque_constant_nm_a_, nominal_a2_, budget_a2_, most_nm_, a_per_v_, a_s_per_rad_;
+  double heat_a2_;  ///< summed over the ticks
 };
 
 /// A fault of the wiring between core and plant.
@@ -100,17 +84,16 @@ struct Sample {
 
 constexpr std::size_t sample_values = 10;  ///< numbers of a Sample
 
-/// A word of the snapshot: its number, and the format that gives it its unit.
+/// A word of the snapshot: its number, and how many of its bits are behind the point of its unit.
 struct Word {
   const char* name;
   const char* unit;
   std::int64_t (*value)(const Snapshot&);
-  Format (*format)(const DesignInfo&);
+  int (*fraction)(const DesignInfo&);
 };
 
 /// Every word of a snapshot, in the order of the struct.
 extern const std::array<Word, 14> snapshot_words;
-constexpr std::size_t most_ticks_kept = 1000;
 
 class LiveLoop {
  public:
@@ -149,9 +132,6 @@ class LiveLoop {
   const std::vector<Sample>& samples() const { return samples_; }
   /// The snapshot of the last tick.
   const Snapshot& snapshot() const { return last_; }
-  /// The snapshots of the last most_ticks_kept ticks, or of all where there were fewer; oldest
-  /// first.
-  std::vector<Snapshot> last_ticks() const;
   /// The hand's target of the lever's angle at the end of the last advance().
   double hand_rad() const { return held() ? hand_rad_ : plant_.observables().theta_rad; }
   const plant::Observables& observables() const { return plant_.observables(); }
@@ -192,26 +172,11 @@ class LiveLoop {
   std::int64_t ticks_ = 0;
   int every_ = 1;
   Snapshot last_;
-  std::vector<Snapshot> kept_;  ///< a ring; tick n since the start is at n % most_ticks_kept
   std::vector<Sample> samples_;
 };
 
-/// Angle of the lever and torque of the motor after a frame.
-struct ScriptRow {
-  double theta_rad = 0, torque_nm = 0;
-};
-
-/// Runs a fixed motion, to compare native program and page: a hand moves into the wall, stays and
-/// returns, frame by frame.
-std::vector<ScriptRow> follow_script(const std::string& design, const plant::Parameters& plant);
-
-/// Runs a design's twin with recorded inputs, by at most `most` clocks at once, and calls `each`
-/// after each of these stretches.
-void replay(const std::string& design, const Recording& inputs,
-            const std::function<void(const Backend&)>& each, Clock most);
-
-/// Hash (64-bit FNV-1a) over the words of all snapshots of a design's twin with these inputs, and
-/// the on-times of three legs. Equal bits give an equal hash on any machine.
-std::uint64_t hash_of(const std::string& design, const Recording& inputs);
+/// Hash (64-bit FNV-1a) over the words of all snapshots of a design's twin with recorded inputs.
+/// Equal bits give an equal hash on any machine.
+std::uint64_t hash_of(const std::string& design, const RunInputs& inputs);
 
 }  // namespace feltgate::page

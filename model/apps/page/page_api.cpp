@@ -2,17 +2,16 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The functions that the page in the browser calls: the loop, the hash over recorded inputs, the
-// stability border by eigenvalues, and a user's own design file. Only Emscripten compiles it.
-// Documentation: docs/page.md
+// stability border by eigenvalues. Only Emscripten compiles it. Documentation: docs/page.md
 #include <emscripten/bind.h>
 
 #include <memory>
 
 #include "apps/page/api.hpp"
 #include "apps/page/live_loop.hpp"
-#include "apps/page/own_design.hpp"
 #include "apps/page/recorded_inputs.hpp"
 #include "apps/page/user_law.hpp"
+#include "design/design.hpp"
 #include "feltgate/reading.hpp"
 #include "law/engine/machine.hpp"
 #include "sim/plant/plant_file.hpp"
@@ -22,8 +21,8 @@ namespace {
 
 using namespace feltgate::page;
 using feltgate::design_named;
+namespace design = feltgate::design;
 
-const char* registers = "/rtl/registers.toml";
 constexpr int law_runs = 5000;  ///< beside the law in double
 std::string plant_path(const std::string& name) { return "/plants/" + name + ".toml"; }
 
@@ -74,24 +73,13 @@ class Loop {
   }
   /// The samples of the last advance() as one array of doubles; valid until the next call.
   val samples() const { return view_of<sample_values>(loop_.samples()); }
-  /// Names, units and formats of the words of a snapshot.
+  /// The words of the snapshot of the last tick.
   val words() const {
     return array_of(snapshot_words, [&](const Word& word) {
-      const feltgate::Format format = word.format(loop_.design());
-      return object("name", std::string(word.name), "unit", std::string(word.unit), "bits",
-                    format.width(), "fraction", format.fraction);
+      return object("name", std::string(word.name), "unit", std::string(word.unit), "fraction",
+                    word.fraction(loop_.design()), "value",
+                    static_cast<double>(word.value(loop_.snapshot())));
     });
-  }
-  /// The words of the last ticks as one array of doubles, oldest tick first; valid until the next
-  /// call.
-  val last_ticks() {
-    words_.clear();
-    for (const feltgate::Snapshot& s : loop_.last_ticks()) {
-      for (const Word& word : snapshot_words) {
-        words_.push_back(static_cast<double>(word.value(s)));
-      }
-    }
-    return view_of<1>(words_);
   }
   val status() const {
     const feltgate::Snapshot& s = loop_.snapshot();
@@ -118,7 +106,6 @@ class Loop {
  private:
   LiveLoop loop_;
   std::unique_ptr<UserLaw> law_;
-  std::vector<double> words_;
 };
 
 /// What is wrong with a law, by line; or the table of `feltgate law`.
@@ -137,16 +124,12 @@ val check_law(const std::string& design, const std::string& text) {
 }
 
 /// The designs that drive a lever's motor, with brushes.
-std::vector<std::string> lever_designs() {
-  std::vector<std::string> names;
+val design_names() {
+  val names = val::array();
   for (const std::string& name : feltgate::design_names()) {
-    if (design_named(name).phases != 3) names.push_back(name);
+    if (design_named(name).phases != 3) names.call<void>("push", name);
   }
   return names;
-}
-
-val design_names() {
-  return array_of(lever_designs(), [](const std::string& name) { return name; });
 }
 
 /// Hash of a design's twin over inputs in the text form of recorded_inputs.hpp; "error: ..." else.
@@ -156,38 +139,18 @@ std::string hash(const std::string& design, const std::string& inputs) {
   return error.empty() ? out : "error: " + error;
 }
 
-/// The closed loop of follow_script() as it goes here.
-val closed_loop(const std::string& design) {
-  const auto plant = feltgate::plant::read_plant_file(plant_path("p24"));
-  return array_of(follow_script(design, plant), [](const ScriptRow& row) {
-    return array_of({row.theta_rad, row.torque_nm});
-  });
-}
-
 /// Largest stable stiffness of the wall at this damping and rate, by eigenvalues, and the frequency
-/// of the swing there; of a design of this page or the text of a file of one.
-val border(const std::string& design, const std::string& own_text, const std::string& plant,
-           double damping_nm_s_rad, int scene_ticks) {
+/// of the swing there.
+val border(const std::string& name, const std::string& plant, double damping_nm_s_rad,
+           int scene_ticks) {
   val out = val::object();
   out.set("error", said([&] {
-            const auto e = elaborated(own_text, "/designs/" + design + ".toml", registers);
+            const auto e = design::elaborate(design::read_design("/designs/" + name + ".toml"),
+                                             design::read_registers("/rtl/registers.toml"));
             const auto model = feltgate::stability::make_model(
                 e, feltgate::plant::read_plant_file(plant_path(plant)));
             const auto b = feltgate::stability::border(model, damping_nm_s_rad, scene_ticks);
             add_to(out, "stiffness_nm_rad", b.stiffness_nm_rad, "rad_s", b.rad_s);
-          }));
-  return out;
-}
-
-/// A user's design file: on which design of this page it runs, and the values of its parameters.
-val design_of(const std::string& text) {
-  val out = val::object();
-  out.set("error", said([&] {
-            const OwnDesign own = own_design(text, lever_designs(), "/designs/", registers);
-            const auto of = [](const auto& value) {
-              return object("name", value.first, "value", value.second);
-            };
-            add_to(out, "base", own.base, "values", array_of(own.values, of));
           }));
   return out;
 }
@@ -213,14 +176,11 @@ EMSCRIPTEN_BINDINGS(feltgate) {
       .function("advance", &Loop::advance)
       .function("samples", &Loop::samples)
       .function("words", &Loop::words)
-      .function("lastTicks", &Loop::last_ticks)
       .function("status", &Loop::status)
       .function("parameters", &Loop::parameters)
       .function("design", &Loop::design);
   emscripten::function("designNames", &design_names);
   emscripten::function("checkLaw", &check_law);
   emscripten::function("hash", &hash);
-  emscripten::function("closedLoop", &closed_loop);
   emscripten::function("border", &border);
-  emscripten::function("ownDesign", &design_of);
 }

@@ -95,7 +95,6 @@ val levers_state(const CoupledLoop& l) {
                l.second_is_held ? l.hand().y : l.hand().x, "met", l.met_nm);
 }
 
-PenLoop* new_pen(const std::string& image) { return new PenLoop(image); }
 /// Places of pen and hand, m; force on the pen, N; counts of the joints.
 val pen_state(const PenLoop& l) {
   return state(l, "x", l.at().x, "y", l.at().y, "hand_x", l.hand().x, "hand_y", l.hand().y,
@@ -123,16 +122,8 @@ touch::Soup soup_of(const std::string& name, const std::string& bytes) {
   return touch::read_glb(name);
 }
 
-/// stroke_hash() of such a mesh, its largest side `size_m`; "error: ..." where there is none.
-std::string planes_hash(const std::string& name, const std::string& bytes, double size_m) {
-  std::string out;
-  const std::string error = said([&] {
-    touch::Soup soup = soup_of(name, bytes);
-    if (!name.empty()) touch::place(soup, {size_m, {}});
-    out = hex(touch::stroke_hash(touch::clean(soup)));
-  });
-  return error.empty() ? out : "error: " + error;
-}
+/// stroke_hash() of the knob.
+std::string planes_hash() { return hex(touch::stroke_hash(touch::clean(knob_mesh()))); }
 
 /// A stylus that feels a world, or a mesh.
 struct FeltLoop : StylusLoop {
@@ -241,7 +232,7 @@ val stylus_state(const FeltLoop& l) {
                of_plane(plane.has_value(), &Plane::point_m), "normal",
                of_plane(plane.has_value(), &Plane::normal), "tilt", l.tilt_rad(), "second_point",
                of_plane(edge, &Plane::second_point_m), "second", of_plane(edge, &Plane::second),
-               "age", l.age_s(), "hollow", l.steady_hollow_m());
+               "age", l.age_s());
 }
 
 /// The knob on a motor of three phases.
@@ -296,7 +287,7 @@ EMSCRIPTEN_BINDINGS(feltgate_tabs) {
       .function("lead", &lead_lever)
       .function("state", &levers_state);
   device<PenLoop>("Pen")
-      .constructor(&new_pen, allow_raw_pointers())
+      .constructor<std::string>()
       .function(
           "load",
           +[](PenLoop& l, const std::string& image) { return said([&] { l.load(image); }); })

@@ -181,7 +181,7 @@ class AxesRun : plant::AxesDevice<Plant> {
   }
 
   // AxesDevice: called by the loop.
-  plant::AxesCommand<axes> act(const plant::AxesSense<Plant>& sense) override {
+  std::array<plant::Bridge, axes> act(const plant::AxesSense<Plant>& sense) override {
     for (std::size_t n = 0; n < axes; ++n) {
       for (EncoderEvent e : sense.events[n]) {
         e.clock += homed_;
@@ -189,12 +189,12 @@ class AxesRun : plant::AxesDevice<Plant> {
       }
     }
     advance_to(sense.now);
-    plant::AxesCommand<axes> command;
+    std::array<plant::Bridge, axes> bridges;
     for (std::size_t n = 0; n < axes; ++n) {
-      command.bridges[n] = plant::Bridge::averaged(
-          cores_.duty(n) / static_cast<double>(design_.pwm_period), cores_.gates_enabled(n));
+      bridges[n] = plant::Bridge::averaged(cores_.duty(n) / static_cast<double>(design_.pwm_period),
+                                           cores_.gates_enabled(n));
     }
-    return command;
+    return bridges;
   }
   Clock next(Clock now) const override {
     const Clock since = (now + most_clocks - duty_clocks) % most_clocks;

@@ -91,14 +91,6 @@ inline std::vector<std::int64_t> sinc3_response(int decimation) {
   return response;
 }
 
-/// What a run has had.
-struct Tally {
-  std::int64_t results = 0, aligned = 0, restarts = 0, ignored = 0, on_time = 0;
-  std::int64_t latched = 0, cleared = 0, refused = 0, missed_by_one = 0;
-  std::int64_t offsets = 0, offset_faults = 0, negative = 0, cut_short = 0;
-  std::int64_t stuck = 0, saturated_high = 0, saturated_low = 0, armed_results = 0;
-};
-
 /// Streams of all kinds, each for a while. The bit is right in the one clock in which it must be
 /// taken, and anything in the others.
 struct RandomStreams {
@@ -174,12 +166,10 @@ struct RandomStreams {
 /// The block from the list of all bits. It sees the ports of the RTL alone.
 class Reference {
  public:
-  explicit Reference(Tally* tally) : tally_(tally) {}
-
   const char* operator()(const CurrentSense::In& in, const Vcurrent_sense& rtl, const CurrentSense&,
                          bool in_reset) {
     if (in_reset) {
-      *this = Reference(tally_);
+      *this = Reference{};
       return nullptr;
     }
     const char* broken = nullptr;
@@ -221,15 +211,8 @@ class Reference {
     bool now = strobe_;
     strobe_ = false;
     if (now && (n - begin_) % kM != 0) {
-      if (n - begin_ >= 3 * kM) {
-        begin_ = n;
-        ++tally_->restarts;
-      } else {
-        now = false;
-        ++tally_->ignored;
-      }
-    } else if (now) {
-      ++tally_->on_time;
+      now = n - begin_ >= 3 * kM;
+      if (now) begin_ = n;
     }
     if (now) strobes_.push_back(n);
     if ((n - begin_) % kM == 0 && n - begin_ >= 3 * kM) {
@@ -260,11 +243,6 @@ class Reference {
       expect(current == due_value_ - offset_, "the current is the convolution without the offset");
       const std::int64_t end = kSense.full_scale() - kM * kM;
       saturated_ = due_value_ >= end || due_value_ <= -end;
-      ++tally_->results;
-      tally_->aligned += due_aligned_;
-      tally_->armed_results += in.armed;
-      tally_->saturated_high += due_value_ >= end;
-      tally_->saturated_low += due_value_ <= -end;
     }
     expect((rtl.saturated_o != 0) == saturated_, "saturated is the last result");
     average(in.armed, result);
@@ -275,14 +253,11 @@ class Reference {
     const std::int64_t newest = clock_ < 2 ? 0 : (clock_ - 2) / kSense.divider;  // that is added
     const bool stuck = newest - last_change_ >= kSense.stuck_clocks;
     expect((rtl.stuck_o != 0) == stuck, "stuck without a transition");
-    tally_->stuck += stuck && !was_stuck_;
-    was_stuck_ = stuck;
     return broken;
   }
 
   void average(bool armed, bool result) {
     if (armed) {
-      tally_->cut_short += values_.size() > 1;
       values_.clear();
     } else if (result) {
       values_.push_back(due_value_);
@@ -297,31 +272,22 @@ class Reference {
         if (!offset_fault_) {
           offset_ = mean;
           calibrated_ = true;
-          tally_->negative += mean < 0;
         }
-        ++(offset_fault_ ? tally_->offset_faults : tally_->offsets);
       }
     }
   }
 
   void fast(const CurrentSense::In& in, bool result) {
     const bool hit = result && std::abs(fast_value_) >= in.threshold;
-    if (result) {
-      if (!hit) tally_->missed_by_one += in_a_row_ == kSense.hits - 1 && kSense.hits > 1;
-      in_a_row_ = hit ? in_a_row_ + 1 : 0;
-    }
+    if (result) in_a_row_ = hit ? in_a_row_ + 1 : 0;
     if (hit && in_a_row_ >= kSense.hits) {
-      tally_->latched += !overcurrent_;
       overcurrent_ = true;
     } else if (in.clear && overcurrent_) {
-      const bool below = !hit && !was_hit_;
-      ++(below ? tally_->cleared : tally_->refused);
-      overcurrent_ = !below;
+      overcurrent_ = hit || was_hit_;
     }
     if (result) was_hit_ = hit;
   }
 
-  Tally* tally_;
   std::vector<bool> bits_{false};  // the first that is added after a reset has no edge of its own
   std::int64_t clock_ = 0, since_rise_ = 0, begin_ = -1, last_change_ = -1;
   std::int64_t due_ = -1, due_value_ = 0, fast_due_ = -1, fast_value_ = 0, offset_ = 0;
@@ -329,7 +295,6 @@ class Reference {
   int in_a_row_ = 0;
   bool was_high_ = false, strobe_ = false, due_aligned_ = false, saturated_ = false;
   bool calibrated_ = false, offset_fault_ = false, overcurrent_ = false, was_hit_ = false;
-  bool was_stuck_ = false;
 };
 
 }  // namespace feltgate::test

@@ -118,15 +118,8 @@ struct RandomCases {
   }
 };
 
-/// By sign of x: [0] negative, [1] not.
-struct Tally {
-  std::int64_t over_limit[2] = {}, within[2] = {}, at_limit[2] = {}, wide[2] = {}, negative[2] = {},
-               compared[2] = {}, misfit[2] = {};
-};
-
 /// The plain program.
 struct Plain {
-  Tally* tally;
   Twin::In before[2] = {};
   int filled = 0;
 
@@ -148,12 +141,6 @@ struct Plain {
     const bool over_limit = misfit || size > limit;
     const std::int64_t most = misfit ? 0 : std::max<std::int64_t>(limit, 0);
     const std::int64_t limited = !valid ? 0 : std::clamp(x, -most, most);
-    const int sign = x >= 0;
-    ++(limit < 0 ? tally->negative : over_limit ? tally->over_limit : tally->within)[sign];
-    if (size == limit) ++tally->at_limit[sign];
-    if (size > kMaxLimit) ++tally->wide[sign];
-    ++tally->compared[valid];
-    tally->misfit[sign] += misfit;
     if (sign_extend<kSum>(rtl.limited_o) != limited + in.addend)
       return "limited of the plain program";
     if ((rtl.over_limit_o != 0) != over_limit) return "beyond of the plain program";
@@ -164,22 +151,8 @@ struct Plain {
 }  // namespace
 
 TEST_CASE("limiter: random x and limits, both ways in, with and without valid") {
-  Tally t;
-  const std::int64_t clocks = scaled_clocks(1000000);
   Bench bench("limiter", 1);
-  bench.run(Pipeline<RandomCases>{{Random(2)}}, clocks, {1000}, Plain{&t});
-  for (const int sign : {0, 1}) {
-    INFO("sign " << sign << ": beyond " << t.over_limit[sign] << ", within " << t.within[sign]
-                 << ", at the limit " << t.at_limit[sign] << ", wide " << t.wide[sign]
-                 << ", limit negative " << t.negative[sign]);
-    REQUIRE(t.over_limit[sign] * 20 > clocks);
-    REQUIRE(t.within[sign] * 20 > clocks);
-    REQUIRE(t.at_limit[sign] * 100 > clocks);
-    REQUIRE(t.wide[sign] * 100 > clocks);
-    REQUIRE(t.negative[sign] * 100 > clocks);
-    REQUIRE(t.compared[sign] * 10 > clocks);
-    REQUIRE(t.misfit[sign] * 1000 > clocks);
-  }
+  bench.run(Pipeline<RandomCases>{{Random(2)}}, scaled_clocks(1000000), {1000}, Plain{});
 }
 
 TEST_CASE("limiter: every pair of corners, each way in, back to back") {
@@ -209,11 +182,8 @@ TEST_CASE("limiter: every pair of corners, each way in, back to back") {
     std::size_t k = 0;
     Case operator()() { return (*cases)[k++ % cases->size()]; }
   };
-  Tally t;
   Bench bench("limiter", 3);
-  bench.run(Pipeline<Listed>{{&cases}}, static_cast<std::int64_t>(cases.size()) + 10, {},
-            Plain{&t});
-  REQUIRE(t.compared[1] >= static_cast<std::int64_t>(cases.size()));
+  bench.run(Pipeline<Listed>{{&cases}}, static_cast<std::int64_t>(cases.size()) + 10, {}, Plain{});
 }
 
 TEST_CASE("limiter: the law takes the largest limit of a format, and the next one for none") {

@@ -93,22 +93,14 @@ int periods_of(int on) {
   return clocks > 0 && clocks < kShortest ? (kShortest + clocks - 1) / clocks : 1;
 }
 
-struct Totals {
-  std::int64_t turn_ons = 0, disables = 0, whole_pulses = 0, all_on = 0;
-};
-
 /// Checks the gates of the RTL only, clock by clock.
 class BridgeGuard {
  public:
-  explicit BridgeGuard(Totals* totals) : totals_(totals) {}
-
   const char* operator()(const PwmThreePhase::In& in, const Vpwm_three_phase& rtl,
                          const PwmThreePhase&, bool in_reset) {
     const unsigned on = gates_of(rtl);
     ++clock_;
     if (in_reset || !in.enable) last_disabled_ = clock_;
-    totals_->disables += was_enabled_ && !in.enable;
-    was_enabled_ = in.enable && !in_reset;
     const bool cuts = in_reset || !in.enable || in.clear;
     if (cuts && on != 0) return "no gate is on in a reset, disabled or cleared";
     for (int leg = 0; leg < kGates / 2; ++leg) {
@@ -119,7 +111,6 @@ class BridgeGuard {
       if ((on >> gate & 1) != 0) {
         if ((on >> (gate ^ 1) & 1) != 0) return "never both gates of a leg";
         if (on_[gate]++ == 0) {
-          ++totals_->turn_ons;
           ++pulses;
           if (clock_ - last_on_[gate ^ 1] <= kDead) return "dead time between two gates";
           if (clock_ - last_disabled_ < kDead) return "dead time after enable";
@@ -130,20 +121,16 @@ class BridgeGuard {
       // The first pulse of a leg after its gates open began with them and not with the carrier.
       if (on_[gate] > 0 && !cuts && pulses > 1) {
         if (on_[gate] < kShortest) return "no pulse is too short";
-        ++totals_->whole_pulses;
       }
       on_[gate] = 0;
     }
-    totals_->all_on += on == 0b010101;
     return nullptr;
   }
 
  private:
-  Totals* totals_;
   std::int64_t clock_ = 0, last_disabled_ = 0;
   std::int64_t last_on_[kGates] = {-1000, -1000, -1000, -1000, -1000, -1000};
   int on_[kGates] = {}, pulses_[kGates / 2] = {};
-  bool was_enabled_ = false;
 };
 
 }  // namespace
@@ -224,14 +211,9 @@ TEST_CASE("pwm_three_phase: everything at random, no shoot-through, dead time ke
   };
   std::uint64_t seed = 20;
   for (const int calm : {2 * kDead, 3 * kPeriod, 40 * kPeriod}) {
-    Totals totals;
     Bench bench("pwm_three_phase", ++seed, PwmThreePhase(kPeriod, kDead, kShortest));
     bench.run(Chaos{Random(seed), {}, static_cast<std::uint32_t>(calm)}, scaled_clocks(2'000'000),
-              ResetPlan{20'000}, BridgeGuard(&totals));
-    CHECK(totals.turn_ons > 2000);
-    CHECK(totals.disables > 15);
-    if (calm > kPeriod) CHECK(totals.whole_pulses > 500);
-    CHECK(totals.all_on > 100);
+              ResetPlan{20'000}, BridgeGuard{});
   }
 }
 

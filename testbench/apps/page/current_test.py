@@ -33,13 +33,6 @@ class Current(unittest.TestCase):
         self.assertNotRegex(text, r'(?:src|href)="https?:', "needs a network")
         self.assertNotIn("/*{", text, "a part was not filled in")
 
-    def test_a_change_is_seen(self):
-        script, wasm = b"script", b"wasm"
-        whole = page.assembled(ROOT, self.numbers, script, wasm)
-        self.assertEqual(page.STAMP.search(whole)[1], page.stamp_of(ROOT))
-        self.assertEqual(page.unpacked(whole, "engine"), script)
-        self.assertEqual(page.unpacked(whole, "wasm"), wasm)
-
     def test_unknown_design(self):
         with self.assertRaisesRegex(page.PageError, "rtl/designs"):
             page.checked_designs(ROOT, ["nothing"])

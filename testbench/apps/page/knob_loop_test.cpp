@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The page's knob: its core has the words and the on-times of the twin's in the scene knob_detents;
-// recorded inputs repeat that run; torque, detents and wrong offsets by closed forms.
-// Documentation: docs/page.md
+// The page's knob: its core has the words and the on-times of the twin's; torque, detents and wrong
+// offsets by closed forms. Documentation: docs/page.md
 #include "apps/page/knob_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "apps/page/live_loop.hpp"
-#include "apps/page/recorded_inputs.hpp"
 #include "catch.hpp"
-#include "sim/loop/scenario.hpp"
+#include "sim/loop/ensemble.hpp"
 #include "sim/plant/plant_file.hpp"
 
 namespace feltgate::page {
@@ -21,31 +19,6 @@ const std::string vectors = std::string(FELTGATE_ROOT) + "/vectors/";
 constexpr double turn_rad = 6.283185307179586;
 
 plant::Parameters motor() { return plant::read_plant_file(vectors + "plants/gimbal_motor.toml"); }
-
-/// Keeps what a run of the twin gives, tick by tick, and lets the knob's core follow it.
-struct Beside : Passenger {
-  void set_parameter(int address, double value) override {
-    for (int i = 0; i < core.design().parameter_count; ++i) {
-      const ParameterInfo& p = core.design().parameters[i];
-      if (p.address == address) core.set(p.name, value);
-    }
-  }
-  void tick(const Snapshot& s) override {
-    snapshots.push_back(s);
-    core.arm(s.armed);
-    core.tick(s.position);
-    const ChainRaw& r = core.raw();
-    if (r.velocity != s.velocity || r.tau_hat != s.tau_hat || r.tau_ref != s.tau_ref ||
-        r.current_ref != s.current_ref || r.voltage != s.voltage || r.duty != s.duty) {
-      ++differences;
-    }
-    on.push_back(core.on_clocks());
-  }
-  KnobCore core;
-  std::vector<Snapshot> snapshots;
-  std::vector<std::array<std::int16_t, 3>> on;
-  int differences = 0;
-};
 
 /// The hand turns the knob of the loop, and waits.
 void turn(KnobLoop& loop, double to_rad, double seconds) {
@@ -61,59 +34,49 @@ void turn(KnobLoop& loop, double to_rad, double seconds) {
 
 }  // namespace
 
-TEST_CASE(
-    "page: the knob's core has the twin's words and on-times, and recorded inputs repeat it") {
-  Scenario scene = read_scenario(vectors + "scenes/knob_detents.toml");
-  scene.duration_s = 0.45;  // over the first crest
-  scene.expectations.clear();
-  const plant::Parameters plant = motor();
-  resolve_effects(scene, plant.effects);
-  Beside beside;
-  Recording inputs;
-  CountRecorder recorder(14, &inputs);
-  RunOptions options;
-  options.design = KnobCore::design_name;
-  options.engine = "twin";
-  options.inputs = &inputs;
-  options.passenger = &beside;
-  options.plant_step = [&](Clock clocks, const plant::Observables& o) {
-    recorder.turned(o.theta_rad, clocks);
+TEST_CASE("page: the knob's core has the twin's words and on-times") {
+  Ensemble twin(KnobCore::design_name, BackendChoice{"twin", {}, false}, 1, {}, Waveform{});
+  twin.skip_self_test();
+  KnobCore core;
+  const DesignInfo& d = core.design();
+  const auto set = [&](const char* parameter, double value) {
+    twin.set_parameter(parameter, value);
+    core.set(parameter, value);
   };
-  run_scenario(scene, plant, options);
-  inputs.edges.clear();  // the core has no such pins
-  REQUIRE(beside.snapshots.size() == 450'000);
-  CHECK(beside.differences == 0);
-  CHECK(std::abs(beside.snapshots.back().duty) > 10);
-  CHECK(inputs.counts.size() > 500);
-
-  std::size_t n = 0;
-  int differ = 0, other_legs = 0, compared = 0;
-  replay(
-      KnobCore::design_name, inputs_from_text(text_of(inputs)),
-      [&](const Backend& twin) {
-        for (const Snapshot& s : twin.snapshots()) differ += s == beside.snapshots[n++] ? 0 : 1;
-        // Within a PWM period, which the last snapshot is in as well.
-        const Clock of_period = twin.now() % twin.design().pwm_period;
-        if (n == 0 || of_period < 100 || of_period > 950) return;
-        ++compared;
-        for (std::size_t leg = 0; leg < 3; ++leg) {
-          other_legs += twin.on_time(leg) == beside.on[n - 1][leg] ? 0 : 1;
-        }
-      },
-      500);
-  CHECK(n == beside.snapshots.size());
+  set("attract_strength", 816);
+  set("attract_core", 261);
+  set("attract_core_slope", 4.59e-5);
+  twin.set_control(d.scene_number("charge_attract"), 0, true);
+  int differ = 0, other_legs = 0, compared = 0, most_duty = 0;
+  const auto compare = [&](const Snapshot& s) {
+    core.arm(s.armed);
+    core.tick(s.position);
+    const ChainRaw& r = core.raw();
+    if (r.velocity != s.velocity || r.tau_hat != s.tau_hat || r.tau_ref != s.tau_ref ||
+        r.current_ref != s.current_ref || r.voltage != s.voltage || r.duty != s.duty) {
+      ++differ;
+    }
+    most_duty = std::max(most_duty, std::abs(static_cast<int>(s.duty)));
+  };
+  constexpr Clock step = 500;
+  double rad = 0;
+  for (int n = 1; n <= 30'000; ++n) {
+    const double next_rad = 0.3 * std::sin(2e-5 * M_PI * n) * std::min(1.0, 2e-4 * n);
+    twin.lead().turn_encoder(rad, next_rad, step);
+    twin.advance(step, nullptr, nullptr, compare);
+    rad = next_rad;
+    // Within a PWM period, which the last snapshot is in as well.
+    const Clock of_period = twin.lead().now() % d.pwm_period;
+    if (of_period < 100 || of_period > 950) continue;
+    ++compared;
+    for (std::size_t leg = 0; leg < 3; ++leg) {
+      other_legs += twin.lead().on_time(leg) == core.on_clocks()[leg] ? 0 : 1;
+    }
+  }
   CHECK(differ == 0);
-  CHECK(compared > 20'000);
+  CHECK(most_duty > 10);
+  CHECK(compared > 10'000);
   CHECK(other_legs == 0);
-}
-
-TEST_CASE("page: the knob's first detents are those of the scene") {
-  const Scenario scene = read_scenario(vectors + "scenes/knob_detents.toml");
-  const DesignInfo design = design_named(KnobCore::design_name);
-  const double core = scene.parameters.at("attract_core");
-  CHECK(core * design.count_rad == Approx(0.2 * 0.5).epsilon(0.005));
-  CHECK(scene.parameters.at("attract_core_slope") == Approx(0.012 / core).epsilon(0.003));
-  CHECK(scene.parameters.at("attract_strength") == Approx(0.012 * core * core).epsilon(0.003));
 }
 
 TEST_CASE("page: a knob snaps into the detent that is nearest, with the torque of the detent") {

@@ -35,12 +35,10 @@ inline std::string image_of(const std::string& law, const std::string& design = 
 /// of its own. The step goes through the hand's damper too, which throws the body.
 struct Swing {
   double a, thrown, w;
-  explicit Swing(double mass_kg, double own_ns_m = 0)
-      : Swing(mass_kg, hand.stiffness_n_m, hand.damping_ns_m, own_ns_m) {}
-  Swing(double mass, double stiffness, double damping, double own)
-      : a((damping + own) / mass / 2),
-        thrown(damping / mass),
-        w(std::sqrt(stiffness / mass - a * a)) {}
+  explicit Swing(double mass, double own = 0)
+      : a((hand.damping_ns_m + own) / mass / 2),
+        thrown(hand.damping_ns_m / mass),
+        w(std::sqrt(hand.stiffness_n_m / mass - a * a)) {}
   double left(double t) const {
     return std::exp(-a * t) * (std::cos(w * t) + (a - thrown) / w * std::sin(w * t));
   }

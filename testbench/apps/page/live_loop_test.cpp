@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The loop behind the page: a hand that is led, a host's wall, broken wires, recorded inputs, and
-// designs and laws of users. Documentation: docs/page.md
+// laws of users. Documentation: docs/page.md
 #include "apps/page/live_loop.hpp"
 
 #include <cmath>
@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "apps/page/image_law.hpp"
-#include "apps/page/own_design.hpp"
 #include "apps/page/recorded_inputs.hpp"
 #include "apps/page/user_law.hpp"
 #include "catch.hpp"
@@ -21,21 +20,16 @@ namespace feltgate::page {
 namespace {
 
 const std::string root = FELTGATE_ROOT;
-const std::string registers = root + "/rtl/registers.toml";
 
 plant::Parameters plant_named(const std::string& name) {
   return plant::read_plant_file(root + "/vectors/plants/" + name + ".toml");
 }
 
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path);
+std::string law_text(const std::string& name) {
+  std::ifstream file(root + "/rtl/laws/" + name + ".law");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
-}
-
-std::string law_text(const std::string& name) {
-  return text_of_file(root + "/rtl/laws/" + name + ".law");
 }
 
 /// A hand leads a lever to an angle within `lead_s` and stays there for `stay_s`.
@@ -87,32 +81,13 @@ TEST_CASE("a hand gives way where the motor would get too hot, and a warm motor 
     CHECK(loop.snapshot().faults == 0);
     return std::pair{loop.samples().back(), loop.torque_limit_nm()};
   };
-  const auto [gentle, whole_nm] = after(Grip::hand, 4);
+  const auto [gentle, whole_nm] = after(Grip::hand, 1.5);
   CHECK(gentle.angle_rad < 0.55);
   CHECK(gentle.torque_nm == Approx(-0.0863).margin(0.008));
   CHECK(whole_nm == Approx(0.5).margin(1e-4));
-  const auto [strong, lowered_nm] = after(Grip::strong, 4);  // the fault was after 2.8 s
+  const auto [strong, lowered_nm] = after(Grip::strong, 3);  // the fault was after 2.8 s
   CHECK(lowered_nm < 0.2);
   CHECK(std::abs(strong.torque_nm) < 0.2);
-}
-
-TEST_CASE("the last thousand ticks are kept, in order") {
-  LiveLoop loop = armed_wall();
-  const auto ticks_of = [&] {
-    std::vector<std::uint32_t> ticks;
-    for (const Snapshot& s : loop.last_ticks()) ticks.push_back(s.tick);
-    return ticks;
-  };
-  CHECK(ticks_of().empty());
-  std::size_t passed = 0;
-  for (const int more : {1, 998, 1, 1, 1, 2500}) {
-    loop.advance(more, 1);
-    passed += static_cast<std::size_t>(more);
-    const std::vector<std::uint32_t> ticks = ticks_of();
-    REQUIRE(ticks.size() == std::min<std::size_t>(passed, most_ticks_kept));
-    CHECK(loop.last_ticks().back() == loop.snapshot());
-    for (std::size_t n = 1; n < ticks.size(); ++n) REQUIRE(ticks[n] == ticks[n - 1] + 1);
-  }
 }
 
 TEST_CASE("while a hand stands still, a tick moves nothing by leaps") {
@@ -193,14 +168,6 @@ TEST_CASE("broken wires are noticed, and nothing arms again by itself") {
   SECTION("motor swapped") { check_break(Break::motor_swapped); }
 }
 
-TEST_CASE("a supply at a third gives no more than it can") {
-  LiveLoop loop = armed_wall();
-  loop.break_it(Break::supply_low);
-  lead_to(loop, 0.8, 0.6, 0.6);
-  const Sample& s = loop.samples().back();
-  CHECK(std::abs(s.torque_nm) < 0.6 * std::abs(s.tau_ref_nm));
-}
-
 TEST_CASE("recorded inputs survive as text, and every bit of them counts in the hash") {
   RunInputs inputs;
   inputs.clocks = 400'000;
@@ -229,38 +196,7 @@ TEST_CASE("recorded inputs survive as text, and every bit of them counts in the 
   CHECK(hash_of("lever", other) == hash);  // a limit that does not act
   other.writes[1].data = 3 | 6u << 2;
   CHECK(hash_of("lever", other) != hash);
-  CHECK_THROWS_WITH(inputs_from_text("c 5 0\nx"), Catch::Contains("line 2"));
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
-TEST_CASE("a user's design runs on the core that has its formats, with its own values") {
-  const std::string folder = root + "/rtl/designs/";
-  const std::string lever = text_of_file(folder + "lever.toml");
-  const std::vector<std::string> compiled = {"paper", "lever"};
-  const OwnDesign same = own_design(lever, compiled, folder, registers);
-  CHECK(same.base == "lever");
-
-  const std::string softer = replaced(lever, "torque_limit_nm = 0.5", "torque_limit_nm = 0.4");
-  const OwnDesign own = own_design(softer, compiled, folder, registers);
-  CHECK(own.base == "lever");
-  bool found = false;
-  for (const auto& [name, value] : own.values) {
-    if (name != "torque_limit") continue;
-    found = true;
-    CHECK(value == Approx(0.4).margin(1e-4));
-  }
-  CHECK(found);
-
-  const std::string other = replaced(lever, "m1 = 767", "m1 = 511");
-  CHECK_THROWS_WITH(own_design(other, compiled, folder, registers),
-                    Catch::Contains("m1 = 511") && Catch::Contains("feltgate page --design"));
-  CHECK_THROWS_WITH(own_design("nonsense", compiled, folder, registers),
-                    Catch::Contains("own.toml:1"));
+  CHECK_THROWS_AS(inputs_from_text("c 5 0\nx"), std::invalid_argument);
 }
 
 TEST_CASE("page: a law is felt as it says, and its parameters are turned while it runs") {
@@ -329,7 +265,7 @@ TEST_CASE("page: a law that remembers has a torque for each way over the turn") 
   }
 }
 
-TEST_CASE("page: what is wrong with a law has its place") {
+TEST_CASE("page: a law of two axes is refused, and an empty one") {
   const auto refused = [](const std::string& text) {
     try {
       UserLaw law(text, law_design("lever_law"));
@@ -338,16 +274,10 @@ TEST_CASE("page: what is wrong with a law has its place") {
     }
     return std::vector<law::Diagnostic>{};
   };
-  const auto unknown = refused("# a knob\nout torque = -0.1 Nm * sin(postion)\n");
-  REQUIRE(unknown.size() == 1);
-  CHECK(unknown[0].place.line == 2);
-  CHECK(unknown[0].place.column == 28);
-  CHECK(unknown[0].mend.find("position") != std::string::npos);
   const auto axes = refused("out torque[1] = 0.1 Nm * sin(position)\n");
   REQUIRE(axes.size() == 1);
   CHECK(axes[0].what.find("axis 1") != std::string::npos);
   CHECK(refused("").size() == 1);
-  CHECK(refused(law_text("wall")).empty());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import testing  # noqa: F401, isort: skip (puts scripts/ on the path)
-from reports import measure, objects, observer_section, plots
+from reports import measure, objects, observer_section
 
 
 class Laws(unittest.TestCase):
@@ -50,13 +50,6 @@ class Laws(unittest.TestCase):
 
 
 class Numbers(unittest.TestCase):
-    def test_slope(self):
-        self.assertAlmostEqual(measure.slope([1, 2, 4], [5, 7, 11])[0], 2)
-
-    def test_zero_crossing(self):
-        self.assertAlmostEqual(measure.zero_crossing([0.1, 0.2, 0.3], [-1, 1, 2]), 0.15)
-        self.assertIsNone(measure.zero_crossing([0.1, 0.2], [1, 2]))
-
     def test_lag_between_rows(self):
         time = np.arange(0, 1, 1e-4)
         found = measure.lag_s(time, np.sin(20 * (time - 2.345e-3)), np.sin(20 * time))
@@ -68,14 +61,6 @@ class Numbers(unittest.TestCase):
         found = measure.ripple(time, 3 * time + vibration)
         self.assertAlmostEqual(measure.rms(found), 2**-0.5, delta=0.01)
         self.assertLess(measure.rms(measure.ripple(time, 3 * time)), 1e-4)
-
-    def test_thinned_line_keeps_its_peaks(self):
-        y = np.zeros(100_000)
-        y[54_321], y[70_000] = 7, -9
-        x, thin = plots.thinned(np.arange(100_000), y)
-        self.assertLess(len(x), 2 * plots.POINTS + 3)
-        self.assertEqual((thin.max(), thin.min()), (7, -9))
-        self.assertTrue(np.all(np.diff(x) > 0))
 
 
 class Objects(unittest.TestCase):

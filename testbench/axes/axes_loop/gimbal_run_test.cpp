@@ -5,14 +5,11 @@
 // their engine, the torques against the plant's own arithmetic. Documentation:
 // docs/devices/three-axes.md
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
-#include "files/toml/toml_reader.hpp"
 #include "sim/plant/gimbal/gimbal_mechanics.hpp"
 
 using namespace feltgate;
@@ -22,18 +19,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// The scene with this in place of its [hand]; what it is refused with, or nothing.
-std::string refused(const std::string& hand, const std::string& more = "") {
-  const auto path = std::filesystem::temp_directory_path() / "feltgate_gimbal_run_test.toml";
-  std::ofstream(path) << "title = \"t\"\nabout = \"a\"\nduration_s = 0.1\ndevice = \"gimbal\"\n"
-                         "[core]\nscene = \"law\"\nlaw = \"gimbal\"\n[hand]\n"
-                      << hand << more;
-  try {
-    (void)read_axes_scene(path.string(), device_file);
-  } catch (const config::ConfigError& error) {
-    return error.what();
-  }
-  return {};
+/// What this in place of the scene's [hand] is refused with.
+std::string refused(const std::string& hand) {
+  return refusal(scene_head("gimbal", "gimbal") + "[hand]\n" + hand);
 }
 
 }  // namespace
@@ -123,8 +111,8 @@ TEST_CASE("gimbal: a host that feeds too rarely is told, with the time without t
 TEST_CASE("gimbal: hands that cannot be used are refused with their line") {
   const std::string phase = "[[hand.phase]]\nkind = \"torque\"\n";
   const std::string torque = "torque = [{ kind = \"hold\", duration_s = 1 }]\n";
-  CHECK(refused("").empty());
-  CHECK(refused(phase + "axis = [0, 3, 0]\n" + torque).empty());
+  CHECK(refused("") == "read");
+  CHECK(refused(phase + "axis = [0, 3, 0]\n" + torque) == "read");
   CHECK(refused("start_deg = [0, 0]\n").find(":9: \"start_deg\" is not three numbers") !=
         std::string::npos);
   CHECK(refused("start_deg = [0, 90, 0]\n")
@@ -134,6 +122,6 @@ TEST_CASE("gimbal: hands that cannot be used are refused with their line") {
         std::string::npos);
   CHECK(refused(phase).find("\"torque\"") != std::string::npos);
   CHECK(refused("[[hand.phase]]\nkind = \"prescribed\"\n").find(":10: ") != std::string::npos);
-  CHECK(refused("", "[plane]\nsphere_m = [0, 0, 0, 0.1]\n").find("a plane without a pen") !=
+  CHECK(refused("[plane]\nsphere_m = [0, 0, 0, 0.1]\n").find("a plane without a pen") !=
         std::string::npos);
 }

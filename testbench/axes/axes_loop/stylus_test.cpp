@@ -5,14 +5,12 @@
 // Documentation: docs/devices/three-axes.md
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "axes_fixture.hpp"
 #include "catch.hpp"
 #include "feltgate/random.hpp"
-#include "files/toml/toml_reader.hpp"
 #include "studies/texture/image.hpp"
 #include "studies/texture/texture_law.hpp"
 
@@ -44,10 +42,6 @@ PlaneHostSettings world_of(World world, double radius_m) {
   w.radius_m = radius_m;
   w.stiffness_n_m = 300;
   return w;
-}
-
-std::string temporary(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / name).string();
 }
 
 }  // namespace
@@ -143,14 +137,6 @@ TEST_CASE(
   CHECK(text("vectors/devices/stylus.toml").find("\nradius_m = 0.01 ") != std::string::npos);
 }
 
-TEST_CASE("stylus: a force of 3.3 N is 16.0 mm deep in 206 N/m, and the edge of a cube turns it") {
-  const AxesResult floor = run_scene(scene_named("stylus_floor"), "twin,double");
-  CHECK(floor.broken.empty());
-  CHECK(floor.figures.at("pen_z_m.end") == Approx(-0.0160).margin(2e-4));
-  CHECK(run_scene(scene_named("stylus_cube"), "twin,double").broken.empty());
-  CHECK(run_scene(scene_named("stylus_edge"), "twin,double").broken.empty());
-}
-
 TEST_CASE("stylus: a valley of a field of heights throws it with facets, not with shading") {
   const texture::Image valley =
       texture::read_png(std::string(FELTGATE_ROOT) + "/vectors/textures/valley.png");
@@ -204,16 +190,7 @@ TEST_CASE("stylus: a valley of a field of heights throws it with facets, not wit
 
 TEST_CASE("stylus: a world or a hand that cannot be is refused with its line") {
   const auto told = [](const std::string& rest) {
-    const std::string path = temporary("feltgate_stylus.toml");
-    std::ofstream(path) << "title = \"t\"\nabout = \"a\"\nduration_s = 0.01\ndevice = \"stylus\"\n"
-                           "[core]\nscene = \"law\"\nlaw = \"local_space\"\n"
-                        << rest;
-    try {
-      (void)read_axes_scene(path, device_file);
-    } catch (const config::ConfigError& error) {
-      return std::string(error.what()).substr(path.size());
-    }
-    return std::string("read");
+    return refusal(scene_head("stylus", "local_space") + rest);
   };
   const std::string rest = "rate_hz = 50\nstiffness_n_m = 100\n";
   CHECK(told("[plane]\nsphere_m = [0, 0, 0, 0.01]\n" + rest) == "read");

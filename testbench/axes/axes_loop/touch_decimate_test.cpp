@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Fewer faces of a mesh: what they keep, how far they are off, the step of the force at an edge,
-// and how firm and rough a ball of them feels; each against closed forms. docs/touch.md
+// Fewer faces of a mesh: what they keep, how far they are off, and the step of the force at an
+// edge; each against closed forms. docs/touch.md
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -122,71 +122,6 @@ TEST_CASE("touch: over an edge the force steps by K d 2 sin(phi / 2)") {
     }
     INFO(turn_rad / degree << " degrees: " << step << " N, at a depth of " << deep_m << " m");
     CHECK(std::abs(step / (deep_m * 2 * std::sin(turn_rad / 2)) - 1) < 0.05);
-  }
-}
-
-/// A ball of 30 mm under a pen that is led 60 mm over it, 2 mm below the sphere, at 300 N/m.
-struct Roughness {
-  static constexpr double radius_m = 0.03, depth_m = 2e-3, stiffness_n_m = 300, way_m = 0.06;
-  double faces = 0, turn_rad = 0;       ///< largest between two faces
-  double step_n = 0, off_rms_n = 0;     ///< largest step; force off the sphere's
-  double firmness = 0, edges_a_mm = 0;  ///< force over that of the sphere, mean; steps of the force
-};
-
-Roughness felt_on_ball(int times, bool shading) {
-  const Mesh ball = clean(icosphere(Roughness::radius_m, times));
-  touch::ProxySettings settings;
-  settings.shading = shading;
-  touch::Proxy proxy(ball, settings);
-  const Vec3 from{0.36, 0.48, 0.8}, to{0.48, 0.64, -0.6};
-  constexpr int poses = 12000;
-  Roughness r;
-  r.faces = static_cast<double>(ball.triangles.size());
-  r.turn_rad = touch::jumps_of(ball).largest_rad;
-  const double whole_n = Roughness::stiffness_n_m * Roughness::depth_m;
-  proxy.begin(1.1 * Roughness::radius_m * from);
-  Vec3 before{};
-  for (int n = 0; n < poses; ++n) {
-    const double turn = Roughness::way_m / Roughness::radius_m * n / poses;
-    const Vec3 out = std::cos(turn) * from + std::sin(turn) * to;
-    const touch::Touched t = proxy.move((Roughness::radius_m - Roughness::depth_m) * out);
-    REQUIRE(t.touching);
-    const Vec3 force = Roughness::stiffness_n_m * t.depth_m * t.normal;
-    const double step_n = n > 0 ? length(force - before) : 0;
-    before = force;
-    r.step_n = std::max(r.step_n, step_n);
-    if (step_n > 0.1 * whole_n * r.turn_rad) r.edges_a_mm += 1e-3 / Roughness::way_m;
-    r.off_rms_n += plant::dot(force - whole_n * out, force - whole_n * out) / poses;
-    r.firmness += plant::dot(force, out) / whole_n / poses;
-  }
-  r.off_rms_n = std::sqrt(r.off_rms_n);
-  return r;
-}
-
-/// Of N equal triangles on a sphere: the angle between two, and how far they are within it.
-double equal_turn_rad(double faces) {
-  return std::sqrt(16 * 3.14159265358979323846 / (3 * std::sqrt(3.0) * faces));
-}
-double equal_gap_m(double faces) {
-  return full_turn * Roughness::radius_m / (std::sqrt(3.0) * faces);
-}
-
-TEST_CASE("touch: finer meshes of a ball are firmer and smoother, as the closed form says") {
-  for (int times = 2; times <= 4; ++times) {
-    const Roughness facets = felt_on_ball(times, false), shaded = felt_on_ball(times, true);
-    INFO(facets.faces << " faces: step " << facets.step_n << " N, off " << facets.off_rms_n
-                      << " N, firmness " << facets.firmness);
-    const double whole_n = Roughness::stiffness_n_m * Roughness::depth_m;
-    // An icosphere's triangles are not equal; the largest turn is up to a quarter above the mean.
-    CHECK(facets.turn_rad > equal_turn_rad(facets.faces));
-    CHECK(facets.turn_rad < 1.25 * equal_turn_rad(facets.faces));
-    CHECK(facets.step_n < 1.001 * whole_n * 2 * std::sin(facets.turn_rad / 2));
-    CHECK(facets.step_n > 0.7 * whole_n * 2 * std::sin(facets.turn_rad / 2));
-    const double loss = equal_gap_m(facets.faces) / Roughness::depth_m;
-    CHECK(1 - facets.firmness == Approx(loss).epsilon(0.25));
-    // With shading the force turns over a whole face, in steps of 5 um.
-    CHECK(shaded.step_n < 0.2 * facets.step_n);
-    CHECK(shaded.off_rms_n < facets.off_rms_n);
   }
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -184,9 +183,6 @@ inline std::string json_of(const Soup& s, const std::string& nodes,
          R"("type":"SCALAR","count":)" + n(3 * s.triangles.size()) + "}]}";
 }
 
-inline std::string temporary(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / name).string();
-}
 inline void write_file(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }

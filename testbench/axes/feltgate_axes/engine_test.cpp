@@ -5,7 +5,6 @@
 // tests include arming, ramps and the age monitor. Documentation: docs/architecture.md
 #include "../../engine/machine/machine_programs.hpp"
 #include "axes_life.hpp"
-#include "axes_stimulus.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
@@ -35,14 +34,6 @@ class LawLife : public Life {
     in.reg_write = false;
     clocks(1);
     idle();
-  }
-  std::uint32_t engine_word(int address) {
-    in.reg_addr = static_cast<std::uint16_t>(axes_engine + address);
-    clocks(40);
-    in.reg_read = true;
-    clocks(1);
-    in.reg_read = false;
-    return twin().out().reg_rdata;
   }
   void parameters(std::int32_t minus, std::int32_t plus) {
     engine(kParameter, static_cast<std::uint32_t>(minus));
@@ -196,56 +187,6 @@ TEST_CASE("engine: a law that gives no fresh torque in its time is a fault of al
     CHECK_FALSE(s.out(n).gates_enable);
     CHECK(s.out(n).first_fault == static_cast<unsigned>(Fault::engine));
   }
-  s.play();
-}
-
-TEST_CASE("engine: a commit while armed, a zero and the entry into the scene ramp") {
-  LawLife s;
-  s.load(kLaw, kCrc);
-  s.ask(D::S::setpoint);
-  CHECK(s.until_armed(6000) < 6000);
-  for (int k = 0; k < 5; ++k) s.step(0, true);
-  // A slow ramp: no tick moves the reference by more than 4 torque steps.
-  constexpr int fine = D::f.ramp.fraction - D::f.torque.fraction;
-  s.write_all(A::ramp_step, 4u << fine);
-  std::int32_t before = s.out(0).tau_ref;
-  const auto follow = [&](int ticks) {
-    for (int k = 0; k < ticks; ++k) {
-      s.ticks(1);
-      const std::int32_t now = s.out(0).tau_ref;
-      REQUIRE(std::abs(now - before) <= 4);
-      before = now;
-    }
-  };
-  s.control(0, D::S::law, true);
-  before = s.out(0).tau_ref;
-  follow(150);
-  CHECK(before == -500);
-  s.control(1, D::S::law, true);
-  s.engine(kParameter, static_cast<std::uint32_t>(-150));
-  s.engine(H::commit, 1);
-  before = s.out(0).tau_ref;
-  follow(100);
-  CHECK(before == -750);
-  s.axis(0).set_zero = true;
-  s.clocks(1);
-  s.axis(0).set_zero = false;
-  follow(250);
-  CHECK(before == 0);
-  s.play();
-}
-
-TEST_CASE("engine: while armed its program is locked, its words are read") {
-  LawLife s;
-  s.load(kLaw, kCrc);
-  const auto low = static_cast<std::uint32_t>(kLaw.program_at(1));
-  CHECK(s.engine_word(H::program + 1) == low);
-  s.arm_law();
-  s.engine(H::program + 1, 0);
-  CHECK(s.engine_word(H::program + 1) == low);
-  CHECK((s.engine_word(H::status) >> EngineMap::S::status_crc_good & 1u) == 1);
-  // The address of another axis reads that axis's own word.
-  CHECK(s.read(1, C::control) != 0);
   s.play();
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "axes_life.hpp"
-#include "axes_stimulus.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/lever_law.hpp"
 #include "mismatch.hpp"
@@ -192,35 +191,6 @@ TEST_CASE("axes: without an engine a watcher is told of ticks, not of events") {
   CHECK(axes.glue().event_number() == 0);
 }
 
-TEST_CASE("axes: inputs that nobody gives are 0, those of a core are one axis's") {
-  const In none;
-  CHECK_FALSE((none.arm || none.stop || none.law_late || none.law_restart));
-  CHECK_FALSE((none.reg_write || none.reg_read));
-  CHECK((none.reg_addr | none.reg_wdata) == 0);
-  for (const In::Axis& axis : none.axis) {
-    CHECK((axis.encoder == EncoderPins{} && !axis.set_zero));
-    CHECK((axis.scene | axis.law_torque) == 0);
-  }
-  const AxesOut<kCores> silent;
-  CHECK_FALSE((silent.reg_busy || silent.event_valid));
-  CHECK(silent.rdata_known);
-  CHECK(silent.reg_rdata == 0);
-  CHECK((silent.event_number | silent.event_value) == 0);
-
-  CoreIn core;
-  core.encoder = {true, false, true};
-  core.set_zero = core.arm = core.stop = core.reg_write = true;
-  core.scene = 7;
-  core.reg_addr = 0x123;
-  core.reg_wdata = 0x456789ab;
-  const AxesIn<1> one = single_axis(core);
-  CHECK(one.axis[0].encoder == core.encoder);
-  CHECK((one.axis[0].set_zero && one.arm && one.stop && one.reg_write));
-  CHECK(one.axis[0].scene == 7);
-  CHECK(one.reg_addr == 0x123);
-  CHECK(one.reg_wdata == 0x456789ab);
-}
-
 // Axes: directed tests of limits and faults in each axis; random runs reach each only in some axis.
 
 using D = Design;
@@ -255,7 +225,6 @@ void check_fault(Life& s, int n, Fault cause) {
 }  // namespace
 
 TEST_CASE("axes: each comes to its own limits") {
-  if (kEngine) return;  // arming takes longer: engine_test.cpp
   for (int n = 0; n < kAxes; ++n) {
     Life s;
     s.write(n, A::duty_limit, 1);
@@ -280,7 +249,6 @@ TEST_CASE("axes: each comes to its own limits") {
 }
 
 TEST_CASE("axes: each has its own faults, and tells the others") {
-  if (kEngine) return;  // arming takes longer: engine_test.cpp
   for (int n = 0; n < kAxes; ++n) {
     Life s;
     s.write(n, A::watchdog_ticks, 40);
@@ -319,7 +287,6 @@ TEST_CASE("axes: each has its own faults, and tells the others") {
 }
 
 TEST_CASE("axes: a law that is late is a fault of all whose scene it is") {
-  if (kEngine) return;
   Life s;
   s.arm(D::S::law);
   s.in.law_late = true;

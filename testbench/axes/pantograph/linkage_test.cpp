@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Geometry of the linkage: positions, Jacobian, inverse. docs/devices/pantograph.md
-#include <cstdio>
-
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
 #include "pantograph_fixture.hpp"
@@ -286,29 +284,6 @@ TEST_CASE("a resting stop holds a force at its static depth", "[stops]") {
   CHECK(depth >= least * (1 - 1e-3));
   CHECK(depth <= least * (2.0 - stops.restitution * stops.restitution) * (1 + 1e-3));
   CHECK(std::abs(s.omega_rad_s[1] - s.omega_rad_s[0]) < 1e-3);
-}
-
-TEST_CASE("a drop against the stop, as a table", "[.drop]") {
-  const PantographParameters p = pantograph();
-  std::puts("time_s,restitution,between_deg,moving_mj,lost_mj");
-  for (const double restitution : {1.0, 0.7, 0.4}) {
-    AngleStops stops = p.stops;
-    stops.restitution = restitution;
-    LinkageMechanics mechanics = frictionless(stops);
-    LinkageState s;
-    s.theta_rad = {30 * kDegree, 150 * kDegree};
-    LinkageLoad load;
-    load.force_n = {0.0, 1.0};
-    for (int i = 0; i <= 100000; ++i) {
-      if (i % 100 == 0) {
-        std::printf("%.4f,%.1f,%.5f,%.6f,%.6f\n", 5e-6 * i, restitution, between(s) / kDegree,
-                    1e3 * mechanics.stored_j(s), 1e3 * mechanics.stop_loss_j());
-      }
-      mechanics.step(s, load, 5e-6);
-    }
-    // The work of the force equals the stored energy plus the loss in the stop.
-    CHECK(mechanics.stored_j(s) + mechanics.stop_loss_j() == Approx(s.hand_work_j).epsilon(1e-7));
-  }
 }
 
 // Mass matrix against differentiated places of the links, energy, momentum, convergence.

@@ -28,20 +28,20 @@
 namespace {
 
 constexpr std::int64_t kBaud = 3'000'000;  // as the netlist is built
-// The clock, the pins' names, what the pins are while nothing is pressed, on or lit, and how many
-// outputs.
+// The clock, the pins' names, what the pins are while nothing is pressed, on or lit, and pictures
+// of lamps that are seen at least.
 #ifdef FELTGATE_TANG_NANO_9K
 constexpr std::int64_t kClockHz = 54'000'000;
 constexpr const char *kKey = "key_n", *kSwitches = "sw_n", *kLamps = "led_n";
 constexpr const char *kFromHost = "uart_rx", *kToHost = "uart_tx";
 constexpr std::uint64_t kReleased = 1, kOff = 15, kDark = 63;
-constexpr int kOutputs = 16;
+constexpr std::size_t kPictures = 12;
 #else
 constexpr std::int64_t kClockHz = 50'000'000;
 constexpr const char *kKey = "btn", *kSwitches = "sw", *kLamps = "led";
 constexpr const char *kFromHost = "ftdi_txd", *kToHost = "ftdi_rxd";
 constexpr std::uint64_t kReleased = 0, kOff = 0, kDark = 0;
-constexpr int kOutputs = 19;
+constexpr std::size_t kPictures = 30;
 #endif
 
 static_assert(kInputBits <= 64 && kOutputBits <= 64, "pins are one integer in Verilator's class");
@@ -81,15 +81,14 @@ class Board {
            ((std::uint64_t{1} << f.width) - 1);
   }
 
-  /// Half a clock; the name of the first pin that differs, or "". A bit of flipped is one of the
-  /// netlist's pins that is taken for the other level.
-  std::string half(bool clock, std::uint64_t flipped = 0) {
+  /// Half a clock; the name of the first pin that differs, or "".
+  std::string half(bool clock) {
     pair_->clk = clock;
     pair_->in_i = static_cast<std::decay_t<decltype(pair_->in_i)>>(pins_);
     pair_->eval();
     for (const Field& f : kFields) {
       for (int n = f.first; n < f.first + f.width; ++n) {
-        if ((pair_->rtl_o >> n & 1U) != ((pair_->netlist_o ^ flipped) >> n & 1U)) return f.name;
+        if ((pair_->rtl_o >> n & 1U) != (pair_->netlist_o >> n & 1U)) return f.name;
       }
     }
     return "";
@@ -218,17 +217,6 @@ TEST_CASE("board: the netlist does at every pin what the RTL does") {
             << answered << " edges of answers\n";
   REQUIRE(armed > clocks / 5);
   REQUIRE(driving > clocks / 400);
-  REQUIRE(lamps.size() > (kOutputs == 19 ? 30 : 12));
+  REQUIRE(lamps.size() > kPictures);
   REQUIRE(answered > 300);
-}
-
-TEST_CASE("board: a netlist with one wrong pin is found by that pin") {
-  int outputs = 0;
-  for (const Field& f : kFields) {
-    for (int n = f.first; n < f.first + f.width; ++n, ++outputs) {
-      Board board(3);
-      CHECK(board.half(false, std::uint64_t{1} << n) == f.name);
-    }
-  }
-  CHECK(outputs == kOutputs);
 }

@@ -70,12 +70,11 @@ enum class Promise {
   refused,  ///< the request to arm is, for good: the gates never open
 };
 
-/// A kind of fault: its share of the runs, and the text of its row.
+/// A kind of fault: the name of its row, and its share of the runs.
 struct PinKind {
   const char* name;
   const char* point;  ///< "pins" or "words"
-  const char* about;
-  int share;  ///< in hundredths of the number given by --pins
+  int share;          ///< in hundredths of the number given by --pins
   Promise promise;
   int within_us = 0;  ///< the gates are off by then, where it is flagged; 0: not promised
 };

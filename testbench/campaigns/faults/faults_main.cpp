@@ -26,7 +26,6 @@ struct Arguments {
   int pins = 0, part = 0, parts = 1;
   double clean_s = 0;
   std::string replay, design = "lever";
-  bool kinds = false;
 };
 
 void say(const std::string& line) {
@@ -70,16 +69,6 @@ int replay(const Arguments& a) {
 }
 
 int run(const Arguments& a) {
-  if (a.kinds) {
-    for (const auto& k : faults::pin_kinds(a.design)) {
-      say(Json{{"kind", k.name},
-               {"point", k.point},
-               {"about", k.about},
-               {"must_flag", k.promise == faults::Promise::flagged}}
-              .dump());
-    }
-    return exit_ok;
-  }
   if (!a.replay.empty()) return replay(a);
   if (a.clean_s > 0) {
     const double seconds = a.clean_s / a.parts;
@@ -137,7 +126,6 @@ int main(int argc, char** argv) {
   app.add_option("--part", a.part, "this one, from 0");
   app.add_option("--clean", a.clean_s, "seconds of device time without a fault instead");
   app.add_option("--replay", a.replay, "the cases of this list instead");
-  app.add_flag("--kinds", a.kinds, "only the kinds of faults at the pins");
   int exit_code = exit_ok;
   app.callback([&] { exit_code = run(a); });
   return run_command_line(app, argc, argv, exit_code);

@@ -33,8 +33,7 @@ Case asked(Random* r, double limit_nm, double most_rad_s, double least_rad_s = 0
 
 /// A sensor that is plugged in after the request to arm: nobody asks again, so no gate may open.
 /// The last kind of each design, so that the others keep their seeds.
-constexpr PinKind late_sensor{
-    "late sensor", "pins", "none until 0.1 to 30 ms after the request to arm", 1, Promise::refused};
+constexpr PinKind late_sensor{"late sensor", "pins", 1, Promise::refused};
 
 /// One of the sensors of design D.
 template <class D>
@@ -55,21 +54,19 @@ Case late_case(Random* r) {
 }
 
 const std::vector<PinKind> current_kinds{
-    {"modulator's line stands", "pins", "low, high or as it was", 1, Promise::flagged, 22},
-    {"modulator's line is noise", "pins", "each of its bits drawn", 1, Promise::flagged, 500},
-    {"shunt's wires swapped", "pins", "the current with the other sign", 1, Promise::flagged},
-    {"shunt's wires off", "pins", "the modulator says 0 A", 1, Promise::flagged, 500},
-    {"shunt or modulator off by a factor", "pins", "0.5 to 2 times the current", 1,
-     Promise::unseen},
-    {"shunt's offset", "pins", "0.3 to 3 A more, after arming", 1, Promise::unseen},
-    {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 1, Promise::flagged},
-    {"nFAULT", "pins", "a pulse of 4 clocks", 1, Promise::flagged, 1},
-    {"a gate stays off", "pins", "one of four", 1, Promise::none},
-    {"a lead is loose", "pins", "no current for 1 to 10 ms, then again", 1, Promise::flagged, 500},
-    {"cable cut, moving", "pins", "A, B, Z stand, a hand moves at 3 to 99 rad/s", 1,
-     Promise::unseen},
-    {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
-    {"shunt's wires off at arming", "pins", "free, self-test on", 1, Promise::flagged, 25000},
+    {"modulator's line stands", "pins", 1, Promise::flagged, 22},
+    {"modulator's line is noise", "pins", 1, Promise::flagged, 500},
+    {"shunt's wires swapped", "pins", 1, Promise::flagged},
+    {"shunt's wires off", "pins", 1, Promise::flagged, 500},
+    {"shunt or modulator off by a factor", "pins", 1, Promise::unseen},
+    {"shunt's offset", "pins", 1, Promise::unseen},
+    {"motor's terminals shorted", "pins", 1, Promise::flagged},
+    {"nFAULT", "pins", 1, Promise::flagged, 1},
+    {"a gate stays off", "pins", 1, Promise::none},
+    {"a lead is loose", "pins", 1, Promise::flagged, 500},
+    {"cable cut, moving", "pins", 1, Promise::unseen},
+    {"stop", "pins", 1, Promise::flagged, 1},
+    {"shunt's wires off at arming", "pins", 1, Promise::flagged, 25000},
     late_sensor,
 };
 
@@ -129,16 +126,15 @@ Case current_case(std::string_view name, Random* r, double limit_nm = 0.5, doubl
 }
 
 const std::vector<PinKind> sensor_kinds{
-    {"encoder's wire cut", "pins", "data, clock or select", 1, Promise::flagged, 600},
-    {"encoder's data at ground", "pins", "a shorted cable", 1, Promise::flagged, 2000},
-    {"a bit of each frame wrong", "pins", "its parity or CRC tells", 1, Promise::flagged, 400},
-    {"noise on the encoder's data", "pins", "1e-4 to 1e-2 of its clocks inverted", 1,
-     Promise::none},
-    {"magnet lost", "pins", "the sensor says so", 1, Promise::flagged, 400},
-    {"angle off by half a turn", "pins", "from one reading to the next", 1, Promise::flagged, 400},
-    {"magnet slips", "pins", "1 to 30 degrees, from one reading to the next", 1, Promise::unseen},
-    {"angle freezes", "pins", "a hand turns at 18 to 70 rad/s", 1, Promise::flagged, 2000},
-    {"angle freezes, slower", "pins", "a hand turns at 0.5 to 14 rad/s", 1, Promise::unseen},
+    {"encoder's wire cut", "pins", 1, Promise::flagged, 600},
+    {"encoder's data at ground", "pins", 1, Promise::flagged, 2000},
+    {"a bit of each frame wrong", "pins", 1, Promise::flagged, 400},
+    {"noise on the encoder's data", "pins", 1, Promise::none},
+    {"magnet lost", "pins", 1, Promise::flagged, 400},
+    {"angle off by half a turn", "pins", 1, Promise::flagged, 400},
+    {"magnet slips", "pins", 1, Promise::unseen},
+    {"angle freezes", "pins", 1, Promise::flagged, 2000},
+    {"angle freezes, slower", "pins", 1, Promise::unseen},
 };
 
 std::vector<PinKind> with_sensor(std::vector<PinKind> others) {
@@ -147,25 +143,21 @@ std::vector<PinKind> with_sensor(std::vector<PinKind> others) {
 }
 
 const std::vector<PinKind> gimbal_kinds = with_sensor({
-    {"a phase opens", "pins", "one of three", 1, Promise::unseen},
-    {"a gate stays off", "pins", "one of six", 1, Promise::none},
-    {"wrong offset at arming", "pins", "100 to 260 electrical degrees, free, self-test on", 1,
-     Promise::flagged, 30500},
-    {"a lesser wrong offset", "pins", "10 to 80 electrical degrees, free, self-test on", 1,
-     Promise::unseen},
-    {"phases swapped at arming", "pins", "B and C, free, self-test on", 1, Promise::none},
-    {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
+    {"a phase opens", "pins", 1, Promise::unseen},
+    {"a gate stays off", "pins", 1, Promise::none},
+    {"wrong offset at arming", "pins", 1, Promise::flagged, 30500},
+    {"a lesser wrong offset", "pins", 1, Promise::unseen},
+    {"phases swapped at arming", "pins", 1, Promise::none},
+    {"stop", "pins", 1, Promise::flagged, 1},
     late_sensor,
 });
 
 const std::vector<PinKind> absolute_kinds = [] {
   std::vector<PinKind> all = with_sensor({
-      {"wrong angle from power-up", "pins", "1 to 30 degrees", 1, Promise::unseen},
-      {"a bit of the angle stuck", "pins", "one of 14, 0 or 1, in valid frames", 1,
-       Promise::unseen},
-      {"stop", "pins", "a pulse of the stop", 1, Promise::flagged, 1},
-      {"magnet slips with the torque", "pins", "by 3 to 11 degrees, at the limit", 1,
-       Promise::none},
+      {"wrong angle from power-up", "pins", 1, Promise::unseen},
+      {"a bit of the angle stuck", "pins", 1, Promise::unseen},
+      {"stop", "pins", 1, Promise::flagged, 1},
+      {"magnet slips with the torque", "pins", 1, Promise::none},
       late_sensor,
   });
   for (PinKind& k : all) {  // of SPI, whose diagnosis comes once in 16 readings
@@ -275,19 +267,16 @@ Case absolute_case(std::string_view name, Random* r) {
 /// Of two shunts: what one can have, or both, and all that gimbal_motor has.
 const std::vector<PinKind> field_kinds = [] {
   std::vector<PinKind> all{
-      {"modulator's line stands", "pins", "A or B, low, high or as it was", 1, Promise::flagged,
-       22},
-      {"modulator's line is noise", "pins", "A or B, each of its bits drawn", 1, Promise::none},
-      {"shunt's wires swapped", "pins", "A, B or both with the other sign", 1, Promise::flagged},
-      {"shunts exchanged", "pins", "A's modulator at B's pin", 1, Promise::flagged},
-      {"shunt's wires off", "pins", "A, B or both show 0 A", 1, Promise::none},
-      {"shunt or modulator off by a factor", "pins", "A, B or both, 0.5 to 2 times", 1,
-       Promise::unseen},
-      {"shunt's offset", "pins", "A, B or both, 0.02 to 0.15 A more, after arming", 1,
-       Promise::unseen},
-      {"motor's terminals shorted", "pins", "50 mohm and 4 uH are left", 1, Promise::flagged},
-      {"nFAULT", "pins", "a pulse of 4 clocks", 1, Promise::flagged, 1},
-      {"shunt's wires off at arming", "pins", "A, B or both, free, self-test on", 1, Promise::none},
+      {"modulator's line stands", "pins", 1, Promise::flagged, 22},
+      {"modulator's line is noise", "pins", 1, Promise::none},
+      {"shunt's wires swapped", "pins", 1, Promise::flagged},
+      {"shunts exchanged", "pins", 1, Promise::flagged},
+      {"shunt's wires off", "pins", 1, Promise::none},
+      {"shunt or modulator off by a factor", "pins", 1, Promise::unseen},
+      {"shunt's offset", "pins", 1, Promise::unseen},
+      {"motor's terminals shorted", "pins", 1, Promise::flagged},
+      {"nFAULT", "pins", 1, Promise::flagged, 1},
+      {"shunt's wires off at arming", "pins", 1, Promise::none},
   };
   all.insert(all.end(), gimbal_kinds.begin(), gimbal_kinds.end());
   for (PinKind& k : all) {
@@ -322,14 +311,14 @@ Case field_case(std::string_view name, Random* r) {
 /// Of Hall lines beside an encoder with A and B, and of three phases; a hand turns the shaft.
 const std::vector<PinKind> hall_kinds = [] {
   std::vector<PinKind> all{
-      {"a Hall line stands", "pins", "low or high, 10 to 100 rad/s", 1, Promise::flagged},
-      {"a Hall line stands, held", "pins", "low or high, held", 1, Promise::unseen},
-      {"Hall plug off", "pins", "all lines high", 1, Promise::flagged, 3},
+      {"a Hall line stands", "pins", 1, Promise::flagged},
+      {"a Hall line stands, held", "pins", 1, Promise::unseen},
+      {"Hall plug off", "pins", 1, Promise::flagged, 3},
       // Until an edge tells, torque and back-EMF may have the other sign.
-      {"two Hall lines exchanged", "pins", "from power-up, 10 to 100 rad/s", 1, Promise::unseen},
-      {"Hall lines exchanged at arming", "pins", "two, free, self-test on", 1, Promise::none},
-      {"encoder slips", "pins", "10 to 50 % lost, 10 to 100 rad/s", 1, Promise::flagged},
-      {"cable cut, moving", "pins", "A, B, Z stand, 10 to 100 rad/s", 1, Promise::flagged},
+      {"two Hall lines exchanged", "pins", 1, Promise::unseen},
+      {"Hall lines exchanged at arming", "pins", 1, Promise::none},
+      {"encoder slips", "pins", 1, Promise::flagged},
+      {"cable cut, moving", "pins", 1, Promise::flagged},
   };
   std::copy_if(
       gimbal_kinds.begin(), gimbal_kinds.end(), std::back_inserter(all), [](const auto& k) {

@@ -27,6 +27,7 @@ namespace feltgate::test {
 
 using Design = FELTGATE_DESIGN;
 using CoreTwin = FeltgateCore<Design>;
+constexpr bool kPrograms = scene_built<Design>(Map::S::law);
 
 struct CoreAdapter {
   static void drive(Vfeltgate_core& rtl, const CoreIn& in) { drive_inputs<Design>(rtl, in); }

@@ -144,4 +144,28 @@ class Life {
 
 inline std::uint32_t low(std::int64_t value) { return static_cast<std::uint32_t>(value); }
 
+/// A host's write in the clock `at`; the address stays for a tick.
+inline void write_at(CoreIn* in, std::int64_t cycle, std::int64_t at, int address,
+                     std::uint32_t word) {
+  if (cycle == at) in->reg_addr = static_cast<std::uint16_t>(address), in->reg_wdata = word;
+  if (cycle >= at && cycle < at + kTick + 1) in->reg_write = cycle == at;
+}
+
+/// RTL and twin with what is at their pins, rig(clock, outputs of the clock before); after each
+/// clock look(rig, clock, outputs).
+template <class Rig, class Look>
+void beside(const Rig& given, std::int64_t clocks, const Look& look) {
+  const Rig* live = nullptr;
+  std::int64_t cycle = 0;
+  const auto stimulus = [rig = given, &live](std::int64_t k, const CoreOut& out) mutable {
+    live = &rig;
+    return rig(k, out);
+  };
+  CoreBench bench("feltgate_core", 5);
+  bench.run(stimulus, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
+    look(*live, cycle++, twin.out());
+    return static_cast<const char*>(nullptr);
+  });
+}
+
 }  // namespace feltgate::test

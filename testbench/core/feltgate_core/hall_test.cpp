@@ -73,8 +73,7 @@ struct Rig {
   double electrical_rad() const { return plant.motor().electrical_rad(shaft_rad()); }
   double torque() const { return plant.motor().torque_nm(shaft_rad()); }
   void write(std::int64_t at, int address, std::uint32_t word) {
-    if (now == at) in.reg_addr = static_cast<std::uint16_t>(address), in.reg_wdata = word;
-    if (now >= at && now < at + kTick + 1) in.reg_write = now == at;
+    write_at(&in, now, at, address, word);
   }
   CoreIn operator()(std::int64_t cycle, const CoreOut& out) {
     now = cycle;
@@ -134,17 +133,7 @@ Seen run(Rig rig, std::int64_t clocks, bool rtl) {
     }
     return seen;
   }
-  CoreBench bench("feltgate_core", 5);
-  std::int64_t cycle = 0;
-  Rig* at = nullptr;
-  const auto stimulus = [rig, &at](std::int64_t k, const CoreOut& out) mutable {
-    at = &rig;
-    return rig(k, out);
-  };
-  bench.run(stimulus, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
-    look(*at, cycle++, twin.out());
-    return static_cast<const char*>(nullptr);
-  });
+  beside(rig, clocks, look);
   return seen;
 }
 
@@ -207,22 +196,6 @@ TEST_CASE("hall: a line that is cut closes the gates within an electrical turn")
     most = std::max(most, turns);
   }
   CHECK(most > 0.3);
-}
-
-TEST_CASE("hall: two lines that change places close the gates within an electrical turn") {
-  for (int k = 0; k < 3; ++k) {
-    const unsigned a = static_cast<unsigned>(k) % 3, b = (a + 1) % 3;
-    Rig rig(turned(0.2 + 25 * k * kDegree / kPairs, (k < 2 ? 1 : -1) * 360 * kDegree, 6e-3));
-    rig.event_at = 0;
-    rig.harm = [a, b](const Rig&, unsigned code) {
-      const unsigned differ = (code >> a ^ code >> b) & 1u;
-      return code ^ (differ << a | differ << b);
-    };
-    const Seen seen = run(rig, kHeld + 300'000, false);
-    REQUIRE(seen.off > kHeld);
-    CHECK(seen.last.faults == fault_bit(Fault::encoder));
-    CHECK(absolute(seen.faults_word) == 2);
-  }
 }
 
 TEST_CASE("hall: an encoder that stands while the motor turns, and lines that stand") {

@@ -13,7 +13,6 @@
 #include <functional>
 
 #include "core_life.hpp"
-#include "core_stimulus.hpp"
 #include "figures_record.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/backends/rtl_model.hpp"
@@ -99,12 +98,8 @@ using Each = std::function<void(std::int64_t, const CoreOut&)>;
 
 /// RTL and twin.
 void run(const Rig& rig, std::int64_t clocks, const Each& each) {
-  std::int64_t cycle = 0;
-  CoreBench bench("feltgate_core", 5);
-  bench.run(rig, clocks, {}, [&](const CoreIn&, const auto&, const CoreTwin& twin, bool) {
-    each(cycle++, twin.out());
-    return static_cast<const char*>(nullptr);
-  });
+  beside(rig, clocks,
+         [&](const Rig&, std::int64_t cycle, const CoreOut& out) { each(cycle, out); });
 }
 
 /// The last whole PWM period's worth of clocks.
@@ -253,36 +248,6 @@ TEST_CASE("three: arming again begins without the last arming's voltages") {
     });
     REQUIRE(again);
   }
-}
-
-TEST_CASE("three: random motion and host: no leg conducts through, disabled gates are off") {
-  std::array<std::int64_t, 6> changes{};
-  for (std::uint64_t seed = 21; seed < 24; ++seed) {
-    CoreOut before;
-    std::array<std::int64_t, 6> off_at{};
-    std::int64_t cycle = 0, armed = 0;
-    CoreBench bench("feltgate_core", seed);
-    bench.run(CoreStimulus<D>(seed), 800'000, {},
-              [&](const CoreIn& in, const auto&, const CoreTwin& twin, bool) -> const char* {
-                const CoreOut& out = twin.out();
-                ++cycle;
-                for (std::size_t g = 0; g < 6; ++g) {
-                  const bool was = (before.gates >> g & 1) != 0, is = (out.gates >> g & 1) != 0;
-                  changes[g] += was != is;
-                  if (was && !is) off_at[g] = cycle;
-                  const std::size_t other = g ^ 1u;
-                  if (is && (out.gates >> other & 1) != 0) return "both switches of a leg are on";
-                  if (is && !was && cycle - off_at[other] < D::dead_clocks) return "no dead time";
-                }
-                if (!before.gates_enable && out.gates != 0) return "a gate is on while disabled";
-                if (in.stop && out.gates != 0) return "a gate is on at a stop";
-                armed += out.armed;
-                before = out;
-                return nullptr;
-              });
-    CHECK(armed > 100'000);
-  }
-  for (const std::int64_t n : changes) CHECK(n > 500);
 }
 
 TEST_CASE("three: a stop between the edges closes all six gates, and needs no clock") {

@@ -76,7 +76,8 @@ struct Tally {
     const Number& want = oracle.narrowed(systemc_value(raw, cast.from.fraction));
     ++casts;
     saturated += got.saturated ? 1 : 0;
-    if (want == systemc_value(got.raw, cast.to.fraction)) return;
+    const bool limited = cast.overflow == Overflow::saturate && want.overflow_flag();
+    if (want == systemc_value(got.raw, cast.to.fraction) && got.saturated == limited) return;
     if (mismatches++ == 0) first = describe(cast, raw) + ": SystemC has " + want.to_string();
   }
 
@@ -155,19 +156,4 @@ TEST_CASE("sums, differences and products equal SystemC's exact ones", "[fixed][
   CHECK(operator_mismatches<fixed<1, 30, 33>, fixed<1, 20, 41>>(random) == 0);
   CHECK(operator_mismatches<fixed<1, 40, -10>, fixed<1, -12, 40>>(random) == 0);
   CHECK(operator_mismatches<fixed<1, 0, 0>, fixed<1, 63, 0>>(random) == 0);
-}
-
-TEST_CASE("the oracle behaves as this project assumes", "[fixed][systemc]") {
-  // Pinned so that a changed library is noticed here and not in a comparison.
-  const sc_dt::sc_fix wrapped(4, 4, sc_dt::SC_TRN, sc_dt::SC_WRAP, 0);
-  sc_dt::sc_fix plain(wrapped);
-  plain = 9;
-  CHECK(plain.to_int() == -7);
-  sc_dt::sc_fix keeps_sign(4, 4, sc_dt::SC_TRN, sc_dt::SC_WRAP, 1);
-  keeps_sign = 9;
-  CHECK(keeps_sign.to_int() == 1);
-  // Round, then limit: 7.75 to one fraction bit is 8, limited to 3.5.
-  sc_dt::sc_fix limited(4, 3, sc_dt::SC_RND, sc_dt::SC_SAT, 0);
-  limited = 7.75;
-  CHECK(limited.to_double() == 3.5);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The numbers that must come out of the closed loop (simulation): the paper's step response and
-// error pattern, the lever's settling and accuracy, no wind-up, passivity. The twin runs them; that
-// it is the RTL is shown elsewhere. Documentation: docs/testing.md
+// The numbers that must come out of the closed loop (simulation) beside what the scenes expect: the
+// paper's error pattern, the lever with another resistance, no wind-up. The twin runs them; that it
+// is the RTL is shown elsewhere. Documentation: docs/testing.md
 #include <cmath>
 #include <string>
 
@@ -23,35 +23,17 @@ Scenario scenario(const std::string& name) {
 
 plant::Parameters p24() { return plant::read_plant_file(kRoot + "/vectors/plants/p24.toml"); }
 
-RunResult run(Scenario scene, const plant::Parameters& plant, const std::string& design,
-              const std::string& engine = "twin") {
+RunResult run(Scenario scene, const plant::Parameters& plant, const std::string& design) {
   resolve_effects(scene, plant.effects);
   RunOptions options;
   options.design = design;
-  options.engine = engine;
+  options.engine = "twin";
   return run_scenario(scene, plant, options);
 }
 
 const std::vector<StepFigures>& steps(const RunResult& r) { return r.engines.front().steps; }
 
 }  // namespace
-
-TEST_CASE("paper, shaft locked: tau_hat settles with the pole of 391.68 rad/s") {
-  // ln(50)/(g*Jn*Kp) = 3.912/391.68 s, from the closed form g*Jn*Kp/(s + g*Jn*Kp).
-  const double expected_ms = 1e3 * std::log(50.0) / (500.0 * 4.896e-4 * 1600.0);
-  CHECK(std::abs(expected_ms - 9.988) < 0.001);
-  for (const char* engine : {"twin", "quad"}) {
-    const RunResult r = run(scenario("torque_step"), p24(), "paper", engine);
-    CAPTURE(engine);
-    CHECK(r.position.steps == 0);
-    REQUIRE(steps(r).size() == 3);
-    for (const StepFigures& s : steps(r)) {
-      CAPTURE(s.tau_ref_nm);
-      CHECK(std::abs(s.tau_hat.settling_ms - expected_ms) < 0.01 * expected_ms);
-      CHECK(std::abs(s.tau_hat.final_value_nm - s.tau_ref_nm) <= std::ldexp(1.0, -16));
-    }
-  }
-}
 
 TEST_CASE("paper: error pattern of the motor torque, with one voltage gain and with two") {
   Scenario one = scenario("torque_step");
@@ -83,15 +65,7 @@ TEST_CASE("paper: at 0.15 Nm the voltage falls although the reference rises") {
   }
 }
 
-TEST_CASE("lever: motor torque within 1 ms and 1 %, and by 1/R when the resistance is wrong") {
-  for (const char* scene : {"torque_step", "torque_step_cord"}) {
-    const RunResult r = run(scenario(scene), p24(), "lever");
-    for (const StepFigures& s : steps(r)) {
-      CAPTURE(scene, s.tau_ref_nm);
-      CHECK(s.torque.settling_ms <= 1.0);
-      CHECK(std::abs(s.torque.final_error_pct) <= 1.0);
-    }
-  }
+TEST_CASE("lever: motor torque within 1 ms, and off by 1/R when the resistance is wrong") {
   for (const double factor : {0.8, 1.2}) {
     plant::Parameters plant = p24();
     plant.motor.resistance_ohm *= factor;
@@ -122,17 +96,6 @@ TEST_CASE("a stalled lever winds nothing up") {
     // After a second at 0.3 Nm the second step is as quick as the first.
     CHECK(steps(r)[1].torque.settling_ms < 1.2 * steps(r)[0].torque.settling_ms + 0.5);
     CHECK(r.figures.at("faults") == 0);
-  }
-}
-
-TEST_CASE("damper and membrane only absorb energy from the hand") {
-  for (const char* scene : {"damper", "membrane"}) {
-    for (const char* design : {"lever", "paper"}) {
-      const RunResult r = run(scenario(scene), p24(), design);
-      CAPTURE(scene, design);
-      CHECK(r.figures.at("energy_absorbed_j") > 0.0);
-      CHECK(r.broken.empty());
-    }
   }
 }
 

@@ -17,8 +17,8 @@
 
 #include "../../sim/plant/three_phase_fixture.hpp"
 #include "catch.hpp"
-#include "lock_step.hpp"
 #include "figures_record.hpp"
+#include "lock_step.hpp"
 #include "ports.hpp"
 
 using namespace feltgate;
@@ -42,13 +42,6 @@ struct Adapter {
 
 using Bench = LockStep<Vhall_sensor, HallSensor, Adapter>;
 
-/// What a run has had.
-struct Tally {
-  std::int64_t glitches = 0, illegal = 0, harmless = 0, without_gain = 0, restarts = 0;
-  std::array<std::int64_t, 6> begins{}, rising{}, falling{};
-  std::array<std::int64_t, 3> faults{};
-};
-
 /// The lines as the order of their edges says: A rises, C falls, B rises, A falls, C rises, B
 /// falls.
 int sector_of(unsigned code) {
@@ -63,12 +56,10 @@ int sector_of(unsigned code) {
 /// two clocks later; the angle is a begin and all counts since then.
 class Reference {
  public:
-  explicit Reference(Tally* tally) : tally_(tally) {}
-
   const char* operator()(const HallSensor::In& in, const Vhall_sensor& rtl, const HallSensor&,
                          bool in_reset) {
     if (in_reset) {
-      *this = Reference(tally_);
+      *this = Reference{};
     } else {
       clock(in, rtl.faults_o);
     }
@@ -87,7 +78,6 @@ class Reference {
     const bool alike = ready_ && sector_of(code_) < 0;
     const bool runs = ready_ && !alike && in.gain != 0;
     unsigned events = alike && in.gates_enable ? 1 : 0;
-    tally_->harmless += alike && !in.gates_enable;
     bool close = false;
     if (sector_ >= 0) {
       const double off = std::fabs(std::remainder(angle() - (sector_ + 0.5) / 6, 1.0));
@@ -102,14 +92,12 @@ class Reference {
       begins = sector_ < 0;
       if (begins) {
         begin_ = (sector + 0.5) / 6;
-        ++tally_->begins[static_cast<std::size_t>(sector)];
       } else if (sector != sector_) {
         const bool up = sector == (sector_ + 1) % 6, down = sector_ == (sector + 1) % 6;
         if (!up && !down) events |= 4;
         if (!exact_ && (up || down)) {
           begins = true;
           begin_ = (up ? sector : sector_) / 6.0;
-          ++(up ? tally_->rising : tally_->falling)[static_cast<std::size_t>(sector)];
         }
         exact = exact_ || up || down;
       } else {
@@ -122,13 +110,10 @@ class Reference {
     counts_ += (moved == 1 ? 1.0 : moved == 3 ? -1.0 : 0.0) * in.gain;
     count_ = in.count;
     const bool restarts = in.clear && seen_ != 0;
-    tally_->restarts += restarts;
-    tally_->without_gain += in.gain == 0;
     if (!runs || restarts) sector_ = -1;
     exact_ = exact && !restarts;
     if (in.gain == 0) begin_ = counts_ = 0;
     if (restarts) events = 0;
-    for (unsigned k = 0; k < 3; ++k) tally_->faults[k] += (events & ~seen_) >> k & 1u;
     seen_ = (in.clear ? 0 : seen_) | events;
     if (close) seen_ = (seen_ & ~2u) | (said & 2u);  // at the limit either is right
     accept(in.hall & 7u);
@@ -136,21 +121,16 @@ class Reference {
   void accept(unsigned hall) {
     // Rows of equal samples that end two clocks ago.
     if (rows_[1] >= kGlitch + 2) {
-      tally_->illegal += ready_ && sector_of(code_) >= 0 && sector_of(samples_[1]) < 0;
       code_ = samples_[1];
       ready_ = true;
-    } else if (rows_[1] == 1 && rows_[2] < kGlitch + 2) {
-      ++tally_->glitches;
     }
-    rows_[2] = rows_[1];
     rows_[1] = rows_[0];
     samples_[1] = samples_[0];
     rows_[0] = hall == samples_[0] ? rows_[0] + 1 : 1;
     samples_[0] = hall;
   }
 
-  Tally* tally_;
-  std::array<int, 3> rows_{3, 2, 1};  // the block begins with lines that were low
+  std::array<int, 2> rows_{3, 2};  // the block begins with lines that were low
   std::array<unsigned, 2> samples_{};
   unsigned code_ = 0, seen_ = 0;
   bool ready_ = false, exact_ = false;
@@ -258,23 +238,8 @@ double degrees(double rad) { return rad * 360 / kTwoPi; }
 }  // namespace
 
 TEST_CASE("hall_sensor: all inputs and resets") {
-  Tally t;
   Bench bench("hall_sensor", 1, HallSensor(kGlitch));
-  bench.run(AnyInputs{Random(1)}, scaled_clocks(1'500'000), {30'000}, Reference{&t});
-  INFO("glitches " << t.glitches << ", illegal " << t.illegal << ", harmless " << t.harmless
-                   << ", without gain " << t.without_gain << ", restarts " << t.restarts
-                   << ", faults " << t.faults[0] << " " << t.faults[1] << " " << t.faults[2]);
-  CHECK(t.glitches > 1000);
-  CHECK(t.illegal > 500);
-  CHECK(t.harmless > 1000);
-  CHECK(t.without_gain > 10'000);
-  CHECK(t.restarts > 1000);
-  for (const std::int64_t n : t.faults) CHECK(n > 300);
-  for (std::size_t k = 0; k < 6; ++k) {
-    CHECK(t.begins[k] > 200);
-    CHECK(t.rising[k] > 100);
-    CHECK(t.falling[k] > 100);
-  }
+  bench.run(AnyInputs{Random(1)}, scaled_clocks(1'500'000), {30'000}, Reference{});
 }
 
 TEST_CASE("hall_sensor: codes and sectors are one to one, and a step is one line") {

@@ -127,19 +127,12 @@ class Oracle {
  public:
   explicit Oracle(std::int32_t start) : start_(static_cast<std::uint32_t>(start)) { restart(); }
 
-  struct Totals {
-    std::int64_t up = 0, down = 0, illegal = 0, index = 0, rejected = 0, resets = 0;
-  };
-
   /// Call it after each clock. Returns nullptr, or the property that the outputs break.
   const char* operator()(const QuadDecoder::In& in, const QuadDecoder::Out& out, bool in_reset) {
     if (in_reset) {
-      totals.resets += was_reset_ ? 0 : 1;
-      was_reset_ = true;
       restart();
       return nullptr;
     }
-    was_reset_ = false;
     const std::uint32_t position = travel_ - zero_;
     if (in.set_zero) zero_ = travel_;
     if (index_) index_position_ = position;
@@ -161,8 +154,6 @@ class Oracle {
     return nullptr;
   }
 
-  Totals totals;
-
  private:
   void restart() {
     clock_ = 0;
@@ -181,21 +172,15 @@ class Oracle {
         history_[c] = pins[c] ? ~0U : 0U;
         continue;
       }
-      const bool last = (history_[c] & 1U) != 0;
       history_[c] = (history_[c] << 1) | (pins[c] ? 1U : 0U);
       if ((history_[c] & window) == window) level_[c] = true;
       if ((history_[c] & window) == 0) level_[c] = false;
-      if (last != before[c] && pins[c] == before[c]) ++totals.rejected;
     }
     step_illegal_ = false;
     if (clock_ == 2) return 0;
     index_ = level_[2] && !before[2];
-    totals.index += index_ ? 1 : 0;
     const int turned = (angle(level_) - angle(before)) & 3;
     step_illegal_ = turned == 2;
-    totals.illegal += turned == 2 ? 1 : 0;
-    totals.up += turned == 1 ? 1 : 0;
-    totals.down += turned == 3 ? 1 : 0;
     return turned == 1 ? 1 : (turned == 3 ? -1 : 0);
   }
   static int angle(const std::array<bool, 3>& level) {
@@ -213,7 +198,6 @@ class Oracle {
   bool index_ = false;
   bool error_ = false;
   bool step_illegal_ = false;
-  bool was_reset_ = false;
 };
 
 }  // namespace feltgate::test

@@ -45,43 +45,6 @@ TEST_CASE("quad_decoder: every transition between two states") {
   }
 }
 
-TEST_CASE("quad_decoder: primed with whatever the pins are after reset") {
-  for (int phase = 0; phase < 4; ++phase) {
-    for (const int filter : {0, 1, 15}) {
-      for (const bool z : {false, true}) {
-        Script script(at_phase(phase));
-        script.now.filter = static_cast<std::uint8_t>(filter);
-        script.now.z = z;
-        const QuadDecoder end = play(script.hold(40), static_cast<std::uint64_t>(phase + 1));
-        REQUIRE(moved(end) == 0);
-        REQUIRE_FALSE(end.out().error);
-        REQUIRE_FALSE(end.out().index_seen);
-        REQUIRE(end.out().rejected_count == 0);
-      }
-    }
-  }
-}
-
-TEST_CASE("quad_decoder: N steps forth and N back end at the start, from every phase") {
-  for (int phase = 0; phase < 4; ++phase) {
-    for (const int direction : {1, -1}) {
-      for (int steps = 1; steps <= 9; ++steps) {
-        for (const int dwell : {1, 2, 7}) {
-          Script forth(at_phase(phase));
-          forth.hold(6);
-          for (int k = 1; k <= steps; ++k) forth.phase(phase + direction * k, dwell);
-          Script back = forth;
-          for (int k = steps - 1; k >= 0; --k) back.phase(phase + direction * k, dwell);
-          REQUIRE(moved(play(forth.hold(6))) == direction * steps);
-          const QuadDecoder end = play(back.hold(6));
-          REQUIRE(moved(end) == 0);
-          REQUIRE_FALSE(end.out().error);
-        }
-      }
-    }
-  }
-}
-
 TEST_CASE("quad_decoder: an edge at the pin is in travel after 3 clocks, in position after 4") {
   for (int filter = 0; filter < 16; ++filter) {
     Script script(at_phase(0));
@@ -127,16 +90,6 @@ TEST_CASE("quad_decoder: the filter rejects pulses up to its length and counts t
       }
     }
   }
-}
-
-TEST_CASE("quad_decoder: the position wraps at 2^31 both ways") {
-  Script script(at_phase(0));
-  script.hold(6);
-  for (int k = 1; k <= 20; ++k) script.phase(k, 2);
-  const QuadDecoder top = play(script.hold(6));
-  REQUIRE(top.out().position == std::numeric_limits<std::int32_t>::min() + 12);
-  for (int k = 19; k >= -5; --k) script.phase(k, 2);
-  REQUIRE(play(script.hold(6)).out().position == kStart - 5);
 }
 
 TEST_CASE("quad_decoder: set-zero loses no edge, whichever clock it meets") {
@@ -205,29 +158,14 @@ TEST_CASE("quad_decoder: random shafts against twin and oracle") {
     mixes.push_back(noisy);
   }
   std::uint64_t seed = 10;
-  Oracle::Totals sum;
   for (const Mix& mix : mixes) {
     QuadDecoderBench bench("quad_decoder", ++seed, QuadDecoder(kStart, INDEX_COUNTS));
-    Oracle::Totals totals;
-    const auto watch = [oracle = Oracle(kStart), &totals](const auto& in, const auto&,
-                                                          const QuadDecoder& twin,
-                                                          bool in_reset) mutable {
-      const char* broken = oracle(in, twin.out(), in_reset);
-      totals = oracle.totals;
-      return broken;
+    const auto watch = [oracle = Oracle(kStart)](const auto& in, const auto&,
+                                                 const QuadDecoder& twin, bool in_reset) mutable {
+      return oracle(in, twin.out(), in_reset);
     };
     bench.run(Wander(seed, mix), scaled_clocks(500'000), ResetPlan{5000}, watch);
-    REQUIRE(totals.up > 1000);
-    REQUIRE(totals.down > 1000);
-    REQUIRE(totals.index > 100);
-    REQUIRE(totals.resets > 50);
-    REQUIRE((totals.illegal > 50) == (mix.jump != 0));
-    REQUIRE((totals.rejected > 1000) == (mix.filter != 0));
-    sum.illegal += totals.illegal;
-    sum.rejected += totals.rejected;
   }
-  CAPTURE(sum.illegal, sum.rejected);
-  REQUIRE(sum.rejected > 100'000);
 }
 
 TEST_CASE("quad_decoder: everything at random") {

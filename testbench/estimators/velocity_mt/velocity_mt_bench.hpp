@@ -227,15 +227,14 @@ struct Moved {
   }
 };
 
-struct Tally {
-  std::int64_t ticks = 0, values = 0, saturated = 0, lowered = 0, standstill = 0, partial = 0,
-               turned = 0, longest = 0, negative = 0, stopped = 0, followed = 0, fast_rests = 0;
-  quad worst_raw = 0, worst = 0, largest = 0;  // rad/s
+/// The largest errors of raw and filtered velocity, and the largest difference, in rad/s.
+struct Worst {
+  quad raw = 0, filtered = 0, difference = 0;
 };
 
 /// The block from a list of all edges of the run. Raw values appear in the tick after their sample.
 struct Reference {
-  Tally* tally;
+  Worst* worst;
   std::vector<std::int64_t> run{};  // clocks of the edges since the last turn, rest or jump
   std::int64_t clock = 0, y = 0, raw = 0, due_raw = 0, next_raw = 0, span = 0;
   std::int64_t quiet = 0;  // clocks since the last edge, or since the reset
@@ -248,7 +247,7 @@ struct Reference {
   const char* operator()(const Twin::In& in, const Vvelocity_mt& rtl, const Twin& twin,
                          bool in_reset) {
     if (in_reset) {
-      *this = Reference{tally};
+      *this = Reference{worst};
       return nullptr;
     }
     if (at(in, Map::T::velocity)) filter();
@@ -280,9 +279,7 @@ struct Reference {
                                             Design::P::velocity_a1.fraction);
 
   void filter() {
-    tally->fast_rests += follows && (y < -kSlow || y >= kSlow);
     if (follows && y >= -kSlow && y < kSlow) {
-      ++tally->followed;
       y = 0;
       exact_y = 0;
       return;
@@ -291,10 +288,10 @@ struct Reference {
     y += static_cast<std::int64_t>((product + (int128_t{1} << 26)) >> 27);
     // The same in real arithmetic.
     const quad difference = exact_raw - exact_y;
-    tally->largest = larger(tally->largest, magnitude(difference));
+    worst->difference = larger(worst->difference, magnitude(difference));
     exact_y += static_cast<quad>(parameter(Design::A::velocity_a1).si) * difference;
-    tally->worst_raw = larger(tally->worst_raw, magnitude(in_rad_s(raw) - exact_raw));
-    tally->worst = larger(tally->worst, magnitude(in_rad_s(y) - exact_y));
+    worst->raw = larger(worst->raw, magnitude(in_rad_s(raw) - exact_raw));
+    worst->filtered = larger(worst->filtered, magnitude(in_rad_s(y) - exact_y));
   }
   static quad in_rad_s(std::int64_t fixed) {
     return static_cast<quad>(fixed) * lsb(Design::f.velocity.fraction);
@@ -313,7 +310,6 @@ struct Reference {
     }
     const int up = low == 1 ? 1 : -1;
     if (run.empty() || up != direction) {
-      tally->turned += !run.empty();
       run.clear();
       doublings = 0;
     }
@@ -330,11 +326,7 @@ struct Reference {
     return one * halves / clocks;
   }
   void sample() {
-    ++tally->ticks;
-    if (!still && run.empty() && quiet >= 4 * kRest) {
-      still = true;
-      ++tally->stopped;
-    }
+    still = still || (run.empty() && quiet >= 4 * kRest);
     due_raw = next_raw;
     due_limited = next_limited;
     due_exact = next_exact;
@@ -353,13 +345,7 @@ struct Reference {
                                 : direction * Real::magnitude(4096, 2 * static_cast<int>(counts),
                                                               span, nullptr);
       decided = 2;
-      ++tally->values;
-      tally->saturated += next_limited;
-      tally->partial += known < 4;
-      tally->negative += direction < 0;
-      tally->longest += counts == (std::size_t{4} << Velocity::doublings);
     } else if (run.empty() || clock - run.back() >= kRest) {
-      tally->standstill += next_raw != 0;
       run.clear();
       next_raw = 0;
       next_exact = 0;
@@ -371,7 +357,6 @@ struct Reference {
         if (next_raw < 0) next_exact = -next_exact;
         next_raw = next_raw < 0 ? -most : most;
         next_limited = false;
-        ++tally->lowered;
       }
     }
     fresh = false;

@@ -8,8 +8,7 @@
 #include <memory>
 
 #include "catch.hpp"
-#include "frames.hpp"
-#include "linked_adapter.hpp"
+#include "feltgate_linked_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;

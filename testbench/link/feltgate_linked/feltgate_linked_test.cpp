@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// feltgate_linked: RTL against twin on every clock, including the UART pins, with random requests
-// and invalid frames; single requests; thousands of random frames; the twin from event to event.
-// Documentation: docs/link.md
+// feltgate_linked: single requests, and thousands of random frames, at the twin's pins; its RTL has
+// the same bits (wire_test.cpp). Documentation: docs/link.md
 #include <cstdio>
-#include <deque>
 
 #include "catch.hpp"
-#include "frames.hpp"
-#include "linked_adapter.hpp"
+#include "feltgate_linked_twin.hpp"
 #include "port_core.hpp"
 
 using namespace feltgate;
@@ -17,76 +14,10 @@ using namespace feltgate::test;
 
 namespace {
 
-constexpr std::uint32_t bit(int n) { return 1U << n; }
-constexpr std::uint32_t control(bool arm, int scene) {
-  return static_cast<std::uint32_t>(D::control_reset) | bit(D::C::control_host) |
-         (arm ? bit(D::C::control_arm) : 0) |
-         static_cast<std::uint32_t>(scene) << D::C::control_scene;
-}
-
-/// A lever, a panel, and the bytes on the wire.
-struct Stimulus {
-  explicit Stimulus(std::uint64_t seed)
-      : random(seed), frames(Random(seed + 1)), line(D::clock_hz, BAUD) {}
-
-  LinkedIn operator()(std::int64_t, const LinkedOut& out) {
-    if (line.unsent() == 0 && gap-- <= 0) {
-      if (random.one_in(5)) {
-        arm_and_disarm();
-      } else {
-        send(frames.any());
-      }
-      gap = static_cast<int>(random.below(random.one_in(4) ? 40'000 : 2'000));
-    }
-    if (random.one_in(60'000)) low = 1 + static_cast<int>(random.below(300));
-    in.uart_rx = line.level() && low == 0;
-    if (low > 0) --low;
-    line.clock(out.uart_tx);
-    if (random.one_in(900)) phase += random.one_in(5) ? 3 : 1;
-    in.encoder = pins_at(phase, (phase & 0xfffU) == 0);
-    in.encoder_data = random.coin();  // without the options nothing follows from these
-    in.current_data = random.coin();
-    in.driver_fault = random.coin();
-    in.hall = static_cast<std::uint8_t>(random.below(8));
-    if (random.one_in(60'000)) in.arm = !in.arm;
-    if (random.one_in(200'000)) in.scene = static_cast<std::uint8_t>(random.below(10));
-    in.stop = random.one_in(400'000);
-    in.set_zero = random.one_in(100'000);
-    in.clear_faults = random.one_in(50'000);
-    if (random.one_in(10'000)) in.inputs = static_cast<std::uint8_t>(random.below(256));
-    return in;
-  }
-
-  void send(const Bytes& wire) {
-    for (const std::uint8_t byte : wire) line.send(byte);
-  }
-  /// The host arms, and disarms while a long reply is being sent.
-  void arm_and_disarm() {
-    const auto next = [this] { return frames.sequence = (frames.sequence + 1) & 255; };
-    send(request(2, next(), D::C::control, control(false, D::S::damper)));
-    send(request(2, next(), D::C::command, 1U << D::C::command_clear_faults));
-    send(request(2, next(), D::C::control, control(true, D::S::damper)));
-    if (random.coin()) send(request(2, next(), LinkMap::A::stream_period, random.below(2000)));
-    if (random.coin()) send(request(2, next(), LinkMap::A::stream_words, random.below(4096)));
-    if (random.coin()) send(request(2, next(), LinkMap::A::capture_words, random.below(4096)));
-    if (random.coin()) send(request(2, next(), LinkMap::A::capture_control, random.below(8)));
-    if (random.coin()) send(request(1, next(), LinkMap::memory + random.below(200), 20));
-    send(request(1, next(), LinkMap::words, 40));
-    send(request(2, next(), D::C::control, control(false, D::S::damper)));
-  }
-
-  Random random;
-  RandomFrames frames;
-  UartLine line;
-  LinkedIn in;
-  int gap = 10, low = 0;
-  unsigned phase = 0;
-};
-
 /// A host at the twin's pins.
 struct Host {
   Twin board;
-  LinkedIn in;
+  In in;
   std::int64_t now = 0;
   Bytes got;
 
@@ -121,7 +52,7 @@ struct Host {
   /// Arms. Returns the status of the reply or, with an engine, the status after its CRC is
   /// computed.
   std::uint32_t arm(int sequence) {
-    const std::uint32_t status = write(sequence, D::C::control, control(true, D::S::damper));
+    const std::uint32_t status = write(sequence, D::C::control, control_word(true, D::S::damper));
     if (D::engine == 0) return status;
     run(100'000);
     return read(sequence, static_cast<std::uint32_t>(D::C::read_status), 1)[0];
@@ -142,13 +73,6 @@ struct Host {
 };
 
 }  // namespace
-
-TEST_CASE("feltgate_linked: whatever comes over the wire, RTL against twin") {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    Bench bench("feltgate_linked", seed);
-    bench.run(Stimulus(seed), scaled_clocks(1'500'000), {seed == 3 ? 60'000U : 0U});
-  }
-}
 
 TEST_CASE("feltgate_linked: reads and writes") {
   Host host;
@@ -185,9 +109,9 @@ TEST_CASE("feltgate_linked: a repeated write is done once, its reply has the sta
   Host host;
   host.run(5000);
   const auto once = host.board.core().writes();
-  host.write(7, D::C::control, control(false, D::S::damper));
-  host.write(7, D::C::control, control(false, D::S::damper));
-  host.write(7, D::C::control, control(false, D::S::wall));
+  host.write(7, D::C::control, control_word(false, D::S::damper));
+  host.write(7, D::C::control, control_word(false, D::S::damper));
+  host.write(7, D::C::control, control_word(false, D::S::wall));
   CHECK(host.board.core().writes() == once + 1);
   CHECK(host.board.out().core.scene == D::S::damper);
   const std::uint32_t armed = host.arm(8);
@@ -207,8 +131,8 @@ TEST_CASE("feltgate_linked: a disarm amid a long reply acts in the tick in which
     host.got.clear();
     host.send(request(1, 2, 0, 64));
     host.send(request(2, 3, D::A::ramp_step, 5));  // waits for its reply
-    host.send(stop ? request(2, 4, D::C::command, bit(D::C::command_stop))
-                   : request(2, 4, D::C::control, control(false, D::S::damper)));
+    host.send(stop ? request(2, 4, D::C::command, 1U << D::C::command_stop)
+                   : request(2, 4, D::C::control, control_word(false, D::S::damper)));
     while (host.board.unsent() > 0) {
       host.run(1);
       if (host.board.unsent() > 1) REQUIRE(host.board.out().core.gates_enable);
@@ -218,20 +142,6 @@ TEST_CASE("feltgate_linked: a disarm amid a long reply acts in the tick in which
     CHECK(!host.board.out().core.gates_enable);
     CHECK((host.board.out().core.faults != 0) == stop);
   }
-}
-
-TEST_CASE("feltgate_linked: the panel clears faults, also while the host writes") {
-  Host host;
-  host.run(5000);
-  host.arm(1);
-  host.write(2, D::C::command, bit(D::C::command_stop));
-  REQUIRE(host.board.out().core.faults != 0);
-  host.write(3, D::C::control, control(false, D::S::damper));
-  host.in.clear_faults = true;
-  host.run(1);
-  host.in.clear_faults = false;
-  host.run(3 * D::clocks_per_tick);
-  CHECK(host.board.out().core.faults == 0);
 }
 
 TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") {
@@ -274,8 +184,8 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
     // Disarms, so that the next write is not refused.
     if (host.board.out().core.armed) {
       last = (last + 1) & 255;
-      REQUIRE(!host.ask(request(2, last, D::C::control, control(false, 0))).empty());
-      for (const std::uint8_t byte : request(2, last, D::C::control, control(false, 0))) {
+      REQUIRE(!host.ask(request(2, last, D::C::control, control_word(false, 0))).empty());
+      for (const std::uint8_t byte : request(2, last, D::C::control, control_word(false, 0))) {
         reader.take(byte);
       }
     }
@@ -296,51 +206,4 @@ TEST_CASE("feltgate_linked: random frames: what is no request changes nothing") 
       CHECK(read[k] == word_kept<D>(static_cast<int>(at + k), words[at + k]));
     }
   }
-}
-
-TEST_CASE("feltgate_linked: from event to event as clock by clock") {
-  Twin fast, slow;
-  UartLine line(D::clock_hz, BAUD);
-  RandomFrames frames(Random(5));
-  Random random(6);
-  LinkedIn in;
-  Bytes from_fast, from_slow;
-  unsigned phase = 0;
-  for (int k = 0; k < 3000; ++k) {
-    const auto send = [&](const Bytes& wire) {
-      for (const std::uint8_t byte : wire) {
-        line.send(byte);
-        fast.send(byte);
-      }
-    };
-    if (random.one_in(3)) send(frames.any());
-    if (k % 500 == 100) {  // a capture, then a stream, then none
-      send(request(2, k & 255, LinkMap::A::capture_words, 0x0d7));
-      send(request(2, (k + 1) & 255, LinkMap::A::capture_control, 1 + 4));
-    }
-    if (k % 500 == 300) send(request(2, k & 255, LinkMap::A::stream_period, 700));
-    if (k % 500 == 400) {
-      send(request(1, k & 255, LinkMap::memory, 64));
-      send(request(2, k & 255, LinkMap::A::stream_period, 0));
-    }
-    if (random.one_in(3)) phase += 1;
-    in.encoder = pins_at(phase);
-    in.arm = random.coin();
-    const auto clocks = static_cast<std::int64_t>(1 + random.below(3000));
-    std::int64_t snapshots = 0;
-    fast.run(in, clocks, [&] { ++snapshots; });
-    for (std::int64_t c = 0; c < clocks; ++c) {
-      in.uart_rx = line.level();
-      line.clock(slow.out().uart_tx);
-      slow.clock(in);
-      snapshots -= slow.out().core.snapshot_valid;
-    }
-    REQUIRE(snapshots == 0);
-    REQUIRE(fast.out().uart_tx == slow.out().uart_tx);
-    REQUIRE(fast.out().core == slow.out().core);
-    for (const std::uint8_t byte : fast.take_received()) from_fast.push_back(byte);
-    for (const std::uint8_t byte : line.take_received()) from_slow.push_back(byte);
-    REQUIRE(from_fast == from_slow);
-  }
-  CHECK(from_fast.size() > 1000);
 }

@@ -10,7 +10,7 @@
 #include <complex>
 
 #include "catch.hpp"
-#include "linked_adapter.hpp"
+#include "feltgate_linked_twin.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/plant/parameters.hpp"
 #include "sim/plant/sigma_delta.hpp"

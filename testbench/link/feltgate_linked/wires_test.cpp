@@ -5,148 +5,16 @@
 // one visible at an output or to the host. Documentation: docs/link.md
 #include <array>
 #include <functional>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/design_info.hpp"
-#include "frames.hpp"
-#include "law/compile.hpp"
-#include "law/load.hpp"
-#include "linked_adapter.hpp"
-
-// A host loads a law and a lever moves in it. The twin runs at once; play() then runs the RTL
-// beside a twin.
-
-namespace feltgate::test {
-
-using H = EngineMap::H;
-constexpr int kTick = D::clocks_per_tick;
-
-/// The image of a spring with an event at a position.
-inline const law::Image& image() {
-  static const law::Image made = [] {
-    const char* text =
-        "param stiffness = 0.25 Nm/rad in 0 .. 1 Nm/rad\n"
-        "event beyond(position) when position > 0.01\n"
-        "out torque = -stiffness * position\n";
-    return law::compile_text(text, "test", law::target_of(design_info<D>())).image;
-  }();
-  return made;
-}
-
-/// A host and a lever at the twin's pins. Their actions are recorded; the RTL runs them later.
-class Life {
- public:
-  LinkedIn in;
-
-  const LinkedOut& out() const { return twin_->out(); }
-  std::vector<int> event_clocks;  ///< clock of the tick for each event
-  void clocks(std::int64_t count) {
-    for (; count > 0; --count) {
-      in.uart_rx = line_.level();
-      line_.clock(twin_->out().uart_tx);
-      inputs_.push_back(in);
-      if (twin_->device().event_valid()) event_clocks.push_back(twin_->device().clock_of_tick());
-      twin_->clock(in);
-    }
-  }
-  void ticks(int n) { clocks(std::int64_t{n} * kTick); }
-  void send(const Bytes& wire) {
-    for (const std::uint8_t byte : wire) line_.send(byte);
-  }
-  /// Returns the words of the reply; empty if the line stays silent.
-  std::vector<std::uint32_t> ask(const Bytes& wire) {  // the sequence number is not escaped
-    send(wire);
-    for (int wait = 0; wait < 700 || line_.unsent() > 0; ++wait) {
-      clocks(100);
-      for (const std::uint8_t byte : line_.take_received()) {
-        wait = 0;
-        if (byte != LinkMap::frame_end) {
-          frame_.push_back(byte);
-          continue;
-        }
-        const Bytes frame = std::exchange(frame_, {});
-        // Earlier requests may be answered too.
-        if (frame.size() > 2 && frame[1] == wire[2]) return body_words(unescaped(frame));
-      }
-    }
-    return {};
-  }
-  std::vector<std::uint32_t> read(std::uint32_t address, std::uint32_t words) {
-    const auto got = ask(request(1, ++sequence_ & 255, address, words));
-    REQUIRE(got.size() == words);
-    return got;
-  }
-  void write(std::uint32_t address, std::uint32_t word) {
-    REQUIRE(ask(request(2, ++sequence_ & 255, address, word)).size() == 1);
-  }
-  std::vector<std::uint32_t> engine(int address, std::uint32_t words = 1) {
-    return read(static_cast<std::uint32_t>(EngineMap::port_first + address), words);
-  }
-  /// Sends all frames but the last at the full rate of the wire: each acts when its frame is
-  /// complete.
-  void write_engine(const std::vector<law::HostWord>& words) {
-    for (std::size_t k = 0; k < words.size(); ++k) {
-      const auto address = static_cast<std::uint32_t>(EngineMap::port_first + words[k].address);
-      if (k + 1 == words.size()) {
-        write(address, words[k].data);
-      } else {
-        send(request(2, ++sequence_ & 255, address, words[k].data));
-      }
-    }
-  }
-  void control(bool arm) {
-    write(D::C::control, static_cast<std::uint32_t>(D::control_reset) | 1U << D::C::control_host |
-                             std::uint32_t{arm} << D::C::control_arm |
-                             static_cast<std::uint32_t>(D::S::law) << D::C::control_scene);
-  }
-  void arm() {
-    control(false);
-    write(D::A::self_test_pulse, 0);
-    write(D::A::ramp_step, 0x7ffffff);
-    write(D::C::command, 1U << D::C::command_clear_faults);
-    control(true);
-    for (int k = 0; k < 3000 && !out().core.armed; ++k) ticks(1);
-  }
-  /// Moves by one count.
-  void turn(bool up) {
-    phase_ += up ? 1U : 3U;
-    in.encoder = pins_at(phase_, in.encoder.z);
-  }
-  /// Moves by one count and runs four ticks.
-  void step(bool up) {
-    turn(up);
-    ticks(4);
-  }
-  /// Runs the recorded actions on the RTL beside a twin.
-  void play() {
-    Bench bench("feltgate_linked", 7);
-    const std::vector<LinkedIn>& inputs = inputs_;
-    bench.run(
-        [&inputs](std::int64_t clock) {
-          const std::int64_t k = clock - Bench::kFirstReset;
-          return k < 0 ? LinkedIn{} : inputs[static_cast<std::size_t>(k)];
-        },
-        static_cast<std::int64_t>(inputs.size()) + Bench::kFirstReset);
-  }
-
- private:
-  std::unique_ptr<Twin> twin_ = std::make_unique<Twin>();
-  UartLine line_{D::clock_hz, BAUD};
-  std::vector<LinkedIn> inputs_;
-  Bytes frame_;
-  int sequence_ = 0;
-  unsigned phase_ = 0;
-};
-
-}  // namespace feltgate::test
+#include "feltgate_linked_twin.hpp"
 
 using namespace feltgate;
 using namespace feltgate::test;
 using A = LinkMap::A;
 using C = D::C;
+using H = EngineMap::H;
 
 namespace {
 
@@ -172,7 +40,7 @@ struct Armed : Life {
     write_engine(law::load_into_zeros(image()));
     for (const auto& [address, word] : words) write(address, word);
     arm();
-    REQUIRE(out().core.armed);
+    REQUIRE(armed());
   }
 };
 
@@ -203,12 +71,12 @@ TEST_CASE("link: an address of the engine's half is none of the link's") {
 }
 
 TEST_CASE("link: a capture is triggered by the event whose number has all its bits") {
-  for (const int number : {0x155, 0x0aa, 0x1c3, 0x03c, 0x012, 0x100}) {
+  for (const int number : {0x155, 0x066, 0x078, 0x180}) {
     Life s;
     s.clocks(5000);
     s.write_engine(law::load_into_zeros(numbered(number)));
     s.arm();
-    REQUIRE(s.out().core.armed);
+    REQUIRE(s.out().armed);
     s.write(A::trigger_mode, LinkMap::trigger_event);
     s.write(A::trigger_level, static_cast<std::uint32_t>(number));
     s.write(A::capture_words, 1U << LinkMap::N::tick);
@@ -245,7 +113,7 @@ TEST_CASE("link: an event is taken once, however long the engine is busy") {
   const Bytes take = request(2, 201, EngineMap::port_first + H::event_tick, 0);
   s.send(take);
   s.clocks(10'000);
-  CHECK_FALSE(s.out().core.armed);
+  CHECK_FALSE(s.out().armed);
   s.clocks(80'000);
   CHECK(s.engine(H::event_count)[0] == 4);
   s.play();
@@ -308,7 +176,7 @@ TEST_CASE("linked: each cause of fault is its own at the pins") {
       {Fault::channel,
        {},
        [](Life& s) {
-         for (int k = 0; k < 20'000 && s.out().core.gates_enable; ++k) s.step(k % 2 == 0);
+         for (int k = 0; k < 20'000 && s.out().gates_enable; ++k) s.step(k % 2 == 0);
        }},
       {Fault::engine,
        {{EngineMap::port_first + H::divider0, 4000}, {EngineMap::port_first + H::max_age, 3000}},
@@ -319,15 +187,15 @@ TEST_CASE("linked: each cause of fault is its own at the pins") {
     way.what(s);
     s.ticks(3);
     INFO("fault " << static_cast<int>(way.cause));
-    CHECK(s.out().core.faults == fault_bit(way.cause));
-    CHECK(s.out().core.first_fault == static_cast<unsigned>(way.cause));
-    CHECK_FALSE(s.out().core.gates_enable);
+    CHECK(s.out().faults == fault_bit(way.cause));
+    CHECK(s.out().first_fault == static_cast<unsigned>(way.cause));
+    CHECK_FALSE(s.out().gates_enable);
     s.control(false);
     s.write(D::A::i2t_budget, 0xffffffff);  // otherwise the heat remains a fault
     s.write(D::A::overspeed, 0x7fffffff);   // and so does the remaining velocity
     s.write(C::command, 1U << C::command_clear_faults);
     s.ticks(3);
-    CHECK(s.out().core.faults == 0);
+    CHECK(s.out().faults == 0);
     s.play();
   }
 }
@@ -354,24 +222,24 @@ TEST_CASE("linked: each limit is its own at the pins") {
     unsigned seen = 0;
     for (int k = 0; k < 120; ++k) {
       s.step(true);
-      seen |= s.out().core.limits;
+      seen |= s.out().limits;
     }
     for (int k = 0; k < 5'000; ++k) {
       s.ticks(1);
-      seen |= s.out().core.limits;
+      seen |= s.out().limits;
     }
     INFO("limit " << way.limit << ", seen " << seen);
     CHECK((seen >> way.limit & 1U) == 1);
     s.control(false);
     s.ticks(3);
-    CHECK(s.out().core.limits == limit::gates_closed);
+    CHECK(s.out().limits == limit::gates_closed);
     s.play();
   }
   Armed s;
   unsigned seen = 0;
   for (int k = 0; k < 40; ++k) {
     s.step(k % 2 == 0);
-    seen |= s.out().core.limits;
+    seen |= s.out().limits;
   }
   CHECK((seen & limit::chatter) != 0);
   s.play();
@@ -382,11 +250,11 @@ TEST_CASE("linked: each limit is its own at the pins") {
   for (int k = 0; k < 4'000; ++k) {
     fast.turn(true);
     fast.clocks(2);
-    seen |= fast.out().core.limits;
+    seen |= fast.out().limits;
   }
   CHECK((seen & limit::velocity) != 0);
   fast.ticks(2000);
-  CHECK((fast.out().core.limits & limit::velocity) == 0);
+  CHECK((fast.out().limits & limit::velocity) == 0);
   fast.play();
 }
 
@@ -420,12 +288,12 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   }
 
   s.arm();
-  REQUIRE(s.out().core.armed);
+  REQUIRE(s.out().armed);
   CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
   for (int k = 0; k < 10; ++k) s.step(true);
   s.ticks(40);
-  CHECK(s.out().core.position == 10);
-  CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
+  CHECK(s.out().position == 10);
+  CHECK(std::abs(s.out().tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
 
   // A parameter takes effect only with the commit.
   const double before = parameters.value("stiffness");
@@ -434,17 +302,17 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   writes.pop_back();
   s.write_engine(writes);
   s.ticks(20);
-  CHECK(std::abs(s.out().core.tau_ref - torque(before, 10)) <= 1);
+  CHECK(std::abs(s.out().tau_ref - torque(before, 10)) <= 1);
   s.write_engine({commit});
   s.ticks(40);
-  CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
+  CHECK(std::abs(s.out().tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
 
   // A parameter out of its range is refused, and its number is reported.
   writes.front().data = 0x7fffffff;
   s.write_engine(writes);
   s.write_engine({commit});
   s.ticks(40);
-  CHECK(std::abs(s.out().core.tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
+  CHECK(std::abs(s.out().tau_ref - torque(parameters.value("stiffness"), 10)) <= 1);
   const auto status = s.engine(H::status, 2);
   CHECK((status[0] >> EngineMap::S::status_refused & 1U) == 1);
   CHECK(status[1] == static_cast<std::uint32_t>(image().words[0].word));
@@ -460,8 +328,10 @@ TEST_CASE("feltgate_linked: a law is loaded, verified, felt, changed, and tells 
   CHECK(at > 0.01);
   CHECK(at < 0.013);
   const Bytes take = request(2, 201, EngineMap::port_first + H::event_tick, 0);
-  REQUIRE(s.ask(take).size() == 1);
-  REQUIRE(s.ask(take).size() == 1);
+  for (int twice = 0; twice < 2; ++twice) {
+    s.send(take);
+    REQUIRE(s.frame(0x82, 201).size() == 1);
+  }
   const auto next = s.engine(H::event_count, 5);
   CHECK(next[0] == 1);
   CHECK(next[3] > event[3]);
@@ -508,8 +378,6 @@ TEST_CASE("feltgate_linked: an event of the law triggers the capture in its tick
     const std::uint32_t row = (first + before) % (1U << LinkMap::rows_log2);
     CHECK(s.read(LinkMap::memory + 8 * row, 1)[0] == event[3]);
   }
-  REQUIRE(s.event_clocks.size() >= 3);
-  std::printf("events in clock %d of a tick\n", s.event_clocks.back());
   s.play();
 }
 
@@ -520,8 +388,8 @@ TEST_CASE("feltgate_linked: a law of which the last part is missing is not armed
     s.clocks(5000);
     s.write_engine({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(part)});
     s.arm();
-    CHECK_FALSE(s.out().core.gates_enable);
-    CHECK(s.out().core.tau_ref == 0);
+    CHECK_FALSE(s.out().gates_enable);
+    CHECK(s.out().tau_ref == 0);
     CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 0);
     if (part == 2) s.play();
   }
@@ -536,26 +404,26 @@ TEST_CASE("feltgate_linked: a read of the engine waits while it is busy, a disar
   s.clocks(20'000);
   CHECK((s.engine(H::status)[0] >> EngineMap::S::status_crc_good & 1U) == 1);
   s.arm();
-  REQUIRE(s.out().core.armed);
+  REQUIRE(s.out().armed);
   s.control(true);
   s.send(request(1, 210, EngineMap::port_first, 64));
   s.clocks(10'000);
   s.control(false);
   s.ticks(2);
-  CHECK_FALSE(s.out().core.gates_enable);
+  CHECK_FALSE(s.out().gates_enable);
   // The panel clears a fault while the engine processes a commit of the host.
   s.arm();
   s.in.stop = true;
   s.clocks(1);
   s.in.stop = false;
   s.ticks(3);
-  CHECK(s.out().core.faults != 0);
+  CHECK(s.out().faults != 0);
   s.control(false);
   s.send(request(2, 220, static_cast<std::uint32_t>(EngineMap::port_first + H::commit), 1));
   s.in.clear_faults = true;
   s.clocks(1);
   s.in.clear_faults = false;
   s.clocks(5000);
-  CHECK(s.out().core.faults == 0);
+  CHECK(s.out().faults == 0);
   s.play();
 }

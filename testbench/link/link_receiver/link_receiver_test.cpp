@@ -7,6 +7,7 @@
 
 #include <Vlink_receiver.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -190,43 +191,105 @@ TEST_CASE("link_receiver: frames of random bytes are no requests, and each is co
   CHECK(accepted == 1);
 }
 
-TEST_CASE("link_receiver: the borders of what a request may be") {
-  const auto sound = [](const Bytes& wire) {
-    Twin twin;
-    bool good = false;
-    for (const std::uint8_t byte : wire) {
-      twin.clock({byte, true, false, false});
-      good = good || twin.out().good;
-      for (int k = 0; k < 9; ++k) twin.clock({});
-    }
-    return good;
-  };
-  CHECK(sound(request(1, 0, 0x3fc0, 64)));
-  CHECK(!sound(request(1, 0, 0x3fc1, 64)));
-  CHECK(sound(request(1, 0, 0x3fff, 1)));
-  CHECK(!sound(request(1, 0, 0x3fff, 2)));
-  CHECK(sound(request(1, 0, 0x4000, 1)) == (ENGINE != 0));
-  CHECK(sound(request(2, 0, 0x4000, 1)) == (ENGINE != 0));
-  CHECK(sound(request(1, 0, 0x7fc0, 64)) == (ENGINE != 0));
-  CHECK(!sound(request(1, 0, 0x7fc1, 64)));
-  CHECK(!sound(request(2, 0, 0xc000, 1)));
-  CHECK(!sound(request(2, 0, 0x8000, 1)));
-  CHECK(sound(request(2, 0, 0x3fff, 0xffffffff)));
-  CHECK(!sound(request(1, 0, 0, 0)));
-  CHECK(sound(request(1, 0, 0, 64)));
-  CHECK(!sound(request(1, 0, 0, 65)));
-  CHECK(!sound(request(1, 0, 0, 128 + 1)));
-  CHECK(!sound(request(1, 0, 0, 0x80000001)));
-  for (int kind = 0; kind < 256; ++kind) {
-    CHECK(sound(request(kind, 0, 0, 1)) == (kind == 1 || kind == 2));
+// link_receiver: when its twin says that it is idle, nothing changes without a byte.
+
+namespace {
+
+LinkReceiver::In byte_of(std::uint8_t byte) {
+  LinkReceiver::In in;
+  in.byte = byte;
+  in.valid = true;
+  return in;
+}
+
+struct Line {
+  LinkReceiver twin;
+
+  void send(std::uint32_t byte) {
+    twin.clock(byte_of(static_cast<std::uint8_t>(byte)));
+    for (int k = 0; k < 9; ++k) twin.clock({});
   }
-  // Every bit of a frame that is not one of its borders.
-  const Bytes wire = request(2, 0x55, 0x123, 0x456789ab);
-  for (std::size_t byte = 1; byte + 1 < wire.size(); ++byte) {
+  /// All of a frame but its last END.
+  void send(const Bytes& frame) {
+    for (std::size_t k = 0; k + 1 < frame.size(); ++k) send(frame[k]);
+  }
+  bool ends_good() {
+    twin.clock(byte_of(LinkMap::frame_end));
+    REQUIRE(twin.out().good != twin.out().bad);
+    return twin.out().good;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("link_receiver: it is idle but for the eight bits of a byte and the clock of a verdict") {
+  LinkReceiver twin;
+  REQUIRE(twin.idle());
+  for (int n = 0; n < 3; ++n) {
+    CAPTURE(n);
+    twin.clock(byte_of(static_cast<std::uint8_t>(0x31 + n)));
     for (int bit = 0; bit < 8; ++bit) {
-      Bytes changed = wire;
-      changed[byte] ^= static_cast<std::uint8_t>(1U << bit);
-      CHECK(!sound(changed));
+      CAPTURE(bit);
+      REQUIRE_FALSE(twin.idle());
+      twin.clock({});
     }
+    REQUIRE(twin.idle());
+    const LinkReceiver::Out before = twin.out();
+    for (int k = 0; k < 20; ++k) twin.clock({});
+    REQUIRE(twin.idle());
+    REQUIRE(twin.out().request.data == before.request.data);
+    REQUIRE(twin.out().request.address == before.request.address);
   }
+  // Three bytes are no frame.
+  twin.clock(byte_of(LinkMap::frame_end));
+  REQUIRE(twin.out().bad);
+  REQUIRE_FALSE(twin.idle());
+  twin.clock({});
+  REQUIRE_FALSE(twin.out().bad);
+  REQUIRE(twin.idle());
+  // An END behind an END is nothing.
+  twin.clock(byte_of(LinkMap::frame_end));
+  CHECK(twin.idle());
+}
+
+TEST_CASE("link_receiver: a good frame takes a clock too") {
+  Line line;
+  line.send(request(LinkMap::kind_read, 7, 0x1000, 1));
+  REQUIRE(line.twin.idle());
+  REQUIRE(line.ends_good());
+  CHECK_FALSE(line.twin.idle());
+  CHECK(line.twin.out().request.address == 0x1000);
+  line.twin.clock({});
+  CHECK(line.twin.out().request.valid);
+  CHECK(line.twin.idle());
+}
+
+TEST_CASE("link_receiver: without an engine its addresses are none") {
+  Line line;
+  line.send(request(LinkMap::kind_read, 7, 0x4000, 1));
+  CHECK_FALSE(line.ends_good());
+}
+
+TEST_CASE("link_receiver: a byte that is not valid is none, whatever it is") {
+  Line line;
+  line.send(request(LinkMap::kind_read, 7, 0x1000, 1));
+  for (const std::uint32_t byte : {LinkMap::frame_end, LinkMap::frame_escape, 0x31U}) {
+    LinkReceiver::In in;
+    in.byte = static_cast<std::uint8_t>(byte);
+    line.twin.clock(in);
+    REQUIRE(line.twin.idle());
+  }
+  CHECK(line.ends_good());
+}
+
+TEST_CASE("link_receiver: two escapes in a row spoil the frame") {
+  // The low byte of the address is the escape.
+  Bytes frame = request(LinkMap::kind_read, 7, 0x10db, 1);
+  Line line;
+  line.send(frame);
+  REQUIRE(line.ends_good());
+  const auto escape = std::find(frame.begin(), frame.end(), LinkMap::frame_escape);
+  frame.insert(escape, static_cast<std::uint8_t>(LinkMap::frame_escape));
+  line.send(frame);
+  CHECK_FALSE(line.ends_good());
 }

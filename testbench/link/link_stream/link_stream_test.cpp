@@ -125,26 +125,6 @@ std::uint32_t check_frame(const Frame& f) {
   return tick;
 }
 
-std::vector<Frame> play(Stimulus stimulus, std::int64_t clocks, std::uint32_t* dropped = nullptr) {
-  std::vector<std::vector<std::uint8_t>> raw;
-  stimulus.writes = false;
-  Bench bench("link_stream", 1);
-  bench.run(stimulus, clocks, {}, Frames{&raw, {}});
-  std::vector<Frame> frames;
-  for (const auto& bytes : raw) frames.push_back(parsed(bytes));
-  if (dropped != nullptr) {  // what the twin says of the same, read back
-    Twin twin;
-    for (std::int64_t k = 0; k < clocks; ++k) {
-      if (k < Bench::kFirstReset) twin.reset();
-      Twin::In in = stimulus(k);
-      if (k >= clocks - 3) in.addr = A::stream_dropped;
-      if (k >= Bench::kFirstReset) twin.clock(in);
-    }
-    *dropped = twin.out().rdata;
-  }
-  return frames;
-}
-
 }  // namespace
 
 TEST_CASE("link_stream: random ticks, registers, transmitters and resets") {
@@ -160,18 +140,6 @@ TEST_CASE("link_stream: random ticks, registers, transmitters and resets") {
     masks.insert(f.mask);
   }
   REQUIRE(masks.size() > raw.size() / 20);
-}
-
-TEST_CASE("link_stream: each word alone, none and all, in the order of their slots") {
-  for (int k = -1; k <= LinkMap::snapshot_words; ++k) {
-    const unsigned mask = k < 0 ? 0xf000u : k == LinkMap::snapshot_words ? 0xfffffu : 1u << k;
-    const auto frames = play({Random(4), TickWords(5), false, mask, 3}, 6000);
-    REQUIRE(frames.size() > 20);
-    for (const Frame& f : frames) {
-      REQUIRE(f.mask == ((mask & 0xfffu) | 1u << LinkMap::N::tick));
-      check_frame(f);
-    }
-  }
 }
 
 TEST_CASE("link_stream: bytes without a pause but where the next word is looked for") {
@@ -197,39 +165,6 @@ TEST_CASE("link_stream: bytes without a pause but where the next word is looked 
     REQUIRE(longest == c.longest);
     REQUIRE(pauses > 10);
   }
-}
-
-TEST_CASE("link_stream: every period, counted") {
-  for (const std::uint32_t period : {2u, 3u, 7u, 50u}) {
-    const auto frames = play({Random(6), TickWords(7), false, 0, period}, 40'000);
-    REQUIRE(frames.size() > 10);
-    for (std::size_t n = 1; n < frames.size(); ++n) {
-      REQUIRE(check_frame(frames[n]) - check_frame(frames[n - 1]) == period);
-      REQUIRE(frames[n].count == ((frames[0].count + n) & 255u));
-    }
-    REQUIRE(frames[0].count == 0);
-  }
-}
-
-TEST_CASE("link_stream: on a slow wire whole frames are dropped and counted") {
-  std::uint32_t dropped = 0;
-  const auto frames = play({Random(8), TickWords(9), false, 0xfff, 1, 9}, 60'000, &dropped);
-  REQUIRE(frames.size() > 80);
-  std::uint32_t missing = 0, longest = 0;
-  for (std::size_t n = 1; n < frames.size(); ++n) {
-    const std::uint32_t apart = check_frame(frames[n]) - check_frame(frames[n - 1]);
-    REQUIRE(((frames[n].count - frames[n - 1].count) & 255u) == (apart & 255u));
-    missing += apart - 1;
-    longest = std::max(longest, apart);
-  }
-  REQUIRE(missing > 500);
-  // Beside those between the frames only those since the last one.
-  REQUIRE(dropped >= missing);
-  REQUIRE(dropped < missing + longest);
-}
-
-TEST_CASE("link_stream: off is off") {
-  REQUIRE(play({Random(10), TickWords(11), false, 0xfff, 0}, 20'000).empty());
 }
 
 TEST_CASE("link_stream: a period beyond its bits is the longest, what is written is read back") {

@@ -98,13 +98,14 @@ void add_random(Total& total, int i, Shape shape) {
 
 Shape shape_of(int i) { return static_cast<Shape>(i % shapes); }
 
-/// So many laws in a usual run, others each week, and `all` in a whole one. FELTGATE_JUDGE_FIRST
-/// and FELTGATE_JUDGE_LAWS select the first law and the number of laws.
+/// So many laws in a usual run, others each week, `all` in a whole one and ten times as many in a
+/// long one. FELTGATE_JUDGE_FIRST and FELTGATE_JUDGE_LAWS select the first law and their number.
 template <class ShapeOf>
 Total random_laws(int usual, int week, int all, const ShapeOf& shape) {
   const int first = from_environment(
       "FELTGATE_JUDGE_FIRST", whole_run() ? 0 : usual * static_cast<int>(share_of_week(week)));
-  const int count = from_environment("FELTGATE_JUDGE_LAWS", whole_run() ? all : usual);
+  const int count = from_environment(
+      "FELTGATE_JUDGE_LAWS", whole_run() ? static_cast<int>(test::scaled_clocks(all)) : usual);
   const int most = from_environment("FELTGATE_JUDGE_MOST", 4);
   const auto began = std::chrono::steady_clock::now();
   Total total;
@@ -125,19 +126,19 @@ Total random_laws(int usual, int week, int all, const ShapeOf& shape) {
 
 /// Functions over the whole range of an input: the compiler moves limits into their arguments.
 TEST_CASE("random laws of wide functions stay within their bounds") {
-  const Total total = random_laws(10, 3, 10000, [](int) { return Shape::wide; });
+  const Total total = random_laws(20, 3, 1000, [](int) { return Shape::wide; });
   CHECK(total.left_out * 20 <= total.laws + 100);
 }
 
 /// Whole states of real numbers, states, floors and rests at their ends, with every operator.
 TEST_CASE("random laws that stay at ends go on as the law does") {
-  const Total total = random_laws(40, 2, 20000, [](int) { return Shape::ends; });
+  const Total total = random_laws(40, 2, 2000, [](int) { return Shape::ends; });
   CHECK(total.left_out * 100 <= total.laws + 50);
   CHECK(total.left * 100 <= total.laws + 50);
 }
 
 TEST_CASE("random laws stay within their bounds") {
-  const Total total = random_laws(24, 4, 100000, shape_of);
+  const Total total = random_laws(60, 4, 10000, shape_of);
   const Verdict& r = total.runs;
   CHECK(total.left_out * 200 <= total.laws + 100);
   CHECK(r.turned * 100 <= r.runs + 1000);

@@ -136,7 +136,8 @@ def build_program(generated, folder):
         objects.append(folder / f"{source.stem}.o")
         run([compiler(), *flags, "-c", source, "-o", objects[-1]])
     libraries = [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
-    run([compiler(), *objects, *libraries, "-lfmt", "-lz", "-pthread", "-o", folder / "point"])
+    libraries += ["-lfmt", "-ltomlplusplus", "-lz", "-pthread"]
+    run([compiler(), *objects, *libraries, "-o", folder / "point"])
 
 
 def tools_in(folder):

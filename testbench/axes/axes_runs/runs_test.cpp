@@ -209,7 +209,7 @@ TEST_CASE("axes by runs: every shipped law of one axis") {
     b->run(20 * D::clocks_per_tick);
     Random random(7);
     const std::int64_t done = b->done, whole = b->whole;
-    live<1>(*b, random, 600, false);
+    live<1>(*b, random, 2000, false);
     // Run by run it goes from a start on: where runs are far apart that is late.
     const double share = c.divider < 50 ? 0.95 : 0.0;
     CHECK(static_cast<double>(b->whole - whole) > share * static_cast<double>(b->done - done));

@@ -185,7 +185,7 @@ Rig direct(double voltage_v, double ohm) {
 TEST_CASE("loop: tau_hat is of the measured current, not of the command") {
   Rig limited;  // to 4 A of 6.6 A
   limited.duty_limit = 95;
-  for (const Rig& rig : {limited, direct(-2.4, 0.25)}) {
+  for (const Rig& rig : {limited, direct(2.4, 0.504), direct(-2.4, 0.25)}) {
     const Seen seen = run(rig, kArmed + 700'000);
     REQUIRE(seen.last.armed);
     CHECK(std::abs(seen.mean_a) > 3);

@@ -147,24 +147,23 @@ void add_design(CLI::App& app, int* exit_code) {
                                                      a design of its own: feltgate generate
 Exit code: 0 fine, 2 a design that cannot work, is unstable around the plant, or unusable input.)");
   option(*sub, "design", a->name, "DESIGN", "name in rtl/designs or a path");
-  auto* plant = option(*sub, "--plant", a->plant, "",
+  auto* plant = option(*sub, "--plant", a->plant, "PLANT",
                        "name in vectors/plants or a path: also the poles of the loop around it; an "
                        "unstable one is refused");
-  plant->type_name("PLANT");
   auto* scenes =
-      option(*sub, "--for", a->scenes, "",
+      option(*sub, "--for", a->scenes, "SCENE",
              "torque laws or scene files: print the design file that builds only what these need");
-  scenes->type_name("SCENE")->excludes(plant);
+  scenes->excludes(plant);
   auto* for_plant = option(
-      *sub, "--for-plant", a->for_plant, "",
+      *sub, "--for-plant", a->for_plant, "PLANT",
       "name in vectors/plants or a path: print DESIGN (default: lever) with the constants of this "
       "plant, once it is stable around it");
-  for_plant->type_name("PLANT")->excludes(plant)->excludes(scenes);
+  for_plant->excludes(plant)->excludes(scenes);
   auto* nominal =
-      option(*sub, "--nominal-current", a->nominal_a, "",
+      option(*sub, "--nominal-current", a->nominal_a, "AMPERES",
              "with --for-plant: the current that the motor carries without limit in time, "
              "as its data sheet has it; all limits follow from it");
-  nominal->type_name("AMPERES")->check(CLI::Range(0.01, 100.0))->needs(for_plant);
+  nominal->check(CLI::Range(0.01, 100.0))->needs(for_plant);
   option(*sub, "-o,--output", a->output, "FILE", "with --for or --for-plant: write it here");
   sub->callback([a, exit_code] {
     if (!a->output.empty() && a->scenes.empty() && a->for_plant.empty()) {

@@ -3,8 +3,8 @@
 //
 // feltgate_generate ROOT [--check [DESIGN...]]: writes everything that follows from
 // rtl/registers.toml and rtl/designs/*.toml; with --check it only compares and fails on a stale
-// file. With --design FILE
-// --output DIR it writes what follows from one design, anywhere. Documentation: docs/designs.md
+// file. With --design FILE --output DIR it writes what follows from one design, anywhere.
+// Documentation: docs/designs.md
 #include <fmt/format.h>
 
 #include <cerrno>

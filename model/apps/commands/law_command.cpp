@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/commands/commands.hpp"
 #include "design/engine_map.hpp"
@@ -42,16 +42,22 @@ int end_of(const law::Verdict& verdict) {
   return verdict.failures.empty() ? exit_ok : exit_failed;
 }
 
-/// Compiles and measures the text of a law, writes it to `file` unless that is null, says `said`
-/// and the compiler's report. Returns the exit code.
-int make_law(const std::string& text, const std::string& name, const std::string& design,
-             const std::string& said, files::OutputFile* file, files::Outputs* outputs) {
-  const law::Compiled c =
-      law::compile_text(text, name, design::law_target(elaborated_design(design)));
+/// Makes a law of the file `in`; make(name) returns its text and what to say of it. Compiles and
+/// measures the law, and writes it to `out` unless that is empty. Returns the exit code.
+template <class Make>
+int make_law(const std::string& in, const std::string& out, const std::string& design,
+             const Make& make) {
+  files::Outputs outputs;
+  outputs.reads(in);
+  files::OutputFile* file = outputs.open("--output", out);
+  const std::string name = std::filesystem::path(in).stem().string();
+  const auto [text, said] = make(name);
+  const law::Compiled c = law::compile_text(text, out.empty() ? name + ".law" : out,
+                                            design::law_target(elaborated_design(design)));
   const law::Measured m = law::measure(c, 1, 20000);
   if (file != nullptr) file->write(text);
-  outputs->say(said + "\n" + law::report(c, m));
-  outputs->commit();
+  outputs.say(said + "\n" + law::report(c, m));
+  outputs.commit();
   return end_of(law::verdict(c, m));
 }
 
@@ -287,28 +293,24 @@ struct ShapeArguments {
 };
 
 int run(ShapeArguments a) {
-  files::Outputs outputs;
-  outputs.reads(a.svg);
-  files::OutputFile* file = outputs.open("--output", a.out);
-  const shape::Outline outline = shape::read_svg(a.svg);
-  const shape::Curve curve = of_file(a.svg, [&] {
-    return shape::rounded(shape::placed(outline, {a.size_m, {a.centre_m[0], a.centre_m[1]}}),
-                          a.radius_m);
+  return make_law(a.svg, a.out, a.design, [&](const std::string& name) {
+    const shape::Outline outline = shape::read_svg(a.svg);
+    const shape::Curve curve = of_file(a.svg, [&] {
+      return shape::rounded(shape::placed(outline, {a.size_m, {a.centre_m[0], a.centre_m[1]}}),
+                            a.radius_m);
+    });
+    const shape::Polygon polygon = shape::sampled(curve, a.vertices);
+    if (shape::crosses_itself(polygon.at)) {
+      throw std::invalid_argument(
+          fmt::format("{}:1: with {} vertices the outline crosses itself; take more --vertices",
+                      a.svg, a.vertices));
+    }
+    a.law.summary =
+        fmt::format("{}: {} vertices, corners of {:.3g} mm", name, a.vertices, 1e3 * a.radius_m);
+    return std::pair{shape::law_text(polygon, a.law),
+                     fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n",
+                                 a.svg, outline.size(), 1e3 * curve.length_m, a.vertices)};
   });
-  const shape::Polygon polygon = shape::sampled(curve, a.vertices);
-  if (shape::crosses_itself(polygon.at)) {
-    throw std::invalid_argument(
-        fmt::format("{}:1: with {} vertices the outline crosses itself; take more --vertices",
-                    a.svg, a.vertices));
-  }
-  const std::string name = std::filesystem::path(a.svg).stem().string();
-  a.law.summary =
-      fmt::format("{}: {} vertices, corners of {:.3g} mm", name, a.vertices, 1e3 * a.radius_m);
-  const std::string said =
-      fmt::format("{}: {} corners in the file, {:.1f} mm around, {} vertices\n", a.svg,
-                  outline.size(), 1e3 * curve.length_m, a.vertices);
-  return make_law(shape::law_text(polygon, a.law), a.out.empty() ? name + ".law" : a.out, a.design,
-                  said, file, &outputs);
 }
 
 }  // namespace
@@ -348,18 +350,14 @@ struct TextureArguments {
 };
 
 int run(TextureArguments a) {
-  files::Outputs outputs;
-  outputs.reads(a.png);
-  files::OutputFile* file = outputs.open("--output", a.out);
-  const texture::Image image = texture::read_png(a.png);
-  const std::string name = std::filesystem::path(a.png).stem().string();
-  a.law.summary = fmt::format("{}: {} x {} texels of {:.4g} mm, under three axes", name,
-                              image.width, image.height, 1e3 * a.law.texel_m);
-  if (a.normals == "facets") a.law.normals = texture::Normals::facets;
-  const std::string text = of_file(a.png, [&] { return texture::field_law(image, a.law); });
-  return make_law(text, a.out.empty() ? name + ".law" : a.out, a.design,
-                  fmt::format("{}: {} x {} pixels\n", a.png, image.width, image.height), file,
-                  &outputs);
+  return make_law(a.png, a.out, a.design, [&](const std::string& name) {
+    const texture::Image image = texture::read_png(a.png);
+    a.law.summary = fmt::format("{}: {} x {} texels of {:.4g} mm, under three axes", name,
+                                image.width, image.height, 1e3 * a.law.texel_m);
+    if (a.normals == "facets") a.law.normals = texture::Normals::facets;
+    return std::pair{of_file(a.png, [&] { return texture::field_law(image, a.law); }),
+                     fmt::format("{}: {} x {} pixels\n", a.png, image.width, image.height)};
+  });
 }
 
 }  // namespace

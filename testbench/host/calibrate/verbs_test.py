@@ -96,6 +96,14 @@ class Calibrate(VerbTest):
                 self.assertIn(needle, self.host("-", *words, typed=typed, status=2))
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_what_a_verb_reads_is_not_replaced(self):
+        csv = self.folder / "coast.csv"
+        csv.write_text("t,position,v\n0,0,0\n")
+        for option in ("--write", "--json"):
+            words = ("identify", "--from", "-", "--coast", csv, option, csv)
+            self.assertIn("would replace", self.host("-", *words, status=2))
+        self.assertEqual(csv.read_text(), "t,position,v\n0,0,0\n")
+
 
 if __name__ == "__main__":
     unittest.main()

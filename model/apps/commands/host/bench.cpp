@@ -136,10 +136,12 @@ design::Elaborated design_for(Session& session, const std::string& verb, bool of
 
 }  // namespace
 
-Bench::Bench(Session& session, const std::string& verb, const std::string& from,
+Bench::Bench(Session& session, const std::string& verb, const std::vector<std::string>& from,
              const std::string& write, const std::string& json)
-    : design_(design_for(session, verb, !from.empty())), path_(write) {
-  if (!from.empty() && from != "-") outputs_.reads(from);
+    : design_(design_for(session, verb, !from.front().empty())), path_(write) {
+  for (const std::string& file : from) {
+    if (!file.empty() && file != "-") outputs_.reads(file);
+  }
   json_ = outputs_.open("--json", json);
   write_ = outputs_.open("--write", write);
 }

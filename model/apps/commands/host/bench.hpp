@@ -61,7 +61,7 @@ class KeptWords {
   std::vector<std::pair<std::string, double>> values_;
 };
 
-/// Reads a line that a user types while a motor is held armed; calls `meanwhile` about twenty times
+/// Reads a line that a user types while a motor is held armed; calls `meanwhile` about fifty times
 /// a second while it waits. Returns nothing when `go_on` returns false. Throws
 /// std::invalid_argument at the end of the input; the message names `what` was expected.
 std::optional<std::string> typed_line(const std::string& what, const std::function<bool()>& go_on,
@@ -70,10 +70,11 @@ std::optional<std::string> typed_line(const std::string& what, const std::functi
 /// The design for which a measurement is made, and what it writes.
 class Bench {
  public:
-  /// `verb` needs a board and `from` is empty, or the measurement is in the file `from`. With a
-  /// board: its design, which must be known. PORT "-" means no board: the design of --design, else
-  /// lever. Opens the files of --write and --json.
-  Bench(Session& session, const std::string& verb, const std::string& from,
+  /// `verb` names the command in messages. `from`: files with the measurement; if the first is
+  /// empty, it is made at the board. With a board: its design, which must be known. PORT "-" means
+  /// no board: the design of --design, else lever. Opens the files of --write and --json, which
+  /// must not be one of `from`.
+  Bench(Session& session, const std::string& verb, const std::vector<std::string>& from,
         const std::string& write, const std::string& json);
   const design::Elaborated& design() const { return design_; }
   files::Outputs& outputs() { return outputs_; }

@@ -186,7 +186,7 @@ int align(Session& session, const CalibrateArguments& a) {
     throw std::invalid_argument(
         "--save and --voltage are for readings that are taken now; leave out --from");
   }
-  Bench bench(session, "calibrate align", a.from, a.write, a.json);
+  Bench bench(session, "calibrate align", {a.from}, a.write, a.json);
   const design::Design& d = bench.design().design;
   if (d.phases != 3) {
     throw std::invalid_argument(
@@ -220,7 +220,7 @@ int calibrate(Session& session, CalibrateArguments a) {
   if (!a.from.empty() && !a.save.empty()) {
     throw std::invalid_argument("--save is for readings that are taken now; leave out --from");
   }
-  Bench bench(session, "calibrate", a.from, a.write, a.json);
+  Bench bench(session, "calibrate", {a.from}, a.write, a.json);
   if (a.points.empty()) {
     a.points = a.closed ? std::vector<double>{0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5}
                         : std::vector<double>{1.5, 2.5, 3.5, 4.5, 5.5};

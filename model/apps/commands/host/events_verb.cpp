@@ -32,8 +32,7 @@ struct EventsArguments {
 };
 
 /// Sends lines of text to all programs on this computer that connect; it listens only on 127.0.0.1
-/// and never waits: a client that does not accept a complete line is
-/// disconnected.
+/// and never waits: it disconnects a client that does not accept a complete line.
 class LineServer {
  public:
   /// Port 0 means any free port. Throws std::invalid_argument when it cannot listen.

@@ -122,8 +122,7 @@ int identify(Session& session, const IdentifyArguments& a) {
     throw std::invalid_argument(
         "--coast belongs to --from FILE, and --save to recordings that are made now");
   }
-  Bench bench(session, "identify", a.from, a.write, a.json);
-  if (!a.coast.empty()) bench.outputs().reads(a.coast);
+  Bench bench(session, "identify", {a.from, a.coast}, a.write, a.json);
   files::Outputs saved;  // whatever becomes of the fit
   const auto save = [&](const char* part) {
     return a.save.empty() ? nullptr : saved.open("--save", a.save + part);

@@ -4,7 +4,6 @@
 // feltgate host PORT scene, arm, disarm, stop, clear, zero. Documentation: docs/host.md
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <thread>
 

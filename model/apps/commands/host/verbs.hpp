@@ -5,6 +5,8 @@
 // Documentation: docs/host.md
 #pragma once
 
+#include <functional>
+
 #include "apps/commands/commands.hpp"
 #include "apps/commands/host/session.hpp"
 

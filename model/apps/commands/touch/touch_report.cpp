@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Text, JSON and CSV of `feltgate touch`.
+// Text, JSON and CSV of `feltgate touch`, and its session at a board. Documentation: docs/touch.md
 #include "apps/commands/touch/touch.hpp"
 
 #include <fmt/format.h>
@@ -217,19 +217,23 @@ nlohmann::ordered_json mesh_json(const TouchArguments& a, const touch::Mesh& mes
   return j;
 }
 
-void add_run(nlohmann::ordered_json& j, const touch::TouchRun& run) {
-  const TouchSummary m = summary_of(run);
-  const PlaneSummary p = planes_of(run);
-  const AxesResult& o = run.result;
-  j["planes"] = run.updates.size();
+/// What a run and a session at a board say alike.
+void add_summary(nlohmann::ordered_json& j, const TouchSummary& m) {
   j["touching"] = m.touching;
   j["constraints"] = m.constraints;
   j["depth_m"] = m.depth_m;
   j["force_n"] = m.force_n;
+  j["update_s"] = {{"median", m.median_s}, {"q999", m.rare_s}};
+}
+
+void add_run(nlohmann::ordered_json& j, const touch::TouchRun& run) {
+  const PlaneSummary p = planes_of(run);
+  const AxesResult& o = run.result;
+  j["planes"] = run.updates.size();
+  add_summary(j, summary_of(run));
   j["plane_age_s"] = p.age_s;
   j["plane_tilt_rad"] = p.tilt_rad;
   j["plane_step_n"] = p.step_n;
-  j["update_s"] = {{"median", m.median_s}, {"q999", m.rare_s}};
   for (const AxisFigures& axis : o.axes) {
     if (!o.reference.empty())
       j["law_error_nm"].push_back({{"max", axis.law_error_nm.max()}, {"bound", axis.bound_nm}});
@@ -403,14 +407,9 @@ std::string board_text(const BoardTouch& b) {
 }
 
 void add_board(nlohmann::ordered_json& j, const BoardTouch& b) {
-  const TouchSummary m = summary_of(b.run);
   j["planes"] = b.counts.sent;
   j["rate_hz"] = b.rate_hz;
-  j["touching"] = m.touching;
-  j["constraints"] = m.constraints;
-  j["depth_m"] = m.depth_m;
-  j["force_n"] = m.force_n;
-  j["update_s"] = {{"median", m.median_s}, {"q999", m.rare_s}};
+  add_summary(j, summary_of(b.run));
   j["overtaken"] = b.skipped;
   j["lost_frames"] = b.counts.lost_frames;
   j["dropped"] = b.counts.dropped;

@@ -34,6 +34,8 @@ def read_states(path):
         rows = np.loadtxt(lines[1:], delimiter=",", ndmin=2)
     except ValueError as error:
         raise StatesError(f"{path}: {error}; {mend}") from None
+    if rows.shape[1] != len(names) or not np.isfinite(rows).all() or (np.diff(rows[:, 0]) < 0).any():
+        raise StatesError(f"{path}: a row that is too short or holds no number, or time goes back; {mend}")
     return rows[:, 0], rows[:, heard].sum(axis=1)
 
 

@@ -134,15 +134,15 @@ def bench(data):
     return plots.finish(figure, "bench")
 
 
-PICTURES = {"feltgate-controllers/1": controllers, "feltgate-bench/1": bench}
+PICTURES = {"feltgate-controllers/1": controllers, "feltgate-bench/2": bench}
 
 
 def draw(data, options):
-    if data["schema"] == "feltgate-stability/1":
+    if data["schema"] == "feltgate-stability/2":
         print(options.to / k_b(data, png=True).write(options.to)[0])
     else:
         write_whole(options.to, PICTURES[data["schema"]](data).svg)
 
 
 if __name__ == "__main__":
-    sys.exit(plots.main(__doc__, "study", ["feltgate-stability/1", *PICTURES], draw))
+    sys.exit(plots.main(__doc__, "study", ["feltgate-stability/2", *PICTURES], draw))

@@ -126,17 +126,4 @@ std::string markdown(const Columns<Row>& columns, const std::vector<Row>& rows) 
   return text;
 }
 
-/// The values of these keys in each object of an array.
-inline std::string csv(const Cells& keys, const Json& rows) {
-  std::string text = fmt::format("{}\n", fmt::join(keys, ","));
-  for (const Json& row : rows) {
-    Cells line;
-    for (const std::string& key : keys) {
-      line.push_back(row.value(key, Json()).is_null() ? "" : cell(row[key], "{:.10g}"));
-    }
-    text += fmt::format("{}\n", fmt::join(line, ","));
-  }
-  return text;
-}
-
 }  // namespace feltgate::files

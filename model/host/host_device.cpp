@@ -4,16 +4,15 @@
 // A board's values, arming and stream. Documentation: docs/host.md
 #include "host/host_device.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <thread>
 #include <utility>
-
-#include <fmt/format.h>
-#include <filesystem>
 #include <vector>
 
 #include "design/generate.hpp"
@@ -120,7 +119,6 @@ std::optional<KnownDesign> design_by_crc(const std::string& root, std::uint32_t 
 namespace {
 
 using C = Map::C;
-using M = LinkMap;
 
 constexpr double arm_patience_s = 0.5;   ///< without a self-test
 constexpr double test_patience_s = 3.0;  ///< with one
@@ -454,8 +452,6 @@ double Device::watchdog_s() {
 // A board's stream, and the view that shows words of several axes to stream and capture.
 
 namespace {
-
-using M = LinkMap;
 
 constexpr int wire_bits_per_byte = 10;
 constexpr double most_of_wire = 0.8;

@@ -26,7 +26,6 @@ if(NOT fmt_FOUND)
   target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY=1)
 endif()
 find_path(FELTGATE_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)
-find_library(FELTGATE_TOML_LIBRARY tomlplusplus)  # not for another machine: its headers are enough there
 
 # In the source tree a room of headers is model/sim/<room>; its users write feltgate/<room>/x.hpp.
 set(FELTGATE_ROOMS backends loop plant reference systemc traces)
@@ -83,10 +82,6 @@ endfunction()
 feltgate_sim_library(config files/toml)
 target_include_directories(feltgate_config SYSTEM PUBLIC
   "$<BUILD_INTERFACE:${FELTGATE_TOML_INCLUDE_DIR}>")
-if(FELTGATE_TOML_LIBRARY)
-  target_compile_definitions(feltgate_config PUBLIC TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
-  target_link_libraries(feltgate_config PUBLIC tomlplusplus)
-endif()
 # Output files that are whole or not there.
 feltgate_sim_library(files files)
 feltgate_sim_library(design design feltgate_config)

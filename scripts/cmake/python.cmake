@@ -88,7 +88,12 @@ target_link_libraries(feltgate_python_host PRIVATE feltgate_hostlink feltgate_tr
 if(FELTGATE_PYTHON)
   # pip compiles once and on two cores: what reads files and laws is not in a loop, and headers are
   # read once for several sources.
-  foreach(library bounds config design files hostlink law plant_files python python_host traces units)
+  find_library(FELTGATE_TOML_LIBRARY tomlplusplus)
+  if(FELTGATE_TOML_LIBRARY)
+    target_compile_definitions(feltgate_config PUBLIC TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
+    target_link_libraries(feltgate_config PUBLIC "${FELTGATE_TOML_LIBRARY}")
+  endif()
+  foreach(library bounds config design files law plant_files traces units)
     target_compile_options(feltgate_${library} PRIVATE -O0)
   endforeach()
   foreach(library law design)

@@ -136,7 +136,7 @@ def build_program(generated, folder):
         objects.append(folder / f"{source.stem}.o")
         run([compiler(), *flags, "-c", source, "-o", objects[-1]])
     libraries = [BUILD / f"libfeltgate_{name}.a" for name in LIBRARIES]
-    libraries += ["-lfmt", "-ltomlplusplus", "-lz", "-pthread"]
+    libraries += ["-lfmt", "-lz", "-pthread"]
     run([compiler(), *objects, *libraries, "-o", folder / "point"])
 
 

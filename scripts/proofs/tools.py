@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
-"""Runs Yosys, yosys-smtbmc and z3 for one proof. docs/proofs.md
+"""Runs Yosys, yosys-smtbmc and z3 for one proof. docs/testing.md
 
 Yosys may be YoWASP's, which sees /tmp as a folder of its own, so every run works inside its folder
 with relative names.

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 
 from command_line import Refused
 
+from .data import KINDS
+
 FILE = "testbench/campaigns/coverage/waivers.toml"
 MOST = 10
 
@@ -41,6 +43,8 @@ def read(root):
         found = [Waiver(**table | {"points": re.compile(table["points"])}) for table in tables]
     except (OSError, KeyError, TypeError, tomllib.TOMLDecodeError, re.error) as error:
         raise Refused(f"{FILE}: {error}") from error
+    if any(waiver.kind not in KINDS or waiver.most < 1 for waiver in found):
+        raise Refused(f"{FILE}: a kind is one of {', '.join(KINDS)}, and most is 1 or more")
     if len(found) > MOST:
         raise Refused(f"{FILE}: {len(found)} waivers, more than {MOST}")
     return found

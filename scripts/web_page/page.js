@@ -205,7 +205,7 @@ function build_controls() {
   document.addEventListener("drop", async (event) => {
     event.preventDefault();
     const file = event.dataTransfer.files[0];
-    if (!file) return;
+    if (!file || !/\.glb$/i.test(file.name)) return;
     select_tab("stylus");
     await page.stylus.open(file);
   });

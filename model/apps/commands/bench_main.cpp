@@ -95,7 +95,7 @@ Examples:
   feltgate bench --engine rtl,twin_event --scene membrane
 Exit code: 0 the integer back-ends agree, 1 they do not, 2 unusable input.)");
   Arguments a;
-  option(app, "--json", a.json, "FILE", "figures as JSON, schema feltgate-bench/1");
+  option(app, "--json", a.json, "FILE", "figures as JSON, schema feltgate-bench/2");
   option(app, "--engine", a.engines, "ENGINES", "only these; errors need quad")->delimiter(',');
   option(app, "--scene", a.scenes, "SCENES",
          "names in vectors/scenes instead of torque_step_cord, damper, wall")

@@ -207,7 +207,7 @@ int main(int count, char** argv) {
     for (int i = 1; i < count; ++i) {
       const std::string design = argv[i];
       const DesignInfo info = design_named(design);
-      if (info.phases == 3) continue;  // its tab has a core of its own
+      if (info.phases == 3) continue;  // the knob's tab compares no bits
       if (info.scene_number("law") >= 0) {
         out["recorded"].push_back(recorded(design, "detent"));
         continue;

@@ -38,11 +38,12 @@ RunInputs inputs_from_text(const std::string& text) {
   std::istringstream words(text);
   Clock now = 0;
   for (char kind = 0; words >> kind;) {
-    std::int64_t first = 0, second = 0;
+    std::int64_t first = -1, second = 0;
     std::uint32_t data = 0;
     words >> first >> second;
     if (kind == 'w') words >> data;
-    if (!words) throw std::invalid_argument("the recorded inputs cannot be read");
+    if (!words || first < 0 || std::string("cwe").find(kind) == std::string::npos)
+      throw std::invalid_argument("the recorded inputs cannot be read");
     if (kind == 'c') {
       inputs.clocks = first;
       inputs.pins = pins_of(static_cast<int>(second));

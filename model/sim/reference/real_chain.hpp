@@ -28,7 +28,6 @@ struct ChainIn {
   bool restart = false;      ///< the torque may jump, so it ramps
   Relief relief{};           ///< from the encoder's monitor and the hold timer of the core
   std::int32_t current = 0;  ///< measured by a current loop, [1,1,17] of full scale
-  int edge_clock = 0;        ///< clocks from the tick before to the last change; for M/T alone
 };
 
 struct ChainOut {

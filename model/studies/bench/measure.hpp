@@ -76,7 +76,7 @@ struct Circumstances {
 /// The circumstances of this program, now.
 Circumstances circumstances();
 
-/// The result as JSON (schema feltgate-bench/1) and as text.
+/// The result as JSON (schema feltgate-bench/2) and as text.
 std::string json(const Result& result, const std::vector<Work>& works, const Circumstances& c);
 std::string text(const Result& result, const std::vector<Work>& works, const Circumstances& c);
 

@@ -85,7 +85,7 @@ Circumstances circumstances() {
 }
 
 std::string json(const Result& r, const std::vector<Work>& works, const Circumstances& c) {
-  Json j{{"schema", "feltgate-bench/1"}, {"version", c.version}, {"machine", c.machine},
+  Json j{{"schema", "feltgate-bench/2"}, {"version", c.version}, {"machine", c.machine},
          {"compiler", c.compiler},       {"date", c.date},       {"design", "lever"}};
   for (const Work& w : works) {
     j["scenes"].push_back(

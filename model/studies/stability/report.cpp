@@ -77,7 +77,7 @@ std::string study_text(const Study& s) {
 }
 
 std::string study_json(const Study& s) {
-  const Json out{{"schema", "feltgate-stability/1"},
+  const Json out{{"schema", "feltgate-stability/2"},
                  {"design", s.design},
                  {"linear_plant", s.linear_plant},
                  {"full_plant", s.full_plant},

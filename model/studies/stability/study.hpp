@@ -47,7 +47,7 @@ Study run_study(const design::Elaborated& design, const plant::Parameters& linea
 /// The study as text for a terminal.
 std::string study_text(const Study& study);
 
-/// Schema feltgate-stability/1, pretty-printed.
+/// Schema feltgate-stability/2, pretty-printed.
 std::string study_json(const Study& study);
 
 }  // namespace feltgate::stability

@@ -180,7 +180,7 @@ TEST_CASE("stylus: a valley of a field of heights throws it with facets, not wit
   const double shaded_m = swing_m(texture::Normals::interpolated);
   INFO(facets_m << " " << shaded_m);
   // A relay of 0.6 N that is T late, on 45 g with 0.5 Ns/m: from end to end 8 / pi * 0.6 N * T /
-  // 0.5 Ns/m (valley_test.cpp). T is at least a run, 20 us, and at most 0.1 ms of winding more; the
+  // 0.5 Ns/m. T is at least a run, 20 us, and at most 0.1 ms of winding more; the
   // brushes' voltage, which helps a current to reverse, makes most of that go away.
   CHECK(facets_m > 55e-6);
   CHECK(facets_m < 370e-6);

@@ -62,7 +62,7 @@ TEST_CASE("all back-ends, their bits, their errors, their JSON") {
   CHECK(r.divergence.empty());
 
   const auto j = nlohmann::json::parse(json(r, works, circumstances()));
-  CHECK(j.at("schema") == "feltgate-bench/1");
+  CHECK(j.at("schema") == "feltgate-bench/2");
   CHECK(j.at("integer_engines_agree") == true);
   for (const char* name :
        {"rtl", "twin_clock", "twin_event", "twin_tick", "double", "float", "quad"}) {

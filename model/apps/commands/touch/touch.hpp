@@ -75,7 +75,7 @@ struct BoardTouch {
 /// The stylus with planes that is shipped.
 AxesScene stylus_scene();
 
-/// `feltgate touch --board` (docs/touch.md#on-a-board): the planes of a mesh for a stylus at a
+/// `feltgate touch --board` (docs/touch.md): the planes of a mesh for a stylus at a
 /// port, as fast as its line allows. Loads the law if the board has another one, arms it, and sends
 /// planes until `a.seconds` are over or Ctrl-C; the motors are off afterwards. A pen that is in the
 /// mesh feels nothing until it is led out. Errors: std::invalid_argument, also for a board that is

@@ -5,6 +5,7 @@
 // sent. Documentation: docs/link.md
 #include <Vlink_capture.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -318,6 +319,23 @@ TEST_CASE("link_capture: levels are signed, reached is enough to rise and not to
   }
 }
 
+TEST_CASE("link_capture: a trigger in the very first tick, and one that stood before is none") {
+  // The start between two ticks and within one: the next tick that begins is the first.
+  for (const int clock : {0, 1, 2, 3, 13, kLastWordClock, kLastWordClock + 1, kTickClocks - 1}) {
+    const std::uint32_t begun = 5 + (clock > 1 ? 1u : 0u);
+    for (const std::uint32_t tick : {4u, begun - 1, begun}) {
+      auto s = session({kTick, 0}, begun + kRows + 3, rises_in(tick));
+      const auto c = s.trigger(N::position, 1, 0).at(5, clock, A::capture_control, kStart).play();
+      INFO("start in clock " << clock << ", rises in tick " << tick);
+      REQUIRE((c.state == kDone) == (tick == begun));
+      if (tick == begun) s.check(c, kTick, begun);
+    }
+    auto s = session({kTick, 0}, 30, tick_word);
+    s.trigger(0, LinkMap::trigger_event, 3).event(5, std::max(clock - 1, 0), 3);
+    REQUIRE(s.at(5, clock, A::capture_control, kStart).play().state == kWaits);
+  }
+}
+
 TEST_CASE("link_capture: by hand, in every clock of a tick, and with the start") {
   for (int clock = 0; clock < kTickClocks; ++clock) {
     auto s = session({kTick, 2}, kRows + 20, tick_word);
@@ -361,6 +379,37 @@ TEST_CASE("link_capture: an abort in any clock leaves whole rows, one after the 
                      .play();
   REQUIRE(c.state == kDone);
   s.check(c, kTick, 0);
+}
+
+TEST_CASE("link_capture: a start while another runs, or is over, begins anew") {
+  for (const std::uint32_t tick : {2u, 6u, 10u, std::uint32_t{kRows} + 20}) {
+    for (const int clock : {0, 2, 14, kLastWordClock, kLastWordClock + 1}) {
+      auto s = session({kTick, 4}, tick + kRows + 20,
+                       with(N::status, [](std::uint32_t t) { return t == 9; }));
+      s.trigger(N::status, 3, 1).set(A::capture_control, kStart);
+      const auto c = s.at(tick, clock, A::capture_control, kStart)
+                         .at(tick + 8, 0, A::capture_control, kTrigger)
+                         .play();
+      REQUIRE(c.state == kDone);
+      const std::uint32_t begun = tick + (clock > 1 ? 1u : 0u);
+      const std::uint32_t fired = 9 >= begun + 4 ? 9 : tick + 8;
+      s.check(c, kTick, fired - 4);
+    }
+  }
+}
+
+TEST_CASE("link_capture: what makes up the rows holds still while they are taken") {
+  auto s = session({kTick, 4, 1}, kRows + 20, tick_word);
+  s.set(A::capture_control, kStart);
+  s.at(2, 3, A::capture_words, 0xff).at(3, 3, A::capture_pre, 1).at(9, 3, A::capture_period, 5);
+  s.at(12, 0, A::capture_control, kTrigger).at(14, 0, A::capture_words, 0);
+  const auto c = s.play();
+  REQUIRE(c.state == kDone);
+  s.check(c, kTick, 8);
+  // Set after it, they belong to the next; the memory is as it was.
+  auto t = session({kTick | 1, 0}, kRows + 20, tick_word);
+  t.set(A::capture_control, kStart | kTrigger).at(kRows + 10, 0, A::capture_words, 0);
+  t.check(t.play(), kTick | 1, 0);
 }
 
 TEST_CASE("link_capture: a row every so many ticks, triggers between them") {

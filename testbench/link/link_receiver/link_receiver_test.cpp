@@ -159,6 +159,40 @@ TEST_CASE(
   CHECK(reader->bad > 254 + 24 + 300);
 }
 
+TEST_CASE("link_receiver: kinds 1 and 2, 1 to 64 words, and no frame with a flipped bit") {
+  Bytes wire;
+  const auto add = [&wire](const Bytes& f) { wire.insert(wire.end(), f.begin(), f.end()); };
+  std::vector<std::uint32_t> wanted{1, 2}, taken;  // their sequence numbers
+  for (int kind = 0; kind < 256; ++kind) add(request(kind, kind, 0, 1));
+  for (std::uint32_t words = 0; words < 70; ++words) {
+    add(request(1, static_cast<int>(words), 0, words));
+    if (words >= 1 && words <= 64) wanted.push_back(words);
+  }
+  const Bytes frame = request(2, 0x55, 0x123, 0x456789ab);
+  for (std::size_t byte = 1; byte + 1 < frame.size(); ++byte) {
+    for (int bit = 0; bit < 8; ++bit) {
+      Bytes changed = frame;
+      changed[byte] ^= static_cast<std::uint8_t>(1U << bit);
+      add(changed);
+    }
+  }
+  const auto size = static_cast<std::int64_t>(wire.size());
+  const auto stimulus = [&](std::int64_t k) {
+    Twin::In in;
+    in.valid = k % 10 == 9 && k / 10 < size;
+    if (in.valid) in.byte = wire[static_cast<std::size_t>(k / 10)];
+    return in;
+  };
+  const auto keep = [&](const Twin::In&, const Vlink_receiver& rtl, const Twin&,
+                        bool) -> const char* {
+    if (rtl.good_o != 0) taken.push_back(rtl.sequence_o);
+    return nullptr;
+  };
+  Bench bench("link_receiver", 6);
+  bench.run(stimulus, 10 * size + 20, {}, keep);
+  CHECK(taken == wanted);
+}
+
 TEST_CASE("link_receiver: frames of random bytes are no requests, and each is counted") {
   Twin twin;
   WireReader reader = reader_of_page();

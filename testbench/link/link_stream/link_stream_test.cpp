@@ -125,6 +125,16 @@ std::uint32_t check_frame(const Frame& f) {
   return tick;
 }
 
+/// The frames of a host that writes its settings and nothing else.
+std::vector<Frame> play(const Stimulus& stimulus, std::int64_t clocks) {
+  std::vector<std::vector<std::uint8_t>> raw;
+  Bench bench("link_stream", 1);
+  bench.run(stimulus, clocks, {}, Frames{&raw, {}});
+  std::vector<Frame> frames;
+  for (const auto& bytes : raw) frames.push_back(parsed(bytes));
+  return frames;
+}
+
 }  // namespace
 
 TEST_CASE("link_stream: random ticks, registers, transmitters and resets") {
@@ -165,6 +175,22 @@ TEST_CASE("link_stream: bytes without a pause but where the next word is looked 
     REQUIRE(longest == c.longest);
     REQUIRE(pauses > 10);
   }
+}
+
+TEST_CASE("link_stream: every period, counted") {
+  for (const std::uint32_t period : {2u, 3u, 7u, 50u}) {
+    const auto frames = play({Random(6), TickWords(7), false, 0, period}, 40'000);
+    REQUIRE(frames.size() > 10);
+    for (std::size_t n = 1; n < frames.size(); ++n) {
+      REQUIRE(check_frame(frames[n]) - check_frame(frames[n - 1]) == period);
+      REQUIRE(frames[n].count == ((frames[0].count + n) & 255u));
+    }
+    REQUIRE(frames[0].count == 0);
+  }
+}
+
+TEST_CASE("link_stream: off is off") {
+  REQUIRE(play({Random(10), TickWords(11), false, 0xfff, 0}, 20'000).empty());
 }
 
 TEST_CASE("link_stream: a period beyond its bits is the longest, what is written is read back") {

@@ -355,6 +355,48 @@ TEST_CASE("ramp: frozen, the reference does not change its sign, from either sid
   }
 }
 
+TEST_CASE("ramp: another limit, another scene and a restart ramp from where the torque is") {
+  // At wave 400 to 5000, back at 500 on the way there, and at 900 to 5000 to stay.
+  for (const int by : {0, 1, 2}) {
+    const auto seen = play(
+        [by](std::int64_t k) {
+          const bool changed = (k >= 400 && k < 500) || k >= 900;
+          Wave w = wave(changed && by != 0 ? 5000 : 30000, 100 * kWhole);
+          w.relief.derated = changed && by == 0;
+          w.limit = w.relief.derated ? 5000 : 40000;
+          w.scene = changed && by == 1 ? 5 : 0;
+          w.restart = by == 2 && (k == 400 || k == 500 || k == 900);
+          return w;
+        },
+        1200);
+    for (std::int64_t n = 390; n < 1140; ++n) {
+      const std::int64_t tau = n < 400   ? 30000
+                               : n < 500 ? 30000 - 100 * (n - 399)
+                               : n < 599 ? 20000 + 100 * (n - 499)
+                               : n < 600 ? 29900  // the tick within a step ends the ramp
+                               : n < 900 ? 30000
+                                         : 30000 - 100 * (n - 899);
+      INFO("change " << by << ", wave " << n);
+      REQUIRE(seen[static_cast<std::size_t>(n)].tau == tau);
+    }
+    REQUIRE_FALSE(seen[399].ramp);
+    REQUIRE(seen[400].ramp);
+    REQUIRE(seen[1199].tau == 5000);
+    REQUIRE_FALSE(seen[1199].ramp);
+  }
+}
+
+TEST_CASE("ramp: a step of 0 or less is one LSB of the fine reference") {
+  for (const std::int64_t step : {0, -9}) {
+    const auto seen =
+        play([=](std::int64_t k) { return wave(20000, k < 5 ? 300 * kWhole : step); }, 1100);
+    for (std::size_t n = 5; n < seen.size(); ++n) {
+      REQUIRE(seen[n].tau == 1500 + static_cast<std::int64_t>(n - 4) / kWhole);
+      REQUIRE(seen[n].ramp);
+    }
+  }
+}
+
 TEST_CASE("ramp: a pulse reaches the largest limit that there is, and no other") {
   for (const std::int64_t limit : {Torque::max_raw(), Torque::max_raw() - 1, std::int64_t{7}}) {
     for (const int sign : {1, 0, -1}) {

@@ -288,6 +288,16 @@ TEST_CASE("axi_lite_port: writes land once each, in their order, whichever chann
   }
 }
 
+TEST_CASE("axi_lite_port: addresses of nobody and read-only words are errors, no write") {
+  Manager m;
+  for (const int word : {0x202, 0x2ff, 0x300, 0x33f, 0x340, 0x600, 0xfff}) {
+    m.write(4 * word, ~0U);
+    REQUIRE(m.wait_b() == 2);
+  }
+  REQUIRE(m.core.taken() == 0);
+  m.play();
+}
+
 TEST_CASE("axi_lite_port: a disarm waits for no read longer than a clock") {
   for (int offset = 0; offset < 12; ++offset) {
     Manager m;

@@ -240,6 +240,23 @@ TEST_CASE("wishbone_port: a disarm is on the port with its request, whatever wai
   }
 }
 
+TEST_CASE("wishbone_port: a request in every clock is answered in every clock, in order") {
+  if (PIPELINED == 0) return;
+  Host host;
+  int answers = 0;
+  for (int k = 0; k < 512 + 3; ++k) {
+    const bool asks = k < 512;
+    const Twin::Out out = host.clock(
+        {true, asks, false, static_cast<std::uint16_t>(asks ? (k * 37) % 512 : 0), 15, 0});
+    REQUIRE(out.ack == (k >= 3));
+    if (!out.ack) continue;
+    REQUIRE(out.dat == host.core.twin().parameter((answers * 37) % 512));
+    ++answers;
+  }
+  REQUIRE(answers == 512);
+  host.play();
+}
+
 TEST_CASE("wishbone_port: a cycle that ends early gets no answer, nor does the next one get its") {
   for (int clocks = 1; clocks < 4; ++clocks) {
     for (int gap = 1; gap < 4; ++gap) {

@@ -300,6 +300,56 @@ TEST_CASE("encoder_monitor: an edge of the other channel saves up to the last ti
   REQUIRE(saved == 5);
 }
 
+TEST_CASE("encoder_monitor: edges of both in one tick go on with a row of either channel") {
+  Script s;
+  s.edge(kB).edge(kA);
+  for (int k = 0; k < Map::dead_channel_edges / 2 - 1; ++k) s.edge(kBoth).edge(kA);
+  REQUIRE(s.trips() == 0);
+  s.edge(kBoth).edge(kA);
+  REQUIRE(s.trips() == 1);
+  s.play();
+}
+
+TEST_CASE("encoder_monitor: the last tick of a pause") {
+  for (const int pause : {kEnds - 1, kEnds}) {
+    Script s;
+    s.edge(kB).edge(kA).edges(Map::one_channel_edges - 2, kA).align(kEdgeUnit);
+    s.edge(kA, pause).edge(kA);
+    REQUIRE(s.chatters() == (pause < kEnds));
+    s.play();
+  }
+}
+
+TEST_CASE("encoder_monitor: after a reset a row begins with its first edge, unless that is late") {
+  for (const int rest : {kEnds - 1, kEnds}) {
+    Script s;
+    s.ticks(rest).edges(Map::one_channel_edges, kA);
+    REQUIRE(s.chatters() == (rest < kEnds));
+    s.play();
+  }
+}
+
+TEST_CASE("encoder_monitor: the tick in which chatter has lasted, with and without an edge") {
+  constexpr int kSlow = kLasts / 5;
+  for (const unsigned channel : {kA, kB}) {
+    for (const unsigned edge : {0u, channel, kBoth, kBoth ^ channel}) {
+      for (const bool late : {false, true}) {
+        Script s;
+        s.edge(kBoth ^ channel).edges(Map::one_channel_edges, channel);
+        s.align(kChatterUnit).edges(4, channel, kSlow);
+        if (late) s.ticks(kSlow);
+        if (!late) s.edge(channel, kSlow);
+        REQUIRE(s.chatters());
+        s.edge(edge, 1);
+        REQUIRE_FALSE(s.chatters());
+        REQUIRE(s.trips() == (!late && edge != (kBoth ^ channel) ? 1 : 0));
+        s.ticks(2);
+        s.play();
+      }
+    }
+  }
+}
+
 TEST_CASE("encoder_monitor: resets in any state") {
   Bench bench = bench_of(2);
   bench.run(Stimulus{Random(3)}, scaled_clocks(600000), {300});

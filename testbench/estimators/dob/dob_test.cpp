@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// dob: RTL against twin on every clock; stall and arming against closed forms, and the distance from
-// quad precision. Documentation: docs/blocks/dob.md
+// dob: RTL against twin on every clock; stall, motion and arming against closed forms, and the
+// distance from quad precision. Documentation: docs/blocks/dob.md
 #include <Vdob.h>
 
 #include <algorithm>
@@ -315,6 +315,44 @@ TEST_CASE("dob: at stall tau_hat is the 500 rad/s low-pass of Ktn*I, within one 
     REQUIRE(worst <= std::ldexp(1.0, -16));
     REQUIRE(std::fabs(nm(tau_hat.back()) - final) <= std::ldexp(1.0, -16));
   }
+}
+
+TEST_CASE("dob: a free lever that accelerates by its nominal inertia shows no load") {
+  // Jn*alpha = Ktn*I, hence tau_hat stays 0 but for the one tick by which w lags.
+  const double ktn = parameter(Design::A::torque_constant).si;
+  const double jn = parameter(Design::A::inertia_gain).si / kPole;
+  const double amperes = kIsPaper ? 2.0 : 0.5;
+  const double rad_s2 = ktn * amperes / jn;
+  const auto next = [=](std::int64_t wave) {
+    Wave w;
+    w.armed = true;
+    w.current = static_cast<std::int64_t>(amperes * static_cast<double>(kAmpere));
+    const double time = 1e-6 * static_cast<double>(wave + 1);
+    w.velocity = std::llround(rad_s2 * time * static_cast<double>(kRadS));
+    return w;
+  };
+  const auto tau_hat = observe(next, 20000);
+  const double torque = ktn * amperes;
+  for (const std::int64_t t : tau_hat) {
+    if (std::fabs(nm(t)) > torque * kPole * 1e-6 + std::ldexp(2.0, -16)) FAIL("load " << nm(t));
+  }
+}
+
+TEST_CASE("dob: a load that blocks a moving lever shows with its sign") {
+  // Positive motor torque, speed falling at Jn*alpha = -0.05 Nm: the load is the sum of both.
+  const double ktn = parameter(Design::A::torque_constant).si;
+  const double jn = parameter(Design::A::inertia_gain).si / kPole;
+  const double amperes = 0.1 / ktn;
+  const auto next = [=](std::int64_t wave) {
+    Wave w;
+    w.armed = true;
+    w.current = std::llround(amperes * static_cast<double>(kAmpere));
+    const double speed = 10 - 0.05 / jn * 1e-6 * static_cast<double>(wave + 1);
+    w.velocity = std::llround(speed * static_cast<double>(kRadS));
+    return w;
+  };
+  const auto tau_hat = observe(next, 40000);
+  REQUIRE(std::fabs(nm(tau_hat.back()) - 0.15) < 0.0001);
 }
 
 TEST_CASE("dob: arming in motion makes no jump, disarming ends the estimate at once") {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The core of gimbal_motor in closed loop with a motor of three phases: its torque over a turn, a
-// wrong offset, an open phase. Simulation. Documentation: docs/plant.md#three-phases-in-the-loop
+// wrong offset, an open phase. Simulation. Documentation: docs/plant.md#three-phases
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -269,6 +269,45 @@ TEST_CASE("three phases: halving the step quarters the error", "[phases]") {
   }
 }
 
+namespace {
+
+/// Mean torque over a turn of a second, as a share of what a voltage law without current sensing
+/// asks for: v = R I + Ke w on the q axis, with the nominal constants.
+double felt_share(const PhaseParameters& m, const Parameters& p, double torque_nm, int open = -1) {
+  const PhaseParameters nominal = gimbal_motor();
+  const double ke = nominal.back_emf_v_s_rad, rad_s = kTwoPi;
+  const double amplitude_v = nominal.resistance_ohm * torque_nm / (1.5 * ke) + ke * rad_s;
+  ThreePhasePlant plant(p, m, p.effects, drive_50khz(), turning(rad_s));
+  if (open >= 0) plant.open_phase(static_cast<std::size_t>(open));
+  const Clock settle = clocks_of(4e-3);
+  double sum = 0;
+  int steps = 0;
+  while (plant.now() < settle + clocks_of(1)) {
+    const double e = nominal.pole_pairs * rad_s * (seconds(plant.now()) + 2.5e-6);
+    plant.advance(sinusoid(kBus, amplitude_v, e), 250);
+    if (plant.now() <= settle) continue;
+    sum += plant.observables().motor_torque_mean_nm;
+    ++steps;
+  }
+  return sum / steps / torque_nm;
+}
+
+}  // namespace
+
+TEST_CASE("three phases: torque of a voltage law over a turn, as docs/plant.md says", "[phases]") {
+  const PhaseParameters m = gimbal_motor();
+  PhaseParameters warm = m;
+  warm.resistance_ohm *= 1.2;
+  const Parameters p = shaft_on(kBus);
+  CHECK(felt_share(m, p, 0.01) == Approx(1).margin(1e-3));
+  CHECK(felt_share(warm, p, 0.01) == Approx(1 - 0.167).margin(1e-3));
+  CHECK(felt_share(m, p, 0.01, 2) == Approx(0.5).margin(5e-3));
+  Parameters late = shaft_on(kBus, 0.7);
+  late.effects.dead_time = true;
+  CHECK(felt_share(m, late, 0.01) == Approx(1 - 0.15).margin(5e-3));
+  CHECK(felt_share(m, late, 0.002) == Approx(1 - 0.74).margin(5e-3));
+}
+
 // Three half bridges beside closed forms and a smooth model of their diodes: dead time, ripple,
 // coasting, free-wheeling, values that are not numbers.
 

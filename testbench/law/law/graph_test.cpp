@@ -251,10 +251,10 @@ TEST_CASE("a run from the text is not misled by the rounding of its own numbers"
   law.run({});
   CHECK(law.torque(0) == 8);
 }
+
 // Functions of binary128 against long double and against each other.
 
 using feltgate::Quad;
-using namespace feltgate::law;
 
 namespace {
 

@@ -4,7 +4,9 @@
 // Flywheel, pendulum and a body in space behind a spring and a damper: momentum, energy, and where
 // they are stable. Documentation: docs/devices/one-lever.md
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <string>
 
 #include "catch.hpp"
@@ -46,6 +48,21 @@ class Object {
   Running<> run_;
   std::size_t speed_, twist_;
 };
+
+/// The larger of both absolute eigenvalues of a run, lever held; the columns are what runs make of
+/// a small twist and a small speed.
+double radius(Object& object) {
+  std::array<double, 4> m{};
+  for (std::size_t column = 0; column < 2; ++column) {
+    object.put(column == 0 ? 1e-9 : 0, column == 0 ? 0 : 1e-9);
+    object.run(0, 0);
+    m[column] = object.twist() / 1e-9;
+    m[2 + column] = object.speed() / 1e-9;
+  }
+  const double half = (m[0] + m[3]) / 2, det = m[0] * m[3] - m[1] * m[2];
+  const std::complex<double> root = std::sqrt(std::complex<double>(half * half - det));
+  return std::max(std::abs(half + root), std::abs(half - root));
+}
 
 }  // namespace
 
@@ -112,10 +129,10 @@ TEST_CASE("pendulum: swings with the period of its weight") {
   CHECK(lifted.run(1.2, 0) == Approx(-0.05 * std::sin(1.2 + lifted.twist())));
 }
 
-TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by its runs") {
+TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by eigenvalues and by its runs") {
   feltgate::SplitMix64 random(1);
   int stable = 0, unstable = 0;
-  for (const double rate_hz : {50.0, 100.0, 144.0, 490.0, 1000.0}) {
+  for (const double rate_hz : {50.0, 100.0, 144.0, 490.0, 1000.0, 10e3, 250e3}) {
     for (int i = 0; i < 200; ++i) {
       const double k = random.between(0.1, 8), b = random.between(0, 0.05),
                    inertia = 0.1e-3 * std::pow(50, random.uniform());
@@ -125,10 +142,12 @@ TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by its runs") {
       wheel.set("inertia", inertia);
       const double dt = wheel.dt();
       const double share = (k * dt * dt + 2 * b * dt) / (4 * inertia);
-      if (std::abs(share - 1) < 0.1) continue;
+      if (std::abs(share - 1) < 1e-3) continue;
       INFO(rate_hz << " Hz, k " << k << ", b " << b << ", J " << inertia << ": " << share);
       wheel.run(0, 0);
+      CHECK((radius(wheel) < 1) == (share < 1));
       ++(share < 1 ? stable : unstable);
+      if (rate_hz > 2000 || std::abs(share - 1) < 0.1) continue;
       // What it makes of a small push within 400 runs.
       wheel.put(1e-6, 0);
       for (int n = 0; n < 400; ++n) wheel.run(0, 0);
@@ -140,7 +159,7 @@ TEST_CASE("flywheel: stable where k dt^2 + 2 b dt < 4 J, by its runs") {
       CHECK((largest < 1e-5) == (share < 1));
     }
   }
-  CHECK(stable > 200);
+  CHECK(stable > 300);
   CHECK(unstable > 100);
 }
 

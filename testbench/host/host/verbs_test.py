@@ -224,6 +224,14 @@ class Verbs(VerbTest):
 
 
 class Trouble(VerbTest):
+    def test_silence(self):
+        with BoardProcess() as board:
+            board.order("silent")
+            said = self.host(board.port, "--patience", 0.5, "info", status=3)
+            self.assertIn("no answer for 0.5 s", said)
+            board.order("loud")
+            self.host(board.port, "info")
+
     def test_the_cable_is_pulled(self):
         capture = ("capture", "--trigger", "velocity>99")
         for verb in (("arm", "wall", "--hold"), ("watch",), capture):

@@ -7,6 +7,7 @@
 #include "bench.hpp"
 #include "catch.hpp"
 #include "host/identify/identify.hpp"
+#include "mismatch.hpp"
 
 using namespace feltgate;
 using namespace feltgate::host;
@@ -65,6 +66,29 @@ TEST_CASE("identify: combinations and constants of the plant within 2 %", "[iden
     CHECK((no_scale.emf_v_s_rad && !no_scale.inertia_kg_m2 && no_scale.next.size() == 1));
     CHECK((!no_coast.emf_v_s_rad && !no_coast.inertia_kg_m2 && no_coast.next.size() == 1));
   }
+}
+
+TEST_CASE("identify: intervals hold the truth as often as they say", "[identify]") {
+  if (!whole_run()) return;
+  plant::Parameters p = shipped("linear");
+  p.effects.viscous = true;
+  const double r_kt = p.motor.resistance_ohm / p.motor.torque_constant_nm_a;
+  const double electrical_s = p.motor.inductance_h / p.motor.resistance_ohm;
+  int inertias = 0, speeds = 0;
+  constexpr int sets = 30;
+  SplitMix64 random(5);
+  for (int set = 0; set < sets; ++set) {
+    std::vector<Held> plan;
+    for (int k = 0; k < 10; ++k) {
+      plan.push_back({(k % 2 == 0 ? 1 : -1) * random.between(2, 7), random.between(0.15, 0.3)});
+    }
+    const Drive d = identify_drive(drive(p, plan), electrical_s);
+    inertias += d.inertia_v_s2.contains(p.lever.inertia_kg_m2 * r_kt) ? 1 : 0;
+    speeds += d.speed_v_s.contains(p.motor.torque_constant_nm_a + p.lever.viscous_nm_s_rad * r_kt);
+  }
+  INFO(inertias << " and " << speeds << " of " << sets);
+  CHECK(inertias >= 24);
+  CHECK(speeds >= 24);
 }
 
 TEST_CASE("identify: recordings that say nothing are refused with the mend", "[identify]") {

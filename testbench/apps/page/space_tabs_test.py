@@ -181,6 +181,12 @@ class Stylus(TabTest):
         self.assertNotEqual(smooth["normal"], seen["normal"])
 
 
+KNOB_NM_RAD = HAND_N_M * 0.02**2
+DETENT_NM_RAD = 0.012 / 0.1
+FRICTION_NM = 0.65e-3
+LOST_NM = 5e-4  # what dead times take beyond what the core gives back
+
+
 class Knob(TabTest):
     TAB = "knob"
 
@@ -208,13 +214,23 @@ class Knob(TabTest):
         face.send_keys(" ")
         self.assertFalse(self.tab("held"))
 
+    def test_hand_and_detent_balance(self):
+        seen = self.led(0.2)
+        rest = 0.2 * KNOB_NM_RAD / (KNOB_NM_RAD + DETENT_NM_RAD)
+        margin = (FRICTION_NM + LOST_NM) / (KNOB_NM_RAD + DETENT_NM_RAD) + 5e-4
+        self.assertAlmostEqual(seen["theta"], rest, delta=margin)
+        self.assertAlmostEqual(seen["asked"], -DETENT_NM_RAD * seen["theta"], delta=1e-4)
+        self.assertAlmostEqual(seen["torque"], seen["asked"], delta=LOST_NM)
+
     def test_a_wrong_offset_and_a_motor_that_is_off_are_seen(self):
         for degrees in (0, 180):
             self.js("feltgate.knob.take(false)")
             self.turn("#knob-offset", degrees)
             seen = self.led(self.tab("seen.detent") + 0.15, 1)
             self.assertAlmostEqual(seen["offset"], degrees / 360, delta=1e-9)
-            self.assertEqual(abs(seen["torque"] - seen["asked"]) > 4e-3, degrees == 180)
+            expected = seen["asked"] * math.cos(math.radians(degrees))
+            self.assertAlmostEqual(seen["torque"], expected, delta=1.3e-3, msg=degrees)
+            self.assertGreater(abs(seen["asked"]), 2e-3)
             face = self.one("#knob-face").text
             self.assertAlmostEqual(float(face.split(" N")[0]), abs(seen["torque"]) / 0.02, delta=0.02)
             self.assertEqual("self-test" in self.text("#knob-said"), degrees == 180)

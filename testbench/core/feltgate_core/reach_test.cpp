@@ -1,15 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Directed tests of states that a random run would reach only by luck: positions at the ends of the
-// scenes' range, and heat that is known. Twin against expected values, RTL against twin.
-// Documentation: docs/architecture.md
+// Directed tests of states that a random run would reach only by luck: each word of the snapshot,
+// positions at the ends of the scenes' range, the torque limit, the watchdog, and known heat.
+// Twin against expected values, RTL against twin. Documentation: docs/architecture.md
+#include "core_coverage.hpp"
 #include "core_life.hpp"
 
 using namespace feltgate::test;
+using feltgate::CoreOut;
 using feltgate::Fault;
 using feltgate::Map;
 using D = feltgate::test::Design;
+using R = Map::R;
+
+TEST_CASE("core: each word of the snapshot is that of the pins, in every phase of the motion") {
+  Life s;
+  s.arm(D::S::spring_tension);
+  std::int64_t index = 0, errors = 0;
+  std::array<std::int64_t, 64> changes{};
+  std::array<std::uint32_t, 64> before{};
+  for (int k = 0; k < 200; ++k) {
+    // An event in each clock of a tick: an edge, an index, an illegal step.
+    s.to_clock(0);
+    s.clocks(k % kTick);
+    if (k % 7 == 6) {
+      s.in.encoder.a = !s.in.encoder.a;
+      s.in.encoder.b = !s.in.encoder.b;
+      ++errors;
+      s.clocks(kTick);
+      s.in.encoder.a = !s.in.encoder.a;
+      s.in.encoder.b = !s.in.encoder.b;
+      ++errors;
+    } else if (k % 3 == 2) {
+      s.in.encoder.z = !s.in.encoder.z;
+      if (s.in.encoder.z) index = s.out().position;
+    } else {
+      s.step(k % 50 < 40);
+    }
+    s.to_clock(0);
+    if (k % 5 == 0) s.ticks(1);
+    // All words are of the tick that ended, and are read in one tick.
+    const CoreOut o = s.shown();
+    const auto check = [&](const char* name, int slot, std::uint32_t expected) {
+      const std::uint32_t word = s.read(C::snapshot + slot);
+      INFO(name << ", round " << k);
+      REQUIRE(word == expected);
+      const auto at = static_cast<std::size_t>(slot);
+      changes[at] += word != before[at];
+      before[at] = word;
+    };
+    check("tick", R::tick, o.tick_count);
+    check("position", R::position, low(o.position));
+    check("velocity", R::velocity, low(o.velocity));
+    check("tau_hat", R::tau_hat, low(o.tau_hat));
+    check("tau_ref", R::tau_ref, low(o.tau_ref));
+    check("current_ref", R::current_ref, low(o.current_ref));
+    check("voltage", R::voltage, low(o.voltage));
+    check("duty", R::duty, low(o.duty));
+    const std::uint32_t status = s.read(C::snapshot + R::status);
+    changes[R::status] += status != before[R::status];
+    before[R::status] = status;
+    CHECK(((status >> C::status_scene) & 15u) == o.scene);
+    CHECK(((status >> C::status_armed) & 1u) == o.armed);
+    CHECK(((status >> C::status_encoder_error) & 1u) == (errors > 0));
+    // These values change in the middle of a tick: they are checked when they are at rest.
+    if (k % 5 != 0) continue;
+    check("faults", R::faults,
+          std::uint32_t{o.faults} << C::faults_seen | std::uint32_t{o.first_fault}
+                                                          << C::faults_first);
+    CHECK(s.read(C::snapshot + R::encoder) == low(errors));
+    const std::uint32_t seen = s.read(C::snapshot + R::index);
+    CHECK(std::abs(static_cast<std::int32_t>(seen) - index) <= 1);
+    changes[R::encoder] += s.out().reg_rdata != before[R::encoder];
+    changes[R::index] += seen != before[R::index];
+    before[R::index] = seen;
+  }
+  for (const int slot : feltgate::test::snapshot_slots) {
+    INFO("slot " << slot);
+    CHECK(changes[static_cast<std::size_t>(slot)] > 0);
+  }
+  s.play();
+}
 
 TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end beyond") {
   constexpr std::int32_t end = (1 << (D::f.scene_position.width() - 1)) - 1;
@@ -46,6 +118,52 @@ TEST_CASE("core: scenes see positions up to both ends of 18 bits, and the end be
     s.arm(D::S::spring_tension);
     s.ticks(4);
     CHECK(s.shown().tau_ref == torques.back());
+    s.play();
+  }
+}
+
+TEST_CASE("core: every scene with a force comes to the torque limit, and no further") {
+  constexpr std::int32_t limit = 40;
+  for (const int scene :
+       {D::S::setpoint, D::S::membrane, D::S::spring_compression, D::S::spring_tension,
+        D::S::damper, D::S::charge_attract, D::S::charge_repel, D::S::wall}) {
+    Life s;
+    s.write(A::torque_limit, limit);
+    s.write(A::setpoint_torque, 5'000);
+    s.write(A::membrane_lower, low(-20 * 256));
+    s.write(A::membrane_upper, 20 * 256);
+    s.write(A::wall_contact, 0);
+    s.move(-60, kTick);
+    s.arm(scene);
+    int reached = 0;
+    for (int k = 0; k < 240; ++k) {
+      s.move(k < 120 ? 1 : -1, 150);
+      s.ticks(1);
+      INFO("scene " << scene << ", step " << k);
+      REQUIRE(std::abs(s.shown().tau_ref) <= limit);
+      reached += s.shown().limits >> Map::L::torque & 1;
+    }
+    INFO("scene " << scene);
+    CHECK(reached > 0);
+    s.play();
+  }
+}
+
+TEST_CASE("core: the watchdog is fed by a kick alone, and by one beside a clear") {
+  constexpr int ticks = 40;
+  for (const std::uint32_t others : {0u, 1u << C::command_clear_faults}) {
+    Life s;
+    s.write(A::watchdog_ticks, ticks);
+    s.arm(D::S::free);
+    s.ticks(3 * ticks);
+    REQUIRE(s.out().gates_enable);  // the watchdog is off
+    for (int k = 0; k < 4; ++k) {
+      s.write(C::command, 1u << C::command_kick | others);
+      s.ticks(ticks - 2);
+    }
+    REQUIRE(s.out().gates_enable);
+    REQUIRE(s.ticks_to_fall(2 * ticks) <= 4);
+    REQUIRE(s.only(Fault::watchdog));
     s.play();
   }
 }

@@ -219,6 +219,34 @@ TEST_CASE("a jump of the speed that the hand imposes is told with line, size and
   CHECK(told(arm, false).size() == 1);  // its end comes after the scene's
 }
 
+TEST_CASE("free lever: inertia and sliding friction are felt, within 1 %, in both designs") {
+  const plant::Parameters p = p24();
+  constexpr double pi = 3.14159265358979, amplitude_rad = 0.5, pulse_rad_s = 4 * pi;
+  constexpr int steps = 10000;  // of half a swing
+  double squares = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double angle = pi * (k + 0.5) / steps;
+    const double speed = amplitude_rad * pulse_rad_s * std::sin(angle);
+    const double slow = speed / p.lugre.stribeck_rad_s;
+    const double sliding =
+        p.lugre.coulomb_nm + (p.lugre.static_nm - p.lugre.coulomb_nm) * std::exp(-slow * slow);
+    const double hand =
+        sliding + p.lugre.viscous_nm_s_rad * speed +
+        p.lever.inertia_kg_m2 * amplitude_rad * pulse_rad_s * pulse_rad_s * std::cos(angle);
+    squares += hand * hand / steps;
+  }
+  for (const char* design : {"lever", "paper"}) {
+    Scenario scene = shipped_scene("free_lever");
+    scene.expectations.clear();  // those of lever
+    RunOptions options;
+    options.design = design;
+    options.engine = "twin";
+    INFO(design);
+    CHECK(run_on_p24(scene, options).figures.at("drag_rms_nm") ==
+          Approx(std::sqrt(squares)).epsilon(0.01));
+  }
+}
+
 TEST_CASE("engines by name: lists, their order, and what compares them") {
   const auto names = [](const char* list) { return choose_backends(list).names(); };
   using Names = std::vector<std::string>;

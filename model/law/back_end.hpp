@@ -173,7 +173,18 @@ class BackEnd {
   double chosen_scale(NodeId id, double unit, int preferred, double size);
   int largest_fraction(NodeId id, double unit, double size) const;
 
-  // ends.cpp
+  // conditions.cpp
+  void lower_leaves(NodeId condition);
+  void flag(NodeId condition);
+  int raise(NodeId condition, bool opposite);
+  bool simple(NodeId condition, bool opposite) const;
+  Operand threshold(double exact, bool above);
+  Value compared(NodeId leaf, int side, double scale, double* error);
+  void compare(NodeId leaf, int mode);
+  Value element(NodeId id);
+  void begin_lines();
+  Value line_read(NodeId id);
+  void write_lines();
   struct Map {
     double factor = 1, offset = 0;
     /// This map of f * x + o.
@@ -190,33 +201,18 @@ class BackEnd {
   Value mapped(NodeId id, const Map& map, const Ends& ends);
   Value clipped(Value v, const Map& map, const Ends& ends, NodeId id);
 
-  // conditions.cpp
-  void lower_leaves(NodeId condition);
-  void flag(NodeId condition);
-  int raise(NodeId condition, bool opposite);
-  bool simple(NodeId condition, bool opposite) const;
-  Operand threshold(double exact, bool above);
-  Value compared(NodeId leaf, int side, double scale, double* error);
-  void compare(NodeId leaf, int mode);
-
   // functions.cpp
   Value function(NodeId id);
   Value sine(NodeId id);
   Value align_for_table(const Value& v, double scale, NodeId argument);
   Value limited(Value v, const Node& n, NodeId id);
-  Value element(NodeId id);
   void count_tables();
   static int value_fraction(const TableRequest& r);
   Operand phase(NodeId id, double turn, double period);
   int place_table(const std::string& key, const TableUse& table);
 
-  // periodic.cpp
+  // tables.cpp
   Value periodic(NodeId id);
-
-  // elements.cpp
-  void begin_lines();
-  Value line_read(NodeId id);
-  void write_lines();
 
   // roots.cpp
   void outputs();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "catch.hpp"
 #include "feltgate/commutation.hpp"
@@ -147,6 +148,8 @@ struct RandomInputs {
 /// Cosines in double, and the clocks of results.
 class Reference {
  public:
+  std::int64_t beyond = 0, sectors[2][6] = {};
+
   const char* operator()(const Commutation::In& in, const Vcommutation& rtl, const Commutation&,
                          bool in_reset) {
     ++clock_;
@@ -169,6 +172,10 @@ class Reference {
     angle_ = angle_of(in);
     amplitude_ = in.amplitude;
     backward_ = in.polarity;
+    beyond += std::abs(in.amplitude) > kPeriod;
+    const double turns = angle_ / (2 * M_PI);
+    const auto sector = static_cast<int>(6 * (turns - std::floor(turns))) % 6;
+    ++sectors[in.amplitude < 0][sector];
   }
 
   Judge judge_{kPeriod, kModulation == Commutation::kSines};
@@ -207,7 +214,12 @@ double clipped_sines() {
 
 TEST_CASE("commutation: all inputs and resets") {
   Bench bench("commutation", 1, Commutation(kPeriod, kModulation));
-  bench.run(RandomInputs{Random(1)}, scaled_clocks(2'000'000), {30'000}, Reference{});
+  Reference seen;
+  bench.run(RandomInputs{Random(1)}, scaled_clocks(2'000'000), {30'000}, std::ref(seen));
+  REQUIRE(seen.beyond > 1000);
+  for (const auto& sign : seen.sectors) {
+    for (const std::int64_t sector : sign) REQUIRE(sector > 200);
+  }
 }
 
 TEST_CASE("commutation: the vector at every angle of an encoder") {

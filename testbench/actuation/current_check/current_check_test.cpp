@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "catch.hpp"
 #include "feltgate/largest.hpp"
@@ -101,6 +102,8 @@ struct RandomInputs {
 /// The law in double, in which each number here is exact.
 class Reference {
  public:
+  std::int64_t results = 0, astray = 0, by_patience = 0, at_once = 0;
+
   const char* operator()(const CurrentCheck::In& in, const Vcurrent_check& rtl, const CurrentCheck&,
                          bool in_reset) {
     ++clock_;
@@ -124,9 +127,12 @@ class Reference {
     apart_ = std::fabs(resistive_ - std::floor(std::ldexp(1.0 * in.current * in.resistance, -13)));
   }
   void judge(double margin) {
-    const bool astray = larger(apart_, across_) > margin;
+    const bool strays = larger(apart_, across_) > margin;
     const bool far = larger(std::fabs(resistive_), across_) > std::fmin(4 * margin, (1 << 18) - 1);
-    row_ = astray ? row_ + 1 : 0;
+    row_ = strays ? row_ + 1 : 0;
+    ++results;
+    astray += strays;
+    if (!missing_ && (row_ >= 16 || far)) ++(far ? at_once : by_patience);
     missing_ = missing_ || row_ >= 16 || far;
   }
 
@@ -190,7 +196,12 @@ class Loop {
 
 TEST_CASE("current_check: all inputs, arming and resets") {
   Bench bench("current_check", 1);
-  bench.run(RandomInputs{Random(1)}, scaled_clocks(3'000'000), {100'000}, Reference{});
+  Reference seen;
+  bench.run(RandomInputs{Random(1)}, scaled_clocks(3'000'000), {100'000}, std::ref(seen));
+  REQUIRE(seen.astray > 1000);
+  REQUIRE(seen.results - seen.astray > 1000);
+  REQUIRE(seen.by_patience > 50);
+  REQUIRE(seen.at_once > 50);
 }
 
 TEST_CASE("current_check: words of a winding") {

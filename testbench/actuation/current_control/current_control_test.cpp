@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "catch.hpp"
 #include "feltgate/current_control.hpp"
@@ -99,6 +100,8 @@ struct RandomInputs {
 /// gain times the proportional part and, for tracking, times what the limit takes.
 class Reference {
  public:
+  std::int64_t results = 0, up = 0, down = 0;
+
   const char* operator()(const CurrentControl::In& in, const Vcurrent_control& rtl,
                          const CurrentControl&, bool in_reset) {
     ++clock_;
@@ -133,6 +136,9 @@ class Reference {
   void limit(const CurrentControl::In& in) {
     voltage_ = std::fmax(-in.limit, std::fmin(in.limit, unlimited_));
     saturated_ = voltage_ != unlimited_;
+    ++results;
+    up += voltage_ < unlimited_;
+    down += voltage_ > unlimited_;
   }
 
   std::int64_t clock_ = 0, taken_ = -1000;
@@ -226,7 +232,11 @@ Step step(Control control, double amperes, double emf_v, double ohm = kOhm, doub
 
 TEST_CASE("current_control: all inputs, limits, arming and resets") {
   Bench bench("current_control", 1);
-  bench.run(RandomInputs{Random(1)}, scaled_clocks(1'500'000), {100'000}, Reference{});
+  Reference seen;
+  bench.run(RandomInputs{Random(1)}, scaled_clocks(1'500'000), {100'000}, std::ref(seen));
+  REQUIRE(seen.up > 1000);
+  REQUIRE(seen.down > 1000);
+  REQUIRE(seen.results - seen.up - seen.down > 1000);
 }
 
 TEST_CASE("current_control: the integrator is the voltage at the winding's resistance") {

@@ -14,9 +14,25 @@ TEST_CASE("current_sense: all streams, strobes, arming, clears and resets") {
   const std::int64_t average = std::int64_t{kSense.divider}
                                << (kSense.offset_log2 + kSense.decimation_log2);
   const std::int64_t clocks = std::max<std::int64_t>(1'500'000, 150 * average);
+  std::int64_t results = 0, aligned = 0, latched = 0, offset_faults = 0;
+  bool over = false, offset = false;
+  const auto watch = [&, reference = Reference{}](const CurrentSense::In& in,
+                                                  const Vcurrent_sense& rtl,
+                                                  const CurrentSense& twin, bool in_reset) mutable {
+    results += rtl.valid_o;
+    aligned += rtl.aligned_o;
+    latched += !over && rtl.overcurrent_o != 0;
+    offset_faults += !offset && rtl.offset_fault_o != 0;
+    over = rtl.overcurrent_o != 0, offset = rtl.offset_fault_o != 0;
+    return reference(in, rtl, twin, in_reset);
+  };
   bench.run(RandomStreams{Random(1), 2 * average}, scaled_clocks(clocks),
-            {static_cast<std::uint32_t>(20 * average)}, Reference{});
-  bench.run(RandomStreams{Random(2), 20'000}, scaled_clocks(1'500'000), {100'000}, Reference{});
+            {static_cast<std::uint32_t>(20 * average)}, watch);
+  bench.run(RandomStreams{Random(2), 20'000}, scaled_clocks(1'500'000), {100'000}, watch);
+  REQUIRE(aligned > 300);
+  REQUIRE(results - aligned > 300);
+  REQUIRE(latched > 50);
+  REQUIRE(offset_faults > 3);
 }
 
 TEST_CASE("current_sense: one bit at every place gives the response of three boxes") {

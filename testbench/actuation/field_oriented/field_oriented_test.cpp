@@ -149,6 +149,9 @@ struct RandomInputs {
 /// bounds how far the block may be from it, LSB.
 class Reference {
  public:
+  /// So near the limit that `saturated` is not judged.
+  bool near() const { return near_; }
+
   const char* operator()(const FieldOriented::In& in, const Vfield_oriented& rtl,
                          const FieldOriented&, bool in_reset) {
     ++clock_;
@@ -243,7 +246,21 @@ class Reference {
 
 TEST_CASE("field_oriented: all inputs, limits, arming and resets") {
   Bench bench("field_oriented", 1, FieldOriented(kPeriod));
-  bench.run(RandomInputs{Random(1)}, scaled_clocks(6'000'000), {200'000}, Reference{});
+  std::int64_t results = 0, limited = 0, near = 0;
+  const auto watch = [&, reference = Reference{}](
+                         const FieldOriented::In& in, const Vfield_oriented& rtl,
+                         const FieldOriented& twin, bool in_reset) mutable {
+    const char* broken = reference(in, rtl, twin, in_reset);
+    results += rtl.valid_o;
+    limited += rtl.valid_o != 0 && rtl.saturated_o != 0;
+    near += rtl.valid_o != 0 && reference.near();
+    return broken;
+  };
+  bench.run(RandomInputs{Random(1)}, scaled_clocks(6'000'000), {200'000}, watch);
+  INFO("results " << results << ", limited " << limited << ", near the limit " << near);
+  REQUIRE(limited > 3000);
+  REQUIRE(results - limited > 1000);
+  REQUIRE(near < results / 4);
 }
 
 TEST_CASE("field_oriented: the longest voltage at every angle stays within any period") {

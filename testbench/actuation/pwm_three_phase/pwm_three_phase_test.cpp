@@ -7,6 +7,7 @@
 #include <Vpwm_three_phase.h>
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "catch.hpp"
@@ -96,6 +97,8 @@ int periods_of(int on) {
 /// Checks the gates of the RTL only, clock by clock.
 class BridgeGuard {
  public:
+  std::int64_t turn_ons = 0, whole_pulses = 0;
+
   const char* operator()(const PwmThreePhase::In& in, const Vpwm_three_phase& rtl,
                          const PwmThreePhase&, bool in_reset) {
     const unsigned on = gates_of(rtl);
@@ -112,6 +115,7 @@ class BridgeGuard {
         if ((on >> (gate ^ 1) & 1) != 0) return "never both gates of a leg";
         if (on_[gate]++ == 0) {
           ++pulses;
+          ++turn_ons;
           if (clock_ - last_on_[gate ^ 1] <= kDead) return "dead time between two gates";
           if (clock_ - last_disabled_ < kDead) return "dead time after enable";
         }
@@ -121,6 +125,7 @@ class BridgeGuard {
       // The first pulse of a leg after its gates open began with them and not with the carrier.
       if (on_[gate] > 0 && !cuts && pulses > 1) {
         if (on_[gate] < kShortest) return "no pulse is too short";
+        ++whole_pulses;
       }
       on_[gate] = 0;
     }
@@ -212,8 +217,11 @@ TEST_CASE("pwm_three_phase: everything at random, no shoot-through, dead time ke
   std::uint64_t seed = 20;
   for (const int calm : {2 * kDead, 3 * kPeriod, 40 * kPeriod}) {
     Bench bench("pwm_three_phase", ++seed, PwmThreePhase(kPeriod, kDead, kShortest));
+    BridgeGuard guard;
     bench.run(Chaos{Random(seed), {}, static_cast<std::uint32_t>(calm)}, scaled_clocks(2'000'000),
-              ResetPlan{20'000}, BridgeGuard{});
+              ResetPlan{20'000}, std::ref(guard));
+    REQUIRE(guard.turn_ons > 2000);
+    if (calm > kPeriod) REQUIRE(guard.whole_pulses > 500);
   }
 }
 

@@ -650,6 +650,18 @@ TEST_CASE("torque_control: random waves, words, modes, arming and resets") {
   bench.run(Waves(3, 1), scaled_clocks(900000), {400}, TickBeside{});
 }
 
+TEST_CASE("torque_control: the region's border belongs to the low gain, one LSB above does not") {
+  RtlAlone rtl;
+  Wave w = stall(0);
+  const std::int64_t border = w.words.at(A::region_torque);
+  for (const std::int64_t sign : {1, -1}) {
+    for (const std::int64_t off : {-1, 0, 1}) {
+      w.tau_ref = sign * (border + off);
+      REQUIRE(rtl.run(w).region_high == (off > 0));
+    }
+  }
+}
+
 TEST_CASE("torque_control: current and voltage of the design, by hand") {
   RtlAlone rtl;
   for (const double tau_ref : {0.1, -0.1, 0.2, 0.4, -0.005}) {
@@ -727,6 +739,30 @@ TEST_CASE("torque_control: voltage mode ramps to the set-point, within the windo
   REQUIRE(out.current_ref == 0);
   REQUIRE(out.duty == 0);
   REQUIRE_FALSE(out.limit.voltage);
+}
+
+TEST_CASE("torque_control: a host's gain, current limit and dead voltage do not move the window") {
+  RtlAlone rtl;
+  Wave w;
+  for (const int address : {A::voltage_gain, A::voltage_gain_high, A::torque_gain,
+                            A::dead_voltage_slope, A::voltage_to_current}) {
+    w.words.set(address, 0x1ffff);
+  }
+  for (const int address :
+       {A::current_limit, A::dead_voltage, A::voltage_setpoint, A::voltage_step}) {
+    w.words.set(address, 0x7fff0);
+  }
+  for (const Mode mode : {Mode::closed_loop, Mode::open_loop, Mode::voltage}) {
+    w.mode = mode;
+    for (const double omega : {0.0, 300.0, -300.0}) {
+      w.velocity = std::llround(std::ldexp(omega, 21));
+      for (const double tau_ref : {15.0, -15.0}) {
+        w.tau_ref = torque_raw(tau_ref);
+        const double current = (volts(rtl.run(w).voltage) - si(A::emf_constant) * omega) / 0.42;
+        REQUIRE(std::fabs(current) <= (si(A::voltage_window) + 1e-3) / 0.42);
+      }
+    }
+  }
 }
 
 TEST_CASE("torque_control: distance from quad precision") {

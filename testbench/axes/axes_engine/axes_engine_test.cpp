@@ -347,10 +347,10 @@ TEST_CASE("axes_engine: axes and hosts at random, RTL against twin") {
   }
   INFO("restart " << restarts << ", late " << lates << ", unfit " << unfits << ", checked "
                   << checks);
-  CHECK(restarts > 50);
-  CHECK(lates > 50);
-  CHECK(unfits > 50);
-  CHECK(checks > 250);
+  CHECK(restarts > 58);
+  CHECK(lates > 58);
+  CHECK(unfits > 58);
+  CHECK(checks > 291);
   device.play();
 }
 

@@ -37,8 +37,8 @@ class Flips {
     std::vector<StateFault> faults;
     for (const auto& one : all_) faults.push_back(one.first);
     std::size_t n = 0;
-    const std::int64_t mismatches =
-        feltgate::faults::run(campaign, faults, [&](const StateResult& r) { all_[n++].second(r.outcome); });
+    const std::int64_t mismatches = feltgate::faults::run(
+        campaign, faults, [&](const StateResult& r) { all_[n++].second(r.outcome); });
     CHECK(mismatches == 0);  // RTL against twin, in the ticks without a fault
     CHECK(n == all_.size());
   }

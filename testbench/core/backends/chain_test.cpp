@@ -27,6 +27,8 @@ using namespace feltgate;
 template <class D>
 class Beside {
  public:
+  std::int64_t ticks = 0, armed = 0;
+
   explicit Beside(std::uint64_t seed)
       : stimulus_(seed), chain_(make_real_chain(D::name, "fixed")), host_(D::control_reset) {}
 
@@ -63,6 +65,8 @@ class Beside {
 
   void tick() {
     const CoreOut& o = core_.out();
+    ++ticks;
+    armed += o.armed;
     ChainIn in;
     in.position = o.position;
     in.travel = core_.sampled_travel();
@@ -99,9 +103,16 @@ class Beside {
 
 template <class D>
 void compare(std::uint64_t seed) {
+  std::int64_t ticks = 0, armed = 0;
   for (std::uint64_t k = 0; k < 4; ++k) {
-    Beside<D>(seed + k).run(test::scaled_clocks(5'000'000));
+    Beside<D> life(seed + k);
+    life.run(test::scaled_clocks(5'000'000));
+    ticks += life.ticks;
+    armed += life.armed;
   }
+  INFO(D::name << ": ticks " << ticks << ", armed " << armed);
+  REQUIRE(ticks > 350'000);
+  REQUIRE(armed > ticks / 20);
 }
 
 }  // namespace

@@ -198,6 +198,22 @@ TEST_CASE("hall: a line that is cut closes the gates within an electrical turn")
   CHECK(most > 0.3);
 }
 
+TEST_CASE("hall: two lines that change places close the gates within an electrical turn") {
+  for (int k = 0; k < 3; ++k) {
+    const unsigned a = static_cast<unsigned>(k) % 3, b = (a + 1) % 3;
+    Rig rig(turned(0.2 + 25 * k * kDegree / kPairs, (k < 2 ? 1 : -1) * 360 * kDegree, 6e-3));
+    rig.event_at = 0;
+    rig.harm = [a, b](const Rig&, unsigned code) {
+      const unsigned differ = (code >> a ^ code >> b) & 1u;
+      return code ^ (differ << a | differ << b);
+    };
+    const Seen seen = run(rig, kHeld + 300'000, false);
+    REQUIRE(seen.off > kHeld);
+    CHECK(seen.last.faults == fault_bit(Fault::encoder));
+    CHECK(absolute(seen.faults_word) == 2);
+  }
+}
+
 TEST_CASE("hall: an encoder that stands while the motor turns, and lines that stand") {
   for (const bool encoder : {true, false}) {
     Rig rig(turned(0.35, 720 * kDegree, 10e-3));

@@ -516,7 +516,23 @@ TEST_CASE("absolute_encoder: all frames, errors and motions of a sensor") {
   const Stimulus stimulus{Sensor(2, &log), Random(3)};
   // After a reset the line of BiSS-C still holds what was sent before it: see the case below.
   const bool biss = kEncoder.framing == AbsoluteEncoder::kBiss;
-  bench.run(stimulus, scaled_clocks(6'000'000), {biss ? 0U : 200'000U}, Reference(&log));
+  std::int64_t good = 0, lost = 0, frozen = 0;
+  int was = 0;
+  const auto watch = [&, reference = Reference(&log)](
+                         const AbsoluteEncoder::In& in, const Vabsolute_encoder& rtl,
+                         const AbsoluteEncoder& twin, bool in_reset) mutable {
+    constexpr int kLost = AbsoluteEncoder::kCheck | AbsoluteEncoder::kJump;
+    const int is = rtl.faults_o;
+    good += rtl.valid_o;
+    lost += (is & kLost) != 0 && (was & kLost) == 0;
+    frozen += (is & ~was & AbsoluteEncoder::kFrozen) != 0;
+    was = is;
+    return reference(in, rtl, twin, in_reset);
+  };
+  bench.run(stimulus, scaled_clocks(6'000'000), {biss ? 0U : 200'000U}, watch);
+  REQUIRE(good > 3000);
+  REQUIRE(lost > 20);
+  REQUIRE(frozen > 20);
 }
 
 TEST_CASE("absolute_encoder: any pin, with resets at any time") {

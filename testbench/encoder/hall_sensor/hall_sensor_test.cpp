@@ -239,7 +239,21 @@ double degrees(double rad) { return rad * 360 / kTwoPi; }
 
 TEST_CASE("hall_sensor: all inputs and resets") {
   Bench bench("hall_sensor", 1, HallSensor(kGlitch));
-  bench.run(AnyInputs{Random(1)}, scaled_clocks(1'500'000), {30'000}, Reference{});
+  std::array<std::int64_t, 3> faults{};
+  std::array<std::int64_t, 6> edges{};  // each way at the edge before a sector
+  unsigned was = 0;
+  bool exact = false;
+  const auto watch = [&, reference = Reference{}](const HallSensor::In& in, const Vhall_sensor& rtl,
+                                                  const HallSensor& twin, bool in_reset) mutable {
+    for (std::size_t k = 0; k < 3; ++k) faults[k] += (rtl.faults_o & ~was) >> k & 1u;
+    const auto edge = static_cast<std::size_t>(std::lround(rtl.angle_o / kTurn * 6) % 6);
+    edges[edge] += !exact && rtl.exact_o != 0;
+    was = rtl.faults_o, exact = rtl.exact_o != 0;
+    return reference(in, rtl, twin, in_reset);
+  };
+  bench.run(AnyInputs{Random(1)}, scaled_clocks(1'500'000), {30'000}, watch);
+  for (const std::int64_t n : faults) REQUIRE(n > 300);
+  for (const std::int64_t n : edges) REQUIRE(n > 200);
 }
 
 TEST_CASE("hall_sensor: codes and sectors are one to one, and a step is one line") {

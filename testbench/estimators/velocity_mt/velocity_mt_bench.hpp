@@ -227,9 +227,11 @@ struct Moved {
   }
 };
 
-/// The largest errors of raw and filtered velocity, and the largest difference, in rad/s.
+/// The largest errors of raw and filtered velocity, and the largest difference, in rad/s; how often
+/// the bound of a wait, the most cycles and a step to 0 came.
 struct Worst {
   quad raw = 0, filtered = 0, difference = 0;
+  std::int64_t lowered = 0, longest = 0, followed = 0;
 };
 
 /// The block from a list of all edges of the run. Raw values appear in the tick after their sample.
@@ -280,6 +282,7 @@ struct Reference {
 
   void filter() {
     if (follows && y >= -kSlow && y < kSlow) {
+      ++worst->followed;
       y = 0;
       exact_y = 0;
       return;
@@ -345,6 +348,7 @@ struct Reference {
                                 : direction * Real::magnitude(4096, 2 * static_cast<int>(counts),
                                                               span, nullptr);
       decided = 2;
+      worst->longest += counts == (std::size_t{4} << Velocity::doublings);
     } else if (run.empty() || clock - run.back() >= kRest) {
       run.clear();
       next_raw = 0;
@@ -357,6 +361,7 @@ struct Reference {
         if (next_raw < 0) next_exact = -next_exact;
         next_raw = next_raw < 0 ? -most : most;
         next_limited = false;
+        ++worst->lowered;
       }
     }
     fresh = false;

@@ -33,6 +33,9 @@ TEST_CASE("velocity_mt: random motion, gaps and resets") {
             Reference{&most});
   bench.run(Waves<RandomMotion>(5, {kScale}, Velocity::division_clocks, 2),
             scaled_clocks(1'000'000), {3'000}, Reference{&most});
+  REQUIRE(most.lowered > 1000);
+  REQUIRE(most.longest > 100);
+  REQUIRE((most.followed > 10 || kRest > kScale));
   // Real arithmetic on the same edges: an LSB is cut off the raw velocity, the filter rounds.
   const quad unit = lsb(Design::f.velocity.fraction);
   const quad raw_bound = unit + 1024 * lsb(36);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "../../wave/mult/mult_twin.hpp"
@@ -202,7 +203,7 @@ struct Ticks {
 /// The chain beside clock(), and the N-method in plain integers, both due in the clock after the
 /// velocity's step.
 struct Reference {
-  std::int64_t* last_velocity;
+  std::int64_t last_velocity = 0, ticks = 0, saturated = 0, wrapped = 0;
   std::vector<std::int64_t> counts{};  // of every tick since reset, as 16-bit numbers
   Ticks shadow{};
   std::int64_t y = 0;
@@ -220,7 +221,7 @@ struct Reference {
       counts.push_back(in.port.travel);
     }
     const std::int64_t velocity = sign_extend<Design::f.velocity.width()>(rtl.velocity_o);
-    *last_velocity = velocity;
+    last_velocity = velocity;
     if (((in.port.wave >> Map::T::velocity) & 1u) != 0) {
       y = next();
       if (shadow.step.velocity != twin.block.velocity())
@@ -235,12 +236,19 @@ struct Reference {
     const bool filled = now >= Design::m1;
     const std::int64_t oldest = filled ? counts[now - Design::m1] : 0;
     std::int64_t difference = counts[now] - oldest;
-    if (difference > 32767 || difference < -32768) difference += difference > 0 ? -65536 : 65536;
+    ++ticks;
+    if (difference > 32767 || difference < -32768) {
+      difference += difference > 0 ? -65536 : 65536;
+      ++wrapped;
+    }
     constexpr std::int64_t limit = std::int64_t{1} << (Design::f.velocity.width() - 1);
     std::int64_t raw = Design::velocity_gain != 0
                            ? difference * Design::velocity_gain * 32  // 16 to 21 fraction bits
                            : difference * (std::int64_t{1} << (Design::velocity_shift + 21));
-    if (raw >= limit || raw < -limit) raw = raw < 0 ? -limit : limit - 1;
+    if (raw >= limit || raw < -limit) {
+      raw = raw < 0 ? -limit : limit - 1;
+      ++saturated;
+    }
     const int128_t product = static_cast<int128_t>(raw - y) * design_a1().raw();
     return y + static_cast<std::int64_t>((product + (int128_t{1} << 26)) >> 27);
   }
@@ -292,27 +300,31 @@ TEST_CASE("velocity_n: before the first tick nothing has saturated") {
 }
 
 TEST_CASE("velocity_n: random motion, gaps and resets") {
-  std::int64_t last = 0;
+  Reference seen;
   Bench bench("velocity_n", 1);
-  bench.run(Waves<RandomMotion>(3, {}, 30), scaled_clocks(1000000), {60000}, Reference{&last});
-  bench.run(Waves<RandomMotion>(4, {}, 1), scaled_clocks(1000000), {200000}, Reference{&last});
-  bench.run(Waves<RandomMotion>(5, {}, 41), scaled_clocks(200000), {3000}, Reference{&last});
+  bench.run(Waves<RandomMotion>(3, {}, 30), scaled_clocks(1000000), {60000}, std::ref(seen));
+  bench.run(Waves<RandomMotion>(4, {}, 1), scaled_clocks(1000000), {200000}, std::ref(seen));
+  bench.run(Waves<RandomMotion>(5, {}, 41), scaled_clocks(200000), {3000}, std::ref(seen));
+  REQUIRE(seen.saturated * 100 > seen.ticks);
+  REQUIRE(seen.saturated * 5 < seen.ticks);
+  REQUIRE(seen.wrapped > Design::m1 / 2);
 }
 
 TEST_CASE("velocity_n: gain error of the N-method at a constant speed") {
   for (const int direction : {1, -1}) {
-    std::int64_t last = 0;
+    Reference seen;
     Bench bench("velocity_n", 6);
     constexpr int ticks = exact_ticks();
-    bench.run(Waves<Uniform>(6, {ticks, direction}, 1), 700000, {}, Reference{&last});
+    bench.run(Waves<Uniform>(6, {ticks, direction}, 1), 700000, {}, std::ref(seen));
     // One count in `ticks` microseconds, 4096 counts per turn.
     const double turn = 2 * std::acos(-1.0);
     const double truth = direction * turn / 4096 / (ticks * 1e-6);
     // 2^n against the exact factor 2*pi / (4096 * tick * m1).
     const double expected = kRadSPerCount * 4096e-6 * Design::m1 / turn - 1;
-    const double gain_error = rad_s(last) / truth - 1;
+    const double gain_error = rad_s(seen.last_velocity) / truth - 1;
     const double dead_band = 1001.0 / (1 << 21) / std::fabs(truth);
     INFO("true " << truth << " rad/s, gain error " << 100 * gain_error << " %");
+    REQUIRE(seen.saturated == 0);
     REQUIRE(std::fabs(gain_error - expected) < dead_band);
     REQUIRE(std::fabs(100 * gain_error - stated_percent()) < 5e-4);
   }

@@ -151,7 +151,7 @@ TEST_CASE("require: a difference that is required not to be below 0 is none") {
       compiled(both + "out torque = 0.1 Nm * sqrt(b - a) * clamp(position, -1, 1)");
   const Compiled share = compiled(both + "out torque = 0.1 Nm / (b - a + 0.5)");
   for (const Compiled& c : {root, share}) {
-    check_within(c, measure(c, 1, 5000));
+    check_within(c, measure(c, 1, runs_of(5000)));
   }
   CHECK(messages_of(both + "out torque = 0.1 Nm * sqrt(a - b)")
             .find("the square root of parameters that may be below 0") != std::string::npos);

@@ -17,6 +17,7 @@
 #include "law/compile.hpp"
 #include "law/diagnostics.hpp"
 #include "law/measure.hpp"
+#include "mismatch.hpp"
 
 namespace feltgate::law {
 
@@ -72,6 +73,9 @@ inline std::vector<Construct> constructs() {
   }
   return all;
 }
+
+/// The number of runs of a law: more in a whole run.
+inline std::int64_t runs_of(std::int64_t usual) { return test::whole_run() ? 20000 : usual; }
 
 /// The measured errors are within the bound, which does not cover the runs in strips: few.
 inline void check_within(const Compiled& c, const Measured& m) {

@@ -35,8 +35,8 @@ TEST_CASE("shipped laws are proven, fit their rate and stay within their bounds"
       CHECK(static_cast<int>(c.assembled.instructions.size()) <= goal->second.instructions);
       CHECK(c.rate_hz >= goal->second.rate_hz);
     }
-    check_within(c, measure(c, 1, 3000));
-    if (c.bound.states_bounded) check_within(c, measure(c, 2, 3000, true));
+    check_within(c, measure(c, 1, runs_of(3000)));
+    if (c.bound.states_bounded) check_within(c, measure(c, 2, runs_of(3000), true));
   }
 }
 
@@ -155,6 +155,27 @@ TEST_CASE("a parameter or an output of one value fails where the law has many") 
   REQUIRE(verdict(dead, {}).failures.size() == 1);
   CHECK_THAT(verdict(dead, {}).failures[0],
              Contains("torque: the words always give 0 Nm, where the law gives -0.1 .. 0.1 Nm"));
+}
+
+TEST_CASE(
+    "a state's word at an end of a clamp stands for that end, though its step does not divide it") {
+  const auto law = [](const char* range, const char* end) {
+    return fmt::format(
+        "param p = 0.7 in 0.1 .. 1.7\nstate kept = 0 in -{0} .. {0}\n"
+        "next kept = clamp(p * position, -{1}, {1})\n"
+        "out torque = if kept >= {1} then 0.2 Nm else if kept < -{1} then -0.2 Nm else 0.01 Nm * "
+        "kept\n",
+        range, end);
+  };
+  for (const std::string& text : {law("10", "9"), law("6", "6")}) {
+    const Compiled c = compiled(text);
+    const Measured m = measure(c, 1, 20000);
+    INFO(text);
+    CHECK(verdict(c, m).failures.empty());
+    CHECK(m.in_strips < 20);
+    check_within(c, m);
+    CHECK(measure_free(c, 1, 20000).left == 0);
+  }
 }
 
 TEST_CASE("a bound far above every error is no useful bound") {

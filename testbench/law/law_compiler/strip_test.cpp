@@ -120,16 +120,32 @@ TEST_CASE("an input is compared with a number in its own words") {
 void require_thresholds(const std::string& declared, const std::string& what,
                         const std::vector<double>& thresholds) {
   for (const double threshold : thresholds) {
-    for (const char* comparison : {"{0} < ({1})", "({1}) <= {0}", "{0} > ({1})", "({1}) >= {0}"}) {
-      const std::string condition = fmt::format(fmt::runtime(comparison), what, threshold);
-      INFO(declared << condition);
-      require_within(
-          compiled(declared + "out torque = if " + condition + " then 0.4 Nm else -0.3 Nm\n"), 600);
+    for (const char* comparison : {"<", "<=", ">", ">="}) {
+      const std::string number = fmt::format("({})", threshold);
+      for (const std::string& condition :
+           {what + comparison + number, number + comparison + what}) {
+        INFO(declared << condition);
+        require_within(
+            compiled(declared + "out torque = if " + condition + " then 0.4 Nm else -0.3 Nm\n"),
+            600);
+      }
     }
   }
 }
 
-TEST_CASE("what is exact is compared as the law does") {
+TEST_CASE("whole states are compared as the law does") {
+  const std::pair<int, int> ranges[] = {{0, 1}, {-5, -1}, {-2, 2}};
+  for (const auto& [low, high] : ranges) {
+    const std::string declared = fmt::format(
+        "state stage = {0} in {0} .. {1} whole\n"
+        "next stage = if position > 0.3 then {0} + 1 else if position < -0.3 then {0} else "
+        "min(stage + 1, {1})\n",
+        low, high);
+    require_thresholds(declared, "stage", {low + 0.5, high - 0.5, low + 0.25, high - 1.0});
+  }
+}
+
+TEST_CASE("what else is exact is compared as the law does") {
   require_thresholds("", "position", {0.5, -0.1234, 0.0007});
   require_thresholds("", "(velocity * 1 s)", {0.0000003, -2.7});
   require_thresholds("state stage = 0 in 0 .. 5 whole\nnext stage = clamp(3 * position, 0, 5)\n",
@@ -246,7 +262,7 @@ TEST_CASE("functions over wide ranges have bounds that say something") {
     // A root inside a quotient has the errors of both.
     const bool both = std::string(text).find("r + 0.1") != std::string::npos;
     CHECK(largest_share(output_ranges(c.law, c.target), c.target, c.bound) < (both ? 0.1 : 0.02));
-    const Measured m = measure(c, 1, 10000);
+    const Measured m = measure(c, 1, runs_of(10000));
     CHECK(m.in_strips == 0);
     check_within(c, m);
   }
@@ -269,7 +285,7 @@ TEST_CASE("a radius needs no limits of its own where only a part of it matters")
     INFO(k.torque);
     const Compiled c = compiled(radius + "out torque = " + k.torque + "\n");
     CHECK(c.bound.output[0] < k.least);
-    check_within(c, measure(c, 1, 10000));
+    check_within(c, measure(c, 1, runs_of(10000)));
   }
 }
 
@@ -281,7 +297,7 @@ TEST_CASE("the known range of x / r stays that of its own node when limits move"
       "let p = sum(i in 1 .. 8: 0.0001 * i * tau_hat)\n"
       "out torque = (if d > 0.5 then 4 Nm * w else 1 Nm * d) + p + 0.1 Nm * x / r\n");
   CHECK(c.bound.output[0] > 0.05);  // 0.0245 was printed, 0.0442 measured
-  check_within(c, measure(c, 1, 10000));
+  check_within(c, measure(c, 1, runs_of(10000)));
   CHECK(output_ranges(c.law, c.target)[0].hi > 15);  // to 0.474 Nm, it said
 }
 
@@ -296,7 +312,7 @@ TEST_CASE("a table whose domain ends inside a segment is the function there") {
     INFO(text);
     const Compiled c = compiled(text);
     CHECK(c.bound.output[0] < 1e-5);
-    check_within(c, measure(c, 3, 5000));
+    check_within(c, measure(c, 3, runs_of(5000)));
   }
 }
 
@@ -316,7 +332,7 @@ TEST_CASE("a quotient by a radius near 0") {
     INFO(k.torque);
     const Compiled c = compiled(axes + "out torque = " + k.torque + "\n");
     CHECK(c.bound.output[0] < k.least);
-    check_within(c, measure(c, 1, 10000));
+    check_within(c, measure(c, 1, runs_of(10000)));
   }
 }
 

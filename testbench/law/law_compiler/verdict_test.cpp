@@ -413,7 +413,7 @@ TEST_CASE("torque beyond its format is told with the law's range") {
   CHECK_THAT(report(within, {}), !Contains("torque ends"));
 }
 
-TEST_CASE("a largest error that is no number stays one") {
+TEST_CASE("a largest error that is no number stays one, and fails") {
   const double none = std::nan("");
   CHECK(larger(1.0, 2.0) == 2);
   CHECK(larger(2.0, 1.0) == 2);
@@ -425,6 +425,11 @@ TEST_CASE("a largest error that is no number stays one") {
     CHECK(std::isnan(smaller(none, x)));
     CHECK(std::isnan(smaller(x, none)));
   }
+  const Compiled c = compiled("out torque = 0.1 Nm * clamp(position, -1, 1)\n");
+  Measured m = measure(c, 1, 100);
+  CHECK(verdict(c, m).failures.empty());
+  m.output[0] = none;
+  CHECK(verdict(c, m).failures.size() == 1);
 }
 
 TEST_CASE("a table that an if keeps from what is no number is one") {

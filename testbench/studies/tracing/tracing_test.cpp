@@ -58,6 +58,7 @@ TEST_CASE("tracing: the shapes' materials are those of the page's game") {
     CHECK(value(found[2]) == shape.damping_ns_m);
   }
 }
+
 TEST_CASE("tracing: every shape is walked around and named, its material felt") {
   const Guesser guesser;
   std::mt19937_64 random(1);
@@ -125,7 +126,8 @@ Trace felt_mesh(const touch::Mesh& mesh, Point start_m, double patience_s) {
         return Plane{t.point_m, t.normal};
       },
       start_m, patience_s);
-}  /// A wrong proxy: the nearest vertex, with the mean normal of its faces.
+}
+/// A wrong proxy: the nearest vertex, with the mean normal of its faces.
 Trace felt_vertices(const touch::Mesh& mesh, Point start_m, double patience_s) {
   return felt(
       [&](Vec3 pen_m) {

@@ -9,7 +9,17 @@
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_message.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <string>
 using Catch::Approx;  // version 2 already does this
+namespace Catch {
+namespace Matchers {
+inline auto Contains(const std::string& part) { return ContainsSubstring(part); }
+}  // namespace Matchers
+using Matchers::Contains, Matchers::StartsWith, Matchers::EndsWith;
+}  // namespace Catch
 #else
 #include <catch2/catch.hpp>
 #endif

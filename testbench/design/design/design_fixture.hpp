@@ -17,9 +17,7 @@ namespace feltgate::design {
 
 // Catch2 3 moved it.
 #if __has_include(<catch2/catch_approx.hpp>)
-using Catch::Approx;
 #else
-using Catch::Detail::Approx;
 #endif
 
 inline std::string root_path(const std::string& path) {

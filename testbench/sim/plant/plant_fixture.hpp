@@ -17,9 +17,7 @@ namespace feltgate::plant {
 
 // Catch2 3 moved it.
 #if __has_include(<catch2/catch_approx.hpp>)
-using Catch::Approx;
 #else
-using Catch::Detail::Approx;
 #endif
 
 inline Parameters shipped(const std::string& name) {

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <set>
 #include <string>
+#include "catch.hpp"
 
 #include "compiled.hpp"
 #include "feltgate/largest.hpp"

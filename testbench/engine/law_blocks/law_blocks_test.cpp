@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include "catch.hpp"
 
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/largest.hpp"

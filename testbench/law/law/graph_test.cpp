@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "catch.hpp"
-#include "catch2/catch.hpp"
 #include "compiled.hpp"
 #include "feltgate/random.hpp"
 #include "feltgate/real_functions.hpp"

@@ -5,7 +5,7 @@
 // is finite.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "compiled.hpp"
 #include "law/engine/machine.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "compiled.hpp"
 #include "law/listing.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "compiled.hpp"
 #include "law/allocate.hpp"

@@ -6,9 +6,9 @@
 #include "law/verdict.hpp"
 
 #include <algorithm>
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include "catch.hpp"
 
 #include "compiled.hpp"
 #include "feltgate/largest.hpp"

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Random laws against the compiler: a judge without shared code checks their words.
-#include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include "catch.hpp"
 
 #include "judge.hpp"
 #include "law/diagnostics.hpp"

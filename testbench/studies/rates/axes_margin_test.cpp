@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <Eigen/LU>
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "levers_loop.hpp"
 #include "rates_case.hpp"

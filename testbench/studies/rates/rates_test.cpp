@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "files/toml/toml_reader.hpp"
 #include "law/evaluate.hpp"

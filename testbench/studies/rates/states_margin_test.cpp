@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
-#include <catch2/catch.hpp>
+#include "catch.hpp"
 
 #include "feltgate/largest.hpp"
 #include "mismatch.hpp"

@@ -83,7 +83,7 @@ function(feltgate_verilate target top sources)
   endif()
   set(instrument "")
   if(arg_COVERAGE)
-    list(APPEND kind --coverage --coverage-max-width 4096)
+    list(APPEND kind --coverage --coverage-max-width 4096 --assert)  # cover points count with --assert alone from 5.032 on
     set(runtime feltgate_verilated_coverage)
     set(instrument COMMAND ${Python3_EXECUTABLE} -B "${FELTGATE_INSTRUMENT}" "${directory}" ${arg_CLASS})
   endif()

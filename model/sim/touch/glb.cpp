@@ -396,6 +396,16 @@ std::vector<std::string> check_extensions(const std::vector<unsigned char>& byte
   return unknown;
 }
 
+/// Later TinyGLTFs have one callback more, and take all or none of them.
+template <class Callbacks>
+auto no_sizes(Callbacks& none, int) -> decltype(void(none.GetFileSizeInBytes)) {
+  none.GetFileSizeInBytes = [](std::size_t*, std::string*, const std::string&, void*) {
+    return false;
+  };
+}
+template <class Callbacks>
+void no_sizes(Callbacks&, long) {}
+
 /// Lets TinyGLTF see no other file; remembers what it asked for.
 tinygltf::FsCallbacks no_files(std::string* asked) {
   tinygltf::FsCallbacks none{};
@@ -407,6 +417,9 @@ tinygltf::FsCallbacks no_files(std::string* asked) {
   none.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
     return false;
   };
+  none.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                           void*) { return false; };
+  no_sizes(none, 0);
   none.user_data = asked;
   return none;
 }

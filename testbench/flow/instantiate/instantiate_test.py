@@ -58,7 +58,8 @@ class Instantiate(Scratch):
 
     def passes(self, *lines):
         done = self.shell(*lines)
-        self.assertEqual((done.returncode, done.stdout + done.stderr), (0, ""), lines[-1])
+        told = [line for line in (done.stdout + done.stderr).splitlines() if not line.startswith("- ")]  # Verilator's times
+        self.assertEqual((done.returncode, told), (0, []), lines[-1])
 
     def line(self, tool):
         (found,) = (line for line in LINES if line.startswith(tool) and "ulx3s" not in line)

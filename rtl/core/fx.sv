@@ -50,19 +50,16 @@ package fx;
     else saturate = x[63] ? -(64'sd1 <<< (bits - 1)) : (64'sd1 <<< (bits - 1)) - 64'sd1;
   endfunction
 
-  // |x| > limit, for a limit of so many bits. For a negative x, {~x, 1} = 2|x| - 1: no adder is needed.
-  function automatic logic beyond(input logic signed [63:0] x, input logic [31:0] limit, input int bits);
+  // |x| > limit. For a negative x, {~x, 1} = 2|x| - 1, so this needs no adder.
+  function automatic logic beyond(input logic signed [63:0] x, input logic [31:0] limit);
     logic [63:0] size;
-    logic [32:0] room, taken;
     size   = x ^ {64{x[63]}};
-    room   = {limit, 1'b0} & ~(33'h1fffffffe << bits);
-    taken  = {size[31:0], x[63]} & ~(33'h1fffffffe << bits);
-    beyond = (size >> bits) != 64'd0 || taken > room;
+    beyond = size[63:32] != 32'd0 || {size[31:0], x[63]} > {limit, 1'b0};
   endfunction
 
   // The nearest value in -limit .. limit.
-  function automatic logic signed [63:0] limited(input logic signed [63:0] x, input logic [31:0] limit, input int bits);
-    if (!beyond(x, limit, bits)) limited = x;
+  function automatic logic signed [63:0] limited(input logic signed [63:0] x, input logic [31:0] limit);
+    if (!beyond(x, limit)) limited = x;
     else limited = x[63] ? -$signed({32'd0, limit}) : $signed({32'd0, limit});
   endfunction
 endpackage

@@ -46,7 +46,7 @@ module ramp (
   logic signed [W:0] excess_q, left;  // of the reference over the target, before and after a step
   logic [3:0] scene_q;
   logic ramping_q, over, down, reached, stepping, frozen;
-  assign over      = fx::beyond(64'(torque_i), 32'(limit_q), T - 1);
+  assign over      = fx::beyond(64'(torque_i), 32'(limit_q));
   assign tau_ref_o = ramp_q[W-1:Fine];
   assign frozen    = frozen_i && armed_i;
   assign down      = !excess_q[W];
@@ -71,7 +71,7 @@ module ramp (
         limit_hold_o <= derated_i;
       end
       if (start_i) begin
-        target_q       <= T'(fx::limited(64'(torque_i), 32'(limit_q), T - 1));
+        target_q       <= T'(fx::limited(64'(torque_i), 32'(limit_q)));
         limit_torque_o <= over && armed_i;
       end
       if (at[0]) excess_q <= (W + 1)'(ramp_q) - ((W + 1)'(target_q) <<< Fine);

@@ -104,7 +104,7 @@ module scene (
   logic [31:0] square_q;
   logic [15:0] quotient;
   logic divided, far_q, inside_core;
-  assign inside_core = core != '0 && !fx::beyond(64'(whole), 32'(core), 18);
+  assign inside_core = core != '0 && !fx::beyond(64'(whole), 32'(core));
   divider u_divider (
       .clk_i(clk_i), .rst_ni(rst_ni), .start_i(at[4] && charge),
       .dividend_i(strength), .divisor_i(square_q), .quotient_o(quotient), .valid_o(divided)

@@ -89,8 +89,8 @@ module torque_law (
     end
   end
   assign x       = base + term + W'($signed({1'b0, up}));
-  assign beyond  = fx::beyond(64'(x), 32'(limit), cfg::LIMITER_W);
-  assign limited = W'(fx::limited(64'(x), 32'(limit), cfg::LIMITER_W));
+  assign beyond  = fx::beyond(64'(x), 32'(limit));
+  assign limited = W'(fx::limited(64'(x), 32'(limit)));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -98,7 +98,7 @@ module torque_law (
       {current_o, duty_o, limit_current_o, limit_voltage_o, limit_duty_o} <= '0;
     end else begin
       {valid_o, at} <= {at, start_i};
-      if (start_i) high_q          <= fx::beyond(64'(tau_ref_i), 32'(p.region_torque), cfg::TORQUE_W - 1);
+      if (start_i) high_q          <= fx::beyond(64'(tau_ref_i), 32'(p.region_torque));
       if (at[1]) current_ref_q     <= direct ? W'(fx::scale(product, cfg::CURRENT_F - cfg::VOLTAGE_F - cfg::P_VOLTAGE_TO_CURRENT_F))
                                              : W'(fx::scale(product, cfg::CURRENT_F - cfg::TORQUE_F - cfg::P_TORQUE_GAIN_F));
       if (at[2]) current_o         <= armed_i ? cfg::CURRENT_W'(limited) : '0;

@@ -27,7 +27,7 @@ module hold_timer (
       {units_q, strong_q, derated_o, at} <= '0;
     end else begin
       at <= start_i;
-      if (start_i) strong_q <= fx::beyond(64'(tau_ref_i), 32'(p.hold_torque), cfg::TORQUE_W - 1);
+      if (start_i) strong_q <= fx::beyond(64'(tau_ref_i), 32'(p.hold_torque));
       if (at) begin
         if (!holds || !strong_q) units_q <= '0;
         else if (tick_count_i[map::HOLD_UNIT_BITS-1:0] == '0) units_q <= units_q + 1'b1;

@@ -33,8 +33,8 @@ module overspeed (
       at <= start_i;
       if (start_i) begin
         before_q   <= velocity_i;
-        too_fast_q <= fx::beyond(64'(velocity_i), 32'(p.overspeed), W - 1);
-        jumped_q   <= Jumps && fx::beyond(moved, 32'd1, 1);
+        too_fast_q <= fx::beyond(64'(velocity_i), 32'(p.overspeed));
+        jumped_q   <= Jumps && fx::beyond(moved, 32'd1);
       end
     end
   end

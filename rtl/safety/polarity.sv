@@ -37,8 +37,8 @@ module polarity (
     end else begin
       at <= start_i;
       if (start_i) begin
-        grows_q   <= fx::beyond(64'(gained) <<< Drop, 32'(p.polarity_speed), W - 1) && gained[W-Drop-1] == velocity_i[W-1];
-        strong_q  <= fx::beyond(64'(current_i), 32'(p.polarity_current), cfg::CURRENT_W - 1);
+        grows_q   <= fx::beyond(64'(gained) <<< Drop, 32'(p.polarity_speed)) && gained[W-Drop-1] == velocity_i[W-1];
+        strong_q  <= fx::beyond(64'(current_i), 32'(p.polarity_current));
         expired_q <= ticks_q >= TicksW'(p.polarity_ticks);
       end
       if (at) begin

@@ -5,8 +5,8 @@
 //   position -> velocity_estimator -> observer -> tau_hat
 //                      |                            |
 //                      +------> scene -> ramp -> torque_law -> duty
-// safety watches it and alone enables the gates; host has the words. Sampled position to duty: 23
-// clocks, of a charge 41. docs/architecture.md
+// safety watches it and alone enables the gates; host has the words. Sampled position to duty: 25
+// clocks, of a charge 42. docs/architecture.md
 
 `default_nettype none
 
@@ -51,6 +51,7 @@ module axis #(
   logic signed [cfg::CURRENT_W-1:0] motor_current;
   logic signed [31:0] position_q;
   logic signed [17:0] scene_position_q;
+  logic position_valid_q;
   logic signed [cfg::SCENE_TORQUE_W-1:0] scene_torque, torque;
   assign {tick_o, p_o, safety_o, zeroed_o} = {tick, p, safe, set_zero};
 
@@ -62,10 +63,11 @@ module axis #(
   assign encoder_o = {tick.sample, tick.count, control.filter, control.encoder_polarity, set_zero, safe.clear, safe.gates_enable};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {position_q, scene_position_q} <= '0;
-    end else if (tick.sample) begin
-      position_q       <= position_i.position;
-      scene_position_q <= 18'(fx::saturate(64'(position_i.position), 18));
+      {position_q, scene_position_q, position_valid_q} <= '0;
+    end else begin
+      position_valid_q <= tick.sample;
+      if (tick.sample) position_q       <= position_i.position;
+      if (tick.sample) scene_position_q <= 18'(fx::saturate(64'(position_i.position), 18));
     end
   end
   assign values.position = position_q;
@@ -84,10 +86,12 @@ module axis #(
   assign testing = safe.testing || peers_i.testing;
   scene u_scene (
       .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .armed_i(safe.armed && !testing), .scene_i(scene_number),
-      .start_i(tick.velocity), .position_i(scene_position_q), .velocity_i(values.velocity), .law_i(law_i),
+      .start_i(position_valid_q), .velocity_valid_i(tick.velocity), .position_i(scene_position_q),
+      .velocity_i(values.velocity), .law_i(law_i),
       .torque_o(scene_torque), .valid_o(torque_valid)
   );
-  assign tick.scene = torque_valid;
+  assign tick.scene   = torque_valid;
+  assign tick.tau_ref = tau_ref_valid;
   assign torque     = safe.testing ? safe.test_torque : scene_torque;
 
   assign law_selected = cfg::SCENE_MASK[map::SCENE_LAW] && scene_number == map::SCENE_LAW;

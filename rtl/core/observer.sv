@@ -3,7 +3,7 @@
 //
 // Disturbance observer: x = Ktn * I + g Jn * w;  y += a1 * (x - y);  tau_hat = y - g Jn * w, the
 // load torque; positive tau_hat opposes positive motor torque. Disarmed, the current counts as 0 and
-// y follows x: tau_hat is 0, and arming in motion makes no jump. valid_o 9 clocks after start_i.
+// y follows x: tau_hat is 0, and arming in motion makes no jump. valid_o 8 clocks after start_i.
 // docs/blocks/observer.md
 
 `default_nettype none
@@ -24,8 +24,8 @@ module observer (
   localparam int W = cfg::OBSERVED_W;
   localparam int OffW = cfg::OBSERVER_DIFFERENCE_W;
 
-  logic [7:0] at;  // clocks since start_i
-  logic signed [W-1:0] x_q, y_q, inertia_q, observed_q, off;
+  logic [6:0] at;  // clocks since start_i
+  logic signed [W-1:0] x_q, y_q, inertia_q, off;
   assign off = x_q - y_q;
 
   logic signed [OffW-1:0] operand_q;
@@ -43,19 +43,18 @@ module observer (
   assign product = 64'(product_q);
   assign drive   = W'(fx::scale(product, F - cfg::CURRENT_F - cfg::P_TORQUE_CONSTANT_F));
   assign inertia = W'(fx::scale(product, F - cfg::VELOCITY_F - cfg::P_INERTIA_GAIN_F));
-  assign tau_hat = fx::add_rounded('0, 64'(observed_q), F - cfg::TORQUE_F);
+  assign tau_hat = fx::add_rounded('0, 64'(y_q) - 64'(inertia_q), F - cfg::TORQUE_F);
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {at, valid_o, x_q, y_q, inertia_q, observed_q, tau_hat_o, saturated_o} <= '0;
+      {at, valid_o, x_q, y_q, inertia_q, tau_hat_o, saturated_o} <= '0;
     end else begin
       {valid_o, at} <= {at, start_i};
       if (at[1]) x_q         <= armed_i ? drive : '0;
       if (at[2]) x_q         <= x_q + inertia;
       if (at[2]) inertia_q   <= inertia;
       if (at[5]) y_q         <= armed_i ? W'(fx::add_rounded(64'(y_q), product, cfg::OBSERVER_DIFFERENCE_F + cfg::P_OBSERVER_A1_F - F)) : x_q;
-      if (at[6]) observed_q  <= y_q - inertia_q;
-      if (at[7]) tau_hat_o   <= cfg::TORQUE_W'(fx::saturate(tau_hat, cfg::TORQUE_W));
-      if (at[7]) saturated_o <= fx::overflows(tau_hat, cfg::TORQUE_W);
+      if (at[6]) tau_hat_o   <= cfg::TORQUE_W'(fx::saturate(tau_hat, cfg::TORQUE_W));
+      if (at[6]) saturated_o <= fx::overflows(tau_hat, cfg::TORQUE_W);
     end
   end
 endmodule

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The torque of the scene, not yet limited. One product for each term, one rounding. A scene that
-// the design does not build gives 0. valid_o 5 clocks after start_i, of a charge 25.
+// the design does not build gives 0. valid_o 4 clocks after velocity_valid_i, of a charge 25 after start_i.
 //   set-point   tau = torque
 //   membrane    tau = +-torque between two faces, back to the side of entry
 //   spring      tau = k * (rest - position), on both sides or below the rest alone
@@ -19,7 +19,8 @@ module scene (
     input  cfg::params_t                          p,
     input  logic                                  armed_i,      // 0: torque 0
     input  logic        [                    3:0] scene_i,
-    input  logic                                  start_i,      // one clock a tick; all inputs hold until valid_o
+    input  logic                                  start_i,      // one clock a tick: the position is new; all inputs hold
+    input  logic                                  velocity_valid_i,  // later: the velocity is new
     input  logic signed [                   17:0] position_i,   // counts
     input  logic signed [    cfg::VELOCITY_W-1:0] velocity_i,   // rad/s
     input  cfg::law_t                             law_i,        // torque of a program
@@ -72,17 +73,19 @@ module scene (
   assign behind   = whole[18];
   assign ahead    = !behind && distance != '0;
 
-  // Products: damping, then stiffness or slope, then the square of a charge's distance.
+  // Products: stiffness, slope and square of a charge; when the velocity is new, damping.
   logic [4:0] at;  // clocks since start_i
+  logic [1:0] after;  // clocks since velocity_valid_i
   logic signed [Operand-1:0] operand_q;
   logic signed [17:0] factor_q;
   logic signed [Operand+17:0] product_q;
   logic signed [63:0] product;
   always_ff @(posedge clk_i) begin
-    operand_q <= start_i ? velocity_i : Operand'(distance);
-    if (start_i)    factor_q <= {1'b0, damping};
-    else if (at[0]) factor_q <= {1'b0, charge ? slope : stiffness};
-    else            factor_q <= whole[17:0];
+    operand_q <= velocity_valid_i ? velocity_i : Operand'(distance);
+    if (start_i)               factor_q <= {1'b0, stiffness};
+    else if (at[0])            factor_q <= {1'b0, slope};
+    else if (velocity_valid_i) factor_q <= {1'b0, damping};
+    else                       factor_q <= whole[17:0];
     product_q <= operand_q * factor_q;
   end
   assign product = 64'(product_q);
@@ -92,7 +95,7 @@ module scene (
     single = cfg::ROUNDING == 2 ? fx::scale_sticky(x, fraction_bits - PartF) : fx::scale(x, PartF - fraction_bits);
   endfunction
   logic signed [63:0] push, pull, spring, slant;
-  logic signed [PartW-1:0] pull_q;
+  logic signed [PartW-1:0] spring_q;
   assign push   = fx::saturate(fx::scale(product, PartF - DistanceF - cfg::P_WALL_STIFFNESS_F), PartW);
   assign pull   = damper ? single(product, cfg::VELOCITY_F + cfg::P_DAMPER_DAMPING_F)
                          : fx::scale(product, PartF - cfg::VELOCITY_F - cfg::P_WALL_DAMPING_F);
@@ -121,32 +124,33 @@ module scene (
   logic negative_q, ready_q;
   always_comb begin
     sum = '0;
-    if (wall && behind)                     sum = (PartW + 1)'(push) - (PartW + 1)'(pull_q);
-    if (damper)                             sum = (PartW + 1)'(pull_q);
-    if (tension || (compression && !behind)) sum = (PartW + 1)'(spring);
-    if (charge)                             sum = (PartW + 1)'(slant);
+    if (wall && behind)                               sum = (PartW + 1)'(spring_q) - (PartW + 1)'(pull);
+    if (damper)                                       sum = (PartW + 1)'(pull);
+    if (tension || (compression && !behind) || charge) sum = (PartW + 1)'(spring_q);
     if (setpoint || (membrane && seen_q && !outside)) sum = (PartW + 1)'(torque) <<< Guard;
-    if (law && !law_i.late)                 sum = (PartW + 1)'($signed(law_i.torque)) <<< Guard;
+    if (law && !law_i.late)                           sum = (PartW + 1)'($signed(law_i.torque)) <<< Guard;
   end
   assign rounded = fx::add_rounded('0, 64'(sum_q), Guard);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {at, ready_q, valid_o, pull_q, sum_q, negative_q, square_q, far_q, seen_q, from_above_q, torque_o} <= '0;
+      {at, after, ready_q, valid_o, spring_q, sum_q, negative_q, square_q, far_q, seen_q, from_above_q, torque_o} <= '0;
     end else begin
       at      <= {at[3:0], start_i};
-      ready_q <= charge ? divided : at[2];
+      after   <= {after[0], velocity_valid_i};
+      ready_q <= charge ? divided : after[1];
       valid_o <= ready_q;
       if (start_i) begin
         seen_q <= membrane && (seen_q || outside);
         if (outside) from_above_q <= above && !ahead;
       end
-      if (at[1]) pull_q <= PartW'(pull);
-      if (at[2]) begin
+      if (at[1]) spring_q           <= PartW'(wall ? push : spring);
+      if (at[2] && charge) spring_q <= PartW'(slant);
+      if (at[3]) {far_q, square_q}  <= {product[63:DistanceF+32] != '0, product[DistanceF+:32]};
+      if (after[1]) begin
         sum_q      <= sum;
         negative_q <= damper || repel || (membrane && !from_above_q);
       end
-      if (at[3]) {far_q, square_q} <= {product[63:DistanceF+32] != '0, product[DistanceF+:32]};
       if (divided && !inside_core) begin
         sum_q      <= far_q ? '0 : (PartW + 1)'(fx::scale(64'(quotient), PartF - cfg::CHARGE_F));
         negative_q <= attract != ahead;

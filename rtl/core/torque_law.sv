@@ -6,7 +6,7 @@
 //   V = R * I + Ke * w + dead voltage                      within a window around Ke * w
 //   duty = V * period / supply                             limited
 // In voltage mode V goes to its set-point by a step a tick, and I = V/R. Disarmed, all are 0.
-// valid_o 10 clocks after start_i. docs/blocks/torque_law.md
+// valid_o 13 clocks after start_i. docs/blocks/torque_law.md
 
 `default_nettype none
 
@@ -37,7 +37,7 @@ module torque_law (
   assign closed = mode_i != 2'(map::MODE_OPEN);
   assign direct = mode_i == 2'(map::MODE_VOLTAGE);
 
-  logic [8:0] at;  // clocks since start_i
+  logic [11:0] at;  // clocks since start_i
   logic signed [W-1:0] current_ref_q;          // the part of tau_ref
   logic signed [cfg::EMF_W-1:0] emf_q;         // Ke * w
   logic signed [OffsetW-1:0] offset_q;  // dead voltage, or in voltage mode the voltage, less Ke * w
@@ -55,17 +55,15 @@ module torque_law (
     else if (at[0]) {operand_q, factor_q} <= {O'(tau_hat_i), p.observer_gain};
     else if (at[1]) {operand_q, factor_q} <= {O'(tau_ref_i), 1'b0, p.dead_voltage_slope};
     else if (at[2]) {operand_q, factor_q} <= {velocity_i, 1'b0, p.emf_constant};
-    else if (at[3]) {operand_q, factor_q} <= {O'(current_o), 1'b0, high_q ? p.voltage_gain_high : p.voltage_gain};
+    else if (at[4]) {operand_q, factor_q} <= {O'(current_o), 1'b0, high_q ? p.voltage_gain_high : p.voltage_gain};
     else            {operand_q, factor_q} <= {O'(applied_q), 1'b0, p.duty_gain};
     product_q <= operand_q * factor_q;
   end
   assign product = 64'(product_q);
-  logic signed [cfg::EMF_W-1:0] emf;
-  assign emf = cfg::EMF_W'(fx::scale(product, cfg::VOLTAGE_F - cfg::VELOCITY_F - cfg::P_EMF_CONSTANT_F));
 
-  // One branch is one sum and its limit. A product comes in its own fraction bits.
-  logic signed [W-1:0] base, term, x, limited;
-  logic [cfg::LIMITER_W-1:0] limit;
+  // One branch is one sum, and its limit a clock later. A product comes in its own fraction bits.
+  logic signed [W-1:0] base, term, x_q, limited;
+  logic [cfg::LIMITER_W-1:0] limit, limit_q;
   logic up, beyond;
   always_comb begin
     up = 1'b0;
@@ -77,7 +75,7 @@ module torque_law (
       base  = direct ? W'($signed(p.voltage_setpoint)) : '0;
       term  = direct ? -(W'(voltage_o)) : W'(fx::scale(product, cfg::VOLTAGE_F - cfg::TORQUE_F - cfg::P_DEAD_VOLTAGE_SLOPE_F));
       limit = direct ? cfg::LIMITER_W'(p.voltage_step) : cfg::LIMITER_W'(p.dead_voltage);
-    end else if (at[5]) begin  // voltage over Ke * w
+    end else if (at[6]) begin  // voltage over Ke * w
       base  = W'(offset_q);
       term  = direct ? '0 : W'(fx::scale(product, cfg::VOLTAGE_F - cfg::CURRENT_F - cfg::P_VOLTAGE_GAIN_F));
       limit = cfg::LIMITER_W'(p.voltage_window);
@@ -88,9 +86,12 @@ module torque_law (
       limit = cfg::LIMITER_W'(p.duty_limit);
     end
   end
-  assign x       = base + term + W'($signed({1'b0, up}));
-  assign beyond  = fx::beyond(64'(x), 32'(limit));
-  assign limited = W'(fx::limited(64'(x), 32'(limit)));
+  always_ff @(posedge clk_i) begin
+    x_q     <= base + term + W'($signed({1'b0, up}));
+    limit_q <= limit;
+  end
+  assign beyond  = fx::beyond(64'(x_q), 32'(limit_q));
+  assign limited = W'(fx::limited(64'(x_q), 32'(limit_q)));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -98,18 +99,18 @@ module torque_law (
       {current_o, duty_o, limit_current_o, limit_voltage_o, limit_duty_o} <= '0;
     end else begin
       {valid_o, at} <= {at, start_i};
-      if (start_i) high_q          <= fx::beyond(64'(tau_ref_i), 32'(p.region_torque));
-      if (at[1]) current_ref_q     <= direct ? W'(fx::scale(product, cfg::CURRENT_F - cfg::VOLTAGE_F - cfg::P_VOLTAGE_TO_CURRENT_F))
-                                             : W'(fx::scale(product, cfg::CURRENT_F - cfg::TORQUE_F - cfg::P_TORQUE_GAIN_F));
-      if (at[2]) current_o         <= armed_i ? cfg::CURRENT_W'(limited) : '0;
-      if (at[2]) limit_current_o   <= armed_i && beyond;
-      if (at[3]) offset_q          <= OffsetW'(limited) + (direct ? OffsetW'(voltage_o) : '0);
-      if (at[4]) emf_q             <= emf;
-      if (at[4] && (direct || cfg::EMF_IN_LAW == 0)) offset_q <= offset_q - OffsetW'(emf);
-      if (at[5]) applied_q         <= armed_i ? AppliedW'(limited) + AppliedW'(emf_q) : '0;
-      if (at[5]) limit_voltage_o   <= armed_i && beyond;
-      if (at[8]) duty_o            <= cfg::DUTY_W'(limited);
-      if (at[8]) limit_duty_o      <= beyond;
+      if (start_i) high_q           <= fx::beyond(64'(tau_ref_i), 32'(p.region_torque));
+      if (at[1])  current_ref_q     <= direct ? W'(fx::scale(product, cfg::CURRENT_F - cfg::VOLTAGE_F - cfg::P_VOLTAGE_TO_CURRENT_F))
+                                              : W'(fx::scale(product, cfg::CURRENT_F - cfg::TORQUE_F - cfg::P_TORQUE_GAIN_F));
+      if (at[3])  current_o         <= armed_i ? cfg::CURRENT_W'(limited) : '0;
+      if (at[3])  limit_current_o   <= armed_i && beyond;
+      if (at[4])  emf_q             <= cfg::EMF_W'(fx::scale(product, cfg::VOLTAGE_F - cfg::VELOCITY_F - cfg::P_EMF_CONSTANT_F));
+      if (at[4])  offset_q          <= OffsetW'(limited) + (direct ? OffsetW'(voltage_o) : '0);
+      if (at[5] && (direct || cfg::EMF_IN_LAW == 0)) offset_q <= offset_q - OffsetW'(emf_q);
+      if (at[7])  applied_q         <= armed_i ? AppliedW'(limited) + AppliedW'(emf_q) : '0;
+      if (at[7])  limit_voltage_o   <= armed_i && beyond;
+      if (at[11]) duty_o            <= cfg::DUTY_W'(limited);
+      if (at[11]) limit_duty_o      <= beyond;
     end
   end
   assign voltage_o = cfg::VOLTAGE_W'(fx::saturate(64'(applied_q), cfg::VOLTAGE_W));

@@ -84,7 +84,7 @@ module host #(
     snapshot_o.status[map::B_STATUS_UNKICKED]       = safety_i.unkicked;
   end
   snapshot u_snapshot (
-      .clk_i(clk_i), .rst_ni(rst_ni), .tick_i(tick_i.last), .begin_i(tick_i.tau_hat), .end_i(tick_i.duty),
+      .clk_i(clk_i), .rst_ni(rst_ni), .tick_i(tick_i.last), .begin_i(tick_i.tau_ref), .end_i(tick_i.duty),
       .freeze_i(freeze), .thaw_i(thaw), .values_i(snapshot_o), .read_addr_i(reg_addr_i[5:0]),
       .read_data_o(snapshot_word), .word_o(word_o)
   );

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // All words of a tick for the host, in two banks: the tick that runs writes one, the host reads the
-// other. A freeze holds what is read. The words go one a clock, those of the chain's second half
-// after its end; word_o shows them to a stream or a capture. docs/registers.md
+// other. A freeze holds what is read. The words go one a clock, the chain's last ones after its end; word_o shows them to a stream or a capture. docs/registers.md
 
 `default_nettype none
 
@@ -11,7 +10,7 @@ module snapshot (
     input  logic              clk_i,
     input  logic              rst_ni,
     input  logic              tick_i,       // last clock of a tick
-    input  logic              begin_i,      // tau_hat is new
+    input  logic              begin_i,      // tau_ref is new
     input  logic              end_i,        // duty is new, later
     input  logic              freeze_i,     // with tick_i
     input  logic              thaw_i,
@@ -20,8 +19,8 @@ module snapshot (
     output logic       [31:0] read_data_o,  // two clocks later
     output cfg::word_t        word_o
 );
-  // In the order of writing; the last five are new with end_i.
-  localparam int Words = 12, Early = 7;
+  // In the order of writing; the last three are new with end_i.
+  localparam int Words = 12, Early = 9;
   logic [3:0] next_q;
   logic done_q, goes;
   logic [5:0] place;

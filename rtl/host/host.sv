@@ -38,7 +38,7 @@ module host #(
   logic [31:0] data, parameter_word, snapshot_word;
   registers u_registers (
       .clk_i(clk_i), .rst_ni(rst_ni), .tick_i(tick_i.last), .reg_addr_i(reg_addr_i), .reg_wdata_i(reg_wdata_i),
-      .reg_write_i(reg_write_i), .reg_busy_o(reg_busy_o), .armed_i(safety_i.armed || safety_i.arms),
+      .reg_write_i(reg_write_i), .reg_busy_o(reg_busy_o), .armed_i(safety_i.armed || safety_i.locks),
       .polarity_holds_i(position_i.polarity_holds), .set_zero_i(panel_i.set_zero), .scene_i(scene_o),
       .control_o(control_o), .control_error_o(control_error), .write_o(write), .address_o(address), .data_o(data),
       .set_zero_o(set_zero_o), .clear_faults_o(commands_o.clear_faults), .kick_o(commands_o.kick), .freeze_o(freeze),

@@ -26,6 +26,7 @@ module arming (
     output logic request_o,     // of the owner, a level
     output logic counts_o,      // and it counts
     output logic ready_o,       // this axis can be armed
+    output logic locks_o,       // with tick_i: armed from the next clock on, unless a cause comes in this clock
     output logic arms_o,        // with tick_i: armed from the next clock on
     output logic armed_o,       // changes only at tick_i
     output logic open_o         // the gates are enabled; falls at once at a trip
@@ -40,10 +41,10 @@ module arming (
   assign counts    = (host_i ? host_counts_q : panel_counts_q) && !(open_o && handed);
   assign counts_o  = request_o && counts;
   assign ready_o   = counts && !fault_i && !stopped_i && !stopped_q && !kick_missing_i;
-  assign may       = request_o && ready_o && !trip_i &&
-                     (open_o || (!refuse_i && (handed || waited_q < W'(WaitTicks))));
-  assign arms_o    = may && !wait_i;
-  assign waits     = may && wait_i && !open_o;
+  assign may       = request_o && ready_o && (open_o || (!refuse_i && (handed || waited_q < W'(WaitTicks))));
+  assign locks_o   = may && !wait_i;
+  assign arms_o    = locks_o && !trip_i;
+  assign waits     = may && wait_i && !open_o && !trip_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -25,7 +25,7 @@ module safety (
 );
   logic trip_errors, trip_speed, trip_jump, trip_polarity, trip_heat, trip_watchdog, trip_ticks, trip_stop, trip_test;
   logic awake, stopped, request, counts, able, starts, unfit;
-  logic armed, arms, gates_enable, gates_clear, clear, arm_request, ready, unkicked, derated, testing;
+  logic armed, locks, arms, gates_enable, gates_clear, clear, arm_request, ready, unkicked, derated, testing;
   logic signed [cfg::SCENE_TORQUE_W-1:0] test_torque;
   logic [1:0] test_result;
   logic [15:0] faults;
@@ -100,14 +100,14 @@ module safety (
       .clk_i(clk_i), .rst_ni(rst_ni), .tick_i(tick_i.last), .host_i(commands_i.host), .host_arm_i(commands_i.host_arm),
       .panel_arm_i(commands_i.panel_arm), .disarm_i(commands_i.disarm), .fault_i(first_fault != '0),
       .stopped_i(stopped), .kick_missing_i(unkicked), .trip_i(trips != '0), .wait_i(peers_i.silent || starts),
-      .refuse_i(peers_i.blocked || unfit), .request_o(request), .counts_o(counts), .ready_o(able), .arms_o(arms),
+      .refuse_i(peers_i.blocked || unfit), .request_o(request), .counts_o(counts), .ready_o(able), .locks_o(locks), .arms_o(arms),
       .armed_o(armed), .open_o(gates_enable)
   );
   assign clear         = commands_i.clear_faults && !request;
   assign arm_request = counts && !starts;
   assign ready       = able && !unfit;
   assign unkicked    = cfg::REQUIRE_WATCHDOG != 0 && !awake;
-  assign safety_o    = {armed, arms, gates_enable, gates_clear, clear, arm_request, ready, unkicked, derated, testing,
+  assign safety_o    = {armed, locks, gates_enable, gates_clear, clear, arm_request, ready, unkicked, derated, testing,
                         test_torque, test_result, faults, first_fault, current_estimate};
 endmodule
 

@@ -372,7 +372,7 @@ package cfg;
     logic moved;  // an edge came since the tick before
     logic chatters;  // the torque must not grow
     logic illegal;  // both channels changed in one clock
-    logic error;  // one of these was seen
+    logic error;  // that was seen since the last clear
     logic [15:0] error_count;
     logic [15:0] rejected_count;  // pulses that the filter took away
     logic signed [31:0] index_position;  // counts, at the last index
@@ -402,7 +402,7 @@ package cfg;
     logic [6:0] why;  // faults.current, status.driver_fault, status.current_missing
   } bridge_t;
 
-  // Buttons and switches; an edge of arm requests to arm.
+  // Of the panel: a rising arm requests to arm.
   typedef struct packed {
     logic arm;
     logic stop;
@@ -442,7 +442,7 @@ package cfg;
   // State of the safety.
   typedef struct packed {
     logic armed;
-    logic arms;  // with the last clock of a tick: armed from the next on
+    logic arms;  // with the last clock of a tick: armed from the next clock on
     logic gates_enable;  // falls at once at a fault
     logic gates_clear;  // asynchronous: every gate off at once
     logic clear;  // faults and errors are forgotten

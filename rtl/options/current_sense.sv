@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Current from a sigma-delta bit stream: a sinc3 filter in step with the PWM, a fast one that latches an over-current
-// within 5 us, the offset measured while disarmed, and faults. No multiplier. Latency: Divider + 7 clocks from the
+// Current from a sigma-delta bit stream: a sinc3 filter in step with the PWM, the offset measured while disarmed, and
+// faults; an over-current is latched within 5 us. Latency: Divider + 7 clocks from the
 // modulator's clock edge that launches a bit. Format: current [1,1,3*DecimationLog2-1] of the clipping input,
 // threshold [0,0,3*FastLog2-1]. docs/blocks/current.md
 
@@ -35,13 +35,10 @@ module current_sense #(
 );
   // The sinc3 gain is 2^(3 log2): one more bit holds every result from 0 to it. The sums wrap.
   localparam int W = 3 * DecimationLog2 + 1;
-  localparam int FastW = 3 * FastLog2 + 1;
   localparam int SumW = W + OffsetLog2;
   localparam int DividerW = $clog2(Divider);
-  localparam int HitW = $clog2(Hits + 1);
   localparam int StuckW = $clog2(StuckClocks + 1);
   localparam logic [W-1:0] Half = W'(1) << (W - 2);
-  localparam logic [FastW-1:0] FastHalf = FastW'(1) << (FastW - 2);
   localparam logic signed [W-1:0] End = $signed(Half - (W'(1) << (2 * DecimationLog2)));
   localparam logic signed [W-1:0] Limit = W'(OffsetLimit);
 
@@ -195,63 +192,12 @@ module current_sense #(
     end
   end
 
-  // The fast filter: combs of its own, in the low bits. Its first two results after a reset are no whole ones.
-  logic [FastLog2-1:0] fast_phase_q;
-  logic [1:0] fast_samples_q;
-  logic fast_sample_q;
-  logic [3:0] fast_steps_q;
-  logic [FastW-1:0] fast_comb_q, fast_in, fast_delay_q, fast_delay_q2, fast_delay_q3;
-  assign fast_in = fast_steps_q[0] ? third_q[FastW-1:0] : fast_comb_q;
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      fast_phase_q   <= '0;
-      fast_samples_q <= 2'd0;
-      fast_sample_q  <= 1'b0;
-      fast_steps_q   <= 4'd0;
-      fast_comb_q    <= '0;
-      fast_delay_q   <= '0;
-      fast_delay_q2  <= '0;
-      fast_delay_q3  <= '0;
-    end else begin
-      fast_steps_q <= {fast_steps_q[2:0], take_q2 && fast_sample_q};
-      if (take) begin
-        fast_phase_q  <= fast_phase_q + 1'b1;
-        fast_sample_q <= &fast_phase_q;
-      end
-      if (fast_steps_q[0] && fast_samples_q != 2'd3) fast_samples_q <= fast_samples_q + 2'd1;
-      if (fast_steps_q[2:0] != 3'd0) begin
-        fast_comb_q   <= fast_in - fast_delay_q;
-        fast_delay_q  <= fast_delay_q2;
-        fast_delay_q2 <= fast_delay_q3;
-        fast_delay_q3 <= fast_in;
-      end
-    end
-  end
+  overcurrent #(.FilterLog2(FastLog2), .Hits(Hits)) u_overcurrent (
+      .clk_i(clk_i), .rst_ni(rst_ni), .take_i(take), .integrated_i(take_q2), .integral_i(third_q[3*FastLog2:0]),
+      .threshold_i(threshold_i), .clear_i(clear_i), .overcurrent_o(overcurrent_o)
+  );
 
-  // Over-current. Cleared only while the last fast result is below the threshold.
-  logic             fast_result, hit, hit_q;
-  logic [FastW-1:0] fast_value, magnitude;
-  logic [ HitW-1:0] hits_q;
-  assign fast_result = fast_steps_q[3] && fast_samples_q == 2'd3;
-  assign fast_value  = fast_comb_q - FastHalf;
-  assign magnitude   = fast_value[FastW-1] ? -fast_value : fast_value;
-  assign hit         = magnitude >= FastW'(threshold_i);
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      hit_q         <= 1'b0;
-      hits_q        <= '0;
-      overcurrent_o <= 1'b0;
-    end else begin
-      if (fast_result) begin
-        hit_q <= hit;
-        if (!hit) hits_q <= '0;
-        else if (hits_q != HitW'(Hits)) hits_q <= hits_q + 1'b1;
-      end
-      if (fast_result && hit && hits_q >= HitW'(Hits - 1)) overcurrent_o <= 1'b1;
-      else if (clear_i && !hit_q && !(fast_result && hit)) overcurrent_o <= 1'b0;
-    end
-  end
-
+  // A modulator without transitions.
   logic                last_bit_q;
   logic [StuckW-1:0] quiet_q;
   assign stuck_o = quiet_q == StuckW'(StuckClocks);

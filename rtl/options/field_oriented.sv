@@ -67,16 +67,15 @@ module field_oriented #(
   localparam logic [3:0] AcrossI  = 4'd13;
   localparam logic [3:0] AlongI   = 4'd14;
   localparam logic [5:0] Load = 6'd0;
-  localparam logic [5:0] HalfTurn = 6'd1;
   localparam logic [5:0] Store = 6'd18;
   localparam logic [5:0] CordicStore = 6'd34;
   logic [3:0] op_q;
   logic [5:0] step_q;
-  logic       take, loads, stores, cordic, along, integrates;
+  logic       take, loads, stores, turns, along, integrates;
   assign take       = op_q == Alpha && step_q == Load && valid_i && armed_i;
   assign loads      = step_q == Load;
-  assign stores     = step_q == (cordic ? CordicStore : Store);
-  assign cordic     = op_q == Park || op_q == Polar || op_q == Turned || op_q == Applied;
+  assign stores     = step_q == (turns ? CordicStore : Store);
+  assign turns     = op_q == Park || op_q == Polar || op_q == Turned || op_q == Applied;
   assign integrates = op_q == AcrossI || op_q == AlongI;
   assign along      = op_q == AlongP || op_q == AlongI;
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -121,44 +120,10 @@ module field_oriented #(
   );
   always_ff @(posedge clk_i) if (op_q == Beta && stores) theta_q <= angle[31:12];
 
-  // An open phase: its current stays below 2^-9 of full scale while the angle moves by a 32nd of a turn, and all the
-  // while another has 2^-5 or more. A current of that amplitude is as low only for 7.2 degrees.
-  localparam int Low = 8;  // bits of an LSB
-  localparam int High = 12;
-  logic [2:0] quiet, quiet_q, low_q;  // phases whose current is low: since start_q; of this sample
-  logic       high_q;
-  logic [7:0] start_q, moved;
-  assign quiet = quiet_q & low_q;
-  assign moved = theta_q[19:12] - start_q;
-  logic       unused_moved;
-  assign unused_moved = ^moved[2:0];
-  function automatic logic beyond(input logic signed [19:0] value, input int bits);
-    beyond = (value >>> bits) != 20'sd0 && (value >>> bits) != -20'sd1;
-  endfunction
-  always_ff @(posedge clk_i) begin
-    if (take) begin
-      low_q  <= {!beyond(both, Low), !beyond(20'(current_b_i), Low), !beyond(20'(current_a_i), Low)};
-      high_q <= beyond(both, High) || beyond(20'(current_b_i), High) || beyond(20'(current_a_i), High);
-    end
-  end
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      quiet_q <= '0;
-      start_q <= '0;
-      open_o  <= 1'b0;
-    end else if (!armed_i) begin
-      quiet_q <= '0;
-      open_o  <= 1'b0;
-    end else if (op_q == Park && loads) begin
-      if (!high_q || quiet == '0) begin
-        quiet_q <= '1;
-        start_q <= theta_q[19:12];
-      end else begin
-        quiet_q <= quiet;
-        if (moved[7:3] != 5'd0 && moved[7:3] != 5'd31) open_o <= 1'b1;
-      end
-    end
-  end
+  open_phase u_open_phase (
+      .clk_i(clk_i), .rst_ni(rst_ni), .armed_i(armed_i), .valid_i(take), .current_a_i(current_a_i),
+      .current_b_i(current_b_i), .judge_i(op_q == Park && loads), .angle_i(theta_q[19:12]), .open_o(open_o)
+  );
 
   // Operands of the products. A proportional part begins with half of its last bit, so it is rounded to the nearest.
   logic signed [ W-1:0] minuend, subtrahend;
@@ -244,65 +209,26 @@ module field_oriented #(
     end
   end
 
-  // The CORDIC. It turns {x, y} back by z, forward by z, or, to get their angle as z, until y is 0.
-  function automatic logic [17:0] arc(input logic [3:0] power);  // atan 2^-power, 2^-20 turn
-    case (power)
-      4'd0:    arc = 18'd131072;
-      4'd1:    arc = 18'd77376;
-      4'd2:    arc = 18'd40884;
-      4'd3:    arc = 18'd20753;
-      4'd4:    arc = 18'd10417;
-      4'd5:    arc = 18'd5213;
-      4'd6:    arc = 18'd2607;
-      4'd7:    arc = 18'd1304;
-      4'd8:    arc = 18'd652;
-      4'd9:    arc = 18'd326;
-      4'd10:   arc = 18'd163;
-      4'd11:   arc = 18'd81;
-      4'd12:   arc = 18'd41;
-      4'd13:   arc = 18'd20;
-      4'd14:   arc = 18'd10;
-      default: arc = 18'd5;
+  // A vector and its angle. Products give alpha, beta and the limited length.
+  logic signed [W-1:0] scaled_q, beta_scaled_q, start_x, start_y;
+  logic [19:0] z, start_z, angle_of_q;
+  always_comb begin
+    case (op_q)
+      Park:    {start_x, start_y, start_z} = {scaled_q, beta_scaled_q, theta_q};
+      Polar:   {start_x, start_y, start_z} = {W'(wanted_q), W'(wanted_q2), 20'd0};
+      Turned:  {start_x, start_y, start_z} = {scaled_q, {W{1'b0}}, z + theta_q};
+      default: {start_x, start_y, start_z} = {scaled_q, {W{1'b0}}, angle_of_q};
     endcase
-  endfunction
-  logic signed [W-1:0] x_old_q, from, part, next;
-  logic         [ 3:0] place;
-  logic         [19:0] z_q, z_part, angle_of_q;
-  logic                half_turn, clockwise, z_falls, second;
-  assign second    = step_q[0];
-  assign place     = 4'((step_q - 6'd2) >> 1);
-  assign from      = second ? y_q : x_q;
-  assign part      = (second ? x_old_q : y_q) >>> place;
-  assign next      = clockwise != second ? from + part : from - part;
-  assign z_part    = loads ? theta_q : {2'd0, arc(place)};
-  assign half_turn = op_q == Polar ? x_q[W-1] : z_q[19] != z_q[18];
-  assign z_falls   = op_q == Polar ? y_q[W-1] : !z_q[19];
-  assign clockwise = op_q == Polar || op_q == Park ? !(op_q == Polar ? y_q[W-1] : z_q[19]) : z_q[19];
-  always_ff @(posedge clk_i) begin
-    if (cordic && loads) begin
-      if (op_q == Polar) x_q <= W'(wanted_q);
-      y_q <= op_q == Polar ? W'(wanted_q2) : op_q == Park ? y_q : '0;
-      z_q <= op_q == Polar ? '0 : op_q == Park ? theta_q : op_q == Applied ? angle_of_q : z_q + z_part;
-      if (op_q == Turned) angle_of_q <= z_q;
-    end else if (cordic && step_q == HalfTurn) begin
-      if (half_turn) begin
-        x_q     <= ~x_q;
-        y_q     <= ~y_q;
-        z_q[19] <= !z_q[19];
-      end
-    end else if (cordic && !stores) begin
-      if (second) begin
-        y_q <= next;
-        z_q <= z_falls ? z_q - z_part : z_q + z_part;
-      end else begin
-        x_q     <= next;
-        x_old_q <= x_q;
-      end
-    end else if (stores) begin
-      if (op_q == Alpha || op_q == Radius || op_q == Again) x_q <= product[37:14];
-      if (op_q == Beta) y_q <= product[37:14];
-    end
   end
+  always_ff @(posedge clk_i) begin
+    if (stores && (op_q == Alpha || op_q == Radius || op_q == Again)) scaled_q <= product[37:14];
+    if (stores && op_q == Beta) beta_scaled_q <= product[37:14];
+    if (loads && op_q == Turned) angle_of_q <= z;
+  end
+  cordic #(.W(W)) u_cordic (
+      .clk_i(clk_i), .rst_ni(rst_ni), .start_i(turns && loads), .back_i(op_q == Park), .measure_i(op_q == Polar),
+      .x_i(start_x), .y_i(start_y), .z_i(start_z), .x_o(x_q), .y_o(y_q), .z_o(z)
+  );
 
   // The legs. With u = Period sqrt(3)/4 and v = Period/4 of the voltage's two parts, the outer legs are 2 v from the middle
   // of the period where |v| > |u| (A lies between), else |u| + |v|. The leg between is 2 u from it, or 4 |v| from an

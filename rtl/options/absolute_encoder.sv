@@ -34,6 +34,7 @@ module absolute_encoder #(
   localparam bit Spi = Framing == 0;
   localparam int FrameBits = Spi ? 16 : Bits + 10;
   localparam int Eighth = 2 ** (Bits - 3);  // of a turn
+  typedef enum logic [1:0] {Nothing, Angle, Diagnosis, Flags} kind_t;  // SPI: of a frame; reading flags clears them
   generate
   if (!((Framing == 0 || Framing == 1) && Bits >= 12 && Bits <= 22 && (!Spi || Bits == 14) && HalfClocks >= 4 && GapClocks >= 4 &&
         JumpStep >= 1 && JumpStep <= Eighth)) begin : g_check
@@ -56,7 +57,6 @@ module absolute_encoder #(
   generate
   if (Spi) begin : g_spi
     // A frame answers the command of the one before. Commands: even parity, read, address.
-    typedef enum logic [1:0] {Nothing, Angle, Diagnosis, Flags} kind_t;  // Flags: reading them clears them
     localparam logic [13:0] DiagRegister = 14'(DiagAddress);
     kind_t asked_q, answer_q, asks;  // in this frame; by the frame before
     logic [DiagLog2-1:0] readings_q;

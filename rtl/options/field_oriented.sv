@@ -49,42 +49,26 @@ module field_oriented #(
   localparam int PF = 13;      // of the proportional gain
   localparam int LegF = 4;     // of the legs
 
-  // Operations: Load takes the operands, Store the result. A product takes a bit of its gain in each of 17 clocks; the
-  // CORDIC a half turn or none, then 16 angles with two clocks each, so that one shifter does.
-  localparam logic [3:0] Alpha    = 4'd0;
-  localparam logic [3:0] Beta     = 4'd1;
-  localparam logic [3:0] Park     = 4'd2;
-  localparam logic [3:0] AcrossP  = 4'd3;
-  localparam logic [3:0] AlongP   = 4'd4;
-  localparam logic [3:0] Polar    = 4'd5;
-  localparam logic [3:0] Length   = 4'd6;
-  localparam logic [3:0] Radius   = 4'd7;
-  localparam logic [3:0] Turned   = 4'd8;
-  localparam logic [3:0] LegsX    = 4'd9;
-  localparam logic [3:0] LegsY    = 4'd10;
-  localparam logic [3:0] Again    = 4'd11;  // the limited voltage once more, in the rotor's frame
-  localparam logic [3:0] Applied  = 4'd12;
-  localparam logic [3:0] AcrossI  = 4'd13;
-  localparam logic [3:0] AlongI   = 4'd14;
-  localparam logic [5:0] Load = 6'd0;
-  localparam logic [5:0] Store = 6'd18;
-  localparam logic [5:0] CordicStore = 6'd34;
+  // Operations: Load takes the operands, Store the result. A product takes 18 clocks, the
+  // CORDIC 34. Again: the limited voltage once more, in the rotor's frame.
+  localparam logic [3:0] Alpha = 4'd0, Beta = 4'd1, Park = 4'd2, AcrossP = 4'd3, AlongP = 4'd4,
+                         Polar = 4'd5, Length = 4'd6, Radius = 4'd7, Turned = 4'd8, LegsX = 4'd9,
+                         LegsY = 4'd10, Again = 4'd11, Applied = 4'd12, AcrossI = 4'd13, AlongI = 4'd14;
+  localparam logic [5:0] Load = 6'd0, Store = 6'd18, CordicStore = 6'd34;
   logic [3:0] op_q;
   logic [5:0] step_q;
   logic       take, loads, stores, turns, along, integrates;
   assign take       = op_q == Alpha && step_q == Load && valid_i && armed_i;
   assign loads      = step_q == Load;
   assign stores     = step_q == (turns ? CordicStore : Store);
-  assign turns     = op_q == Park || op_q == Polar || op_q == Turned || op_q == Applied;
+  assign turns      = op_q == Park || op_q == Polar || op_q == Turned || op_q == Applied;
   assign integrates = op_q == AcrossI || op_q == AlongI;
   assign along      = op_q == AlongP || op_q == AlongI;
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      op_q   <= Alpha;
-      step_q <= Load;
+      {op_q, step_q} <= '0;
     end else if (!armed_i) begin
-      op_q   <= Alpha;
-      step_q <= Load;
+      {op_q, step_q} <= '0;
     end else if (stores) begin
       op_q   <= op_q == AlongI ? Alpha : op_q + 4'd1;
       step_q <= Load;
@@ -187,15 +171,9 @@ module field_oriented #(
   end
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      own_q       <= '0;
-      other_q     <= '0;
-      saturated_q <= 1'b0;
-      current_q_o <= '0;
+      {own_q, other_q, saturated_q, current_q_o} <= '0;
     end else if (!armed_i) begin
-      own_q       <= '0;
-      other_q     <= '0;
-      saturated_q <= 1'b0;
-      current_q_o <= '0;
+      {own_q, other_q, saturated_q, current_q_o} <= '0;
     end else begin
       if (take && direct_i) begin
         own_q   <= '0;

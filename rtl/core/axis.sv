@@ -49,6 +49,7 @@ module axis #(
   logic set_zero, restart, word_trip, testing, law_selected, velocity_saturated, tau_hat_saturated;
   logic limit_torque, limit_ramp, limit_hold, limit_current, limit_voltage, limit_duty, torque_valid, tau_ref_valid;
   logic signed [cfg::CURRENT_W-1:0] motor_current;
+  logic signed [cfg::FEED_W-1:0] feed;
   logic signed [31:0] position_q;
   logic signed [17:0] scene_position_q;
   logic position_valid_q;
@@ -106,10 +107,11 @@ module axis #(
   torque_law u_torque_law (
       .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .armed_i(safe.armed), .mode_i(control.mode), .start_i(tau_ref_valid),
       .tau_ref_i(values.tau_ref), .tau_hat_i(values.tau_hat), .velocity_i(values.velocity), .current_o(values.current),
-      .voltage_o(values.voltage), .duty_o(values.duty), .limit_current_o(limit_current), .limit_voltage_o(limit_voltage),
-      .limit_duty_o(limit_duty), .valid_o(tick.duty)
+      .voltage_o(values.voltage), .feed_o(feed), .duty_o(values.duty), .limit_current_o(limit_current),
+      .limit_voltage_o(limit_voltage), .limit_duty_o(limit_duty), .valid_o(tick.duty)
   );
-  assign drive_o = {safe.gates_enable, safe.gates_clear, control.pwm_mode, control.motor_polarity, values.current, values.duty};
+  assign drive_o = {safe.gates_enable, safe.gates_clear, safe.clear, control.pwm_mode, control.motor_polarity,
+                    control.mode == 2'(map::MODE_VOLTAGE), tick.sample, tick.duty, values.current, feed, values.duty};
 
   safety u_safety (
       .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .tick_i(tick), .commands_i(commands), .position_i(position_i),

@@ -22,6 +22,7 @@ module torque_law (
     input  logic signed [cfg::VELOCITY_W-1:0] velocity_i,  // rad/s
     output logic signed [ cfg::CURRENT_W-1:0] current_o,   // A, held as the next two
     output logic signed [ cfg::VOLTAGE_W-1:0] voltage_o,   // V, saturated
+    output logic signed [    cfg::FEED_W-1:0] feed_o,      // V that no current takes: Ke * w + dead voltage
     output logic signed [    cfg::DUTY_W-1:0] duty_o,      // clocks of on-time
     output logic                              limit_current_o,
     output logic                              limit_voltage_o,
@@ -113,6 +114,7 @@ module torque_law (
       if (at[11]) limit_duty_o      <= beyond;
     end
   end
+  assign feed_o    = cfg::FEED_W'(emf_q) + cfg::FEED_W'(offset_q);
   assign voltage_o = cfg::VOLTAGE_W'(fx::saturate(64'(applied_q), cfg::VOLTAGE_W));
 endmodule
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cause of fault: the motor gets too hot (I2t). Once a tick
-//   I = V/R - Ke/R * w, with voltage and velocity of the tick before;
+//   I = V/R - Ke/R * w, with voltage and velocity of the tick before, or a measured one;
 //   sum = max(sum - Inom^2, 0) + I^2, with I = 0 while disarmed.
 // It trips one tick after sum >= budget. A reset does not clear the sum: the motor stays hot.
 // trip_o 9 clocks after start_i. docs/safety.md
@@ -17,6 +17,8 @@ module motor_heat (
     input  logic                                       start_i,     // a tick begins; the next two hold for 2 clocks
     input  logic signed [         cfg::VOLTAGE_W-1:0] voltage_i,   // V, of the tick before
     input  logic signed [        cfg::VELOCITY_W-1:0] velocity_i,  // rad/s, of the tick before
+    input  logic                                       measured_i,  // the heat is of a measured current
+    input  logic signed [         cfg::CURRENT_W-1:0] measured_current_i,  // A
     output logic signed [cfg::CURRENT_ESTIMATE_W-1:0] current_o,   // A, estimated; held
     output logic                                       trip_o       // one clock
 );
@@ -31,10 +33,12 @@ module motor_heat (
   logic signed [17:0] factor_q;
   logic signed [cfg::VELOCITY_W+17:0] product_q;
   logic signed [63:0] product;
+  logic signed [EstimateW-1:0] heating;
+  assign heating = !measured_i ? current_o : EstimateW'(fx::scale(64'(measured_current_i), cfg::CURRENT_ESTIMATE_F - cfg::CURRENT_F));
   always_ff @(posedge clk_i) begin
     if (start_i)    {operand_q, factor_q} <= {cfg::VELOCITY_W'(voltage_i), 1'b0, p.inverse_resistance};
     else if (at[0]) {operand_q, factor_q} <= {velocity_i, 1'b0, p.emf_over_resistance};
-    else            {operand_q, factor_q} <= {cfg::VELOCITY_W'(current_o), 18'(current_o)};
+    else            {operand_q, factor_q} <= {cfg::VELOCITY_W'(heating), 18'(heating)};
     product_q <= operand_q * factor_q;
   end
   assign product = 64'(product_q);

@@ -42,7 +42,8 @@ module safety (
   );
   motor_heat u_motor_heat (
       .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .armed_i(armed), .start_i(tick_i.sample), .voltage_i(voltage_i),
-      .velocity_i(velocity_i), .current_o(current_estimate), .trip_o(trip_heat)
+      .velocity_i(velocity_i), .measured_i(bridge_i.measured), .measured_current_i(bridge_i.current),
+      .current_o(current_estimate), .trip_o(trip_heat)
   );
   polarity u_polarity (
       .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .open_i(gates_enable), .start_i(tick_i.scene), .velocity_i(velocity_i),

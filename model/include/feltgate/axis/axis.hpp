@@ -39,6 +39,20 @@ class Axis {
     std::uint32_t reg_rdata = 0;
   };
 
+  /// All registers but those of the memories, so that a copy is small.
+  struct Blocks {
+    TickCounter ticks;
+    std::int32_t position = 0;
+    TravelWindow window;
+    Clocked<VelocityEstimator<Fixed>> velocity;
+    Clocked<Observer<Fixed>> observer;
+    Clocked<Scene<Fixed>> scene;
+    Clocked<Ramp<Fixed>> ramp;
+    Clocked<TorqueLaw<Fixed>> torque;
+    Safety safety;
+    Host host;
+  };
+
   explicit Axis(const Design& d)
       : laws_(std::make_shared<const Laws>(d)),
         formats_(std::make_shared<const WordFormats>(d)),
@@ -120,6 +134,67 @@ class Axis {
     q_.ticks.clock(laws.clocks_per_tick);
   }
 
+  /// The clock of a tick in which the duty is new.
+  int duty_clock() const {
+    return TickCounter::sample_clock + laws_->velocity.latency +
+           laws_->scene.latency(q_.host.scene) + laws_->ramp.latency + laws_->torque.latency;
+  }
+  /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
+  /// words of the snapshot are there before its end.
+  bool ordinary(const In& in) const {
+    const Safety::In to_safety = this->to_safety(in, {});
+    return q_.ticks.at == 0 && q_.ticks.count != 0 && !in.bridge.measured && params_.whole &&
+           q_.host.registers.rests(q_.host.at_port(false, in.panel, in.port, {}, in.position)) &&
+           q_.host.snapshot.rests() && q_.safety.rests(to_safety) &&
+           duty_clock() + Snapshot::words - Snapshot::early + 1 < laws_->clocks_per_tick;
+  }
+  /// A tick as a whole, its inputs as in the sample's clock; whether nothing tripped in it. If
+  /// something did, the registers are void.
+  bool tick(const In& in) {
+    const Laws& laws = *laws_;
+    const Words<std::int64_t>& p = params_.p;
+    Safety& safety = q_.safety;
+    Host& host = q_.host;
+    const bool armed = safety.arming.armed(), open = safety.arming.open();
+    const std::int64_t last_current = q_.torque.state.current;
+    host.params.tick(params_, *formats_, laws.clocks_per_tick, host.scene, in.port.addr);
+
+    q_.position = in.position.position;
+    safety.heat.tick(laws.heat.tick(p, q_.torque.state.voltage, q_.velocity.state.velocity));
+    const bool hot = laws.heat.heat(safety.heat_sum, p, armed, safety.heat.state.current);
+    q_.velocity.tick(laws.velocity.tick(q_.velocity.state, p, window(in.position.travel)));
+    const std::int64_t velocity = q_.velocity.state.velocity;
+    safety.overspeed.tick(laws.overspeed.tick(safety.overspeed.state, p, velocity));
+    q_.observer.tick(laws.observer.tick(q_.observer.state, p, armed, last_current, velocity));
+
+    const Safe before = safety.levels(laws);
+    const bool testing = before.testing || in.peers.testing;
+    q_.scene.tick(laws.scene.tick(q_.scene.state, p, armed && !testing, host.scene,
+                                  scene_position(), velocity, in.law));
+    const auto judged = laws.polarity.tick(safety.polarity, p, open, velocity, last_current);
+    safety.polarity = judged.next;
+    q_.ramp.tick(laws.ramp.tick(q_.ramp.state, p, to_ramp(in, before, testing)));
+    q_.torque.tick(laws.torque.tick(q_.torque.state, p, armed, control().mode(),
+                                    q_.ramp.state.tau_ref, q_.observer.state.tau_hat, velocity));
+
+    const Safety::In to_safety = this->to_safety(in, {});
+    safety.self_test.sample(Safety::travel(laws, to_safety));
+    safety.self_test.start(p, armed, Safety::direct(to_safety), in.peers.waits, q_.ticks.count);
+    safety.watchdog.start(p);
+    safety.hold.tick(p, armed, q_.ticks.count, q_.ramp.state.tau_ref, in.position.moved);
+    if (hot || safety.overspeed.state.too_fast || safety.overspeed.state.jumped || judged.trip ||
+        safety.self_test.failed() || safety.watchdog.trip(open)) {
+      return false;
+    }
+    if (law_selected() && in.law.restart) q_.ramp.state.ramping = true;
+    host.tick(bank_, in.panel, in.port, values(in, safety.levels(laws)));
+    safety.end_tick(laws, to_safety);
+    ++q_.ticks.count;
+    return true;
+  }
+  const Blocks& save() const { return q_; }
+  void restore(const Blocks& saved) { q_ = saved; }
+
   /// A clock with the reset. What has none: the parameters, the motor's heat, the stop latch.
   void reset(const In& in) {
     Blocks fresh;
@@ -130,21 +205,19 @@ class Axis {
     q_ = fresh;
   }
 
-  /// All registers but those of the memories, so that a copy is small.
-  struct Blocks {
-    TickCounter ticks;
-    std::int32_t position = 0;
-    TravelWindow window;
-    Clocked<VelocityEstimator<Fixed>> velocity;
-    Clocked<Observer<Fixed>> observer;
-    Clocked<Scene<Fixed>> scene;
-    Clocked<Ramp<Fixed>> ramp;
-    Clocked<TorqueLaw<Fixed>> torque;
-    Safety safety;
-    Host host;
-  };
-  const Blocks& blocks() const { return q_; }
   const Laws& laws() const { return *laws_; }
+  /// The bridge's operands, but for the stop pin.
+  Drive drive(bool gates_clear) const {
+    return {q_.safety.arming.open(), gates_clear, control().pwm_mode(), control().motor_polarity(),
+            static_cast<std::int32_t>(q_.torque.shown.current),
+            static_cast<std::int16_t>(q_.torque.shown.duty)};
+  }
+  bool gates_clear(const In& in) const { return q_.safety.stop.gates_clear(in.panel.stop); }
+  Encoder encoder(const Tick& tick, bool set_zero, bool clear) const {
+    return {tick.sample, tick.count, control().filter(), control().encoder_polarity(),
+            set_zero,    clear};
+  }
+  int clock_of_tick() const { return q_.ticks.at; }
   Control control() const { return q_.host.registers.control; }
 
  private:
@@ -180,15 +253,6 @@ class Axis {
             safe.derated,
             safe.testing,
             safe.testing ? safe.test_torque : q_.scene.state.torque};
-  }
-  Encoder encoder(const Tick& tick, bool set_zero, bool clear) const {
-    return {tick.sample, tick.count, control().filter(), control().encoder_polarity(),
-            set_zero,    clear};
-  }
-  Drive drive(bool gates_clear) const {
-    return {q_.safety.arming.open(), gates_clear, control().pwm_mode(), control().motor_polarity(),
-            static_cast<std::int32_t>(q_.torque.shown.current),
-            static_cast<std::int16_t>(q_.torque.shown.duty)};
   }
   Values values(const In& in, const Safe& safe) const {
     using L = Map::L;

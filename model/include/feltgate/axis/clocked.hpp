@@ -28,6 +28,8 @@ class Clocked {
     at_ = at_ << 1 | (start ? 1U : 0U);
     if (start) state = tick();
   }
+  /// A whole tick at once.
+  void tick(const State& next) { state = shown = next; }
 
  private:
   std::uint32_t at_ = 0;

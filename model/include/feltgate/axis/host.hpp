@@ -70,10 +70,9 @@ struct Host {
     if (tick.last) next_scene(panel);
     registers.clock(formats, in);
   }
-  /// A tick in which nothing is written, but for the words of the snapshot.
-  void tick(ParamsMemory& m, Snapshot::Memory& bank, const WordFormats& formats, int clocks,
-            const Panel& panel, const RegisterPort& port, const Values& values) {
-    params.tick(m, formats, clocks, scene, port.addr);
+  /// The end of a tick in which nothing is written but the snapshot, after params.tick().
+  void tick(Snapshot::Memory& bank, const Panel& panel, const RegisterPort& port,
+            const Values& values) {
     snapshot.tick(bank, values, port.addr);
     addr = addr2 = port.addr;
     rdata = read();

@@ -91,17 +91,12 @@ struct Safety {
     return (in.position.why & 0x1f) != 0 || (in.bridge.why & 0x6f) != 0;
   }
 
-  Safe see(const Laws& laws, const P& p, const In& in) const {
-    const Arming::In a = request(laws, in);
+  /// What the registers say, whatever the inputs.
+  Safe levels(const Laws& laws) const {
     Safe s;
     s.armed = arming.armed();
-    s.arms = arming.arms(a, trips(laws, p, in) != 0, laws.wait_ticks);
     s.gates_enable = arming.open();
-    s.gates_clear = stop.gates_clear(in.commands.stop);
-    s.clear = in.commands.clear_faults && !arming.request(a);
-    s.arm_request = arming.counts(a) && !starts(in);
-    s.ready = arming.ready(a) && !unfit(in);
-    s.unkicked = a.kick_missing;
+    s.unkicked = laws.require_watchdog && !watchdog.awake();
     s.derated = hold.derated;
     s.testing = self_test.busy(s.armed);
     s.test_torque = pulse(laws);
@@ -109,6 +104,16 @@ struct Safety {
     s.faults = latch.faults;
     s.first_fault = latch.first;
     s.current_estimate = heat.shown.current;
+    return s;
+  }
+  Safe see(const Laws& laws, const P& p, const In& in) const {
+    const Arming::In a = request(laws, in);
+    Safe s = levels(laws);
+    s.arms = arming.arms(a, trips(laws, p, in) != 0, laws.wait_ticks);
+    s.gates_clear = stop.gates_clear(in.commands.stop);
+    s.clear = in.commands.clear_faults && !arming.request(a);
+    s.arm_request = arming.counts(a) && !starts(in);
+    s.ready = arming.ready(a) && !unfit(in);
     return s;
   }
   /// A pulse is beyond every limit.
@@ -143,6 +148,20 @@ struct Safety {
     arming.clock(in.tick.last, a, trips != 0, laws.wait_ticks);
     after_scene = in.tick.scene;
     after_duty = in.tick.duty;
+  }
+  /// No cause stands that trips in every clock, and the stop latch stays as it is.
+  bool rests(const In& in) const {
+    const bool open = arming.open();
+    return stop.rests(in.commands.stop, open, latch.first != 0) &&
+           !(open && (in.peers.fault || in.engine || stop.stopped() || in.position.why != 0 ||
+                      in.bridge.why != 0));
+  }
+  /// The last clock of a tick without a trip and a command.
+  void end_tick(const Laws& laws, const In& in) {
+    const Arming::In a = request(laws, in);
+    errors.clock(true, false);
+    watchdog.tick(arming.open(), arming.arms(a, false, laws.wait_ticks), false);
+    arming.clock(true, a, false, laws.wait_ticks);
   }
   void reset(const In& in) {
     Safety fresh;

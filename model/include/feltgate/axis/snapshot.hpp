@@ -41,6 +41,7 @@ class Snapshot {
     read(m, read_addr);
     read(m, read_addr);
   }
+  bool rests() const { return next_ == words && !word.valid; }
   void end_tick(bool tick, bool freeze, bool thaw) {
     if (tick && !frozen_) bank_ = !bank_;
     frozen_ = freeze || (frozen_ && !thaw);

@@ -43,8 +43,8 @@ class Arming {
   }
   void clock(bool tick, const In& in, bool trip, int wait_ticks) {
     if (tick) {
-      const bool arms = this->arms(in, trip, wait_ticks);
-      const bool waits = may(in, trip, wait_ticks) && in.wait && !open_;
+      const bool may = this->may(in, trip, wait_ticks);
+      const bool arms = may && !in.wait, waits = may && in.wait && !open_;
       waited_ = waits && !handed(in) ? waited_ + 1 : 0;
       host_ = in.host;
       host_counts_ = !in.host_arm || (in.host && (arms || waits));

@@ -118,8 +118,9 @@ class Axis {
                              q_.velocity.shown.velocity, in.law);
     });
     q_.ramp.clock(torque_valid, [&] {
-      return laws.ramp.tick(q_.ramp.state, p, to_ramp(in, safe, testing));
+      return laws.ramp.tick(q_.ramp.state, p, to_ramp(in, safe.armed && !testing, safe.testing));
     });
+    if (torque_valid) q_.ramp.shown.limit_torque = q_.ramp.state.limit_torque;
     q_.torque.clock(tau_ref_valid, [&] {  // tau_hat is new a clock later at the latest
       return laws.torque.tick(q_.torque.state, p, safe.armed, control().mode(),
                               q_.ramp.state.tau_ref, q_.observer.state.tau_hat,
@@ -142,10 +143,11 @@ class Axis {
   /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
   /// words of the snapshot are there before its end.
   bool ordinary(const In& in) const {
-    const Safety::In to_safety = this->to_safety(in, {});
+    const bool cause = in.peers.fault || (law_selected() && in.law.late) || in.position.why != 0 ||
+                       in.bridge.why != 0;
     return q_.ticks.at == 0 && q_.ticks.count != 0 && !in.bridge.measured && params_.whole &&
-           q_.host.registers.rests(q_.host.at_port(false, in.panel, in.port, {}, in.position)) &&
-           q_.host.snapshot.rests() && q_.safety.rests(to_safety) &&
+           q_.host.registers.rests(in.port.write, in.panel.set_zero) &&
+           q_.host.snapshot.rests() && q_.safety.rests(in.panel.stop, cause) &&
            duty_clock() + Snapshot::words - Snapshot::early + 1 < laws_->clocks_per_tick;
   }
   /// A tick as a whole, its inputs as in the sample's clock; whether nothing tripped in it. If
@@ -167,17 +169,17 @@ class Axis {
     safety.overspeed.tick(laws.overspeed.tick(safety.overspeed.state, p, velocity));
     q_.observer.tick(laws.observer.tick(q_.observer.state, p, armed, last_current, velocity));
 
-    const Safe before = safety.levels(laws);
-    const bool testing = before.testing || in.peers.testing;
-    q_.scene.tick(laws.scene.tick(q_.scene.state, p, armed && !testing, host.scene,
+    const bool tests = safety.self_test.busy(armed), runs = armed && !tests && !in.peers.testing;
+    q_.scene.tick(laws.scene.tick(q_.scene.state, p, runs, host.scene,
                                   scene_position(), velocity, in.law));
     const auto judged = laws.polarity.tick(safety.polarity, p, open, velocity, last_current);
     safety.polarity = judged.next;
-    q_.ramp.tick(laws.ramp.tick(q_.ramp.state, p, to_ramp(in, before, testing)));
+    q_.ramp.tick(laws.ramp.tick(q_.ramp.state, p, to_ramp(in, runs, tests)));
     q_.torque.tick(laws.torque.tick(q_.torque.state, p, armed, control().mode(),
                                     q_.ramp.state.tau_ref, q_.observer.state.tau_hat, velocity));
 
-    const Safety::In to_safety = this->to_safety(in, {});
+    const Tick tick{};
+    const Safety::In to_safety = this->to_safety(in, tick);
     safety.self_test.sample(Safety::travel(laws, to_safety));
     safety.self_test.start(p, armed, Safety::direct(to_safety), in.peers.waits, q_.ticks.count);
     safety.watchdog.start(p);
@@ -200,7 +202,7 @@ class Axis {
     Blocks fresh;
     fresh.safety = q_.safety;
     fresh.host = q_.host;
-    fresh.safety.reset(to_safety(in, Tick{}));
+    fresh.safety.reset(in.panel.stop);
     fresh.host.reset(params_, bank_, in.port, laws_->control_reset);
     q_ = fresh;
   }
@@ -222,19 +224,17 @@ class Axis {
 
  private:
   Safety::In to_safety(const In& in, const Tick& tick) const {
-    Safety::In s;
-    s.tick = tick;
-    s.commands = q_.host.commands(tick.last, in.panel);
-    s.position = in.position;
-    s.bridge = in.bridge;
-    s.peers = in.peers;
-    s.word = q_.host.params.word_error();
-    s.engine = law_selected() && in.law.late;
-    s.velocity = q_.velocity.shown.velocity;
-    s.tau_ref = q_.ramp.shown.tau_ref;
-    s.current = q_.torque.shown.current;
-    s.voltage = q_.torque.shown.voltage;
-    return s;
+    return {tick,
+            q_.host.commands(tick.last, in.panel),
+            in.position,
+            in.bridge,
+            in.peers,
+            q_.host.params.word_error(),
+            law_selected() && in.law.late,
+            q_.velocity.shown.velocity,
+            q_.ramp.shown.tau_ref,
+            q_.torque.shown.current,
+            q_.torque.shown.voltage};
   }
   bool law_selected() const {
     return q_.host.scene == Map::S::law && laws_->scene.has(Map::S::law);
@@ -246,13 +246,13 @@ class Axis {
   std::int16_t window(std::uint16_t travel) {
     return q_.window.tick(line_.data(), laws_->m1, static_cast<std::int16_t>(travel));
   }
-  Ramp<Fixed>::In to_ramp(const In& in, const Safe& safe, bool testing) const {
-    return {safe.armed && !testing,
+  Ramp<Fixed>::In to_ramp(const In& in, bool armed, bool testing) const {
+    return {armed,
             q_.host.scene,
             in.position.chatters,
-            safe.derated,
-            safe.testing,
-            safe.testing ? safe.test_torque : q_.scene.state.torque};
+            q_.safety.hold.derated,
+            testing,
+            testing ? q_.safety.pulse(*laws_) : q_.scene.state.torque};
   }
   Values values(const In& in, const Safe& safe) const {
     using L = Map::L;

@@ -69,7 +69,7 @@ class LeverTop {
  private:
   /// A tick from `at` on, as a whole; false: nothing is changed.
   bool tick(In& in, long at, const EncoderEvent*& event, const EncoderEvent* end) {
-    Axis::In to_axis = this->to_axis(in);
+    Axis::In to_axis{{}, h_bridge.out(), in.panel, in.law, in.peers, in.port};
     if (in.reset || !axis.ordinary(to_axis)) return false;
     const Axis::Blocks blocks = axis.save();
     const Quadrature encoder = quadrature;

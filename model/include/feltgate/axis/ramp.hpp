@@ -61,7 +61,6 @@ struct Ramp {
   }
   template <class At>
   static void show(const At& a, const State& from, State& to) {
-    if (a.at(0)) to.limit_torque = from.limit_torque;
     if (a.at(1)) to = from;
   }
 

@@ -54,8 +54,8 @@ class Registers {
     return (set_zero(tick) && !input_scene) || (tick && to_parameter_ && ramps);
   }
   /// Nothing waits, and nothing comes with these inputs.
-  bool rests(const In& in) const {
-    return !busy() && !in.port.write && !in.set_zero && !zero_ && !disarm_ && !stop_;
+  bool rests(bool write, bool set_zero) const {
+    return !busy() && !write && !set_zero && !zero_ && !disarm_ && !stop_;
   }
 
   void clock(const WordFormats& formats, const In& in) {

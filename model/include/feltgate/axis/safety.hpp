@@ -27,13 +27,13 @@ enum : unsigned {
 struct Safety {
   using P = Words<std::int64_t>;
   struct In {
-    Tick tick;
+    const Tick& tick;
     Commands commands;
-    Position position;
-    Bridge bridge;
-    Peers peers;
-    bool word = false, engine = false;  ///< trips of the host's words and of a law
-    std::int64_t velocity = 0, tau_ref = 0, current = 0, voltage = 0;
+    const Position& position;
+    const Bridge& bridge;
+    const Peers& peers;
+    bool word, engine;  ///< trips of the host's words and of a law
+    std::int64_t velocity, tau_ref, current, voltage;
   };
 
   EncoderErrors errors;
@@ -150,26 +150,24 @@ struct Safety {
     after_duty = in.tick.duty;
   }
   /// No cause stands that trips in every clock, and the stop latch stays as it is.
-  bool rests(const In& in) const {
+  bool rests(bool stops, bool cause) const {
     const bool open = arming.open();
-    return stop.rests(in.commands.stop, open, latch.first != 0) &&
-           !(open && (in.peers.fault || in.engine || stop.stopped() || in.position.why != 0 ||
-                      in.bridge.why != 0));
+    return stop.rests(stops, open, latch.first != 0) && !(open && (cause || stop.stopped()));
   }
   /// The last clock of a tick without a trip and a command.
   void end_tick(const Laws& laws, const In& in) {
-    const Arming::In a = request(laws, in);
+    const bool open = arming.open();
+    arming.clock(true, request(laws, in), false, laws.wait_ticks);
+    watchdog.tick(open, arming.armed(), false);
     errors.clock(true, false);
-    watchdog.tick(arming.open(), arming.arms(a, false, laws.wait_ticks), false);
-    arming.clock(true, a, false, laws.wait_ticks);
   }
-  void reset(const In& in) {
+  void reset(bool stops) {
     Safety fresh;
     fresh.heat_sum = heat_sum;
     fresh.stop = stop;
     *this = fresh;
     stop.reset();
-    stop.clock(in.commands.stop, false, false);  // the latch itself has no reset
+    stop.clock(stops, false, false);  // the latch itself has no reset
     stop.reset();
   }
 

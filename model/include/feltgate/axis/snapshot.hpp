@@ -32,10 +32,24 @@ class Snapshot {
   }
   /// All words of a tick at once, before its last clock.
   void tick(Memory& m, const Values& v, int read_addr) {
-    for (int n = 0; n < words; ++n) {
-      take(n, v);
-      m[place(bank_, word.place)] = word.data;
-    }
+    using C = Map::C;
+    std::uint32_t* const to = &m[place(bank_, 0)];
+    const auto put = [to](int address, std::int64_t data) {
+      to[address - C::snapshot] = static_cast<std::uint32_t>(data);
+    };
+    put(C::read_tick, v.tick);
+    put(C::read_position, v.position);
+    put(C::read_faults, v.faults);
+    put(C::read_encoder, v.encoder);
+    put(C::read_index, v.index);
+    put(C::read_velocity, v.velocity);
+    put(C::read_tau_hat, v.tau_hat);
+    put(C::read_tau_ref, v.tau_ref);
+    put(C::read_current_ref, v.current);
+    put(C::read_voltage, v.voltage);
+    put(C::read_duty, v.duty);
+    put(C::read_status, v.status);
+    word = {false, C::read_status - C::snapshot, v.status};
     next_ = words;
     done_ = true;
     read(m, read_addr);

@@ -2,10 +2,14 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The default chip's twin beside its RTL: every output in every clock, over random motion, panel,
-// host (words out of format too), faults, other axes and resets; and run() beside clock().
+// host (words out of format too), faults, other axes and resets; and run() beside clock(). By hand:
+//   verilator --cc --build --prefix Vtop --top-module lever_wrap cfg.sv map.sv <rtl> lever_wrap.sv
+//   g++ -std=c++17 -Imodel/include ... axis_test.cpp obj_dir/Vtop__ALL.a verilated.cpp
+//   AXIS_DESIGN=design.txt AXIS_TICKS=20000 AXIS_SEED=1 ./axis_test
 
 #define CATCH_CONFIG_MAIN
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <random>
@@ -23,7 +27,8 @@ using feltgate::LeverTop;
 using feltgate::Map;
 
 Design design() {
-  std::ifstream file(std::string(std::getenv("AXIS_DESIGN")));
+  const char* const path = std::getenv("AXIS_DESIGN");
+  std::ifstream file(path == nullptr ? "design.txt" : path);
   return Design::read(file);
 }
 long number(const char* name, long otherwise) {
@@ -45,7 +50,9 @@ struct Random {
 class Stimulus {
  public:
   Stimulus(std::uint64_t seed, const Design& d)
-      : r_{std::mt19937_64(seed)}, words_(d.words), i2t_start_(static_cast<std::uint32_t>(d["I2T_START"])) {
+      : r_{std::mt19937_64(seed)},
+        words_(d.words),
+        i2t_start_(static_cast<std::uint32_t>(d["I2T_START"])) {
     faults_ = r_.one_in(2);
     fastest_ = r_.one_in(3) ? 1200 : 250;
     setup();
@@ -242,8 +249,8 @@ void outputs(const LeverTop& twin, const LeverTop::In& in, Outputs& to) {
         {"reg_rdata", o.reg_rdata},
         {"gates", bits({g.gate_b_lo, g.gate_b_hi, g.gate_a_lo, g.gate_a_hi})},
         {"tick.clock", static_cast<std::uint64_t>(o.tick.clock)},
-        {"tick.at", bits({o.tick.sample, o.tick.velocity, o.tick.tau_hat, o.tick.scene,
-                          o.tick.duty, o.tick.last})},
+        {"tick.at", bits({o.tick.sample, o.tick.velocity, o.tick.tau_hat, o.tick.scene, o.tick.duty,
+                          o.tick.last})},
         {"tick.count", o.tick.count},
         {"position", signed32(s.position)},
         {"status", s.status},
@@ -261,8 +268,8 @@ void outputs(const LeverTop& twin, const LeverTop::In& in, Outputs& to) {
         {"safety", bits({f.armed, f.arms, f.gates_enable, f.gates_clear, f.clear, f.arm_request,
                          f.ready, f.unkicked, f.derated, f.testing})},
         {"test_torque", signed32(f.test_torque)},
-        {"latched", static_cast<std::uint64_t>(f.test_result) << 21 |
-                        std::uint64_t{f.faults} << 5 | static_cast<std::uint64_t>(f.first_fault)},
+        {"latched", static_cast<std::uint64_t>(f.test_result) << 21 | std::uint64_t{f.faults} << 5 |
+                        static_cast<std::uint64_t>(f.first_fault)},
         {"estimate", signed32(f.current_estimate)},
         {"word", (o.word.valid ? std::uint64_t{1} << 38 : 0) |
                      static_cast<std::uint64_t>(o.word.place) << 32 | o.word.data},
@@ -435,8 +442,8 @@ TEST_CASE("run equals clock in every output") {
       outputs(by_run, of_stretch, of_run);
       ++compared;
       if (of_clock != of_run) {
-        FAIL("run " << run << " after " << at << " clocks, " << n << " in the stretch:"
-                    << difference(of_clock, of_run));
+        FAIL("run " << run << " after " << at << " clocks, " << n
+                    << " in the stretch:" << difference(of_clock, of_run));
       }
     }
     whole += by_run.whole;

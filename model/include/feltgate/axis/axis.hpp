@@ -39,7 +39,7 @@ class Axis {
     std::uint32_t reg_rdata = 0;
   };
 
-  /// All registers but those of the memories, so that a copy is small.
+  /// All registers but those of the memories.
   struct Blocks {
     TickCounter ticks;
     std::int32_t position = 0;
@@ -105,7 +105,9 @@ class Axis {
       q_.ramp.shown.limit_hold = safe.derated;
     }
     q_.velocity.clock(tick.sample, [&] {
-      return laws.velocity.tick(q_.velocity.state, p, window(in.position.travel));
+      return laws.velocity.tick(
+          q_.velocity.state, p,
+          q_.window.tick(line_.data(), laws.m1, static_cast<std::int16_t>(in.position.travel)));
     });
     q_.observer.clock(tick.velocity, [&] {
       return laws.observer.tick(q_.observer.state, p, safe.armed, motor_current(in),
@@ -114,11 +116,13 @@ class Axis {
     const bool torque_valid = tick.scene;
     const bool tau_ref_valid = q_.ramp.valid(laws.ramp.latency);
     q_.scene.clock(tick.velocity, [&] {
-      return laws.scene.tick(q_.scene.state, p, safe.armed && !testing, scene, scene_position(),
-                             q_.velocity.shown.velocity, in.law);
+      return laws.scene.tick(q_.scene.state, p, safe.armed && !testing, scene,
+                             Fixed::saturate(q_.position, 18), q_.velocity.shown.velocity, in.law);
     });
     q_.ramp.clock(torque_valid, [&] {
-      return laws.ramp.tick(q_.ramp.state, p, to_ramp(in, safe.armed && !testing, safe.testing));
+      return laws.ramp.tick(
+          q_.ramp.state, p,
+          to_ramp(in, q_.scene.state.torque, safe.armed && !testing, safe.testing));
     });
     if (torque_valid) q_.ramp.shown.limit_torque = q_.ramp.state.limit_torque;
     q_.torque.clock(tau_ref_valid, [&] {  // tau_hat is new a clock later at the latest
@@ -146,56 +150,71 @@ class Axis {
     const bool cause = in.peers.fault || (law_selected() && in.law.late) || in.position.why != 0 ||
                        in.bridge.why != 0;
     return q_.ticks.at == 0 && q_.ticks.count != 0 && !in.bridge.measured && params_.whole &&
-           q_.host.registers.rests(in.port.write, in.panel.set_zero) &&
-           q_.host.snapshot.rests() && q_.safety.rests(in.panel.stop, cause) &&
+           q_.host.registers.rests(in.port.write, in.panel.set_zero) && q_.host.snapshot.rests() &&
+           q_.safety.rests(in.panel.stop, cause) &&
            duty_clock() + Snapshot::words - Snapshot::early + 1 < laws_->clocks_per_tick;
   }
-  /// A tick as a whole, its inputs as in the sample's clock; whether nothing tripped in it. If
-  /// something did, the registers are void.
+  /// A tick as a whole, its inputs as in the sample's clock. All that it makes is a copy; if
+  /// anything tripped in it, the copy is thrown away: false.
   bool tick(const In& in) {
     const Laws& laws = *laws_;
     const Words<std::int64_t>& p = params_.p;
-    Safety& safety = q_.safety;
-    Host& host = q_.host;
-    const bool armed = safety.arming.armed(), open = safety.arming.open();
-    const std::int64_t last_current = q_.torque.state.current;
-    host.params.tick(params_, *formats_, laws.clocks_per_tick, host.scene, in.port.addr);
+    const std::uint32_t count = q_.ticks.count;
+    const int number = q_.host.scene;
+    const bool armed = q_.safety.arming.armed(), open = q_.safety.arming.open();
+    const auto& last = q_.torque.state;
+    params_.load_scene(*formats_, number);
 
-    q_.position = in.position.position;
-    safety.heat.tick(laws.heat.tick(p, q_.torque.state.voltage, q_.velocity.state.velocity));
-    const bool hot = laws.heat.heat(safety.heat_sum, p, armed, safety.heat.state.current);
-    q_.velocity.tick(laws.velocity.tick(q_.velocity.state, p, window(in.position.travel)));
-    const std::int64_t velocity = q_.velocity.state.velocity;
-    safety.overspeed.tick(laws.overspeed.tick(safety.overspeed.state, p, velocity));
-    q_.observer.tick(laws.observer.tick(q_.observer.state, p, armed, last_current, velocity));
+    const auto heat = laws.heat.tick(p, last.voltage, q_.velocity.state.velocity);
+    std::int64_t heat_sum = q_.safety.heat_sum;
+    const bool hot = laws.heat.heat(heat_sum, p, armed, heat.current);
+    TravelWindow window = q_.window;
+    const auto travel = static_cast<std::int16_t>(in.position.travel);
+    const auto speed =
+        laws.velocity.tick(q_.velocity.state, p, window.tick(line_.data(), laws.m1, travel));
+    const auto fast = laws.overspeed.tick(q_.safety.overspeed.state, p, speed.velocity);
+    const auto observed =
+        laws.observer.tick(q_.observer.state, p, armed, last.current, speed.velocity);
 
-    const bool tests = safety.self_test.busy(armed), runs = armed && !tests && !in.peers.testing;
-    q_.scene.tick(laws.scene.tick(q_.scene.state, p, runs, host.scene,
-                                  scene_position(), velocity, in.law));
-    const auto judged = laws.polarity.tick(safety.polarity, p, open, velocity, last_current);
-    safety.polarity = judged.next;
-    q_.ramp.tick(laws.ramp.tick(q_.ramp.state, p, to_ramp(in, runs, tests)));
-    q_.torque.tick(laws.torque.tick(q_.torque.state, p, armed, control().mode(),
-                                    q_.ramp.state.tau_ref, q_.observer.state.tau_hat, velocity));
-
-    const Tick tick{};
-    const Safety::In to_safety = this->to_safety(in, tick);
-    safety.self_test.sample(Safety::travel(laws, to_safety));
-    safety.self_test.start(p, armed, Safety::direct(to_safety), in.peers.waits, q_.ticks.count);
-    safety.watchdog.start(p);
-    safety.hold.tick(p, armed, q_.ticks.count, q_.ramp.state.tau_ref, in.position.moved);
-    if (hot || safety.overspeed.state.too_fast || safety.overspeed.state.jumped || judged.trip ||
-        safety.self_test.failed() || safety.watchdog.trip(open)) {
+    const bool tests = q_.safety.self_test.busy(armed);
+    const bool runs = armed && !tests && !in.peers.testing;
+    const auto scene =
+        laws.scene.tick(q_.scene.state, p, runs, number, Fixed::saturate(in.position.position, 18),
+                        speed.velocity, in.law);
+    const auto polarity =
+        laws.polarity.tick(q_.safety.polarity, p, open, speed.velocity, last.current);
+    auto ramp = laws.ramp.tick(q_.ramp.state, p, to_ramp(in, scene.torque, runs, tests));
+    const auto torque = laws.torque.tick(last, p, armed, control().mode(), ramp.tau_ref,
+                                         observed.tau_hat, speed.velocity);
+    SelfTest self_test = q_.safety.self_test;
+    self_test.sample(in.position.travel >> laws.self_test_drop);
+    self_test.start(p, armed, control().mode() == Map::mode_voltage, in.peers.waits, count);
+    q_.safety.watchdog.start(p);
+    if (hot || fast.too_fast || fast.jumped || polarity.trip || self_test.failed() ||
+        q_.safety.watchdog.trip(open)) {
       return false;
     }
-    if (law_selected() && in.law.restart) q_.ramp.state.ramping = true;
-    host.tick(bank_, in.panel, in.port, values(in, safety.levels(laws)));
-    safety.end_tick(laws, to_safety);
+    if (law_selected() && in.law.restart) ramp.ramping = true;
+
+    q_.position = in.position.position;
+    q_.window = window;
+    q_.velocity.tick(speed);
+    q_.observer.tick(observed);
+    q_.scene.tick(scene);
+    q_.ramp.tick(ramp);
+    q_.torque.tick(torque);
+    q_.safety.heat.tick(heat);
+    q_.safety.heat_sum = heat_sum;
+    q_.safety.overspeed.tick(fast);
+    q_.safety.polarity = polarity.next;
+    q_.safety.self_test = self_test;
+    q_.safety.hold.tick(p, armed, count, ramp.tau_ref, in.position.moved);
+    q_.host.params.tick(params_, laws.clocks_per_tick, number, in.port.addr);
+    q_.host.tick(bank_, in.panel, in.port, values(in, q_.safety.levels(laws)));
+    q_.safety.end_tick(laws, to_safety(in, Tick{}));
     ++q_.ticks.count;
     return true;
   }
-  const Blocks& save() const { return q_; }
-  void restore(const Blocks& saved) { q_ = saved; }
 
   /// A clock with the reset. What has none: the parameters, the motor's heat, the stop latch.
   void reset(const In& in) {
@@ -210,7 +229,10 @@ class Axis {
   const Laws& laws() const { return *laws_; }
   /// The bridge's operands, but for the stop pin.
   Drive drive(bool gates_clear) const {
-    return {q_.safety.arming.open(), gates_clear, control().pwm_mode(), control().motor_polarity(),
+    return {q_.safety.arming.open(),
+            gates_clear,
+            control().pwm_mode(),
+            control().motor_polarity(),
             static_cast<std::int32_t>(q_.torque.shown.current),
             static_cast<std::int16_t>(q_.torque.shown.duty)};
   }
@@ -242,17 +264,13 @@ class Axis {
   std::int64_t motor_current(const In& in) const {  // of the tick before
     return in.bridge.measured ? in.bridge.current : q_.torque.shown.current;
   }
-  std::int64_t scene_position() const { return Fixed::saturate(q_.position, 18); }
-  std::int16_t window(std::uint16_t travel) {
-    return q_.window.tick(line_.data(), laws_->m1, static_cast<std::int16_t>(travel));
-  }
-  Ramp<Fixed>::In to_ramp(const In& in, bool armed, bool testing) const {
+  Ramp<Fixed>::In to_ramp(const In& in, std::int64_t torque, bool armed, bool testing) const {
     return {armed,
             q_.host.scene,
             in.position.chatters,
             q_.safety.hold.derated,
             testing,
-            testing ? q_.safety.pulse(*laws_) : q_.scene.state.torque};
+            testing ? q_.safety.pulse(*laws_) : torque};
   }
   Values values(const In& in, const Safe& safe) const {
     using L = Map::L;

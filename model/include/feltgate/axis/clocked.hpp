@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// A law that runs once a tick, as a clocked block: it computes at start and shows each result in the
-// clock in which the RTL's register has it. at(k) is the RTL's at[k]. docs/architecture.md
+// A law that runs once a tick, as a clocked block: it computes at start and shows each result in
+// the clock in which the RTL's register has it. at(k) is the RTL's at[k]. docs/architecture.md
 #pragma once
 
 #include <cstdint>

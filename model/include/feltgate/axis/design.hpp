@@ -21,8 +21,8 @@ namespace feltgate {
 /// A word of the host.
 struct Word {
   std::string name;
-  int address = 0;       ///< below 512
-  int bits = 32;         ///< with its sign
+  int address = 0;  ///< below 512
+  int bits = 32;    ///< with its sign
   bool has_sign = false;
   int fraction = 0;
   std::uint32_t reset = 0;

@@ -41,23 +41,20 @@ struct Host {
                bit(static_cast<unsigned>(safe.first_fault), C::faults_first) |
                bit(bridge.why & 0x1f, C::faults_current) |
                bit(position.why & 0x3f, C::faults_absolute);
-    v.status = bit(v.limits, C::status_limits) |
-               bit(static_cast<unsigned>(scene), C::status_scene) |
-               bit(safe.armed, C::status_armed) |
-               bit(static_cast<unsigned>(registers.control.mode()), C::status_mode) |
-               bit(static_cast<unsigned>(safe.test_result), C::status_self_test) |
-               bit(testing, C::status_testing) |
-               bit(bridge.why >> 5 & 1, C::status_driver_fault) |
-               bit(bridge.why >> 6 & 1, C::status_current_missing) |
-               bit(position.error, C::status_encoder_error) |
-               bit(registers.refused(), C::status_refused) |
-               bit(registers.saturated(), C::status_saturated) |
-               bit(safe.unkicked, C::status_unkicked);
+    v.status =
+        bit(v.limits, C::status_limits) | bit(static_cast<unsigned>(scene), C::status_scene) |
+        bit(safe.armed, C::status_armed) |
+        bit(static_cast<unsigned>(registers.control.mode()), C::status_mode) |
+        bit(static_cast<unsigned>(safe.test_result), C::status_self_test) |
+        bit(testing, C::status_testing) | bit(bridge.why >> 5 & 1, C::status_driver_fault) |
+        bit(bridge.why >> 6 & 1, C::status_current_missing) |
+        bit(position.error, C::status_encoder_error) | bit(registers.refused(), C::status_refused) |
+        bit(registers.saturated(), C::status_saturated) | bit(safe.unkicked, C::status_unkicked);
   }
 
   void clock(ParamsMemory& m, Snapshot::Memory& bank, const WordFormats& formats, const Tick& tick,
-             const Panel& panel, const RegisterPort& port, const Safe& safe, const Position& position,
-             const Values& values) {
+             const Panel& panel, const RegisterPort& port, const Safe& safe,
+             const Position& position, const Values& values) {
     rdata = read();
     addr2 = addr;
     addr = port.addr;

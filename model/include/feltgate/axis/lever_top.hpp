@@ -41,9 +41,9 @@ class LeverTop {
     h_bridge.clock(now.drive);
   }
 
-  /// Equals `clocks` calls of clock(); the pins take the levels of `events`, whose clocks count from
-  /// here. One rule: a tick is taken as a whole, and if anything out of the ordinary happened in it,
-  /// it is thrown away and goes clock by clock.
+  /// Equals `clocks` calls of clock(); the pins take the levels of `events`, whose clocks count
+  /// from here. One rule: a tick is taken as a whole, and if anything out of the ordinary happened
+  /// in it, it is thrown away and goes clock by clock.
   void run(In& in, long clocks, const EncoderEvent* event = nullptr,
            const EncoderEvent* end = nullptr) {
     const int ticks = axis.laws().clocks_per_tick;
@@ -71,7 +71,6 @@ class LeverTop {
   bool tick(In& in, long at, const EncoderEvent*& event, const EncoderEvent* end) {
     Axis::In to_axis{{}, h_bridge.out(), in.panel, in.law, in.peers, in.port};
     if (in.reset || !axis.ordinary(to_axis)) return false;
-    const Axis::Blocks blocks = axis.save();
     const Quadrature encoder = quadrature;
     const EncoderEvent* const first = event;
     const EncoderPins pins = in.pins;
@@ -87,7 +86,6 @@ class LeverTop {
       return true;
     }
     ++thrown;
-    axis.restore(blocks);
     quadrature = encoder;
     in.pins = pins;
     event = first;

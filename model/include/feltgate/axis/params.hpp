@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/host/params.sv, the parameters: a RAM of 512 words with check bits, and a register for
-// each word that a block takes. The first clocks of a tick load the words of its scene, the others go
-// round the common words. docs/registers.md
+// Twin of rtl/host/params.sv, the parameters: a RAM of 512 words with check bits, and a register
+// for each word that a block takes. The first clocks of a tick load the words of its scene, the
+// others go round the common words. docs/registers.md
 #pragma once
 
 #include "feltgate/axis/words.hpp"
@@ -12,9 +12,10 @@ namespace feltgate {
 
 /// RAM and registers. A reset does not change them.
 struct ParamsMemory {
-  std::array<std::uint64_t, 512> ram{};  ///< word, and above it the check
+  static constexpr int places[5] = {1, 2, 3, 6, 10};  ///< of a scene's words in its bank
+  std::array<std::uint64_t, 512> ram{};               ///< word, and above it the check
   Words<std::int64_t> p;
-  int scene = -1;  ///< whose words are in p for certain
+  int scene = -1;     ///< whose words are in p for certain
   bool whole = true;  ///< RAM and registers agree, all checks are right
 
   static std::uint64_t checked(std::uint32_t word) {
@@ -28,6 +29,12 @@ struct ParamsMemory {
       formats.load(p, w.address, w.reset);
     }
   }
+  /// The words of a scene, by a tick as a whole.
+  void load_scene(const WordFormats& formats, int of) {
+    if (scene == of) return;
+    for (const int place : places) formats.load_scene(p, place, word(of * 32 + place));
+    scene = of;
+  }
   std::uint32_t word(int address) const {
     return static_cast<std::uint32_t>(ram[static_cast<std::size_t>(address)]);
   }
@@ -35,7 +42,6 @@ struct ParamsMemory {
 
 class Params {
  public:
-  static constexpr int places[5] = {1, 2, 3, 6, 10};  ///< of a scene's words in its bank
   bool word_error() const { return error_; }
   std::uint32_t read_data() const { return read_data_; }
 
@@ -60,11 +66,7 @@ class Params {
     }
   }
   /// All clocks of a tick without a write, if RAM and registers agree.
-  void tick(ParamsMemory& m, const WordFormats& formats, int clocks, int scene, int read_addr) {
-    if (m.scene != scene) {
-      for (const int place : places) formats.load_scene(m.p, place, m.word(scene * 32 + place));
-      m.scene = scene;
-    }
+  void tick(const ParamsMemory& m, int clocks, int scene, int read_addr) {
     next_ = (next_ + clocks - 6) & 63;
     fetch(m, clocks - 1, scene);
     read(m, read_addr);
@@ -85,7 +87,7 @@ class Params {
  private:
   void fetch(const ParamsMemory& m, int clock, int scene) {
     const bool of_scene = clock < 5;
-    const int place = of_scene ? places[clock] : next_;
+    const int place = of_scene ? ParamsMemory::places[clock] : next_;
     place_ = of_scene ? 15 * 32 + place : place;
     fetch_ = m.ram[static_cast<std::size_t>(of_scene ? scene * 32 + place : place)];
     if (!of_scene) next_ = (next_ + 1) & 63;
@@ -95,7 +97,7 @@ class Params {
       formats.load(m.p, to, word);
     } else if (to >> 5 == 15) {
       m.scene = -1;
-      for (const int place : places) {
+      for (const int place : ParamsMemory::places) {
         if (place == (to & 31)) formats.load_scene(m.p, place, word);
       }
     }

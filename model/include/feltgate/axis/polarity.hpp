@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/safety/polarity.sv, a cause of fault: the motor or the encoder is connected the wrong way
-// round. In runaway_windows windows of polarity_ticks on end the speed against the commanded current
-// has grown by more than polarity_speed. docs/safety.md
+// Law of rtl/safety/polarity.sv, a cause of fault: the motor or the encoder is connected the wrong
+// way round. In runaway_windows windows of polarity_ticks on end the speed against the commanded
+// current has grown by more than polarity_speed. docs/safety.md
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ template <class N>
 struct Polarity {
   using T = typename N::T;
   struct State {
-    T begin = 0;    ///< velocity at the window's begin
-    int ticks = 0;  ///< of the window, this one included
+    T begin = 0;         ///< velocity at the window's begin
+    int ticks = 0;       ///< of the window, this one included
     unsigned grown = 0;  ///< bits: in the windows before
   };
   struct Judged {
@@ -33,11 +33,10 @@ struct Polarity {
   Judged tick(const State& s, const Words<T>& p, bool open, T velocity, T current) const {
     constexpr unsigned all = (1U << (Map::runaway_windows - 1)) - 1;
     const T now = N::truncated(velocity, drop), gained = N::wrapped(now - s.begin, w);
-    const bool grows =
-        N::beyond(gained, p.polarity_speed) && (gained < 0) == (velocity < 0);
+    const bool grows = N::beyond(gained, p.polarity_speed) && (gained < 0) == (velocity < 0);
     const bool expired = static_cast<T>(s.ticks) >= p.polarity_ticks;
-    const bool against = open && N::beyond(current, p.polarity_current) &&
-                         (velocity < 0) != (current < 0);
+    const bool against =
+        open && N::beyond(current, p.polarity_current) && (velocity < 0) != (current < 0);
     if (against && !expired) return {{s.begin, s.ticks + 1, s.grown}, false};
     return {{now, 1, against && grows ? (s.grown << 1 | 1) & all : 0},
             against && expired && grows && s.grown == all};

@@ -17,8 +17,9 @@ class Quadrature {
  public:
   explicit Quadrature(const Design& d)
       : decoder_(0, static_cast<std::uint32_t>(d["INDEX_COUNTS"])),
-        monitor_(d["EDGE_UNIT_BITS"], d["FAST_EDGES"] != 0),
-        fresh_(monitor_) {}
+        edge_bits_(d["EDGE_UNIT_BITS"]),
+        fast_(d["FAST_EDGES"] != 0),
+        monitor_(edge_bits_, fast_) {}
 
   Position out() const {
     const QuadDecoder::Out& o = decoder_.out();
@@ -43,7 +44,7 @@ class Quadrature {
   }
   void reset() {
     decoder_.reset();
-    monitor_ = fresh_;
+    monitor_ = EncoderMonitorLaw(edge_bits_, fast_);
     sampled_ = false;
   }
 
@@ -82,7 +83,9 @@ class Quadrature {
   }
 
   QuadDecoder decoder_;
-  EncoderMonitorLaw monitor_, fresh_;
+  int edge_bits_;
+  bool fast_;
+  EncoderMonitorLaw monitor_;
   bool sampled_ = false;
 };
 

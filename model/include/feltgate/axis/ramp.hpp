@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/core/ramp.sv: limits the torque of the scene and ramps it. After arming, a change of
-// scene, of the limit after a long hold, or a restart, tau_ref moves by at most a step a tick until it
-// has reached the scene's torque. Frozen, it may only shrink. docs/blocks/ramp.md
+// scene, of the limit after a long hold, or a restart, tau_ref moves by at most a step a tick until
+// it has reached the scene's torque. Frozen, it may only shrink. docs/blocks/ramp.md
 #pragma once
 
 #include <algorithm>
@@ -51,8 +51,8 @@ struct Ramp {
     const T left = down ? excess - step : excess + step;
     const bool reached = left == 0 || (left < 0) == down;
     // Frozen, a reference stays that would grow or change its sign.
-    const bool stepping = (ramping && in.armed) || (frozen && (down ? s.ramp < 0 || target < 0
-                                                                    : s.ramp >= 0 || target > 0));
+    const bool stepping = (ramping && in.armed) ||
+                          (frozen && (down ? s.ramp < 0 || target < 0 : s.ramp >= 0 || target > 0));
     next.limit_ramp = stepping;
     if (!stepping || !reached) next.ramp = stepping ? target + left : target;
     next.ramping = ramping && !(stepping && reached);

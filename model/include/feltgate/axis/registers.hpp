@@ -63,8 +63,8 @@ class Registers {
     const bool at_parameter = in.port.addr >> 9 == 0, at_control = in.port.addr == C::control,
                at_command = in.port.addr == C::command;
     const auto wdata = [&in](int bit) { return (in.port.wdata >> bit & 1) != 0; };
-    const bool disarms = in.port.write && at_control && wdata(C::control_host) &&
-                         !wdata(C::control_arm);
+    const bool disarms =
+        in.port.write && at_control && wdata(C::control_host) && !wdata(C::control_arm);
     const bool stops = in.port.write && at_command && wdata(C::command_stop);
     if (in.tick && to_parameter_) refused_ = refuses(in.armed);
     if (in.tick && to_control_) {

@@ -19,8 +19,21 @@ namespace feltgate {
 /// Numbers of the causes.
 namespace fault {
 enum : unsigned {
-  encoder = 1, speed, polarity, i2t, watchdog, stop, self_test, channel, tick, index, word, jump,
-  engine, axis, current
+  encoder = 1,
+  speed,
+  polarity,
+  i2t,
+  watchdog,
+  stop,
+  self_test,
+  channel,
+  tick,
+  index,
+  word,
+  jump,
+  engine,
+  axis,
+  current
 };
 }  // namespace fault
 
@@ -86,7 +99,9 @@ struct Safety {
     a.refuse = in.peers.blocked || unfit(in);
     return a;
   }
-  static bool starts(const In& in) { return ((in.position.why >> 5 | in.bridge.why >> 4) & 1) != 0; }
+  static bool starts(const In& in) {
+    return ((in.position.why >> 5 | in.bridge.why >> 4) & 1) != 0;
+  }
   static bool unfit(const In& in) {
     return (in.position.why & 0x1f) != 0 || (in.bridge.why & 0x6f) != 0;
   }
@@ -129,9 +144,8 @@ struct Safety {
     const bool clear = in.commands.clear_faults && !arming.request(a);
 
     errors.clock(in.tick.last, in.position.illegal);
-    overspeed.clock(in.tick.velocity, [&] {
-      return laws.overspeed.tick(overspeed.state, p, in.velocity);
-    });
+    overspeed.clock(in.tick.velocity,
+                    [&] { return laws.overspeed.tick(overspeed.state, p, in.velocity); });
     if (heat.at(laws.heat.summed)) laws.heat.heat(heat_sum, p, armed, heat.shown.current);
     heat.clock(in.tick.sample, [&] { return laws.heat.tick(p, in.voltage, in.velocity); });
     if (after_scene) polarity = judged(laws, p, in).next;

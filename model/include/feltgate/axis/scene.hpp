@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/core/scene.sv: the torque of the scene, not yet limited. One product for each term, one
-// rounding. A scene that the design does not build gives 0. docs/blocks/scene.md
+// Law of rtl/core/scene.sv: the torque of the scene, not yet limited. One product for each term,
+// one rounding. A scene that the design does not build gives 0. docs/blocks/scene.md
 //   set-point   tau = torque
 //   membrane    tau = +-torque between two faces, back to the side of entry
 //   spring      tau = k * (rest - position), on both sides or below the rest alone

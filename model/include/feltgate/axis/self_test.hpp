@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/safety/self_test.sv: after arming it waits until the lever is at rest, applies a torque
-// pulse and then its opposite, and checks the direction of motion before the scene begins.
+// Twin of rtl/safety/self_test.sv: after arming it waits until the lever is at rest, applies a
+// torque pulse and then its opposite, and checks the direction of motion before the scene begins.
 // docs/safety.md
 #pragma once
 
@@ -42,10 +42,19 @@ class SelfTest {
     const bool unit_now = (tick_count >> Map::self_test_unit_bits & 1) != 0;
     const bool patience_now = (tick_count >> Map::self_test_patience_bits & 1) != 0;
     const bool unit = unit_now != unit_, patience = patience_now != patience_;
+    if (armed && phase_ == Phase::done) {  // the scene runs
+      unit_ = unit_now;
+      patience_ = patience_now;
+      fail_ = late_ = false;
+      units_ = 0;
+      return;
+    }
     const bool quiet = units_ == end || static_cast<T>(units_) >= p.self_test_quiet;
     const bool over = units_ == end || static_cast<T>(units_) >= p.self_test_pulse;
     const bool gives_up = patience && late_, late = late_;
-    const auto arms = [&p](int bit) { return (static_cast<int>(p.self_test_arms) >> bit & 1) != 0; };
+    const auto arms = [&p](int bit) {
+      return (static_cast<int>(p.self_test_arms) >> bit & 1) != 0;
+    };
     const int units = units_;
     const bool wrong = net_ != answer;
     unit_ = unit_now;

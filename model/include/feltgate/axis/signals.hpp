@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// What goes from block to block: the structs of package cfg. A bit of a packed struct is a bool here,
-// a vector an integer. docs/architecture.md
+// What goes from block to block: the structs of package cfg. A bit of a packed struct is a bool
+// here, a vector an integer. docs/architecture.md
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 namespace feltgate {
 
 struct Tick {
-  int clock = 0;        ///< of the tick, from 0
-  bool sample = false;  ///< the position is sampled
+  int clock = 0;                                                        ///< of the tick, from 0
+  bool sample = false;                                                  ///< the position is sampled
   bool velocity = false, tau_hat = false, scene = false, duty = false;  ///< is new
-  bool last = false;                                                   ///< clock of a tick
+  bool last = false;                                                    ///< clock of a tick
   std::uint32_t count = 0;
 };
 

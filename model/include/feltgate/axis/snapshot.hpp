@@ -78,13 +78,13 @@ class Snapshot {
   /// The words in the order of writing.
   void take(int n, const Values& v) {
     using C = Map::C;
-    static constexpr int at[words] = {C::read_tick,     C::read_position, C::read_faults,
-                                      C::read_encoder,  C::read_index,    C::read_velocity,
-                                      C::read_tau_hat,  C::read_tau_ref,  C::read_current_ref,
-                                      C::read_voltage,  C::read_duty,     C::read_status};
-    const std::int64_t data[words] = {v.tick,     v.position, v.faults,  v.encoder,
-                                      v.index,    v.velocity, v.tau_hat, v.tau_ref,
-                                      v.current,  v.voltage,  v.duty,    v.status};
+    static constexpr int at[words] = {C::read_tick,    C::read_position, C::read_faults,
+                                      C::read_encoder, C::read_index,    C::read_velocity,
+                                      C::read_tau_hat, C::read_tau_ref,  C::read_current_ref,
+                                      C::read_voltage, C::read_duty,     C::read_status};
+    const std::int64_t data[words] = {v.tick,    v.position, v.faults,  v.encoder,
+                                      v.index,   v.velocity, v.tau_hat, v.tau_ref,
+                                      v.current, v.voltage,  v.duty,    v.status};
     word.place = at[n] - C::snapshot;
     word.data = static_cast<std::uint32_t>(data[n]);
   }

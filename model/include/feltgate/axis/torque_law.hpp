@@ -56,7 +56,8 @@ struct TorqueLaw {
     const bool high = N::beyond(tau_ref, p.region_torque);
     if (direct || !emf_in_law) offset -= emf;
     if (!direct) {
-      offset += N::scale(next.current * (high ? p.voltage_gain_high : p.voltage_gain), voltage_gain);
+      offset +=
+          N::scale(next.current * (high ? p.voltage_gain_high : p.voltage_gain), voltage_gain);
     }
     next.limit_voltage = armed && N::beyond(offset, p.voltage_window);
     const T applied = armed ? N::limited(offset, p.voltage_window) + emf : T{0};

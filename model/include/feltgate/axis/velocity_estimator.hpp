@@ -10,8 +10,8 @@
 
 namespace feltgate {
 
-/// Counts of the last `ticks` ticks; until so many have passed, the counts since the reset. The line
-/// is not in the block, so that a copy of the block is small.
+/// Counts of the last `ticks` ticks; until so many have passed, the counts since the reset. The
+/// line is not in the block, so that a copy of the block is small.
 class TravelWindow {
  public:
   std::int16_t tick(std::int16_t* line, int ticks, std::int16_t travel) {

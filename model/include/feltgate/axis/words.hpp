@@ -25,11 +25,11 @@ struct Words {
     watchdog_ticks = 0, self_test_torque = 0, self_test_quiet = 0, self_test_pulse = 0,
     self_test_arms = 0;
   // Of the scene in force. Those of one place share a register: p.scene_1, 2, 3, 6 and 10.
-  T first = 0;      ///< counts: contact, rest, centre, lower face
-  T second = 0;     ///< counts: upper face
+  T first = 0;   ///< counts: contact, rest, centre, lower face
+  T second = 0;  ///< counts: upper face
   T stiffness = 0, slope = 0;
   T strength = 0;
-  T core = 0;     ///< counts
+  T core = 0;  ///< counts
   T damping = 0;
   T torque = 0;
 
@@ -37,44 +37,82 @@ struct Words {
   static T Words::*common(int address) {
     using A = Map::A;
     switch (address) {
-      case A::velocity_a1: return &Words::velocity_a1;
-      case A::inverse_resistance: return &Words::inverse_resistance;
-      case A::emf_over_resistance: return &Words::emf_over_resistance;
-      case A::torque_constant: return &Words::torque_constant;
-      case A::inertia_gain: return &Words::inertia_gain;
-      case A::nominal_current_squared: return &Words::nominal_current_squared;
-      case A::observer_a1: return &Words::observer_a1;
-      case A::overspeed: return &Words::overspeed;
-      case A::i2t_budget: return &Words::i2t_budget;
-      case A::polarity_speed: return &Words::polarity_speed;
-      case A::polarity_current: return &Words::polarity_current;
-      case A::polarity_ticks: return &Words::polarity_ticks;
-      case A::emf_constant: return &Words::emf_constant;
-      case A::observer_gain: return &Words::observer_gain;
-      case A::voltage_setpoint: return &Words::voltage_setpoint;
-      case A::voltage_step: return &Words::voltage_step;
-      case A::torque_limit: return &Words::torque_limit;
-      case A::ramp_step: return &Words::ramp_step;
-      case A::voltage_to_current: return &Words::voltage_to_current;
-      case A::torque_gain: return &Words::torque_gain;
-      case A::dead_voltage_slope: return &Words::dead_voltage_slope;
-      case A::region_torque: return &Words::region_torque;
-      case A::hold_torque: return &Words::hold_torque;
-      case A::hold_time: return &Words::hold_time;
-      case A::hold_limit: return &Words::hold_limit;
-      case A::current_limit: return &Words::current_limit;
-      case A::voltage_gain: return &Words::voltage_gain;
-      case A::voltage_gain_high: return &Words::voltage_gain_high;
-      case A::dead_voltage: return &Words::dead_voltage;
-      case A::voltage_window: return &Words::voltage_window;
-      case A::duty_gain: return &Words::duty_gain;
-      case A::duty_limit: return &Words::duty_limit;
-      case A::watchdog_ticks: return &Words::watchdog_ticks;
-      case A::self_test_torque: return &Words::self_test_torque;
-      case A::self_test_quiet: return &Words::self_test_quiet;
-      case A::self_test_pulse: return &Words::self_test_pulse;
-      case A::self_test_arms: return &Words::self_test_arms;
-      default: return nullptr;
+      case A::velocity_a1:
+        return &Words::velocity_a1;
+      case A::inverse_resistance:
+        return &Words::inverse_resistance;
+      case A::emf_over_resistance:
+        return &Words::emf_over_resistance;
+      case A::torque_constant:
+        return &Words::torque_constant;
+      case A::inertia_gain:
+        return &Words::inertia_gain;
+      case A::nominal_current_squared:
+        return &Words::nominal_current_squared;
+      case A::observer_a1:
+        return &Words::observer_a1;
+      case A::overspeed:
+        return &Words::overspeed;
+      case A::i2t_budget:
+        return &Words::i2t_budget;
+      case A::polarity_speed:
+        return &Words::polarity_speed;
+      case A::polarity_current:
+        return &Words::polarity_current;
+      case A::polarity_ticks:
+        return &Words::polarity_ticks;
+      case A::emf_constant:
+        return &Words::emf_constant;
+      case A::observer_gain:
+        return &Words::observer_gain;
+      case A::voltage_setpoint:
+        return &Words::voltage_setpoint;
+      case A::voltage_step:
+        return &Words::voltage_step;
+      case A::torque_limit:
+        return &Words::torque_limit;
+      case A::ramp_step:
+        return &Words::ramp_step;
+      case A::voltage_to_current:
+        return &Words::voltage_to_current;
+      case A::torque_gain:
+        return &Words::torque_gain;
+      case A::dead_voltage_slope:
+        return &Words::dead_voltage_slope;
+      case A::region_torque:
+        return &Words::region_torque;
+      case A::hold_torque:
+        return &Words::hold_torque;
+      case A::hold_time:
+        return &Words::hold_time;
+      case A::hold_limit:
+        return &Words::hold_limit;
+      case A::current_limit:
+        return &Words::current_limit;
+      case A::voltage_gain:
+        return &Words::voltage_gain;
+      case A::voltage_gain_high:
+        return &Words::voltage_gain_high;
+      case A::dead_voltage:
+        return &Words::dead_voltage;
+      case A::voltage_window:
+        return &Words::voltage_window;
+      case A::duty_gain:
+        return &Words::duty_gain;
+      case A::duty_limit:
+        return &Words::duty_limit;
+      case A::watchdog_ticks:
+        return &Words::watchdog_ticks;
+      case A::self_test_torque:
+        return &Words::self_test_torque;
+      case A::self_test_quiet:
+        return &Words::self_test_quiet;
+      case A::self_test_pulse:
+        return &Words::self_test_pulse;
+      case A::self_test_arms:
+        return &Words::self_test_arms;
+      default:
+        return nullptr;
     }
   }
 };

@@ -110,7 +110,7 @@ def arguments_of(argv):
     parser = command_line.parser(
         "demo",
         "Every object in closed loop and recordings whole, through RTL and twin in\n"
-        "lock-step; one HTML report. About 15 minutes on two cores.",
+        "lock-step; one HTML report. About half an hour on two cores.",
         EPILOG,
     )
     what = "recordings; default: FELTGATE_TRACES, ../shared/traces"

@@ -15,6 +15,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <string>
 using Catch::Approx;  // version 2 already does this
+// Its matchers of strings by the names of version 2.
 namespace Catch {
 namespace Matchers {
 inline auto Contains(const std::string& part) { return ContainsSubstring(part); }

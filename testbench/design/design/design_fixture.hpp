@@ -15,11 +15,6 @@
 
 namespace feltgate::design {
 
-// Catch2 3 moved it.
-#if __has_include(<catch2/catch_approx.hpp>)
-#else
-#endif
-
 inline std::string root_path(const std::string& path) {
   return std::string(FELTGATE_ROOT) + "/" + path;
 }

@@ -15,11 +15,6 @@
 
 namespace feltgate::plant {
 
-// Catch2 3 moved it.
-#if __has_include(<catch2/catch_approx.hpp>)
-#else
-#endif
-
 inline Parameters shipped(const std::string& name) {
   return read_plant_file(std::string(FELTGATE_SOURCE_DIR) + "/vectors/plants/" + name + ".toml");
 }

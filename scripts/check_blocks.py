@@ -209,7 +209,7 @@ def blocks_table(root, blocks):
 
 def sources(root):
     """RTL of the core with the boards' design, in order."""
-    generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*.sv"))
+    generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*_pkg.sv"))
     listed = [Path("rtl", name) for name in rtl_sources.core_files(root)]
     return [*(path.relative_to(root) for path in generated), *listed]
 

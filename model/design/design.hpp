@@ -151,6 +151,9 @@ struct Word {
   Format format{};
   double si = 0;         ///< exact value, in the parameter's unit
   std::int64_t raw = 0;  ///< the integer in the parameter RAM
+  /// The format of its register in params_t: a limit has no sign, a coefficient a whole mantissa,
+  /// an integer the bits of the register map.
+  Format field() const;
   double quantised() const;
   double relative_error() const;  ///< (quantised-si)/si; 0 if si is 0
 };

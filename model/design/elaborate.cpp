@@ -360,9 +360,12 @@ void check_word(const Design& d, const Word& w) {
                (pole ? " and the filter would stand still" : ""),
            pole ? "raise the cut-off or lower tick_hz" : "raise it, or set it to 0");
   }
-  const std::int64_t high = (std::int64_t{1} << (w.format.width() - w.format.sign)) - 1;
-  const std::int64_t low = w.format.sign == 1 ? -high - 1 : 0;
-  if (w.raw > high || w.raw < low || (coefficient && w.format.fraction < 0)) refuse(d, w);
+  for (const Format f : {w.format, w.field()}) {
+    const std::int64_t high = (std::int64_t{1} << (f.width() - f.sign)) - 1;
+    const std::int64_t low = f.sign == 1 ? -high - 1 : 0;
+    if (w.raw > high || w.raw < low) refuse(d, w);
+  }
+  if (coefficient && w.format.fraction < 0) refuse(d, w);
 }
 
 void check(const Elaborated& e) {
@@ -393,6 +396,17 @@ Format coefficient_format(double value, bool is_signed, int bits) {
   // A value that rounds up to the next power of two needs one more integer bit.
   if (std::llround(std::ldexp(magnitude, mantissa - integer)) >> mantissa != 0) ++integer;
   return {is_signed ? 1 : 0, integer, mantissa - integer};
+}
+
+Format Word::field() const {
+  const Parameter& p = parameter;
+  if (p.kind == "coefficient" || p.kind == "signed") {
+    constexpr int mantissa = fabric::multiplier_b_bits - 1;
+    return {format.sign, mantissa - format.fraction, format.fraction};
+  }
+  if (p.kind == "limit") return {0, format.integer, format.fraction};
+  if (p.kind == "integer") return {0, p.bits, 0};
+  return format;
 }
 
 double Word::quantised() const { return std::ldexp(static_cast<double>(raw), -format.fraction); }
@@ -452,17 +466,18 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
       }
       w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed",
                                     design.coefficient_bits);
-    } else if (p.kind == "signal") {
+    } else if (p.kind == "signal" || p.kind == "limit") {
       w.format = signal_format(e, p);
     } else if (p.kind == "counts") {
       w.format = {1, 17, 8};
     } else if (p.kind == "angle") {
       w.format = {0, 0, 32};
     } else {
-      // The limiter takes an integer with fewer bits, and is as wide as the current.
-      w.format = {0, p.bits < 31 ? std::min(p.bits, design.current.width() - 1) : 31, 0};
+      // The block judges what saturates; the limiter takes the others, as wide as the current.
+      w.format = {0, p.saturates ? 31 : std::min(p.bits, design.current.width() - 1), 0};
     }
     w.raw = quantised_word(design, w);
+    if (p.saturates) w.raw = std::min(w.raw, (std::int64_t{1} << p.bits) - 1);
     e.words.push_back(w);
   }
   const auto f = [&](const char* name) { return e.word(name).format; };

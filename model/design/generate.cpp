@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "design/generate_cfg.hpp"
 #include "design/text_edit.hpp"
 #include "feltgate/crc32.hpp"
 #include "feltgate/current_control.hpp"
@@ -47,13 +48,6 @@ RoundingName rounding(Round mode) {
 std::string banner(const Elaborated& e, const std::string& what) {
   return generated_banner("rtl/designs/" + e.design.name + ".toml and rtl/registers.toml", what);
 }
-
-/// Plain integers that RTL and twin share: name, value, meaning.
-struct Constant {
-  std::string name;
-  std::int64_t value;
-  std::string doc;
-};
 
 std::vector<Constant> constants(const Elaborated& e) {
   const Design& d = e.design;
@@ -237,6 +231,14 @@ std::vector<Constant> of_options(const Elaborated& e) {
 
 }  // namespace
 
+std::vector<Constant> design_constants(const Elaborated& e) {
+  std::vector<Constant> all = constants(e);
+  for (const Constant& c : of_options(e)) all.push_back(c);
+  all.push_back({"rounding", rounding(e.design.rounding).number,
+                 "where the chain rounds: 0 half up, 1 floor, 2 convergent"});
+  return all;
+}
+
 std::uint32_t design_crc(const Elaborated& e) {
   std::string text = fmt::format("clock_hz {}\ntick_hz {}\n", e.design.clock_hz, e.design.tick_hz);
   const auto add = [&text](const std::vector<Constant>& list) {
@@ -271,40 +273,16 @@ std::string systemverilog_package(const Elaborated& e) {
     << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
     << "package feltgate_pkg;\n"
     << "  localparam int CLOCK_HZ = " << e.design.clock_hz << ";\n";
-  for (const Constant& c : constants(e)) {
+  for (const Constant& c : design_constants(e)) {
     s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
   }
-  for (const Constant& c : of_options(e)) {
-    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
-  }
-  s << "  localparam int ROUNDING = " << rounding(e.design.rounding).number
-    << ";  // where the chain rounds: 0 half up, 1 floor, 2 convergent\n";
   s << fmt::format(
       "  localparam logic [31:0] DESIGN_CRC = 32'h{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
-  s << "\n  // Widths (W) and fraction bits (F) of the signals.\n";
-  for (const auto& [name, f] : named_formats(e.formats)) {
-    s << "  localparam int " << upper(name) << "_W = " << f.width() << ";  // [" << f.sign << ","
-      << f.integer << "," << f.fraction << "]\n"
-      << "  localparam int " << upper(name) << "_F = " << f.fraction << ";\n";
-  }
-  s << "\n  // Fraction bits of the coefficients.\n";
-  for (const Word& w : e.words) {
-    if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
-      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
-        << ";\n";
-    }
-  }
-  s << "\n  // Parameter RAM after reset: the design's values, quantised.\n"
-    << "  function automatic logic [31:0] parameter_reset(input logic [8:0] address);\n"
-    << "    case (address)\n";
-  for (const Word& w : e.words) {
-    s << "      9'd" << w.parameter.address << ": parameter_reset = 32'd"
-      << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
-  }
-  s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n"
-    << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
+  formats_sv(s, e);
+  resets_sv(s, e);
+  s << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
     << "  function automatic logic [32:0] parameter_above(input logic [8:0] address);\n"
     << "    case (address)\n";
   for (const Word& w : e.words) {
@@ -314,20 +292,9 @@ std::string systemverilog_package(const Elaborated& e) {
       << fmt::format(", 32'h{:08x}}};  // ", static_cast<std::uint32_t>(-1) << bits)
       << w.parameter.name << "\n";
   }
-  s << "      default: parameter_above = 33'd0;\n    endcase\n  endfunction\n"
-    << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
-    << "  function automatic logic [15:0] absolute_correction(input logic ["
-    << Map::absolute_segment_bits - 1 << ":0] part);\n"
-    << "    case (part)\n";
-  if (e.design.absolute_table()) {
-    const auto table = e.design.absolute_corrections();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      s << "      " << Map::absolute_segment_bits << "'d" << k << ": absolute_correction = 16'd"
-        << static_cast<std::uint16_t>(table[k]) << ";\n";
-    }
-  }
-  s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n"
-    << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
+  s << "      default: parameter_above = 33'd0;\n    endcase\n  endfunction\n";
+  corrections_sv(s, e.design);
+  s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
   return s.str();
 }
 

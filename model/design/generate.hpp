@@ -7,10 +7,24 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "design/design.hpp"
 
 namespace feltgate::design {
+
+/// A plain integer that RTL and twin share.
+struct Constant {
+  std::string name;
+  std::int64_t value;
+  std::string doc;
+};
+
+/// The constants of a design, in the order of its packages.
+std::vector<Constant> design_constants(const Elaborated& e);
+
+/// Text of rtl/generated/map.sv: addresses, bits and numbers, which are equal in all designs.
+std::string map_package(const RegisterMap& map);
 
 /// Text of rtl/generated/NAME/feltgate_pkg.sv.
 std::string systemverilog_package(const Elaborated& e);
@@ -45,8 +59,8 @@ std::uint32_t design_crc(const Elaborated& e);
 
 /// CRC-32 of all that is generated of a design: it changes with whatever the design's file says.
 std::uint32_t file_sum(const Elaborated& e);
-/// Throws std::invalid_argument where the design is not that of this file_sum() any more: which file
-/// has changed, and what mends it.
+/// Throws std::invalid_argument where the design is not that of this file_sum() any more: which
+/// file has changed, and what mends it.
 void require_current(const Elaborated& e, std::uint32_t sum, const std::string& mend);
 
 /// The table that `feltgate design NAME` prints.

@@ -144,22 +144,9 @@ void fields_cpp(std::ostringstream& s, const std::string& word, const std::vecto
 
 }  // namespace
 
-std::string map_package(const RegisterMap& map, const Schedule& schedule) {
-  std::ostringstream s;
-  s << generated_banner(sources, "Clocks, slots, addresses, bits, numbers of all designs.")
-    << "\n`default_nettype none\n\n"
-    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
-    << "package feltgate_map_pkg;\n"
-    << "  localparam int WAVE_LENGTH = " << schedule.wave_length
-    << ";  // clocks; a tick is at least as long\n"
-    << "  localparam int FIRST_WAVE_CLOCK = " << schedule.first_wave_clock
-    << ";  // clock of the tick that is wave clock 0\n"
-    << "  localparam int MULTIPLIER_LATENCY = " << schedule.multiplier_latency
-    << ";  // clocks from the operands to the product\n"
-    << fmt::format(
-           "  localparam logic [63:0] SCENE_SLOTS = 64'h{:016x};  // bit n: slot n is read "
-           "from the scene's bank\n",
-           scene_slots(map));
+namespace {
+
+void masks_sv(std::ostringstream& s, const RegisterMap& map) {
   s << fmt::format(
       "  // While armed: words of all scenes that are refused or ramp, by address; scenes whose "
       "words "
@@ -171,10 +158,10 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
   for (const Cause& c : map.constants) {
     s << "  localparam int " << upper(c.name) << " = " << c.number << ";  // " << c.doc << "\n";
   }
-  clocks_sv(s, "PARAM_AT_", slots_doc, slots(map, schedule));
-  clocks_sv(s, "PRODUCT_AT_", products_doc, products(map, schedule));
-  clocks_sv(s, "EVENT_AT_", steps_doc, steps(schedule));
-  clocks_sv(s, "READ_AT_", words_doc, words(map));
+}
+
+/// Numbers of scenes, limits and faults, control words, fields.
+void numbers_sv(std::ostringstream& s, const RegisterMap& map) {
   s << "\n  // Scene numbers.\n";
   for (const Scene& scene : map.scenes) {
     s << "  localparam logic [3:0] SCENE_" << upper(scene.name) << " = 4'd" << scene.number
@@ -200,7 +187,51 @@ std::string map_package(const RegisterMap& map, const Schedule& schedule) {
     s << "  localparam int FAULT_" << upper(c.name) << " = " << c.number << ";  // " << c.doc
       << "\n";
   }
-  s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
+}
+
+constexpr const char* package_begin =
+    "\n`default_nettype none\n\n"
+    "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n";
+constexpr const char* package_end =
+    "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
+
+}  // namespace
+
+std::string map_package(const RegisterMap& map) {
+  std::ostringstream s;
+  s << generated_banner("rtl/registers.toml", "Addresses, bits, numbers of all designs.")
+    << package_begin << "package map;\n";
+  masks_sv(s, map);
+  s << "\n  // Places of the snapshot's words, from A_SNAPSHOT on.\n";
+  for (const Snapshot& n : map.snapshots) {
+    s << fmt::format("  localparam logic [5:0] S_{} = 6'd{};\n", upper(n.name), n.slot);
+  }
+  numbers_sv(s, map);
+  s << package_end;
+  return s.str();
+}
+
+std::string map_package(const RegisterMap& map, const Schedule& schedule) {
+  std::ostringstream s;
+  s << generated_banner(sources, "Clocks, slots, addresses, bits, numbers of all designs.")
+    << package_begin << "package feltgate_map_pkg;\n"
+    << "  localparam int WAVE_LENGTH = " << schedule.wave_length
+    << ";  // clocks; a tick is at least as long\n"
+    << "  localparam int FIRST_WAVE_CLOCK = " << schedule.first_wave_clock
+    << ";  // clock of the tick that is wave clock 0\n"
+    << "  localparam int MULTIPLIER_LATENCY = " << schedule.multiplier_latency
+    << ";  // clocks from the operands to the product\n"
+    << fmt::format(
+           "  localparam logic [63:0] SCENE_SLOTS = 64'h{:016x};  // bit n: slot n is read "
+           "from the scene's bank\n",
+           scene_slots(map));
+  masks_sv(s, map);
+  clocks_sv(s, "PARAM_AT_", slots_doc, slots(map, schedule));
+  clocks_sv(s, "PRODUCT_AT_", products_doc, products(map, schedule));
+  clocks_sv(s, "EVENT_AT_", steps_doc, steps(schedule));
+  clocks_sv(s, "READ_AT_", words_doc, words(map));
+  numbers_sv(s, map);
+  s << package_end;
   return s.str();
 }
 

@@ -59,7 +59,7 @@ int small(config::TomlReader& r, const std::string& key, std::int64_t high) {
 }
 
 Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<int>& used) {
-  static const std::vector<std::string> kinds{"coefficient", "signed",  "signal",
+  static const std::vector<std::string> kinds{"coefficient", "signed",  "signal", "limit",
                                               "counts",      "integer", "angle"};
   Parameter p;
   p.name = r.identifier("name");
@@ -68,8 +68,11 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
-  if (p.kind == "signal") p.signal = r.text("format");
-  if (p.kind == "integer" && r.has("bits")) p.bits = static_cast<int>(r.integer("bits", 1, 31));
+  if (p.kind == "signal" || p.kind == "limit") p.signal = r.text("format");
+  if (p.kind == "integer") {
+    p.bits = static_cast<int>(r.integer("bits", 1, 31));
+    p.saturates = r.flag_or("saturates", false);
+  }
   if (r.has("same_format_as")) p.same_format_as = r.text("same_format_as");
   p.while_armed = p.scene.empty() ? "refused" : "ramps";
   if (r.has("while_armed")) {

@@ -22,10 +22,11 @@ struct Parameter {
   std::string label;           ///< in the timing diagram
   std::string scene;           ///< scene of the word; empty: shared by all scenes
   int slot = 0;                ///< wave clock in which the word is on the parameter bus
-  std::string kind;            ///< coefficient, signed, signal, counts, integer or angle
-  std::string signal;          ///< format of a word of kind signal
+  std::string kind;            ///< coefficient, signed, signal, limit, counts, integer or angle
+  std::string signal;          ///< format of a word of kind signal or limit
   std::string same_format_as;  ///< coefficient whose format the word shares, or empty
   int bits = 31;               ///< of a word of kind integer
+  bool saturates = false;      ///< a larger value of a design becomes the largest that fits
   int headroom_bits = 0;       ///< doublings above the design's value that a coefficient can take
   std::string option;          ///< option that a design needs to have the word; empty: all have it
   std::string while_armed;  ///< effect of a write while the motor is armed: refused, ramps or acts

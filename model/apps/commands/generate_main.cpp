@@ -18,6 +18,7 @@
 
 #include "design/engine_map.hpp"
 #include "design/generate.hpp"
+#include "design/generate_cfg.hpp"
 #include "design/host_words.hpp"
 #include "design/schedule.hpp"
 #include "files/toml/toml_reader.hpp"
@@ -72,9 +73,10 @@ constexpr const char* usage =
     "for lever the register map as C header, SystemRDL and CSV.\n"
     "--check only compares, all or what follows from these designs; exit code 1 when a file is "
     "stale.\n"
-    "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/NAME.hpp and "
-    "DIR/parameters.mem,\n"
-    "the first contents of the parameter RAM for $readmemh, and DIR/values.txt,\n"
+    "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/cfg.sv, "
+    "DIR/NAME.hpp,\n"
+    "DIR/parameters.mem, the first contents of the parameter RAM for $readmemh, and "
+    "DIR/values.txt,\n"
     "a line per parameter: name, address, integer, exact value; and the register map for hosts:\n"
     "DIR/feltgate.h with DIR/feltgate_map.h (C), DIR/feltgate.rdl (SystemRDL), DIR/csr.csv (as of\n"
     "LiteX). --allow-coarse lets a resolution pass that is coarser than a design for use must "
@@ -142,6 +144,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   const auto e = elaborate(design, registers);
   check_tick(e.design, read_schedule(o, registers));
   update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
+  update(o.output / "cfg.sv", cfg_package(e), false);
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
   update(o.output / "parameters.mem", memory_text(e), false);
   update(o.output / "values.txt", values_text(e), false);
@@ -154,6 +157,9 @@ bool update_design(const Options& o, const feltgate::design::Elaborated& e) {
   const std::string& name = e.design.name;
   const fs::path folder = o.root / "rtl/generated" / name;
   bool stale = update(folder / "feltgate_pkg.sv", systemverilog_package(e), o.check_only);
+  if (name == "lever" || name == "paper") {  // the others' are written at build time
+    stale |= update(folder / "cfg.sv", cfg_package(e), o.check_only);
+  }
   stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
   stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
                   o.check_only);
@@ -184,8 +190,9 @@ bool check_named(const Options& o, const feltgate::design::RegisterMap& register
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
   const auto schedule = read_schedule(o, registers);
   const fs::path headers = o.root / "model/include/feltgate/generated";
-  bool stale = update(o.root / "rtl/generated/feltgate_map_pkg.sv",
-                      map_package(registers, schedule), o.check_only);
+  bool stale = update(o.root / "rtl/generated/map.sv", map_package(registers), o.check_only);
+  stale |= update(o.root / "rtl/generated/feltgate_map_pkg.sv", map_package(registers, schedule),
+                  o.check_only);
   stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
   stale |=
       update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);

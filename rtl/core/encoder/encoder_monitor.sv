@@ -27,9 +27,9 @@ module encoder_monitor #(
     output logic        index_trip_o, // one clock: the count has slipped
     output logic        flip_trip_o  // one clock: a bit of count or zero has flipped
 );
-  localparam int RowW = $clog2(feltgate_map_pkg::DEAD_CHANNEL_EDGES);
-  localparam int EdgeW = $clog2(feltgate_map_pkg::EDGE_UNITS + 1);
-  localparam int ChatterW = $clog2(feltgate_map_pkg::CHATTER_UNITS + 1);
+  localparam int RowW = $clog2(map::DEAD_CHANNEL_EDGES);
+  localparam int EdgeW = $clog2(map::EDGE_UNITS + 1);
+  localparam int ChatterW = $clog2(map::CHATTER_UNITS + 1);
   localparam int ChatterBits = EdgeBits + 2;
 
   logic sample, edge_unit, chatter_unit;
@@ -67,11 +67,11 @@ module encoder_monitor #(
   logic [EdgeW-1:0]    edge_units_q;
   logic [ChatterW-1:0] chatter_units_q;
   logic                over, dead;
-  assign late       = edge_units_q == EdgeW'(feltgate_map_pkg::EDGE_UNITS);
-  assign chatters_o = row_q >= RowW'(feltgate_map_pkg::ONE_CHANNEL_EDGES);
-  assign over       = chatters_o && chatter_units_q == ChatterW'(feltgate_map_pkg::CHATTER_UNITS);
+  assign late       = edge_units_q == EdgeW'(map::EDGE_UNITS);
+  assign chatters_o = row_q >= RowW'(map::ONE_CHANNEL_EDGES);
+  assign over       = chatters_o && chatter_units_q == ChatterW'(map::CHATTER_UNITS);
   assign dead       = over ? !late && (!moved || of_row)
-                           : moved && of_row && row_q == RowW'(feltgate_map_pkg::DEAD_CHANNEL_EDGES - 1);
+                           : moved && of_row && row_q == RowW'(map::DEAD_CHANNEL_EDGES - 1);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

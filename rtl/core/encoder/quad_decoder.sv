@@ -137,7 +137,7 @@ module quad_decoder #(
   generate
   if (IndexCounts > 0) begin : g_index
     localparam int W    = $clog2(IndexCounts);
-    localparam int Near = feltgate_map_pkg::INDEX_WIDTH_BITS;
+    localparam int Near = map::INDEX_WIDTH_BITS;
 
     if (!(IndexCounts == 1 << W && W > Near)) begin : g_check_index
       INDEX_COUNTS_must_be_a_power_of_two missing ();

@@ -85,7 +85,7 @@ def truth(design):
         if p.get("option") == "three_phases" and numbers["PHASES"] != 3:
             continue
         fraction = numbers.get(f"P_{name.upper()}_F")
-        if kind == "signal":
+        if kind in ("signal", "limit"):
             signal = p["format"].upper()
             sign = 0 if p["format"] in ("current_squared", "i2t", "charge") else 1
             form = (sign, numbers[f"{signal}_W"], numbers[f"{signal}_F"])
@@ -94,7 +94,7 @@ def truth(design):
                 "coefficient": (0, coefficient, fraction),
                 "signed": (1, coefficient + 1, fraction),
                 "counts": (1, 26, 8),
-                "integer": (0, p.get("bits", 31), 0),
+                "integer": (0, 31 if p.get("saturates") else p.get("bits"), 0),
                 "angle": (0, 32, 32),
             }[kind]
         address = p["slot"] + 32 * scenes[p["scene"]] if "scene" in p else p["slot"]

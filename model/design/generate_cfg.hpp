@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// The package `cfg` of a design: constants, formats, words and structs of the RTL. Documentation:
+// docs/designs.md
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "design/design.hpp"
+
+namespace feltgate::design {
+
+/// A register of params_t: a common word, or the word that the scene in force has in a slot.
+struct ParamsRegister {
+  std::string name;
+  int bits = 0;
+  bool is_signed = false;
+  int address = 0;         ///< of its word; of a scene's word in the bank that no scene has
+  std::int64_t reset = 0;  ///< the design's integer
+};
+
+/// The bank of the words of the scene in force. No scene has this number.
+constexpr int bank_of_any_scene = 15;
+
+/// In the order of params_t: the common words as in the register map, then the scenes' slots.
+std::vector<ParamsRegister> params_registers(const Elaborated& e);
+
+/// Text of rtl/generated/NAME/cfg.sv.
+std::string cfg_package(const Elaborated& e);
+
+// Parts that feltgate_pkg has too.
+
+/// Widths and fraction bits of the signals, fraction bits of the coefficients.
+void formats_sv(std::ostream& s, const Elaborated& e);
+/// The parameters after a reset, by their address.
+void resets_sv(std::ostream& s, const Elaborated& e);
+/// What is added to an absolute encoder's reading.
+void corrections_sv(std::ostream& s, const Design& d);
+
+}  // namespace feltgate::design

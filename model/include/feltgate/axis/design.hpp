@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// A design as data: the constants of package cfg by their names, and the words of the host with
+// address, format and value. Read from text; nothing is compiled for a design. docs/design.md
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <istream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "feltgate/axis/fx.hpp"
+
+namespace feltgate {
+
+/// A word of the host.
+struct Word {
+  std::string name;
+  int address = 0;  ///< below 512
+  int bits = 32;    ///< with its sign
+  bool has_sign = false;
+  int fraction = 0;
+  std::uint32_t reset = 0;
+};
+
+struct Design {
+  std::map<std::string, std::int64_t, std::less<>> constants;
+  std::vector<Word> words;
+
+  /// The constant of this name, e.g. "VELOCITY_F"; throws if there is none.
+  int operator[](std::string_view name) const { return static_cast<int>(wide(name)); }
+  std::int64_t wide(std::string_view name) const {
+    const auto at = constants.find(name);
+    if (at == constants.end()) throw std::out_of_range("design without " + std::string(name));
+    return at->second;
+  }
+  Rounding rounding() const { return static_cast<Rounding>((*this)["ROUNDING"]); }
+  bool has_scene(int scene) const { return ((*this)["SCENE_MASK"] >> scene & 1) != 0; }
+
+  /// Lines "NAME value" and "word name address bits sign fraction reset".
+  static Design read(std::istream& in) {
+    Design d;
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream fields(line);
+      std::string name;
+      fields >> name;
+      if (name == "word") {
+        Word w;
+        fields >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
+        d.words.push_back(w);
+      } else if (!name.empty()) {
+        fields >> d.constants[name];
+      }
+      if (fields.fail()) throw std::runtime_error("design: cannot read: " + line);
+    }
+    return d;
+  }
+};
+
+}  // namespace feltgate

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Fixed-point arithmetic of all blocks, by the names of rtl/core/fx.sv, as a policy: Fixed has the
+// RTL's integers; Real<T> computes the same equations in T, in SI units, without formats.
+// docs/fixed-point.md
+#pragma once
+
+#include <cstdint>
+
+namespace feltgate {
+
+/// Where the chain rounds; cfg::ROUNDING.
+enum class Rounding : std::uint8_t { half_up, down, half_to_even };
+
+/// The low `bits` of x, as a signed number.
+constexpr std::int64_t signed_bits(std::uint64_t x, int bits) {
+  return static_cast<std::int64_t>(x << (64 - bits)) >> (64 - bits);
+}
+constexpr std::uint32_t low_bits(std::uint32_t x, int bits) {
+  return bits >= 32 ? x : x & ((1U << bits) - 1);
+}
+
+struct Fixed {
+  using T = std::int64_t;
+  static constexpr bool is_fixed = true;
+
+  /// 1: x without its lowest `drop` bits is rounded up. `odd`: the lowest bit of what is rounded.
+  static bool rounds_up(T x, int drop, bool odd, Rounding rounding) {
+    const bool half = (x >> (drop - 1) & 1) != 0;
+    if (rounding == Rounding::half_up) return half;
+    if (rounding == Rounding::down) return false;
+    const bool rest = (x & ((T{1} << (drop - 1)) - 1)) != 0;
+    return half && (rest || odd);
+  }
+  /// y + x * 2^-drop, rounded.
+  static T add_rounded(T y, T x, int drop, Rounding rounding) {
+    const T sum = y + (x >> drop);
+    return sum + rounds_up(x, drop, (sum & 1) != 0, rounding);
+  }
+  /// x * 2^exponent, truncated.
+  static T scale(T x, int exponent) {
+    return exponent >= 0 ? x * (T{1} << exponent) : x >> -exponent;
+  }
+  /// x * 2^-drop, truncated, with the lowest bit set where a dropped bit was.
+  static T scale_sticky(T x, int drop) {
+    return (x >> drop) | ((x & ((T{1} << drop) - 1)) != 0 ? 1 : 0);
+  }
+  /// x does not fit a signed format of so many bits.
+  static bool overflows(T x, int bits) { return saturate(x, bits) != x; }
+  /// The nearest value of a signed format of so many bits.
+  static T saturate(T x, int bits) {
+    const T end = T{1} << (bits - 1);
+    return x < -end ? -end : x >= end ? end - 1 : x;
+  }
+  /// |x| > limit.
+  static bool beyond(T x, T limit) { return x > limit || x < -limit; }
+  /// The nearest value in -limit .. limit.
+  static T limited(T x, T limit) { return x > limit ? limit : x < -limit ? -limit : x; }
+  /// An integer in units of 2^-fraction, times 2^exponent: of a format with `fraction`.
+  static T integer(T x, int exponent, int) { return scale(x, exponent); }
+  /// x without its lowest `drop` bits, in the same format.
+  static T truncated(T x, int drop) { return x & -(T{1} << drop); }
+  /// The whole number below x.
+  static T floor(T x, int fraction) { return truncated(x, fraction); }
+  static T wrapped(T x, int bits) { return signed_bits(static_cast<std::uint64_t>(x), bits); }
+};
+
+/// R: float, double or a wider type.
+template <class R>
+struct Real {
+  using T = R;
+  static constexpr bool is_fixed = false;
+  static T add_rounded(T y, T x, int, Rounding) { return y + x; }
+  static T scale(T x, int) { return x; }
+  static T scale_sticky(T x, int) { return x; }
+  static bool overflows(T, int) { return false; }
+  static T saturate(T x, int) { return x; }
+  static bool beyond(T x, T limit) { return x > limit || x < -limit; }
+  static T limited(T x, T limit) { return x > limit ? limit : x < -limit ? -limit : x; }
+  /// x * 2^(exponent - fraction): the value that Fixed has in a format with `fraction`.
+  static T integer(std::int64_t x, int exponent, int fraction) {
+    return static_cast<T>(x) * power(exponent - fraction);
+  }
+  static T floor(T x, int) {
+    const T whole = static_cast<T>(static_cast<std::int64_t>(x));
+    return whole > x ? whole - 1 : whole;
+  }
+  static T truncated(T x, int) { return x; }
+  static T wrapped(T x, int) { return x; }
+  static T power(int n) {  // 2^n
+    T y = 1;
+    for (; n > 0; --n) y *= 2;
+    for (; n < 0; ++n) y /= 2;
+    return y;
+  }
+};
+
+}  // namespace feltgate

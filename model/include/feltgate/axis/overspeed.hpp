@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Law of rtl/safety/overspeed.sv, two causes of fault: the velocity is above its limit, and it has
+// changed in a tick by more than its low-pass can, which only broken hardware does. docs/safety.md
+#pragma once
+
+#include "feltgate/axis/words.hpp"
+
+namespace feltgate {
+
+template <class N>
+struct Overspeed {
+  using T = typename N::T;
+  struct State {
+    T before = 0;
+    bool too_fast = false, jumped = false;
+  };
+
+  explicit Overspeed(const Design& d) : drop(d["VELOCITY_W"] + 17 - d["P_VELOCITY_A1_F"]) {
+    jumps = N::is_fixed && drop >= 0 && drop <= d["VELOCITY_W"] - 2;
+  }
+  State tick(const State& s, const Words<T>& p, T velocity) const {
+    bool jumped = false;
+    if (jumps) jumped = N::beyond(N::scale(velocity, -drop) - N::scale(s.before, -drop), 1);
+    return {velocity, N::beyond(velocity, p.overspeed), jumped};
+  }
+  template <class At>
+  static void show(const At&, const State&, State&) {}
+
+  int drop;
+  bool jumps;
+};
+
+}  // namespace feltgate

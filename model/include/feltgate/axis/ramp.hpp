@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Law of rtl/core/ramp.sv: limits the torque of the scene and ramps it. After arming, a change of
+// scene, of the limit after a long hold, or a restart, tau_ref moves by at most a step a tick until
+// it has reached the scene's torque. Frozen, it may only shrink. docs/blocks/ramp.md
+#pragma once
+
+#include <algorithm>
+
+#include "feltgate/axis/words.hpp"
+
+namespace feltgate {
+
+template <class N>
+struct Ramp {
+  using T = typename N::T;
+  static constexpr int latency = 3;
+  struct State {
+    T ramp = 0;  ///< tau_ref with the ramp's fraction
+    T tau_ref = 0;
+    int scene = 0;
+    bool ramping = true;
+    bool limit_torque = false, limit_ramp = false, limit_hold = false;
+  };
+  struct In {
+    bool armed = false;
+    int scene = 0;
+    bool frozen = false, derated = false, testing = false;
+    T torque = 0;
+  };
+
+  explicit Ramp(const Design& d)
+      : fine(d["RAMP_F"] - d["TORQUE_F"]), least(N::integer(1, 0, d["RAMP_F"])) {}
+
+  State tick(const State& s, const Words<T>& p, const In& in) const {
+    State next = s;
+    next.scene = in.scene;
+    next.limit_hold = in.derated;
+    const bool ramping =
+        s.ramping || !in.armed || in.scene != s.scene || in.derated != s.limit_hold;
+
+    T limit = p.torque_limit;
+    if (in.derated) limit = std::min(limit, p.hold_limit);
+    if (in.testing) limit = std::min(limit, p.self_test_torque);
+    next.limit_torque = in.armed && N::beyond(in.torque, limit);
+    const T target = N::scale(N::limited(in.torque, limit), fine);
+    const T excess = s.ramp - target;
+    const bool down = !(excess < 0), frozen = in.frozen && in.armed;
+    const T step = in.frozen ? T{0} : p.ramp_step == 0 ? least : p.ramp_step;
+    const T left = down ? excess - step : excess + step;
+    const bool reached = left == 0 || (left < 0) == down;
+    // Frozen, a reference stays that would grow or change its sign.
+    const bool stepping = (ramping && in.armed) ||
+                          (frozen && (down ? s.ramp < 0 || target < 0 : s.ramp >= 0 || target > 0));
+    next.limit_ramp = stepping;
+    if (!stepping || !reached) next.ramp = stepping ? target + left : target;
+    next.ramping = ramping && !(stepping && reached);
+    next.tau_ref = N::scale(next.ramp, -fine);
+    return next;
+  }
+  template <class At>
+  static void show(const At& a, const State& from, State& to) {
+    if (a.at(1)) to = from;
+  }
+
+  int fine;
+  T least;  ///< 1 LSB
+};
+
+}  // namespace feltgate

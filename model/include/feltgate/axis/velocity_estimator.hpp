@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: 2026 the feltgate authors
+//
+// Laws of rtl/core/velocity_estimator.sv and travel_window.sv:
+//   raw = gain * counts of the last M1 ticks, saturated;  velocity += a1 * (raw - velocity)
+// docs/blocks/velocity.md
+#pragma once
+
+#include "feltgate/axis/words.hpp"
+
+namespace feltgate {
+
+/// Counts of the last `ticks` ticks; until so many have passed, the counts since the reset. The
+/// line is not in the block, so that a copy of the block is small.
+class TravelWindow {
+ public:
+  std::int16_t tick(std::int16_t* line, int ticks, std::int16_t travel) {
+    const auto counts = static_cast<std::int16_t>(travel - (full_ ? oldest_ : 0));
+    line[place_] = travel;
+    if (++place_ == ticks) {
+      place_ = 0;
+      full_ = true;
+    }
+    oldest_ = line[place_];
+    return counts;
+  }
+
+ private:
+  int place_ = 0;
+  std::int16_t oldest_ = 0;
+  bool full_ = false;
+};
+
+template <class N>
+struct VelocityEstimator {
+  using T = typename N::T;
+  static constexpr int latency = 5;
+  struct State {
+    T velocity = 0;  ///< rad/s
+    bool saturated = false;
+  };
+
+  explicit VelocityEstimator(const Design& d)
+      : gain(d["VELOCITY_GAIN"] == 0 ? 1 : d["VELOCITY_GAIN"]),
+        exponent(d["VELOCITY_F"] +
+                 (d["VELOCITY_GAIN"] == 0 ? d["VELOCITY_SHIFT"] : -d["VELOCITY_GAIN_F"])),
+        w(d["VELOCITY_W"]),
+        f(d["VELOCITY_F"]),
+        a1_f(d["P_VELOCITY_A1_F"]),
+        rounding(d.rounding()) {}
+
+  State tick(const State& s, const Words<T>& p, std::int16_t counts) const {
+    const T speed = N::integer(counts * std::int64_t{gain}, exponent, f);
+    const T raw = N::saturate(speed, w);
+    return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1_f, rounding),
+            raw != speed};
+  }
+  template <class At>
+  static void show(const At& a, const State& from, State& to) {
+    if (a.at(0)) to.saturated = from.saturated;
+    if (a.at(3)) to.velocity = from.velocity;
+  }
+
+  int gain, exponent, w, f, a1_f;
+  Rounding rounding;
+};
+
+}  // namespace feltgate

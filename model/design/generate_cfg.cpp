@@ -74,9 +74,14 @@ const std::vector<Struct> structs{
      "To the bridge's socket.",
      {{"", "gates_enable", ""},
       {"", "gates_clear", "asynchronous: every gate off at once"},
+      {"", "clear", "faults and errors are forgotten"},
       {"", "pwm_mode", "locked antiphase"},
       {"", "polarity", "the motor's leads are swapped"},
-      {"current", "current", "A"},
+      {"", "direct", "direct voltage: no current is controlled"},
+      {"", "sample", "the position is sampled"},
+      {"", "valid", "the duty is new, with current and feed"},
+      {"current", "current", "A, asked for"},
+      {"feed", "feed", "V, of the back-EMF and the dead time"},
       {"duty", "duty", "clocks"}}},
     {"bridge_t",
      "From the bridge's socket.",
@@ -158,6 +163,9 @@ int bits_up_to(int most) {
 
 int tick_bits(const Design& d) { return std::max(6, bits_up_to(d.clocks_per_tick() - 1)); }
 
+/// Of the voltage that no current takes: the sum of back-EMF and dead voltage.
+int feed_bits(const Elaborated& e) { return e.formats.voltage.width() + 3; }
+
 /// "logic", "logic [7:0]", "logic signed [7:0]".
 std::string logic(int bits, bool is_signed) {
   if (bits == 1 && !is_signed) return "logic";
@@ -168,6 +176,7 @@ std::string type_of(const Elaborated& e, const std::string& type) {
   const std::string sign = "signed ";
   if (type.empty()) return logic(1, false);
   if (type == "tick") return logic(tick_bits(e.design), false);
+  if (type == "feed") return logic(feed_bits(e), true);
   if (type.rfind(sign, 0) == 0) return logic(std::stoi(type.substr(sign.size())), true);
   if (type.find_first_not_of("0123456789") == std::string::npos)
     return logic(std::stoi(type), false);
@@ -372,7 +381,9 @@ std::string cfg_package(const Elaborated& e) {
   if (e.design.absolute) corrections_sv(s, e.design);
   params_sv(s, e);
   s << "\n  localparam int TICK_W = " << tick_bits(e.design)
-    << ";  // bits of a clock's number in the tick\n";
+    << ";  // bits of a clock's number in the tick\n"
+    << "  localparam int FEED_W = " << feed_bits(e)
+    << ";  // bits of the voltage that no current takes\n";
   for (const Struct& t : structs) struct_sv(s, e, t);
   control_sv(s, e.registers);
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";

@@ -157,9 +157,7 @@ bool update_design(const Options& o, const feltgate::design::Elaborated& e) {
   const std::string& name = e.design.name;
   const fs::path folder = o.root / "rtl/generated" / name;
   bool stale = update(folder / "feltgate_pkg.sv", systemverilog_package(e), o.check_only);
-  if (name == "lever" || name == "paper") {  // the others' are written at build time
-    stale |= update(folder / "cfg.sv", cfg_package(e), o.check_only);
-  }
+  stale |= update(folder / "cfg.sv", cfg_package(e), o.check_only);
   stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
   stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
                   o.check_only);

@@ -340,14 +340,16 @@ package cfg;
   } params_t;
 
   localparam int TICK_W = 6;  // bits of a clock's number in the tick
+  localparam int FEED_W = 23;  // bits of the voltage that no current takes
 
   // The tick, and the clocks in which its results are new.
   typedef struct packed {
     logic [5:0] clock;  // of the tick, from 0 on
     logic sample;  // the position is sampled
-    logic velocity;  // is new, as the next three
+    logic velocity;  // is new, as the next four
     logic tau_hat;
     logic scene;  // its torque
+    logic tau_ref;
     logic duty;
     logic last;  // the last clock of the tick
     logic [31:0] count;  // ticks since the reset
@@ -387,9 +389,14 @@ package cfg;
   typedef struct packed {
     logic gates_enable;
     logic gates_clear;  // asynchronous: every gate off at once
+    logic clear;  // faults and errors are forgotten
     logic pwm_mode;  // locked antiphase
     logic polarity;  // the motor's leads are swapped
-    logic signed [21:0] current;  // A
+    logic direct;  // direct voltage: no current is controlled
+    logic sample;  // the position is sampled
+    logic valid;  // the duty is new, with current and feed
+    logic signed [21:0] current;  // A, asked for
+    logic signed [22:0] feed;  // V, of the back-EMF and the dead time
     logic signed [12:0] duty;  // clocks
   } drive_t;
 
@@ -442,7 +449,7 @@ package cfg;
   // State of the safety.
   typedef struct packed {
     logic armed;
-    logic arms;  // with the last clock of a tick: armed from the next clock on
+    logic locks;  // with the last clock of a tick: armed from the next clock on, unless a cause comes
     logic gates_enable;  // falls at once at a fault
     logic gates_clear;  // asynchronous: every gate off at once
     logic clear;  // faults and errors are forgotten

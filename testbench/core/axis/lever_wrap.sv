@@ -26,7 +26,7 @@ module lever_wrap (
     output logic [31:0] reg_rdata_o,
     output logic [ 3:0] gates_o,
     output logic [15:0] clock_o,
-    output logic [ 5:0] at_o,
+    output logic [ 6:0] at_o,
     output logic [31:0] count_o,
     output logic [31:0] position_o,
     output logic [31:0] status_o,
@@ -63,7 +63,7 @@ module lever_wrap (
       .duty_active_o(duty_active), .zeroed_o(zeroed_o)
   );
   assign clock_o        = 16'(t.clock);
-  assign at_o           = {t.sample, t.velocity, t.tau_hat, t.scene, t.duty, t.last};
+  assign at_o           = {t.sample, t.velocity, t.tau_hat, t.scene, t.tau_ref, t.duty, t.last};
   assign count_o        = t.count;
   assign position_o     = s.position;
   assign status_o       = s.status;
@@ -78,7 +78,7 @@ module lever_wrap (
   assign current_o      = 32'($signed(s.current));
   assign voltage_o      = 32'($signed(s.voltage));
   assign duty_o         = 32'($signed(s.duty));
-  assign safety_o       = {f.armed, f.arms, f.gates_enable, f.gates_clear, f.clear, f.arm_request, f.ready, f.unkicked,
+  assign safety_o       = {f.armed, f.locks, f.gates_enable, f.gates_clear, f.clear, f.arm_request, f.ready, f.unkicked,
                            f.derated, f.testing};
   assign test_torque_o  = 32'($signed(f.test_torque));
   assign latched_o      = {f.test_result, f.faults, f.first_fault};

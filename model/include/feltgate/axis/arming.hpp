@@ -33,17 +33,15 @@ class Arming {
   bool ready(const In& in) const {
     return able(in) && !in.fault && !in.stopped && !stopped_ && !in.kick_missing;
   }
-  bool may(const In& in, bool trip, int wait_ticks) const {
-    return request(in) && ready(in) && !trip &&
+  bool may(const In& in, int wait_ticks) const {
+    return request(in) && ready(in) &&
            (open_ || (!in.refuse && (handed(in) || waited_ < wait_ticks)));
   }
-  /// In the last clock of a tick: armed from the next clock on.
-  bool arms(const In& in, bool trip, int wait_ticks) const {
-    return may(in, trip, wait_ticks) && !in.wait;
-  }
+  /// In the last clock of a tick: armed from the next clock on, unless a cause comes in this clock.
+  bool locks(const In& in, int wait_ticks) const { return may(in, wait_ticks) && !in.wait; }
   void clock(bool tick, const In& in, bool trip, int wait_ticks) {
     if (tick) {
-      const bool may = this->may(in, trip, wait_ticks);
+      const bool may = this->may(in, wait_ticks) && !trip;
       const bool arms = may && !in.wait, waits = may && in.wait && !open_;
       waited_ = waits && !handed(in) ? waited_ + 1 : 0;
       host_ = in.host;

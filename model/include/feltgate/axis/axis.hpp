@@ -69,6 +69,7 @@ class Axis {
     t.velocity = q_.velocity.valid(laws_->velocity.latency);
     t.tau_hat = q_.observer.valid(laws_->observer.latency);
     t.scene = q_.scene.valid(laws_->scene.latency(q_.host.scene));
+    t.tau_ref = q_.ramp.valid(laws_->ramp.latency);
     t.duty = q_.torque.valid(laws_->torque.latency);
     t.last = q_.ticks.last;
     t.count = q_.ticks.count;
@@ -78,7 +79,7 @@ class Axis {
   Out out(const In& in) const {
     Out o;
     o.tick = tick();
-    o.safety = q_.safety.see(*laws_, params_.p, to_safety(in, o.tick));
+    o.safety = q_.safety.see(*laws_, to_safety(in, o.tick));
     o.snapshot = values(in, o.safety);
     o.zeroed = q_.host.registers.set_zero(o.tick.last);
     o.encoder = encoder(o.tick, o.zeroed, o.safety.clear);
@@ -94,7 +95,7 @@ class Axis {
     const Words<std::int64_t>& p = params_.p;
     const Tick tick = this->tick();
     const Safety::In to_safety = this->to_safety(in, tick);
-    const Safe safe = q_.safety.see(laws, p, to_safety);
+    const Safe safe = q_.safety.see(laws, to_safety);
     const Values values = this->values(in, safe);
     const int scene = q_.host.scene;
     const bool testing = safe.testing || in.peers.testing;
@@ -113,19 +114,17 @@ class Axis {
       return laws.observer.tick(q_.observer.state, p, safe.armed, motor_current(in),
                                 q_.velocity.shown.velocity);
     });
-    const bool torque_valid = tick.scene;
-    const bool tau_ref_valid = q_.ramp.valid(laws.ramp.latency);
     q_.scene.clock(tick.velocity, [&] {
       return laws.scene.tick(q_.scene.state, p, safe.armed && !testing, scene,
                              Fixed::saturate(q_.position, 18), q_.velocity.shown.velocity, in.law);
     });
-    q_.ramp.clock(torque_valid, [&] {
+    q_.ramp.clock(tick.scene, [&] {
       return laws.ramp.tick(
           q_.ramp.state, p,
           to_ramp(in, q_.scene.state.torque, safe.armed && !testing, safe.testing));
     });
-    if (torque_valid) q_.ramp.shown.limit_torque = q_.ramp.state.limit_torque;
-    q_.torque.clock(tau_ref_valid, [&] {  // tau_hat is new a clock later at the latest
+    if (tick.scene) q_.ramp.shown.limit_torque = q_.ramp.state.limit_torque;
+    q_.torque.clock(tick.tau_ref, [&] {  // tau_hat is new a clock later at the latest
       return laws.torque.tick(q_.torque.state, p, safe.armed, control().mode(),
                               q_.ramp.state.tau_ref, q_.observer.state.tau_hat,
                               q_.velocity.shown.velocity);

@@ -59,7 +59,7 @@ struct Host {
     addr2 = addr;
     addr = port.addr;
     const Registers::In in = at_port(tick.last, panel, port, safe, position);
-    snapshot.clock(bank, tick.last, tick.tau_hat, tick.duty,
+    snapshot.clock(bank, tick.last, tick.tau_ref, tick.duty,
                    registers.command(tick.last, Map::C::command_freeze),
                    registers.command(tick.last, Map::C::command_thaw), values, port.addr);
     params.clock(m, formats, tick.clock, scene, registers.write(tick.last, in.armed),
@@ -89,7 +89,7 @@ struct Host {
   }
   Registers::In at_port(bool last, const Panel& panel, const RegisterPort& port, const Safe& safe,
                         const Position& position) const {
-    return {last, port, safe.armed || safe.arms, position.polarity_holds, panel.set_zero, scene};
+    return {last, port, safe.armed || safe.locks, position.polarity_holds, panel.set_zero, scene};
   }
 
  private:

@@ -12,7 +12,7 @@ namespace feltgate {
 template <class N>
 struct Observer {
   using T = typename N::T;
-  static constexpr int latency = 9;
+  static constexpr int latency = 8;
   struct State {
     T y = 0;
     T tau_hat = 0;  ///< Nm; positive opposes positive motor torque
@@ -40,7 +40,7 @@ struct Observer {
   }
   template <class At>
   static void show(const At& a, const State& from, State& to) {
-    if (a.at(7)) to = from;
+    if (a.at(6)) to = from;
   }
 
   int drive, inertia, difference, a1_drop, drop, w;

@@ -121,10 +121,10 @@ struct Safety {
     s.current_estimate = heat.shown.current;
     return s;
   }
-  Safe see(const Laws& laws, const P& p, const In& in) const {
+  Safe see(const Laws& laws, const In& in) const {
     const Arming::In a = request(laws, in);
     Safe s = levels(laws);
-    s.arms = arming.arms(a, trips(laws, p, in) != 0, laws.wait_ticks);
+    s.locks = arming.locks(a, laws.wait_ticks);
     s.gates_clear = stop.gates_clear(in.commands.stop);
     s.clear = in.commands.clear_faults && !arming.request(a);
     s.arm_request = arming.counts(a) && !starts(in);
@@ -140,7 +140,7 @@ struct Safety {
     const std::uint16_t trips = this->trips(laws, p, in);
     const Arming::In a = request(laws, in);
     const bool open = arming.open(), armed = arming.armed();
-    const bool arms = arming.arms(a, trips != 0, laws.wait_ticks);
+    const bool arms = arming.locks(a, laws.wait_ticks) && trips == 0;
     const bool clear = in.commands.clear_faults && !arming.request(a);
 
     errors.clock(in.tick.last, in.position.illegal);

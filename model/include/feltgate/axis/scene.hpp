@@ -51,7 +51,8 @@ struct Scene {
     return scene == S::charge_attract || scene == S::charge_repel;
   }
   bool has(int scene) const { return (mask >> scene & 1) != 0; }
-  int latency(int scene) const { return is_charge(scene) && has(scene) ? 25 : 5; }
+  /// After the velocity; a charge's divider has started with the position.
+  int latency(int scene) const { return is_charge(scene) && has(scene) ? 21 : 4; }
 
   /// A term with its guard bits; of what is dropped it keeps a trace, for rounding to even.
   T single(T product, int fraction) const {

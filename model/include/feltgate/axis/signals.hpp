@@ -14,7 +14,8 @@ namespace feltgate {
 struct Tick {
   int clock = 0;                                                        ///< of the tick, from 0
   bool sample = false;                                                  ///< the position is sampled
-  bool velocity = false, tau_hat = false, scene = false, duty = false;  ///< is new
+  bool velocity = false, tau_hat = false, scene = false, tau_ref = false,
+       duty = false;   ///< is new
   bool last = false;                                                    ///< clock of a tick
   std::uint32_t count = 0;
 };
@@ -88,7 +89,7 @@ struct Commands {
 
 /// From safety.
 struct Safe {
-  bool armed = false, arms = false, gates_enable = false, gates_clear = false, clear = false,
+  bool armed = false, locks = false, gates_enable = false, gates_clear = false, clear = false,
        arm_request = false, ready = false, unkicked = false, derated = false, testing = false;
   std::int64_t test_torque = 0;
   int test_result = 0;

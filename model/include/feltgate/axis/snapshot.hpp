@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/host/snapshot.sv: all words of a tick for the host, in two banks. The words go one a
-// clock, those of the chain's second half after its end. docs/registers.md
+// clock, the chain's last ones after its end. docs/registers.md
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace feltgate {
 class Snapshot {
  public:
   using Memory = std::array<std::uint32_t, 128>;
-  static constexpr int words = 12, early = 7;
+  static constexpr int words = 12, early = 9;
   SnapshotWord word;
   std::uint32_t read_data() const { return read_data_; }
 
-  /// `begin`: tau_hat is new. `end`: duty is new.
+  /// `begin`: tau_ref is new. `end`: duty is new.
   void clock(Memory& m, bool tick, bool begin, bool end, bool freeze, bool thaw, const Values& v,
              int read_addr) {
     read(m, read_addr);

@@ -16,7 +16,7 @@ namespace feltgate {
 template <class N>
 struct TorqueLaw {
   using T = typename N::T;
-  static constexpr int latency = 10;
+  static constexpr int latency = 13;
   struct State {
     T current = 0;  ///< A
     T voltage = 0;  ///< V, saturated
@@ -70,15 +70,15 @@ struct TorqueLaw {
   }
   template <class At>
   static void show(const At& a, const State& from, State& to) {
-    if (a.at(2)) {
+    if (a.at(3)) {
       to.current = from.current;
       to.limit_current = from.limit_current;
     }
-    if (a.at(5)) {
+    if (a.at(7)) {
       to.voltage = from.voltage;
       to.limit_voltage = from.limit_voltage;
     }
-    if (a.at(8)) {
+    if (a.at(11)) {
       to.duty = from.duty;
       to.limit_duty = from.limit_duty;
     }

@@ -21,9 +21,9 @@
 
 namespace {
 
-using feltgate::Axis;
-using feltgate::Design;
-using feltgate::LeverTop;
+using feltgate::axis::Axis;
+using feltgate::axis::Design;
+using feltgate::axis::LeverTop;
 using feltgate::Map;
 
 Design design() {
@@ -152,14 +152,14 @@ class Stimulus {
     }
   }
   void any_word() {  // a word of the design: near its value, any in its format, or any at all
-    const feltgate::Word& w = words_[r_.below(static_cast<std::uint32_t>(words_.size()))];
+    const feltgate::axis::Word& w = words_[r_.below(static_cast<std::uint32_t>(words_.size()))];
     if (!faults_ && (w.address == Map::A::overspeed || w.address == Map::A::i2t_budget ||
                      w.address == Map::A::polarity_ticks || w.address == Map::A::hold_time)) {
       return;
     }
     const std::uint32_t kind = r_.below(10);
     write(w.address, kind < 4   ? w.reset + r_.word(8)
-                     : kind < 8 ? feltgate::low_bits(static_cast<std::uint32_t>(r_.bits()), w.bits)
+                     : kind < 8 ? feltgate::axis::low_bits(static_cast<std::uint32_t>(r_.bits()), w.bits)
                      : kind < 9 ? r_.word(32)
                                 : static_cast<std::uint32_t>(r_.bits()));
   }
@@ -222,13 +222,13 @@ class Stimulus {
   }
 
   Random r_;
-  std::vector<feltgate::Word> words_;
+  std::vector<feltgate::axis::Word> words_;
   std::uint32_t i2t_start_;
   int fastest_ = 250;
   bool faults_ = false, still_ = false, quiet_ = false;
   int speed_ = 0, wait_ = 100, ab_ = 0, chatter_ = 0;
   std::uint32_t scene_ = 9, mode_ = 0, held_ = 0;
-  std::vector<feltgate::RegisterPort> queue_;
+  std::vector<feltgate::axis::RegisterPort> queue_;
 };
 
 /// The outputs of RTL and twin, by name.
@@ -243,8 +243,8 @@ std::uint64_t bits(std::initializer_list<bool> from_top) {
 void outputs(const LeverTop& twin, const LeverTop::In& in, Outputs& to) {
   const Axis::Out o = twin.out(in);
   const feltgate::Pwm::Out& g = twin.gates();
-  const feltgate::Values& s = o.snapshot;
-  const feltgate::Safe& f = o.safety;
+  const feltgate::axis::Values& s = o.snapshot;
+  const feltgate::axis::Safe& f = o.safety;
   to = {{"reg_busy", o.reg_busy},
         {"reg_rdata", o.reg_rdata},
         {"gates", bits({g.gate_b_lo, g.gate_b_hi, g.gate_a_lo, g.gate_a_hi})},
@@ -306,7 +306,7 @@ void outputs(const Vtop& rtl, Outputs& to) {
 }
 
 void drive(Vtop& rtl, const LeverTop::In& in) {
-  const feltgate::Peers& p = in.peers;
+  const feltgate::axis::Peers& p = in.peers;
   rtl.rst_ni = !in.reset;
   rtl.enc_a_i = in.pins.a;
   rtl.enc_b_i = in.pins.b;

@@ -8,7 +8,7 @@
 #include "feltgate/axis/design.hpp"
 #include "feltgate/generated/map.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class Arming {
  public:
@@ -63,4 +63,4 @@ class Arming {
   bool armed_ = false, open_ = false;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

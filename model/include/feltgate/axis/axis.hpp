@@ -16,7 +16,7 @@
 #include "feltgate/axis/safety.hpp"
 #include "feltgate/axis/tick_counter.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class Axis {
  public:
@@ -306,4 +306,4 @@ class Axis {
   Blocks q_;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// Law has State, which a tick makes of the state before, and show(at, from, to): what is new when.
 template <class Law>
@@ -35,4 +35,4 @@ class Clocked {
   std::uint32_t at_ = 0;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -16,7 +16,7 @@
 
 #include "feltgate/axis/fx.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// A word of the host.
 struct Word {
@@ -62,4 +62,4 @@ struct Design {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -7,7 +7,7 @@
 
 #include "feltgate/generated/map.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class EncoderErrors {
  public:
@@ -29,4 +29,4 @@ class EncoderErrors {
   unsigned ticks_ = 0;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

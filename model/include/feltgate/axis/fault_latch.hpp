@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace feltgate {
+namespace feltgate::axis {
 
 struct FaultLatch {
   std::uint16_t faults = 0;  ///< seen, by number of the cause
@@ -22,4 +22,4 @@ struct FaultLatch {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

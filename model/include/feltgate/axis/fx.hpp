@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// Where the chain rounds; cfg::ROUNDING.
 enum class Rounding : std::uint8_t { half_up, down, half_to_even };
@@ -96,4 +96,4 @@ struct Real {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -11,7 +11,7 @@
 #include "feltgate/axis/signals.hpp"
 #include "feltgate/pwm.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class HBridge {
  public:
@@ -79,4 +79,4 @@ class HBridge {
   bool enable_ = false, clear_ = false;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -7,7 +7,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct HoldTimer {
@@ -27,4 +27,4 @@ struct HoldTimer {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -9,7 +9,7 @@
 #include "feltgate/axis/registers.hpp"
 #include "feltgate/axis/snapshot.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 struct Host {
   Registers registers;
@@ -103,4 +103,4 @@ struct Host {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

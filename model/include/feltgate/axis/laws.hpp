@@ -17,7 +17,7 @@
 #include "feltgate/axis/torque_law.hpp"
 #include "feltgate/axis/velocity_estimator.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 struct Laws {
   explicit Laws(const Design& d)
@@ -52,4 +52,4 @@ struct Laws {
   std::uint32_t control_reset;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

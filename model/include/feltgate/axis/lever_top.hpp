@@ -9,7 +9,7 @@
 #include "feltgate/axis/h_bridge.hpp"
 #include "feltgate/axis/quadrature.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class LeverTop {
  public:
@@ -113,4 +113,4 @@ class LeverTop {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

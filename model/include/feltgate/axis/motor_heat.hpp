@@ -11,7 +11,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct MotorHeat {
@@ -49,4 +49,4 @@ struct MotorHeat {
   T start, full;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

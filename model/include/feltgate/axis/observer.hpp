@@ -7,7 +7,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct Observer {
@@ -47,4 +47,4 @@ struct Observer {
   Rounding rounding;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

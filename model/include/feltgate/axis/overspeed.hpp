@@ -7,7 +7,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct Overspeed {
@@ -32,4 +32,4 @@ struct Overspeed {
   bool jumps;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -8,7 +8,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// RAM and registers. A reset does not change them.
 struct ParamsMemory {
@@ -109,4 +109,4 @@ class Params {
   std::uint32_t read_ = 0, read_data_ = 0;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

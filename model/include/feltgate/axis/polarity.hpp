@@ -10,7 +10,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct Polarity {
@@ -45,4 +45,4 @@ struct Polarity {
   int drop, w;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

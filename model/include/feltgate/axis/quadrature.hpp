@@ -11,7 +11,7 @@
 #include "feltgate/encoder_source.hpp"
 #include "feltgate/quad_decoder.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class Quadrature {
  public:
@@ -89,4 +89,4 @@ class Quadrature {
   bool sampled_ = false;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

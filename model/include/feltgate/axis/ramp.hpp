@@ -10,7 +10,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct Ramp {
@@ -68,4 +68,4 @@ struct Ramp {
   T least;  ///< 1 LSB
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -8,7 +8,7 @@
 #include "feltgate/axis/signals.hpp"
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// The host's side of the port.
 struct RegisterPort {
@@ -109,4 +109,4 @@ class Registers {
   std::uint32_t data_ = 0;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -14,7 +14,7 @@
 #include "feltgate/axis/stop_latch.hpp"
 #include "feltgate/axis/watchdog.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// Numbers of the causes.
 namespace fault {
@@ -194,4 +194,4 @@ struct Safety {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

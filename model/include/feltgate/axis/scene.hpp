@@ -13,7 +13,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// Torque of a program, for the scene law.
 template <class T>
@@ -135,4 +135,4 @@ struct Scene {
   Rounding rounding;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -8,7 +8,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class SelfTest {
  public:
@@ -107,4 +107,4 @@ class SelfTest {
   bool unit_ = false, patience_ = false, late_ = false, fail_ = false;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -9,7 +9,7 @@
 
 #include "feltgate/generated/map.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 struct Tick {
   int clock = 0;                                                        ///< of the tick, from 0
@@ -116,4 +116,4 @@ struct SnapshotWord {
   std::uint32_t data = 0;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -9,7 +9,7 @@
 
 #include "feltgate/axis/signals.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class Snapshot {
  public:
@@ -94,4 +94,4 @@ class Snapshot {
   std::uint32_t read_ = 0, read_data_ = 0;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

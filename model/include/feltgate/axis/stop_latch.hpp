@@ -5,7 +5,7 @@
 // clock. The latch powers up set and has no reset. docs/safety.md
 #pragma once
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class StopLatch {
  public:
@@ -31,4 +31,4 @@ class StopLatch {
   bool latch_ = true, before_ = true, stop_ = true;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace feltgate {
+namespace feltgate::axis {
 
 struct TickCounter {
   static constexpr int sample_clock = 2;
@@ -23,4 +23,4 @@ struct TickCounter {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

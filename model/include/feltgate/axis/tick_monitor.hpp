@@ -7,7 +7,7 @@
 
 #include "feltgate/axis/design.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class TickMonitor {
  public:
@@ -29,4 +29,4 @@ class TickMonitor {
   bool tick_ = false;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

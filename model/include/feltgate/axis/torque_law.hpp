@@ -11,7 +11,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class N>
 struct TorqueLaw {
@@ -90,4 +90,4 @@ struct TorqueLaw {
   Rounding rounding;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

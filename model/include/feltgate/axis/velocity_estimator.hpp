@@ -8,7 +8,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// Counts of the last `ticks` ticks; until so many have passed, the counts since the reset. The
 /// line is not in the block, so that a copy of the block is small.
@@ -65,4 +65,4 @@ struct VelocityEstimator {
   Rounding rounding;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -7,7 +7,7 @@
 
 #include "feltgate/axis/words.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 class Watchdog {
  public:
@@ -29,4 +29,4 @@ class Watchdog {
   bool silent_ = false, awake_ = false;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -11,7 +11,7 @@
 #include "feltgate/axis/design.hpp"
 #include "feltgate/generated/map.hpp"
 
-namespace feltgate {
+namespace feltgate::axis {
 
 template <class T>
 struct Words {
@@ -164,4 +164,4 @@ struct WordFormats {
   }
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -367,7 +367,9 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
       << "\", A::" << w.parameter.name << ", P::" << w.parameter.name << ",\n       "
       << real_literal(w.si) << ", " << w.raw << "},\n";
   }
-  s << "  };\n};\n\n}  // namespace feltgate\n";
+  s << "  };\n\n  /// All of it as text, for axis::Design::read().\n"
+    << "  static constexpr const char* text = R\"(" << design_text(e) << ")\";\n"
+    << "};\n\n}  // namespace feltgate\n";
   return s.str();
 }
 

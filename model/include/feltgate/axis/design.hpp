@@ -64,18 +64,15 @@ struct Design {
   /// Lines "NAME value" and "word name address bits sign fraction reset".
   static Design read(std::istream& in) {
     Design d;
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream fields(line);
-      std::string name;
-      fields >> name;
+    for (std::string name; in >> name;) {
       if (name == "word") {
         Word w;
-        fields >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
+        in >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
         d.words.push_back(w);
-      } else if (!name.empty()) {
-        fields >> d.constants[name];
+      } else {
+        in >> d.constants[name];
       }
-      if (fields.fail()) throw std::runtime_error("design: cannot read: " + line);
+      if (in.fail()) throw std::runtime_error("design: cannot read what follows " + name);
     }
     return d;
   }

@@ -64,15 +64,18 @@ struct Design {
   /// Lines "NAME value" and "word name address bits sign fraction reset".
   static Design read(std::istream& in) {
     Design d;
-    for (std::string name; in >> name;) {
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream fields(line);
+      std::string name;
+      fields >> name;
       if (name == "word") {
         Word w;
-        in >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
+        fields >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
         d.words.push_back(w);
-      } else {
-        in >> d.constants[name];
+      } else if (!name.empty()) {
+        fields >> d.constants[name];
       }
-      if (in.fail()) throw std::runtime_error("design: cannot read what follows " + name);
+      if (fields.fail()) throw std::runtime_error("design: cannot read: " + line);
     }
     return d;
   }

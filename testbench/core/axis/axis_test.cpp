@@ -17,7 +17,7 @@
 #include <tuple>
 
 #include "Vtop.h"
-#include "feltgate/axis/lever_top.hpp"
+#include "feltgate/axis/tops.hpp"
 
 namespace {
 
@@ -104,11 +104,12 @@ class Stimulus {
       }
     }
     if (r_.one_in(400000)) chatter_ = static_cast<int>(r_.below(60));
-    in.pins.a = ab_ == 2 || ab_ == 3;
-    in.pins.b = ab_ == 1 || ab_ == 2;
-    if (r_.one_in(faults_ ? 10000 : 100000)) in.pins.a = !in.pins.a;
+    in.pins.encoder.a = ab_ == 2 || ab_ == 3;
+    in.pins.encoder.b = ab_ == 1 || ab_ == 2;
+    if (r_.one_in(faults_ ? 10000 : 100000)) in.pins.encoder.a = !in.pins.encoder.a;
     if (faults_ && r_.one_in(50000)) ab_ ^= 2;
-    if (in.pins.z ? r_.one_in(30) : r_.one_in(30000)) in.pins.z = !in.pins.z;
+    if (in.pins.encoder.z ? r_.one_in(30) : r_.one_in(30000))
+      in.pins.encoder.z = !in.pins.encoder.z;
   }
   void write(int address, std::uint32_t word) { queue_.push_back({address, word, true}); }
   void port(bool busy) {
@@ -241,13 +242,12 @@ std::uint64_t bits(std::initializer_list<bool> from_top) {
 }
 
 void outputs(const LeverTop& twin, const LeverTop::In& in, Outputs& to) {
-  const Axis::Out o = twin.out(in);
-  const feltgate::Pwm::Out& g = twin.gates();
+  const LeverTop::Out o = twin.out(in);
   const feltgate::axis::Values& s = o.snapshot;
   const feltgate::axis::Safe& f = o.safety;
   to = {{"reg_busy", o.reg_busy},
         {"reg_rdata", o.reg_rdata},
-        {"gates", bits({g.gate_b_lo, g.gate_b_hi, g.gate_a_lo, g.gate_a_hi})},
+        {"gates", o.gates},
         {"tick.clock", static_cast<std::uint64_t>(o.tick.clock)},
         {"tick.at", bits({o.tick.sample, o.tick.velocity, o.tick.tau_hat, o.tick.scene, o.tick.tau_ref,
                           o.tick.duty, o.tick.last})},
@@ -273,7 +273,7 @@ void outputs(const LeverTop& twin, const LeverTop::In& in, Outputs& to) {
         {"estimate", signed32(f.current_estimate)},
         {"word", (o.word.valid ? std::uint64_t{1} << 38 : 0) |
                      static_cast<std::uint64_t>(o.word.place) << 32 | o.word.data},
-        {"duty_active", signed32(g.duty_active)},
+        {"duty_active", signed32(o.duty_active)},
         {"zeroed", o.zeroed}};
 }
 void outputs(const Vtop& rtl, Outputs& to) {
@@ -308,9 +308,9 @@ void outputs(const Vtop& rtl, Outputs& to) {
 void drive(Vtop& rtl, const LeverTop::In& in) {
   const feltgate::axis::Peers& p = in.peers;
   rtl.rst_ni = !in.reset;
-  rtl.enc_a_i = in.pins.a;
-  rtl.enc_b_i = in.pins.b;
-  rtl.enc_z_i = in.pins.z;
+  rtl.enc_a_i = in.pins.encoder.a;
+  rtl.enc_b_i = in.pins.encoder.b;
+  rtl.enc_z_i = in.pins.encoder.z;
   rtl.arm_i = in.panel.arm;
   rtl.stop_i = in.panel.stop;
   rtl.set_zero_i = in.panel.set_zero;
@@ -424,18 +424,19 @@ TEST_CASE("run equals clock in every output") {
       LeverTop::In in = s.in;
       std::vector<feltgate::EncoderEvent> events;
       const long most = 1 + static_cast<long>(lengths() % (lengths() % 4 == 0 ? 30000 : 300));
-      const feltgate::EncoderPins before = in.pins;
+      const feltgate::EncoderPins before = in.pins.encoder;
       long n = 0;
       bool same = true;
       for (; n < most && same; ++n) {
-        in.pins = s.in.pins;
-        if (n > 0 && in.pins != events_pins(events, before)) events.push_back({n, in.pins});
+        in.pins.encoder = s.in.pins.encoder;
+        if (n > 0 && in.pins.encoder != events_pins(events, before))
+          events.push_back({n, in.pins.encoder});
         by_clock.clock(in);
         s.next(by_clock.axis.clock_of_tick(), by_clock.out(in).reg_busy);
         same = same_but_pins(s.in, in);
       }
       LeverTop::In of_stretch = in;
-      of_stretch.pins = before;
+      of_stretch.pins.encoder = before;
       by_run.run(of_stretch, n, events.data(), events.data() + events.size());
       at += n;
       outputs(by_clock, in, of_clock);

@@ -83,7 +83,7 @@ class Axis {
     o.snapshot = values(in, o.safety);
     o.zeroed = q_.host.registers.set_zero(o.tick.last);
     o.encoder = encoder(o.tick, o.zeroed, o.safety.clear);
-    o.drive = drive(o.safety.gates_clear);
+    o.drive = drive(o.safety.gates_clear, o.safety.clear);
     o.word = q_.host.snapshot.word;
     o.reg_busy = q_.host.registers.busy();
     o.reg_rdata = q_.host.rdata;
@@ -226,19 +226,26 @@ class Axis {
   }
 
   const Laws& laws() const { return *laws_; }
+  const Words<std::int64_t>& p() const { return params_.p; }
   /// The bridge's operands, but for the stop pin.
-  Drive drive(bool gates_clear) const {
+  Drive drive(bool gates_clear, bool clear) const {
+    const Tick tick = this->tick();
     return {q_.safety.arming.open(),
             gates_clear,
+            clear,
             control().pwm_mode(),
             control().motor_polarity(),
+            control().mode() == Map::mode_voltage,
+            tick.sample,
+            tick.duty,
             static_cast<std::int32_t>(q_.torque.shown.current),
+            static_cast<std::int32_t>(q_.torque.state.feed),
             static_cast<std::int16_t>(q_.torque.shown.duty)};
   }
   bool gates_clear(const In& in) const { return q_.safety.stop.gates_clear(in.panel.stop); }
   Encoder encoder(const Tick& tick, bool set_zero, bool clear) const {
-    return {tick.sample, tick.count, control().filter(), control().encoder_polarity(),
-            set_zero,    clear};
+    return {tick.sample, tick.count, control().filter(),     control().encoder_polarity(),
+            set_zero,    clear,      q_.safety.arming.open()};
   }
   int clock_of_tick() const { return q_.ticks.at; }
   Control control() const { return q_.host.registers.control; }

@@ -9,12 +9,14 @@
 
 #include "feltgate/axis/design.hpp"
 #include "feltgate/axis/signals.hpp"
+#include "feltgate/axis/words.hpp"
 #include "feltgate/pwm.hpp"
 
 namespace feltgate::axis {
 
 class HBridge {
  public:
+  static constexpr bool whole_ticks = true;
   explicit HBridge(const Design& d)
       : pwm_(d["PWM_PERIOD"], d["DEAD_CLOCKS"], d["SHORTEST_CLOCKS"]) {}
 
@@ -24,8 +26,14 @@ class HBridge {
     b.duty_active = pwm_.out().duty_active;
     return b;
   }
-  const Pwm::Out& gates() const { return pwm_.out(); }
-  void clock(const Drive& drive) {
+  /// Bit 0 leg A high, bit 1 leg A low, then B and C.
+  unsigned gates() const {
+    const Pwm::Out& o = pwm_.out();
+    return unsigned{o.gate_a_hi} | unsigned{o.gate_a_lo} << 1 | unsigned{o.gate_b_hi} << 2 |
+           unsigned{o.gate_b_lo} << 3;
+  }
+  bool modulator_clock() const { return false; }
+  void clock(const Pins&, const Drive& drive, const Words<std::int64_t>&, const Rotor&) {
     settle();
     pwm_.clock(at(drive));
   }

@@ -7,6 +7,7 @@
 
 #include "feltgate/axis/design.hpp"
 #include "feltgate/axis/signals.hpp"
+#include "feltgate/axis/words.hpp"
 #include "feltgate/encoder_monitor.hpp"
 #include "feltgate/encoder_source.hpp"
 #include "feltgate/quad_decoder.hpp"
@@ -15,6 +16,7 @@ namespace feltgate::axis {
 
 class Quadrature {
  public:
+  static constexpr bool whole_ticks = true;
   explicit Quadrature(const Design& d)
       : decoder_(0, static_cast<std::uint32_t>(d["INDEX_COUNTS"])),
         edge_bits_(d["EDGE_UNIT_BITS"]),
@@ -25,6 +27,7 @@ class Quadrature {
     const QuadDecoder::Out& o = decoder_.out();
     Position s;
     s.position = o.position;
+    s.count = static_cast<std::int32_t>(o.count);
     s.travel = o.travel;
     s.moved = monitor_.moved();
     s.chatters = monitor_.chatters();
@@ -37,10 +40,12 @@ class Quadrature {
     s.trip_index = sampled_ && monitor_.index_trips();
     return s;
   }
-  void clock(const EncoderPins& pins, const Encoder& e) {
+  Rotor rotor() const { return {}; }
+  unsigned lines() const { return 1; }  ///< of an absolute encoder: none is selected
+  void clock(const Pins& pins, const Encoder& e, const Words<std::int64_t>&) {
     if (e.sample) sample(e.tick_count);
     sampled_ = e.sample;
-    decoder_.clock(at(pins, e));
+    decoder_.clock(at(pins.encoder, e));
   }
   void reset() {
     decoder_.reset();
@@ -55,13 +60,13 @@ class Quadrature {
     return monitor_.trips() || monitor_.index_trips();
   }
   /// Further clocks with these inputs change nothing but the monitor.
-  bool rests(const EncoderPins& pins, const Encoder& e) const {
-    return decoder_.settled(at(pins, e));
+  bool rests(const Pins& pins, const Encoder& e) const {
+    return decoder_.settled(at(pins.encoder, e));
   }
   /// A clock without a sample; whether it was an ordinary one: no index, no wrong edge.
-  bool edge(const EncoderPins& pins, const Encoder& e) {
+  bool edge(const Pins& pins, const Encoder& e) {
     const QuadDecoder::Out before = decoder_.out();
-    decoder_.clock(at(pins, e));
+    decoder_.clock(at(pins.encoder, e));
     const QuadDecoder::Out& now = decoder_.out();
     return !now.illegal && now.error_count == before.error_count &&
            now.rejected_count == before.rejected_count &&

@@ -21,6 +21,7 @@ struct TorqueLaw {
     T current = 0;  ///< A
     T voltage = 0;  ///< V, saturated
     T duty = 0;     ///< clocks of on-time
+    T feed = 0;     ///< V: back-EMF and dead voltage
     bool limit_current = false, limit_voltage = false, limit_duty = false;
   };
 
@@ -55,6 +56,7 @@ struct TorqueLaw {
     const T emf = N::scale(velocity * p.emf_constant, emf_constant);
     const bool high = N::beyond(tau_ref, p.region_torque);
     if (direct || !emf_in_law) offset -= emf;
+    next.feed = emf + offset;
     if (!direct) {
       offset +=
           N::scale(next.current * (high ? p.voltage_gain_high : p.voltage_gain), voltage_gain);

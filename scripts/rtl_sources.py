@@ -11,6 +11,7 @@ CELL_WRAPPERS = ("mult18_ecp5",)  # one cell of one vendor: no other vendor's so
 FOLDERS = {"link": "feltgate_linked", "bus": "feltgate_bus", "engine": "feltgate_engine", "axes": "feltgate_axes"}
 PACKAGES = {"link": "feltgate_link_pkg", "engine": "feltgate_engine_pkg"}
 NEEDS = {"axes": "engine", "link": "axes"}  # a folder whose blocks instantiate those of another
+BESIDE = ("safety", "host", "options", "tops")  # the core's own folders beside rtl/core
 # Rooms of the core below rtl/core, in the order of the data; the tests have the same: testbench/ROOM/BLOCK.
 ROOMS = ("encoder", "estimators", "scenes", "actuation", "safety", "wave")
 # Modules that connect blocks, with little of their own: rooms, of which scenes is a block itself, and a part of actuation.
@@ -52,7 +53,7 @@ def module_files(root):
     """{name: path below rtl/} of the core's modules, by rooms, and of those of FOLDERS."""
     rtl = root / "rtl"
     rooms = sorted({p.parent.name for p in rtl.glob("core/*/*.sv")} - set(ROOMS))  # not in the order yet
-    folders = ["core", *(f"core/{room}" for room in (*ROOMS, *rooms)), *FOLDERS]
+    folders = [*(f"core/{room}" for room in (*ROOMS, *rooms)), "core", *BESIDE, *FOLDERS]
     files = [path for folder in folders for path in sorted(rtl.glob(f"{folder}/*.sv"))]
     return {p.stem: str(p.relative_to(rtl)) for p in files if p.stem not in CELL_WRAPPERS}
 

@@ -76,9 +76,11 @@ def wrapper_text(root, path):
 
 
 def defect_path(root, block, name):
-    """NAME is a patch of the block, or BLOCK/NAME of another."""
+    """NAME is a patch beside the proof or of the block, or BLOCK/NAME of another."""
     where, _, stem = name.rpartition("/")
-    return rtl_sources.tests_of(root, where or block) / "defects.diff" / stem
+    folder = rtl_sources.tests_of(root, where or block)
+    beside = folder / "proofs" / "defects.diff"
+    return (beside if stem in sum(patches.names(beside), []) else folder / "defects.diff") / stem
 
 
 def read_proof(root, block, path, table):

@@ -35,10 +35,9 @@ std::string register_page(const Elaborated& e) {
     << "printed by `feltgate design NAME`. A write takes effect at the end of the running tick. "
        "The\n"
        "same as C header, SystemRDL and CSV: [other tools](other-tools.md#the-register-map).\n\n"
-    << "## Parameters\n\nRead and written by the host. Slot: the clock of the wave in which the "
-       "word "
-       "is on the\nparameter bus. Armed: what a write does [while the motor is armed]"
-       "(blocks/torque_control.md#ramp); a word\nof a scene ramps while that scene is in use.\n\n"
+    << "## Parameters\n\nRead and written by the host. Slot: place among the common words, or "
+       "in the bank\nof the scene. Armed: what a write does [while the motor is armed]"
+       "(blocks/ramp.md#while-armed); a word\nof a scene ramps while that scene is in use.\n\n"
     << "| address | name | scene | slot | format | unit | value | armed | meaning |\n"
     << "|---|---|---|---|---|---|---|---|---|\n";
   for (const Parameter& p : e.registers.parameters) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The host's side of an axis: register port, parameters, and the snapshot that is read back.
-// reg_rdata_o follows reg_addr_i by three clocks. docs/registers.md
+// reg_rdata_o follows reg_addr_i by three clocks. docs/blocks/host.md
 
 `default_nettype none
 

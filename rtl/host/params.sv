@@ -5,7 +5,7 @@
 // clocks of a tick load the words of its scene, the others go round the common words, so that a
 // register is never older than three ticks. A word that is written lands in RAM and register at once.
 // A wrong check is a fault. A reset changes neither; configuration loads the design's values.
-// docs/registers.md
+// docs/blocks/host.md
 
 `default_nettype none
 

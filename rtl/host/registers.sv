@@ -4,7 +4,7 @@
 // The host's register port: control word, commands and writes of parameters. A write is accepted in a
 // clock with reg_write_i high and reg_busy_o low, and takes effect in the last clock of the tick; a
 // parameter saturates to its format. A disarm and a stop do not wait for an earlier write. While
-// armed some words are refused, and some make the torque ramp. docs/registers.md
+// armed some words are refused, and some make the torque ramp. docs/blocks/host.md
 
 `default_nettype none
 

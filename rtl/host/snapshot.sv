@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // All words of a tick for the host, in two banks: the tick that runs writes one, the host reads the
-// other. A freeze holds what is read. The words go one a clock, the chain's last ones after its end; word_o shows them to a stream or a capture. docs/registers.md
+// other. A freeze holds what is read. The words go one a clock, the chain's last ones after its end; word_o shows them to a stream or a capture. docs/blocks/host.md
 
 `default_nettype none
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // For a watchdog outside, which cuts the bridge's supply: a pin that changes every HEARTBEAT ticks, a power of two. It
-// stands with the clock, with the ticks, and while a fault is latched. docs/safety.md
+// stands with the clock, with the ticks, and while a fault is latched. docs/blocks/safety.md
 
 `default_nettype none
 

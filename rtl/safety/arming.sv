@@ -5,7 +5,7 @@
 // panel. A request counts from a tick in which it was low, while its owner has control, until it is
 // refused; so gates open at most ARM_WAIT_MS after the owner's rising edge, or the request must be
 // given anew. A change of owner refuses a request that holds the gates open. A trip closes them in
-// the next clock. docs/safety.md
+// the next clock. docs/blocks/safety.md
 
 `default_nettype none
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cause of fault: too many illegal transitions of the encoder. ERRORS_BORNE are tolerated, the next
-// one trips. Every 2^FORGIVE_BITS ticks one is forgiven. docs/safety.md
+// one trips. Every 2^FORGIVE_BITS ticks one is forgiven. docs/blocks/safety.md
 
 `default_nettype none
 

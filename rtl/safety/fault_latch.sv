@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Causes of fault stay until they are cleared. Of several in one clock the lowest number is the
-// first. docs/safety.md
+// first. docs/blocks/safety.md
 
 `default_nettype none
 

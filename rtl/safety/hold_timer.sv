@@ -3,7 +3,7 @@
 //
 // Measures for how long a torque above hold_torque acts on a lever that stands still. After hold_time
 // derated_o makes hold_limit limit the torque too, until the encoder moves or the axis disarms. New
-// two clocks after start_i. docs/safety.md
+// two clocks after start_i. docs/blocks/safety.md
 
 `default_nettype none
 

@@ -5,7 +5,7 @@
 //   I = V/R - Ke/R * w, with voltage and velocity of the tick before, or a measured one;
 //   sum = max(sum - Inom^2, 0) + I^2, with I = 0 while disarmed.
 // It trips one tick after sum >= budget. A reset does not clear the sum: the motor stays hot.
-// trip_o 9 clocks after start_i. docs/safety.md
+// trip_o 7 clocks after start_i. docs/blocks/safety.md
 
 `default_nettype none
 

@@ -3,8 +3,8 @@
 //
 // Causes of fault: the velocity is above its limit (trip_o), and it has changed in a tick by more
 // than its low-pass can (jump_o), which only broken hardware does: |a1 * (x - y)| is below 2^Weight
-// LSB for every word a1, so the bits from that weight up change by one at most. Both two clocks
-// after start_i. docs/safety.md
+// LSB for every word a1, so the bits from that weight up change by one at most. Both a clock after
+// start_i. docs/blocks/safety.md
 
 `default_nettype none
 

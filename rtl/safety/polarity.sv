@@ -3,8 +3,8 @@
 //
 // Cause of fault: the motor or the encoder is connected the wrong way round. In RUNAWAY_WINDOWS
 // windows of polarity_ticks on end the speed against the commanded current has grown by more than
-// polarity_speed. A window begins again when the speed is not against the current. trip_o two clocks
-// after start_i. docs/safety.md
+// polarity_speed. A window begins again when the speed is not against the current. trip_o a clock
+// after start_i. docs/blocks/safety.md
 
 `default_nettype none
 

@@ -3,7 +3,7 @@
 //
 // All causes of fault, the latch that keeps them, and arming, which alone enables the gates. Of the
 // causes that are judged once a tick each has its clock:
-// velocity, heat, polarity, and after the chain self-test and watchdog. docs/safety.md
+// velocity, heat, polarity, and after the chain self-test and watchdog. docs/blocks/safety.md
 
 `default_nettype none
 

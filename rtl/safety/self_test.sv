@@ -4,7 +4,7 @@
 // Self-test after arming: waits until the lever is at rest, applies a torque pulse and then its
 // opposite, and checks the direction of motion before the scene begins. A wrong direction trips, as
 // do a lever that is held and one that does not come to rest, unless the design arms then.
-// The state changes with start_i; trip_o is high a clock later. docs/safety.md
+// The state changes with start_i; trip_o is high a clock later. docs/blocks/safety.md
 
 `default_nettype none
 

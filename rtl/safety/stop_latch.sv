@@ -4,7 +4,7 @@
 // External stop. The pin clears the gates and sets the latch, with or without a clock. The latch,
 // through two flip-flops, is a cause of fault. It is released once the cause was seen, the gates are
 // off and no fault is latched. It powers up set and has no reset, because few devices have a
-// flip-flop with asynchronous set and reset. docs/safety.md
+// flip-flop with asynchronous set and reset. docs/blocks/safety.md
 
 `default_nettype none
 

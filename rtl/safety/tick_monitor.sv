@@ -3,7 +3,7 @@
 //
 // Cause of fault: the ticks stand still, with tick_i stuck low or high. The PWM's carrier does not
 // depend on them. It trips where one period more begins without a tick than a tick can take.
-// docs/safety.md
+// docs/blocks/safety.md
 
 `default_nettype none
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Cause of fault: the host is silent, no kick in watchdog_ticks ticks. It sleeps until the first
-// kick. trip_o one clock after start_i. docs/safety.md
+// kick. trip_o one clock after start_i. docs/blocks/safety.md
 
 `default_nettype none
 

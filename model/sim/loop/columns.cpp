@@ -51,7 +51,7 @@ struct BitColumn {
 constexpr BitColumn bit_columns[] = {
     {"limits", "bit set of the limits that hold the torque (docs/architecture.md)",
      &Row::limits},
-    {"faults", "bit set of the latched faults (docs/blocks/supervisor.md)", &Row::faults}};
+    {"faults", "bit set of the latched faults (docs/blocks/safety.md)", &Row::faults}};
 
 Column column(const RowColumn& c) {
   return {c.name, c.unit, c.meaning, c.digits, ColumnValue(c.value)};

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/arming.sv: arms and disarms at the end of a tick, and alone enables the gates.
-// docs/safety.md
+// docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/design.hpp"

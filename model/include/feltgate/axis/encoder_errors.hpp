@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/encoder_errors.sv, a cause of fault: too many illegal transitions.
-// docs/safety.md
+// docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/generated/map.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/fault_latch.sv: causes of fault stay until they are cleared. Of several in one
-// clock the lowest number is the first. docs/safety.md
+// clock the lowest number is the first. docs/blocks/safety.md
 #pragma once
 
 #include <cstdint>

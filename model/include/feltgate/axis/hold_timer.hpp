@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/safety/hold_timer.sv: for how long a torque above hold_torque acts on a lever that
-// stands still. After hold_time hold_limit limits the torque too. docs/safety.md
+// stands still. After hold_time hold_limit limits the torque too. docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/words.hpp"

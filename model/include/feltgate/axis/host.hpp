@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/host/host.sv, the host's side of an axis: register port, parameters, and the snapshot
-// that is read back. reg_rdata follows reg_addr by three clocks. docs/registers.md
+// that is read back. reg_rdata follows reg_addr by three clocks. docs/blocks/host.md
 #pragma once
 
 #include "feltgate/axis/params.hpp"

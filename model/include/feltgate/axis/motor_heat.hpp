@@ -4,7 +4,7 @@
 // Law of rtl/safety/motor_heat.sv, a cause of fault: the motor gets too hot (I2t). Once a tick
 //   I = V/R - Ke/R * w, with voltage and velocity of the tick before;
 //   sum = max(sum - Inom^2, 0) + I^2, with I = 0 while disarmed.
-// A reset does not clear the sum: the motor stays hot. docs/safety.md
+// A reset does not clear the sum: the motor stays hot. docs/blocks/safety.md
 #pragma once
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Law of rtl/safety/overspeed.sv, two causes of fault: the velocity is above its limit, and it has
-// changed in a tick by more than its low-pass can, which only broken hardware does. docs/safety.md
+// changed in a tick by more than its low-pass can, which only broken hardware does. docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/words.hpp"

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/host/params.sv, the parameters: a RAM of 512 words with check bits, and a register
 // for each word that a block takes. The first clocks of a tick load the words of its scene, the
-// others go round the common words. docs/registers.md
+// others go round the common words. docs/blocks/host.md
 #pragma once
 
 #include "feltgate/axis/words.hpp"

@@ -3,7 +3,7 @@
 //
 // Law of rtl/safety/polarity.sv, a cause of fault: the motor or the encoder is connected the wrong
 // way round. In runaway_windows windows of polarity_ticks on end the speed against the commanded
-// current has grown by more than polarity_speed. docs/safety.md
+// current has grown by more than polarity_speed. docs/blocks/safety.md
 #pragma once
 
 #include <algorithm>

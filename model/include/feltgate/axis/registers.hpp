@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/host/registers.sv, the host's register port. A write is accepted in a clock in which
-// busy is false, and takes effect in the last clock of the tick. docs/registers.md
+// busy is false, and takes effect in the last clock of the tick. docs/blocks/host.md
 #pragma once
 
 #include "feltgate/axis/signals.hpp"

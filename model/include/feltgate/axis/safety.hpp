@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/safety.sv: all causes of fault, the latch that keeps them, and arming, which
-// alone enables the gates. docs/safety.md
+// alone enables the gates. docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/clocked.hpp"

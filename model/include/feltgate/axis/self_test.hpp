@@ -3,7 +3,7 @@
 //
 // Twin of rtl/safety/self_test.sv: after arming it waits until the lever is at rest, applies a
 // torque pulse and then its opposite, and checks the direction of motion before the scene begins.
-// docs/safety.md
+// docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/words.hpp"

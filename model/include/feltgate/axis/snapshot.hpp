@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/host/snapshot.sv: all words of a tick for the host, in two banks. The words go one a
-// clock, the chain's last ones after its end. docs/registers.md
+// clock, the chain's last ones after its end. docs/blocks/host.md
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/stop_latch.sv: the pin clears the gates and sets the latch, with or without a
-// clock. The latch powers up set and has no reset. docs/safety.md
+// clock. The latch powers up set and has no reset. docs/blocks/safety.md
 #pragma once
 
 namespace feltgate::axis {

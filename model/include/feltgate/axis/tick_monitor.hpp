@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/tick_monitor.sv, a cause of fault: the ticks stand still. It trips where one
-// period of the PWM more begins without a tick than a tick can take. docs/safety.md
+// period of the PWM more begins without a tick than a tick can take. docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/design.hpp"

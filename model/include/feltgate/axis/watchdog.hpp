@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/safety/watchdog.sv, a cause of fault: the host is silent, no kick in watchdog_ticks
-// ticks. It sleeps until the first kick. docs/safety.md
+// ticks. It sleeps until the first kick. docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/words.hpp"

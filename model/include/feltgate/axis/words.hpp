@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The words that the blocks take (cfg::params_t), as numbers of a policy: Fixed has the RTL's
-// integers, Real SI units. docs/registers.md
+// integers, Real SI units. docs/blocks/host.md
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //
 // Twin of rtl/options/heartbeat.sv, for a watchdog outside: a pin that changes every HEARTBEAT
 // ticks, and stands while a fault is latched. A design with HEARTBEAT 0 has no such pin.
-// docs/safety.md
+// docs/blocks/safety.md
 #pragma once
 
 #include "feltgate/axis/design.hpp"

@@ -124,9 +124,6 @@ module causes_proof (
   (* hierconn *) wire [SumW-1:0] \u_dut.u_motor_heat.sum_q ;
   (* hierconn *) wire [63:0] \u_dut.u_motor_heat.product ;
   (* hierconn *) wire [6:0] \u_dut.u_motor_heat.at ;
-  (* hierconn *) wire [SumW-1:0] \u_dut.u_motor_heat.cooled_q ;
-  (* hierconn *) wire [SquaredW-1:0] \u_dut.u_motor_heat.square_q ;
-  (* hierconn *) wire \u_dut.u_motor_heat.hot_q ;
   wire [SumW-1:0] heat = \u_dut.u_motor_heat.sum_q ;
   wire [63:0] square = \u_dut.u_motor_heat.product ;
   logic [SumW-1:0] cooled_q, heat_q;
@@ -226,9 +223,7 @@ module causes_proof (
       heat_is_its_law: assert (!taken_q || (SumW + 1)'(heat) == (SumW + 1)'(cooled_q) + (SumW + 1)'(added_q));
       hot_in_its_clock: assert (trip[map::FAULT_I2T] == (sampled_q[6] && hot_q));
       inside_one: assert ((sampled_q & (sampled_q - 7'd1)) == 0);
-      inside_heat: assert ( \u_dut.u_motor_heat.at == sampled_q && (!sampled_q[6] || ( \u_dut.u_motor_heat.cooled_q == cooled_q &&
-                           \u_dut.u_motor_heat.square_q == added_q && \u_dut.u_motor_heat.hot_q == hot_q &&
-                           (33'(cooled_q) + 33'(added_q) >= 33'(cooled_q)))));
+      inside_heat: assert ( \u_dut.u_motor_heat.at == sampled_q);
       silence_in_its_clock: assert (trip[map::FAULT_WATCHDOG] == (duty_q && gates && awake_q && silent_q));
       awake_from_the_first_kick: assert ( \u_dut.awake == awake_q);
       inside_silence: assert (!gates || !awake_q || (26'( \u_dut.u_watchdog.ticks_q ) == silence_q &&

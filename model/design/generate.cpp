@@ -280,7 +280,16 @@ std::string systemverilog_package(const Elaborated& e) {
       "  localparam logic [31:0] DESIGN_CRC = 32'h{:08x};  // by which a host knows the "
       "design\n",
       design_crc(e));
-  formats_sv(s, e);
+  for (const auto& [name, f] : named_formats(e.formats)) {
+    s << fmt::format("  localparam int {0}_W = {1};\n  localparam int {0}_F = {2};\n", upper(name),
+                     f.width(), f.fraction);
+  }
+  for (const Word& w : e.words) {
+    if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
+      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
+        << ";\n";
+    }
+  }
   resets_sv(s, e);
   s << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
     << "  function automatic logic [32:0] parameter_above(input logic [8:0] address);\n"
@@ -360,12 +369,18 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
        "P::wall_stiffness,\n"
     << "      P::damper_damping, P::wall_damping};\n"
     << "  static constexpr Formats f = derive(base);\n\n"
-    << "  /// Parameters: name, unit, address, format, exact value, integer.\n"
+    << "  /// Parameters: name, unit, address, format, exact value, integer, format of its\n"
+       "  /// register.\n"
     << "  static constexpr ParameterInfo parameters[] = {\n";
   for (const Word& w : e.words) {
     s << "      {\"" << w.parameter.name << "\", \"" << w.parameter.unit
       << "\", A::" << w.parameter.name << ", P::" << w.parameter.name << ",\n       "
-      << real_literal(w.si) << ", " << w.raw << "},\n";
+      << real_literal(w.si) << ", " << w.raw << ", " << triple(w.field()) << "},\n";
+  }
+  s << "  };\n\n  /// The constants of the package cfg.\n"
+    << "  static constexpr NamedConstant constants[] = {\n";
+  for (const Constant& c : cfg_constants(e)) {
+    s << "      {\"" << c.name << "\", " << c.value << "},\n";
   }
   s << "  };\n\n  /// All of it as text, for axis::Design::read().\n"
     << "  static constexpr const char* text = R\"(" << design_text(e) << ")\";\n"

@@ -119,7 +119,8 @@ const std::vector<Struct> structs{
     {"safety_t",
      "State of the safety.",
      {{"", "armed", ""},
-      {"", "locks", "with the last clock of a tick: armed from the next clock on, unless a cause comes"},
+      {"", "locks",
+       "with the last clock of a tick: armed from the next clock on, unless a cause comes"},
       {"", "gates_enable", "falls at once at a fault"},
       {"", "gates_clear", "asynchronous: every gate off at once"},
       {"", "clear", "faults and errors are forgotten"},
@@ -228,24 +229,17 @@ void control_sv(std::ostream& s, const RegisterMap& map) {
   s << "  } control_t;\n";
 }
 
-void constants_sv(std::ostream& s, const Elaborated& e) {
-  s << "  localparam int CLOCK_HZ = " << e.design.clock_hz << ";\n";
-  for (const Constant& c : design_constants(e)) {
-    std::string type = "int", value = std::to_string(c.value);
-    const int bits = c.name == "scene_mask"      ? 16
-                     : c.name == "control_reset" ? control_bits(e.registers)
-                                                 : 0;
-    if (bits != 0) {
-      type = logic(bits, false);
-      value = fmt::format("{}'d{}", bits, c.value);
-    }
-    s << "  localparam " << type << " " << upper(c.name) << " = " << value << ";  // " << c.doc
-      << "\n";
-  }
-  s << fmt::format(
-      "  localparam logic [31:0] DESIGN_CRC = 32'h{:08x};  // by which a host knows the "
-      "design\n",
-      design_crc(e));
+/// An integer, or a vector of the bits that it needs.
+void constant_sv(std::ostream& s, const Elaborated& e, const Constant& c) {
+  const int bits = c.name == "SCENE_MASK"      ? 16
+                   : c.name == "CONTROL_RESET" ? control_bits(e.registers)
+                   : c.name == "DESIGN_CRC"    ? 32
+                                               : 0;
+  s << "  localparam "
+    << (bits == 0 ? fmt::format("int {} = {};", c.name, c.value)
+                  : fmt::format("{} {} = {}'h{:0{}x};", logic(bits, false), c.name, bits, c.value,
+                                (bits + 3) / 4))
+    << (c.doc.empty() ? "" : "  // " + c.doc) << "\n";
 }
 
 /// Whether a word has a sign, and the bits above its format. Words of 32 bits fit as they are.
@@ -325,20 +319,39 @@ std::vector<ParamsRegister> params_registers(const Elaborated& e) {
   return registers;
 }
 
-void formats_sv(std::ostream& s, const Elaborated& e) {
-  s << "\n  // Widths (W) and fraction bits (F) of the signals.\n";
+std::vector<Constant> cfg_constants(const Elaborated& e) {
+  std::vector<Constant> all{{"clock_hz", e.design.clock_hz, "Hz"}};
+  for (const Constant& c : design_constants(e)) all.push_back(c);
+  all.push_back({"design_crc", design_crc(e), "by which a host knows the design"});
+  all.push_back({"tick_w", tick_bits(e.design), "bits of a clock's number in the tick"});
+  all.push_back({"feed_w", feed_bits(e), "bits of the voltage that no current takes"});
   for (const auto& [name, f] : named_formats(e.formats)) {
-    s << "  localparam int " << upper(name) << "_W = " << f.width() << ";  // [" << f.sign << ","
-      << f.integer << "," << f.fraction << "]\n"
-      << "  localparam int " << upper(name) << "_F = " << f.fraction << ";\n";
+    all.push_back(
+        {name + "_w", f.width(), fmt::format("[{},{},{}]", f.sign, f.integer, f.fraction)});
+    all.push_back({name + "_f", f.fraction, ""});
   }
-  s << "\n  // Fraction bits of the coefficients.\n";
   for (const Word& w : e.words) {
     if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
-      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
-        << ";\n";
+      all.push_back({"p_" + w.parameter.name + "_f", w.format.fraction, ""});
     }
   }
+  for (Constant& c : all) c.name = upper(c.name);
+  return all;
+}
+
+axis::Design as_data(const Elaborated& e) {
+  axis::Design d;
+  for (const Constant& c : cfg_constants(e)) d.constants.emplace(c.name, c.value);
+  for (const Word& w : e.words) {
+    const Format f = w.field();
+    d.words.push_back({w.parameter.name, w.parameter.address, f.width(), f.sign == 1, f.fraction,
+                       static_cast<std::uint32_t>(w.raw)});
+  }
+  if (e.design.absolute_table()) {
+    const Corrections table = e.design.absolute_corrections();
+    d.absolute_corrections.assign(table.begin(), table.end());
+  }
+  return d;
 }
 
 void resets_sv(std::ostream& s, const Elaborated& e) {
@@ -404,16 +417,12 @@ std::string cfg_package(const Elaborated& e) {
     << "// words and structs of the design.\n\n`default_nettype none\n\n"
     << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
     << "package cfg;\n";
-  constants_sv(s, e);
-  formats_sv(s, e);
+  s << "  // Of a signal: width (W) and fraction bits (F); of a coefficient (P): fraction bits.\n";
+  for (const Constant& c : cfg_constants(e)) constant_sv(s, e, c);
   resets_sv(s, e);
   above_sv(s, e);
   if (e.design.absolute) corrections_sv(s, e.design);
   params_sv(s, e);
-  s << "\n  localparam int TICK_W = " << tick_bits(e.design)
-    << ";  // bits of a clock's number in the tick\n"
-    << "  localparam int FEED_W = " << feed_bits(e)
-    << ";  // bits of the voltage that no current takes\n";
   for (const Struct& t : structs) struct_sv(s, e, t);
   control_sv(s, e.registers);
   s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";

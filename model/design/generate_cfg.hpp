@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "design/design.hpp"
+#include "design/generate.hpp"
+#include "feltgate/axis/design.hpp"
 
 namespace feltgate::design {
 
@@ -29,6 +31,12 @@ constexpr int bank_of_any_scene = 15;
 /// In the order of params_t: the common words as in the register map, then the scenes' slots.
 std::vector<ParamsRegister> params_registers(const Elaborated& e);
 
+/// All constants of the package by their names there, in its order.
+std::vector<Constant> cfg_constants(const Elaborated& e);
+
+/// The same, and the words, as the twin takes them: no compiler sees the design.
+axis::Design as_data(const Elaborated& e);
+
 /// Text of rtl/generated/NAME/cfg.sv.
 std::string cfg_package(const Elaborated& e);
 /// All constants of `cfg` and all words as text, which axis::Design::read() takes.
@@ -36,8 +44,6 @@ std::string design_text(const Elaborated& e);
 
 // Parts that feltgate_pkg has too.
 
-/// Widths and fraction bits of the signals, fraction bits of the coefficients.
-void formats_sv(std::ostream& s, const Elaborated& e);
 /// The parameters after a reset, by their address.
 void resets_sv(std::ostream& s, const Elaborated& e);
 /// What is added to an absolute encoder's reading.

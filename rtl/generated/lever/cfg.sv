@@ -9,7 +9,8 @@
 
 /* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it
 package cfg;
-  localparam int CLOCK_HZ = 50000000;
+  // Of a signal: width (W) and fraction bits (F); of a coefficient (P): fraction bits.
+  localparam int CLOCK_HZ = 50000000;  // Hz
   localparam int CLOCKS_PER_TICK = 50;  // clocks
   localparam int M1 = 767;  // ticks between the two positions of the velocity estimator
   localparam int VELOCITY_SHIFT = 1;  // raw velocity = 2^n * counts
@@ -19,8 +20,8 @@ package cfg;
   localparam int PWM_PERIOD = 1000;  // clocks
   localparam int DEAD_CLOCKS = 25;  // clocks
   localparam int SHORTEST_CLOCKS = 10;  // clocks, of a pulse at a gate
-  localparam logic [15:0] SCENE_MASK = 16'd1021;  // bit n: scene n is built
-  localparam logic [14:0] CONTROL_RESET = 15'd0;  // control word after reset
+  localparam logic [15:0] SCENE_MASK = 16'h03fd;  // bit n: scene n is built
+  localparam logic [14:0] CONTROL_RESET = 15'h0000;  // control word after reset
   localparam int COEFFICIENT_BITS = 17;  // bits of a coefficient's mantissa, without its sign
   localparam int PARALLEL_MULTIPLIERS = 0;  // 1: each block has its own
   localparam int MULTIPLIER_A_BITS = 35;  // bits
@@ -66,8 +67,8 @@ package cfg;
   localparam int MODULATION = 0;  // of three phases: 0 sines, 1 space vectors
   localparam int ROUNDING = 0;  // where the chain rounds: 0 half up, 1 floor, 2 convergent
   localparam logic [31:0] DESIGN_CRC = 32'h6e906a32;  // by which a host knows the design
-
-  // Widths (W) and fraction bits (F) of the signals.
+  localparam int TICK_W = 6;  // bits of a clock's number in the tick
+  localparam int FEED_W = 23;  // bits of the voltage that no current takes
   localparam int POSITION_W = 32;  // [1,31,0]
   localparam int POSITION_F = 0;
   localparam int SCENE_POSITION_W = 18;  // [1,17,0]
@@ -138,8 +139,6 @@ package cfg;
   localparam int I2T_F = 2;
   localparam int CHARGE_W = 32;  // [0,16,16]
   localparam int CHARGE_F = 16;
-
-  // Fraction bits of the coefficients.
   localparam int P_VELOCITY_A1_F = 27;
   localparam int P_INVERSE_RESISTANCE_F = 15;
   localparam int P_EMF_OVER_RESISTANCE_F = 20;
@@ -338,9 +337,6 @@ package cfg;
     logic [17:0] scene_6;
     logic signed [20:0] scene_10;
   } params_t;
-
-  localparam int TICK_W = 6;  // bits of a clock's number in the tick
-  localparam int FEED_W = 23;  // bits of the voltage that no current takes
 
   // The tick, and the clocks in which its results are new.
   typedef struct packed {

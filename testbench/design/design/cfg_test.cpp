@@ -6,9 +6,28 @@
 #include "design/generate_cfg.hpp"
 
 #include <set>
+#include <tuple>
 
 #include "catch.hpp"
 #include "design_fixture.hpp"
+#include "feltgate/generated/balanced.hpp"
+#include "feltgate/generated/exact.hpp"
+#include "feltgate/generated/fast.hpp"
+#include "feltgate/generated/first_power.hpp"
+#include "feltgate/generated/gimbal_current.hpp"
+#include "feltgate/generated/gimbal_law.hpp"
+#include "feltgate/generated/gimbal_motor.hpp"
+#include "feltgate/generated/hall_motor.hpp"
+#include "feltgate/generated/knob_law.hpp"
+#include "feltgate/generated/lever.hpp"
+#include "feltgate/generated/lever_absolute.hpp"
+#include "feltgate/generated/lever_current.hpp"
+#include "feltgate/generated/lever_law.hpp"
+#include "feltgate/generated/lever_observer.hpp"
+#include "feltgate/generated/pantograph_law.hpp"
+#include "feltgate/generated/paper.hpp"
+#include "feltgate/generated/stylus_law.hpp"
+#include "feltgate/generated/two_levers_law.hpp"
 
 using namespace feltgate;
 using namespace feltgate::design;
@@ -27,7 +46,38 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+/// A design as data is the same from its file and from its generated header.
+template <class D>
+void check_data() {
+  INFO(D::name);
+  const axis::Design file = as_data(shipped(D::name)), header = axis::Design::of<D>();
+  CHECK(file.constants == header.constants);
+  CHECK(file.absolute_corrections == header.absolute_corrections);
+  REQUIRE(file.words.size() == header.words.size());
+  for (std::size_t k = 0; k < file.words.size(); ++k) {
+    const axis::Word &a = file.words[k], &b = header.words[k];
+    CHECK(std::tie(a.name, a.address, a.bits, a.has_sign, a.fraction, a.reset) ==
+          std::tie(b.name, b.address, b.bits, b.has_sign, b.fraction, b.reset));
+  }
+}
+
+template <class... D>
+void check_all() {
+  (check_data<D>(), ...);
+}
+
 }  // namespace
+
+TEST_CASE("a design is the same data from its file and from its header", "[cfg]") {
+  check_all<Balanced, Exact, Fast, FirstPower, GimbalCurrent, GimbalLaw, GimbalMotor, HallMotor,
+            KnobLaw, Lever, LeverAbsolute, LeverCurrent, LeverLaw, LeverObserver, PantographLaw,
+            Paper, StylusLaw, TwoLeversLaw>();
+  const axis::Design lever = as_data(shipped("lever"));
+  CHECK(lever["VELOCITY_F"] == 21);
+  CHECK(lever["CLOCK_HZ"] == 50000000);
+  CHECK(lever.words.front().name == "velocity_a1");
+  CHECK(lever.words.front().bits == 17);
+}
 
 TEST_CASE("every word has one register that holds each of its values", "[cfg]") {
   for (const char* design : {"lever", "paper", "exact", "gimbal_motor", "stylus_law"}) {

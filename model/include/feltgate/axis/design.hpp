@@ -2,16 +2,18 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // A design as data: the constants of package cfg by their names, and the words of the host with
-// address, format and value. Read from text; nothing is compiled for a design. docs/design.md
+// address, format and value. Nothing is compiled for a design: `feltgate::design::as_data` fills it
+// from the text of one, `of` from a generated header. docs/designs.md
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <istream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "feltgate/axis/fx.hpp"
@@ -31,6 +33,7 @@ struct Word {
 struct Design {
   std::map<std::string, std::int64_t, std::less<>> constants;
   std::vector<Word> words;
+  std::vector<std::int16_t> absolute_corrections;  ///< 2^-20 turn; empty: no table
 
   /// The constant of this name, e.g. "VELOCITY_F"; throws if there is none.
   int operator[](std::string_view name) const { return static_cast<int>(wide(name)); }
@@ -41,6 +44,22 @@ struct Design {
   }
   Rounding rounding() const { return static_cast<Rounding>((*this)["ROUNDING"]); }
   bool has_scene(int scene) const { return ((*this)["SCENE_MASK"] >> scene & 1) != 0; }
+
+  /// The design of a generated header, feltgate/generated/NAME.hpp.
+  template <class D>
+  static Design of() {
+    Design d;
+    for (const auto& c : D::constants) d.constants.emplace(c.name, c.value);
+    for (const auto& p : D::parameters) {
+      d.words.push_back({p.name, p.address, p.field.width(), p.field.sign == 1, p.field.fraction,
+                         static_cast<std::uint32_t>(p.raw)});
+    }
+    if constexpr (D::absolute_table != 0) {
+      d.absolute_corrections.assign(std::begin(D::absolute_corrections),
+                                    std::end(D::absolute_corrections));
+    }
+    return d;
+  }
 
   /// "NAME value" and "word name address bits sign fraction reset", one after the other.
   static Design read(std::istream& in) {

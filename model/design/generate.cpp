@@ -382,7 +382,9 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
   for (const Constant& c : cfg_constants(e)) {
     s << "      {\"" << c.name << "\", " << c.value << "},\n";
   }
-  s << "  };\n};\n\n}  // namespace feltgate\n";
+  s << "  };\n\n  /// All of it as text, for axis::Design::read().\n"
+    << "  static constexpr const char* text = R\"(" << design_text(e) << ")\";\n"
+    << "};\n\n}  // namespace feltgate\n";
   return s.str();
 }
 

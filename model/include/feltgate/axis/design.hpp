@@ -61,21 +61,18 @@ struct Design {
     return d;
   }
 
-  /// Lines "NAME value" and "word name address bits sign fraction reset".
+  /// "NAME value" and "word name address bits sign fraction reset", one after the other.
   static Design read(std::istream& in) {
     Design d;
-    for (std::string line; std::getline(in, line);) {
-      std::istringstream fields(line);
-      std::string name;
-      fields >> name;
+    for (std::string name; in >> name;) {
       if (name == "word") {
         Word w;
-        fields >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
+        in >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
         d.words.push_back(w);
-      } else if (!name.empty()) {
-        fields >> d.constants[name];
+      } else {
+        in >> d.constants[name];
       }
-      if (fields.fail()) throw std::runtime_error("design: cannot read: " + line);
+      if (in.fail()) throw std::runtime_error("design: cannot read what follows " + name);
     }
     return d;
   }

@@ -380,6 +380,36 @@ void corrections_sv(std::ostream& s, const Design& d) {
   s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n";
 }
 
+std::string design_text(const Elaborated& e) {
+  std::string text = fmt::format("CLOCK_HZ {}", e.design.clock_hz);
+  int on_line = 1;
+  const auto add = [&](const std::string& name, std::int64_t value) {
+    text += fmt::format("{}{} {}", on_line++ % 4 == 0 ? '\n' : ' ', name, value);
+  };
+  for (const Constant& c : design_constants(e)) add(upper(c.name), c.value);
+  for (const auto& [name, f] : named_formats(e.formats)) {
+    add(upper(name) + "_W", f.width());
+    add(upper(name) + "_F", f.fraction);
+  }
+  for (const Word& w : e.words) {
+    const std::string& kind = w.parameter.kind;
+    if (kind == "coefficient" || kind == "signed") {
+      add("P_" + upper(w.parameter.name) + "_F", w.format.fraction);
+    }
+  }
+  if (e.design.absolute_table()) {
+    int n = 0;
+    for (const int c : e.design.absolute_corrections()) add(fmt::format("CORRECTION_{}", n++), c);
+  }
+  text += '\n';
+  for (const Word& w : e.words) {
+    const Format f = w.field();
+    text += fmt::format("word {} {} {} {} {} {}\n", w.parameter.name, w.parameter.address, f.width(),
+                        f.sign, w.format.fraction, static_cast<std::uint32_t>(w.raw));
+  }
+  return text;
+}
+
 std::string cfg_package(const Elaborated& e) {
   std::ostringstream s;
   s << generated_banner("rtl/designs/" + e.design.name + ".toml and rtl/registers.toml",

@@ -39,6 +39,8 @@ axis::Design as_data(const Elaborated& e);
 
 /// Text of rtl/generated/NAME/cfg.sv.
 std::string cfg_package(const Elaborated& e);
+/// All constants of `cfg` and all words as text, which axis::Design::read() takes.
+std::string design_text(const Elaborated& e);
 
 // Parts that feltgate_pkg has too.
 

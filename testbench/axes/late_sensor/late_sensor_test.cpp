@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Absolute encoders of several axes, and of an axis with an engine: no sensor that comes after a
-// request to arm opens the gates. The twin alone. Documentation: docs/blocks/supervisor.md
+// request to arm opens the gates. The twin alone. Documentation: docs/blocks/safety.md
 #include <array>
 #include <cstdint>
 #include <vector>

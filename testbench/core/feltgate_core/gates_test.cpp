@@ -3,7 +3,7 @@
 //
 // The gates at the pins of the whole core: a stop between the edges of the clock, a stop without a
 // clock, and the duty after arming again. The test samples the raw pins 20 times per clock; a
-// comparison from edge to edge cannot do this. Documentation: docs/blocks/supervisor.md
+// comparison from edge to edge cannot do this. Documentation: docs/blocks/safety.md
 #include "Vfeltgate_core.h"
 #include "catch.hpp"
 #include "feltgate/feltgate_core.hpp"

@@ -3,7 +3,7 @@
 //
 // The tick counter of a core stops, in each clock of a tick and anywhere in a PWM period. The gates
 // must go off, although the host's watchdog and the limits no longer run. stand.diff
-// makes the counter stop. Documentation: docs/blocks/supervisor.md
+// makes the counter stop. Documentation: docs/blocks/safety.md
 #include <algorithm>
 #include <cstdio>
 

@@ -3,7 +3,7 @@
 //
 // The low-pass step that does not look for overflow, against the one that wraps: every state, input
 // and coefficient of small formats; and where it comes to rest.
-// Documentation: docs/blocks/dob.md
+// Documentation: docs/blocks/velocity.md
 #include <algorithm>
 #include <cstdint>
 

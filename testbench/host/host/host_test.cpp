@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // The torque must not jump, and no disarm may be lost, for every action of a host or a panel on an
-// armed core. The whole core, RTL against twin. Documentation: docs/blocks/torque_control.md
+// armed core. The whole core, RTL against twin. Documentation: docs/blocks/ramp.md
 #include <algorithm>
 
 #include "core_script.hpp"

@@ -118,7 +118,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 
 #define FELTGATE_WATCHDOG_TICKS 0x02eu  /* host watchdog: longest time between two kicks; asleep until the first [tick] */
 
-#define FELTGATE_VOLTAGE_GAIN_HIGH 0x032u  /* Kv of the high-torque region times 1 ohm, or the resistance; on the bus at slot 34 in that region [ohm] */
+#define FELTGATE_VOLTAGE_GAIN_HIGH 0x032u  /* Kv of the high-torque region times 1 ohm, or the resistance [ohm] */
 
 #define FELTGATE_SELF_TEST_TORQUE 0x033u  /* torque of the self-test's pulse, if it is less than the limits in force [Nm] */
 
@@ -196,7 +196,7 @@ static inline double feltgate_value(uint32_t word, int bits, int has_sign, doubl
 #define FELTGATE_COMMAND_STOP_BIT 5  /* the fault stop, at once, also while another write waits */
 #define FELTGATE_COMMAND_STOP_MASK 0x00000020u
 
-#define FELTGATE_STATUS 0x300u  /* what the core does and what holds it back; limits are those of the previous tick */
+#define FELTGATE_STATUS 0x300u  /* what the core does and what holds it back */
 #define FELTGATE_STATUS_LIMITS_BIT 0  /* what holds the torque back, by its bit */
 #define FELTGATE_STATUS_LIMITS_MASK 0x00000fffu
 #define FELTGATE_STATUS_SCENE_BIT 20  /* scene number */

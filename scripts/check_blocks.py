@@ -8,7 +8,8 @@ at least one seeded defect, and a page that links its RTL; blocks that help one 
 the class with the block's name. It is in model/include/feltgate/<b>.hpp if the product uses it, else in the test, or
 beside it in <b>_twin.hpp where several tests use it (those of the scenes in one file); then the law that it
 evaluates, if any, is in the former.
-The lists made from the blocks are up to date: the sources in rtl/*.f, feltgate.core and the boards' .qsf.
+Further checks: a strobe is connected to the clock of its name, and the lists made from the blocks are up to date:
+docs/blocks.md, and the sources in rtl/*.f, feltgate.core and the boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -30,6 +31,19 @@ SCENE_TWINS = Path("testbench/scenes/scenes/scene_twins.hpp")
 BEGIN = "# sources: written by scripts/check_blocks.py --write"
 END = "# end of sources"
 MEND_LIST = "run scripts/check_blocks.py --write"
+# Strobes of a block, docs/architecture.md: the clock of each kind.
+STROBES = {
+    "at": "EVENT_AT_{}",
+    "after": "EVENT_AT_{}+1",
+    "param_is": "PARAM_AT_{}",
+    "param_next": "PARAM_AT_{}-1",
+    "param_was": "PARAM_AT_{}+1",
+    "product_is": "PRODUCT_AT_{}",
+    "read": "READ_AT_{}",
+}
+STROBE = re.compile(rf"\.({'|'.join(STROBES)})_(\w+)_i\(\w+\[([^\]]+)\]\)")
+
+
 @dataclass(frozen=True)
 class Block:
     """Paths are relative to the root and need not exist."""
@@ -59,7 +73,7 @@ def has_class(path, name):
 def page_links(root):
     """{page: files that it links}, pages of blocks first."""
     found = [*sorted(root.glob("docs/blocks/*.md")), *sorted(root.glob("docs/*.md"))]
-    found = [path.relative_to(root) for path in found]
+    found = [path.relative_to(root) for path in found if path != root / "docs/blocks.md"]
     return {page: linked_files(root, page) for page in found}
 
 
@@ -163,6 +177,36 @@ def linked_files(root, page):
     return links
 
 
+def blocks_table(root, blocks):
+    def link(path):
+        return "" if path is None else f"[{path.name}]({os.path.relpath(path, 'docs')})"
+
+    rows = [
+        f"| {b.room} | {b.name} | {link(b.rtl)} | {link(b.law)} | {link(b.twin)} | {link(b.test)} "
+        f"| {link(b.doc)} | {len(b.defects)} |"
+        for b in blocks
+    ]
+    return "\n".join(
+        [
+            "# Blocks",
+            "",
+            "Every block has one name everywhere, and its room is the folder of its RTL (`rtl/core/ROOM` or",
+            "`rtl/ROOM`) and of its tests (`testbench/ROOM/BLOCK`). The last column counts the seeded defects of",
+            "its RTL; the block's test runs once against each and must fail. Written by",
+            "`scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
+            "",
+            "The twin is a class of the block's name, clock by clock. Where the core's twin evaluates",
+            "a law instead, the law is a template in the public headers, and the class, which only",
+            "tests use, is beside its test. What was measured of each block: `./feltgate docs`, results.",
+            "",
+            "| room | block | RTL | law | twin | test | page | seeded defects |",
+            "|---|---|---|---|---|---|---|---|",
+            *rows,
+            "",
+        ]
+    )
+
+
 def sources(root):
     """RTL of the core with the boards' design, in order."""
     generated = sorted(root.glob(f"rtl/generated/{BOARD_DESIGN}/*_pkg.sv"))
@@ -206,8 +250,9 @@ def fusesoc_lists(root, text):
     return text
 
 
-def fresh_lists(root):
+def fresh_lists(root, blocks):
     """(path, wanted text) of everything that is made from the blocks."""
+    yield Path("docs/blocks.md"), blocks_table(root, blocks)
     yield (
         Path("rtl/feltgate_core.f"),
         file_list("The core; a design's feltgate_pkg.sv comes first", rtl_sources.core_files(root)),
@@ -236,8 +281,8 @@ def fresh_lists(root):
         yield qsf.relative_to(root), replace_list(qsf.read_text(encoding="utf-8"), lines)
 
 
-def check_lists(root, write):
-    for path, wanted in fresh_lists(root):
+def check_lists(root, blocks, write):
+    for path, wanted in fresh_lists(root, blocks):
         if wanted is None:
             yield f"{path}: no lines '{BEGIN}' and '{END}'; put them back"
             continue
@@ -250,16 +295,30 @@ def check_lists(root, write):
             yield f"{path}: stale; {MEND_LIST}"
 
 
+def check_strobes(root):
+    """A strobe is connected to the clock of its name, in the rooms and around the blocks in proofs."""
+    files = [*root.glob("rtl/core/**/*.sv"), *root.glob("testbench/**/proofs/*.sv*")]
+    for path in sorted(files):
+        text = path.read_text(encoding="utf-8")
+        for found in STROBE.finditer(text):
+            kind, name, clock = found.groups()
+            wanted = STROBES[kind].format(name.upper())
+            if clock != f"feltgate_map_pkg::{wanted}":
+                line = text.count("\n", 0, found.start()) + 1
+                yield f"{path.relative_to(root)}:{line}: {kind}_{name}_i at {clock}; connect {wanted}"
+
+
 def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
-    found += check_lists(root, write)
+    found += check_lists(root, blocks, write)
     ordered, lost = rtl_sources.modules(root)
     for name in lost:
         found.append(f"rtl/{ordered[name]}: the core does not instantiate it; do, or remove it")
     for block in blocks:
         found += check_block(root, block)
     found += check_defects(root)
+    found += check_strobes(root)
     return found
 
 

@@ -60,7 +60,7 @@ class AxesEngine {
   const EngineWatch& watch() const { return runs_.watch(); }
   /// Whether the engine is computed run by run at present.
   bool runs_whole() const { return runs_.on(); }
-  /// Whether the torque might jump in the wave of the tick that was measured last.
+  /// Whether the torque might jump in the tick that was measured last.
   bool restarted() const { return restarted_; }
   /// Whether the port takes no write, at any address.
   bool port_busy() const { return out_.busy; }

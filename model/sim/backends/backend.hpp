@@ -34,13 +34,13 @@ struct Snapshot {
   bool armed = false;
   // Not outputs of the RTL, hence not compared:
   std::int16_t travel = 0;  ///< sampled free-running count
-  std::int64_t writes = 0;  ///< register writes executed before this wave
+  std::int64_t writes = 0;  ///< register writes executed before this tick
   /// For the scene law: whether a run of the program began with the samples of this tick; whether
   /// it is known from which samples the torque in force comes, and their tick.
   bool law_begins = false, law_known = false;
   std::uint32_t law_tick = 0;
   std::int64_t law_changes = 0;  ///< parameter sets that had come into force when that run began
-  bool law_restart = false;      ///< the law's torque might jump in this wave
+  bool law_restart = false;      ///< the law's torque might jump in this tick
   bool law_stale = false;        ///< a mailbox of the law is too old: its torque is 0
 
   Snapshot() = default;

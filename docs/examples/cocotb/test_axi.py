@@ -136,7 +136,7 @@ def main():
     runner = get_runner("icarus")
     build = os.environ.get("COCOTB_BUILD", "sim_build")
     runner.build(
-        verilog_sources=[DESIGN / "feltgate_pkg.sv", *files, top],
+        verilog_sources=[DESIGN / "cfg.sv", *files, top],
         hdl_toplevel="axi_core",
         build_args=["-g2012"],
         timescale=("1ns", "1ns"),

@@ -20,7 +20,8 @@ BOXES = {
     "ramp": (9.9, 2.4, 1.1, 1.0, BLUE, "12"),
     "torque_law": (11.6, 3.4, 1.7, 1.2, BLUE, "current 17\nvoltage 21, duty 25"),
     "h_bridge": (14.4, 3.4, 1.7, 1.2, ORANGE, "bridge socket"),
-    "safety": (4.0, 6.35, 9.3, 0.75, GREEN, "one file for each cause of fault, fault_latch, arming, stop_latch, self_test, hold_timer"),
+    "safety": (4.0, 6.35, 9.3, 0.75, GREEN,
+               "one file for each cause of fault, fault_latch, arming, stop_latch, self_test, hold_timer"),
     "host": (4.0, 0.85, 9.3, 0.75, GREEN, "registers, params, snapshot"),
 }
 # from, to, text, its place, angles at both ends of a line with a corner

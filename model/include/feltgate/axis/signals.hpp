@@ -7,16 +7,17 @@
 
 #include <cstdint>
 
+#include "feltgate/encoder_source.hpp"
 #include "feltgate/generated/map.hpp"
 
 namespace feltgate::axis {
 
 struct Tick {
-  int clock = 0;                                                        ///< of the tick, from 0
-  bool sample = false;                                                  ///< the position is sampled
+  int clock = 0;        ///< of the tick, from 0
+  bool sample = false;  ///< the position is sampled
   bool velocity = false, tau_hat = false, scene = false, tau_ref = false,
-       duty = false;   ///< is new
-  bool last = false;                                                    ///< clock of a tick
+       duty = false;  ///< is new
+  bool last = false;  ///< clock of a tick
   std::uint32_t count = 0;
 };
 
@@ -25,12 +26,13 @@ struct Encoder {
   bool sample = false;
   std::uint32_t tick_count = 0;
   int filter = 0;
-  bool polarity = false, set_zero = false, clear = false;
+  bool polarity = false, set_zero = false, clear = false, gates_enable = false;
 };
 
 /// From the encoder.
 struct Position {
   std::int32_t position = 0;
+  std::int32_t count = 0;  ///< whatever the zero
   std::uint16_t travel = 0;
   bool moved = false, chatters = false, illegal = false, error = false;
   std::uint16_t error_count = 0, rejected_count = 0;
@@ -42,8 +44,11 @@ struct Position {
 
 /// To the bridge.
 struct Drive {
-  bool gates_enable = false, gates_clear = false, pwm_mode = false, polarity = false;
+  bool gates_enable = false, gates_clear = false, clear = false, pwm_mode = false, polarity = false;
+  bool direct = false;                 ///< voltage mode: no current is controlled
+  bool sample = false, valid = false;  ///< the position is sampled; current, feed, duty are new
   std::int32_t current = 0;
+  std::int32_t feed = 0;  ///< V, fed forward to a current's controller
   std::int16_t duty = 0;
 };
 
@@ -53,6 +58,21 @@ struct Bridge {
   std::int16_t duty_active = 0;
   std::int32_t current = 0;
   unsigned why = 0;  ///< bit 4: no offset yet
+};
+
+/// What a motor with three phases takes of its encoder, beside the words of commutation.
+struct Rotor {
+  std::int32_t count = 0;   ///< times the gain an electrical angle
+  std::uint32_t angle = 0;  ///< one that is known, 2^-32 electrical turn
+};
+
+/// All pins that a socket reads; each top has some of them.
+struct Pins {
+  EncoderPins encoder;
+  bool encoder_data = false;  ///< of an absolute encoder
+  unsigned hall = 0;          ///< bit n: line n
+  unsigned current_data = 0;  ///< bit n: of modulator n
+  bool driver_fault = false;
 };
 
 struct Panel {

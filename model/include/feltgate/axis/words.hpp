@@ -23,7 +23,7 @@ struct Words {
     hold_torque = 0, hold_time = 0, hold_limit = 0, current_limit = 0, voltage_gain = 0,
     voltage_gain_high = 0, dead_voltage = 0, voltage_window = 0, duty_gain = 0, duty_limit = 0,
     watchdog_ticks = 0, self_test_torque = 0, self_test_quiet = 0, self_test_pulse = 0,
-    self_test_arms = 0;
+    self_test_arms = 0, commutation_gain = 0, commutation_offset = 0;
   // Of the scene in force. Those of one place share a register: p.scene_1, 2, 3, 6 and 10.
   T first = 0;   ///< counts: contact, rest, centre, lower face
   T second = 0;  ///< counts: upper face
@@ -111,6 +111,10 @@ struct Words {
         return &Words::self_test_pulse;
       case A::self_test_arms:
         return &Words::self_test_arms;
+      case A::commutation_gain:
+        return &Words::commutation_gain;
+      case A::commutation_offset:
+        return &Words::commutation_offset;
       default:
         return nullptr;
     }

@@ -42,6 +42,11 @@ class FeltgateCore {
   using In = CoreIn;
   using Out = CoreOut;
 
+  /// The clocks of a tick in which a program's torque is taken, and in which position, velocity and
+  /// tau_hat are new.
+  static constexpr int law_clock = axis::Axis::law_clock;
+  static constexpr int measured_clock = axis::Axis::measured_clock;
+
   FeltgateCore() { reset(); }
 
   /// A clock with the reset. The parameter RAM keeps its words, as in the RTL.
@@ -108,8 +113,10 @@ class FeltgateCore {
   void flip_control(int bit) { axis_.flip_control(bit); }
 
   const CoreOut& out() const { return out_; }
-  /// A word of this tick's snapshot by its slot, when on_snapshot() is called.
+  /// A word of the running tick's snapshot by its slot; all are there when on_snapshot() is called.
+  /// Between two ticks of the last one's.
   std::uint32_t word(int slot) const {
+    if (!out_.snapshot_valid) return axis_.word(slot);
     return at_axis(Inputs{CoreIn{}}, [&](const auto& to_axis) {
       return axis::Snapshot::at(slot, axis_.out(to_axis).snapshot);
     });
@@ -167,7 +174,7 @@ class FeltgateCore {
           panel{in.arm, in.stop, in.set_zero, in.scene},
           law{in.law_torque, in.law_late, in.law_restart},
           peers{in.axis_fault, in.axis_silent, in.axis_blocked, in.axis_testing, in.axis_waits},
-          port{in.reg_addr & 0xfff, in.reg_wdata, in.reg_write} {}
+          port{in.reg_addr, in.reg_wdata, in.reg_write} {}
     axis::Pins pins;
     axis::Panel panel;
     axis::Law<std::int64_t> law;
@@ -227,6 +234,7 @@ class FeltgateCore {
       bridge_.run(drive, duty_clock);
       show_tick(to_axis);
       on_snapshot();
+      out_.snapshot_valid = false;
       drive.duty = out_.duty;
       bridge_.run(drive, D::clocks_per_tick - duty_clock);
       axis_.end_tick(to_axis);

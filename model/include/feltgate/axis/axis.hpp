@@ -60,6 +60,12 @@ class Axis {
     Host host;
   };
 
+  /// The clocks of a tick in which a program's torque is taken, and in which tau_hat is new.
+  static constexpr int velocity_clock =
+      TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
+  static constexpr int law_clock = velocity_clock + Scene<Fixed>::summed;
+  static constexpr int measured_clock = velocity_clock + Observer<Fixed>::latency;
+
   explicit Axis(const Design& d)
       : laws_(std::make_shared<const Laws>(d)),
         formats_(std::make_shared<const WordFormats>(d)),
@@ -145,8 +151,8 @@ class Axis {
 
   /// The clock of a tick in which the duty is new.
   int duty_clock() const {
-    return TickCounter::sample_clock + laws_->velocity.latency +
-           laws_->scene.latency(q_.host.scene) + laws_->ramp.latency + laws_->torque.latency;
+    return velocity_clock + laws_->scene.latency(q_.host.scene) + laws_->ramp.latency +
+           laws_->torque.latency;
   }
   /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
   /// words of the snapshot are there before its end.
@@ -276,6 +282,8 @@ class Axis {
   Safe safe(const In& in) const { return q_.safety.see(*laws_, to_safety(in, tick())); }
   /// A write or a command is carried out in this clock.
   bool writes() const { return q_.ticks.last && q_.host.registers.busy(); }
+  /// A word of the snapshot, of the running tick or between two ticks of the last one.
+  std::uint32_t word(int place) const { return q_.host.snapshot.at(bank_, q_.ticks.at == 0, place); }
   std::uint32_t read_data() { return q_.host.read_data(params_, bank_); }
   const Blocks& blocks() const { return q_; }
   int clock_of_tick() const { return q_.ticks.at; }

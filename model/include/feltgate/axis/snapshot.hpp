@@ -45,6 +45,10 @@ class Snapshot {
     }
     return 0;
   }
+  /// The word at a place, of the running or of the last tick.
+  std::uint32_t at(const Memory& m, bool last, int to) const {
+    return m[place(last && !frozen_ ? !bank_ : bank_, to)];
+  }
   bool rests() const { return next_ == words && !word.valid; }
   /// What the port read in a tick as a whole, after its end.
   void settle(const Memory& m, int read_addr) {

@@ -10,9 +10,13 @@
 #include <sstream>
 #include <type_traits>
 
+#include "feltgate/axis/absolute.hpp"
 #include "feltgate/axis/axis.hpp"
-#include "feltgate/axis/h_bridge.hpp"
-#include "feltgate/axis/quadrature.hpp"
+#include "feltgate/axis/h_bridge_current.hpp"
+#include "feltgate/axis/heartbeat.hpp"
+#include "feltgate/axis/quadrature_hall.hpp"
+#include "feltgate/axis/three_phase.hpp"
+#include "feltgate/axis/three_phase_current.hpp"
 #include "feltgate/core_ports.hpp"
 
 namespace feltgate {
@@ -55,6 +59,8 @@ class FeltgateCore {
     at_axis(in, [this](const auto& to_axis) { axis_.reset(to_axis); });
     encoder_.reset();
     bridge_.reset();
+    heartbeat_.reset();
+    out_.heartbeat = false;
     gate_clocks_ = {};
     writes_ = 0;
     show(in);
@@ -88,11 +94,15 @@ class FeltgateCore {
   /// the gate enable, and give no snapshot; a caller that needs nothing else may then compute them
   /// later. May return false when true would hold.
   bool calm(const CoreIn& in, std::int64_t clocks) const {
-    if constexpr (!kWhole) return false;
-    if (clock_of_tick() != 0 || clocks >= axis_.duty_clock() || bridge_.clocks_to_duty() < clocks) {
+    if constexpr (!kWhole) {
       return false;
+    } else {
+      if (clock_of_tick() != 0 || clocks >= axis_.duty_clock() ||
+          bridge_.clocks_to_duty() < clocks) {
+        return false;
+      }
+      return out_.gates_enable ? !may_trip(in) : out_.duty_active == 0;
     }
-    return out_.gates_enable ? !may_trip(in) : out_.duty_active == 0;
   }
   /// Whether something could close the gates before the tick ends, with the inputs held. May return
   /// true when false would hold.
@@ -161,8 +171,14 @@ class FeltgateCore {
   std::int64_t thrown_ticks() const { return thrown_; }
 
  private:
-  using EncoderSocket = axis::Quadrature;
-  using BridgeSocket = axis::HBridge;
+  template <bool is, class A, class B>
+  using Either = std::conditional_t<is, A, B>;
+  using EncoderSocket = Either<D::absolute_encoder != 0, axis::Absolute,
+                               Either<D::hall != 0, axis::QuadratureHall, axis::Quadrature>>;
+  using BridgeSocket =
+      Either<D::phases == 3,
+             Either<D::current_loop != 0, axis::ThreePhaseCurrent, axis::ThreePhase>,
+             Either<D::current_loop != 0, axis::HBridgeCurrent, axis::HBridge>>;
   /// The sockets can take a tick as a whole.
   static constexpr bool kWhole = std::is_same_v<EncoderSocket, axis::Quadrature> &&
                                  std::is_same_v<BridgeSocket, axis::HBridge>;
@@ -195,6 +211,10 @@ class FeltgateCore {
     using Words = axis::Words<std::int64_t>;  // as before this clock
     const std::conditional_t<kWhole, const Words&, Words> p = axis_.words();
     writes_ += axis_.writes();
+    if constexpr (D::heartbeat != 0) {
+      heartbeat_.clock(axis_.tick(), axis_.blocks().safety.latch.first);
+      out_.heartbeat = heartbeat_.out();
+    }
     const axis::Axis::ToSockets to =
         at_axis(in, [this](const auto& to_axis) { return axis_.clock(to_axis); });
     const axis::Rotor rotor = encoder_.rotor();
@@ -301,6 +321,7 @@ class FeltgateCore {
   axis::Axis axis_{design_of<D>()};
   EncoderSocket encoder_{design_of<D>()};
   BridgeSocket bridge_{design_of<D>()};
+  axis::Heartbeat heartbeat_{design_of<D>()};
   GateCounts gate_clocks_{};
   std::int64_t writes_ = 0, whole_ = 0, thrown_ = 0;
   CoreOut out_;

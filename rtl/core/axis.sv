@@ -52,7 +52,7 @@ module axis #(
   logic signed [cfg::FEED_W-1:0] feed;
   logic signed [31:0] position_q;
   logic signed [17:0] scene_position_q;
-  logic position_valid_q;
+  logic position_valid_q, others_test_q;
   logic signed [cfg::SCENE_TORQUE_W-1:0] scene_torque, torque;
   assign {tick_o, p_o, safety_o, zeroed_o} = {tick, p, safe, set_zero};
 
@@ -64,10 +64,11 @@ module axis #(
   assign encoder_o = {tick.sample, tick.count, control.filter, control.encoder_polarity, set_zero, safe.clear, safe.gates_enable};
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      {position_q, scene_position_q, position_valid_q} <= '0;
+      {position_q, scene_position_q, position_valid_q, others_test_q} <= '0;
     end else begin
       position_valid_q <= tick.sample;
       if (tick.sample) position_q       <= position_i.position;
+      if (tick.sample) others_test_q    <= peers_i.testing;  // the same for the whole chain
       if (tick.sample) scene_position_q <= 18'(fx::saturate(64'(position_i.position), 18));
     end
   end
@@ -84,7 +85,7 @@ module axis #(
       .velocity_i(values.velocity), .tau_hat_o(values.tau_hat), .saturated_o(tau_hat_saturated), .valid_o(tick.tau_hat)
   );
 
-  assign testing = safe.testing || peers_i.testing;
+  assign testing = safe.testing || others_test_q;
   scene u_scene (
       .clk_i(clk_i), .rst_ni(rst_ni), .p(p), .armed_i(safe.armed && !testing), .scene_i(scene_number),
       .start_i(position_valid_q), .velocity_valid_i(tick.velocity), .position_i(scene_position_q),

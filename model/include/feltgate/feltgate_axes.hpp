@@ -12,7 +12,6 @@
 #include <type_traits>
 
 #include "feltgate/axes_engine.hpp"
-#include "feltgate/core_steps.hpp"
 #include "feltgate/feltgate_core.hpp"
 
 namespace feltgate {
@@ -100,10 +99,8 @@ class FeltgateAxes {
   }
 
  private:
-  /// The clock of a tick after which the cores have measured. They take torques in the clock before
-  /// it.
-  static constexpr int kMeasured = core_steps::clock_of(Map::T::tau_hat) + 1;
-  static_assert(kMeasured == core_steps::clock_of(Map::T::law_torque) + 1);
+  /// The clocks of a tick in which the cores take torques, and in which they have measured.
+  static constexpr int kTakes = Core::law_clock, kMeasured = Core::measured_clock;
 
   struct NoWatcher {
     void event(std::int64_t, int) {}
@@ -137,10 +134,10 @@ class FeltgateAxes {
       if (to == from) return 0;
     }
     if (!apart(each, to == tick)) return 0;
-    const bool takes = from < kMeasured && kMeasured <= to;
+    const bool takes = from <= kTakes && kTakes < to;
     const bool measures = from <= kMeasured && kMeasured < to;
     if (measures && !glue_.may_tick(kMeasured - from)) return 0;
-    if (takes) glue_.torques(kMeasured - 1 - from, each);
+    if (takes) glue_.torques(kTakes - from, each);
     for (std::size_t n = 0; n < N; ++n) {
       cores_[n].run(each[n], to - from, [&, n] {
         out_.axis[n] = cores_[n].out();

@@ -14,7 +14,6 @@ namespace feltgate::axis {
 
 class Absolute {
  public:
-  static constexpr bool whole_ticks = false;
   static AbsoluteEncoder::Parameters parameters(const Design& d) {
     AbsoluteEncoder::Parameters p;
     p.framing = d["ABSOLUTE_FRAMING"];

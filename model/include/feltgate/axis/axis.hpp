@@ -20,17 +20,21 @@ namespace feltgate::axis {
 
 class Axis {
  public:
+  using P = Words<std::int64_t>;
   struct In {
-    Position position;
-    Bridge bridge;
-    Panel panel;
-    Law<std::int64_t> law;
-    Peers peers;
-    RegisterPort port;
+    const Position& position;
+    const Bridge& bridge;
+    const Panel& panel;
+    const Law<std::int64_t>& law;
+    const Peers& peers;
+    const RegisterPort& port;
   };
-  struct Out {
+  /// What the sockets take.
+  struct ToSockets {
     Encoder encoder;
     Drive drive;
+  };
+  struct Out {
     Tick tick;
     Values snapshot;
     Safe safety;
@@ -42,7 +46,10 @@ class Axis {
   /// All registers but those of the memories.
   struct Blocks {
     TickCounter ticks;
-    std::int32_t position = 0;
+    std::int32_t position = 0;  ///< sampled, as the next
+    std::int16_t travel = 0;
+    bool testing = false;  ///< another axis runs its self-test, at the sample
+    bool limit_hold = false;
     TravelWindow window;
     Clocked<VelocityEstimator<Fixed>> velocity;
     Clocked<Observer<Fixed>> observer;
@@ -52,6 +59,12 @@ class Axis {
     Safety safety;
     Host host;
   };
+
+  /// The clocks of a tick in which a program's torque is taken, and in which tau_hat is new.
+  static constexpr int velocity_clock =
+      TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
+  static constexpr int law_clock = velocity_clock + Scene<Fixed>::summed;
+  static constexpr int measured_clock = velocity_clock + Observer<Fixed>::latency;
 
   explicit Axis(const Design& d)
       : laws_(std::make_shared<const Laws>(d)),
@@ -68,7 +81,7 @@ class Axis {
     t.sample = q_.ticks.sample;
     t.velocity = q_.velocity.valid(laws_->velocity.latency);
     t.tau_hat = q_.observer.valid(laws_->observer.latency);
-    t.scene = q_.scene.valid(laws_->scene.latency(q_.host.scene));
+    t.scene = q_.scene.valid(laws_->scene.latency(q_.host.scene) - laws_->scene.summed);
     t.tau_ref = q_.ramp.valid(laws_->ramp.latency);
     t.duty = q_.torque.valid(laws_->torque.latency);
     t.last = q_.ticks.last;
@@ -81,53 +94,50 @@ class Axis {
     o.tick = tick();
     o.safety = q_.safety.see(*laws_, to_safety(in, o.tick));
     o.snapshot = values(in, o.safety);
-    o.zeroed = q_.host.registers.set_zero(o.tick.last);
-    o.encoder = encoder(o.tick, o.zeroed, o.safety.clear);
-    o.drive = drive(o.safety.gates_clear, o.safety.clear);
+    o.zeroed = zeroed();
     o.word = q_.host.snapshot.word;
     o.reg_busy = q_.host.registers.busy();
     o.reg_rdata = q_.host.rdata;
     return o;
   }
 
-  void clock(const In& in) {
+  ToSockets clock(const In& in) {
     const Laws& laws = *laws_;
-    const Words<std::int64_t>& p = params_.p;
+    const P& p = params_.p;
     const Tick tick = this->tick();
     const Safety::In to_safety = this->to_safety(in, tick);
     const Safe safe = q_.safety.see(laws, to_safety);
     const Values values = this->values(in, safe);
     const int scene = q_.host.scene;
-    const bool testing = safe.testing || in.peers.testing;
+    const bool renders = safe.armed && !safe.testing && !q_.testing;
+    const bool sums = q_.velocity.valid(laws.velocity.latency + laws.scene.summed);
+    const ToSockets to{encoder(tick, safe), drive(tick, safe.gates_clear, safe.clear)};
 
     // The position at the beginning of a tick.
-    if (tick.sample) {
-      q_.position = in.position.position;
-      q_.ramp.shown.limit_hold = safe.derated;
-    }
+    if (tick.sample) sample(in, safe.derated);
     q_.velocity.clock(tick.sample, [&] {
-      return laws.velocity.tick(
-          q_.velocity.state, p,
-          q_.window.tick(line_.data(), laws.m1, static_cast<std::int16_t>(in.position.travel)));
+      const auto travel = static_cast<std::int16_t>(in.position.travel);
+      const std::int16_t counts = q_.window.counts(travel);
+      q_.window.tick(line_.data(), laws.m1, travel);
+      return laws.velocity.tick(q_.velocity.state, p, counts);
     });
     q_.observer.clock(tick.velocity, [&] {
       return laws.observer.tick(q_.observer.state, p, safe.armed, motor_current(in),
-                                q_.velocity.shown.velocity);
+                                q_.velocity.state.velocity);
     });
-    q_.scene.clock(tick.velocity, [&] {
-      return laws.scene.tick(q_.scene.state, p, safe.armed && !testing, scene,
-                             Fixed::saturate(q_.position, 18), q_.velocity.shown.velocity, in.law);
+    q_.scene.clock(sums, [&] {
+      return laws.scene.tick(q_.scene.state, p, renders, scene, Fixed::saturate(q_.position, 18),
+                             q_.velocity.state.velocity, in.law);
     });
     q_.ramp.clock(tick.scene, [&] {
-      return laws.ramp.tick(
-          q_.ramp.state, p,
-          to_ramp(in, q_.scene.state.torque, safe.armed && !testing, safe.testing));
+      return laws.ramp.tick(q_.ramp.state, p,
+                            to_ramp(in, q_.scene.state.torque, renders, safe.testing));
     });
-    if (tick.scene) q_.ramp.shown.limit_torque = q_.ramp.state.limit_torque;
+    if (tick.scene) q_.ramp.showing().limit_torque = q_.ramp.state.limit_torque;
     q_.torque.clock(tick.tau_ref, [&] {  // tau_hat is new a clock later at the latest
       return laws.torque.tick(q_.torque.state, p, safe.armed, control().mode(),
                               q_.ramp.state.tau_ref, q_.observer.state.tau_hat,
-                              q_.velocity.shown.velocity);
+                              q_.velocity.state.velocity);
     });
     const bool restart = q_.host.registers.restart(tick.last, scene) ||
                          (tick.last && law_selected() && in.law.restart);
@@ -136,12 +146,13 @@ class Axis {
     q_.safety.clock(laws, p, to_safety);
     q_.host.clock(params_, bank_, *formats_, tick, in.panel, in.port, safe, in.position, values);
     q_.ticks.clock(laws.clocks_per_tick);
+    return to;
   }
 
   /// The clock of a tick in which the duty is new.
   int duty_clock() const {
-    return TickCounter::sample_clock + laws_->velocity.latency +
-           laws_->scene.latency(q_.host.scene) + laws_->ramp.latency + laws_->torque.latency;
+    return velocity_clock + laws_->scene.latency(q_.host.scene) + laws_->ramp.latency +
+           laws_->torque.latency;
   }
   /// A tick begins that tick() may take: nothing is written, nothing trips in every clock, and all
   /// words of the snapshot are there before its end.
@@ -153,38 +164,27 @@ class Axis {
            q_.safety.rests(in.panel.stop, cause) &&
            duty_clock() + Snapshot::words - Snapshot::early + 1 < laws_->clocks_per_tick;
   }
-  /// A tick as a whole, its inputs as in the sample's clock. All that it makes is a copy; if
-  /// anything tripped in it, the copy is thrown away: false.
+  /// A tick as a whole but for its end, its inputs as in the sample's clock. If something trips in
+  /// it, nothing is changed: false.
   bool tick(const In& in) {
     const Laws& laws = *laws_;
-    const Words<std::int64_t>& p = params_.p;
-    const std::uint32_t count = q_.ticks.count;
     const int number = q_.host.scene;
-    const bool armed = q_.safety.arming.armed(), open = q_.safety.arming.open();
-    const auto& last = q_.torque.state;
     params_.load_scene(*formats_, number);
+    const P& p = params_.p;
+    const std::uint32_t count = q_.ticks.count;
+    const bool armed = q_.safety.arming.armed(), open = q_.safety.arming.open();
+    const bool tests = q_.safety.self_test.busy(armed);
+    const auto& last = q_.torque.state;
 
+    // What can trip.
     const auto heat = laws.heat.tick(p, last.voltage, q_.velocity.state.velocity);
     std::int64_t heat_sum = q_.safety.heat_sum;
     const bool hot = laws.heat.heat(heat_sum, p, armed, heat.current);
-    TravelWindow window = q_.window;
     const auto travel = static_cast<std::int16_t>(in.position.travel);
-    const auto speed =
-        laws.velocity.tick(q_.velocity.state, p, window.tick(line_.data(), laws.m1, travel));
+    const auto speed = laws.velocity.tick(q_.velocity.state, p, q_.window.counts(travel));
     const auto fast = laws.overspeed.tick(q_.safety.overspeed.state, p, speed.velocity);
-    const auto observed =
-        laws.observer.tick(q_.observer.state, p, armed, last.current, speed.velocity);
-
-    const bool tests = q_.safety.self_test.busy(armed);
-    const bool runs = armed && !tests && !in.peers.testing;
-    const auto scene =
-        laws.scene.tick(q_.scene.state, p, runs, number, Fixed::saturate(in.position.position, 18),
-                        speed.velocity, in.law);
     const auto polarity =
         laws.polarity.tick(q_.safety.polarity, p, open, speed.velocity, last.current);
-    auto ramp = laws.ramp.tick(q_.ramp.state, p, to_ramp(in, scene.torque, runs, tests));
-    const auto torque = laws.torque.tick(last, p, armed, control().mode(), ramp.tau_ref,
-                                         observed.tau_hat, speed.velocity);
     SelfTest self_test = q_.safety.self_test;
     self_test.sample(in.position.travel >> laws.self_test_drop);
     self_test.start(p, armed, control().mode() == Map::mode_voltage, in.peers.waits, count);
@@ -193,26 +193,46 @@ class Axis {
         q_.safety.watchdog.trip(open)) {
       return false;
     }
-    if (law_selected() && in.law.restart) ramp.ramping = true;
 
-    q_.position = in.position.position;
-    q_.window = window;
-    q_.velocity.tick(speed);
-    q_.observer.tick(observed);
-    q_.scene.tick(scene);
-    q_.ramp.tick(ramp);
-    q_.torque.tick(torque);
-    q_.safety.heat.tick(heat);
+    sample(in, q_.safety.hold.derated);
+    q_.window.tick(line_.data(), laws.m1, travel);
+    q_.velocity.tick() = speed;
+    auto& observer = q_.observer.tick();
+    observer = laws.observer.tick(observer, p, armed, last.current, speed.velocity);
+    const bool renders = armed && !tests && !in.peers.testing;
+    auto& scene = q_.scene.tick();
+    scene = laws.scene.tick(scene, p, renders, number, Fixed::saturate(q_.position, 18),
+                            speed.velocity, in.law);
+    auto& ramp = q_.ramp.tick();
+    ramp = laws.ramp.tick(ramp, p, to_ramp(in, scene.torque, renders, tests));
+    auto& torque = q_.torque.tick();
+    torque = laws.torque.tick(torque, p, armed, control().mode(), ramp.tau_ref, observer.tau_hat,
+                              speed.velocity);
+    q_.safety.heat.tick() = heat;
     q_.safety.heat_sum = heat_sum;
-    q_.safety.overspeed.tick(fast);
+    q_.safety.overspeed.tick() = fast;
     q_.safety.polarity = polarity.next;
     q_.safety.self_test = self_test;
     q_.safety.hold.tick(p, armed, count, ramp.tau_ref, in.position.moved);
-    q_.host.params.tick(params_, laws.clocks_per_tick, number, in.port.addr);
-    q_.host.tick(bank_, in.panel, in.port, values(in, q_.safety.levels(laws)));
-    q_.safety.end_tick(laws, to_safety(in, Tick{}));
-    ++q_.ticks.count;
     return true;
+  }
+  /// The end of this tick.
+  void end_tick(const In& in) {
+    q_.host.tick(bank_, in.port, laws_->clocks_per_tick, values(in, q_.safety.levels(*laws_)));
+    if (law_selected() && in.law.restart) q_.ramp.state.ramping = true;
+    q_.host.end_tick(in.panel);
+    q_.safety.end_tick(*laws_, to_safety(in, Tick{}));
+    ++q_.ticks.count;
+  }
+  /// The gates may close before this tick ends, if the encoder rests. It may be true where nothing
+  /// happens.
+  bool may_trip(const In& in) const {
+    const Laws& laws = *laws_;
+    const P& p = params_.p;
+    const auto counts = q_.window.counts(static_cast<std::int16_t>(in.position.travel));
+    return !ordinary(in) || q_.safety.self_test.busy(q_.safety.arming.armed()) ||
+           q_.safety.near(laws, p, q_.velocity.state.velocity) ||
+           Fixed::beyond(laws.velocity.speed(counts), p.overspeed);
   }
 
   /// A clock with the reset. What has none: the parameters, the motor's heat, the stop latch.
@@ -226,68 +246,60 @@ class Axis {
   }
 
   const Laws& laws() const { return *laws_; }
-  const Words<std::int64_t>& p() const { return params_.p; }
-  /// The bridge's operands, but for the stop pin.
-  Drive drive(bool gates_clear, bool clear) const {
-    const Tick tick = this->tick();
-    return {q_.safety.arming.open(),
-            gates_clear,
-            clear,
-            control().pwm_mode(),
-            control().motor_polarity(),
-            control().mode() == Map::mode_voltage,
-            tick.sample,
-            tick.duty,
-            static_cast<std::int32_t>(q_.torque.shown.current),
-            static_cast<std::int32_t>(q_.torque.state.feed),
-            static_cast<std::int16_t>(q_.torque.shown.duty)};
+  const P& words() const { return params_.p; }
+  /// Fault injection.
+  void flip(int address, int bit) { params_.flip(address, bit); }
+  void flip_control(int bit) { q_.host.registers.flip(bit); }
+
+  /// The bridge's operands. The last two may change within a tick.
+  Drive drive(const Tick& tick, bool gates_clear, bool clear) const {
+    Drive d;
+    d.gates_enable = q_.safety.arming.open();
+    d.gates_clear = gates_clear;
+    d.clear = clear;
+    d.pwm_mode = control().pwm_mode();
+    d.polarity = control().motor_polarity();
+    d.direct = control().mode() == Map::mode_voltage;
+    d.sample = tick.sample;
+    d.valid = tick.duty;
+    d.current = static_cast<std::int32_t>(q_.torque.shown().current);
+    d.feed = static_cast<std::int32_t>(q_.torque.shown().feed);
+    d.duty = static_cast<std::int16_t>(q_.torque.shown().duty);
+    return d;
   }
   bool gates_clear(const In& in) const { return q_.safety.stop.gates_clear(in.panel.stop); }
-  Encoder encoder(const Tick& tick, bool set_zero, bool clear) const {
-    return {tick.sample, tick.count, control().filter(),     control().encoder_polarity(),
-            set_zero,    clear,      q_.safety.arming.open()};
+  Encoder encoder(const Tick& tick, const Safe& safe) const {
+    return {tick.sample, tick.count, control().filter(), control().encoder_polarity(),
+            zeroed(),    safe.clear, safe.gates_enable};
   }
+  /// The encoder's operands in a tick in which nothing is written.
+  Encoder encoder() const {
+    return {false, q_.ticks.count, control().filter(),     control().encoder_polarity(),
+            false, false,          q_.safety.arming.open()};
+  }
+  /// The position becomes 0.
+  bool zeroed() const { return q_.host.registers.set_zero(q_.ticks.last); }
+  Safe safe(const In& in) const { return q_.safety.see(*laws_, to_safety(in, tick())); }
+  /// A write or a command is carried out in this clock.
+  bool writes() const { return q_.ticks.last && q_.host.registers.busy(); }
+  /// A word of the snapshot, of the running tick or between two ticks of the last one.
+  std::uint32_t word(int place) const { return q_.host.snapshot.at(bank_, q_.ticks.at == 0, place); }
+  std::uint32_t read_data() { return q_.host.read_data(params_, bank_); }
+  const Blocks& blocks() const { return q_; }
   int clock_of_tick() const { return q_.ticks.at; }
   Control control() const { return q_.host.registers.control; }
 
- private:
-  Safety::In to_safety(const In& in, const Tick& tick) const {
-    return {tick,
-            q_.host.commands(tick.last, in.panel),
-            in.position,
-            in.bridge,
-            in.peers,
-            q_.host.params.word_error(),
-            law_selected() && in.law.late,
-            q_.velocity.shown.velocity,
-            q_.ramp.shown.tau_ref,
-            q_.torque.shown.current,
-            q_.torque.shown.voltage};
-  }
-  bool law_selected() const {
-    return q_.host.scene == Map::S::law && laws_->scene.has(Map::S::law);
-  }
-  std::int64_t motor_current(const In& in) const {  // of the tick before
-    return in.bridge.measured ? in.bridge.current : q_.torque.shown.current;
-  }
-  Ramp<Fixed>::In to_ramp(const In& in, std::int64_t torque, bool armed, bool testing) const {
-    return {armed,
-            q_.host.scene,
-            in.position.chatters,
-            q_.safety.hold.derated,
-            testing,
-            testing ? q_.safety.pulse(*laws_) : torque};
-  }
+  /// All values of the tick as the outputs have them.
   Values values(const In& in, const Safe& safe) const {
     using L = Map::L;
-    const auto& ramp = q_.ramp.shown;
-    const auto& torque = q_.torque.shown;
+    const auto& ramp = q_.ramp.shown();
+    const auto& torque = q_.torque.shown();
     const auto bit = [](bool on, int place) { return (on ? 1U : 0U) << place; };
     Values v;
     v.tick = q_.ticks.count;
     v.position = q_.position;
-    v.velocity = q_.velocity.shown.velocity;
-    v.tau_hat = q_.observer.shown.tau_hat;
+    v.velocity = q_.velocity.shown().velocity;
+    v.tau_hat = q_.observer.shown().tau_hat;
     v.tau_ref = ramp.tau_ref;
     v.current = torque.current;
     v.voltage = torque.voltage;
@@ -297,14 +309,48 @@ class Axis {
     v.encoder = std::uint32_t{in.position.rejected_count} << 16 | in.position.error_count;
     v.limits = bit(ramp.limit_torque, L::torque) | bit(ramp.limit_ramp, L::ramp) |
                bit(torque.limit_current, L::current) | bit(torque.limit_voltage, L::voltage) |
-               bit(torque.limit_duty, L::duty) | bit(q_.velocity.shown.saturated, L::velocity) |
-               bit(q_.observer.shown.saturated, L::tau_hat) |
-               bit(!safe.gates_enable, L::gates_closed) | bit(ramp.limit_hold, L::hold) |
+               bit(torque.limit_duty, L::duty) | bit(q_.velocity.shown().saturated, L::velocity) |
+               bit(q_.observer.shown().saturated, L::tau_hat) |
+               bit(!safe.gates_enable, L::gates_closed) | bit(q_.limit_hold, L::hold) |
                bit(in.position.chatters, L::chatter);
-    q_.host.words(v, safe, in.position, in.bridge, safe.testing || in.peers.testing);
+    q_.host.words(v, safe, in.position, in.bridge, safe.testing || q_.testing);
     return v;
   }
 
+ private:
+  Safety::In to_safety(const In& in, const Tick& tick) const {
+    return {tick,
+            q_.host.commands(tick.last, in.panel),
+            in.position,
+            in.bridge,
+            in.peers,
+            q_.host.params.word_error() || q_.host.registers.error(),
+            law_selected() && in.law.late,
+            q_.velocity.shown().velocity,
+            q_.ramp.shown().tau_ref,
+            q_.torque.shown().current,
+            q_.torque.shown().voltage};
+  }
+  bool law_selected() const {
+    return q_.host.scene == Map::S::law && laws_->scene.has(Map::S::law);
+  }
+  std::int64_t motor_current(const In& in) const {  // of the tick before
+    return in.bridge.measured ? in.bridge.current : q_.torque.shown().current;
+  }
+  Ramp<Fixed>::In to_ramp(const In& in, std::int64_t torque, bool armed, bool testing) const {
+    return {armed,
+            q_.host.scene,
+            in.position.chatters,
+            q_.safety.hold.derated,
+            testing,
+            testing ? q_.safety.pulse(*laws_) : torque};
+  }
+  void sample(const In& in, bool derated) {
+    q_.position = in.position.position;
+    q_.travel = static_cast<std::int16_t>(in.position.travel);
+    q_.testing = in.peers.testing;
+    q_.limit_hold = derated;
+  }
   std::shared_ptr<const Laws> laws_;
   std::shared_ptr<const WordFormats> formats_;
   std::vector<std::int16_t> line_;  ///< of the travel's window

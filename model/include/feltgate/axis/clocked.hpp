@@ -16,22 +16,31 @@ class Clocked {
   using State = typename Law::State;
 
   State state{};  ///< of the tick, whole from start on
-  State shown{};  ///< as the outputs have it
 
+  /// As the outputs have it.
+  const State& shown() const { return at_ == 0 ? state : shown_; }
+  State& showing() { return shown_; }
   bool at(int k) const { return (at_ >> k & 1) != 0; }
   /// `latency` clocks after start, for one clock.
   bool valid(int latency) const { return at(latency - 1); }
   /// A clock; `tick` makes the next state in a clock with `start`.
   template <class Tick>
   void clock(bool start, Tick&& tick) {
-    if (at_ != 0) Law::show(*this, state, shown);
+    if (at_ != 0) Law::show(*this, state, shown_);
     at_ = at_ << 1 | (start ? 1U : 0U);
-    if (start) state = tick();
+    if (start) {
+      shown_ = state;
+      state = tick();
+    }
   }
-  /// A whole tick at once.
-  void tick(const State& next) { state = shown = next; }
+  /// A whole tick at once: all of the state is shown.
+  State& tick() {
+    at_ = 0;
+    return state;
+  }
 
  private:
+  State shown_{};  ///< while a tick is under way
   std::uint32_t at_ = 0;
 };
 

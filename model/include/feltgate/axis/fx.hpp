@@ -21,26 +21,36 @@ constexpr std::uint32_t low_bits(std::uint32_t x, int bits) {
   return bits >= 32 ? x : x & ((1U << bits) - 1);
 }
 
+/// A power of two by which a value is scaled: one of the two shifts is 0.
+struct Exponent {
+  int left, right;
+  Exponent(int exponent)  // NOLINT(google-explicit-constructor): it is a number
+      : left(exponent > 0 ? exponent : 0), right(exponent < 0 ? -exponent : 0) {}
+};
+/// The lowest `drop` bits, at least one, are rounded away: `half` is added to them, and one more
+/// to half of an odd result where it is `to_even`.
+struct Drop {
+  int drop;
+  std::int64_t half, to_even;
+  Drop(int d, Rounding rounding)
+      : drop(d),
+        half(rounding == Rounding::down ? 0 : std::int64_t{1} << (d - 1)),
+        to_even(rounding == Rounding::half_to_even) {
+    half -= to_even;
+  }
+};
+
 struct Fixed {
   using T = std::int64_t;
   static constexpr bool is_fixed = true;
 
-  /// 1: x without its lowest `drop` bits is rounded up. `odd`: the lowest bit of what is rounded.
-  static bool rounds_up(T x, int drop, bool odd, Rounding rounding) {
-    const bool half = (x >> (drop - 1) & 1) != 0;
-    if (rounding == Rounding::half_up) return half;
-    if (rounding == Rounding::down) return false;
-    const bool rest = (x & ((T{1} << (drop - 1)) - 1)) != 0;
-    return half && (rest || odd);
-  }
   /// y + x * 2^-drop, rounded.
-  static T add_rounded(T y, T x, int drop, Rounding rounding) {
-    const T sum = y + (x >> drop);
-    return sum + rounds_up(x, drop, (sum & 1) != 0, rounding);
+  static T add_rounded(T y, T x, const Drop& d) {
+    return y + ((x + d.half + (d.to_even & (y + (x >> d.drop)))) >> d.drop);
   }
   /// x * 2^exponent, truncated.
-  static T scale(T x, int exponent) {
-    return exponent >= 0 ? x * (T{1} << exponent) : x >> -exponent;
+  static T scale(T x, const Exponent& e) {
+    return static_cast<T>(static_cast<std::uint64_t>(x) << e.left) >> e.right;
   }
   /// x * 2^-drop, truncated, with the lowest bit set where a dropped bit was.
   static T scale_sticky(T x, int drop) {
@@ -71,8 +81,8 @@ template <class R>
 struct Real {
   using T = R;
   static constexpr bool is_fixed = false;
-  static T add_rounded(T y, T x, int, Rounding) { return y + x; }
-  static T scale(T x, int) { return x; }
+  static T add_rounded(T y, T x, const Drop&) { return y + x; }
+  static T scale(T x, const Exponent&) { return x; }
   static T scale_sticky(T x, int) { return x; }
   static bool overflows(T, int) { return false; }
   static T saturate(T x, int) { return x; }

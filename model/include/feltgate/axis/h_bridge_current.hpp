@@ -16,7 +16,6 @@ namespace feltgate::axis {
 
 class HBridgeCurrent {
  public:
-  static constexpr bool whole_ticks = false;
   explicit HBridgeCurrent(const Design& d)
       : sensors_(d),
         command_(d),
@@ -35,6 +34,7 @@ class HBridgeCurrent {
     return b;
   }
   unsigned gates() const { return h_bridge_.gates(); }
+  int on_time(std::size_t) const { return 0; }  ///< the duty says it all
   bool modulator_clock() const { return sensors_.modulator_clock(); }
 
   void clock(const Pins& pins, const Drive& drive, const Words<std::int64_t>& p, const Rotor& r) {

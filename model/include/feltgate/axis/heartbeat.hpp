@@ -3,7 +3,7 @@
 //
 // Twin of rtl/options/heartbeat.sv, for a watchdog outside: a pin that changes every HEARTBEAT
 // ticks, and stands while a fault is latched. A design with HEARTBEAT 0 has no such pin.
-// docs/blocks/safety.md
+// docs/safety.md
 #pragma once
 
 #include "feltgate/axis/design.hpp"

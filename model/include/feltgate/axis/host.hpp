@@ -55,6 +55,7 @@ struct Host {
   void clock(ParamsMemory& m, Snapshot::Memory& bank, const WordFormats& formats, const Tick& tick,
              const Panel& panel, const RegisterPort& port, const Safe& safe,
              const Position& position, const Values& values) {
+    settle(m, bank);
     rdata = read();
     addr2 = addr;
     addr = port.addr;
@@ -67,17 +68,26 @@ struct Host {
     if (tick.last) next_scene(panel);
     registers.clock(formats, in);
   }
-  /// The end of a tick in which nothing is written but the snapshot, after params.tick().
-  void tick(Snapshot::Memory& bank, const Panel& panel, const RegisterPort& port,
-            const Values& values) {
-    snapshot.tick(bank, values, port.addr);
+  /// A tick in which nothing is written but the snapshot. What the port reads in it waits.
+  void tick(Snapshot::Memory& bank, const RegisterPort& port, int clocks, const Values& values) {
+    params.tick(clocks);
+    snapshot.tick(bank, values);
     addr = addr2 = port.addr;
-    rdata = read();
+    waits_ = true;
+  }
+  /// The end of this tick.
+  void end_tick(const Panel& panel) {
     snapshot.end_tick(true, false, false);
     next_scene(panel);
   }
+  /// The word that the host reads.
+  std::uint32_t read_data(const ParamsMemory& m, const Snapshot::Memory& bank) {
+    settle(m, bank);
+    return rdata;
+  }
   void reset(const ParamsMemory& m, const Snapshot::Memory& bank, const RegisterPort& port,
              std::uint32_t control_reset) {
+    settle(m, bank);
     registers = {};
     registers.control.word = control_reset;
     params.reset();
@@ -93,6 +103,13 @@ struct Host {
   }
 
  private:
+  void settle(const ParamsMemory& m, const Snapshot::Memory& bank) {
+    if (!waits_) return;
+    waits_ = false;
+    params.settle(m, addr);
+    snapshot.settle(bank, addr);
+    rdata = read();
+  }
   void next_scene(const Panel& panel) {
     scene = registers.control.host() ? registers.control.scene() : panel.scene;
   }
@@ -101,6 +118,8 @@ struct Host {
     if (addr2 >> 6 == Map::C::snapshot >> 6) return snapshot.read_data();
     return addr2 == Map::C::control ? registers.control.word : 0;
   }
+
+  bool waits_ = false;  ///< a tick as a whole has passed, its reads have not
 };
 
 }  // namespace feltgate::axis

@@ -23,18 +23,15 @@ struct Observer {
       : drive(d["OBSERVER_F"] - d["CURRENT_F"] - d["P_TORQUE_CONSTANT_F"]),
         inertia(d["OBSERVER_F"] - d["VELOCITY_F"] - d["P_INERTIA_GAIN_F"]),
         difference(d["OBSERVER_DIFFERENCE_F"] - d["OBSERVER_F"]),
-        a1_drop(d["OBSERVER_DIFFERENCE_F"] + d["P_OBSERVER_A1_F"] - d["OBSERVER_F"]),
-        drop(d["OBSERVER_F"] - d["TORQUE_F"]),
-        w(d["TORQUE_W"]),
-        rounding(d.rounding()) {}
+        a1(d["OBSERVER_DIFFERENCE_F"] + d["P_OBSERVER_A1_F"] - d["OBSERVER_F"], d.rounding()),
+        narrow(d["OBSERVER_F"] - d["TORQUE_F"], d.rounding()),
+        w(d["TORQUE_W"]) {}
 
   State tick(const State& s, const Words<T>& p, bool armed, T current, T velocity) const {
     const T inertial = N::scale(velocity * p.inertia_gain, inertia);
     const T x = (armed ? N::scale(current * p.torque_constant, drive) : T{0}) + inertial;
-    const T y = armed ? N::add_rounded(s.y, N::scale(x - s.y, difference) * p.observer_a1, a1_drop,
-                                       rounding)
-                      : x;
-    const T observed = N::add_rounded(0, y - inertial, drop, rounding);
+    const T y = armed ? N::add_rounded(s.y, N::scale(x - s.y, difference) * p.observer_a1, a1) : x;
+    const T observed = N::add_rounded(0, y - inertial, narrow);
     const T tau_hat = N::saturate(observed, w);
     return {y, tau_hat, tau_hat != observed};
   }
@@ -43,8 +40,9 @@ struct Observer {
     if (a.at(6)) to = from;
   }
 
-  int drive, inertia, difference, a1_drop, drop, w;
-  Rounding rounding;
+  Exponent drive, inertia, difference;
+  Drop a1, narrow;
+  int w;
 };
 
 }  // namespace feltgate::axis

@@ -17,18 +17,18 @@ struct Overspeed {
     bool too_fast = false, jumped = false;
   };
 
-  explicit Overspeed(const Design& d) : drop(d["VELOCITY_W"] + 17 - d["P_VELOCITY_A1_F"]) {
-    jumps = N::is_fixed && drop >= 0 && drop <= d["VELOCITY_W"] - 2;
-  }
+  explicit Overspeed(const Design& d) : Overspeed(d["VELOCITY_W"] + 17 - d["P_VELOCITY_A1_F"], d) {}
+  Overspeed(int drop, const Design& d)
+      : top(-drop), jumps(N::is_fixed && drop >= 0 && drop <= d["VELOCITY_W"] - 2) {}
   State tick(const State& s, const Words<T>& p, T velocity) const {
     bool jumped = false;
-    if (jumps) jumped = N::beyond(N::scale(velocity, -drop) - N::scale(s.before, -drop), 1);
+    if (jumps) jumped = N::beyond(N::scale(velocity, top) - N::scale(s.before, top), 1);
     return {velocity, N::beyond(velocity, p.overspeed), jumped};
   }
   template <class At>
   static void show(const At&, const State&, State&) {}
 
-  int drop;
+  Exponent top;
   bool jumps;
 };
 

@@ -29,6 +29,11 @@ struct ParamsMemory {
       formats.load(p, w.address, w.reset);
     }
   }
+  /// Fault injection: inverts a bit of a word, or from bit 32 on of its check.
+  void flip(int address, int bit) {
+    ram[static_cast<std::size_t>(address)] ^= std::uint64_t{1} << bit;
+    whole = false;
+  }
   /// The words of a scene, by a tick as a whole.
   void load_scene(const WordFormats& formats, int of) {
     if (scene == of) return;
@@ -65,10 +70,12 @@ class Params {
       if (address >= 64) m.scene = -1;
     }
   }
-  /// All clocks of a tick without a write, if RAM and registers agree.
-  void tick(const ParamsMemory& m, int clocks, int scene, int read_addr) {
-    next_ = (next_ + clocks - 6) & 63;
-    fetch(m, clocks - 1, scene);
+  /// All clocks of a tick without a write, if RAM and registers agree; then settle().
+  void tick(int clocks) { next_ = (next_ + clocks - 5) & 63; }
+  /// The last fetch and reads of a tick as a whole.
+  void settle(const ParamsMemory& m, int read_addr) {
+    next_ = (next_ - 1) & 63;
+    fetch(m, 5, 0);
     read(m, read_addr);
     read(m, read_addr);
     fetched_ = warm_ = true;

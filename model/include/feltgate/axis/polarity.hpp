@@ -31,7 +31,6 @@ struct Polarity {
   /// In the clock after the velocity and the scene's torque are new; `current` is that of the tick
   /// before.
   Judged tick(const State& s, const Words<T>& p, bool open, T velocity, T current) const {
-    constexpr unsigned all = (1U << (Map::runaway_windows - 1)) - 1;
     const T now = N::truncated(velocity, drop), gained = N::wrapped(now - s.begin, w);
     const bool grows = N::beyond(gained, p.polarity_speed) && (gained < 0) == (velocity < 0);
     const bool expired = static_cast<T>(s.ticks) >= p.polarity_ticks;
@@ -42,6 +41,12 @@ struct Polarity {
             against && expired && grows && s.grown == all};
   }
 
+  /// The next tick may trip.
+  bool near(const State& s, const Words<T>& p) const {
+    return s.grown == all && static_cast<T>(s.ticks) >= p.polarity_ticks;
+  }
+
+  static constexpr unsigned all = (1U << (Map::runaway_windows - 1)) - 1;
   int drop, w;
 };
 

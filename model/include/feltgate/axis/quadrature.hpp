@@ -9,72 +9,90 @@
 #include "feltgate/axis/signals.hpp"
 #include "feltgate/axis/words.hpp"
 #include "feltgate/encoder_monitor.hpp"
-#include "feltgate/encoder_source.hpp"
 #include "feltgate/quad_decoder.hpp"
 
 namespace feltgate::axis {
 
 class Quadrature {
  public:
-  static constexpr bool whole_ticks = true;
   explicit Quadrature(const Design& d)
       : decoder_(0, static_cast<std::uint32_t>(d["INDEX_COUNTS"])),
         edge_bits_(d["EDGE_UNIT_BITS"]),
         fast_(d["FAST_EDGES"] != 0),
         monitor_(edge_bits_, fast_) {}
 
-  Position out() const {
-    const QuadDecoder::Out& o = decoder_.out();
-    Position s;
-    s.position = o.position;
-    s.count = static_cast<std::int32_t>(o.count);
-    s.travel = o.travel;
-    s.moved = monitor_.moved();
-    s.chatters = monitor_.chatters();
-    s.illegal = o.illegal;
-    s.error = o.error;
-    s.error_count = o.error_count;
-    s.rejected_count = o.rejected_count;
-    s.index_position = o.index_position;
-    s.trip_channel = sampled_ && monitor_.trips();
-    s.trip_index = sampled_ && monitor_.index_trips();
-    return s;
-  }
+  const Position& out() const { return out_; }
   Rotor rotor() const { return {}; }
   unsigned lines() const { return 1; }  ///< of an absolute encoder: none is selected
   void clock(const Pins& pins, const Encoder& e, const Words<std::int64_t>&) {
     if (e.sample) sample(e.tick_count);
-    sampled_ = e.sample;
     decoder_.clock(at(pins.encoder, e));
+    show();
+    out_.trip_channel = e.sample && monitor_.trips();
+    out_.trip_index = e.sample && monitor_.index_trips();
   }
   void reset() {
     decoder_.reset();
     monitor_ = EncoderMonitorLaw(edge_bits_, fast_);
-    sampled_ = false;
+    out_ = {};
+    show();
   }
 
-  /// The monitor's tick; whether it trips.
-  bool sample(std::uint32_t tick_count) {
+  /// A tick of `clocks` clocks as a whole, with these pins: the position that is sampled in it.
+  /// Null where something out of the ordinary happens: a trip, an index, a wrong edge.
+  const Position* tick(const Pins& pins, const Encoder& e, int sample_clock, int clocks) {
+    const QuadDecoder::In in = at(pins.encoder, e);
+    int c = 0;
+    while (c < sample_clock && !decoder_.settled(in)) {
+      if (!edge(in)) return nullptr;
+      ++c;
+    }
+    sample(e.tick_count);
+    if (monitor_.trips() || monitor_.index_trips()) return nullptr;
+    show();
+    if (c == 0) return &out_;
+    sampled_ = out_;
+    while (c < clocks && !decoder_.settled(in)) {
+      if (!edge(in)) return nullptr;
+      ++c;
+    }
+    show();
+    return &sampled_;
+  }
+  /// Ticks with these pins are as the last one, and do not trip.
+  bool calm(const Pins& pins, const Encoder& e) const {
+    return decoder_.settled(at(pins.encoder, e)) && !monitor_.chatters() &&
+           decoder_.out().index_wrong == monitor_.index_wrong();
+  }
+
+ private:
+  void sample(std::uint32_t tick_count) {
     const QuadDecoder::Out& o = decoder_.out();
     monitor_.tick(o.levels, tick_count, o.index_wrong, o.count);
-    return monitor_.trips() || monitor_.index_trips();
   }
-  /// Further clocks with these inputs change nothing but the monitor.
-  bool rests(const Pins& pins, const Encoder& e) const {
-    return decoder_.settled(at(pins.encoder, e));
+  void show() {
+    const QuadDecoder::Out& o = decoder_.out();
+    out_.position = o.position;
+    out_.count = static_cast<std::int32_t>(o.count);
+    out_.travel = o.travel;
+    out_.moved = monitor_.moved();
+    out_.chatters = monitor_.chatters();
+    out_.illegal = o.illegal;
+    out_.error = o.error;
+    out_.error_count = o.error_count;
+    out_.rejected_count = o.rejected_count;
+    out_.index_position = o.index_position;
   }
   /// A clock without a sample; whether it was an ordinary one: no index, no wrong edge.
-  bool edge(const Pins& pins, const Encoder& e) {
+  bool edge(const QuadDecoder::In& in) {
     const QuadDecoder::Out before = decoder_.out();
-    decoder_.clock(at(pins.encoder, e));
+    decoder_.clock(in);
     const QuadDecoder::Out& now = decoder_.out();
     return !now.illegal && now.error_count == before.error_count &&
            now.rejected_count == before.rejected_count &&
            now.index_position == before.index_position && now.index_seen == before.index_seen &&
            now.index_wrong == before.index_wrong;
   }
-
- private:
   static QuadDecoder::In at(const EncoderPins& pins, const Encoder& e) {
     QuadDecoder::In in;
     in.a = pins.a;
@@ -91,7 +109,7 @@ class Quadrature {
   int edge_bits_;
   bool fast_;
   EncoderMonitorLaw monitor_;
-  bool sampled_ = false;
+  Position out_, sampled_;
 };
 
 }  // namespace feltgate::axis

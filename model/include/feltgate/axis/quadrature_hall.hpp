@@ -13,7 +13,6 @@ namespace feltgate::axis {
 
 class QuadratureHall {
  public:
-  static constexpr bool whole_ticks = false;
   explicit QuadratureHall(const Design& d) : quadrature_(d) {}
 
   Position out() const {  // why: as of an absolute encoder jump, check, missing

@@ -31,7 +31,9 @@ struct Ramp {
   };
 
   explicit Ramp(const Design& d)
-      : fine(d["RAMP_F"] - d["TORQUE_F"]), least(N::integer(1, 0, d["RAMP_F"])) {}
+      : fine(d["RAMP_F"] - d["TORQUE_F"]),
+        coarse(d["TORQUE_F"] - d["RAMP_F"]),
+        least(N::integer(1, 0, d["RAMP_F"])) {}
 
   State tick(const State& s, const Words<T>& p, const In& in) const {
     State next = s;
@@ -56,7 +58,7 @@ struct Ramp {
     next.limit_ramp = stepping;
     if (!stepping || !reached) next.ramp = stepping ? target + left : target;
     next.ramping = ramping && !(stepping && reached);
-    next.tau_ref = N::scale(next.ramp, -fine);
+    next.tau_ref = N::scale(next.ramp, coarse);
     return next;
   }
   template <class At>
@@ -64,7 +66,7 @@ struct Ramp {
     if (a.at(1)) to = from;
   }
 
-  int fine;
+  Exponent fine, coarse;
   T least;  ///< 1 LSB
 };
 

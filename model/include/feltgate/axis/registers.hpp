@@ -29,6 +29,12 @@ class Registers {
   };
   Control control;
 
+  /// A field that holds while armed has changed by itself.
+  bool error() const { return flipped_; }
+  void flip(int bit) {
+    control.word ^= 1U << bit;
+    if (bit >= Map::C::control_mode) flipped_ = !flipped_;
+  }
   bool busy() const { return to_parameter_ || to_control_ || to_command_; }
   bool disarm() const { return disarm_; }
   bool stop() const { return stop_; }
@@ -55,7 +61,7 @@ class Registers {
   }
   /// Nothing waits, and nothing comes with these inputs.
   bool rests(bool write, bool set_zero) const {
-    return !busy() && !write && !set_zero && !zero_ && !disarm_ && !stop_;
+    return !busy() && !write && !set_zero && !zero_ && !disarm_ && !stop_ && !flipped_;
   }
 
   void clock(const WordFormats& formats, const In& in) {
@@ -71,7 +77,9 @@ class Registers {
       // Mode, polarities and filter hold while armed.
       constexpr std::uint32_t always = (1U << C::control_mode) - 1,
                               all = (1U << C::control_width) - 1;
-      std::uint32_t takes = in.armed && !disarm_ ? always : all;
+      const bool holds = in.armed && !disarm_;
+      std::uint32_t takes = holds ? always : all;
+      flipped_ = flipped_ && holds;
       if (in.polarity_holds) takes &= ~(1U << C::control_encoder_polarity);
       control.word = (control.word & ~takes) | (data_ & takes);
     }
@@ -104,7 +112,7 @@ class Registers {
   }
 
   bool to_parameter_ = false, to_control_ = false, to_command_ = false, zero_ = false,
-       disarm_ = false, stop_ = false, refused_ = false, saturated_ = false;
+       disarm_ = false, stop_ = false, refused_ = false, saturated_ = false, flipped_ = false;
   int address_ = 0;
   std::uint32_t data_ = 0;
 };

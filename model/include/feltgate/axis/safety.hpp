@@ -118,7 +118,7 @@ struct Safety {
     s.test_result = self_test.result();
     s.faults = latch.faults;
     s.first_fault = latch.first;
-    s.current_estimate = heat.shown.current;
+    s.current_estimate = heat.shown().current;
     return s;
   }
   Safe see(const Laws& laws, const In& in) const {
@@ -146,7 +146,11 @@ struct Safety {
     errors.clock(in.tick.last, in.position.illegal);
     overspeed.clock(in.tick.velocity,
                     [&] { return laws.overspeed.tick(overspeed.state, p, in.velocity); });
-    if (heat.at(laws.heat.summed)) laws.heat.heat(heat_sum, p, armed, heat.shown.current);
+    if (heat.at(laws.heat.summed)) {
+      laws.heat.heat(
+          heat_sum, p, armed,
+          in.bridge.measured ? laws.heat.measured(in.bridge.current) : heat.shown().current);
+    }
     heat.clock(in.tick.sample, [&] { return laws.heat.tick(p, in.voltage, in.velocity); });
     if (after_scene) polarity = judged(laws, p, in).next;
     if (after_duty) hold.tick(p, armed, in.tick.count, in.tau_ref, in.position.moved);
@@ -162,6 +166,11 @@ struct Safety {
     arming.clock(in.tick.last, a, trips != 0, laws.wait_ticks);
     after_scene = in.tick.scene;
     after_duty = in.tick.duty;
+  }
+  /// Heat, speed, polarity or watchdog may trip in this tick.
+  bool near(const Laws& laws, const P& p, std::int64_t velocity) const {
+    return heat_sum >= p.i2t_budget || Fixed::beyond(velocity, p.overspeed) ||
+           laws.polarity.near(polarity, p) || watchdog.near(p);
   }
   /// No cause stands that trips in every clock, and the stop latch stays as it is.
   bool rests(bool stops, bool cause) const {

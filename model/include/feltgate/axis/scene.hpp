@@ -37,30 +37,31 @@ struct Scene {
       : mask(static_cast<unsigned>(d["SCENE_MASK"])),
         part_f(d["SCENE_PART_F"]),
         part_w(d["SCENE_PART_W"]),
-        guard(d["SCENE_GUARD_BITS"]),
+        sticky(d.rounding() == Rounding::half_to_even),
+        guard(d["SCENE_GUARD_BITS"], d.rounding()),
         distance_f(d["SCENE_DISTANCE_F"]),
         wall_stiffness(part_f - distance_f - d["P_WALL_STIFFNESS_F"]),
         wall_damping(part_f - d["VELOCITY_F"] - d["P_WALL_DAMPING_F"]),
-        damper(d["VELOCITY_F"] + d["P_DAMPER_DAMPING_F"]),
-        spring(distance_f + d["P_COMPRESSION_STIFFNESS_F"]),
-        slant(distance_f + d["P_ATTRACT_CORE_SLOPE_F"]),
-        charge_scale(part_f - d["CHARGE_F"]),
-        rounding(d.rounding()) {}
+        damper(part_f - d["VELOCITY_F"] - d["P_DAMPER_DAMPING_F"]),
+        spring(part_f - distance_f - d["P_COMPRESSION_STIFFNESS_F"]),
+        slant(part_f - distance_f - d["P_ATTRACT_CORE_SLOPE_F"]),
+        charge_scale(part_f - d["CHARGE_F"]) {}
 
   static bool is_charge(int scene) {
     return scene == S::charge_attract || scene == S::charge_repel;
   }
   bool has(int scene) const { return (mask >> scene & 1) != 0; }
-  /// After the velocity; a charge's divider has started with the position.
+  /// After the velocity: it takes the torque of a program, and its own is new. A charge's divider
+  /// has started with the position.
+  static constexpr int summed = 2;
   int latency(int scene) const { return is_charge(scene) && has(scene) ? 21 : 4; }
 
   /// A term with its guard bits; of what is dropped it keeps a trace, for rounding to even.
-  T single(T product, int fraction) const {
-    return rounding == Rounding::half_to_even ? N::scale_sticky(product, fraction - part_f)
-                                              : N::scale(product, part_f - fraction);
+  T single(T product, const Exponent& to_part) const {
+    return sticky ? N::scale_sticky(product, to_part.right) : N::scale(product, to_part);
   }
   /// The sum of a scene's terms, in its part's format.
-  T rounded(T sum) const { return N::add_rounded(0, sum, guard, rounding); }
+  T rounded(T sum) const { return N::add_rounded(0, sum, guard); }
 
   State tick(const State& s, const Words<T>& p, bool armed, int scene, std::int64_t position,
              T velocity, const Law<T>& law) const {
@@ -130,9 +131,11 @@ struct Scene {
   }
 
   unsigned mask;
-  int part_f, part_w, guard, distance_f, wall_stiffness, wall_damping, damper, spring, slant,
-      charge_scale;
-  Rounding rounding;
+  int part_f, part_w;
+  bool sticky;
+  Drop guard;
+  int distance_f;
+  Exponent wall_stiffness, wall_damping, damper, spring, slant, charge_scale;
 };
 
 }  // namespace feltgate::axis

@@ -13,11 +13,11 @@
 namespace feltgate::axis {
 
 struct Tick {
-  int clock = 0;                                                        ///< of the tick, from 0
-  bool sample = false;                                                  ///< the position is sampled
+  int clock = 0;        ///< of the tick, from 0
+  bool sample = false;  ///< the position is sampled
   bool velocity = false, tau_hat = false, scene = false, tau_ref = false,
-       duty = false;   ///< is new
-  bool last = false;                                                    ///< clock of a tick
+       duty = false;  ///< is new
+  bool last = false;  ///< clock of a tick
   std::uint32_t count = 0;
 };
 

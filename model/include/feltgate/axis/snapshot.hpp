@@ -25,42 +25,40 @@ class Snapshot {
     if (word.valid) m[place(bank_, word.place)] = word.data;
     const bool goes = next_ < words && (next_ < early || done_);
     word.valid = goes;
-    if (goes) take(next_, v);
+    if (goes) word.place = places[next_], word.data = value(next_, v);
     next_ = begin ? 0 : next_ + goes;
     done_ = end || (done_ && !begin);
     end_tick(tick, freeze, thaw);
   }
   /// All words of a tick at once, before its last clock.
-  void tick(Memory& m, const Values& v, int read_addr) {
-    using C = Map::C;
+  void tick(Memory& m, const Values& v) {
     std::uint32_t* const to = &m[place(bank_, 0)];
-    const auto put = [to](int address, std::int64_t data) {
-      to[address - C::snapshot] = static_cast<std::uint32_t>(data);
-    };
-    put(C::read_tick, v.tick);
-    put(C::read_position, v.position);
-    put(C::read_faults, v.faults);
-    put(C::read_encoder, v.encoder);
-    put(C::read_index, v.index);
-    put(C::read_velocity, v.velocity);
-    put(C::read_tau_hat, v.tau_hat);
-    put(C::read_tau_ref, v.tau_ref);
-    put(C::read_current_ref, v.current);
-    put(C::read_voltage, v.voltage);
-    put(C::read_duty, v.duty);
-    put(C::read_status, v.status);
-    word = {false, C::read_status - C::snapshot, v.status};
+    for (int n = 0; n < words; ++n) to[places[n]] = value(n, v);
+    word = {false, places[words - 1], v.status};
     next_ = words;
     done_ = true;
-    read(m, read_addr);
-    read(m, read_addr);
+  }
+  /// The word at a place of the snapshot, 0 where there is none.
+  static std::uint32_t at(int place, const Values& v) {
+    for (int n = 0; n < words; ++n) {
+      if (places[n] == place) return value(n, v);
+    }
+    return 0;
+  }
+  /// The word at a place, of the running or of the last tick.
+  std::uint32_t at(const Memory& m, bool last, int to) const {
+    return m[place(last && !frozen_ ? !bank_ : bank_, to)];
   }
   bool rests() const { return next_ == words && !word.valid; }
+  /// What the port read in a tick as a whole, after its end.
+  void settle(const Memory& m, int read_addr) {
+    read_ = read_data_ = m[place(frozen_ ? !bank_ : bank_, read_addr & 63)];
+  }
   void end_tick(bool tick, bool freeze, bool thaw) {
     if (tick && !frozen_) bank_ = !bank_;
     frozen_ = freeze || (frozen_ && !thaw);
   }
-  /// The host's port has no reset.
+  /// The host's port, which has no reset.
   void read(const Memory& m, int read_addr) {
     read_data_ = read_;
     read_ = m[place(!bank_, read_addr & 63)];
@@ -76,17 +74,15 @@ class Snapshot {
     return static_cast<std::size_t>((bank ? 64 : 0) + place);
   }
   /// The words in the order of writing.
-  void take(int n, const Values& v) {
-    using C = Map::C;
-    static constexpr int at[words] = {C::read_tick,    C::read_position, C::read_faults,
-                                      C::read_encoder, C::read_index,    C::read_velocity,
-                                      C::read_tau_hat, C::read_tau_ref,  C::read_current_ref,
-                                      C::read_voltage, C::read_duty,     C::read_status};
+  static constexpr int places[words] = {Map::R::tick,    Map::R::position, Map::R::faults,
+                                        Map::R::encoder, Map::R::index,    Map::R::velocity,
+                                        Map::R::tau_hat, Map::R::tau_ref,  Map::R::current_ref,
+                                        Map::R::voltage, Map::R::duty,     Map::R::status};
+  static std::uint32_t value(int n, const Values& v) {
     const std::int64_t data[words] = {v.tick,    v.position, v.faults,  v.encoder,
                                       v.index,   v.velocity, v.tau_hat, v.tau_ref,
                                       v.current, v.voltage,  v.duty,    v.status};
-    word.place = at[n] - C::snapshot;
-    word.data = static_cast<std::uint32_t>(data[n]);
+    return static_cast<std::uint32_t>(data[n]);
   }
 
   int next_ = words;

@@ -15,7 +15,6 @@ namespace feltgate::axis {
 
 class ThreePhase {
  public:
-  static constexpr bool whole_ticks = false;
   explicit ThreePhase(const Design& d)
       : period_(d["PWM_PERIOD"]),
         commutation_(period_),
@@ -28,6 +27,7 @@ class ThreePhase {
     return b;
   }
   unsigned gates() const { return pwm_.out().bits(); }
+  int on_time(std::size_t leg) const { return pwm_.on_time(leg); }
   bool modulator_clock() const { return false; }
 
   void clock(const Pins&, const Drive& drive, const Words<std::int64_t>& p, const Rotor& rotor) {

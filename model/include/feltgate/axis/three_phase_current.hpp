@@ -17,7 +17,6 @@ namespace feltgate::axis {
 
 class ThreePhaseCurrent {
  public:
-  static constexpr bool whole_ticks = false;
   explicit ThreePhaseCurrent(const Design& d)
       : period_(d["PWM_PERIOD"]),
         proportional_(static_cast<std::uint32_t>(d["CURRENT_PROPORTIONAL"])),
@@ -33,6 +32,7 @@ class ThreePhaseCurrent {
     return {true, pwm_.out().period_start, q_.active, q_.current, sensors_.why()};
   }
   unsigned gates() const { return pwm_.out().bits(); }
+  int on_time(std::size_t leg) const { return pwm_.on_time(leg); }
   bool modulator_clock() const { return sensors_.modulator_clock(); }
 
   void clock(const Pins& pins, const Drive& drive, const Words<std::int64_t>& p,

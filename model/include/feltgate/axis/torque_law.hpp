@@ -20,6 +20,7 @@ struct TorqueLaw {
   struct State {
     T current = 0;  ///< A
     T voltage = 0;  ///< V, saturated
+    T feed = 0;     ///< V that no current takes: Ke * w + dead voltage
     T duty = 0;     ///< clocks of on-time
     T feed = 0;     ///< V: back-EMF and dead voltage
     bool limit_current = false, limit_voltage = false, limit_duty = false;
@@ -32,10 +33,9 @@ struct TorqueLaw {
         dead_slope(d["VOLTAGE_F"] - d["TORQUE_F"] - d["P_DEAD_VOLTAGE_SLOPE_F"]),
         emf_constant(d["VOLTAGE_F"] - d["VELOCITY_F"] - d["P_EMF_CONSTANT_F"]),
         voltage_gain(d["VOLTAGE_F"] - d["CURRENT_F"] - d["P_VOLTAGE_GAIN_F"]),
-        duty_drop(d["VOLTAGE_F"] + d["P_DUTY_GAIN_F"]),
+        duty_gain(d["VOLTAGE_F"] + d["P_DUTY_GAIN_F"], d.rounding()),
         voltage_w(d["VOLTAGE_W"]),
-        emf_in_law(d["EMF_IN_LAW"] != 0),
-        rounding(d.rounding()) {}
+        emf_in_law(d["EMF_IN_LAW"] != 0) {}
 
   State tick(const State& s, const Words<T>& p, bool armed, int mode, T tau_ref, T tau_hat,
              T velocity) const {
@@ -65,7 +65,7 @@ struct TorqueLaw {
     const T applied = armed ? N::limited(offset, p.voltage_window) + emf : T{0};
     next.voltage = N::saturate(applied, voltage_w);
 
-    const T duty = N::add_rounded(0, applied * p.duty_gain, duty_drop, rounding);
+    const T duty = N::add_rounded(0, applied * p.duty_gain, duty_gain);
     next.limit_duty = N::beyond(duty, p.duty_limit);
     next.duty = N::limited(duty, p.duty_limit);
     return next;
@@ -76,6 +76,7 @@ struct TorqueLaw {
       to.current = from.current;
       to.limit_current = from.limit_current;
     }
+    if (a.at(5)) to.feed = from.feed;
     if (a.at(7)) {
       to.voltage = from.voltage;
       to.limit_voltage = from.limit_voltage;
@@ -86,10 +87,10 @@ struct TorqueLaw {
     }
   }
 
-  int voltage_to_current, torque_gain, observer_gain, dead_slope, emf_constant, voltage_gain,
-      duty_drop, voltage_w;
+  Exponent voltage_to_current, torque_gain, observer_gain, dead_slope, emf_constant, voltage_gain;
+  Drop duty_gain;
+  int voltage_w;
   bool emf_in_law;
-  Rounding rounding;
 };
 
 }  // namespace feltgate::axis

@@ -14,15 +14,16 @@ namespace feltgate::axis {
 /// line is not in the block, so that a copy of the block is small.
 class TravelWindow {
  public:
-  std::int16_t tick(std::int16_t* line, int ticks, std::int16_t travel) {
-    const auto counts = static_cast<std::int16_t>(travel - (full_ ? oldest_ : 0));
+  std::int16_t counts(std::int16_t travel) const {
+    return static_cast<std::int16_t>(travel - oldest_);
+  }
+  void tick(std::int16_t* line, int ticks, std::int16_t travel) {
     line[place_] = travel;
     if (++place_ == ticks) {
       place_ = 0;
       full_ = true;
     }
-    oldest_ = line[place_];
-    return counts;
+    oldest_ = full_ ? line[place_] : std::int16_t{0};
   }
 
  private:
@@ -46,14 +47,15 @@ struct VelocityEstimator {
                  (d["VELOCITY_GAIN"] == 0 ? d["VELOCITY_SHIFT"] : -d["VELOCITY_GAIN_F"])),
         w(d["VELOCITY_W"]),
         f(d["VELOCITY_F"]),
-        a1_f(d["P_VELOCITY_A1_F"]),
-        rounding(d.rounding()) {}
+        a1(d["P_VELOCITY_A1_F"], d.rounding()) {}
 
+  /// Before the low-pass, not yet saturated.
+  T speed(std::int16_t counts) const {
+    return N::integer(counts * std::int64_t{gain}, exponent, f);
+  }
   State tick(const State& s, const Words<T>& p, std::int16_t counts) const {
-    const T speed = N::integer(counts * std::int64_t{gain}, exponent, f);
-    const T raw = N::saturate(speed, w);
-    return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1_f, rounding),
-            raw != speed};
+    const T speed = this->speed(counts), raw = N::saturate(speed, w);
+    return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1), raw != speed};
   }
   template <class At>
   static void show(const At& a, const State& from, State& to) {
@@ -61,8 +63,8 @@ struct VelocityEstimator {
     if (a.at(3)) to.velocity = from.velocity;
   }
 
-  int gain, exponent, w, f, a1_f;
-  Rounding rounding;
+  int gain, exponent, w, f;
+  Drop a1;
 };
 
 }  // namespace feltgate::axis

@@ -15,6 +15,10 @@ class Watchdog {
   /// In the clock after start.
   bool trip(bool open) const { return open && awake_ && silent_; }
   template <class T>
+  bool near(const Words<T>& p) const {
+    return awake_ && static_cast<T>(ticks_) >= p.watchdog_ticks;
+  }
+  template <class T>
   void start(const Words<T>& p) {
     silent_ = static_cast<T>(ticks_) >= p.watchdog_ticks;
   }

@@ -115,8 +115,6 @@ module axes_member #(
   assign word_valid_o   = word.valid;
   assign word_slot_o    = word.place;
   assign word_data_o    = word.data;
-  logic unused;
-  assign unused = ^{tick, snapshot, safe};
 endmodule
 
 `default_nettype wire

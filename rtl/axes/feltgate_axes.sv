@@ -31,20 +31,16 @@ module feltgate_axes #(
     input  logic [4*AxisCount-1:0] scene_i,
 
     // Programmed torque, read in the last clock of a tick; not used if the design has an engine
-    /* verilator lint_off UNUSEDSIGNAL */
     input  logic [AxisCount*cfg::TORQUE_W-1:0] law_torque_i,
     input  logic                               law_late_i,
     input  logic                               law_restart_i,
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic                               measured_o,
 
     // Register port: axis n at n * 0x400, the engine at feltgate_engine_pkg::PORT_FIRST
     input  logic [15:0] reg_addr_i,
     input  logic [31:0] reg_wdata_i,
     input  logic        reg_write_i,
-    /* verilator lint_off UNUSEDSIGNAL */
     input  logic        reg_read_i,  // one clock: the host has taken the word (engine's events)
-    /* verilator lint_on UNUSEDSIGNAL */
     output logic        reg_busy_o,  // of the addressed axis or engine
     output logic [31:0] reg_rdata_o,
 
@@ -165,12 +161,6 @@ module feltgate_axes #(
     assign event_value_o  = '0;
   end
   endgenerate
-
-  logic unused;
-  always_comb begin
-    unused = ^{last, measured};
-    for (int k = 0; k < AxisCount; k++) unused = unused ^ (^tick_count[k]);
-  end
 endmodule
 
 `default_nettype wire

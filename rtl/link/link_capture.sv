@@ -19,11 +19,9 @@ module link_capture #(
     input  logic [ 3:0] word_number_i,
     input  logic [31:0] word_data_i,
 
-    // Events of a law, as they enter the engine's queue
-    /* verilator lint_off UNUSEDSIGNAL */  // without Events
+    // Events of a law, as they enter the engine's queue; not used without Events
     input  logic        event_valid_i,
     input  logic [ 8:0] event_number_i,
-    /* verilator lint_on UNUSEDSIGNAL */
 
     // Registers and memory: rdata_o follows addr_i by 3 clocks, 0 for an address of another block
     input  logic [15:0] addr_i,

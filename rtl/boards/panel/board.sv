@@ -16,7 +16,9 @@ module board #(
   parameter int HeartbeatBits   = 26,        // lamp 7: 0.75 Hz
   parameter int EncoderLoop     = 1,         // 0: loop_ni is not wired
   parameter int Baud            = feltgate_link_pkg::BAUD,  // of the host's UART
+  /* verilator lint_off UNUSEDPARAM */  // without a pin of a driver
   parameter int DriverFaultLow  = 0,         // 1: the pin of the bridge's driver is low at a fault
+  /* verilator lint_on UNUSEDPARAM */
   parameter     ParameterFile   = ""         // parameters.mem of this very design; "": the package has the values
 ) (
   input  logic       clk_i,
@@ -64,9 +66,6 @@ module board #(
     .*  // clock, reset, UART and pins
   );
   /* verilator lint_on PINCONNECTEMPTY */
-
-  logic unused;
-  assign unused = ^{limits, position, 1'(DriverFaultLow)};  // not all of their bits are shown
 endmodule
 
 `default_nettype wire

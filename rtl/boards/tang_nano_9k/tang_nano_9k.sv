@@ -43,9 +43,6 @@ module tang_nano_9k #(
     .clk_i(clk), .reset_ni(locked && reset_n), .key_i(!key_n), .switches_i(~sw_n), .loop_ni(enc_loop), .estop_i(estop),
     .lamps_o(lamps), .uart_rx_i(uart_rx), .uart_tx_o(uart_tx), .*
   );
-
-  logic unused;
-  assign unused = ^lamps[6:5];
 endmodule
 
 `default_nettype wire

@@ -7,8 +7,8 @@ Every block beside the core (rtl/link/<b>.sv and so on) has a twin, testbench/<r
 at least one seeded defect, and a page that links its RTL; blocks that help one another share a page. The twin is
 the class with the block's name. It is in model/include/feltgate/<b>.hpp if the product uses it, else in the test, or
 beside it in <b>_twin.hpp where several tests use it; then the law that it evaluates, if any, is in the former.
-Further checks: the lists made from the blocks are up to date: docs/blocks.md, and the sources in rtl/*.f,
-feltgate.core and the boards' .qsf.
+Further checks: the lists made from the blocks are up to date: the sources in rtl/*.f, feltgate.core and the
+boards' .qsf.
 
   check_blocks.py           check; one line 'path: what; mend' for each finding, status 1
   check_blocks.py --write   write the lists again, then check
@@ -60,7 +60,7 @@ def has_class(path, name):
 def page_links(root):
     """{page: files that it links}, pages of blocks first."""
     found = [*sorted(root.glob("docs/blocks/*.md")), *sorted(root.glob("docs/*.md"))]
-    found = [path.relative_to(root) for path in found if path != root / "docs/blocks.md"]
+    found = [path.relative_to(root) for path in found]
     return {page: linked_files(root, page) for page in found}
 
 
@@ -124,7 +124,7 @@ def check_defects(root):
     """Each defect is well-formed, and a test is built with it; those for proofs are in their list."""
     for file in sorted(root.glob("testbench/**/*.diff")):
         rules = file.parent / "CMakeLists.txt"
-        proofs = file.parent / "proofs/proofs.toml"
+        proofs = file.parent / ("" if file.parent.name == "proofs" else "proofs") / "proofs.toml"
         proven = proofs.read_text(encoding="utf-8") if proofs.exists() else ""
         room = file.parents[1] / "CMakeLists.txt"
         if not rules.exists() and room.exists():
@@ -161,36 +161,6 @@ def linked_files(root, page):
         if "://" not in target:
             links.add(Path(os.path.normpath(page.parent / target)))
     return links
-
-
-def blocks_table(root, blocks):
-    def link(path):
-        return "" if path is None else f"[{path.name}]({os.path.relpath(path, 'docs')})"
-
-    rows = [
-        f"| {b.room} | {b.name} | {link(b.rtl)} | {link(b.law)} | {link(b.twin)} | {link(b.test)} "
-        f"| {link(b.doc)} | {len(b.defects)} |"
-        for b in blocks
-    ]
-    return "\n".join(
-        [
-            "# Blocks",
-            "",
-            "Every block has one name everywhere, and its room is the folder of its RTL (`rtl/ROOM`) and of its",
-            "tests (`testbench/ROOM/BLOCK`). The last column counts the seeded defects of its RTL; the block's",
-            "test runs once against each and must fail. Blocks of the core have a test against their twin in",
-            "`testbench/core`. Written by `scripts/check_blocks.py --write`, which also fails when a sibling is missing.",
-            "",
-            "The twin is a class of the block's name, clock by clock. Where the core's twin evaluates",
-            "a law instead, the law is a template in the public headers, and the class, which only",
-            "tests use, is beside its test. What was measured of each block: `./feltgate docs`, results.",
-            "",
-            "| room | block | RTL | law | twin | test | page | seeded defects |",
-            "|---|---|---|---|---|---|---|---|",
-            *rows,
-            "",
-        ]
-    )
 
 
 def sources(root):
@@ -234,9 +204,8 @@ def fusesoc_lists(root, text):
     return text
 
 
-def fresh_lists(root, blocks):
+def fresh_lists(root):
     """(path, wanted text) of everything that is made from the blocks."""
-    yield Path("docs/blocks.md"), blocks_table(root, blocks)
     yield (
         Path("rtl/feltgate_core.f"),
         file_list("The core; a design's cfg.sv comes first", rtl_sources.core_files(root)),
@@ -260,8 +229,8 @@ def fresh_lists(root, blocks):
         yield qsf.relative_to(root), replace_list(qsf.read_text(encoding="utf-8"), lines)
 
 
-def check_lists(root, blocks, write):
-    for path, wanted in fresh_lists(root, blocks):
+def check_lists(root, write):
+    for path, wanted in fresh_lists(root):
         if wanted is None:
             yield f"{path}: no lines '{BEGIN}' and '{END}'; put them back"
             continue
@@ -277,7 +246,7 @@ def check_lists(root, blocks, write):
 def check(root, write=False):
     blocks = find_blocks(root)
     found = [] if blocks else ["rtl: no blocks; is this the root of the repository?"]
-    found += check_lists(root, blocks, write)
+    found += check_lists(root, write)
     ordered, lost = rtl_sources.modules(root)
     for name in lost:
         found.append(f"rtl/{ordered[name]}: no device instantiates it; do, or remove it")

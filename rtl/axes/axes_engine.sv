@@ -24,8 +24,9 @@ module axes_engine #(
     input  logic [AxisCount-1:0] arm_request_i,  // requests to arm, or to stay armed
     input  logic [AxisCount-1:0] armed_i,
     input  logic [AxisCount-1:0] zeroed_i,       // one clock: the position becomes 0
-    input  logic last_i,                    // last clock of a tick: torque_o and late_o are taken
+    input  logic sample_i,                  // one clock per tick: torque_o and late_o are taken
     input  logic measured_i,                // one clock per tick: the inputs below are new, held
+    input  logic last_i,                    // last clock of a tick
     input  logic [31:0] tick_count_i,
     input  logic [32*AxisCount-1:0] position_i,
     input  logic [32*AxisCount-1:0] velocity_i,
@@ -101,7 +102,7 @@ module axes_engine #(
       armed_q   <= armed;
       if (jumps) runs_q <= 2'd2;
       else if (fresh && runs_q != 2'd0) runs_q <= runs_q - 2'd1;
-      taken_q   <= runs_q == 2'd0 && (taken_q || last_i);
+      taken_q   <= runs_q == 2'd0 && (taken_q || sample_i);
     end
   end
 

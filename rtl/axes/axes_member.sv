@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// One axis of several, or beside an engine: a device, and what it takes of the others. It reads the
-// program's torque and the others' self-test in several clocks of its chain, so both are taken in the
-// last clock of the tick before. docs/architecture.md
+// One axis of several, or beside an engine: a device, and what it takes of the others. The program's
+// torque and whether an axis before tests itself are sampled with the position, and hold for a tick.
+// docs/architecture.md
 
 `default_nettype none
 `include "device.svh"
@@ -42,8 +42,9 @@ module axes_member #(
     output logic        reg_busy_o,
     output logic [31:0] reg_rdata_o,
     // Results, as in feltgate_axes
-    output logic        last_o,
+    output logic        sample_o,
     output logic        measured_o,
+    output logic        last_o,
     output logic [31:0] tick_count_o,
     output logic        zeroed_o,
     output logic [31:0] position_o,
@@ -74,19 +75,19 @@ module axes_member #(
   cfg::word_t word;
 
   logic signed [cfg::TORQUE_W-1:0] torque_q;
-  logic late_q;
-  logic [AxisCount-1:0] faulty, testing_q;
+  logic late_q, waits_q;
+  logic [AxisCount-1:0] faulty;
   always_comb for (int k = 0; k < AxisCount; k++) faulty[k] = first_faults_i[5*k+:5] != '0;
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni)        {torque_q, late_q, testing_q} <= '0;
-    else if (tick.last) {torque_q, late_q, testing_q} <= {law_torque_i, law_late_i, testing_i};
+    if (!rst_ni)          {torque_q, late_q, waits_q} <= '0;
+    else if (tick.sample) {torque_q, late_q, waits_q} <= {law_torque_i, law_late_i, |(testing_i & Before)};
   end
   assign law           = {torque_q, late_q, law_restart_i};
   assign peers.fault   = |(faulty & ~Own);
   assign peers.silent  = !(&(arm_requests_i | Own)) || unchecked_i;
   assign peers.blocked = !(&(ready_i | Own)) || unfit_i;
-  assign peers.testing = |(testing_q & ~Own);
-  assign peers.waits   = |(testing_q & Before);
+  assign peers.testing = |(testing_i & ~Own);
+  assign peers.waits   = waits_q;
 
   `DEVICE #(.ParameterFile(ParameterFile)) u_device (
       .panel_i({arm_i, stop_i, set_zero_i, scene_i}), .law_i(law), .peers_i(peers),
@@ -96,8 +97,9 @@ module axes_member #(
   assign arm_request_o  = safe.arm_request;
   assign ready_o        = safe.ready;
   assign testing_o      = safe.testing;
-  assign last_o         = tick.last;
+  assign sample_o       = tick.sample;
   assign measured_o     = tick.tau_hat;
+  assign last_o         = tick.last;
   assign tick_count_o   = tick.count;
   assign position_o     = snapshot.position;
   assign velocity_o     = snapshot.velocity;

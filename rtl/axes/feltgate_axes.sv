@@ -30,7 +30,7 @@ module feltgate_axes #(
     input  logic [  AxisCount-1:0] set_zero_i,
     input  logic [4*AxisCount-1:0] scene_i,
 
-    // Programmed torque, read in the last clock of a tick; not used if the design has an engine
+    // Programmed torque, sampled with the position; not used if the design has an engine
     input  logic [AxisCount*cfg::TORQUE_W-1:0] law_torque_i,
     input  logic                               law_late_i,
     input  logic                               law_restart_i,
@@ -93,7 +93,7 @@ module feltgate_axes #(
 
   // State of each axis for the others; of the tick's signals, which are in step, those of axis 0.
   localparam int TorqueW = cfg::TORQUE_W;
-  logic [AxisCount-1:0] arm_requests, ready, testing, last, measured;
+  logic [AxisCount-1:0] arm_requests, ready, testing, sample, measured, last;
   logic [31:0] tick_count[AxisCount];
   logic [AxisCount*TorqueW-1:0] law_torque;
   logic law_late, law_restart, unchecked, unfit;
@@ -114,7 +114,7 @@ module feltgate_axes #(
         .arm_request_o(arm_requests[n]), .ready_o(ready[n]), .testing_o(testing[n]),
         .reg_addr_i({{2{!addressed[n]}}, reg_addr_i[9:0]}), .reg_wdata_i(reg_wdata_i), .reg_write_i(reg_write_i),
         .reg_busy_o(busy[n]), .reg_rdata_o(rdata[n]),
-        .last_o(last[n]), .measured_o(measured[n]), .tick_count_o(tick_count[n]), .zeroed_o(zeroed_o[n]),
+        .sample_o(sample[n]), .measured_o(measured[n]), .last_o(last[n]), .tick_count_o(tick_count[n]), .zeroed_o(zeroed_o[n]),
         .position_o(position_o[32*n+:32]), .velocity_o(velocity_o[n*cfg::VELOCITY_W+:cfg::VELOCITY_W]),
         .tau_hat_o(tau_hat_o[n*TorqueW+:TorqueW]), .tau_ref_o(tau_ref_o[n*TorqueW+:TorqueW]),
         .current_ref_o(current_ref_o[n*cfg::CURRENT_W+:cfg::CURRENT_W]),
@@ -140,7 +140,7 @@ module feltgate_axes #(
     ) u_engine (
         .clk_i(clk_i), .rst_ni(rst_ni),
         .law_i(in_law), .arm_request_i(arm_requests), .armed_i(armed_o), .zeroed_i(zeroed_o),
-        .last_i(snapshot_valid_o), .measured_i(measured_o), .tick_count_i(tick_count_o),
+        .sample_i(sample[0]), .measured_i(measured_o), .last_i(snapshot_valid_o), .tick_count_i(tick_count_o),
         .position_i(position_o), .velocity_i(velocity), .tau_hat_i(tau_hat),
         .torque_o(law_torque), .late_o(law_late), .restart_o(law_restart),
         .unchecked_o(unchecked), .unfit_o(unfit),

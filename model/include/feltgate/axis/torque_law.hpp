@@ -22,7 +22,6 @@ struct TorqueLaw {
     T voltage = 0;  ///< V, saturated
     T feed = 0;     ///< V that no current takes: Ke * w + dead voltage
     T duty = 0;     ///< clocks of on-time
-    T feed = 0;     ///< V: back-EMF and dead voltage
     bool limit_current = false, limit_voltage = false, limit_duty = false;
   };
 

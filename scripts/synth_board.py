@@ -33,7 +33,7 @@ EP4CE22_BITS = EP4CE22["m9k"] * 9216
 
 
 def of_package(folder, name):
-    return int(re.search(rf"int {name} = (\d);", (folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))[1])
+    return int(re.search(rf"int {name} = (\d);", (folder / "cfg.sv").read_text(encoding="utf-8"))[1])
 
 
 def legs(folder):
@@ -54,7 +54,7 @@ def sources(root, board, design, folder):
 
 
 def clock_hz(folder):
-    text = (folder / "feltgate_pkg.sv").read_text(encoding="utf-8")
+    text = (folder / "cfg.sv").read_text(encoding="utf-8")
     return int(re.search(r"\bCLOCK_HZ = (\d+);", text).group(1))
 
 

@@ -42,10 +42,10 @@ OPTION_PINS = {
 WITHOUT = {"PHASES": 2}  # what a design without the option says, if not 0
 # Parameters that the core sets and a block alone would not have.
 BLOCK_PARAMETERS = {
-    **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "feltgate_pkg::PWM_PERIOD", "DeadClocks": "feltgate_pkg::DEAD_CLOCKS",
-        "ShortestClocks": "feltgate_pkg::SHORTEST_CLOCKS"}),
-    **dict.fromkeys(("commutation", "field_oriented"), {"Period": "feltgate_pkg::PWM_PERIOD"}),
-    "sequencer": {"ClocksPerTick": "feltgate_pkg::CLOCKS_PER_TICK"},
+    **dict.fromkeys(("pwm", "pwm_three_phase"), {"Period": "cfg::PWM_PERIOD", "DeadClocks": "cfg::DEAD_CLOCKS",
+        "ShortestClocks": "cfg::SHORTEST_CLOCKS"}),
+    **dict.fromkeys(("commutation", "field_oriented"), {"Period": "cfg::PWM_PERIOD"}),
+    "sequencer": {"ClocksPerTick": "cfg::CLOCKS_PER_TICK"},
 }
 
 
@@ -137,12 +137,12 @@ def copy_sources(root, design, folder):
     DESIGN is the name of a generated design, or the path of a package.
     """
     is_path = isinstance(design, Path)
-    package = design if is_path else root / f"rtl/generated/{design}/feltgate_pkg.sv"
+    package = design if is_path else root / f"rtl/generated/{design}/cfg.sv"
     names = [*rtl_sources.cell_files(root), *core_sources(root), *beside_sources(root)]
-    shutil.copy(package, folder / "feltgate_pkg.sv")
+    shutil.copy(package, folder / "cfg.sv")
     for name in names:
         shutil.copy(root / "rtl" / name, folder)
-    return ["feltgate_pkg.sv", *(Path(name).name for name in names)]
+    return ["cfg.sv", *(Path(name).name for name in names)]
 
 
 def read_commands(sources, target):
@@ -256,7 +256,7 @@ def measure(tools, root, design, target, seeds):
     """Figures of one target: a dictionary whose keys are those of docs/synthesis.md's JSON."""
     name = file_name(target)
     read = read_commands(copy_sources(root, design, tools.folder), target)
-    target = with_option_pins(target, (tools.folder / "feltgate_pkg.sv").read_text(encoding="utf-8"))
+    target = with_option_pins(target, (tools.folder / "cfg.sv").read_text(encoding="utf-8"))
     write_tops(tools, name, target, read)
     area = [*read, f"read_verilog -sv {name}_area.sv"]
     figures = ecp5_figures(tools.synthesize_ecp5(f"{name}_area", "area_top", area))

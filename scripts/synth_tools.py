@@ -68,12 +68,12 @@ def require_current(root, *designs):
 def package_of(root, design, folder):
     """What synth_measure.copy_sources() takes of a design, a name in rtl/designs or the user's own file:
     the name, or the path of a package made in FOLDER."""
-    if (root / f"rtl/generated/{design}/feltgate_pkg.sv").is_file():
+    if (root / f"rtl/generated/{design}/cfg.sv").is_file():
         require_current(root, design)
         return design
     path = Path(design)
     if not path.is_file():
-        packages = root.glob("rtl/generated/*/feltgate_pkg.sv")
+        packages = root.glob("rtl/generated/*/cfg.sv")
         known = ", ".join(sorted(package.parent.name for package in packages))
         raise ToolError(f"{design} is neither a design ({known}) nor a file; check the path")
     if "FELTGATE_PROGRAM" not in os.environ:
@@ -83,7 +83,7 @@ def package_of(root, design, folder):
     done = interrupts.run(command, **interrupts.CAPTURED)
     if done.returncode:
         raise ToolError(done.stderr.strip())
-    return folder / "feltgate_pkg.sv"
+    return folder / "cfg.sv"
 
 
 class Tools:

@@ -7,7 +7,7 @@ include_guard(GLOBAL)
 
 file(GLOB designs CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/designs/*.toml")
 # A new design gets its back-ends once its files are generated: then this list changes.
-file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/feltgate_pkg.sv")
+file(GLOB generated CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/generated/*/cfg.sv")
 # Presets are in programs of their own: presets.cmake, python.cmake.
 set(presets "${FELTGATE_ROOT}/rtl/designs/presets.txt")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${presets}")
@@ -70,7 +70,7 @@ set(FELTGATE_DESIGNS "")
 set(registrations "")
 foreach(path IN LISTS designs)
   get_filename_component(design "${path}" NAME_WE)
-  if(NOT EXISTS "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
+  if(NOT EXISTS "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
     message(STATUS "design ${design} has no generated files yet: run `feltgate generate`")
     continue()
   endif()

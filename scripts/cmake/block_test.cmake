@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: 2026 the feltgate authors
 #
-# feltgate_block_test(<block> [WITH_DEFECTS | DEFECT_FILE <file>] [NAME <test>] [DESIGN <design> | PACKAGE <feltgate_pkg.sv>]
+# feltgate_block_test(<block> [WITH_DEFECTS | DEFECT_FILE <file>] [NAME <test>] [DESIGN <design> | PACKAGE <cfg.sv>]
 #                     [ROUNDING <mode>] [SOURCES extra.sv...] [PARAMS -GName=value...]
 #                     [DEFINES NAME=value...] [LIBRARIES target...] [TESTS more.cpp...])
 # verilates the RTL of the block, links it with testbench/<room>/<block>/<block>_test.cpp and with the TESTS in
@@ -58,7 +58,7 @@ endif()
 
 # feltgate_rounding_package(<variable> <package> <mode>): the package with another constant ROUNDING.
 function(feltgate_rounding_package variable package mode)
-  set(changed "${CMAKE_CURRENT_BINARY_DIR}/rounding_${mode}/feltgate_pkg.sv")
+  set(changed "${CMAKE_CURRENT_BINARY_DIR}/rounding_${mode}/cfg.sv")
   file(READ "${package}" text)
   string(REGEX REPLACE "ROUNDING = [0-9]+;" "ROUNDING = ${mode};" text "${text}")
   file(CONFIGURE OUTPUT "${changed}" CONTENT "${text}" @ONLY)
@@ -81,7 +81,7 @@ function(feltgate_block_test block)
     message(FATAL_ERROR "${block}: DEFECTS ${arg_DEFECTS}; defects are in defects.diff, say WITH_DEFECTS")
   endif()
   if(NOT arg_PACKAGE)
-    set(arg_PACKAGE "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/feltgate_pkg.sv")
+    set(arg_PACKAGE "${FELTGATE_ROOT}/rtl/generated/${arg_DESIGN}/cfg.sv")
   endif()
   if(DEFINED arg_ROUNDING)
     feltgate_rounding_package(arg_PACKAGE "${arg_PACKAGE}" ${arg_ROUNDING})

@@ -15,13 +15,13 @@ foreach(mode "" _truncate _convergent)  # half up, floor, convergent
   math(EXPR rounding "${rounding} - 1")
   list(APPEND extremes_blocks extremes_lowpass${mode})
   feltgate_verilate(extremes_lowpass${mode} lowpass
-    "${FELTGATE_ROOT}/rtl/generated/paper/feltgate_pkg.sv;${FELTGATE_ROOT}/rtl/core/estimators/lowpass.sv"
+    "${FELTGATE_ROOT}/rtl/generated/paper/cfg.sv;${FELTGATE_ROOT}/rtl/core/estimators/lowpass.sv"
     CLASS Vlowpass${mode} -GRounding=${rounding})
 endforeach()
 
 # An engine of one axis, as the design with one has it, and one of three.
 file(GLOB extremes_engine_parts CONFIGURE_DEPENDS "${FELTGATE_ROOT}/rtl/engine/*.sv")
-set(extremes_engine_sources "${FELTGATE_ROOT}/rtl/generated/lever_law/feltgate_pkg.sv"
+set(extremes_engine_sources "${FELTGATE_ROOT}/rtl/generated/lever_law/cfg.sv"
   "${FELTGATE_MAP_PACKAGE}" "${FELTGATE_ROOT}/rtl/generated/feltgate_engine_pkg.sv" ${extremes_engine_parts})
 feltgate_verilate(extremes_engine engine "${extremes_engine_sources}")
 feltgate_verilate(extremes_engine_axes engine "${extremes_engine_sources}"
@@ -34,7 +34,7 @@ find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 set(extremes_wide "${PROJECT_BINARY_DIR}/extremes_wide")
 set(point_design "${FELTGATE_ROOT}/testbench/campaigns/explore/point_design.py")
 file(MAKE_DIRECTORY "${extremes_wide}")
-add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/wide.hpp"
+add_custom_command(OUTPUT "${extremes_wide}/cfg.sv" "${extremes_wide}/wide.hpp"
   COMMAND ${Python3_EXECUTABLE} -B "${point_design}" "${extremes_wide}/wide.toml" paper encoder.index=0
           control.kp_1_kg_m2=4200.0 voltage.kv_low=1.0 voltage.kv_high=1.0 motor.motor_current_limit_a=19.677293
           supervisor.polarity_current_a=1.0
@@ -44,7 +44,7 @@ add_custom_command(OUTPUT "${extremes_wide}/feltgate_pkg.sv" "${extremes_wide}/w
           "${FELTGATE_ROOT}/rtl/schedule.toml"
   COMMENT "Generating the design wide" VERBATIM)
 feltgate_verilate(extremes_wide_core feltgate_core
-  "${extremes_wide}/feltgate_pkg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide FASTEST)
+  "${extremes_wide}/cfg.sv;${FELTGATE_CORE_SOURCES}" CLASS Vextremes_wide FASTEST)
 
 file(GLOB extremes_sources CONFIGURE_DEPENDS "${extremes_folder}/*.cpp")
 list(FILTER extremes_sources EXCLUDE REGEX "_(main|test)\\.cpp$")

@@ -11,7 +11,7 @@ if(NOT FELTGATE_YOSYS)
   return()
 endif()
 set(faults_folder "${FELTGATE_ROOT}/testbench/campaigns/faults")
-set(FELTGATE_LEVER_PACKAGE "${FELTGATE_ROOT}/rtl/generated/lever/feltgate_pkg.sv")
+set(FELTGATE_LEVER_PACKAGE "${FELTGATE_ROOT}/rtl/generated/lever/cfg.sv")
 find_package(Python3 3.11 COMPONENTS Interpreter REQUIRED)
 
 # Vfaults: the core of design lever, and which member of it is which flip-flop.

@@ -39,9 +39,9 @@ foreach(path IN LISTS FELTGATE_EXTRA_DESIGNS ITEMS "${narrow}")
   get_filename_component(design "${path}" NAME_WE)
   feltgate_type_of(${design} type)
   set(folder "${PROJECT_BINARY_DIR}/designs/${design}")
-  add_custom_command(OUTPUT "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
+  add_custom_command(OUTPUT "${folder}/${design}.hpp" "${folder}/cfg.sv"
     COMMAND feltgate_generate "${FELTGATE_ROOT}" --design "${path}" --output "${folder}" --allow-coarse
-    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/${design}.hpp" "${folder}/feltgate_pkg.sv"
+    COMMAND ${CMAKE_COMMAND} -E touch "${folder}/${design}.hpp" "${folder}/cfg.sv"
     DEPENDS feltgate_generate "${path}" "${FELTGATE_ROOT}/rtl/registers.toml" VERBATIM)
   set(header "${design}.hpp")
   feltgate_for_design(python "${folder}/${design}_makers.cpp")

@@ -88,7 +88,7 @@ feltgate_library(feltgate_page apps/page EXCEPT "_api" feltgate_backends feltgat
 set(FELTGATE_AXES_PRESETS "")
 set(FELTGATE_CORE_PRESETS "")
 foreach(design IN LISTS FELTGATE_PRESETS)
-  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/feltgate_pkg.sv")
+  set(package "${FELTGATE_ROOT}/rtl/generated/${design}/cfg.sv")
   if(NOT EXISTS "${package}")
     continue()
   endif()

@@ -5,7 +5,7 @@
 include_guard(GLOBAL)
 
 # Slots, clocks, addresses and bits, equal in all designs; a block's sources need it beside a package.
-set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/feltgate_map_pkg.sv")
+set(FELTGATE_MAP_PACKAGE "${FELTGATE_ROOT}/rtl/generated/map.sv")
 set(FELTGATE_JOIN_SOURCES "${CMAKE_CURRENT_LIST_DIR}/join_sources.cmake")
 set(FELTGATE_INSTRUMENT "${FELTGATE_ROOT}/scripts/rtl_coverage/instrument.py")
 

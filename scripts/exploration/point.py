@@ -116,7 +116,7 @@ def build_program(generated, folder):
     command = ["verilator", "--cc", "--prefix", "Vpoint", "--top-module", "feltgate_core"]
     command += ["--Mdir", rtl, "-O3", "--x-initial", "unique", "--x-assign", "unique"]
     command += ["--output-split", "0", "-Wno-fatal"]
-    run([*command, generated / "feltgate_pkg.sv", *core_rtl()])
+    run([*command, generated / "cfg.sv", *core_rtl()])
     joined = rtl / "all.cpp"
     names = sorted(p.name for p in rtl.glob("*.cpp"))
     joined.write_text("".join(f'#include "{name}"\n' for name in names), encoding="utf-8")
@@ -149,11 +149,11 @@ def tools_in(folder):
 def synthesis_inputs(generated, folder, tools):
     """Copies the sources, writes the wrappers; commands that read the sources."""
     names = [*rtl_sources.cell_files(ROOT), *synth_measure.core_sources(ROOT)]
-    shutil.copy(generated / "feltgate_pkg.sv", folder)
+    shutil.copy(generated / "cfg.sv", folder)
     for name in names:
         shutil.copy(ROOT / "rtl" / name, folder)
     target = synth_measure.scene_target(ROOT)
-    names = ["feltgate_pkg.sv", *(Path(name).name for name in names)]
+    names = ["cfg.sv", *(Path(name).name for name in names)]
     read = synth_measure.read_commands(names, target)
     synth_measure.write_tops(tools, "core", target, read)
     return read
@@ -182,7 +182,7 @@ class Structure:
     """The folder of one structure; parts are made by whoever comes first, others wait."""
 
     def __init__(self, workdir, generated):
-        package = (generated / "feltgate_pkg.sv").read_text(encoding="utf-8")
+        package = (generated / "cfg.sv").read_text(encoding="utf-8")
         self.generated = generated
         self.key = structure_key(package)
         self.folder = Path(workdir) / "structures" / self.key

@@ -35,7 +35,7 @@ class Coverage(Scratch):
             self.ended(ran("verilator", "--lint-only", "--coverage", "-Wall", *quiet, "--top-module",
                            rtl_sources.CORE, *(f"-DCOVER_{block}" for block in blocks),
                            ROOT / "testbench/campaigns/coverage/coverage.vlt",
-                           ROOT / f"rtl/generated/{design}/feltgate_pkg.sv", *rtl, *points))
+                           ROOT / f"rtl/generated/{design}/cfg.sv", *rtl, *points))
 
     def test_each_bit_counts_for_itself(self):
         # verilator_coverage takes the column for covered as one bit of it is.
@@ -161,8 +161,8 @@ class Proofs(Scratch):
         record.write(self.folder, tasks.rows(proofs, True), {"yosys": "1", "z3": "2"})
         for name, old, new, known in (
             ("rtl/core/actuation/limiter.sv", "module limiter", "// a comment\nmodule   limiter", True),
-            ("rtl/generated/lever/feltgate_pkg.sv", "endpackage", "localparam int NEW = 1;\nendpackage", True),
-            ("rtl/generated/lever/feltgate_pkg.sv", "TORQUE_W = 21", "TORQUE_W = 22", False),
+            ("rtl/generated/lever/cfg.sv", "endpackage", "localparam int NEW = 1;\nendpackage", True),
+            ("rtl/generated/lever/cfg.sv", "TORQUE_W = 21", "TORQUE_W = 22", False),
             ("rtl/core/actuation/limiter.sv", "endmodule", "logic more;\nendmodule", False),
             (proofs[0].wrapper.relative_to(self.folder), "endmodule", "logic more;\nendmodule", False),
             ("testbench/actuation/limiter/proofs/proofs.toml", "depth = ", "depth = 1", False),

@@ -30,6 +30,7 @@ module feltgate_core #(
     output logic gate_c_lo_o,
     input  logic [1:0] current_data_i,
     output logic current_clock_o,
+    output logic signed [cfg::CURRENT_W-1:0] current_o,  // A, measured
     input  logic driver_fault_i,
     output logic heartbeat_o,
 
@@ -93,24 +94,26 @@ module feltgate_core #(
 
   if (cfg::ABSOLUTE_ENCODER != 0 && cfg::PHASES == 3 && cfg::CURRENT_LOOP != 0) begin : gen_gimbal_current
     gimbal_current_top #(.ParameterFile(ParameterFile)) u_top (.*);
+    assign current_o = u_top.bridge.current;
   end else if (cfg::ABSOLUTE_ENCODER != 0 && cfg::PHASES == 3) begin : gen_gimbal_motor
     gimbal_motor_top #(.ParameterFile(ParameterFile)) u_top (.*);
-    assign {current_clock_o, heartbeat_o} = '0;
+    assign {current_clock_o, current_o, heartbeat_o} = '0;
   end else if (cfg::ABSOLUTE_ENCODER != 0) begin : gen_lever_absolute
     lever_absolute_top #(.ParameterFile(ParameterFile)) u_top (.*);
-    assign {gate_c_hi_o, gate_c_lo_o, current_clock_o, heartbeat_o} = '0;
+    assign {gate_c_hi_o, gate_c_lo_o, current_clock_o, current_o, heartbeat_o} = '0;
   end else if (cfg::PHASES == 3) begin : gen_hall_motor
     hall_motor_top #(.ParameterFile(ParameterFile)) u_top (.*);
     assign {encoder_select_no, encoder_clock_o, encoder_command_o} = 3'b100;
-    assign {current_clock_o, heartbeat_o} = '0;
+    assign {current_clock_o, current_o, heartbeat_o} = '0;
   end else if (cfg::CURRENT_LOOP != 0) begin : gen_lever_current
     lever_current_top #(.ParameterFile(ParameterFile)) u_top (.current_data_i(current_data_i[0]), .*);
+    assign current_o = u_top.bridge.current;
     assign {encoder_select_no, encoder_clock_o, encoder_command_o} = 3'b100;
     assign {gate_c_hi_o, gate_c_lo_o} = '0;
   end else begin : gen_lever
     lever_top #(.ParameterFile(ParameterFile)) u_top (.*);
     assign {encoder_select_no, encoder_clock_o, encoder_command_o} = 3'b100;
-    assign {gate_c_hi_o, gate_c_lo_o, current_clock_o, heartbeat_o} = '0;
+    assign {gate_c_hi_o, gate_c_lo_o, current_clock_o, current_o, heartbeat_o} = '0;
   end
 
   assign measured_o       = tick_o.tau_hat;

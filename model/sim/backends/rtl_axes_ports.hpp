@@ -46,15 +46,20 @@ void set_bits(Port& port, int first, int width, std::uint64_t value) {
 /// Sets every input except clock and reset of N axes of design D; the engine gives the torques.
 template <class D, int N, class Rtl>
 void drive_axes(Rtl& rtl, const AxesIn<N>& in) {
+  unsigned a = 0, b = 0, z = 0, data = 0;
   for (int n = 0; n < N; ++n) {
     const auto& axis = in.axis[static_cast<std::size_t>(n)];
-    set_bits(rtl.enc_a_i, n, 1, axis.encoder.a);
-    set_bits(rtl.enc_b_i, n, 1, axis.encoder.b);
-    set_bits(rtl.enc_z_i, n, 1, axis.encoder.z);
-    set_bits(rtl.encoder_data_i, n, 1, axis.encoder_data);
+    a |= unsigned{axis.encoder.a} << n;
+    b |= unsigned{axis.encoder.b} << n;
+    z |= unsigned{axis.encoder.z} << n;
+    data |= unsigned{axis.encoder_data} << n;
     set_bits(rtl.set_zero_i, n, 1, axis.set_zero);
     set_bits(rtl.scene_i, 4 * n, 4, axis.scene);
   }
+  set_enc_a_i(rtl, a, 0);
+  set_enc_b_i(rtl, b, 0);
+  set_enc_z_i(rtl, z, 0);
+  set_encoder_data_i(rtl, data, 0);
   rtl.arm_i = in.arm;
   rtl.stop_i = in.stop;
   rtl.reg_addr_i = in.reg_addr;

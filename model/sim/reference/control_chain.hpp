@@ -6,7 +6,6 @@
 #pragma once
 
 #include "feltgate/chain_tick.hpp"
-#include "feltgate/current_loop.hpp"
 #include "real_chain.hpp"
 
 namespace feltgate {
@@ -22,7 +21,7 @@ class ControlChain : public ChainTick<D, N> {
   }
 
   void tick(const ChainIn& in) {
-    if constexpr (D::current_loop != 0) this->measure(motor_current<D>(in.current));
+    if constexpr (D::current_loop != 0) this->measure(in.current);
     if (in.restart) this->restart();
     ChainTick<D, N>::tick(in.position, in.travel, in.armed, in.scene, static_cast<Mode>(in.mode),
                           in.relief);

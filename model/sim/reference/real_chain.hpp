@@ -27,7 +27,7 @@ struct ChainIn {
   int mode = 0;
   bool restart = false;      ///< the torque may jump, so it ramps
   Relief relief{};           ///< from the encoder's monitor and the hold timer of the core
-  std::int32_t current = 0;  ///< measured by a current loop, [1,1,17] of full scale
+  std::int32_t current = 0;  ///< measured, in the current's format
 };
 
 struct ChainOut {

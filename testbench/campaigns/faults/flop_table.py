@@ -24,7 +24,7 @@ TOP = rtl_sources.CORE
 
 def sources(root, design):
     listed = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").split("\n")
-    names = [f"generated/{design}/feltgate_pkg.sv",
+    names = [f"generated/{design}/cfg.sv",
              *(n for n in listed if n and not n.startswith("//"))]
     return [root / "rtl" / name for name in names]
 

@@ -58,7 +58,7 @@ def in_venv(program, path):
 
 def package(design):
     """The numbers of a design's package."""
-    text = (GENERATED / design / "feltgate_pkg.sv").read_text(encoding="utf-8")
+    text = (GENERATED / design / "cfg.sv").read_text(encoding="utf-8")
     return {n: int(v) for n, v in re.findall(r"localparam int (\w+) = (-?\d+);", text)}
 
 

@@ -15,7 +15,7 @@ from testing import ROOT, Scratch, ran
 
 RTL = ROOT / "rtl"
 BOARDS = ("de0_nano", "ulx3s", "tang_nano_9k")
-DESIGNS = sorted(path.parent.name for path in RTL.glob("generated/*/feltgate_pkg.sv"))
+DESIGNS = sorted(path.parent.name for path in RTL.glob("generated/*/cfg.sv"))
 VENV = Path(sys.argv.pop(1))
 
 
@@ -25,7 +25,7 @@ def core(name="feltgate_core"):
 
 
 def package(design):
-    return RTL / "generated" / design / "feltgate_pkg.sv"
+    return RTL / "generated" / design / "cfg.sv"
 
 
 def lint(top, *files):
@@ -61,7 +61,7 @@ class Slang(Scratch):
         text = package("lever").read_text(encoding="utf-8")
         self.assertIn("PARALLEL_MULTIPLIERS = 0;", text)
         text = text.replace("PARALLEL_MULTIPLIERS = 0;", "PARALLEL_MULTIPLIERS = 1;")
-        parallel = self.put("feltgate_pkg.sv", text)
+        parallel = self.put("cfg.sv", text)
         self.assertEqual(lint("feltgate_core", parallel, *core()), "")
 
     def test_every_board(self):
@@ -74,7 +74,7 @@ class Slang(Scratch):
                 text = package("lever").read_text(encoding="utf-8")
                 hz = "54000000" if board == "tang_nano_9k" else "50000000"
                 text = text.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
-                changed = self.put("feltgate_pkg.sv", text)
+                changed = self.put("cfg.sv", text)
                 self.assertEqual(lint(board, changed, *core(), *files), "")
 
     def test_the_tang_nano_refuses_what_does_not_fit(self):

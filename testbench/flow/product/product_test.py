@@ -96,7 +96,7 @@ class Product(Scratch):
         for name in ("de0_nano.qpf", "de0_nano.sdc", "build.tcl"):
             self.assertTrue((made / name).is_file())
         # Package and file of parameters are of one design, and not of lever.
-        package = (made / "rtl/feltgate_pkg.sv").read_text()
+        package = (made / "rtl/cfg.sv").read_text()
         values = (made / "rtl/parameters.mem").read_text()
         words = dict(re.findall(r"9'd(\d+): parameter_reset = 32'd(\d+);", package))
         self.assertGreater(len(words), 40)

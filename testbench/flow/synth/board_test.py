@@ -45,10 +45,10 @@ import pathlib, re, sys
 word = lambda name: pathlib.Path(sys.argv[sys.argv.index(name) + 1])
 hz = re.search(r"^clock_hz = ([0-9_]+)", word("--design").read_text(), re.M)[1].replace("_", "")
 name = word("--design").name.split("_54mhz")[0].removesuffix(".toml")
-package = pathlib.Path(sys.argv[1], f"rtl/generated/{name}/feltgate_pkg.sv").read_text()
+package = pathlib.Path(sys.argv[1], f"rtl/generated/{name}/cfg.sv").read_text()
 word("--output").mkdir(parents=True, exist_ok=True)
 text = package.replace("CLOCK_HZ = 50000000;", f"CLOCK_HZ = {hz};")
-(word("--output") / "feltgate_pkg.sv").write_text(text)
+(word("--output") / "cfg.sv").write_text(text)
 """
 NEXTPNR = """#!/usr/bin/env python3
 import json, sys

@@ -20,10 +20,10 @@ def modules(yosys, root, package):
         folder = Path(name)
         listed = (root / "rtl/feltgate_core.f").read_text(encoding="utf-8").splitlines()
         sources = [line for line in listed if line and not line.startswith("//")]
-        shutil.copy(package, folder / "feltgate_pkg.sv")
+        shutil.copy(package, folder / "cfg.sv")
         for source in sources:
             shutil.copy(root / "rtl" / source, folder)
-        names = ("feltgate_pkg.sv", *(Path(source).name for source in sources))
+        names = ("cfg.sv", *(Path(source).name for source in sources))
         script = [f"read_verilog -sv {name}" for name in names]
         script += ["hierarchy -check -top feltgate_core", "proc", "tee -q -o modules.txt ls"]
         (folder / "list.ys").write_text("\n".join(script) + "\n", encoding="utf-8")
@@ -36,7 +36,7 @@ def main():
     yosys, root, package = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
     scenes = {p.stem for p in (root / "rtl/core/scenes").glob("scene_*.sv")}
     least = modules(yosys, root, package)
-    whole = modules(yosys, root, root / "rtl/generated/lever/feltgate_pkg.sv")
+    whole = modules(yosys, root, root / "rtl/generated/lever/cfg.sv")
     kept = {m for m in least if m.startswith("scene_")}
     errors = []
     if kept != {"scene_membrane"}:

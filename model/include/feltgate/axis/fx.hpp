@@ -21,11 +21,13 @@ constexpr std::uint32_t low_bits(std::uint32_t x, int bits) {
   return bits >= 32 ? x : x & ((1U << bits) - 1);
 }
 
-/// A power of two by which a value is scaled: one of the two shifts is 0.
+/// A power of two by which a value is scaled: the factor is 1, or the shift 0.
 struct Exponent {
-  int left, right;
+  std::int64_t factor;
+  int right;
   Exponent(int exponent)  // NOLINT(google-explicit-constructor): it is a number
-      : left(exponent > 0 ? exponent : 0), right(exponent < 0 ? -exponent : 0) {}
+      : factor(exponent > 0 ? std::int64_t{1} << exponent : 1),
+        right(exponent < 0 ? -exponent : 0) {}
 };
 /// The lowest `drop` bits, at least one, are rounded away: `half` is added to them, and one more
 /// to half of an odd result where it is `to_even`.
@@ -49,9 +51,7 @@ struct Fixed {
     return y + ((x + d.half + (d.to_even & (y + (x >> d.drop)))) >> d.drop);
   }
   /// x * 2^exponent, truncated.
-  static T scale(T x, const Exponent& e) {
-    return static_cast<T>(static_cast<std::uint64_t>(x) << e.left) >> e.right;
-  }
+  static T scale(T x, const Exponent& e) { return x * e.factor >> e.right; }
   /// x * 2^-drop, truncated, with the lowest bit set where a dropped bit was.
   static T scale_sticky(T x, int drop) {
     return (x >> drop) | ((x & ((T{1} << drop) - 1)) != 0 ? 1 : 0);

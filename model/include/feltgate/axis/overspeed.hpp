@@ -20,7 +20,7 @@ struct Overspeed {
   explicit Overspeed(const Design& d) : Overspeed(d["VELOCITY_W"] + 17 - d["P_VELOCITY_A1_F"], d) {}
   Overspeed(int drop, const Design& d)
       : top(-drop), jumps(N::is_fixed && drop >= 0 && drop <= d["VELOCITY_W"] - 2) {}
-  State tick(const State& s, const Words<T>& p, T velocity) const {
+  [[gnu::always_inline]] State tick(const State& s, const Words<T>& p, T velocity) const {
     bool jumped = false;
     if (jumps) jumped = N::beyond(N::scale(velocity, top) - N::scale(s.before, top), 1);
     return {velocity, N::beyond(velocity, p.overspeed), jumped};

@@ -30,7 +30,8 @@ struct Polarity {
 
   /// In the clock after the velocity and the scene's torque are new; `current` is that of the tick
   /// before.
-  Judged tick(const State& s, const Words<T>& p, bool open, T velocity, T current) const {
+  [[gnu::always_inline]] Judged tick(const State& s, const Words<T>& p, bool open, T velocity,
+                                     T current) const {
     const T now = N::truncated(velocity, drop), gained = N::wrapped(now - s.begin, w);
     const bool grows = N::beyond(gained, p.polarity_speed) && (gained < 0) == (velocity < 0);
     const bool expired = static_cast<T>(s.ticks) >= p.polarity_ticks;

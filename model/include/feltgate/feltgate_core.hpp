@@ -215,7 +215,9 @@ class FeltgateCore {
       const axis::Axis::In begin{encoder_.out(), bridge_.out(), in};
       if (!axis_.ordinary(begin)) return false;
       const axis::Position* sampled =
-          encoder_.tick(in, axis_.encoder(), TickCounter::sample_clock, D::clocks_per_tick);
+          encoder_.still(in.encoder)
+              ? encoder_.tick(axis_.blocks().ticks.count)
+              : encoder_.tick(in, axis_.encoder(), TickCounter::sample_clock, D::clocks_per_tick);
       axis::Drive drive = axis_.drive({}, axis_.gates_clear(begin), false);
       const axis::Position& position = sampled != nullptr ? *sampled : encoder_.out();
       const axis::Axis::In to_axis{position, bridge_.out(), in};

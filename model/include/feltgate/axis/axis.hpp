@@ -57,6 +57,7 @@ class Axis {
     Host host;
   };
 
+  static constexpr Bits scene_position{18};
   /// The clocks of a tick in which a program's torque is taken, and in which tau_hat is new.
   static constexpr int velocity_clock =
       TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
@@ -124,7 +125,8 @@ class Axis {
                                 q_.velocity.state.velocity);
     });
     q_.scene.clock(sums, [&] {
-      return laws.scene.tick(q_.scene.state, p, renders, scene, Fixed::saturate(q_.position, 18),
+      return laws.scene.tick(q_.scene.state, p, renders, scene,
+                             Fixed::saturate(q_.position, scene_position),
                              q_.velocity.state.velocity, law(in));
     });
     q_.ramp.clock(tick.scene, [&] {
@@ -208,8 +210,8 @@ class Axis {
     observer = laws.observer.tick(observer, p, armed, torque.current, speed.velocity);
     const bool renders = armed && !tests && !in.pins.axis_testing;
     auto& scene = q_.scene.tick();
-    scene = laws.scene.tick(scene, p, renders, q_.host.scene, Fixed::saturate(q_.position, 18),
-                            speed.velocity, law(in));
+    scene = laws.scene.tick(scene, p, renders, q_.host.scene,
+                            Fixed::saturate(q_.position, scene_position), speed.velocity, law(in));
     auto& ramp = q_.ramp.tick();
     ramp = laws.ramp.tick(ramp, p, to_ramp(in, scene.torque, renders, tests));
     torque =

@@ -43,7 +43,7 @@ struct Observer {
 
   Exponent drive, inertia, difference;
   Drop a1, narrow;
-  int w;
+  Bits w;
 };
 
 }  // namespace feltgate::axis

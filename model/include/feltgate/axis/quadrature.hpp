@@ -40,18 +40,21 @@ class Quadrature {
     show();
   }
 
+  /// In a tick as a whole with these pins nothing changes but the monitor.
+  bool still(const EncoderPins& pins) const { return still_ && pins == still_pins_; }
+  const Position* tick(std::uint32_t tick_count) {
+    monitor_before_ = monitor_;
+    moved_ = false;
+    sample(tick_count);
+    out_.moved = monitor_.moved();
+    out_.chatters = monitor_.chatters();
+    return monitor_.trips() || monitor_.index_trips() ? nullptr : &out_;
+  }
   /// A tick of `clocks` clocks as a whole, with these pins: the position that is sampled in it.
   /// Null where something out of the ordinary happens: a trip, an index, a wrong edge.
   const Position* tick(const Pins& pins, const Encoder& e, int sample_clock, int clocks) {
     monitor_before_ = monitor_;
-    moved_ = !still_ || pins.encoder != still_pins_;
-    if (!moved_) {  // nothing changes but the monitor
-      sample(e.tick_count);
-      if (monitor_.trips() || monitor_.index_trips()) return nullptr;
-      out_.moved = monitor_.moved();
-      out_.chatters = monitor_.chatters();
-      return &out_;
-    }
+    moved_ = true;
     const QuadDecoder::In in = at(pins.encoder, e);
     decoder_before_ = decoder_;
     still_ = false;

@@ -131,7 +131,8 @@ struct Scene {
   }
 
   unsigned mask;
-  int part_f, part_w;
+  int part_f;
+  Bits part_w;
   bool sticky;
   Drop guard;
   int distance_f;

@@ -90,7 +90,7 @@ struct TorqueLaw {
 
   Exponent voltage_to_current, torque_gain, observer_gain, dead_slope, emf_constant, voltage_gain;
   Drop duty_gain;
-  int voltage_w;
+  Bits voltage_w;
   bool emf_in_law;
 };
 

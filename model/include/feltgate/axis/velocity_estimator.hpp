@@ -63,7 +63,9 @@ struct VelocityEstimator {
     if (a.at(3)) to.velocity = from.velocity;
   }
 
-  int gain, exponent, w, f;
+  int gain, exponent;
+  Bits w;
+  int f;
   Drop a1;
 };
 

@@ -174,6 +174,7 @@ class FeltgateCore {
   /// The next clock's number in its tick, 0 .. clocks_per_tick - 1.
   int clock_of_tick() const { return axis_.clock_of_tick(); }
 
+  const axis::Axis& axis() const { return axis_; }
   /// For comparisons: every output of the axis with these inputs.
   axis::Axis::Out axis_out(const CoreIn& in) const {
     return at_axis(in, [this](const auto& to_axis) { return axis_.out(to_axis); });

@@ -261,6 +261,7 @@ class Axis {
 
   const Laws& laws() const { return *laws_; }
   const P& words() const { return params_.p; }
+  std::uint32_t parameter(int address) const { return params_.word(address); }
   /// Fault injection.
   void flip(int address, int bit) {
     params_.flip(address, bit);

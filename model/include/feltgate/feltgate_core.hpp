@@ -42,9 +42,9 @@ class FeltgateCore {
   using In = CoreIn;
   using Out = CoreOut;
 
-  /// The clocks of a tick in which a program's torque is taken, and in which position, velocity and
-  /// tau_hat are new.
-  static constexpr int law_clock = axis::Axis::law_clock;
+  /// The clocks of a tick in which the position is sampled, and in which velocity and tau_hat are
+  /// new.
+  static constexpr int sample_clock = axis::TickCounter::sample_clock;
   static constexpr int measured_clock = axis::Axis::measured_clock;
 
   FeltgateCore() { reset(); }

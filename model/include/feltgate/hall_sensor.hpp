@@ -8,7 +8,6 @@
 
 #include <cstdint>
 
-
 namespace feltgate {
 
 /// The code of the lines in a sector of 60 electrical degrees, 0 to 5; bit n: line n.

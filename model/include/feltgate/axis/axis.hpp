@@ -58,10 +58,9 @@ class Axis {
   };
 
   static constexpr Bits scene_position{18};
-  /// The clocks of a tick in which a program's torque is taken, and in which tau_hat is new.
+  /// The clocks of a tick in which velocity and tau_hat are new.
   static constexpr int velocity_clock =
       TickCounter::sample_clock + VelocityEstimator<Fixed>::latency;
-  static constexpr int law_clock = velocity_clock + Scene<Fixed>::summed;
   static constexpr int measured_clock = velocity_clock + Observer<Fixed>::latency;
 
   explicit Axis(const Design& d)

@@ -127,16 +127,4 @@ class AbsolutePosition {
   bool waits_ = true;  // no reading yet
 };
 
-/// What the core asks both decoders.
-inline std::uint32_t absolute_state(const QuadDecoder&) { return 0; }
-template <class D>
-std::uint32_t absolute_state(const AbsolutePosition<D>& p) {
-  return p.state();
-}
-inline bool moved(const QuadDecoder&, const EncoderMonitorLaw& monitor) { return monitor.moved(); }
-template <class D>
-bool moved(const AbsolutePosition<D>& p, const EncoderMonitorLaw&) {
-  return p.moved();
-}
-
 }  // namespace feltgate

@@ -7,6 +7,7 @@
 // and may have
 //   reset(const In&)            where a reset is not a twin as at the begin
 //   legal(In&, Random&)         makes inputs that the block is not made for into legal ones
+//   between(const In&)          for inputs that act without a clock
 //   asynchronous(In&, const In&) what may not change between the edges, from the second
 //   holds, strobes(In&, clock)  of a tick block: its inputs hold for so many clocks from strobe 0 on
 // docs/testing.md
@@ -23,6 +24,7 @@
 
 #include "block_design.hpp"
 #include "catch.hpp"
+#include "feltgate/axis/clocked.hpp"
 #include "mismatch.hpp"
 #include "random.hpp"
 #include "sim/backends/rtl_model.hpp"
@@ -35,6 +37,11 @@ constexpr std::int64_t any_value = std::numeric_limits<std::int64_t>::min();
 namespace ports {
 
 inline std::uint64_t mask(int width) { return ~std::uint64_t{0} >> (64 - width); }
+inline std::int64_t in_format(std::uint64_t bits, int width, bool is_signed) {
+  bits &= mask(width);
+  if (is_signed && (bits >> (width - 1) & 1) != 0) bits |= ~mask(width);
+  return static_cast<std::int64_t>(bits);
+}
 
 /// Bits of a port, which is a word or of several words of 32 bits.
 template <int Low, int Width, class Port, class Value>
@@ -75,24 +82,60 @@ struct BlockTwin {
   using Out = typename Block::Out;
 };
 
+/// Of a law that runs once a tick: Clocked computes at start, and its inputs hold until valid.
+template <class Ports, class Law>
+struct TickTwin : BlockTwin<Ports> {
+  static constexpr int holds = Law::latency;
+  static void strobes(typename Ports::In& in, int clock) { in.start = clock == 0; }
+  bool valid() const { return block.valid(Law::latency); }
+
+  Law law{design()};
+  axis::Clocked<Law> block;
+};
+
+/// Inputs as the design has them: the words of p.
+template <class In>
+In at_home() {
+  In in{};
+  in.each([](const std::string& name, auto& field, int, bool) {
+    for (const Word& w : design().words) {
+      if (name == "p." + w.name) field = static_cast<std::decay_t<decltype(field)>>(w.reset);
+    }
+  });
+  return in;
+}
+
+namespace detail {
+#define FELTGATE_HAS(NAME, EXPRESSION)                                \
+  template <class Twin, class = void>                                 \
+  struct NAME : std::false_type {};                                   \
+  template <class Twin>                                               \
+  struct NAME<Twin, std::void_t<decltype(EXPRESSION)>> : std::true_type {};
+FELTGATE_HAS(HasReset, std::declval<Twin&>().reset(std::declval<const typename Twin::In&>()))
+FELTGATE_HAS(HasLegal, std::declval<Twin&>().legal(std::declval<typename Twin::In&>(), std::declval<Random&>()))
+FELTGATE_HAS(HasAsynchronous, Twin::asynchronous(std::declval<typename Twin::In&>(), std::declval<const typename Twin::In&>()))
+FELTGATE_HAS(HasBetween, std::declval<Twin&>().between(std::declval<const typename Twin::In&>()))
+FELTGATE_HAS(HasStrobes, Twin::strobes(std::declval<typename Twin::In&>(), 0))
+#undef FELTGATE_HAS
+}  // namespace detail
+
 /// Random inputs: for some thousand draws each field has a habit of its own (swarm testing).
 template <class Block>
 class Swarm {
  public:
   using In = typename Block::In;
-  Swarm(std::uint64_t seed, const In& home) : random_(seed), home_(home) {}
+  Swarm(std::uint64_t seed, In home) : random_(seed) {
+    home.each([this](const char*, auto& f, int, bool) {
+      homes_.push_back(static_cast<std::int64_t>(f));
+    });
+  }
 
   void next(In& in) {
     if (left_-- == 0) choose(in);
     std::size_t n = 0;
-    In home = home_;
-    std::vector<std::int64_t>& homes = homes_;
-    if (homes.empty()) {
-      home.each([&](const char*, auto& f, int, bool) { homes.push_back(static_cast<std::int64_t>(f)); });
-    }
     in.each([&](const char*, auto& field, int width, bool is_signed) {
       const Habit& h = habits_[n];
-      const std::int64_t at_home = homes[n++];
+      const std::int64_t at_home = homes_[n++];
       using Field = std::decay_t<decltype(field)>;
       if (!random_.one_in(std::uint64_t{1} << h.hold)) {
         if (h.kind == pulse) field = Field{};
@@ -101,7 +144,17 @@ class Swarm {
       field = static_cast<Field>(value(h, static_cast<std::int64_t>(field), at_home, width, is_signed));
     });
   }
-  Random& random() { return random_; }
+  /// What the twin takes for legal, within the formats.
+  template <class Twin>
+  void legal(Twin& twin, In& in) {
+    if constexpr (detail::HasLegal<Twin>::value) {
+      twin.legal(in, random_);
+      in.each([](const char*, auto& f, int width, bool is_signed) {
+        const auto bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(f));
+        f = static_cast<std::decay_t<decltype(f)>>(ports::in_format(bits, width, is_signed));
+      });
+    }
+  }
 
  private:
   enum Kind { anything, small, ends, walk, bit, count, constant, pulse, home, stay };
@@ -112,22 +165,21 @@ class Swarm {
   void choose(In& in) {
     left_ = 20 + random_.below(random_.coin() ? 200 : 4000);
     habits_.clear();
-    in.each([&](const char*, auto&, int width, bool) {
+    const bool at_home = random_.one_in(3);
+    in.each([&](const char* name, auto&, int width, bool) {
       Habit h;
       h.hold = random_.below(random_.coin() ? 4 : 11);
       h.kind = static_cast<Kind>(random_.below(stay + 1));
       if (width == 1) h.kind = random_.coin() ? pulse : random_.one_in(6) ? stay : anything;
+      if (at_home && std::strncmp(name, "p.", 2) == 0) h.kind = home;
       h.size = random_.below(static_cast<std::uint64_t>(width));
       habits_.push_back(h);
     });
   }
   std::int64_t value(const Habit& h, std::int64_t old, std::int64_t at_home, int width, bool is_signed) {
     const std::uint64_t all = ports::mask(width), top = is_signed ? all >> 1 : all;
-    const auto in_format = [&](std::uint64_t w) {
-      w &= all;
-      if (is_signed && (w >> (width - 1) & 1) != 0) w |= ~all;
-      return static_cast<std::int64_t>(w);
-    };
+    const auto in_format = [&](std::uint64_t w) { return ports::in_format(w, width, is_signed); };
+    if (h.kind == home) return at_home;
     if (width == 1) return h.kind == stay ? old : h.kind == pulse ? 1 : old == 0;
     switch (h.kind) {
       case small: {
@@ -147,8 +199,6 @@ class Swarm {
         constexpr auto n = std::size(Block::constants);
         return in_format(Block::constants[random_.below(n)] + (random_.one_in(4) ? random_.below(3) - 1 : 0));
       }
-      case home:
-        return at_home;
       case stay:
         return old;
       default:
@@ -156,24 +206,10 @@ class Swarm {
     }
   }
   Random random_;
-  In home_;
   std::vector<std::int64_t> homes_;
   std::uint32_t left_ = 0;
   std::vector<Habit> habits_;
 };
-
-namespace detail {
-#define FELTGATE_HAS(NAME, EXPRESSION)                                \
-  template <class Twin, class = void>                                 \
-  struct NAME : std::false_type {};                                   \
-  template <class Twin>                                               \
-  struct NAME<Twin, std::void_t<decltype(EXPRESSION)>> : std::true_type {};
-FELTGATE_HAS(HasReset, std::declval<Twin&>().reset(std::declval<const typename Twin::In&>()))
-FELTGATE_HAS(HasLegal, std::declval<Twin&>().legal(std::declval<typename Twin::In&>(), std::declval<Random&>()))
-FELTGATE_HAS(HasAsynchronous, Twin::asynchronous(std::declval<typename Twin::In&>(), std::declval<const typename Twin::In&>()))
-FELTGATE_HAS(HasStrobes, Twin::strobes(std::declval<typename Twin::In&>(), 0))
-#undef FELTGATE_HAS
-}  // namespace detail
 
 struct BenchOptions {
   std::int64_t clocks = 400'000;
@@ -214,7 +250,7 @@ class Reached {
 
 /// Compares a block and its twin. Inputs also change between the edges.
 template <class Twin>
-void lock_step(const Twin& prototype, const BenchOptions& o = {}, typename Twin::In home = {}) {
+void lock_step(const Twin& prototype, const BenchOptions& o = {}, const typename Twin::In& home = at_home<typename Twin::In>()) {
   using Block = typename Twin::Block;
   using In = typename Twin::In;
   using Out = typename Twin::Out;
@@ -250,6 +286,7 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {}, typename Twin:
       else if (seed % 2 == 0 && random.one_in(o.resets)) reset = 1 + static_cast<int>(random.below(8));
       if constexpr (detail::HasStrobes<Twin>::value) {
         if (of_tick == 0 || of_tick >= Twin::holds) swarm.next(of_tick == 0 ? fresh : noise);
+        if (of_tick == 0) swarm.legal(twin, fresh);
         in = of_tick < Twin::holds ? fresh : noise;
         Twin::strobes(in, of_tick);
         if (of_tick == 0) gap = static_cast<int>(random.below(random.coin() ? 2 : 30));
@@ -257,8 +294,8 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {}, typename Twin:
         if (reset > 0) of_tick = 0;
       } else {
         swarm.next(in);
+        swarm.legal(twin, in);
       }
-      if constexpr (detail::HasLegal<Twin>::value) twin.legal(in, swarm.random());
       if (reset > 0) {
         if constexpr (detail::HasReset<Twin>::value) twin.reset(in);
         else twin = prototype;
@@ -268,11 +305,12 @@ void lock_step(const Twin& prototype, const BenchOptions& o = {}, typename Twin:
         other.next(between);
         In now = between;
         if constexpr (detail::HasAsynchronous<Twin>::value) Twin::asynchronous(now, in);
-        now.drive(*rtl);
+        if constexpr (detail::HasBetween<Twin>::value) twin.between(now);
+        now.apply_to(*rtl);
         rtl.low();
         look("between the edges", now);
       }
-      in.drive(*rtl);
+      in.apply_to(*rtl);
       rtl.low();
       look("before the edge", in);
       rtl.high();

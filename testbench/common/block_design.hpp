@@ -11,6 +11,7 @@
 namespace feltgate::test {
 
 using namespace feltgate::axis;
+using feltgate::Map;
 
 inline const Design& design() {
   static const Design d = [] {

@@ -24,6 +24,16 @@ def kind_of(width, signed):
     return "int" if width <= 8 else f"std::{'' if signed else 'u'}int{bits}_t"
 
 
+# Registers that several words of scenes share.
+SCENE_WORDS = {
+    "scene_1": "w.first",
+    "scene_2": "w.strength",
+    "scene_3": "w.slope",
+    "scene_6": "w.core",
+    "scene_10": "w.torque",
+}
+
+
 class Types:
     def __init__(self, tree):
         self.by_id = {t.get("id"): t for t in tree.find(".//typetable")}
@@ -54,7 +64,12 @@ def struct(name, ports, rtl):
             for part, width, signed, _ in fields
         ]
         if fields[0][0]:
-            if field == "p":  # as the laws take them
+            if field == "p" and name == "Out":
+                sets = " ".join(
+                    f"{part} = {SCENE_WORDS.get(part, 'w.' + part)};" for part, *_ in fields
+                )
+                declared.append(f"void operator=(const Words<std::int64_t>& w) {{ {sets} }}")
+            elif field == "p":  # as the laws take them
                 sets = " ".join(
                     f"formats().load_scene(w, {part[6:]}, static_cast<std::uint32_t>({part}));"
                     if part.startswith("scene_")
@@ -76,10 +91,10 @@ def struct(name, ports, rtl):
             else:
                 moves.append(f"o.{path} = get<{low}, {width}, {str(signed).lower()}>(rtl.{port});")
     if name == "In":
-        move = f"void drive({rtl}& rtl) const {{ {' '.join(moves)} }}"
+        move = f"void apply_to([[maybe_unused]] {rtl}& rtl) const {{ {' '.join(moves)} }}"
     else:
         move = f"static Out of(const {rtl}& rtl) {{ Out o; {' '.join(moves)} return o; }}"
-    each = f"template <class F> void each(F&& f) {{ {' '.join(visits)} }}"
+    each = f"template <class F> void each([[maybe_unused]] F&& f) {{ {' '.join(visits)} }}"
     return "\n".join([f"  struct {name} {{", *(f"    {l}" for l in [*lines, each, move]), "  };"])
 
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// The design of a block's test, for its twin. docs/testing.md
+// The design of a block's test: FELTGATE_DESIGN of FELTGATE_DESIGN_HEADER. docs/testing.md
 #pragma once
 
-#include <fstream>
-
 #include "feltgate/axis/words.hpp"
+#include FELTGATE_DESIGN_HEADER
 
 namespace feltgate::test {
 
@@ -14,10 +13,7 @@ using namespace feltgate::axis;
 using feltgate::Map;
 
 inline const Design& design() {
-  static const Design d = [] {
-    std::ifstream file(FELTGATE_DESIGN_FILE);
-    return Design::read(file);
-  }();
+  static const Design d = Design::of<FELTGATE_DESIGN>();
   return d;
 }
 inline const WordFormats& formats() {

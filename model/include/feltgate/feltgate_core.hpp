@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <sstream>
 #include <type_traits>
 
 #include "feltgate/axis/absolute.hpp"
@@ -32,10 +31,7 @@ enum class SelfTestResult : std::uint8_t {
 /// Design D as data.
 template <class D>
 const axis::Design& design_of() {
-  static const axis::Design design = [] {
-    std::istringstream text(D::text);
-    return axis::Design::read(text);
-  }();
+  static const axis::Design design = axis::Design::of<D>();
   return design;
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "design/design.hpp"
-#include "feltgate/commutation.hpp"
+#include "feltgate/axis/three_phase.hpp"
 #include "feltgate/current_sense.hpp"
 #include "feltgate/field_oriented.hpp"
 #include "files/toml/toml_reader.hpp"
@@ -125,11 +125,11 @@ void check_commutation(const Design& d) {
   if (d.pwm_mode != 0) {
     d.fail("pwm.mode", "three legs have one kind of pulses", "write mode = \"sign_magnitude\"");
   }
-  const Commutation commutation(d.pwm_period_clocks(), Commutation::kSpaceVectors);
-  if (d.pwm_period_clocks() < commutation.latency_clocks() + 2) {
+  constexpr int least_clocks = axis::ThreePhase::lead + 2;
+  if (d.pwm_period_clocks() < least_clocks) {
     d.fail("pwm.frequency_hz",
            fmt::format("a PWM period has {} clocks, and the commutation of one takes {}",
-                       d.pwm_period_clocks(), commutation.latency_clocks() + 2),
+                       d.pwm_period_clocks(), least_clocks),
            "lower it");
   }
   if (d.pole_pairs >= 4 * d.lines) {

@@ -10,7 +10,6 @@
 #include <map>
 
 #include "design/design.hpp"
-#include "feltgate/commutation.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 

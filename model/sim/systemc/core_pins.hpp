@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "feltgate/core_ports.hpp"
-#include "feltgate/current_loop.hpp"
 
 /// X(type, name) for every port but clk_i and rst_ni. Signed numbers are two's complement words in
 /// the low bits. CurrentData is bool or, with two modulators, a word.
@@ -86,7 +85,7 @@ using CoreWord = std::conditional_t<(D::f.velocity.width() > 32), std::uint64_t,
 
 /// Of the modulators of a current loop: a line, or in the low bits those of two.
 template <class D>
-using CurrentDataOf = std::conditional_t<(controlled_currents<D> > 1), std::uint32_t, bool>;
+using CurrentDataOf = std::conditional_t<(D::current_loop != 0 && D::phases == 3), std::uint32_t, bool>;
 
 /// Signals at the inputs of a core, which several may share.
 template <class CurrentData>

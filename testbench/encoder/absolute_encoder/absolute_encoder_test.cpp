@@ -16,7 +16,7 @@
 
 #include "catch.hpp"
 #include "feltgate/absolute_encoder.hpp"
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
 #include "feltgate/generated/gimbal_current.hpp"
 #include "feltgate/generated/gimbal_motor.hpp"
 #include "feltgate/generated/lever_absolute.hpp"

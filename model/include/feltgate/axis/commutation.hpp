@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/commutation.sv: three on-times from a position and an amplitude, by
-// space vectors or sines; and the words of a motor. A result is computed as its sample is taken.
-// Documentation: docs/blocks/three_phase.md
+// Twin of rtl/options/commutation.sv with electrical_angle.sv and space_vector.sv: three on-times
+// from a position and an amplitude, and the words of a motor. A result is computed as its sample is
+// taken, and shown 42 clocks after it. docs/blocks/three_phase.md
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace feltgate {
+namespace feltgate::axis {
 
 /// Electrical turn per count, 2^-32 turn, modulo a turn: exact if counts_per_turn is a power of two
 /// up to 2^32, else within 2^-33 turn for each count.
@@ -29,7 +29,7 @@ inline std::uint32_t commutation_angle(double turns) {
 /// Bit-exact and clock-exact with the RTL.
 class Commutation {
  public:
-  enum Modulation : int { kSines = 0, kSpaceVectors = 1 };
+  static constexpr int latency = 42;  ///< clocks from sample to valid
   struct In {
     bool sample = false;         ///< one clock: takes all; ignored while a result is computed
     std::int32_t position = 0;   ///< counts; wraps
@@ -46,10 +46,7 @@ class Commutation {
   };
 
   /// `period` in clocks: even, 4 to 4094.
-  explicit Commutation(int period = 1000, Modulation modulation = kSpaceVectors)
-      : half_(period / 2), modulation_(modulation) {
-    reset();
-  }
+  explicit Commutation(int period = 1000) : half_(period / 2) { reset(); }
 
   void reset() {
     left_ = 0;
@@ -67,17 +64,12 @@ class Commutation {
     if (left_ > 0) {
       --left_;
     } else if (in.sample) {
-      left_ = latency_clocks() - 1;
+      left_ = latency - 1;
       next_ = on_times(in);
     }
   }
 
   const Out& out() const { return out_; }
-
-  /// From sample to valid; a sample may come with the valid before it.
-  int latency_clocks() const { return modulation_ == kSines ? 108 : 85; }
-  /// Greatest amplitude that is not limited, clocks.
-  int limit() const { return modulation_ == kSines ? (2 * half_ - 2) * 56755 / 65536 : 2 * half_; }
 
   /// What the inputs give, legs A, B and C.
   std::array<std::int16_t, 3> on_times(const In& in) const {
@@ -86,23 +78,23 @@ class Commutation {
     const std::uint32_t sector = sixth >> 13;
     const bool below = (sixth & 0x1000) == 0;  // the sector's middle
     const auto size = static_cast<int>(below ? ~sixth & 0xfff : sixth & 0xfff);
-    const int amplitude = std::clamp<int>(in.amplitude, -limit(), limit());
+    const int amplitude = std::clamp<int>(in.amplitude, -2 * half_, 2 * half_);
 
     const int outer = scaled(cosine(), size, amplitude, kHalf / 2) >> 16;
     const bool odd = (outer & 1) != 0;
     const bool falls = (sector & 1) != (below ? 1U : 0U);
     const int sign = falls ? -1 : 1;
     const int middle = sign * (scaled(sine(), size, amplitude, odd ? 0 : kHalf) >> 17);
-    int base = half_;
-    if (modulation_ == kSines) base -= sign * (scaled(third(), size, amplitude, kHalf) >> 17);
     const int lower = (outer - (odd ? 1 : 0)) / 2;
-    const int highest = base + lower + (odd && falls ? 1 : 0);
-    const int lowest = base - lower - (odd && !falls ? 1 : 0);
+    const int highest = half_ + lower + (odd && falls ? 1 : 0);
+    const int lowest = half_ - lower - (odd && !falls ? 1 : 0);
 
     std::array<std::int16_t, 3> legs{};
     for (std::uint32_t leg = 0; leg < 3; ++leg) {
       const std::uint32_t own = (sector + (in.polarity ? 2 : 4) * leg) % 6;
-      const int on = own == 1 || own == 4 ? base + middle : own == 0 || own == 5 ? highest : lowest;
+      const int on = own == 1 || own == 4   ? half_ + middle
+                     : own == 0 || own == 5 ? highest
+                                            : lowest;
       legs[leg] = static_cast<std::int16_t>(on);
     }
     return legs;
@@ -132,11 +124,6 @@ class Commutation {
     static const Table table = nodes([](double x) { return std::sin(x) * std::sqrt(3) / 2; });
     return table;
   }
-  static const Table& third() {
-    static const Table table = nodes([](double x) { return std::sin(x) / std::sqrt(12); });
-    return table;
-  }
-
   /// Amplitude times the table at `size`, 2^-12 of 30 degrees; in 2^-17 clocks.
   static int scaled(const Table& table, int size, int amplitude, int rounding) {
     const auto node = static_cast<std::size_t>(size >> 8);
@@ -145,11 +132,10 @@ class Commutation {
     return amplitude * word + rounding;
   }
 
-  int half_;  // a period, clocks
-  Modulation modulation_;
+  int half_;      // a period, clocks
   int left_ = 0;  // clocks to the result
   std::array<std::int16_t, 3> next_{};
   Out out_;
 };
 
-}  // namespace feltgate
+}  // namespace feltgate::axis

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "../supervisor/rig.hpp"
+#include "rig.hpp"
 #include "catch.hpp"
 #include "feltgate/generated/lever.hpp"
 #include "feltgate/generated/paper.hpp"

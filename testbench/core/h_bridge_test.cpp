@@ -36,5 +36,5 @@ struct Twin : BlockTwin<ports::h_bridge> {
 }  // namespace
 
 TEST_CASE("h_bridge: RTL and twin, every clock") {
-  lock_step(Twin(), {1'600'000, 8, 20'000, "bridge.measured bridge.current bridge.why"});
+  lock_step(Twin(), {800'000, 8, 20'000, "bridge.measured bridge.current bridge.why"});
 }

@@ -30,5 +30,5 @@ struct Twin : BlockTwin<ports::quadrature> {
 
 TEST_CASE("quadrature: RTL and twin, every clock") {
   lock_step(Twin(),
-            {1'600'000, 8, 20'000, "position.polarity_holds position.trip_flip position.why"});
+            {800'000, 8, 20'000, "position.polarity_holds position.trip_flip position.why"});
 }

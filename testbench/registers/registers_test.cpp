@@ -53,5 +53,5 @@ struct Twin : BlockTwin<ports::registers> {
 }  // namespace
 
 TEST_CASE("registers: RTL and twin, every clock") {
-  lock_step(Twin(), {1'600'000, 8, 5000, "control_error"});
+  lock_step(Twin(), {800'000, 8, 5000, "control_error"});
 }

@@ -66,6 +66,6 @@ struct Longest : Twin {
 
 }  // namespace
 
-TEST_CASE("self_test: RTL and twin, every clock") { lock_step(Twin(), {1'600'000}); }
+TEST_CASE("self_test: RTL and twin, every clock") { lock_step(Twin(), {800'000}); }
 
 TEST_CASE("self_test: the longest times") { lock_step(Longest(), {20'000, 1}); }

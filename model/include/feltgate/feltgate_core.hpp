@@ -243,7 +243,9 @@ class FeltgateCore {
           encoder_.tick(in.pins, axis_.encoder(), TickCounter::sample_clock, D::clocks_per_tick);
       const bool clear = axis_.gates_clear(begin);
       axis::Drive drive = axis_.drive({}, clear, false);
-      if (sampled == nullptr ||
+      // M/T counts the clocks from edge to edge.
+      const bool edges = sampled != &now && axis_.laws().spans.used;
+      if (sampled == nullptr || edges ||
           !axis_.tick({*sampled, bridge_.out(), in.panel, in.law, in.peers, in.port})) {
         encoder_ = before;
         ++thrown_;

@@ -222,8 +222,10 @@ class FeltgateCore {
       axis::Drive drive = axis_.drive({}, axis_.gates_clear(begin), false);
       const axis::Position& position = sampled != nullptr ? *sampled : encoder_.out();
       const axis::Axis::In to_axis{position, bridge_.out(), in};
+      // M/T counts the clocks from edge to edge.
+      const bool edges = sampled != &encoder_.out() && axis_.laws().spans.used;
       axis::Values v;
-      if (sampled == nullptr || !axis_.tick(to_axis, v)) {
+      if (sampled == nullptr || edges || !axis_.tick(to_axis, v)) {
         encoder_.undo();
         ++thrown_;
         return false;

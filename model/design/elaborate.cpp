@@ -10,7 +10,6 @@
 #include <map>
 
 #include "design/design.hpp"
-#include "feltgate/commutation.hpp"
 #include "feltgate/nearest.hpp"
 #include "files/toml/toml_reader.hpp"
 
@@ -26,14 +25,9 @@ double low_pass_a1(double cutoff_rad_s, double tick_s) {
 
 // Largest duty. A bootstrap driver is charged by the pulses of the low gate: the low gate of each
 // switching leg gets its shortest pulse in every period. If the period is too short, the limit is
-// half a period. Of three legs with space vectors the highest is on for half a period and half the
-// amplitude, with sines for half a period and amplitude/sqrt(3).
+// half a period. Of three legs the highest is on for half a period and half the amplitude.
 double duty_limit(const Design& d) {
   const int period = d.pwm_period_clocks(), legs = d.pwm_mode == 1 || d.phases == 3 ? 2 : 1;
-  if (d.phases == 3 && d.modulation == Commutation::kSines) {
-    const int most = period / 2 - d.dead_clocks() - d.shortest_clocks() - 1;
-    return std::max<double>(period / 2, std::floor(most * std::sqrt(3.0)));
-  }
   return std::max(period / 2, period - legs * (d.dead_clocks() + d.shortest_clocks()));
 }
 
@@ -371,9 +365,9 @@ void check_word(const Design& d, const Word& w) {
 void check(const Elaborated& e) {
   const Design& d = e.design;
   for (const Word& w : e.words) check_word(d, w);
-  if (d.clocks_per_tick() < Map::wave_length) {
+  if (d.clocks_per_tick() < least_tick_clocks) {
     d.fail("clock.tick_hz",
-           fmt::format("the chain takes {} clocks and a tick has {}", Map::wave_length,
+           fmt::format("the chain takes {} clocks and a tick has {}", least_tick_clocks,
                        d.clocks_per_tick()),
            "lower tick_hz or raise clock_hz");
   }
@@ -387,8 +381,8 @@ void check(const Elaborated& e) {
 
 }  // namespace
 
-Format coefficient_format(double value, bool is_signed, int bits) {
-  const int mantissa = bits;
+Format coefficient_format(double value, bool is_signed) {
+  constexpr int mantissa = coefficient_bits;
   const int least_integer = mantissa - coefficient_fraction_max;
   const double magnitude = std::abs(value);
   if (magnitude == 0) return {is_signed ? 1 : 0, 0, mantissa};
@@ -401,8 +395,7 @@ Format coefficient_format(double value, bool is_signed, int bits) {
 Format Word::field() const {
   const Parameter& p = parameter;
   if (p.kind == "coefficient" || p.kind == "signed") {
-    constexpr int mantissa = fabric::multiplier_b_bits - 1;
-    return {format.sign, mantissa - format.fraction, format.fraction};
+    return {format.sign, coefficient_bits - format.fraction, format.fraction};
   }
   if (p.kind == "limit") return {0, format.integer, format.fraction};
   if (p.kind == "integer") return {0, p.bits, 0};
@@ -464,8 +457,7 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
         design.fail(w.key, fmt::format("{} = {} fits no word", p.name, text(largest)),
                     "choose a value that makes it smaller");
       }
-      w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed",
-                                    design.coefficient_bits);
+      w.format = coefficient_format(std::ldexp(largest, p.headroom_bits), p.kind == "signed");
     } else if (p.kind == "signal" || p.kind == "limit") {
       w.format = signal_format(e, p);
     } else if (p.kind == "counts") {
@@ -481,9 +473,9 @@ Elaborated elaborate(const Design& design, const RegisterMap& registers) {
     e.words.push_back(w);
   }
   const auto f = [&](const char* name) { return e.word(name).format; };
-  Format gain{0, 0, design.coefficient_bits};
+  Format gain{0, 0, coefficient_bits};
   if (design.exact_gain) {
-    gain = coefficient_format(design.velocity_gain_rad_s(), false, design.coefficient_bits);
+    gain = coefficient_format(design.velocity_gain_rad_s(), false);
     e.velocity_gain = std::llround(std::ldexp(design.velocity_gain_rad_s(), gain.fraction));
   }
   e.base = {design.velocity,          design.torque,

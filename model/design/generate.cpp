@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Generates the SystemVerilog package and the C++ header of a design. Documentation:
+// The constants of a design, its C++ header and its memory file. Documentation:
 // docs/designs.md
 #include "design/generate.hpp"
 
@@ -63,13 +63,6 @@ std::vector<Constant> constants(const Elaborated& e) {
       {"shortest_clocks", d.shortest_clocks(), "clocks, of a pulse at a gate"},
       {"scene_mask", scene_mask(e), "bit n: scene n is built"},
       {"control_reset", control_reset(e), "control word after reset"},
-      {"coefficient_bits", d.coefficient_bits,
-       "bits of a coefficient's mantissa, without its sign"},
-      {"parallel_multipliers", d.parallel_multipliers ? 1 : 0, "1: each block has its own"},
-      {"multiplier_a_bits", fabric::multiplier_a_bits, "bits"},
-      {"multiplier_b_bits", fabric::multiplier_b_bits, "bits"},
-      {"product_bits", fabric::product_bits, "bits"},
-      {"travel_bits", fabric::travel_bits, "bits"},
       {"scene_guard_bits", fabric::scene_guard_bits,
        "bits that a scene's terms keep below a torque step"},
       {"require_watchdog", d.require_watchdog ? 1 : 0, "1: arming waits for the first kick"},
@@ -212,10 +205,8 @@ std::vector<Constant> of_angle(const Design& d) {
           {"hall", d.hall ? 1 : 0, "1: Hall lines give the electrical angle at power-up"}};
 }
 
-/// Words of the commutation; only phases = 2 without it.
 std::vector<Constant> of_phases(const Design& d) {
-  return {{"phases", d.phases, "legs of the bridge: 2 of one motor current, 3 of three"},
-          {"modulation", d.modulation, "of three phases: 0 sines, 1 space vectors"}};
+  return {{"phases", d.phases, "legs of the bridge: 2 of one motor current, 3 of three"}};
 }
 
 /// The constants of all options, in the order of the files.
@@ -265,46 +256,6 @@ std::uint32_t design_crc(const Elaborated& e) {
                         w.format.integer, w.format.fraction, static_cast<std::uint32_t>(w.raw));
   }
   return crc32(text.data(), text.size());
-}
-
-std::string systemverilog_package(const Elaborated& e) {
-  std::ostringstream s;
-  s << banner(e, "Formats [S,I,F] and constants.") << "\n`default_nettype none\n\n"
-    << "/* verilator lint_off UNUSEDPARAM */  // a block uses the constants that concern it\n"
-    << "package feltgate_pkg;\n"
-    << "  localparam int CLOCK_HZ = " << e.design.clock_hz << ";\n";
-  for (const Constant& c : design_constants(e)) {
-    s << "  localparam int " << upper(c.name) << " = " << c.value << ";  // " << c.doc << "\n";
-  }
-  s << fmt::format(
-      "  localparam logic [31:0] DESIGN_CRC = 32'h{:08x};  // by which a host knows the "
-      "design\n",
-      design_crc(e));
-  for (const auto& [name, f] : named_formats(e.formats)) {
-    s << fmt::format("  localparam int {0}_W = {1};\n  localparam int {0}_F = {2};\n", upper(name),
-                     f.width(), f.fraction);
-  }
-  for (const Word& w : e.words) {
-    if (w.parameter.kind == "coefficient" || w.parameter.kind == "signed") {
-      s << "  localparam int P_" << upper(w.parameter.name) << "_F = " << w.format.fraction
-        << ";\n";
-    }
-  }
-  resets_sv(s, e);
-  s << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
-    << "  function automatic logic [32:0] parameter_above(input logic [8:0] address);\n"
-    << "    case (address)\n";
-  for (const Word& w : e.words) {
-    const int bits = w.format.width() - w.format.sign;
-    if (bits >= 31) continue;  // all words fit, or the block that takes the integer judges it
-    s << "      9'd" << w.parameter.address << ": parameter_above = {1'd" << w.format.sign
-      << fmt::format(", 32'h{:08x}}};  // ", static_cast<std::uint32_t>(-1) << bits)
-      << w.parameter.name << "\n";
-  }
-  s << "      default: parameter_above = 33'd0;\n    endcase\n  endfunction\n";
-  corrections_sv(s, e.design);
-  s << "endpackage\n/* verilator lint_on UNUSEDPARAM */\n\n`default_nettype wire\n";
-  return s.str();
 }
 
 namespace {
@@ -382,16 +333,14 @@ std::string header_with(const Elaborated& e, const std::string& sum_line) {
   for (const Constant& c : cfg_constants(e)) {
     s << "      {\"" << c.name << "\", " << c.value << "},\n";
   }
-  s << "  };\n\n  /// All of it as text, for axis::Design::read().\n"
-    << "  static constexpr const char* text = R\"(" << design_text(e) << ")\";\n"
-    << "};\n\n}  // namespace feltgate\n";
+  s << "  };\n};\n\n}  // namespace feltgate\n";
   return s.str();
 }
 
 }  // namespace
 
 std::uint32_t file_sum(const Elaborated& e) {
-  const std::string text = systemverilog_package(e) + header_with(e, "") + memory_text(e);
+  const std::string text = cfg_package(e) + header_with(e, "") + memory_text(e);
   return crc32(text.data(), text.size());
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Generates the files of a design: the SystemVerilog package, the C++ header, and the pages that
-// list registers and the wave. Documentation: docs/designs.md
+// Generates the files of all designs and of one: map, C++ header, pages. Documentation:
+// docs/designs.md
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,12 @@ struct Constant {
 /// The constants of a design, in the order of its packages.
 std::vector<Constant> design_constants(const Elaborated& e);
 
-/// Text of rtl/generated/map.sv: addresses, bits and numbers, which are equal in all designs.
+/// Texts of rtl/generated/map.sv and model/include/feltgate/generated/map.hpp: addresses, bits and
+/// numbers, which are equal in all designs.
 std::string map_package(const RegisterMap& map);
-
-/// Text of rtl/generated/NAME/feltgate_pkg.sv.
-std::string systemverilog_package(const Elaborated& e);
+std::string map_header(const RegisterMap& map);
+/// Text of model/include/feltgate/generated/causes.hpp.
+std::string causes_header(const RegisterMap& map);
 
 /// Text of model/include/feltgate/generated/NAME.hpp.
 std::string cpp_header(const Elaborated& e);
@@ -69,7 +70,7 @@ std::string design_table(const Elaborated& e);
 /// The control word after a reset.
 std::uint32_t control_reset(const Elaborated& e);
 
-/// Names and formats of all signals, in the order of the wave.
+/// Names and formats of all signals, in the order of the data.
 std::vector<std::pair<std::string, Format>> named_formats(const Formats& f);
 
 }  // namespace feltgate::design

@@ -242,6 +242,32 @@ void constant_sv(std::ostream& s, const Elaborated& e, const Constant& c) {
     << (c.doc.empty() ? "" : "  // " + c.doc) << "\n";
 }
 
+void resets_sv(std::ostream& s, const Elaborated& e) {
+  s << "\n  // Parameter RAM after reset: the design's values, quantised.\n"
+    << "  function automatic logic [31:0] parameter_reset(input logic [8:0] address);\n"
+    << "    case (address)\n";
+  for (const Word& w : e.words) {
+    s << "      9'd" << w.parameter.address << ": parameter_reset = 32'd"
+      << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
+  }
+  s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n";
+}
+
+void corrections_sv(std::ostream& s, const Design& d) {
+  s << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
+    << "  function automatic logic [15:0] absolute_correction(input logic ["
+    << Map::absolute_segment_bits - 1 << ":0] part);\n"
+    << "    case (part)\n";
+  if (d.absolute_table()) {
+    const auto table = d.absolute_corrections();
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      s << "      " << Map::absolute_segment_bits << "'d" << k << ": absolute_correction = 16'd"
+        << static_cast<std::uint16_t>(table[k]) << ";\n";
+    }
+  }
+  s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n";
+}
+
 /// Whether a word has a sign, and the bits above its format. Words of 32 bits fit as they are.
 void above_sv(std::ostream& s, const Elaborated& e) {
   s << "\n  // Whether a parameter has a sign, and the bits above its format.\n"
@@ -352,62 +378,6 @@ axis::Design as_data(const Elaborated& e) {
     d.absolute_corrections.assign(table.begin(), table.end());
   }
   return d;
-}
-
-void resets_sv(std::ostream& s, const Elaborated& e) {
-  s << "\n  // Parameter RAM after reset: the design's values, quantised.\n"
-    << "  function automatic logic [31:0] parameter_reset(input logic [8:0] address);\n"
-    << "    case (address)\n";
-  for (const Word& w : e.words) {
-    s << "      9'd" << w.parameter.address << ": parameter_reset = 32'd"
-      << static_cast<std::uint32_t>(w.raw) << ";  // " << w.parameter.name << "\n";
-  }
-  s << "      default: parameter_reset = 32'd0;\n    endcase\n  endfunction\n";
-}
-
-void corrections_sv(std::ostream& s, const Design& d) {
-  s << "\n  // What is added to an absolute encoder's reading, 2^-20 turn.\n"
-    << "  function automatic logic [15:0] absolute_correction(input logic ["
-    << Map::absolute_segment_bits - 1 << ":0] part);\n"
-    << "    case (part)\n";
-  if (d.absolute_table()) {
-    const auto table = d.absolute_corrections();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      s << "      " << Map::absolute_segment_bits << "'d" << k << ": absolute_correction = 16'd"
-        << static_cast<std::uint16_t>(table[k]) << ";\n";
-    }
-  }
-  s << "      default: absolute_correction = 16'd0;\n    endcase\n  endfunction\n";
-}
-
-std::string design_text(const Elaborated& e) {
-  std::string text = fmt::format("CLOCK_HZ {}", e.design.clock_hz);
-  int on_line = 1;
-  const auto add = [&](const std::string& name, std::int64_t value) {
-    text += fmt::format("{}{} {}", on_line++ % 4 == 0 ? '\n' : ' ', name, value);
-  };
-  for (const Constant& c : design_constants(e)) add(upper(c.name), c.value);
-  for (const auto& [name, f] : named_formats(e.formats)) {
-    add(upper(name) + "_W", f.width());
-    add(upper(name) + "_F", f.fraction);
-  }
-  for (const Word& w : e.words) {
-    const std::string& kind = w.parameter.kind;
-    if (kind == "coefficient" || kind == "signed") {
-      add("P_" + upper(w.parameter.name) + "_F", w.format.fraction);
-    }
-  }
-  if (e.design.absolute_table()) {
-    int n = 0;
-    for (const int c : e.design.absolute_corrections()) add(fmt::format("CORRECTION_{}", n++), c);
-  }
-  text += '\n';
-  for (const Word& w : e.words) {
-    const Format f = w.field();
-    text += fmt::format("word {} {} {} {} {} {}\n", w.parameter.name, w.parameter.address, f.width(),
-                        f.sign, w.format.fraction, static_cast<std::uint32_t>(w.raw));
-  }
-  return text;
 }
 
 std::string cfg_package(const Elaborated& e) {

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -39,14 +38,5 @@ axis::Design as_data(const Elaborated& e);
 
 /// Text of rtl/generated/NAME/cfg.sv.
 std::string cfg_package(const Elaborated& e);
-/// All constants of `cfg` and all words as text, which axis::Design::read() takes.
-std::string design_text(const Elaborated& e);
-
-// Parts that feltgate_pkg has too.
-
-/// The parameters after a reset, by their address.
-void resets_sv(std::ostream& s, const Elaborated& e);
-/// What is added to an absolute encoder's reading.
-void corrections_sv(std::ostream& s, const Design& d);
 
 }  // namespace feltgate::design

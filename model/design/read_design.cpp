@@ -391,15 +391,9 @@ Design design_of(const toml::table& root, const std::string& path) {
     d.current = read_format(r, "current");
     d.voltage = read_format(r, "voltage");
     d.observer_fraction = static_cast<int>(r.integer("observer_fraction", 0, 48));
-    if (r.has("coefficient_bits"))
-      d.coefficient_bits =
-          static_cast<int>(r.integer("coefficient_bits", 4, fabric::multiplier_b_bits - 1));
     const Round modes[] = {Round::half_up, Round::truncate, Round::convergent};
     if (r.has("rounding"))
       d.rounding = modes[r.choice("rounding", {"half_up", "floor", "convergent"})];
-  });
-  option("fabric", [&](config::TomlReader& r) {
-    d.parallel_multipliers = r.choice("multipliers", {"shared", "parallel"}) == 1;
   });
   option("engine", [&](config::TomlReader& r) { read_engine(r, d); });
   option("axes",

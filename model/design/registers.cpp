@@ -64,7 +64,6 @@ Parameter read_parameter(config::TomlReader r, const RegisterMap& map, std::set<
   Parameter p;
   p.name = r.identifier("name");
   p.place = fmt::format("{}:{}", r.file(), r.line("name"));
-  if (r.has("label")) p.label = plain_text(r, "label");
   if (r.has("scene")) p.scene = r.text("scene");
   p.slot = small(r, "slot", p.scene.empty() ? 63 : 31);
   p.kind = kinds[r.choice("kind", kinds)];
@@ -143,21 +142,13 @@ Control read_control(config::TomlReader r) {
   return c;
 }
 
-Snapshot read_snapshot(config::TomlReader r, const RegisterMap& map) {
+Snapshot read_snapshot(config::TomlReader r, std::set<int>& used) {
   Snapshot n;
   n.name = r.identifier("name");
   n.place = fmt::format("{}:{}", r.file(), r.line("name"));
-  if (r.has("label")) n.label = plain_text(r, "label");
-  if (r.has("with")) {
-    n.with = r.text("with");
-    const Parameter* p = map.find(n.with);
-    if (p == nullptr || !p->scene.empty()) {
-      r.fail("with", fmt::format("\"{}\" is no coefficient that all scenes share", n.with),
-             "name one, or write a slot");
-    }
-    n.slot = p->slot;
-  } else {
-    n.slot = small(r, "slot", 63);
+  n.slot = small(r, "slot", 63);
+  if (!used.insert(n.slot).second) {
+    r.fail("slot", n.name + " shares its address with another word", "choose a free slot");
   }
   if (r.has("format")) {
     n.signal = r.text("format");
@@ -220,8 +211,9 @@ RegisterMap read_registers(const std::string& path) {
   }
   check_inputs(map);
   for (config::TomlReader& r : top.sections("control")) map.controls.push_back(read_control(r));
+  std::set<int> snapshot_used;
   for (config::TomlReader& r : top.sections("snapshot")) {
-    map.snapshots.push_back(read_snapshot(r, map));
+    map.snapshots.push_back(read_snapshot(r, snapshot_used));
   }
   for (config::TomlReader& r : top.sections("constant")) {
     map.constants.push_back({r.identifier("name"), small(r, "value", 30), r.text("doc")});

@@ -19,9 +19,8 @@ std::string plain_text(config::TomlReader& r, const std::string& key);
 /// One word of the parameter RAM.
 struct Parameter {
   std::string name;
-  std::string label;           ///< in the timing diagram
   std::string scene;           ///< scene of the word; empty: shared by all scenes
-  int slot = 0;                ///< wave clock in which the word is on the parameter bus
+  int slot = 0;                ///< the address; of a scene's word in the scene's bank of 32
   std::string kind;            ///< coefficient, signed, signal, limit, counts, integer or angle
   std::string signal;          ///< format of a word of kind signal or limit
   std::string same_format_as;  ///< coefficient whose format the word shares, or empty
@@ -32,7 +31,7 @@ struct Parameter {
   std::string while_armed;  ///< effect of a write while the motor is armed: refused, ramps or acts
   std::string unit;
   std::string doc;
-  int address = 0;    ///< slot, or slot within the scene's bank of 32
+  int address = 0;
   std::string place;  ///< "file:line" of the entry, for errors
 };
 
@@ -57,9 +56,7 @@ struct Control {
 
 struct Snapshot {
   std::string name;
-  int slot = 0;              ///< wave clock in which the word is on the operand bus
-  std::string label;         ///< in the timing diagram
-  std::string with;          ///< the coefficient that multiplies it in that clock, or empty
+  int slot = 0;              ///< the address, from the snapshot's first on
   std::string signal, unit;  ///< signal that gives the format; empty: plain bits
   std::string doc;
   std::vector<Field> fields;

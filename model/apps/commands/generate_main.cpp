@@ -20,7 +20,6 @@
 #include "design/generate.hpp"
 #include "design/generate_cfg.hpp"
 #include "design/host_words.hpp"
-#include "design/schedule.hpp"
 #include "files/toml/toml_reader.hpp"
 
 namespace fs = std::filesystem;
@@ -73,8 +72,7 @@ constexpr const char* usage =
     "for lever the register map as C header, SystemRDL and CSV.\n"
     "--check only compares, all or what follows from these designs; exit code 1 when a file is "
     "stale.\n"
-    "With --design one design, which may lie anywhere: DIR/feltgate_pkg.sv, DIR/cfg.sv, "
-    "DIR/NAME.hpp,\n"
+    "With --design one design, which may lie anywhere: DIR/cfg.sv, DIR/NAME.hpp,\n"
     "DIR/parameters.mem, the first contents of the parameter RAM for $readmemh, and "
     "DIR/values.txt,\n"
     "a line per parameter: name, address, integer, exact value; and the register map for hosts:\n"
@@ -118,11 +116,6 @@ bool parse(int argc, char** argv, Options* o) {
           !(o->allow_coarse && o->design.empty()) && (o->names.empty() || o->check_only));
 }
 
-feltgate::design::Schedule read_schedule(const Options& o,
-                                         const feltgate::design::RegisterMap& registers) {
-  return feltgate::design::read_schedule((o.root / "rtl/schedule.toml").string(), registers);
-}
-
 feltgate::design::EngineDescription read_engine(const Options& o) {
   return feltgate::design::read_engine((o.root / "rtl/engine/engine.toml").string());
 }
@@ -142,8 +135,6 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
   auto design = feltgate::design::read_design(o.design.string());
   design.allow_coarse = o.allow_coarse;
   const auto e = elaborate(design, registers);
-  check_tick(e.design, read_schedule(o, registers));
-  update(o.output / "feltgate_pkg.sv", systemverilog_package(e), false);
   update(o.output / "cfg.sv", cfg_package(e), false);
   update(o.output / (e.design.name + ".hpp"), cpp_header(e), false);
   update(o.output / "parameters.mem", memory_text(e), false);
@@ -156,8 +147,7 @@ void generate_one(const Options& o, const feltgate::design::RegisterMap& registe
 bool update_design(const Options& o, const feltgate::design::Elaborated& e) {
   const std::string& name = e.design.name;
   const fs::path folder = o.root / "rtl/generated" / name;
-  bool stale = update(folder / "feltgate_pkg.sv", systemverilog_package(e), o.check_only);
-  stale |= update(folder / "cfg.sv", cfg_package(e), o.check_only);
+  bool stale = update(folder / "cfg.sv", cfg_package(e), o.check_only);
   stale |= update(folder / "parameters.mem", memory_text(e), o.check_only);
   stale |= update(o.root / "model/include/feltgate/generated" / (name + ".hpp"), cpp_header(e),
                   o.check_only);
@@ -186,12 +176,9 @@ bool check_named(const Options& o, const feltgate::design::RegisterMap& register
 
 /// Whether a file was stale.
 bool generate_all(const Options& o, const feltgate::design::RegisterMap& registers) {
-  const auto schedule = read_schedule(o, registers);
   const fs::path headers = o.root / "model/include/feltgate/generated";
   bool stale = update(o.root / "rtl/generated/map.sv", map_package(registers), o.check_only);
-  stale |= update(o.root / "rtl/generated/feltgate_map_pkg.sv", map_package(registers, schedule),
-                  o.check_only);
-  stale |= update(headers / "map.hpp", map_header(registers, schedule), o.check_only);
+  stale |= update(headers / "map.hpp", map_header(registers), o.check_only);
   stale |=
       update(o.root / "rtl/generated/feltgate_link_pkg.sv", link_package(registers), o.check_only);
   stale |= update(headers / "link.hpp", link_header(registers), o.check_only);
@@ -205,7 +192,6 @@ bool generate_all(const Options& o, const feltgate::design::RegisterMap& registe
   for (const auto& entry : fs::directory_iterator(o.root / "rtl/designs")) {
     if (entry.path().extension() != ".toml") continue;
     const auto e = elaborate(feltgate::design::read_design(entry.path().string()), registers);
-    check_tick(e.design, schedule);
     stale |= update_design(o, e);
   }
   return stale;

@@ -66,7 +66,7 @@ bool same_structure(const design::Elaborated& a, const design::Elaborated& b) {
          a.velocity_gain == b.velocity_gain && x.lines == y.lines && x.pwm_hz == y.pwm_hz &&
          x.voltage_law == y.voltage_law && x.velocity == y.velocity && x.torque == y.torque &&
          x.current == y.current && x.voltage == y.voltage && x.rounding == y.rounding &&
-         x.observer_fraction == y.observer_fraction && x.coefficient_bits == y.coefficient_bits &&
+         x.observer_fraction == y.observer_fraction &&
          std::equal(a.words.begin(), a.words.end(), b.words.begin(), b.words.end(), same);
 }
 

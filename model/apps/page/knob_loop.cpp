@@ -30,9 +30,8 @@ KnobCore::KnobCore()
     : design_(design_named(design_name)),
       chain_(make_real_chain(design_name, "fixed")),
       beside_(design_.control_reset),
-      commutation_(design_.pwm_period,
-                   static_cast<Commutation::Modulation>(GimbalMotor::modulation)),
-      sampling_tick_((GimbalMotor::pwm_period - 1 - commutation_.latency_clocks()) /
+      commutation_(design_.pwm_period),
+      sampling_tick_((GimbalMotor::pwm_period - 1 - axis::ThreePhase::lead) /
                      GimbalMotor::clocks_per_tick),
       gain_(static_cast<std::uint32_t>(design_.find("commutation_gain")->raw)),
       offset_(static_cast<std::uint32_t>(design_.find("commutation_offset")->raw)),
@@ -56,7 +55,7 @@ void KnobCore::tick(std::int32_t position) {
     on_ = gates_ ? next_ : std::array<std::int16_t, 3>{};
   }
   if (of_period == sampling_tick_) {
-    Commutation::In in;
+    axis::Commutation::In in;
     in.position = position;
     in.gain = gain_;
     in.offset = offset_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/encoder/absolute_encoder.sv: an absolute encoder over SPI with parity, SSI with
+// Twin of rtl/options/absolute_encoder.sv: an absolute encoder over SPI with parity, SSI with
 // CRC-6 or BiSS-C, with checks and a count of whole turns. A frame is judged as a whole here, and
 // bit by bit in the RTL. Documentation: docs/blocks/absolute_encoder.md
 #pragma once

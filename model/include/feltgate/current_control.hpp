@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/current_control.sv: the PI law of the motor current, whose integrator
+// Twin of rtl/options/current_control.sv: the PI law of the motor current, whose integrator
 // follows the applied voltage as the winding's resistance does; and its gains from a winding.
 // Documentation: docs/blocks/current.md
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/current_sense.sv: a current from a sigma-delta bit stream by a sinc3
+// Twin of rtl/options/current_sense.sv: a current from a sigma-delta bit stream by a sinc3
 // filter in step with the PWM, over-current by a fast one, offset and faults. The sums have 64 bits
 // here and wrap like the shorter ones of the RTL. Documentation: docs/blocks/current.md
 #pragma once

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
 #include "feltgate/nearest.hpp"
 #include "feltgate/parameter.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Law of rtl/core/encoder/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on
+// Law of rtl/core/encoder_monitor.sv: detects, tick by tick, an encoder whose edges come on
 // one channel only. Documentation: docs/blocks/encoder.md
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/field_oriented.sv: the currents of three phases in the rotor's frame,
+// Twin of rtl/options/field_oriented.sv: the currents of three phases in the rotor's frame,
 // their two laws, and three on-times. Its gains are those of current_control.hpp, with the voltage
 // supply/root 3 as supply. Documentation: docs/blocks/three_phase.md
 #pragma once

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/options/hall_sensor.sv: three Hall lines to an electrical angle that the encoder's
-// counts carry.
-// Documentation: docs/blocks/three_phase.md
+// counts carry. Documentation: docs/blocks/three_phase.md
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// Twin of rtl/core/actuation/pwm_three_phase.sv: centre-aligned PWM for three legs, with dead time.
+// Twin of rtl/options/pwm_three_phase.sv: centre-aligned PWM for three legs, with dead time.
 // On-times in clocks are sampled once per period, with period_start. They reach the gates 3 clocks
 // later, rising edges after the dead time in addition; while disabled they are 0.
 // Documentation: docs/blocks/pwm.md

@@ -102,7 +102,7 @@ class TwinModule : public sc_core::sc_module {
     encoder_clock_o.write((o.serial & 2u) != 0);
     encoder_command_o.write((o.serial & 4u) != 0);
     current_clock_o.write(o.current_clock);
-    current_o.write(static_cast<std::uint32_t>(o.current) & 0x7ffff);
+    current_o.write(word(o.current, D::f.current));
     heartbeat_o.write(o.heartbeat);
     reg_busy_o.write(o.reg_busy);
     reg_rdata_o.write(o.reg_rdata);

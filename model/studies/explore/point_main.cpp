@@ -353,7 +353,7 @@ feltgate::explore::Measurement measure(const std::string& values_path, const std
   using namespace feltgate::explore;
   const auto values = read_values(values_path);
   Measurement m;
-  m.latency_clocks = feltgate::Map::T::duty + 1 - feltgate::Map::T::sample;
+  m.latency_clocks = feltgate::design::latency_clocks;
   m.clock_hz = static_cast<double>(D::clock_hz);
   const double tick_s = 1.0 / static_cast<double>(D::tick_hz);
   const double cutoff_rad_s = -std::log1p(-value(values, "velocity_a1").si) / tick_s;

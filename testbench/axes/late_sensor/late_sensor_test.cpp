@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
 #include "feltgate/design_info.hpp"
 #include "feltgate/feltgate_axes.hpp"
 #include "feltgate/generated/knob_law.hpp"

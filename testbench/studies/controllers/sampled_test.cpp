@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "feltgate/absolute_position.hpp"
+#include "feltgate/axis/absolute.hpp"
+#include "feltgate/axis/tick_counter.hpp"
 #include "feltgate/generated/lever_absolute.hpp"
 #include "sim/backends/absolute_sensor.hpp"
 #include "sim/reference/chain.hpp"
@@ -47,19 +48,20 @@ constexpr Motion ramp{0, kRamp_rad_s2, 0.4};
 /// What the core's decoder has as travel at the sample of each tick, clock by clock of its lines.
 template <class D>
 std::vector<std::int16_t> read_by(const Motion& motion) {
-  constexpr int sample = Map::first_wave_clock + Map::T::sample;
-  AbsolutePosition<D> position;
+  constexpr int sample = axis::TickCounter::sample_clock;
+  axis::Absolute position(axis::Design::of<D>());
   AbsoluteSensor sensor(absolute_parameters<D>());
   std::vector<std::int16_t> out;
   Clock now = 0;
   for (int k = 0; k < motion.ticks(); ++k) {
     sensor.turn(motion.at(k * kTick_s), motion.at((k + 1) * kTick_s), now, D::clocks_per_tick);
     for (int c = 0; c < D::clocks_per_tick; ++c, ++now) {
-      typename AbsolutePosition<D>::In in;
-      in.data = sensor.pin(now, position.serial());
-      in.sample = c == sample;
-      if (in.sample) out.push_back(static_cast<std::int16_t>(position.out().travel));
-      position.clock(in);
+      axis::Pins in;
+      axis::Encoder at;
+      in.encoder_data = sensor.pin(now, position.lines());
+      at.sample = c == sample;
+      if (at.sample) out.push_back(static_cast<std::int16_t>(position.out().travel));
+      position.clock(in, at, {});
     }
   }
   return out;

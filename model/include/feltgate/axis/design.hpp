@@ -7,10 +7,8 @@
 #pragma once
 
 #include <cstdint>
-#include <istream>
 #include <iterator>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -57,22 +55,6 @@ struct Design {
     if constexpr (D::absolute_table != 0) {
       d.absolute_corrections.assign(std::begin(D::absolute_corrections),
                                     std::end(D::absolute_corrections));
-    }
-    return d;
-  }
-
-  /// "NAME value" and "word name address bits sign fraction reset", one after the other.
-  static Design read(std::istream& in) {
-    Design d;
-    for (std::string name; in >> name;) {
-      if (name == "word") {
-        Word w;
-        in >> w.name >> w.address >> w.bits >> w.has_sign >> w.fraction >> w.reset;
-        d.words.push_back(w);
-      } else {
-        in >> d.constants[name];
-      }
-      if (in.fail()) throw std::runtime_error("design: cannot read what follows " + name);
     }
     return d;
   }

@@ -2,19 +2,21 @@
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
 // Twin of rtl/options/three_phase.sv, a bridge socket: three legs by the voltage law, whose
-// voltages turn with the motor. PwmThreePhase is the twin of pwm_three_phase.sv, Commutation of
-// commutation.sv, electrical_angle.sv and space_vector.sv. docs/blocks/three_phase.md
+// voltages turn with the motor. PwmThreePhase is the twin of pwm_three_phase.sv.
+// docs/blocks/three_phase.md
 #pragma once
 
+#include "feltgate/axis/commutation.hpp"
 #include "feltgate/axis/signals.hpp"
 #include "feltgate/axis/words.hpp"
-#include "feltgate/commutation.hpp"
 #include "feltgate/pwm_three_phase.hpp"
 
 namespace feltgate::axis {
 
 class ThreePhase {
  public:
+  static constexpr int lead = 85;  ///< clocks from the sample of angle and duty to the PWM's
+
   explicit ThreePhase(const Design& d)
       : period_(d["PWM_PERIOD"]),
         commutation_(period_),
@@ -58,7 +60,6 @@ class ThreePhase {
   }
 
  private:
-  static constexpr int lead = 85;
   struct Registers {
     int since = 0;  ///< clocks since a period began
     bool fresh = false;

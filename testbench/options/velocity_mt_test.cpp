@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: 2026 the feltgate authors
 //
-// rtl/options/mt/velocity_estimator.sv with time stamps of 14 bits, so that rests and their wrap come often.
+// rtl/options/mt/velocity_estimator.sv with time stamps of 14 bits, so that rests and their wrap
+// come often.
 #include "feltgate/axis/velocity_estimator.hpp"
 
 #include "ports/velocity_estimator.hpp"
@@ -17,10 +18,10 @@ struct Twin : TickTwin<ports::velocity_estimator, VelocityEstimator<Fixed>> {
     meter.clock(spans, stamps.data(), in.travel, in.sample);
     block.clock(in.sample, [&] { return law.tick(block.state, in.p, spans); });
   }
-  Out out(const In&) const { return {block.shown.velocity, block.shown.saturated, valid()}; }
+  Out out(const In&) const { return {block.shown().velocity, block.shown().saturated, valid()}; }
 
-  /// A hand on the encoder: rests, slow, faster than the format, turns, an edge that chatters; rarely
-  /// two counts in a clock, as no decoder gives.
+  /// A hand on the encoder: rests, slow, faster than the format, turns, an edge that chatters;
+  /// rarely two counts in a clock, as no decoder gives.
   void legal(In& in, Random& random) {
     if (--left <= 0) {
       left = 1 + random.below(random.one_in(4) ? 40'000 : 4'000);

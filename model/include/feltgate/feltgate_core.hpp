@@ -215,6 +215,8 @@ class FeltgateCore {
       using axis::TickCounter;
       const axis::Axis::In begin{encoder_.out(), bridge_.out(), in};
       if (!axis_.ordinary(begin)) return false;
+      // M/T counts the clocks from edge to edge.
+      if (axis_.laws().spans.used && !encoder_.calm(in, axis_.encoder())) return false;
       const axis::Position* sampled =
           encoder_.still(in.encoder)
               ? encoder_.tick(axis_.blocks().ticks.count)

@@ -63,7 +63,7 @@ struct VelocityEstimator {
   /// step is none that Overspeed takes for broken hardware.
   State tick(const State& s, const Words<T>& p, const SpanMeter::State& spans) const {
     const T raw = N::integer(spans.raw, 0, f);
-    if (spans.still && !N::overflows(s.velocity, slow)) return {raw, spans.saturated};
+    if (spans.still && N::saturate(s.velocity, slow) == s.velocity) return {raw, spans.saturated};
     return {N::add_rounded(s.velocity, (raw - s.velocity) * p.velocity_a1, a1), spans.saturated};
   }
   template <class At>
